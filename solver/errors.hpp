@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The few kinds of failure that a user can cause or meet. Libraries throw them; only tools/ prints and chooses exit codes.
+#pragma once
+
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+namespace crackle {
+
+/// Input that cannot be used. The text reads «file:line: key: found X, expected Y; what to do». Exit code 2.
+class InputError : public std::runtime_error {
+  public:
+    using std::runtime_error::runtime_error;
+};
+
+/// A simulation that went wrong (not a number, runaway energy, a body leaving the world). Exit code 3.
+class UnstableRun : public std::runtime_error {
+  public:
+    UnstableRun(std::int64_t at_step, int body_id, const std::string& likely_cause)
+        : std::runtime_error("unstable at step " + std::to_string(at_step) + ", body " + std::to_string(body_id) +
+                             ": " + likely_cause),
+          step(at_step),
+          body(body_id) {}
+
+    std::int64_t step;  ///< steps done since the run began
+    int body;           ///< id as in the input
+};
+
+}  // namespace crackle

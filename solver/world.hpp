@@ -1,0 +1,307 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The world: the flat arrays that a step touches. Built once from a Scene; nothing in it is allocated during a step.
+//
+// A body's step state fills one cache line; contact points are compact records grouped by kind; each point writes its force
+// into its own slot, and each body then adds up its own slots in a fixed order, so that the bytes of the result do not depend
+// on the number of threads. Bodies are numbered along a space-filling curve; `body_id` leads back to the input's numbers.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "solver/scene.hpp"
+
+namespace crackle {
+
+using BodyIndex = std::uint32_t;   // into World::bodies (internal numbering)
+using PointIndex = std::uint32_t;  // into World::points
+
+/// What a step reads and writes of one body.
+struct alignas(64) BodyState {
+    double x, y;      // centroid, m
+    double vx, vy;    // m/s, half a step behind x between steps (leapfrog)
+    double omega;     // rad/s
+    double angle;     // rad, accumulated
+    double shape[2];  // single circle: radius, 0; clump or chain: cos and sin of the turn since the body frame was taken
+};
+static_assert(sizeof(BodyState) == 64);
+
+/// Per degree of freedom, so that a driven one (inverse 0) needs no branch.
+struct BodyInertia {
+    double inverse_mass_x, inverse_mass_y, inverse_moment;
+    double mass;
+};
+static_assert(sizeof(BodyInertia) == 32);
+
+/// Sum of a body's contact forces (without gravity and applied loads), N and N m about its centroid.
+struct BodyForce {
+    double fx, fy, torque;
+};
+
+/// What cannot change during a run, or is read only by observers.
+struct BodyInfo {
+    int id;
+    int material;
+    double moment;               // kg m2
+    double reach;                // m, bounding radius of the elements about the centroid (circle radius included, thick not)
+    std::uint32_t first_element, element_count;  // into World::elements (vertices or circles)
+    std::uint32_t first_piece, piece_count;      // into World::pieces; 0 pieces: circles
+    bool single_circle;
+    bool closed;
+};
+
+/// A circle or a vertex of a clump or chain, or the one circle of a single-circle body, in the body frame.
+struct Element {
+    double x, y;         // m, from the centroid
+    double radius;       // surface radius towards an outline or circle: circle r; vertex thick/2
+    double target_reach; // what an outline adds on its side: for a circle thick, for a vertex thick/2
+};
+
+/// A convex closed outline, or one open segment, in the body frame.
+struct Piece {
+    std::uint32_t first_edge, edge_count;  // into World::edges
+    bool closed;
+};
+
+/// One edge in the body frame: start, unit direction (outward normal = direction turned by -90 degrees), length.
+struct Edge {
+    double x, y;
+    double tx, ty;
+    double length;
+};
+
+/// How a point's two sides look; points of one kind lie together and have a kernel of their own.
+enum class PointKind : std::uint8_t {
+    circle_circle = 0,    // two single circles
+    element_element = 1,  // circles of which at least one belongs to a clump
+    element_outline = 2,  // circle or vertex of body_i against the outline of body_j
+    element_wall = 3,     // circle or vertex of body_i against a domain wall (body_j = Wall)
+};
+inline constexpr int point_kinds = 4;
+
+enum PointFlag : std::uint16_t {
+    point_touching = 1,    // overlap > 0 or bonded, in the last force pass
+    point_bonded = 2,
+    point_sliding = 4,     // at the Coulomb limit in the last force pass
+    point_slid = 8,        // has been at the limit since bonding (or since contact began)
+    point_just_broken = 16 // bond lost in the last force pass; cleared when its event is recorded
+};
+
+/// One contact point. δ0 = bond_overlap; back-tension f_b = -k_n δ0.
+struct ContactPoint {
+    BodyIndex body_i;
+    BodyIndex body_j;       // Wall number for element_wall
+    std::uint32_t element_i;  // into World::elements
+    std::uint32_t feature_j;  // circle kinds: element of j; outline: edge last faced (a hint, never part of the physics)
+    double shear_force;     // elastic part, N on body_i along the normal (i to j) turned by +90 degrees
+    double bond_overlap;    // m
+    double root_effective_mass;  // sqrt(m_eff), sqrt(kg)
+    std::uint16_t law;      // into World::laws
+    std::uint16_t flags;    // PointFlag
+    std::uint32_t unused_;
+};
+static_assert(sizeof(ContactPoint) == 48);
+
+/// Force of a point on body_i (body_j gets the opposite) and its moments about both centroids.
+struct PointForce {
+    double fx, fy;
+    double torque_i, torque_j;
+};
+static_assert(sizeof(PointForce) == 32);
+
+/// Dashpot forces of the last force pass, kept only with the ledger: their work is taken by the trapezoidal rule.
+struct PointDissipation {
+    double normal, shear;
+};
+
+/// Forces of a bonded point in the last step in which it carried at least half its strength.
+struct BondHistory {
+    double normal_force;  // elastic, bonded: k_n(δ - δ0), N, compression positive
+    double shear_force;   // N
+};
+
+/// What a pair of materials does at a contact point; the one place where joints or weak interfaces would come in.
+struct ContactLaw {
+    double normal_stiffness, shear_stiffness;  // N/m
+    double normal_damping, shear_damping;      // N s/m, plus the ratio terms times sqrt(m_eff)
+    double normal_damping_ratio_term;          // 2h sqrt(k_n), sqrt(N/m)
+    double shear_damping_ratio_term;           // 2h sqrt(k_s)
+    double friction;                           // μ = tan φ; infinite when sliding is switched off
+    double break_overlap;                      // m; a bond is lost at or below: 0, or -infinity when breaking is switched off
+};
+
+/// One broken bond.
+struct BreakEvent {
+    std::int64_t step;
+    double time;               // s
+    int body_i, body_j;        // input ids
+    Vec2 position;             // m
+    double orientation;        // rad, direction of the contact normal, in (-π/2, π/2]
+    double energy;             // J: stored when the break was found, ½k_n(δ-δ0)² + ½f_t²/k_s
+    double strength;           // N: k_n δ0
+    double normal_force;       // N, of BondHistory
+    double shear_force;        // N
+    bool slid;
+    bool shear_mode;           // slid and |f_t| > |f_n|; else tension
+    bool last_of_interface;    // no bonded point is left between the two bodies
+};
+
+/// Energies at x_n, and what has gone since the start. All in J; signs as in DEMseg's energy.dat.
+struct Ledger {
+    double potential = 0.0;       // enrg: -Σ m g·x
+    double kinetic = 0.0;         // enva: with the mean of v at n ± ½
+    double strain = 0.0;          // enka: bonded points count from their bonded state
+    double dashpot_loss = 0.0;    // enca
+    double friction_loss = 0.0;   // enfr
+    double fracture_loss = 0.0;   // ours; 0 in unbonded scenes
+    double displacement_work = 0.0;  // enxd: done on the system by displacement- and velocity-driven bodies
+    double force_work = 0.0;         // enxf
+    /// (potential + kinetic + strain + losses - works) - the same at the start.
+    double closing_error = 0.0;
+};
+
+/// One driven body with what it needs to account for its work.
+struct ControlState {
+    BodyIndex body;
+    DofControl dof[3];        // x, y, rotation
+    double start[3];          // position at the first step of the ramp
+    std::int64_t first_step;  // step at which the ramp began
+    std::int64_t ramp_steps;
+    double last_force[3];     // contact + gravity on each degree of freedom at the last step
+    double last_velocity[3];
+};
+
+struct World {
+    // ---- bodies
+    std::vector<BodyState> bodies;
+    std::vector<BodyInertia> inertia;
+    std::vector<BodyForce> forces;  // of the last force pass
+    std::vector<BodyInfo> info;
+    std::vector<Element> elements;
+    std::vector<Piece> pieces;
+    std::vector<Edge> edges;
+    std::vector<ControlState> controls;
+    std::vector<ContactLaw> laws;           // material pairs, row-major: law = a * materials + b; then materials against walls
+    std::vector<Material> materials;
+
+    // ---- contact points
+    std::vector<ContactPoint> points;       // grouped by kind, ordered by (i, j, element) within
+    std::array<PointIndex, point_kinds + 1> kind_begin{};
+    std::vector<PointForce> point_forces;
+    std::vector<PointDissipation> dissipation;  // empty without the ledger
+    std::vector<BondHistory> bond_history;      // empty without bonds
+    std::vector<std::uint32_t> body_begin;      // per body: range in body_slots
+    std::vector<std::uint32_t> body_slots;      // 2 * point + side (0: the body is i, 1: it is j)
+
+    // ---- neighbour list
+    double skin = 0.0;                     // m
+    std::vector<BodyState> list_reference; // x, y, angle when the list was built
+    double travelled = 0.0;                // m, bound on any surface point's way since the last exact check
+    double fastest = 0.0;                  // m/s, largest surface speed in the last step
+    bool list_valid = false;
+    std::int64_t list_builds = 0;
+
+    // ---- scene-wide
+    Domain domain;
+    std::array<double, 4> wall_velocity{};  // m/s along the wall's axis (x for left and right, y for bottom and top)
+    std::array<Vec2, 4> wall_force{};       // N on each wall in the last force pass (measure_wall_forces())
+    double thick = 0.0;
+    Vec2 gravity;
+    double time_step = 0.0;       // s
+    bool automatic_step = false;  // may be lowered when the list is rebuilt
+    double safety_factor = 0.8;
+    double step_bound = std::numeric_limits<double>::infinity();  // s, guaranteed stable below
+    bool allow_unstable = false;
+    bool has_bonds = false;
+    bool ledger_on = true;
+    IntactOptions intact;
+    int threads = 1;
+
+    // ---- progress
+    std::int64_t step = 0;    // steps done
+    double time = 0.0;        // s
+    bool forces_current = false;  // the force pass at the present positions is done
+    double kick_share = 0.5;  // share of a full kick in the next step: the first kick of leapfrog
+    std::vector<BreakEvent> events;  // broken bonds; readers may clear it
+    std::int64_t bonds_initial = 0, bonds_broken = 0;
+    std::int64_t interfaces_initial = 0, interfaces_lost = 0;
+
+    // ---- ledger accumulators, one a block of points, added up in block order
+    struct LossBlock {
+        double dashpot = 0.0, friction = 0.0;
+        std::uint32_t broken = 0;
+        std::uint32_t pad_ = 0;
+    };
+    std::vector<LossBlock> loss_blocks;
+    double dashpot_loss = 0.0, friction_loss = 0.0, fracture_loss = 0.0, displacement_work = 0.0, force_work = 0.0;
+    double initial_energy = 0.0;
+    bool initial_energy_taken = false;
+    double largest_supply = 0.0;  // J, for the runaway check
+};
+
+/// Everything about one contact point at the present positions, for outputs, solves and checks (never for the step).
+struct PointView {
+    PointKind kind;
+    BodyIndex body_i, body_j;
+    double overlap;        // δ, m
+    Vec2 normal;           // unit, from i to j
+    Vec2 position;         // m, midway between the two surfaces
+    Vec2 arm_i, arm_j;     // m, from the centroids to the position (arm_j zero for walls)
+    double normal_force;   // elastic: k_n(δ - δ0), N, compression positive (0 when not touching)
+    double shear_force;    // elastic, N on i along the normal turned by +90 degrees
+    double normal_stiffness, shear_stiffness, friction;
+    double bond_overlap;
+    bool bonded, touching, sliding, slid;
+};
+
+// ---- building and stepping (solver/build_world.cpp, solver/step.cpp)
+
+/// Validates the scene and lays it out. @throws InputError (a time step above the bound included, naming both).
+World build_world(Scene scene);
+
+/// Brings the neighbour list up to date and does the force pass at the present positions; idempotent until advance().
+void compute_forces(World& world);
+/// Kick and drift: controls, velocities, positions, time. Needs compute_forces().
+void advance(World& world);
+/// One step: compute_forces() and advance().
+void step(World& world);
+
+// ---- neighbours (solver/neighbours.cpp)
+/// Rebuilds the list if something has moved half the skin since it was built (always when list_valid is false).
+void refresh_neighbours(World& world);
+
+// ---- bonding (solver/bonding.cpp)
+/// Back-tension bonding: every point of overlap δ > 0 between bodies gets δ0 = δ and loses its shear spring. Walls stay
+/// unbonded. Sets the segment thickness first. @return points bonded.
+std::int64_t bond_all(World& world, double thick);
+/// Changes the segment thickness and invalidates the list.
+void set_thickness(World& world, double thick);
+
+// ---- measuring (solver/measure.cpp, solver/ledger.cpp)
+PointView view_point(const World& world, PointIndex point);
+/// Number of the internal index of an input id; throws InputError if there is none.
+BodyIndex body_of_id(const World& world, int id);
+/// Energies at x_n; call between compute_forces() and advance().
+Ledger measure_ledger(const World& world);
+/// Force of the bodies on each wall at the last force pass, N.
+std::array<Vec2, 4> measure_wall_forces(const World& world);
+/// World-frame corners of a chain body, or circle centres of a circle body, in input order.
+std::vector<Vec2> element_positions(const World& world, BodyIndex body);
+/// @throws UnstableRun on a value that is not a number, runaway energy, or a body that left the world.
+void check_health(World& world);
+
+// ---- stable step (solver/stable_step.cpp)
+/// Guaranteed bound: with (a-b)² <= 2a²+2b² the stiffness and damping matrices are bounded by their doubled body blocks, so
+/// 4M - 2Δt·C - Δt²·K stays positive definite below the smallest per-body solution, over all listed points as if active.
+double stable_step_bound(const World& world);
+
+// ---- checkpoint (solver/checkpoint.cpp)
+/// Complete state, versioned; straight and restarted runs agree byte for byte.
+std::string save_world(const World& world);
+/// @throws InputError on a foreign, truncated or newer checkpoint; `name` is used in the message.
+World load_world(const std::string& bytes, const std::string& name);
+
+}  // namespace crackle

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The subcommands of `crackle`, one file each. A command reads its own arguments, prints to stdout (results) and stderr
+// (progress, notices), and returns the exit code; errors are thrown and turned into messages by main().
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace crackle::tools {
+
+using Arguments = std::vector<std::string>;
+
+/// One subcommand: name, a line for `crackle --help`, and the function that runs it with the words after its name.
+struct Command {
+    const char* name;
+    const char* summary;
+    int (*run)(const Arguments& arguments);
+};
+
+// Exit codes of the program.
+inline constexpr int exit_done = 0;
+inline constexpr int exit_bad_input = 2;     // InputError, wrong options
+inline constexpr int exit_unstable = 3;      // UnstableRun; outputs up to there are kept
+inline constexpr int exit_interrupted = 130;  // Ctrl-C; outputs up to there are kept
+
+}  // namespace crackle::tools

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `crackle COMMAND ...`: finds the subcommand, runs it, turns failures into one message and an exit code.
+
+#include <boost/program_options/errors.hpp>
+#include <exception>
+#include <iostream>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "solver/errors.hpp"
+#include "tools/commands.hpp"
+
+namespace crackle::tools {
+namespace {
+
+// Kept in the order of a user's work.
+const std::vector<Command>& commands() {
+    static const std::vector<Command> all{
+    };
+    return all;
+}
+
+void print_help(std::ostream& out) {
+    out << "crackle: makes bonded rock specimens and tests them\n\nusage: crackle COMMAND [OPTIONS]   (crackle COMMAND "
+           "--help shows examples)\n\n";
+    for (const Command& command : commands()) {
+        out << "  " << command.name << std::string(12 - std::string(command.name).size(), ' ') << command.summary << '\n';
+    }
+    out << "\nexit codes: 0 done, 2 bad input, 3 the run became unstable, 130 interrupted\n";
+}
+
+int run(const std::vector<std::string>& words) {
+    if (words.empty() || words[0] == "--help" || words[0] == "-h" || words[0] == "help") {
+        print_help(words.empty() ? std::cerr : std::cout);
+        return words.empty() ? exit_bad_input : exit_done;
+    }
+    for (const Command& command : commands()) {
+        if (words[0] == command.name) return command.run({words.begin() + 1, words.end()});
+    }
+    std::cerr << "crackle: found command '" << words[0] << "', expected one of those below\n\n";
+    print_help(std::cerr);
+    return exit_bad_input;
+}
+
+}  // namespace
+}  // namespace crackle::tools
+
+int main(int argc, char** argv) {
+    using namespace crackle::tools;
+    const auto all = std::span(argv, static_cast<std::size_t>(argc));
+    try {
+        return run({all.begin() + 1, all.end()});
+    } catch (const crackle::InputError& error) {
+        std::cerr << "crackle: " << error.what() << '\n';
+        return exit_bad_input;
+    } catch (const boost::program_options::error& error) {
+        std::cerr << "crackle: " << error.what() << " (see --help)\n";
+        return exit_bad_input;
+    } catch (const crackle::UnstableRun& error) {
+        std::cerr << "crackle: " << error.what() << '\n';
+        return exit_unstable;
+    }
+}
