@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// See deck_reader.hpp.
+
+#include "solver/demseg/deck_reader.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <sstream>
+#include <system_error>
+#include <utility>
+
+#include "solver/errors.hpp"
+
+namespace crackle {
+namespace {
+
+bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == '\v' || c == '\f'; }
+
+/// Long words (a binary file, say) are cut in messages.
+std::string quoted(std::string_view word) {
+    constexpr std::size_t shown = 40;
+    return word.size() <= shown ? fmt::format("'{}'", word) : fmt::format("'{}...'", word.substr(0, shown));
+}
+
+/// Fortran real to double; false if the word is no number or out of range.
+bool parse_number(std::string_view word, double& value) {
+    std::string plain(word);
+    if (!plain.empty() && plain[0] == '+') plain.erase(0, 1);
+    // from_chars would take "inf" and "nan", and their letters are the only others in a number beside the exponent's.
+    for (char& c : plain) {
+        if (c == 'd' || c == 'D' || c == 'E') c = 'e';
+        if (c != 'e' && c != '.' && c != '+' && c != '-' && (c < '0' || c > '9')) return false;
+    }
+    const auto [end, error] = std::from_chars(plain.data(), plain.data() + plain.size(), value);
+    return error == std::errc() && end == plain.data() + plain.size();
+}
+
+}  // namespace
+
+std::string read_text_file(const std::filesystem::path& path) {
+    if (std::filesystem::is_directory(path))
+        throw InputError(fmt::format("{}: found a folder, expected a file", path.string()));
+    errno = 0;
+    std::ifstream file(path, std::ios::binary);
+    if (!file) {
+        throw InputError(fmt::format("{}: cannot be read ({}), expected a file", path.string(), std::strerror(errno)));
+    }
+    std::ostringstream text;
+    text << file.rdbuf();
+    if (file.bad())
+        throw InputError(fmt::format("{}: reading stopped with an error ({})", path.string(), std::strerror(errno)));
+    return std::move(text).str();
+}
+
+DeckReader::DeckReader(std::string name, std::string text) : name_(std::move(name)), text_(std::move(text)) {
+    if (text_.starts_with("\xef\xbb\xbf")) position_ = 3;  // byte order mark that some editors put in front
+}
+
+DeckReader DeckReader::open(const std::filesystem::path& path) { return {path.string(), read_text_file(path)}; }
+
+void DeckReader::skip_blanks() {
+    while (position_ < text_.size() && is_blank(text_[position_])) {
+        if (text_[position_] == '\n') ++line_;
+        ++position_;
+    }
+}
+
+std::string_view DeckReader::next(std::string_view key, std::string_view expected) {
+    skip_blanks();
+    if (position_ == text_.size()) {
+        throw InputError(
+            fmt::format("{}:{}: {}: found the end of the file, expected {}; the file is cut off or a count "
+                        "in it is too large",
+                        name_, line_, key, expected));
+    }
+    const std::size_t start = position_;
+    while (position_ < text_.size() && !is_blank(text_[position_])) ++position_;
+    token_line_ = line_;
+    token_ = std::string_view(text_).substr(start, position_ - start);
+    return token_;
+}
+
+void DeckReader::refuse(std::string_view key, std::string_view expected) const {
+    refuse(key, quoted(token_), expected);
+}
+
+void DeckReader::refuse(std::string_view key, std::string_view found, std::string_view expected) const {
+    throw InputError(fmt::format("{}:{}: {}: found {}, expected {}", name_, token_line_, key, found, expected));
+}
+
+double DeckReader::number(std::string_view key) {
+    double value = 0.0;
+    if (!parse_number(next(key, "a number"), value) || !std::isfinite(value))
+        refuse(key, "a finite number such as 2.5, 1e8 or 1.0d8");
+    return value;
+}
+
+double DeckReader::positive_number(std::string_view key) {
+    const double value = number(key);
+    if (!(value > 0.0)) refuse(key, "a number > 0");
+    return value;
+}
+
+double DeckReader::number_not_negative(std::string_view key) {
+    const double value = number(key);
+    if (!(value >= 0.0)) refuse(key, "a number >= 0");
+    return value;
+}
+
+std::int64_t DeckReader::integer(std::string_view key, std::int64_t lowest, std::int64_t highest) {
+    std::string_view word = next(key, "a whole number");
+    if (word.starts_with('+')) word.remove_prefix(1);
+    std::int64_t value = 0;
+    const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+    if (error != std::errc() || end != word.data() + word.size() || value < lowest || value > highest) {
+        refuse(key, lowest == highest ? fmt::format("{}", lowest)
+                                      : fmt::format("a whole number from {} to {}", lowest, highest));
+    }
+    return value;
+}
+
+bool DeckReader::at_end() {
+    skip_blanks();
+    return position_ == text_.size();
+}
+
+void DeckReader::expect_end(std::string_view after) {
+    if (at_end()) return;
+    next("", "");
+    refuse("end of file", fmt::format("{} after {}", quoted(token_), after),
+           "nothing more; a count further up is too small or a line has a value too many");
+}
+
+}  // namespace crackle
