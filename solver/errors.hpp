@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The few kinds of failure that a user can cause or meet. Libraries throw them; only tools/ prints and chooses exit codes.
+// The few kinds of failure that a user can cause or meet. Libraries throw them; only tools/ prints and chooses exit
+// codes.
 #pragma once
 
 #include <cstdint>

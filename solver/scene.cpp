@@ -44,7 +44,8 @@ double signed_area(std::span<const Vec2> corners) {
 bool segments_cross(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
     const double abc = cross(b - a, c - a), abd = cross(b - a, d - a);
     const double cda = cross(d - c, a - c), cdb = cross(d - c, b - c);
-    return ((abc > 0.0 && abd < 0.0) || (abc < 0.0 && abd > 0.0)) && ((cda > 0.0 && cdb < 0.0) || (cda < 0.0 && cdb > 0.0));
+    return ((abc > 0.0 && abd < 0.0) || (abc < 0.0 && abd > 0.0)) &&
+           ((cda > 0.0 && cdb < 0.0) || (cda < 0.0 && cdb > 0.0));
 }
 
 MassProperties polygon_properties(std::span<const Vec2> corners, double density) {
@@ -111,7 +112,8 @@ void validate_chain(Scene& scene, const Body& body) {
     const std::string name = fmt::format("body {}: ", body.id);
     const std::span<Vec2> corners(scene.vertices.data() + body.first_vertex, body.vertex_count);
     if (corners.size() < (body.closed ? 3u : 2u)) {
-        refuse(name + "corners", static_cast<double>(corners.size()), body.closed ? "at least 3 of a closed chain" : "at least 2 of an open chain");
+        refuse(name + "corners", static_cast<double>(corners.size()),
+               body.closed ? "at least 3 of a closed chain" : "at least 2 of an open chain");
     }
     for (const Vec2 corner : corners) {
         require_finite(name + "corner x", corner.x);
@@ -120,7 +122,8 @@ void validate_chain(Scene& scene, const Body& body) {
     const std::size_t edges = body.closed ? corners.size() : corners.size() - 1;
     for (std::size_t k = 0; k < edges; ++k) {
         if (!(norm(corners[(k + 1) % corners.size()] - corners[k]) > 0.0)) {
-            throw InputError(fmt::format("{}segment {}: found length 0, expected two different end points; remove the segment", name, k + 1));
+            throw InputError(fmt::format(
+                "{}segment {}: found length 0, expected two different end points; remove the segment", name, k + 1));
         }
     }
     if (!body.closed) return;
@@ -128,13 +131,15 @@ void validate_chain(Scene& scene, const Body& body) {
     double perimeter = 0.0;
     for (std::size_t k = 0; k < edges; ++k) perimeter += norm(corners[(k + 1) % corners.size()] - corners[k]);
     // Below this the centroid of a sliver has lost half its digits.
-    if (std::abs(area) < 1e-10 * perimeter * perimeter) refuse(name + "area of the closed chain", area, "more than 1e-10 of its perimeter squared");
+    if (std::abs(area) < 1e-10 * perimeter * perimeter)
+        refuse(name + "area of the closed chain", area, "more than 1e-10 of its perimeter squared");
     if (area < 0.0) std::reverse(corners.begin(), corners.end());
     for (std::size_t a = 0; a < edges; ++a) {
         for (std::size_t b = a + 2; b < edges; ++b) {
             if (a == 0 && b + 1 == edges) continue;
             if (segments_cross(corners[a], corners[a + 1], corners[b], corners[(b + 1) % edges])) {
-                throw InputError(fmt::format("{}segments {} and {} cross, expected a simple outline", name, a + 1, b + 1));
+                throw InputError(
+                    fmt::format("{}segments {} and {} cross, expected a simple outline", name, a + 1, b + 1));
             }
         }
     }
@@ -162,7 +167,8 @@ void validate_body(Scene& scene, const Body& body) {
     if (body.mass) require_positive(name + "mass", *body.mass, "kg");
     const bool bare = body.vertex_count > 0 && !body.closed && scene.thick == 0.0;
     if (bare && !body.mass && !(scene.bare_segment_width > 0.0)) {
-        throw InputError(name + "found an open chain of thickness 0 without a mass, expected a thickness or an explicit mass");
+        throw InputError(name +
+                         "found an open chain of thickness 0 without a mass, expected a thickness or an explicit mass");
     }
 }
 
@@ -210,13 +216,23 @@ MassProperties mass_properties(const Scene& scene, const Body& body) {
 void validate(Scene& scene) {
     if (scene.materials.empty()) throw InputError("materials: found none, expected at least one");
     for (std::size_t k = 0; k < scene.materials.size(); ++k) validate_material(scene.materials[k], k);
+    const auto by_ratio = [](const Material& m) { return m.damping_ratio && *m.damping_ratio > 0.0; };
+    const auto by_value = [](const Material& m) {
+        return !m.damping_ratio && (m.normal_damping > 0.0 || m.shear_damping > 0.0);
+    };
+    if (std::ranges::any_of(scene.materials, by_ratio) && std::ranges::any_of(scene.materials, by_value)) {
+        throw InputError(
+            "materials: found damping by ratio in one and by value in another, expected one way for all; two such "
+            "dashpots in series have no common form");
+    }
     if (scene.bodies.empty()) throw InputError("bodies: found none, expected at least one particle");
     require_not_negative("thick", scene.thick, "m");
     require_finite("gravity x", scene.gravity.x);
     require_finite("gravity y", scene.gravity.y);
     require_not_negative("time step", scene.time_step, "s");
     require_not_negative("skin", scene.skin, "m");
-    if (!(scene.safety_factor > 0.0 && scene.safety_factor <= 1.0)) refuse("safety factor", scene.safety_factor, "0 < f <= 1");
+    if (!(scene.safety_factor > 0.0 && scene.safety_factor <= 1.0))
+        refuse("safety factor", scene.safety_factor, "0 < f <= 1");
     if (scene.threads < 1 || scene.threads > 1024) refuse("threads", scene.threads, "1 to 1024");
     const Domain& domain = scene.domain;
     const auto& walls = domain.wall_present;
@@ -224,13 +240,16 @@ void validate(Scene& scene) {
     if (walls[1]) require_finite("domain x2", domain.x2);
     if (walls[2]) require_finite("domain y1", domain.y1);
     if (walls[3]) require_finite("domain y2", domain.y2);
-    if (walls[0] && walls[1] && !(domain.x2 > domain.x1)) refuse("domain x2", domain.x2, fmt::format("more than x1 = {}", domain.x1));
-    if (walls[2] && walls[3] && !(domain.y2 > domain.y1)) refuse("domain y2", domain.y2, fmt::format("more than y1 = {}", domain.y1));
+    if (walls[0] && walls[1] && !(domain.x2 > domain.x1))
+        refuse("domain x2", domain.x2, fmt::format("more than x1 = {}", domain.x1));
+    if (walls[2] && walls[3] && !(domain.y2 > domain.y1))
+        refuse("domain y2", domain.y2, fmt::format("more than y1 = {}", domain.y1));
 
     std::unordered_set<int> ids;
     ids.reserve(scene.bodies.size());
     for (const Body& body : scene.bodies) {
-        if (!ids.insert(body.id).second) throw InputError(fmt::format("body {}: found its number twice, expected unique numbers", body.id));
+        if (!ids.insert(body.id).second)
+            throw InputError(fmt::format("body {}: found its number twice, expected unique numbers", body.id));
         validate_body(scene, body);
     }
     for (const Control& control : scene.controls) {

@@ -2,8 +2,8 @@
 // A scene: what is to be simulated, as plain data, before any number is derived from it.
 // Readers fill it, validate() judges it, build_world() turns it into the flat arrays that a step touches.
 //
-// Units: any consistent set (SI in what we ship, cgs in the guide's decks). Strictly 2D: masses and stiffnesses are per unit
-// thickness (density kg/m2, mass kg, stiffness N/m, force N, stress N/m).
+// Units: any consistent set (SI in what we ship, cgs in the guide's decks). Strictly 2D: masses and stiffnesses are per
+// unit thickness (density kg/m2, mass kg, stiffness N/m, force N, stress N/m).
 #pragma once
 
 #include <array>
@@ -41,9 +41,9 @@ struct CircleElement {
 
 /// A rigid body: circles (one, or several as a clump), or a chain of segments (open, or closed = polygon), never both.
 struct Body {
-    int id = 0;        ///< the input's number; unique
-    int material = 0;  ///< index into Scene::materials
-    Vec2 velocity;     ///< m/s
+    int id = 0;         ///< the input's number; unique
+    int material = 0;   ///< index into Scene::materials
+    Vec2 velocity;      ///< m/s
     double spin = 0.0;  ///< rad/s, counter-clockwise
 
     std::uint32_t first_circle = 0;  ///< into Scene::circles
@@ -81,7 +81,7 @@ struct Control {
 enum class Wall : std::uint8_t { left = 0, right = 1, bottom = 2, top = 3 };
 
 struct Domain {
-    double x1 = unset, x2 = unset, y1 = unset, y2 = unset;  ///< m
+    double x1 = unset, x2 = unset, y1 = unset, y2 = unset;     ///< m
     std::array<bool, 4> wall_present{true, true, true, true};  ///< by Wall
 };
 
@@ -104,17 +104,18 @@ struct Scene {
     std::vector<Vec2> vertices;
     std::vector<Control> controls;
     Domain domain;
-    double thick = 0.0;  ///< segment thickness t, m, >= 0: a disc of radius t at each vertex against the other's bare outline
-    Vec2 gravity;        ///< m/s2
+    double thick =
+        0.0;       ///< segment thickness t, m, >= 0: a disc of radius t at each vertex against the other's bare outline
+    Vec2 gravity;  ///< m/s2
 
-    double time_step = 0.0;      ///< s; 0: derived from the stiffness bound times safety_factor
-    double safety_factor = 0.8;  ///< share of the stiffness bound taken when the step is derived
+    double time_step = 0.0;       ///< s; 0: derived from the stiffness bound times safety_factor
+    double safety_factor = 0.8;   ///< share of the stiffness bound taken when the step is derived
     bool allow_unstable = false;  ///< run a given time step above the bound, and beyond runaway energy
     FirstKick first_kick = FirstKick::half;
-    bool ledger = true;         ///< keep the account of dissipated energy
+    bool ledger = true;  ///< keep the account of dissipated energy
     IntactOptions intact;
     int threads = 1;
-    double skin = 0.0;           ///< m; Verlet skin, 0: derived from the body sizes
+    double skin = 0.0;  ///< m; Verlet skin, 0: derived from the body sizes
 
     /// Open chains of thickness 0: width that gives them mass (decks: 0.1 deck units); unset elsewhere.
     double bare_segment_width = unset;
@@ -131,8 +132,8 @@ struct MassProperties {
     double moment = 0.0;  ///< kg m2 about the centroid
 };
 
-/// Circle m = ρπr², I = ½mr²; clump: sum with parallel-axis terms, overlaps counted twice; closed chain: Green's theorem;
-/// open chain: m = ρ·L·w, w = 2·thick (bare_segment_width where thick = 0), I = Σ m_k(L_k²/12 + d_k²).
+/// Circle m = ρπr², I = ½mr²; clump: sum with parallel-axis terms, overlaps counted twice; closed chain: Green's
+/// theorem; open chain: m = ρ·L·w, w = 2·thick (bare_segment_width where thick = 0), I = Σ m_k(L_k²/12 + d_k²).
 MassProperties mass_properties(const Scene& scene, const Body& body);
 
 /// Checks every value and turns clockwise polygons. @throws InputError naming body, key, what was found and expected.

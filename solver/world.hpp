@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The world: the flat arrays that a step touches. Built once from a Scene; nothing in it is allocated during a step.
 //
-// A body's step state fills one cache line; contact points are compact records grouped by kind; each point writes its force
-// into its own slot, and each body then adds up its own slots in a fixed order, so that the bytes of the result do not depend
-// on the number of threads. Bodies are numbered along a space-filling curve; `body_id` leads back to the input's numbers.
+// A body's step state fills one cache line; contact points are compact records grouped by kind; each point writes its
+// force into its own slot, and each body then adds up its own slots in a fixed order, so that the bytes of the result
+// do not depend on the number of threads. Bodies are numbered along a space-filling curve; `body_id` leads back to the
+// input's numbers.
 #pragma once
 
 #include <array>
@@ -21,11 +22,12 @@ using PointIndex = std::uint32_t;  // into World::points
 
 /// What a step reads and writes of one body.
 struct alignas(64) BodyState {
-    double x, y;      // centroid, m
-    double vx, vy;    // m/s, half a step behind x between steps (leapfrog)
-    double omega;     // rad/s
-    double angle;     // rad, accumulated
-    double shape[2];  // single circle: radius, 0; clump or chain: cos and sin of the turn since the body frame was taken
+    double x, y;    // centroid, m
+    double vx, vy;  // m/s, half a step behind x between steps (leapfrog)
+    double omega;   // rad/s
+    double angle;   // rad, accumulated
+    double
+        shape[2];  // single circle: radius, 0; clump or chain: cos and sin of the turn since the body frame was taken
 };
 static_assert(sizeof(BodyState) == 64);
 
@@ -45,8 +47,8 @@ struct BodyForce {
 struct BodyInfo {
     int id;
     int material;
-    double moment;               // kg m2
-    double reach;                // m, bounding radius of the elements about the centroid (circle radius included, thick not)
+    double moment;  // kg m2
+    double reach;   // m, bounding radius of the elements about the centroid (circle radius included, thick not)
     std::uint32_t first_element, element_count;  // into World::elements (vertices or circles)
     std::uint32_t first_piece, piece_count;      // into World::pieces; 0 pieces: circles
     bool single_circle;
@@ -55,9 +57,9 @@ struct BodyInfo {
 
 /// A circle or a vertex of a clump or chain, or the one circle of a single-circle body, in the body frame.
 struct Element {
-    double x, y;         // m, from the centroid
-    double radius;       // surface radius towards an outline or circle: circle r; vertex thick/2
-    double target_reach; // what an outline adds on its side: for a circle thick, for a vertex thick/2
+    double x, y;          // m, from the centroid
+    double radius;        // surface radius towards an outline or circle: circle r; vertex thick/2
+    double target_reach;  // what an outline adds on its side: for a circle thick, for a vertex thick/2
 };
 
 /// A convex closed outline, or one open segment, in the body frame.
@@ -78,30 +80,31 @@ enum class PointKind : std::uint8_t {
     circle_circle = 0,    // two single circles
     element_element = 1,  // circles of which at least one belongs to a clump
     element_outline = 2,  // circle or vertex of body_i against the outline of body_j
-    element_wall = 3,     // circle or vertex of body_i against a domain wall (body_j = Wall)
+    element_wall = 3,  // circle or vertex of body_i against a domain wall (body_j = Wall); feature_j = 1: a bare vertex
 };
 inline constexpr int point_kinds = 4;
 
 enum PointFlag : std::uint16_t {
-    point_touching = 1,    // overlap > 0 or bonded, in the last force pass
+    point_touching = 1,  // overlap > 0 or bonded, in the last force pass
     point_bonded = 2,
-    point_sliding = 4,     // at the Coulomb limit in the last force pass
-    point_slid = 8,        // has been at the limit since bonding (or since contact began)
-    point_just_broken = 16 // bond lost in the last force pass; cleared when its event is recorded
+    point_sliding = 4,      // at the Coulomb limit in the last force pass
+    point_slid = 8,         // has been at the limit since bonding (or since contact began)
+    point_just_broken = 16  // bond lost in the last force pass; cleared when its event is recorded
 };
 
 /// One contact point. δ0 = bond_overlap; back-tension f_b = -k_n δ0.
 struct ContactPoint {
     BodyIndex body_i;
-    BodyIndex body_j;       // Wall number for element_wall
+    BodyIndex body_j;         // Wall number for element_wall
     std::uint32_t element_i;  // into World::elements
-    std::uint32_t feature_j;  // circle kinds: element of j; outline: edge last faced (a hint, never part of the physics)
-    double shear_force;     // elastic part, N on body_i along the normal (i to j) turned by +90 degrees
-    double bond_overlap;    // m
+    std::uint32_t
+        feature_j;        // circle kinds: element of j; outline: edge last faced (a hint, never part of the physics)
+    double shear_force;   // elastic part, N on body_i along the normal (i to j) turned by +90 degrees
+    double bond_overlap;  // m
     double root_effective_mass;  // sqrt(m_eff), sqrt(kg)
-    std::uint16_t law;      // into World::laws
-    std::uint16_t flags;    // PointFlag
-    std::uint32_t unused_;
+    std::uint16_t law;           // into World::laws
+    std::uint16_t flags;         // PointFlag
+    std::uint32_t padding;       // 0
 };
 static_assert(sizeof(ContactPoint) == 48);
 
@@ -130,33 +133,33 @@ struct ContactLaw {
     double normal_damping_ratio_term;          // 2h sqrt(k_n), sqrt(N/m)
     double shear_damping_ratio_term;           // 2h sqrt(k_s)
     double friction;                           // μ = tan φ; infinite when sliding is switched off
-    double break_overlap;                      // m; a bond is lost at or below: 0, or -infinity when breaking is switched off
+    double break_overlap;  // m; a bond is lost at or below: 0, or -infinity when breaking is switched off
 };
 
 /// One broken bond.
 struct BreakEvent {
     std::int64_t step;
-    double time;               // s
-    int body_i, body_j;        // input ids
-    Vec2 position;             // m
-    double orientation;        // rad, direction of the contact normal, in (-π/2, π/2]
-    double energy;             // J: stored when the break was found, ½k_n(δ-δ0)² + ½f_t²/k_s
-    double strength;           // N: k_n δ0
-    double normal_force;       // N, of BondHistory
-    double shear_force;        // N
+    double time;          // s
+    int body_i, body_j;   // input ids
+    Vec2 position;        // m
+    double orientation;   // rad, direction of the contact normal, in (-π/2, π/2]
+    double energy;        // J: stored when the break was found, ½k_n(δ-δ0)² + ½f_t²/k_s
+    double strength;      // N: k_n δ0
+    double normal_force;  // N, of BondHistory
+    double shear_force;   // N
     bool slid;
-    bool shear_mode;           // slid and |f_t| > |f_n|; else tension
-    bool last_of_interface;    // no bonded point is left between the two bodies
+    bool shear_mode;         // slid and |f_t| > |f_n|; else tension
+    bool last_of_interface;  // no bonded point is left between the two bodies
 };
 
 /// Energies at x_n, and what has gone since the start. All in J; signs as in DEMseg's energy.dat.
 struct Ledger {
-    double potential = 0.0;       // enrg: -Σ m g·x
-    double kinetic = 0.0;         // enva: with the mean of v at n ± ½
-    double strain = 0.0;          // enka: bonded points count from their bonded state
-    double dashpot_loss = 0.0;    // enca
-    double friction_loss = 0.0;   // enfr
-    double fracture_loss = 0.0;   // ours; 0 in unbonded scenes
+    double potential = 0.0;          // enrg: -Σ m g·x
+    double kinetic = 0.0;            // enva: with the mean of v at n ± ½
+    double strain = 0.0;             // enka: bonded points count from their bonded state
+    double dashpot_loss = 0.0;       // enca
+    double friction_loss = 0.0;      // enfr
+    double fracture_loss = 0.0;      // ours; 0 in unbonded scenes
     double displacement_work = 0.0;  // enxd: done on the system by displacement- and velocity-driven bodies
     double force_work = 0.0;         // enxf
     /// (potential + kinetic + strain + losses - works) - the same at the start.
@@ -170,9 +173,17 @@ struct ControlState {
     double start[3];          // position at the first step of the ramp
     std::int64_t first_step;  // step at which the ramp began
     std::int64_t ramp_steps;
-    double last_force[3];     // contact + gravity on each degree of freedom at the last step
-    double last_velocity[3];
+    double last_force[3];  // driving force (N, N m) at the last force pass: the reaction, or the force applied
+    double last_move[3];   // m, rad in the last step
 };
+
+/// Where a body was when the neighbour list was built.
+struct ListReference {
+    double x, y, angle;
+};
+
+/// Points a force pass hands to one thread at a time; fixed, so that sums over blocks do not depend on the threads.
+inline constexpr PointIndex block_points = 256;
 
 struct World {
     // ---- bodies
@@ -184,11 +195,11 @@ struct World {
     std::vector<Piece> pieces;
     std::vector<Edge> edges;
     std::vector<ControlState> controls;
-    std::vector<ContactLaw> laws;           // material pairs, row-major: law = a * materials + b; then materials against walls
+    std::vector<ContactLaw> laws;  // material pairs, row-major: law = a * materials + b; then materials against walls
     std::vector<Material> materials;
 
     // ---- contact points
-    std::vector<ContactPoint> points;       // grouped by kind, ordered by (i, j, element) within
+    std::vector<ContactPoint> points;  // grouped by kind, ordered by (i, j, element) within
     std::array<PointIndex, point_kinds + 1> kind_begin{};
     std::vector<PointForce> point_forces;
     std::vector<PointDissipation> dissipation;  // empty without the ledger
@@ -197,20 +208,23 @@ struct World {
     std::vector<std::uint32_t> body_slots;      // 2 * point + side (0: the body is i, 1: it is j)
 
     // ---- neighbour list
-    double skin = 0.0;                     // m
-    std::vector<BodyState> list_reference; // x, y, angle when the list was built
-    double travelled = 0.0;                // m, bound on any surface point's way since the last exact check
+    double skin = 0.0;  // m
+    std::vector<ListReference> list_reference;
+    std::vector<double> turning_reach;     // m per body: how far turning moves its surface (0: single circles)
+    std::vector<std::uint32_t> size_rank;  // bodies by bounding radius, largest 0; a pair is found by its larger body
+    std::vector<double> largest_smaller;   // m per body: bounding radius of the next in that order
+    double travelled = 0.0;                // m, bound on any surface point's way since the list was built
     double fastest = 0.0;                  // m/s, largest surface speed in the last step
+    double fastest_allowed_move = 0.0;     // m a step: half the smallest body, beyond which contacts would be missed
     bool list_valid = false;
     std::int64_t list_builds = 0;
 
     // ---- scene-wide
     Domain domain;
-    std::array<double, 4> wall_velocity{};  // m/s along the wall's axis (x for left and right, y for bottom and top)
-    std::array<Vec2, 4> wall_force{};       // N on each wall in the last force pass (measure_wall_forces())
     double thick = 0.0;
     Vec2 gravity;
     double time_step = 0.0;       // s
+    double drift = 0.0;           // s, length of the drift that led to the present positions (0 before the first)
     bool automatic_step = false;  // may be lowered when the list is rebuilt
     double safety_factor = 0.8;
     double step_bound = std::numeric_limits<double>::infinity();  // s, guaranteed stable below
@@ -221,10 +235,10 @@ struct World {
     int threads = 1;
 
     // ---- progress
-    std::int64_t step = 0;    // steps done
-    double time = 0.0;        // s
-    bool forces_current = false;  // the force pass at the present positions is done
-    double kick_share = 0.5;  // share of a full kick in the next step: the first kick of leapfrog
+    std::int64_t step = 0;           // steps done
+    double time = 0.0;               // s
+    bool forces_current = false;     // the force pass at the present positions is done
+    double kick_share = 0.5;         // share of a full kick in the next step: the first kick of leapfrog
     std::vector<BreakEvent> events;  // broken bonds; readers may clear it
     std::int64_t bonds_initial = 0, bonds_broken = 0;
     std::int64_t interfaces_initial = 0, interfaces_lost = 0;
@@ -233,10 +247,11 @@ struct World {
     struct LossBlock {
         double dashpot = 0.0, friction = 0.0;
         std::uint32_t broken = 0;
-        std::uint32_t pad_ = 0;
+        std::uint32_t padding = 0;
     };
     std::vector<LossBlock> loss_blocks;
     double dashpot_loss = 0.0, friction_loss = 0.0, fracture_loss = 0.0, displacement_work = 0.0, force_work = 0.0;
+    std::vector<std::int64_t> thread_blocks;  // blocks of points each thread has done (never saved)
     double initial_energy = 0.0;
     bool initial_energy_taken = false;
     double largest_supply = 0.0;  // J, for the runaway check
@@ -246,12 +261,12 @@ struct World {
 struct PointView {
     PointKind kind;
     BodyIndex body_i, body_j;
-    double overlap;        // δ, m
-    Vec2 normal;           // unit, from i to j
-    Vec2 position;         // m, midway between the two surfaces
-    Vec2 arm_i, arm_j;     // m, from the centroids to the position (arm_j zero for walls)
-    double normal_force;   // elastic: k_n(δ - δ0), N, compression positive (0 when not touching)
-    double shear_force;    // elastic, N on i along the normal turned by +90 degrees
+    double overlap;       // δ, m
+    Vec2 normal;          // unit, from i to j
+    Vec2 position;        // m, midway between the two surfaces
+    Vec2 arm_i, arm_j;    // m, from the centroids to the position (arm_j zero for walls)
+    double normal_force;  // elastic: k_n(δ - δ0), N, compression positive (0 when not touching)
+    double shear_force;   // elastic, N on i along the normal turned by +90 degrees
     double normal_stiffness, shear_stiffness, friction;
     double bond_overlap;
     bool bonded, touching, sliding, slid;
@@ -277,6 +292,9 @@ void refresh_neighbours(World& world);
 /// Back-tension bonding: every point of overlap δ > 0 between bodies gets δ0 = δ and loses its shear spring. Walls stay
 /// unbonded. Sets the segment thickness first. @return points bonded.
 std::int64_t bond_all(World& world, double thick);
+/// After bonds have been entered in the points (flags, bond_overlap), by bond_all() or a reader of back-tensions:
+/// counts them, clears what was remembered of the time before, and starts the account of energy anew.
+void finish_bonding(World& world);
 /// Changes the segment thickness and invalidates the list.
 void set_thickness(World& world, double thick);
 
@@ -294,8 +312,9 @@ std::vector<Vec2> element_positions(const World& world, BodyIndex body);
 void check_health(World& world);
 
 // ---- stable step (solver/stable_step.cpp)
-/// Guaranteed bound: with (a-b)² <= 2a²+2b² the stiffness and damping matrices are bounded by their doubled body blocks, so
-/// 4M - 2Δt·C - Δt²·K stays positive definite below the smallest per-body solution, over all listed points as if active.
+/// Guaranteed bound: with (a-b)² <= 2a²+2b² the stiffness and damping matrices are bounded by their doubled body
+/// blocks, so 4M - 2Δt·C - Δt²·K stays positive definite below the smallest per-body solution, over all listed points
+/// as if active.
 double stable_step_bound(const World& world);
 
 // ---- checkpoint (solver/checkpoint.cpp)
@@ -303,5 +322,7 @@ double stable_step_bound(const World& world);
 std::string save_world(const World& world);
 /// @throws InputError on a foreign, truncated or newer checkpoint; `name` is used in the message.
 World load_world(const std::string& bytes, const std::string& name);
+/// Number of threads of the coming steps; never changes a result. @throws InputError outside 1..1024
+void set_threads(World& world, int threads);
 
 }  // namespace crackle

@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Scene to world: bodies renumbered along space, outlines taken into body frames, material pairs turned into contact
+// laws.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <span>
+
+#include "solver/contact_law.hpp"
+#include "solver/controls.hpp"
+#include "solver/convex_pieces.hpp"
+#include "solver/errors.hpp"
+#include "solver/world.hpp"
+
+namespace crackle {
+namespace {
+
+// Verlet skin as a share of the median bounding radius: an intact specimen strains by less, and few idle points are
+// listed.
+constexpr double skin_share = 0.1;
+
+std::uint64_t spread_bits(std::uint64_t v) {
+    v &= 0xffffffffULL;
+    v = (v | (v << 16)) & 0x0000ffff0000ffffULL;
+    v = (v | (v << 8)) & 0x00ff00ff00ff00ffULL;
+    v = (v | (v << 4)) & 0x0f0f0f0f0f0f0f0fULL;
+    v = (v | (v << 2)) & 0x3333333333333333ULL;
+    return (v | (v << 1)) & 0x5555555555555555ULL;
+}
+
+/// Scene indices in Morton order of the centroids.
+std::vector<std::uint32_t> spatial_order(const std::vector<MassProperties>& properties) {
+    Vec2 low{1e300, 1e300}, high{-1e300, -1e300};
+    for (const MassProperties& p : properties) {
+        low = {std::min(low.x, p.centroid.x), std::min(low.y, p.centroid.y)};
+        high = {std::max(high.x, p.centroid.x), std::max(high.y, p.centroid.y)};
+    }
+    const double extent = std::max({high.x - low.x, high.y - low.y, 1e-300});
+    std::vector<std::uint64_t> key(properties.size());
+    for (std::size_t k = 0; k < properties.size(); ++k) {
+        const Vec2 c = (4294967295.0 / extent) * (properties[k].centroid - low);
+        key[k] = spread_bits(static_cast<std::uint64_t>(c.x)) | (spread_bits(static_cast<std::uint64_t>(c.y)) << 1);
+    }
+    std::vector<std::uint32_t> order(properties.size());
+    std::iota(order.begin(), order.end(), 0u);
+    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return key[a] < key[b]; });
+    return order;
+}
+
+Edge edge_between(Vec2 a, Vec2 b) {
+    const double length = norm(b - a);
+    return {a.x, a.y, (b.x - a.x) / length, (b.y - a.y) / length, length};
+}
+
+void add_pieces(World& world, BodyInfo& info, std::span<const Vec2> frame) {
+    info.first_piece = static_cast<std::uint32_t>(world.pieces.size());
+    const auto next_edge = [&] { return static_cast<std::uint32_t>(world.edges.size()); };
+    if (info.closed) {
+        for (const std::vector<std::uint32_t>& ring : convex_pieces(frame)) {
+            world.pieces.push_back({next_edge(), static_cast<std::uint32_t>(ring.size()), true});
+            for (std::size_t k = 0; k < ring.size(); ++k) {
+                world.edges.push_back(edge_between(frame[ring[k]], frame[ring[(k + 1) % ring.size()]]));
+            }
+        }
+    } else {
+        for (std::size_t k = 0; k + 1 < frame.size(); ++k) {
+            world.pieces.push_back({next_edge(), 1, false});
+            world.edges.push_back(edge_between(frame[k], frame[k + 1]));
+        }
+    }
+    info.piece_count = static_cast<std::uint32_t>(world.pieces.size()) - info.first_piece;
+}
+
+/// Elements of a chain are its vertices, of a circle body its circles; radii of vertices follow the thickness.
+void add_elements(World& world, const Scene& scene, const Body& body, const MassProperties& properties, BodyInfo& info,
+                  BodyState& state) {
+    info.first_element = static_cast<std::uint32_t>(world.elements.size());
+    info.element_count = body.circle_count + body.vertex_count;
+    for (std::uint32_t k = 0; k < body.circle_count; ++k) {
+        const CircleElement& circle = scene.circles[body.first_circle + k];
+        const Vec2 offset = info.single_circle ? Vec2{} : circle.centre - properties.centroid;
+        world.elements.push_back({offset.x, offset.y, circle.radius, scene.thick});
+        info.reach = std::max(info.reach, norm(offset) + circle.radius);
+    }
+    if (body.circle_count > 0) state.angle = scene.circles[body.first_circle].angle;
+    if (body.vertex_count == 0) return;
+    std::vector<Vec2> frame;
+    for (std::uint32_t k = 0; k < body.vertex_count; ++k) {
+        const Vec2 offset = scene.vertices[body.first_vertex + k] - properties.centroid;
+        frame.push_back(offset);
+        world.elements.push_back({offset.x, offset.y, 0.5 * scene.thick, 0.5 * scene.thick});
+        info.reach = std::max(info.reach, norm(offset));
+    }
+    state.angle = std::atan2(frame[1].y - frame[0].y, frame[1].x - frame[0].x);
+    add_pieces(world, info, frame);
+}
+
+void add_body(World& world, const Scene& scene, const Body& body, const MassProperties& properties) {
+    BodyInfo info{};
+    info.id = body.id;
+    info.material = body.material;
+    info.moment = properties.moment;
+    info.closed = body.closed;
+    info.single_circle = body.circle_count == 1;
+    BodyState state{
+        properties.centroid.x, properties.centroid.y, body.velocity.x, body.velocity.y, body.spin, 0.0, {1.0, 0.0}};
+    add_elements(world, scene, body, properties, info, state);
+    if (info.single_circle) {
+        state.x = scene.circles[body.first_circle].centre.x;
+        state.y = scene.circles[body.first_circle].centre.y;
+        state.shape[0] = scene.circles[body.first_circle].radius;
+    }
+    world.bodies.push_back(state);
+    world.inertia.push_back({1.0 / properties.mass, 1.0 / properties.mass, 1.0 / properties.moment, properties.mass});
+    world.info.push_back(info);
+    world.turning_reach.push_back(info.single_circle ? 0.0 : info.reach);
+}
+
+/// Springs in series, k = 2k₁k₂/(k₁+k₂), so that equal materials give their own; 0 with 0 gives 0.
+double in_series(double a, double b) { return a + b > 0.0 ? 2.0 * a * b / (a + b) : 0.0; }
+
+ContactLaw law_between(const Material& a, const Material& b, const IntactOptions& intact) {
+    ContactLaw law{};
+    law.normal_stiffness = in_series(a.normal_stiffness, b.normal_stiffness);
+    law.shear_stiffness = in_series(a.shear_stiffness, b.shear_stiffness);
+    // A material's ratio stands for dashpots of its own stiffness; two materials combine as their dashpots would.
+    const auto ratio_term = [](const Material& m, double stiffness) {
+        return m.damping_ratio ? 2.0 * *m.damping_ratio * std::sqrt(stiffness) : 0.0;
+    };
+    law.normal_damping_ratio_term = in_series(ratio_term(a, a.normal_stiffness), ratio_term(b, b.normal_stiffness));
+    law.shear_damping_ratio_term = in_series(ratio_term(a, a.shear_stiffness), ratio_term(b, b.shear_stiffness));
+    law.normal_damping = in_series(a.damping_ratio ? 0.0 : a.normal_damping, b.damping_ratio ? 0.0 : b.normal_damping);
+    law.shear_damping = in_series(a.damping_ratio ? 0.0 : a.shear_damping, b.damping_ratio ? 0.0 : b.shear_damping);
+    const double angle = std::min(a.friction_angle, b.friction_angle) * std::numbers::pi / 180.0;
+    law.friction = intact.no_sliding ? std::numeric_limits<double>::infinity() : std::tan(angle);
+    law.break_overlap = intact.no_breaking ? -std::numeric_limits<double>::infinity() : 0.0;
+    return law;
+}
+
+void build_laws(World& world) {
+    for (const Material& a : world.materials) {
+        for (const Material& b : world.materials) world.laws.push_back(law_between(a, b, world.intact));
+    }
+    // A domain wall has the touching body's own stiffness, damping and friction.
+    for (const Material& a : world.materials) world.laws.push_back(law_between(a, a, world.intact));
+    if (world.laws.size() > std::numeric_limits<std::uint16_t>::max()) {
+        throw InputError(fmt::format("materials: found {}, expected at most 255", world.materials.size()));
+    }
+}
+
+/// Every pair is found by its larger body, which looks no further than the next smaller one reaches.
+void rank_by_size(World& world) {
+    const std::size_t n = world.bodies.size();
+    std::vector<std::uint32_t> order(n);
+    std::iota(order.begin(), order.end(), 0u);
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::uint32_t a, std::uint32_t b) { return world.info[a].reach > world.info[b].reach; });
+    world.size_rank.resize(n);
+    world.largest_smaller.resize(n);
+    for (std::size_t r = 0; r < n; ++r) {
+        world.size_rank[order[r]] = static_cast<std::uint32_t>(r);
+        world.largest_smaller[order[r]] = r + 1 < n ? world.info[order[r + 1]].reach : 0.0;
+    }
+    if (world.skin == 0.0) world.skin = skin_share * world.info[order[n / 2]].reach;
+    world.fastest_allowed_move = 0.5 * world.info[order[n - 1]].reach;
+}
+
+void choose_time_step(World& world, const Scene& scene) {
+    world.automatic_step = scene.time_step == 0.0;
+    world.time_step = world.automatic_step ? scene.safety_factor * world.step_bound : scene.time_step;
+    if (!world.automatic_step && !world.allow_unstable && world.time_step > world.step_bound) {
+        throw InputError(
+            fmt::format("time step: found {} s, expected at most the stable bound of this scene, {:.6g} s; give a "
+                        "smaller one, leave it out to "
+                        "have it chosen, or run with --allow-unstable to see the limit",
+                        world.time_step, world.step_bound));
+    }
+}
+
+}  // namespace
+
+World build_world(Scene scene) {
+    validate(scene);
+    World world;
+    world.materials = scene.materials;
+    world.domain = scene.domain;
+    world.thick = scene.thick;
+    world.gravity = scene.gravity;
+    world.safety_factor = scene.safety_factor;
+    world.allow_unstable = scene.allow_unstable;
+    world.ledger_on = scene.ledger;
+    world.intact = scene.intact;
+    world.threads = scene.threads;
+    world.thread_blocks.assign(static_cast<std::size_t>(scene.threads), 0);
+    world.skin = scene.skin;
+    world.kick_share = scene.first_kick == FirstKick::full ? 1.0 : 0.5;
+
+    std::vector<MassProperties> properties;
+    properties.reserve(scene.bodies.size());
+    for (const Body& body : scene.bodies) properties.push_back(mass_properties(scene, body));
+    const std::vector<std::uint32_t> order = spatial_order(properties);
+    std::vector<BodyIndex> internal_of(order.size());
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        internal_of[order[k]] = static_cast<BodyIndex>(k);
+        add_body(world, scene, scene.bodies[order[k]], properties[order[k]]);
+    }
+    world.forces.assign(world.bodies.size(), BodyForce{});
+    build_laws(world);
+    rank_by_size(world);
+    build_controls(world, scene, internal_of);  // inverse masses of driven bodies enter m_eff and the bound
+    refresh_neighbours(world);
+    choose_time_step(world, scene);
+    build_controls(world, scene, internal_of);  // ramp velocities need the time step
+    return world;
+}
+
+}  // namespace crackle

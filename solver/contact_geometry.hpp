@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where two bodies meet: overlap, normal and contact position of one contact point, for each kind of point.
+//
+// An element (circle, or vertex of a chain) faces a circle, an outline or a wall. With d the distance of the element's
+// centre from the partner (signed, negative inside a closed outline), the overlap is
+//     δ = r_a + r_b - d         circle-circle: both radii; circle-outline: r and thick; vertex-outline: thick/2 twice
+// the normal n = -∇d points from i to j, and the force acts midway between the two surfaces, at x + n(r_a - δ/2).
+// This is the «rounded» law: d is C¹ outside a convex outline, so the force derives from ½k_n δ². Source:
+// reference/model.md 2.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "solver/world.hpp"
+
+namespace crackle {
+
+struct ContactGeometry {
+    double overlap;   // m
+    double nx, ny;    // unit normal, from i to j
+    double aix, aiy;  // m, arm from i's centroid to the contact position
+    double ajx, ajy;  // m, from j's
+};
+
+/// Closest feature of an outline to a point of its body frame.
+struct OutlineFacing {
+    double distance;     // m, signed for closed pieces
+    double gx, gy;       // unit gradient of the distance, body frame
+    std::uint32_t edge;  // faced, into World::edges
+};
+
+namespace detail {
+
+inline OutlineFacing face_vertex(double dx, double dy, const Edge& edge, std::uint32_t index) {
+    const double distance = std::sqrt(dx * dx + dy * dy);
+    // On the corner itself any direction of its normal cone will do; the edge's normal is one.
+    if (distance == 0.0) return {0.0, edge.ty, -edge.tx, index};
+    return {distance, dx / distance, dy / distance, index};
+}
+
+/// Unsigned distance to one open segment.
+inline OutlineFacing face_segment(const Edge& edge, std::uint32_t index, double px, double py) {
+    const double dx = px - edge.x, dy = py - edge.y;
+    const double along = dx * edge.tx + dy * edge.ty;
+    if (along <= 0.0) return face_vertex(dx, dy, edge, index);
+    if (along >= edge.length) return face_vertex(dx - edge.length * edge.tx, dy - edge.length * edge.ty, edge, index);
+    const double across = dx * edge.ty - dy * edge.tx;
+    return across >= 0.0 ? OutlineFacing{across, edge.ty, -edge.tx, index}
+                         : OutlineFacing{-across, -edge.ty, edge.tx, index};
+}
+
+/// Signed distance to a convex closed piece by looking at every edge.
+inline OutlineFacing face_every_edge(const Edge* edges, const Piece& piece, double px, double py) {
+    OutlineFacing inside{-std::numeric_limits<double>::infinity(), 0.0, 0.0, 0};
+    OutlineFacing outside{std::numeric_limits<double>::infinity(), 0.0, 0.0, 0};
+    for (std::uint32_t e = piece.first_edge; e < piece.first_edge + piece.edge_count; ++e) {
+        const Edge& edge = edges[e];
+        const double across = (px - edge.x) * edge.ty - (py - edge.y) * edge.tx;
+        if (across > inside.distance) inside = {across, edge.ty, -edge.tx, e};
+        if (across <= 0.0) continue;  // the closest edge of an outside point is one that sees it
+        const OutlineFacing candidate = face_segment(edge, e, px, py);
+        if (candidate.distance < outside.distance) outside = candidate;
+    }
+    return inside.distance <= 0.0 ? inside : outside;
+}
+
+/// Signed distance to a convex closed piece, starting from the edge faced last. The normal strips of the edges and the
+/// cones of the corners partition the outside of a convex outline, so a point found in one needs no further search.
+inline OutlineFacing face_convex(const Edge* edges, const Piece& piece, std::uint32_t hint, double px, double py) {
+    const std::uint32_t first = piece.first_edge, last = first + piece.edge_count - 1;
+    std::uint32_t e = hint >= first && hint <= last ? hint : first;
+    for (std::uint32_t tries = 0; tries < piece.edge_count; ++tries) {
+        const Edge& edge = edges[e];
+        const double dx = px - edge.x, dy = py - edge.y;
+        const double across = dx * edge.ty - dy * edge.tx;
+        if (across < 0.0) break;
+        const double along = dx * edge.tx + dy * edge.ty;
+        if (along < 0.0) {
+            const std::uint32_t previous = e == first ? last : e - 1;
+            const Edge& before = edges[previous];
+            if ((px - before.x) * before.tx + (py - before.y) * before.ty >= before.length)
+                return face_vertex(dx, dy, edge, e);
+            e = previous;
+        } else if (along > edge.length) {
+            const std::uint32_t next = e == last ? first : e + 1;
+            const Edge& after = edges[next];
+            const double ax = px - after.x, ay = py - after.y;
+            if (ax * after.tx + ay * after.ty <= 0.0) return face_vertex(ax, ay, after, e);
+            e = next;
+        } else {
+            return {across, edge.ty, -edge.tx, e};
+        }
+    }
+    return face_every_edge(edges, piece, px, py);
+}
+
+}  // namespace detail
+
+/// Closest feature of a body's outline (minimum over its convex pieces and segments); `hint` is the edge faced last.
+inline OutlineFacing face_outline(const World& world, const BodyInfo& body, std::uint32_t hint, double px, double py) {
+    const Piece* pieces = world.pieces.data() + body.first_piece;
+    const Edge* edges = world.edges.data();
+    if (body.piece_count == 1 && pieces[0].closed) return detail::face_convex(edges, pieces[0], hint, px, py);
+    OutlineFacing best{std::numeric_limits<double>::infinity(), 0.0, 0.0, 0};
+    for (std::uint32_t p = 0; p < body.piece_count; ++p) {
+        const OutlineFacing facing =
+            pieces[p].closed ? detail::face_every_edge(edges, pieces[p], px, py)
+                             : detail::face_segment(edges[pieces[p].first_edge], pieces[p].first_edge, px, py);
+        if (facing.distance < best.distance) best = facing;
+    }
+    return best;
+}
+
+/// Element centre relative to the body's centroid, world axes. (A single circle's element sits at its centroid.)
+inline Vec2 turned(const BodyState& body, const Element& element) {
+    return {body.shape[0] * element.x - body.shape[1] * element.y,
+            body.shape[1] * element.x + body.shape[0] * element.y};
+}
+
+namespace detail {
+
+/// Two circles whose centres are `oix, oiy` and `ojx, ojy` away from the centroids.
+inline ContactGeometry circles_geometry(const BodyState& i, const BodyState& j, Vec2 oi, Vec2 oj, double ri,
+                                        double rj) {
+    const double dx = (j.x - i.x) + (oj.x - oi.x), dy = (j.y - i.y) + (oj.y - oi.y);
+    const double distance = std::sqrt(dx * dx + dy * dy);
+    ContactGeometry g;
+    g.overlap = ri + rj - distance;
+    g.nx = distance > 0.0 ? dx / distance : 1.0;  // coincident centres have no normal: take the x axis
+    g.ny = distance > 0.0 ? dy / distance : 0.0;
+    const double li = ri - 0.5 * g.overlap, lj = rj - 0.5 * g.overlap;
+    g.aix = oi.x + li * g.nx;
+    g.aiy = oi.y + li * g.ny;
+    g.ajx = oj.x - lj * g.nx;
+    g.ajy = oj.y - lj * g.ny;
+    return g;
+}
+
+}  // namespace detail
+
+/// Geometry of a point of kind K; `feature` comes back as the edge faced.
+template <PointKind K>
+inline ContactGeometry contact_geometry(const World& world, const ContactPoint& point, std::uint32_t& feature) {
+    const BodyState& i = world.bodies[point.body_i];
+    if constexpr (K == PointKind::circle_circle) {
+        const BodyState& j = world.bodies[point.body_j];
+        return detail::circles_geometry(i, j, {}, {}, i.shape[0], j.shape[0]);
+    } else if constexpr (K == PointKind::element_element) {
+        const BodyState& j = world.bodies[point.body_j];
+        const Element& a = world.elements[point.element_i];
+        const Element& b = world.elements[point.feature_j];
+        return detail::circles_geometry(i, j, turned(i, a), turned(j, b), a.radius, b.radius);
+    } else if constexpr (K == PointKind::element_outline) {
+        const BodyState& j = world.bodies[point.body_j];
+        const Element& a = world.elements[point.element_i];
+        const Vec2 oi = turned(i, a);
+        const double wx = (i.x - j.x) + oi.x, wy = (i.y - j.y) + oi.y;
+        const double cosine = j.shape[0], sine = j.shape[1];
+        const OutlineFacing facing = face_outline(world, world.info[point.body_j], point.feature_j,
+                                                  cosine * wx + sine * wy, cosine * wy - sine * wx);
+        feature = facing.edge;
+        ContactGeometry g;
+        g.overlap = a.radius + a.target_reach - facing.distance;
+        g.nx = -(cosine * facing.gx - sine * facing.gy);
+        g.ny = -(sine * facing.gx + cosine * facing.gy);
+        const double lift = a.radius - 0.5 * g.overlap;
+        g.aix = oi.x + lift * g.nx;
+        g.aiy = oi.y + lift * g.ny;
+        g.ajx = wx + lift * g.nx;
+        g.ajy = wy + lift * g.ny;
+        return g;
+    } else {
+        const Element& a = world.elements[point.element_i];
+        const Vec2 oi = turned(i, a);
+        const double radius = point.feature_j == 1 ? 0.0 : a.radius;
+        const Domain& domain = world.domain;
+        ContactGeometry g;
+        double distance = 0.0;
+        switch (static_cast<Wall>(point.body_j)) {
+            case Wall::left:
+                distance = (i.x - domain.x1) + oi.x;
+                g.nx = -1.0;
+                g.ny = 0.0;
+                break;
+            case Wall::right:
+                distance = (domain.x2 - i.x) - oi.x;
+                g.nx = 1.0;
+                g.ny = 0.0;
+                break;
+            case Wall::bottom:
+                distance = (i.y - domain.y1) + oi.y;
+                g.nx = 0.0;
+                g.ny = -1.0;
+                break;
+            case Wall::top:
+                distance = (domain.y2 - i.y) - oi.y;
+                g.nx = 0.0;
+                g.ny = 1.0;
+                break;
+        }
+        g.overlap = radius - distance;
+        const double lift = radius - 0.5 * g.overlap;
+        g.aix = oi.x + lift * g.nx;
+        g.aiy = oi.y + lift * g.ny;
+        g.ajx = 0.0;
+        g.ajy = 0.0;
+        return g;
+    }
+}
+
+}  // namespace crackle

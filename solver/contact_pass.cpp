@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The contact kernels: one loop over the points of a kind, compiled for each set of features, picked once a pass.
+
+#include "solver/contact_pass.hpp"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "solver/contact_geometry.hpp"
+#include "solver/contact_law.hpp"
+
+namespace crackle {
+namespace {
+
+struct PassRange {
+    PointIndex begin, end;
+    std::size_t block;  // into World::loss_blocks
+};
+
+/// Out of contact: no force; what the shear spring still held is lost to the slider.
+template <bool Friction, bool Ledger>
+inline void release(const World& world, ContactPoint& point, World::LossBlock& loss, double shear_move) {
+    if constexpr (Ledger && Friction) {
+        const ContactLaw& law = world.laws[point.law];
+        loss.friction += shear_force(law, point.shear_force, shear_move, 0.0).friction;
+    }
+    point.shear_force = 0.0;
+    point.flags = static_cast<std::uint16_t>(point.flags & ~(point_touching | point_sliding | point_slid));
+}
+
+template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Ledger>
+void force_block(World& world, const PassRange& range) {
+    World::LossBlock loss;
+    const double dt = world.drift;
+    for (PointIndex k = range.begin; k < range.end; ++k) {
+        ContactPoint& point = world.points[k];
+        PointForce& out = world.point_forces[k];
+        const ContactGeometry g = contact_geometry<K>(world, point, point.feature_j);
+        const ContactLaw& law = world.laws[point.law];
+        bool bonded = false;
+        if constexpr (Bonds) bonded = (point.flags & point_bonded) != 0;
+
+        const bool holds = bonded ? g.overlap > law.break_overlap : g.overlap > 0.0;
+        if (!holds && !bonded && (point.flags & point_touching) == 0) {
+            out = {0.0, 0.0, 0.0, 0.0};
+            continue;
+        }
+
+        // Velocity of i against j at the contact position, along the normal (closing) and the tangent.
+        const BodyState& i = world.bodies[point.body_i];
+        double rx = i.vx - i.omega * g.aiy, ry = i.vy + i.omega * g.aix;
+        if constexpr (K != PointKind::element_wall) {
+            const BodyState& j = world.bodies[point.body_j];
+            rx -= j.vx - j.omega * g.ajy;
+            ry -= j.vy + j.omega * g.ajx;
+        }
+        const double closing = rx * g.nx + ry * g.ny;
+        const double slipping = ry * g.nx - rx * g.ny;
+
+        if (!holds) {
+            if constexpr (Ledger && Damping) {
+                PointDissipation& last = world.dissipation[k];
+                loss.dashpot += 0.5 * dt * (last.normal * closing + last.shear * slipping);
+                last = {0.0, 0.0};
+            }
+            if (bonded) {
+                point.flags = static_cast<std::uint16_t>((point.flags & ~point_bonded) | point_just_broken);
+                ++loss.broken;
+                // The event needs the springs as they were; record_breaks() releases the point.
+            } else {
+                release<Friction, Ledger>(world, point, loss, slipping * dt);
+            }
+            out = {0.0, 0.0, 0.0, 0.0};
+            continue;
+        }
+
+        double normal = law.normal_stiffness * g.overlap;
+        if constexpr (Bonds) normal -= law.normal_stiffness * point.bond_overlap;
+        double tangential = 0.0;
+        std::uint16_t flags = static_cast<std::uint16_t>((point.flags | point_touching) & ~point_sliding);
+        bool sliding = !Friction;
+        if constexpr (Friction) {
+            const ShearUpdate shear = shear_force(law, point.shear_force, slipping * dt, g.overlap);
+            sliding = shear.sliding;
+            if (sliding) flags |= point_sliding | point_slid;
+            if constexpr (Ledger) loss.friction += shear.friction;
+            point.shear_force = shear.force;
+            tangential = shear.force;
+        }
+        point.flags = flags;
+        if constexpr (Bonds) {
+            if (bonded) {
+                const double half_strength = 0.5 * law.normal_stiffness * point.bond_overlap;
+                if (normal * normal + tangential * tangential >= half_strength * half_strength) {
+                    world.bond_history[k] = {normal, tangential};
+                }
+            }
+        }
+        if constexpr (Damping) {
+            const double normal_dashpot = normal_damping(law, point.root_effective_mass) * closing;
+            const double shear_dashpot = sliding ? 0.0 : shear_damping(law, point.root_effective_mass) * slipping;
+            if constexpr (Ledger) {
+                PointDissipation& last = world.dissipation[k];
+                loss.dashpot +=
+                    0.5 * dt * ((last.normal + normal_dashpot) * closing + (last.shear + shear_dashpot) * slipping);
+                last = {normal_dashpot, shear_dashpot};
+            }
+            normal += normal_dashpot;
+            tangential -= shear_dashpot;
+        }
+
+        // Force on i: -f_n along the normal (pushed away from j), f_t along the tangent.
+        const double fx = -normal * g.nx - tangential * g.ny;
+        const double fy = -normal * g.ny + tangential * g.nx;
+        out = {fx, fy, g.aix * fy - g.aiy * fx, g.ajy * fx - g.ajx * fy};
+    }
+    world.loss_blocks[range.block] = loss;
+}
+
+using BlockKernel = void (*)(World&, const PassRange&);
+
+template <PointKind K, std::size_t... Index>
+constexpr std::array<BlockKernel, 16> kernels_of(std::index_sequence<Index...>) {
+    return {&force_block<K, (Index & 1) != 0, (Index & 2) != 0, (Index & 4) != 0, (Index & 8) != 0>...};
+}
+
+constexpr std::array<std::array<BlockKernel, 16>, point_kinds> kernels{
+    kernels_of<PointKind::circle_circle>(std::make_index_sequence<16>{}),
+    kernels_of<PointKind::element_element>(std::make_index_sequence<16>{}),
+    kernels_of<PointKind::element_outline>(std::make_index_sequence<16>{}),
+    kernels_of<PointKind::element_wall>(std::make_index_sequence<16>{}),
+};
+
+PointIndex blocks_of_kind(const World& world, std::size_t kind) {
+    return (world.kind_begin[kind + 1] - world.kind_begin[kind] + block_points - 1) / block_points;
+}
+
+}  // namespace
+
+ContactFeatures features_of(const World& world) {
+    ContactFeatures features{false, false, world.has_bonds, world.ledger_on};
+    for (const ContactLaw& law : world.laws) {
+        features.friction = features.friction || law.friction > 0.0;
+        features.damping = features.damping || law.normal_damping > 0.0 || law.shear_damping > 0.0 ||
+                           law.normal_damping_ratio_term > 0.0 || law.shear_damping_ratio_term > 0.0;
+    }
+    return features;
+}
+
+PointIndex block_count(const World& world) {
+    PointIndex total = 0;
+    for (std::size_t kind = 0; kind < point_kinds; ++kind) total += blocks_of_kind(world, kind);
+    return total;
+}
+
+void contact_pass(World& world, const ContactFeatures& features) {
+    const std::size_t choice = (features.friction ? 1u : 0u) + (features.damping ? 2u : 0u) +
+                               (features.bonds ? 4u : 0u) + (features.ledger ? 8u : 0u);
+    std::size_t first_block = 0;
+    std::int64_t done = 0;
+    for (std::size_t kind = 0; kind < point_kinds; ++kind) {
+        const PointIndex blocks = blocks_of_kind(world, kind);
+        const BlockKernel kernel = kernels[kind][choice];
+#pragma omp for schedule(static) nowait
+        for (PointIndex b = 0; b < blocks; ++b) {
+            const PointIndex begin = world.kind_begin[kind] + b * block_points;
+            kernel(world, {begin, std::min(begin + block_points, world.kind_begin[kind + 1]), first_block + b});
+            ++done;
+        }
+        first_block += blocks;
+    }
+    world.thread_blocks[static_cast<std::size_t>(omp_get_thread_num())] += done;
+}
+
+}  // namespace crackle

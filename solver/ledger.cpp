@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The account of energy. Between force pass and kick everything is known at time n: positions x(n), the mean velocity
+// v(n) = v(n-½) + ½a(n)Δt, forces, and the losses and works up to x(n), each taken by the trapezoidal rule over the
+// drifts. Leapfrog then closes the account to second order in the step; what is left is the closing error.
+
+#include <cmath>
+
+#include "solver/contact_law.hpp"
+#include "solver/world.hpp"
+
+namespace crackle {
+namespace {
+
+double kinetic_energy(const World& world) {
+    // Share of the coming kick that lies before time n: none at a half-kick start, half of it otherwise.
+    const double share = (world.kick_share - 0.5) * world.time_step;
+    double sum = 0.0;
+    for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+        const BodyState& body = world.bodies[b];
+        const BodyInertia& inertia = world.inertia[b];
+        const BodyForce& force = world.forces[b];
+        const double vx = body.vx + share * (force.fx + inertia.mass * world.gravity.x) * inertia.inverse_mass_x;
+        const double vy = body.vy + share * (force.fy + inertia.mass * world.gravity.y) * inertia.inverse_mass_y;
+        const double omega = body.omega + share * force.torque * inertia.inverse_moment;
+        sum += 0.5 * (inertia.mass * (vx * vx + vy * vy) + world.info[b].moment * omega * omega);
+    }
+    // Driving forces accelerate too.
+    for (const ControlState& control : world.controls) {
+        const BodyState& body = world.bodies[control.body];
+        const BodyInertia& inertia = world.inertia[control.body];
+        const BodyForce& force = world.forces[control.body];
+        const double load[3] = {force.fx + inertia.mass * world.gravity.x, force.fy + inertia.mass * world.gravity.y,
+                                force.torque};
+        const double inverse[3] = {inertia.inverse_mass_x, inertia.inverse_mass_y, inertia.inverse_moment};
+        const double velocity[3] = {body.vx, body.vy, body.omega};
+        const double weight[3] = {inertia.mass, inertia.mass, world.info[control.body].moment};
+        for (int d = 0; d < 3; ++d) {
+            if (control.dof[d].drive != Drive::force) continue;
+            const double without = velocity[d] + share * load[d] * inverse[d];
+            const double with = without + share * control.dof[d].value * inverse[d];
+            sum += 0.5 * weight[d] * (with * with - without * without);
+        }
+    }
+    return sum;
+}
+
+double potential_energy(const World& world) {
+    if (world.gravity == Vec2{}) return 0.0;
+    double sum = 0.0;
+    for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+        sum -= world.inertia[b].mass * (world.gravity.x * world.bodies[b].x + world.gravity.y * world.bodies[b].y);
+    }
+    return sum;
+}
+
+double stored_energy(const World& world) {
+    double sum = 0.0;
+    for (PointIndex k = 0; k < world.points.size(); ++k) {
+        const ContactPoint& point = world.points[k];
+        if ((point.flags & point_touching) == 0) continue;
+        const PointView view = view_point(world, k);
+        if (!view.touching) continue;
+        sum += strain_energy(world.laws[point.law], view.overlap, point.bond_overlap, point.shear_force);
+    }
+    return sum;
+}
+
+}  // namespace
+
+Ledger measure_ledger(const World& world) {
+    Ledger ledger;
+    ledger.potential = potential_energy(world);
+    ledger.kinetic = kinetic_energy(world);
+    ledger.strain = stored_energy(world);
+    ledger.dashpot_loss = world.dashpot_loss;
+    ledger.friction_loss = world.friction_loss;
+    ledger.fracture_loss = world.fracture_loss;
+    ledger.displacement_work = world.displacement_work;
+    ledger.force_work = world.force_work;
+    ledger.closing_error = ledger.potential + ledger.kinetic + ledger.strain + ledger.dashpot_loss +
+                           ledger.friction_loss + ledger.fracture_loss - ledger.displacement_work - ledger.force_work -
+                           world.initial_energy;
+    return ledger;
+}
+
+}  // namespace crackle

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Looking at the world: one contact point with all its numbers, forces on walls, positions in the input's terms.
+
+#include <fmt/format.h>
+
+#include "solver/contact_geometry.hpp"
+#include "solver/errors.hpp"
+#include "solver/world.hpp"
+
+namespace crackle {
+namespace {
+
+PointKind kind_of(const World& world, PointIndex k) {
+    int kind = 0;
+    while (k >= world.kind_begin[static_cast<std::size_t>(kind) + 1]) ++kind;
+    return static_cast<PointKind>(kind);
+}
+
+ContactGeometry geometry_of(const World& world, PointKind kind, const ContactPoint& point) {
+    std::uint32_t feature = point.feature_j;
+    switch (kind) {
+        case PointKind::circle_circle:
+            return contact_geometry<PointKind::circle_circle>(world, point, feature);
+        case PointKind::element_element:
+            return contact_geometry<PointKind::element_element>(world, point, feature);
+        case PointKind::element_outline:
+            return contact_geometry<PointKind::element_outline>(world, point, feature);
+        case PointKind::element_wall:
+            break;
+    }
+    return contact_geometry<PointKind::element_wall>(world, point, feature);
+}
+
+}  // namespace
+
+PointView view_point(const World& world, PointIndex k) {
+    const ContactPoint& point = world.points[k];
+    const ContactLaw& law = world.laws[point.law];
+    PointView view{};
+    view.kind = kind_of(world, k);
+    const ContactGeometry g = geometry_of(world, view.kind, point);
+    const BodyState& body = world.bodies[point.body_i];
+    view.body_i = point.body_i;
+    view.body_j = point.body_j;
+    view.overlap = g.overlap;
+    view.normal = {g.nx, g.ny};
+    view.arm_i = {g.aix, g.aiy};
+    view.arm_j = {g.ajx, g.ajy};
+    view.position = {body.x + g.aix, body.y + g.aiy};
+    view.bonded = (point.flags & point_bonded) != 0;
+    view.touching = view.bonded || g.overlap > 0.0;
+    view.sliding = (point.flags & point_sliding) != 0;
+    view.slid = (point.flags & point_slid) != 0;
+    view.normal_stiffness = law.normal_stiffness;
+    view.shear_stiffness = law.friction > 0.0 ? law.shear_stiffness : 0.0;
+    view.friction = law.friction;
+    view.bond_overlap = point.bond_overlap;
+    view.normal_force = view.touching ? law.normal_stiffness * (g.overlap - point.bond_overlap) : 0.0;
+    view.shear_force = view.touching ? point.shear_force : 0.0;
+    return view;
+}
+
+BodyIndex body_of_id(const World& world, int id) {
+    for (std::size_t b = 0; b < world.info.size(); ++b) {
+        if (world.info[b].id == id) return static_cast<BodyIndex>(b);
+    }
+    throw InputError(
+        fmt::format("body {}: found no such body, expected one of the {} of this scene", id, world.info.size()));
+}
+
+std::array<Vec2, 4> measure_wall_forces(const World& world) {
+    std::array<Vec2, 4> sums{};
+    for (PointIndex k = world.kind_begin[static_cast<std::size_t>(PointKind::element_wall)]; k < world.points.size();
+         ++k) {
+        Vec2& sum = sums[world.points[k].body_j];
+        sum = sum - Vec2{world.point_forces[k].fx, world.point_forces[k].fy};
+    }
+    return sums;
+}
+
+std::vector<Vec2> element_positions(const World& world, BodyIndex body) {
+    const BodyInfo& info = world.info[body];
+    const BodyState& state = world.bodies[body];
+    std::vector<Vec2> positions;
+    positions.reserve(info.element_count);
+    for (std::uint32_t e = info.first_element; e < info.first_element + info.element_count; ++e) {
+        positions.push_back(Vec2{state.x, state.y} + turned(state, world.elements[e]));
+    }
+    return positions;
+}
+
+}  // namespace crackle

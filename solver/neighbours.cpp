@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Neighbour list: every contact point that could close before something has moved half the skin.
+//
+// Bodies lie in a uniform grid by their centroids. A pair is found by its larger body, which searches its own bounding
+// box widened by the reach of the next smaller body: any mixture of sizes, platens and containers included, needs no
+// user hint. Pairs are sorted, their points emitted in that order, and what a point remembers (shear spring, bond,
+// flags) is carried over by one linear merge of the old list with the new one. Everything depends on positions alone,
+// never on the number of threads.
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "solver/contact_geometry.hpp"
+#include "solver/contact_pass.hpp"
+#include "solver/world.hpp"
+
+namespace crackle {
+namespace {
+
+struct Box {
+    Vec2 low{1e300, 1e300}, high{-1e300, -1e300};
+    void add(Vec2 p, double margin) {
+        low = {std::min(low.x, p.x - margin), std::min(low.y, p.y - margin)};
+        high = {std::max(high.x, p.x + margin), std::max(high.y, p.y + margin)};
+    }
+};
+
+Vec2 centre_of(const BodyState& body) { return {body.x, body.y}; }
+
+Box bounding_box(const World& world, std::size_t b) {
+    const BodyState& body = world.bodies[b];
+    const BodyInfo& info = world.info[b];
+    Box box;
+    for (std::uint32_t e = 0; e < info.element_count; ++e) {
+        const Element& element = world.elements[info.first_element + e];
+        box.add(centre_of(body) + turned(body, element), info.piece_count > 0 ? 0.0 : element.radius);
+    }
+    return box;
+}
+
+/// Uniform grid over the centroids: body numbers sorted by cell.
+class Grid {
+  public:
+    explicit Grid(const World& world) {
+        Box box;
+        double mean_reach = 0.0;
+        for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+            box.add(centre_of(world.bodies[b]), 0.0);
+            mean_reach += world.info[b].reach;
+        }
+        const auto n = static_cast<double>(world.bodies.size());
+        low_ = box.low;
+        const double width = box.high.x - box.low.x, height = box.high.y - box.low.y;
+        // Cells of about a body; larger where few bodies are spread over a wide area, so that memory stays linear.
+        size_ = std::max({2.0 * mean_reach / n, std::sqrt(width * height / (2.0 * n + 64.0)),
+                          std::max(width, height) / (2.0 * n + 64.0)});
+        columns_ = static_cast<std::int64_t>(width / size_) + 1;
+        rows_ = static_cast<std::int64_t>(height / size_) + 1;
+        begin_.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
+        members_.resize(world.bodies.size());
+        for (const BodyState& body : world.bodies) ++begin_[cell_of(centre_of(body)) + 1];
+        for (std::size_t c = 1; c < begin_.size(); ++c) begin_[c] += begin_[c - 1];
+        std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
+        for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+            members_[next[cell_of(centre_of(world.bodies[b]))]++] = static_cast<BodyIndex>(b);
+        }
+    }
+
+    template <typename Visit>
+    void visit(const Box& box, Visit&& visit_body) const {
+        const std::int64_t x0 = column(box.low.x), x1 = column(box.high.x), y0 = row(box.low.y), y1 = row(box.high.y);
+        for (std::int64_t y = y0; y <= y1; ++y) {
+            const std::uint32_t end = begin_[static_cast<std::size_t>(y * columns_ + x1) + 1];
+            for (std::uint32_t m = begin_[static_cast<std::size_t>(y * columns_ + x0)]; m < end; ++m)
+                visit_body(members_[m]);
+        }
+    }
+
+  private:
+    std::int64_t column(double x) const {
+        return std::clamp(static_cast<std::int64_t>(std::floor((x - low_.x) / size_)), std::int64_t{0}, columns_ - 1);
+    }
+    std::int64_t row(double y) const {
+        return std::clamp(static_cast<std::int64_t>(std::floor((y - low_.y) / size_)), std::int64_t{0}, rows_ - 1);
+    }
+    std::size_t cell_of(Vec2 p) const { return static_cast<std::size_t>(row(p.y) * columns_ + column(p.x)); }
+
+    Vec2 low_;
+    double size_ = 0.0;
+    std::int64_t columns_ = 1, rows_ = 1;
+    std::vector<std::uint32_t> begin_;
+    std::vector<BodyIndex> members_;
+};
+
+/// Pairs of bodies whose bounding boxes and circles come within thick + skin, as i << 32 | j with i < j, sorted.
+std::vector<std::uint64_t> near_pairs(const World& world) {
+    const Grid grid(world);
+    const double gap = world.thick + world.skin;
+    std::vector<std::uint64_t> pairs;
+    pairs.reserve(4 * world.bodies.size());
+    for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+        const Box own = bounding_box(world, b);
+        const double margin = world.largest_smaller[b] + gap;
+        Box search;
+        search.add(own.low, margin);
+        search.add(own.high, margin);
+        const BodyState& body = world.bodies[b];
+        grid.visit(search, [&](BodyIndex other) {
+            if (world.size_rank[other] <= world.size_rank[b]) return;
+            const BodyState& partner = world.bodies[other];
+            const double reach = world.info[other].reach + gap;
+            const double dx = partner.x - body.x, dy = partner.y - body.y;
+            const double limit = world.info[b].reach + reach;
+            if (dx * dx + dy * dy > limit * limit) return;
+            const double bx = std::max({own.low.x - partner.x, partner.x - own.high.x, 0.0});
+            const double by = std::max({own.low.y - partner.y, partner.y - own.high.y, 0.0});
+            if (bx * bx + by * by > reach * reach) return;
+            const auto self = static_cast<std::uint64_t>(b);
+            pairs.push_back(self < other ? (self << 32) | other : (static_cast<std::uint64_t>(other) << 32) | self);
+        });
+    }
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
+}
+
+using PointLists = std::array<std::vector<ContactPoint>, point_kinds>;
+
+/// sqrt of m_i m_j/(m_i + m_j); a partner held in translation counts as infinitely heavy.
+double root_effective_mass(const World& world, BodyIndex i, BodyIndex j) {
+    const auto inverse = [&](BodyIndex b) {
+        const BodyInertia& inertia = world.inertia[b];
+        return inertia.inverse_mass_x > 0.0 || inertia.inverse_mass_y > 0.0 ? 1.0 / inertia.mass : 0.0;
+    };
+    const double sum = inverse(i) + inverse(j);
+    return sum > 0.0 ? 1.0 / std::sqrt(sum) : 0.0;
+}
+
+ContactPoint new_point(const World& world, BodyIndex i, BodyIndex j, std::uint32_t element, std::uint32_t feature) {
+    ContactPoint point{};
+    point.body_i = i;
+    point.body_j = j;
+    point.element_i = element;
+    point.feature_j = feature;
+    point.root_effective_mass = root_effective_mass(world, i, j);
+    point.law = static_cast<std::uint16_t>(static_cast<std::size_t>(world.info[i].material) * world.materials.size() +
+                                           static_cast<std::size_t>(world.info[j].material));
+    return point;
+}
+
+void add_circle_pairs(const World& world, BodyIndex i, BodyIndex j, PointLists& lists) {
+    const BodyInfo &a = world.info[i], &b = world.info[j];
+    const bool single = a.single_circle && b.single_circle;
+    for (std::uint32_t p = a.first_element; p < a.first_element + a.element_count; ++p) {
+        const Vec2 centre = centre_of(world.bodies[i]) + turned(world.bodies[i], world.elements[p]);
+        for (std::uint32_t q = b.first_element; q < b.first_element + b.element_count; ++q) {
+            const Vec2 other = centre_of(world.bodies[j]) + turned(world.bodies[j], world.elements[q]);
+            if (norm(other - centre) > world.elements[p].radius + world.elements[q].radius + world.skin) continue;
+            lists[static_cast<std::size_t>(single ? PointKind::circle_circle : PointKind::element_element)].push_back(
+                new_point(world, i, j, p, q));
+        }
+    }
+}
+
+/// Elements of i against the outline of j.
+void add_outline_points(const World& world, BodyIndex i, BodyIndex j, PointLists& lists) {
+    const BodyInfo &a = world.info[i], &b = world.info[j];
+    const BodyState& target = world.bodies[j];
+    for (std::uint32_t p = a.first_element; p < a.first_element + a.element_count; ++p) {
+        const Element& element = world.elements[p];
+        const Vec2 w = centre_of(world.bodies[i]) + turned(world.bodies[i], element) - centre_of(target);
+        const double limit = element.radius + element.target_reach + world.skin;
+        if (dot(w, w) > (b.reach + limit) * (b.reach + limit)) continue;
+        const double c = target.shape[0], s = target.shape[1];
+        const OutlineFacing facing = face_outline(world, b, b.first_piece, c * w.x + s * w.y, c * w.y - s * w.x);
+        if (facing.distance > limit) continue;
+        lists[static_cast<std::size_t>(PointKind::element_outline)].push_back(new_point(world, i, j, p, facing.edge));
+    }
+}
+
+void add_wall_points(const World& world, BodyIndex i, PointLists& lists) {
+    const BodyInfo& info = world.info[i];
+    const BodyState& body = world.bodies[i];
+    const Domain& d = world.domain;
+    const bool chain = info.piece_count > 0;
+    for (std::uint32_t wall = 0; wall < 4; ++wall) {
+        if (!d.wall_present[wall]) continue;
+        const double whole = wall == 0   ? body.x - d.x1
+                             : wall == 1 ? d.x2 - body.x
+                             : wall == 2 ? body.y - d.y1
+                                         : d.y2 - body.y;
+        if (whole > info.reach + world.skin) continue;
+        for (std::uint32_t p = info.first_element; p < info.first_element + info.element_count; ++p) {
+            const Vec2 o = turned(body, world.elements[p]);
+            const double distance = whole + (wall == 0 ? o.x : wall == 1 ? -o.x : wall == 2 ? o.y : -o.y);
+            if (distance > (chain ? 0.0 : world.elements[p].radius) + world.skin) continue;
+            ContactPoint point{};
+            point.body_i = i;
+            point.body_j = wall;
+            point.element_i = p;
+            point.feature_j = chain ? 1 : 0;
+            point.root_effective_mass = std::sqrt(world.inertia[i].mass);
+            point.law = static_cast<std::uint16_t>(world.materials.size() * world.materials.size() +
+                                                   static_cast<std::size_t>(info.material));
+            lists[static_cast<std::size_t>(PointKind::element_wall)].push_back(point);
+        }
+    }
+}
+
+/// Two bodies none of whose degrees of freedom can answer need no points.
+bool both_held(const World& world, BodyIndex i, BodyIndex j) {
+    const auto held = [&](BodyIndex b) {
+        const BodyInertia& inertia = world.inertia[b];
+        return inertia.inverse_mass_x == 0.0 && inertia.inverse_mass_y == 0.0 && inertia.inverse_moment == 0.0;
+    };
+    return held(i) && held(j);
+}
+
+PointLists emit_points(const World& world) {
+    PointLists lists;
+    for (const std::uint64_t pair : near_pairs(world)) {
+        const auto i = static_cast<BodyIndex>(pair >> 32), j = static_cast<BodyIndex>(pair & 0xffffffffu);
+        if (both_held(world, i, j)) continue;
+        const bool chain_i = world.info[i].piece_count > 0, chain_j = world.info[j].piece_count > 0;
+        if (!chain_i && !chain_j) add_circle_pairs(world, i, j, lists);
+        if (chain_j) add_outline_points(world, i, j, lists);
+        if (chain_i) add_outline_points(world, j, i, lists);
+    }
+    for (std::size_t b = 0; b < world.bodies.size(); ++b) add_wall_points(world, static_cast<BodyIndex>(b), lists);
+    return lists;
+}
+
+/// Order of emission: pair, which of the two owns the element, element, partner's circle.
+struct PointKey {
+    std::uint32_t low, high, owner_is_high, element, partner;
+    auto operator<=>(const PointKey&) const = default;
+};
+
+PointKey key_of(PointKind kind, const ContactPoint& p) {
+    if (kind == PointKind::element_wall) return {p.body_i, p.body_j, 0, p.element_i, 0};
+    const bool swapped = p.body_i > p.body_j;
+    return {swapped ? p.body_j : p.body_i, swapped ? p.body_i : p.body_j, swapped ? 1u : 0u, p.element_i,
+            kind == PointKind::element_element ? p.feature_j : 0u};
+}
+
+/// Replaces the points of the world, carrying over what the old ones remember.
+void exchange_points(World& world, PointLists& lists) {
+    std::vector<ContactPoint> points;
+    std::vector<PointDissipation> dissipation;
+    std::vector<BondHistory> history;
+    std::array<PointIndex, point_kinds + 1> begin{};
+    std::size_t total = 0;
+    for (const auto& list : lists) total += list.size();
+    points.reserve(total);
+    if (world.ledger_on) dissipation.reserve(total);
+    if (world.has_bonds) history.reserve(total);
+    for (std::size_t kind = 0; kind < point_kinds; ++kind) {
+        begin[kind] = static_cast<PointIndex>(points.size());
+        PointIndex old = world.kind_begin[kind];
+        const PointIndex old_end = world.kind_begin[kind + 1];
+        for (ContactPoint& point : lists[kind]) {
+            const PointKey key = key_of(static_cast<PointKind>(kind), point);
+            while (old < old_end && key_of(static_cast<PointKind>(kind), world.points[old]) < key) ++old;
+            const bool known = old < old_end && key_of(static_cast<PointKind>(kind), world.points[old]) == key;
+            if (world.has_bonds && world.intact.no_new_contacts &&
+                !(known && (world.points[old].flags & point_bonded) != 0))
+                continue;
+            if (known) {
+                point.shear_force = world.points[old].shear_force;
+                point.bond_overlap = world.points[old].bond_overlap;
+                point.flags = world.points[old].flags;
+            }
+            points.push_back(point);
+            if (world.ledger_on) dissipation.push_back(known ? world.dissipation[old] : PointDissipation{0.0, 0.0});
+            if (world.has_bonds)
+                history.push_back(known && !world.bond_history.empty() ? world.bond_history[old]
+                                                                       : BondHistory{0.0, 0.0});
+        }
+        std::vector<ContactPoint>().swap(lists[kind]);
+    }
+    begin[point_kinds] = static_cast<PointIndex>(points.size());
+    world.points = std::move(points);
+    world.dissipation = std::move(dissipation);
+    world.bond_history = std::move(history);
+    world.kind_begin = begin;
+    world.point_forces.assign(total, PointForce{});
+    world.loss_blocks.assign(block_count(world), World::LossBlock{});
+}
+
+/// Per body the slots of its points, in the order of the points.
+void index_slots(World& world) {
+    world.body_begin.assign(world.bodies.size() + 1, 0);
+    const PointIndex walls = world.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
+    for (PointIndex k = 0; k < world.points.size(); ++k) {
+        ++world.body_begin[world.points[k].body_i + 1];
+        if (k < walls) ++world.body_begin[world.points[k].body_j + 1];
+    }
+    for (std::size_t b = 1; b < world.body_begin.size(); ++b) world.body_begin[b] += world.body_begin[b - 1];
+    world.body_slots.resize(world.body_begin.back());
+    std::vector<std::uint32_t> next(world.body_begin.begin(), world.body_begin.end() - 1);
+    for (PointIndex k = 0; k < world.points.size(); ++k) {
+        world.body_slots[next[world.points[k].body_i]++] = 2 * k;
+        if (k < walls) world.body_slots[next[world.points[k].body_j]++] = 2 * k + 1;
+    }
+}
+
+/// Longest way any surface point can have gone since the list was built, m.
+double longest_way(const World& world) {
+    double longest = 0.0;
+    for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+        const BodyState& body = world.bodies[b];
+        const ListReference& then = world.list_reference[b];
+        const double way =
+            norm({body.x - then.x, body.y - then.y}) + world.turning_reach[b] * std::abs(body.angle - then.angle);
+        longest = std::max(longest, way);
+    }
+    return longest;
+}
+
+void rebuild(World& world) {
+    PointLists lists = emit_points(world);
+    exchange_points(world, lists);
+    index_slots(world);
+    world.list_reference.resize(world.bodies.size());
+    for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+        world.list_reference[b] = {world.bodies[b].x, world.bodies[b].y, world.bodies[b].angle};
+    }
+    world.travelled = 0.0;
+    world.list_valid = true;
+    world.list_builds += 1;
+    world.step_bound = stable_step_bound(world);
+    if (world.automatic_step && world.time_step > world.step_bound)
+        world.time_step = world.safety_factor * world.step_bound;
+}
+
+}  // namespace
+
+void refresh_neighbours(World& world) {
+    if (world.list_valid) {
+        const double half_skin = 0.5 * world.skin;
+        if (world.travelled <= half_skin) return;
+        // The bound is used up: look how far bodies really went, and rebuild if little is left of the skin.
+        world.travelled = longest_way(world);
+        if (world.travelled <= 0.8 * half_skin) return;
+    }
+    rebuild(world);
+}
+
+}  // namespace crackle

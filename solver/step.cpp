@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One step of the simulation, readable from top to bottom.
+//
+// compute_forces() brings the neighbour list up to date, lets every contact point compute its force from x(n) and
+// v(n-½), adds up each body's forces in a fixed order, and records broken bonds. Observers may look now: everything is
+// known at time n. advance() is leapfrog: v(n+½) = v(n-½) + a(n)Δt, x(n+1) = x(n) + v(n+½)Δt, driven bodies as their
+// controls say.
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/breaks.hpp"
+#include "solver/contact_pass.hpp"
+#include "solver/controls.hpp"
+#include "solver/world.hpp"
+
+namespace crackle {
+namespace {
+
+/// Second pass: every body adds up its own slots, always in the same order.
+void gather_forces(World& world) {
+    const auto count = static_cast<std::int64_t>(world.bodies.size());
+#pragma omp for schedule(static)
+    for (std::int64_t b = 0; b < count; ++b) {
+        const auto body = static_cast<std::size_t>(b);
+        BodyForce sum{0.0, 0.0, 0.0};
+        for (std::uint32_t s = world.body_begin[body]; s < world.body_begin[body + 1]; ++s) {
+            const std::uint32_t slot = world.body_slots[s];
+            const PointForce& force = world.point_forces[slot >> 1];
+            const bool second = (slot & 1) != 0;
+            sum.fx += second ? -force.fx : force.fx;
+            sum.fy += second ? -force.fy : force.fy;
+            sum.torque += second ? force.torque_j : force.torque_i;
+        }
+        world.forces[body] = sum;
+    }
+}
+
+/// Turns the body frame by a small angle: exact to rounding for |turn| < 0.01, beyond that by the library's functions.
+void turn_frame(BodyState& body, double turn) {
+    double cosine, sine;
+    if (std::abs(turn) < 0.01) {
+        const double q = turn * turn;
+        cosine = 1.0 - q * (0.5 - q * (1.0 / 24.0 - q / 720.0));
+        sine = turn * (1.0 - q * (1.0 / 6.0 - q * (1.0 / 120.0 - q / 5040.0)));
+    } else {
+        cosine = std::cos(turn);
+        sine = std::sin(turn);
+    }
+    const double c = body.shape[0] * cosine - body.shape[1] * sine;
+    const double s = body.shape[1] * cosine + body.shape[0] * sine;
+    const double scale = 1.5 - 0.5 * (c * c + s * s);  // back to unit length, one Newton step
+    body.shape[0] = scale * c;
+    body.shape[1] = scale * s;
+}
+
+/// Kick and drift of all bodies. @return largest squared surface speed, m2/s2 (not a number if any velocity is not)
+double move_bodies(World& world, double kick) {
+    const double dt = world.time_step;
+    const Vec2 g = world.gravity;
+    double fastest = 0.0;
+    bool finite = true;
+    const auto count = static_cast<std::int64_t>(world.bodies.size());
+    kick_controls(world, kick);
+#pragma omp parallel for num_threads(world.threads) if (world.threads > 1) schedule(static) reduction(max : fastest) \
+    reduction(&& : finite)
+    for (std::int64_t b = 0; b < count; ++b) {
+        const auto n = static_cast<std::size_t>(b);
+        BodyState& body = world.bodies[n];
+        const BodyInertia& inertia = world.inertia[n];
+        const BodyForce& force = world.forces[n];
+        body.vx += kick * (force.fx + inertia.mass * g.x) * inertia.inverse_mass_x;
+        body.vy += kick * (force.fy + inertia.mass * g.y) * inertia.inverse_mass_y;
+        body.omega += kick * force.torque * inertia.inverse_moment;
+        body.x += dt * body.vx;
+        body.y += dt * body.vy;
+        const double turn = dt * body.omega;
+        body.angle += turn;
+        double speed = body.vx * body.vx + body.vy * body.vy;
+        const double reach = world.turning_reach[n];
+        if (reach > 0.0) {
+            turn_frame(body, turn);
+            speed = 2.0 * (speed + reach * reach * body.omega * body.omega);  // (a+b)² <= 2(a²+b²)
+        }
+        finite = finite && speed < std::numeric_limits<double>::infinity();
+        fastest = std::max(fastest, speed);
+    }
+    return finite ? fastest : std::numeric_limits<double>::quiet_NaN();
+}
+
+void sum_losses(World& world) {
+    std::uint32_t broken = 0;
+    for (const World::LossBlock& block : world.loss_blocks) {
+        world.dashpot_loss += block.dashpot;
+        world.friction_loss += block.friction;
+        broken += block.broken;
+    }
+    if (broken > 0) record_breaks(world);
+}
+
+}  // namespace
+
+void compute_forces(World& world) {
+    if (world.forces_current) return;
+    refresh_neighbours(world);
+    const ContactFeatures features = features_of(world);
+#pragma omp parallel num_threads(world.threads) if (world.threads > 1)
+    {
+        contact_pass(world, features);
+#pragma omp barrier
+        gather_forces(world);
+    }
+    sum_losses(world);
+    account_controls(world);
+    world.forces_current = true;
+    if (!world.initial_energy_taken) {
+        world.initial_energy_taken = true;
+        world.initial_energy = 0.0;
+        world.initial_energy = measure_ledger(world).closing_error;
+    }
+}
+
+void advance(World& world) {
+    world.fastest = std::sqrt(move_bodies(world, world.kick_share * world.time_step));
+    world.drift = world.time_step;
+    world.step += 1;
+    world.time += world.time_step;
+    world.kick_share = 1.0;
+    world.travelled += world.fastest * world.time_step;
+    world.forces_current = false;
+    place_controls(world);
+    if (!(world.fastest * world.time_step < world.fastest_allowed_move)) check_health(world);
+}
+
+void step(World& world) {
+    compute_forces(world);
+    advance(world);
+}
+
+}  // namespace crackle
