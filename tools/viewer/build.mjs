@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bundles src/ into one page template without a single outside reference: page.html with script and style inlined.
+// `crackle report` puts the tests' data where the template says @CRACKLE_DATA@.
+//   node build.mjs [output file, default dist/page.html]
+import {build} from 'esbuild';
+import {mkdir, readFile, writeFile} from 'node:fs/promises';
+import {dirname, join} from 'node:path';
+import {fileURLToPath} from 'node:url';
+
+const here = dirname(fileURLToPath(import.meta.url));
+const output = process.argv[2] ?? join(here, 'dist', 'page.html');
+
+async function bundle(entry, options) {
+    const result = await build({
+        entryPoints: [join(here, 'src', entry)],
+        bundle: true,
+        minify: true,
+        write: false,
+        target: ['es2022', 'chrome100', 'firefox113', 'safari16.4'],
+        charset: 'utf8',
+        legalComments: 'inline',
+        logLevel: 'warning',
+        ...options,
+    });
+    return result.outputFiles[0].text;
+}
+
+const script = await bundle('main.ts', {format: 'iife'});
+const style = await bundle('style.css', {});
+const template = await readFile(join(here, 'src', 'page.html'), 'utf8');
+
+const filled = template
+    .replace('@CRACKLE_STYLE@', () => style.trim())
+    // An HTML parser ends the script at the first such tag, wherever it stands.
+    .replace('@CRACKLE_SCRIPT@', () => script.trim().replaceAll('</script', '<\\/script'));
+if (filled.split('@CRACKLE_DATA@').length !== 2) {
+    throw new Error('the page must hold the marker @CRACKLE_DATA@ exactly once');
+}
+await mkdir(dirname(output), {recursive: true});
+await writeFile(output, filled);
+console.log(`${output}: ${(filled.length / 1024).toFixed(0)} KiB`);

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The summaries side by side: a row a quantity with its unit, a column a test, values of a row in one unit.
+
+import {numberOf, type TestData} from './data';
+import {element} from './dom';
+import {capitalised, sortedBy, specimenName, type Styled} from './grouping';
+import {modeCounts} from './histogram';
+import {counted, missing, scaleFor, significant, strainFactor, strainUnit} from './units';
+
+type Read = (test: TestData) => number | undefined;
+
+interface Row {
+    name: string;
+    note?: string; // said on hovering
+    cells: (tests: TestData[]) => {unit: string; values: (string | undefined)[]};
+}
+
+const key = (name: string): Read => (test) => numberOf(test.summary, name);
+const either = (...names: string[]): Read => (test) => names.map((name) => numberOf(test.summary, name)).find((value) => value !== undefined);
+
+/// In one SI prefix for the row.
+function measured(name: string, unit: string, read: Read, note?: string): Row {
+    return {
+        name, ...(note ? {note} : {}),
+        cells: (tests) => {
+            const values = tests.map(read);
+            const scale = scaleFor(values, unit);
+            return {unit: scale.unit, values: values.map((value) => (value === undefined ? undefined : significant(value / scale.factor)))};
+        },
+    };
+}
+
+function plain(name: string, read: Read, note?: string): Row {
+    return {name, ...(note ? {note} : {}), cells: (tests) => ({unit: '–', values: tests.map(read).map((value) => (value === undefined ? undefined : significant(value)))})};
+}
+
+function strains(name: string, read: Read): Row {
+    return {name, cells: (tests) => ({unit: strainUnit, values: tests.map(read).map((value) => (value === undefined ? undefined : significant(value / strainFactor)))})};
+}
+
+function counts(name: string, read: Read, note?: string): Row {
+    return {name, ...(note ? {note} : {}), cells: (tests) => ({unit: '–', values: tests.map(read).map((value) => (value === undefined ? undefined : counted(value)))})};
+}
+
+function percent(name: string, read: Read, note?: string): Row {
+    return {name, ...(note ? {note} : {}), cells: (tests) => ({unit: '%', values: tests.map(read).map((value) => (value === undefined ? undefined : significant(value * 100, 2)))})};
+}
+
+function words(name: string, read: (test: TestData) => unknown): Row {
+    return {name, cells: (tests) => ({unit: '', values: tests.map(read).map((value) => (value === undefined || value === null ? undefined : String(value)))})};
+}
+
+const groups: readonly {title: string; rows: readonly Row[]}[] = [
+    {title: 'Specimen', rows: [
+        measured('Width', 'm', key('initial_width')),
+        measured('Height', 'm', key('initial_height')),
+        counts('Particles', key('particles')),
+        counts('Contacts at the start', key('contacts_initial')),
+        counts('Bonds', key('bonds_initial'), 'bonded contact points'),
+        counts('Interfaces', key('interfaces_initial'), 'bonded pairs of bodies'),
+        measured('Mean back-tension', 'N', key('mean_back_tension'), 'mean tensile strength of a bond'),
+    ]},
+    {title: 'Stiffness', rows: [
+        measured('Young’s modulus E', 'N/m', key('youngs_modulus'), 'small strain, all bonds intact and sticking: sparse solve'),
+        plain('Poisson’s ratio ν', key('poissons_ratio')),
+        measured('Initial tangent modulus', 'N/m', key('initial_tangent_modulus'), 'over the first twentieth of the strain at peak'),
+        measured('Tangent modulus at half the peak', 'N/m', key('tangent_modulus_50')),
+    ]},
+    {title: 'Strength', rows: [
+        measured('Peak stress', 'N/m', either('peak_stress', 'peak_stress_so_far'), 'positive in the test’s own sense'),
+        strains('Strain at peak', either('peak_strain', 'peak_strain_so_far')),
+        {name: 'Failed', cells: (tests) => ({unit: '', values: tests.map((test) => (test.failed ? 'yes' : 'no: peak so far'))})},
+    ]},
+    {title: 'Breakage', rows: [
+        counts('Bonds broken', key('bonds_broken')),
+        counts('of these in tension', (test) => modeCounts(test.events).tension),
+        counts('of these in shear', (test) => modeCounts(test.events).shear),
+        counts('Interfaces lost', key('interfaces_lost')),
+    ]},
+    {title: 'Numerics', rows: [
+        measured('Time step', 's', key('time_step')),
+        percent('Time step over its bound', (test) => {
+            const step = numberOf(test.summary, 'time_step'), bound = numberOf(test.summary, 'time_step_bound');
+            return step !== undefined && bound ? step / bound : undefined;
+        }),
+        counts('Steps', key('steps')),
+        percent('Energy closing error', key('energy_closing_error')),
+        percent('Platens out of balance', key('platen_out_of_balance'), 'difference of the two platens’ stresses: loading-rate error'),
+        measured('Wall time', 's', key('wall_seconds')),
+        measured('Particle-steps per second', '1/s', key('particle_steps_per_second')),
+        words('Seed', (test) => test.summary['seed']),
+    ]},
+];
+
+export function summaryTable(tests: Styled[]): HTMLElement {
+    const columns = sortedBy('kind', tests);
+    const data = columns.map(({test}) => test);
+    const kinds = [...new Set(data.map((test) => test.kind))];
+    const named = columns.every(({test, label}) => label === `${specimenName(test)}, ${test.kind}`);
+
+    const head = element('thead', {},
+        element('tr', {}, element('td', {colspan: '2'}),
+            ...kinds.map((kind) => element('th', {colspan: String(data.filter((test) => test.kind === kind).length), scope: 'colgroup', class: 'kind'}, capitalised(kind)))),
+        element('tr', {}, element('td'), element('td', {class: 'unit'}, 'unit'),
+            ...columns.map(({test, label}, index) => element('th', {scope: 'col', class: firstOfKind(data, index)}, named ? specimenName(test) : label))));
+    const body = groups.flatMap(({title, rows}) => {
+        const filled = rows.map((row) => ({row, ...row.cells(data)})).filter(({values}) => values.some((value) => value !== undefined));
+        if (filled.length === 0) return [];
+        return [element('tbody', {},
+            element('tr', {class: 'group'}, element('th', {colspan: String(columns.length + 2), scope: 'rowgroup'}, title)),
+            ...filled.map(({row, unit, values}) => element('tr', {},
+                element('th', {scope: 'row', ...(row.note ? {title: row.note, class: 'noted'} : {})}, row.name),
+                element('td', {class: 'unit'}, unit),
+                ...values.map((value, index) => element('td', {
+                    class: [firstOfKind(data, index), !data[index]!.failed && /^(Peak stress|Strain at peak|Failed)$/.test(row.name) ? 'warning' : ''].join(' ').trim(),
+                }, value ?? missing)))))];
+    });
+    return element('div', {class: 'scroll'}, element('table', {class: 'summary'}, head, ...body));
+}
+
+function firstOfKind(data: TestData[], index: number): string {
+    return index === 0 || data[index]!.kind !== data[index - 1]!.kind ? 'first' : '';
+}

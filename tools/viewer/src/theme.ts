@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Colours of the figures in light and dark. Curves keep to ink, teal and purple; the two breakage modes have blue and
+// vermilion to themselves (Okabe and Ito's pair, told apart with any colour vision), so a colour means one thing.
+
+export interface Theme {
+    name: 'light' | 'dark';
+    background: string;
+    ink: string; // axes, text
+    muted: string; // secondary text, ticks
+    grid: string;
+    grain: string; // fill of particles
+    grainEdge: string;
+    platen: string;
+    tension: string; // breakage modes
+    shear: string;
+    series: readonly string[]; // curves
+}
+
+const light: Theme = {
+    name: 'light',
+    background: '#ffffff',
+    ink: '#1d2125',
+    muted: '#5b636b',
+    grid: '#e6e8ea',
+    grain: '#e3e0d9',
+    grainEdge: '#a39d91',
+    platen: '#4b5259',
+    tension: '#0072b2',
+    shear: '#d55e00',
+    series: ['#22262a', '#00896b', '#aa3377', '#8a6d00', '#6a51a3', '#737a80', '#a6611a', '#33a3c2'],
+};
+
+const dark: Theme = {
+    name: 'dark',
+    background: '#15181b',
+    ink: '#e4e7ea',
+    muted: '#9aa3ab',
+    grid: '#2b3035',
+    grain: '#3a3d3f',
+    grainEdge: '#6c7174',
+    platen: '#b4bac0',
+    tension: '#56b4e9',
+    shear: '#ff8c3a',
+    series: ['#eceff1', '#35c9a4', '#e57cb8', '#e0c04c', '#b3a2e6', '#8f989f', '#d9a066', '#7cd3ea'],
+};
+
+/// The reader's choice, else the system's; always light on paper.
+export function currentTheme(): Theme {
+    const chosen = document.documentElement.dataset['theme'];
+    if (document.documentElement.dataset['printing'] === 'true') return light;
+    if (chosen === 'light') return light;
+    if (chosen === 'dark') return dark;
+    return matchMedia('(prefers-color-scheme: dark)').matches ? dark : light;
+}
