@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Random circle packings, compressed between four smooth walls to a mean overlap or a void ratio, in mechanical equilibrium.
+//
+// Circles touch each other and the walls through frictionless linear springs, f = k_n δ. They start at random places, are
+// quenched in a box that is slightly too small, and the box is then opened to the pressure at which the target is met: positions
+// and box minimise the enthalpy U + p·W·H, where radii stay as drawn. Every contact carries the same k_n, so the equilibrium
+// holds for any k_n, and with friction as well.
+//
+// Mean overlap: over all circle-circle contacts and those with the bottom and top walls, which become platen bonds; the
+// side walls are gone when a specimen is bonded, and do not count.
+//
+// Box. With a count, the width and the height are free of each other, so the stress is isotropic to the tolerance of the
+// equilibrium, and the box keeps the asked aspect to max_aspect_error (exact figures: report). With a width and a height, the box
+// is met exactly: the count is chosen so that all radii need be scaled by at most max_radius_scaling (report: radius_scale), the
+// aspect is kept while the pressure acts, and what remains of anisotropy is at most max_anisotropy. Packings that miss these are
+// drawn anew (report: attempts), with the same seed and the next stream of random numbers; a small packing that cannot meet
+// them in max_attempts is taken as near as it came, and its report says so (isotropic, box_met).
+//
+// Reachable void ratios end where frictionless circles jam: looser arrangements cannot carry load at rest.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "solver/scene.hpp"
+#include "specimens/size_distribution.hpp"
+
+namespace crackle {
+
+struct PackingRequest {
+    // Either a box ...
+    std::optional<double> width, height;  ///< m
+    // ... or a count.
+    std::optional<std::int64_t> count;
+    double aspect = 2.0;  ///< height / width, with a count
+
+    SizeDistribution sizes;
+
+    // One target.
+    std::optional<double> mean_overlap;  ///< m
+    std::optional<double> void_ratio;    ///< (area of the box - area of the circles) / area of the circles
+
+    std::uint64_t seed = 1;
+    Material material;  ///< of the scene; k_n also gives the stresses of the report and the time step
+    int threads = 1;    ///< any number gives the same bytes
+};
+
+struct PackingReport {
+    std::int64_t circles = 0;
+    double width = 0.0, height = 0.0;            ///< m
+    double radius_min = 0.0, radius_max = 0.0;   ///< m, of the circles made
+    double mean_radius = 0.0;                    ///< m
+    double radius_scale = 1.0;                   ///< radii made / radii drawn; 1 with a count
+    double size_distance = 0.0;                  ///< Kolmogorov-Smirnov distance of the radii from the distribution
+    double void_ratio = 0.0;
+    double mean_overlap = 0.0;                   ///< m, circle-circle, bottom and top walls
+    std::int64_t circle_contacts = 0;            ///< pairs of circles with overlap > 0
+    std::int64_t wall_contacts[4] = {0, 0, 0, 0};  ///< by Wall
+    double coordination = 0.0;                   ///< 2·circle_contacts / circles
+    double coordination_of_carrying = 0.0;       ///< (2·circle_contacts + wall contacts) / circles that are not floating
+    std::int64_t floating = 0;                   ///< circles without any contact
+    double stress_x = 0.0, stress_y = 0.0;       ///< N/m, mean of the two opposite walls, compression positive
+    double anisotropy = 0.0;                     ///< |σx - σy| / (σx + σy)
+    double mean_contact_force = 0.0;             ///< N, all contacts
+    double residual = 0.0;                       ///< largest unbalanced force on a circle / mean contact force
+    double aspect_error = 0.0;                   ///< height / width / asked aspect - 1
+    int attempts = 1;                            ///< packings drawn
+    bool isotropic = true;                       ///< anisotropy within max_anisotropy
+    bool box_met = true;                         ///< aspect and radius scaling within their limits
+};
+
+struct Packing {
+    Scene scene;  ///< circles 1..N, numbered along the box's height, at rest; all four walls; time step set
+    PackingReport report;
+};
+
+inline constexpr double max_aspect_error = 1e-3;
+inline constexpr double max_anisotropy = 0.01;
+inline constexpr double max_radius_scaling = 0.005;
+inline constexpr std::int64_t min_packing_circles = 10;
+
+/// What make_packing() is doing: a stage in words, and how far the equilibrium is (largest unbalanced / mean contact force).
+struct PackingProgress {
+    std::string stage;
+    int attempt = 1;
+    double residual = 0.0;
+};
+using PackingCallback = std::function<void(const PackingProgress&)>;
+
+/// Cost: about 0.3 s for 300 circles, growing slightly faster than their number.
+/// @param progress called now and then; may be empty, may throw to stop.
+/// @throws InputError for a request that is incomplete or contradictory, and for a target out of reach, with the reachable range.
+Packing make_packing(const PackingRequest& request, const PackingCallback& progress = {});
+
+/// Measures a scene of single circles between four walls anew, from nothing but the scene.
+PackingReport measure_packing(const Scene& scene, const SizeDistribution& sizes);
+
+/// Time step written into the deck: a tenth of the lightest circle's 2·sqrt(m/k_n) [s]. Its contacts number at most about six
+/// and carry dashpots, so that the bound of the bonded specimen is a few times larger.
+double deck_time_step(const Scene& scene);
+
+}  // namespace crackle
