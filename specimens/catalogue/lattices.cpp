@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/catalogue/lattices.hpp"
+
+#include <cmath>
+
+namespace crackle {
+namespace {
+
+Scene open_scene(const Material& material) {
+    Scene scene;
+    scene.materials = {material};
+    scene.domain.wall_present = {false, false, false, false};
+    return scene;
+}
+
+}  // namespace
+
+Scene triangular_lattice(int columns, int rows, double radius, double overlap, const Material& material) {
+    Scene scene = open_scene(material);
+    const double spacing = 2.0 * radius - overlap;
+    int id = 0;
+    for (int row = 0; row < rows; ++row) {
+        const bool odd = row % 2 == 1;
+        for (int column = 0; column < columns - (odd ? 1 : 0); ++column) {
+            const Vec2 centre{spacing * (column + (odd ? 0.5 : 0.0)), spacing * 0.5 * std::sqrt(3.0) * row};
+            scene.add_circle_body(++id, 0, {centre, radius, 0.0});
+        }
+    }
+    return scene;
+}
+
+Scene disc_chain(int count, double radius, double spacing, const Material& material) {
+    Scene scene = open_scene(material);
+    for (int k = 0; k < count; ++k) scene.add_circle_body(k + 1, 0, {{spacing * k, 0.0}, radius, 0.0});
+    return scene;
+}
+
+}  // namespace crackle
