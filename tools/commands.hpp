@@ -17,6 +17,8 @@ struct Command {
     int (*run)(const Arguments& arguments);
 };
 
+int report(const Arguments& arguments);
+
 // Exit codes of the program.
 inline constexpr int exit_done = 0;
 inline constexpr int exit_bad_input = 2;     // InputError, wrong options

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Base64 (RFC 4648, padded), the clothing of binary data in XML and HTML.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace crackle {
+
+std::string encode_base64(std::span<const unsigned char> bytes);
+
+/// Without white space inside. @return nothing where the text is not padded base64
+std::optional<std::vector<unsigned char>> decode_base64(std::string_view text);
+
+}  // namespace crackle

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/results.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <fstream>
+#include <iterator>
+#include <map>
+#include <system_error>
+
+#include "solver/errors.hpp"
+
+namespace crackle {
+namespace {
+
+std::string read_text(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    if (!in || std::filesystem::is_directory(file)) {
+        throw InputError(
+            fmt::format("{}: file not found, expected the results of a finished test; make them with "
+                        "`crackle test CASE.toml -o {}`",
+                        file.string(), file.parent_path().string()));
+    }
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+std::vector<std::string_view> split(std::string_view line) {
+    std::vector<std::string_view> fields;
+    while (true) {
+        const std::size_t comma = line.find(',');
+        fields.push_back(line.substr(0, comma));
+        if (comma == std::string_view::npos) return fields;
+        line.remove_prefix(comma + 1);
+    }
+}
+
+void require_columns(const std::filesystem::path& file, const NumberTable& table,
+                     const std::vector<const char*>& names) {
+    for (const char* name : names) {
+        if (!table.find(name))
+            throw InputError(fmt::format(
+                "{}:1: found no column '{}'; write the results anew with `crackle test --force`", file.string(), name));
+    }
+}
+
+nlohmann::ordered_json read_summary(const std::filesystem::path& file) {
+    nlohmann::ordered_json summary;
+    try {
+        summary = nlohmann::ordered_json::parse(read_text(file));
+    } catch (const nlohmann::json::parse_error& error) {
+        throw InputError(
+            fmt::format("{}: found broken JSON at byte {}; write the results anew with `crackle test --force`",
+                        file.string(), error.byte));
+    }
+    const auto expect = [&](const char* key, bool right, const char* expected) {
+        if (right) return;
+        const std::string found = summary.is_object() && summary.contains(key) ? summary[key].dump() : "nothing";
+        throw InputError(fmt::format("{}: {}: found {}, expected {}", file.string(), key, found, expected));
+    };
+    const auto text = [&](const char* key) {
+        return summary.is_object() && summary.contains(key) && summary[key].is_string()
+                   ? summary[key].get<std::string>()
+                   : std::string();
+    };
+    expect("kind", text("kind") == "compression" || text("kind") == "tension", "\"compression\" or \"tension\"");
+    expect("specimen", !text("specimen").empty(), "\"circles\", \"delaunay\" or \"voronoi\"");
+    expect("failed", summary.contains("failed") && summary["failed"].is_boolean(), "true or false");
+    return summary;
+}
+
+/// Strain of the curve's row nearest in time.
+double strain_at(const NumberTable& curve, double time) {
+    const std::vector<double>& times = *curve.find("time");
+    const std::vector<double>& strains = *curve.find("axial_strain");
+    if (times.empty()) return 0.0;
+    auto after = std::lower_bound(times.begin(), times.end(), time);
+    if (after == times.end() || (after != times.begin() && time - *(after - 1) < *after - time)) --after;
+    return strains[static_cast<std::size_t>(after - times.begin())];
+}
+
+/// The bodies of a later frame in the order of the first.
+std::vector<FrameBody> in_order_of(const std::vector<FrameBody>& first, std::vector<FrameBody> bodies,
+                                   const std::filesystem::path& file) {
+    std::map<int, std::size_t> place;
+    for (std::size_t k = 0; k < bodies.size(); ++k) place[bodies[k].id] = k;
+    std::vector<FrameBody> ordered;
+    for (const FrameBody& body : first) {
+        const auto found = place.find(body.id);
+        if (found == place.end() || bodies[found->second].outline.size() != body.outline.size()) {
+            throw InputError(fmt::format(
+                "{}: body {} is missing or has another outline than in the first frame; write the frames anew "
+                "with `crackle test --force`",
+                file.string(), body.id));
+        }
+        ordered.push_back(std::move(bodies[found->second]));
+    }
+    return ordered;
+}
+
+}  // namespace
+
+const std::vector<double>* NumberTable::find(std::string_view name) const {
+    const auto found = std::find(names.begin(), names.end(), name);
+    return found == names.end() ? nullptr : &columns[static_cast<std::size_t>(found - names.begin())];
+}
+
+NumberTable read_number_table(const std::filesystem::path& file, std::string_view word_column,
+                              const std::vector<std::string>& words) {
+    const std::string text = read_text(file);
+    NumberTable table;
+    std::string_view rest = text;
+    for (int line_number = 1; !rest.empty(); ++line_number) {
+        const std::size_t line_end = rest.find('\n');
+        std::string_view line = rest.substr(0, line_end);
+        rest.remove_prefix(line_end == std::string_view::npos ? rest.size() : line_end + 1);
+        if (line.ends_with('\r')) line.remove_suffix(1);
+        const std::vector<std::string_view> fields = split(line);
+        if (line_number == 1) {
+            table.names.assign(fields.begin(), fields.end());
+            table.columns.resize(fields.size());
+            continue;
+        }
+        if (fields.size() != table.names.size()) {
+            throw InputError(fmt::format("{}:{}: found {} values, expected {} as in the first line", file.string(),
+                                         line_number, fields.size(), table.names.size()));
+        }
+        for (std::size_t k = 0; k < fields.size(); ++k) {
+            double value = 0.0;
+            if (!word_column.empty() && table.names[k] == word_column) {
+                const auto word = std::find(words.begin(), words.end(), fields[k]);
+                if (word == words.end()) {
+                    throw InputError(fmt::format("{}:{}: {}: found '{}', expected one of: {}", file.string(),
+                                                 line_number, word_column, fields[k], fmt::join(words, ", ")));
+                }
+                value = static_cast<double>(word - words.begin());
+            } else {
+                const auto [end, error] = std::from_chars(fields[k].data(), fields[k].data() + fields[k].size(), value);
+                if (error != std::errc() || end != fields[k].data() + fields[k].size()) {
+                    throw InputError(fmt::format("{}:{}: {}: found '{}', expected a number", file.string(), line_number,
+                                                 table.names[k], fields[k]));
+                }
+            }
+            table.columns[k].push_back(value);
+        }
+    }
+    return table;
+}
+
+TestResults read_results(const std::filesystem::path& folder) {
+    if (!std::filesystem::is_directory(folder)) {
+        throw InputError(fmt::format(
+            "{}: found no such folder, expected the results of a test; make them with `crackle test CASE.toml -o {}`",
+            folder.string(), folder.string()));
+    }
+    TestResults results;
+    results.name = std::filesystem::weakly_canonical(folder).filename().string();
+    results.summary = read_summary(folder / "summary.json");
+    results.curve = read_number_table(folder / "curve.csv");
+    require_columns(folder / "curve.csv", results.curve, {"axial_strain", "axial_stress", "bonds_broken", "time"});
+    results.events = read_number_table(folder / "events.csv", "mode", {"tension", "shear"});
+    require_columns(folder / "events.csv", results.events,
+                    {"time", "axial_strain", "x", "y", "body_i", "body_j", "mode", "last_of_interface"});
+
+    const std::filesystem::path collection = folder / "frames" / "frames.pvd";
+    std::map<std::string, double> times;
+    for (const char* role : {"start", "peak", "end"}) {
+        const auto entry = results.summary.find(std::string("frame_") + role);
+        if (entry == results.summary.end() || !entry->is_string() || entry->get<std::string>().empty()) continue;
+        if (times.empty()) times = read_frame_times(collection);
+
+        KeyFrame frame;
+        frame.role = role;
+        frame.file = entry->get<std::string>();
+        const std::filesystem::path file = folder / frame.file;
+        const auto time = times.find(file.filename().string());
+        if (time == times.end())
+            throw InputError(fmt::format("{}: found no entry for '{}'", collection.string(), frame.file));
+        frame.time = time->second;
+        frame.axial_strain = strain_at(results.curve, frame.time);
+        frame.bodies = read_particle_frame(file);
+        if (!results.frames.empty())
+            frame.bodies = in_order_of(results.frames.front().bodies, std::move(frame.bodies), file);
+        results.frames.push_back(std::move(frame));
+    }
+    return results;
+}
+
+}  // namespace crackle

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The results of one finished test, read back from its folder: summary, curve, breaks, and the frames at start, peak
+// and end.
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "specimens/observers/read_frames.hpp"
+
+namespace crackle {
+
+/// A table of numbers with named columns.
+struct NumberTable {
+    std::vector<std::string> names;
+    std::vector<std::vector<double>> columns;
+
+    /// @return nullptr where there is no such column
+    const std::vector<double>* find(std::string_view name) const;
+    std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
+};
+
+/// One drawn moment of a test.
+struct KeyFrame {
+    std::string role;   ///< start, peak, end
+    std::string file;   ///< relative to the test's folder
+    double time = 0.0;  ///< s
+    double axial_strain = 0.0;
+    std::vector<FrameBody> bodies;  ///< the same bodies in the same order in each frame of a test
+};
+
+struct TestResults {
+    std::string name;                ///< the folder's
+    nlohmann::ordered_json summary;  ///< as written
+    NumberTable curve;               ///< columns of curve.csv
+    NumberTable events;              ///< columns of events.csv; `mode` as 1 for shear, 0 for tension
+    std::vector<KeyFrame> frames;    ///< empty where the test kept none
+};
+
+/// Comma-separated numbers under a line of names. The words of column `word_column`, if given, are read as their place
+/// in `words`. @throws InputError naming file, line and column
+NumberTable read_number_table(const std::filesystem::path& file, std::string_view word_column = {},
+                              const std::vector<std::string>& words = {});
+
+/// @param folder  what `crackle test -o` made
+/// @throws InputError naming the file that is missing or wrong, and how to make it
+TestResults read_results(const std::filesystem::path& folder);
+
+}  // namespace crackle

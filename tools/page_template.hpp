@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The report page that the build bundles from tools/viewer and links into the program.
+#pragma once
+
+#include <string_view>
+
+namespace crackle::tools {
+
+/// The page with a marker where the data go; empty in a build without the viewer.
+std::string_view page_template();
+
+}  // namespace crackle::tools
