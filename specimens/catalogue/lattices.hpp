@@ -14,4 +14,7 @@ Scene triangular_lattice(int columns, int rows, double radius, double overlap, c
 /// Equal discs of radius R in a row along x at the given spacing, ids 1 … count, without walls.
 Scene disc_chain(int count, double radius, double spacing, const Material& material);
 
+/// Regular hexagons of apothem a on a honeycomb, `thick` apart (each inset by thick/2), ids row by row, without walls.
+Scene honeycomb(int columns, int rows, double apothem, double thick, const Material& material);
+
 }  // namespace crackle

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Particle-steps a second of bonded discs and hexagons with friction, dashpots and ledger on; contacts a particle
+// beside it. Arguments: particles along one side, threads.
+
+#include <benchmark/benchmark.h>
+
+#include <random>
+
+#include "solver/world.hpp"
+#include "specimens/catalogue/lattices.hpp"
+
+namespace crackle {
+namespace {
+
+Material rock() {
+    Material material;
+    material.density = 2500.0;
+    material.normal_stiffness = 1e7;
+    material.shear_stiffness = 2.5e6;
+    material.damping_ratio = 0.2;
+    material.friction_angle = 27.0;
+    return material;
+}
+
+void run(benchmark::State& state, Scene scene, double thick) {
+    std::mt19937_64 random(1);
+    for (Body& body : scene.bodies)
+        body.velocity = {1e-9 * static_cast<double>(random() % 1000), 1e-9 * static_cast<double>(random() % 1000)};
+    scene.threads = static_cast<int>(state.range(1));
+    World world = build_world(scene);
+    const std::int64_t bonds = bond_all(world, thick);
+    for (auto _ : state) step(world);
+    state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(world.bodies.size()));
+    state.counters["contacts_per_particle"] = static_cast<double>(bonds) / static_cast<double>(world.bodies.size());
+    state.counters["rebuilds"] = static_cast<double>(world.list_builds);
+}
+
+void bonded_discs(benchmark::State& state) {
+    const int side = static_cast<int>(state.range(0));
+    run(state, triangular_lattice(side, side, 0.02, 8e-5, rock()), 0.0);
+}
+
+void bonded_hexagons(benchmark::State& state) {
+    const int side = static_cast<int>(state.range(0));
+    run(state, honeycomb(side, side, 0.02, 1e-3, rock()), 1.08e-3);
+}
+
+BENCHMARK(bonded_discs)->Args({18, 1})->Args({71, 1})->Args({224, 1})->Args({71, 2})->UseRealTime();
+BENCHMARK(bonded_hexagons)->Args({18, 1})->Args({71, 1})->Args({71, 2})->UseRealTime();
+
+}  // namespace
+}  // namespace crackle
+
+BENCHMARK_MAIN();
