@@ -36,7 +36,8 @@ struct ShearUpdate {
 inline ShearUpdate shear_force(const ContactLaw& law, double before, double slip, double overlap) {
     const double trial = before - law.shear_stiffness * slip;
     const double limit = law.friction * law.normal_stiffness * std::max(overlap, 0.0);
-    if (std::abs(trial) <= limit) return {trial, 0.0, false};
+    // Written so that μ = ∞ (sliding switched off) sticks at δ <= 0 too, where ∞·0 is not a number.
+    if (!(std::abs(trial) > limit)) return {trial, 0.0, false};
     const double force = std::copysign(limit, trial);
     const double friction =
         law.shear_stiffness > 0.0 ? 0.5 * (before + force) * (trial - force) / law.shear_stiffness : 0.0;
