@@ -7,7 +7,6 @@
 #include <charconv>
 #include <fstream>
 #include <iterator>
-#include <map>
 #include <system_error>
 
 #include "solver/errors.hpp"
@@ -70,33 +69,16 @@ nlohmann::ordered_json read_summary(const std::filesystem::path& file) {
     return summary;
 }
 
-/// Strain of the curve's row nearest in time.
-double strain_at(const NumberTable& curve, double time) {
-    const std::vector<double>& times = *curve.find("time");
-    const std::vector<double>& strains = *curve.find("axial_strain");
-    if (times.empty()) return 0.0;
-    auto after = std::lower_bound(times.begin(), times.end(), time);
-    if (after == times.end() || (after != times.begin() && time - *(after - 1) < *after - time)) --after;
-    return strains[static_cast<std::size_t>(after - times.begin())];
-}
-
-/// The bodies of a later frame in the order of the first.
-std::vector<FrameBody> in_order_of(const std::vector<FrameBody>& first, std::vector<FrameBody> bodies,
-                                   const std::filesystem::path& file) {
-    std::map<int, std::size_t> place;
-    for (std::size_t k = 0; k < bodies.size(); ++k) place[bodies[k].id] = k;
-    std::vector<FrameBody> ordered;
-    for (const FrameBody& body : first) {
-        const auto found = place.find(body.id);
-        if (found == place.end() || bodies[found->second].outline.size() != body.outline.size()) {
-            throw InputError(fmt::format(
-                "{}: body {} is missing or has another outline than in the first frame; write the frames anew "
-                "with `crackle test --force`",
-                file.string(), body.id));
-        }
-        ordered.push_back(std::move(bodies[found->second]));
+/// Motions are taken from frame to frame, element by element.
+void require_same_bodies(const ParticleFrame& first, const ParticleFrame& later, const std::filesystem::path& file) {
+    const auto same = [](const FrameBody& a, const FrameBody& b) {
+        return a.id == b.id && a.outline.size() == b.outline.size();
+    };
+    if (!std::equal(first.bodies.begin(), first.bodies.end(), later.bodies.begin(), later.bodies.end(), same)) {
+        throw InputError(fmt::format(
+            "{}: found other bodies than in the first frame; write the frames anew with `crackle test --force`",
+            file.string()));
     }
-    return ordered;
 }
 
 }  // namespace
@@ -163,25 +145,12 @@ TestResults read_results(const std::filesystem::path& folder) {
     require_columns(folder / "events.csv", results.events,
                     {"time", "axial_strain", "x", "y", "body_i", "body_j", "mode", "last_of_interface"});
 
-    const std::filesystem::path collection = folder / "frames" / "frames.pvd";
-    std::map<std::string, double> times;
     for (const char* role : {"start", "peak", "end"}) {
         const auto entry = results.summary.find(std::string("frame_") + role);
         if (entry == results.summary.end() || !entry->is_string() || entry->get<std::string>().empty()) continue;
-        if (times.empty()) times = read_frame_times(collection);
-
-        KeyFrame frame;
-        frame.role = role;
-        frame.file = entry->get<std::string>();
-        const std::filesystem::path file = folder / frame.file;
-        const auto time = times.find(file.filename().string());
-        if (time == times.end())
-            throw InputError(fmt::format("{}: found no entry for '{}'", collection.string(), frame.file));
-        frame.time = time->second;
-        frame.axial_strain = strain_at(results.curve, frame.time);
-        frame.bodies = read_particle_frame(file);
-        if (!results.frames.empty())
-            frame.bodies = in_order_of(results.frames.front().bodies, std::move(frame.bodies), file);
+        const std::filesystem::path file = folder / entry->get<std::string>();
+        KeyFrame frame{role, entry->get<std::string>(), read_particle_frame(file)};
+        if (!results.frames.empty()) require_same_bodies(results.frames.front().particles, frame.particles, file);
         results.frames.push_back(std::move(frame));
     }
     return results;

@@ -25,11 +25,9 @@ struct NumberTable {
 
 /// One drawn moment of a test.
 struct KeyFrame {
-    std::string role;   ///< start, peak, end
-    std::string file;   ///< relative to the test's folder
-    double time = 0.0;  ///< s
-    double axial_strain = 0.0;
-    std::vector<FrameBody> bodies;  ///< the same bodies in the same order in each frame of a test
+    std::string role;         ///< start, peak, end
+    std::string file;         ///< relative to the test's folder
+    ParticleFrame particles;  ///< the same bodies in the same order in each frame of a test
 };
 
 struct TestResults {

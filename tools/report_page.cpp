@@ -100,7 +100,7 @@ Json add_frames(ArrayStore& store, const std::vector<KeyFrame>& frames) {
     std::vector<float> radius, x, y;
     std::vector<std::uint8_t> open;
     const std::vector<FrameBody> none;
-    for (const FrameBody& body : frames.empty() ? none : frames.front().bodies) {
+    for (const FrameBody& body : frames.empty() ? none : frames.front().particles.bodies) {
         id.push_back(body.id);
         radius.push_back(static_cast<float>(body.radius));
         open.push_back(body.open ? 1 : 0);
@@ -123,7 +123,7 @@ Json add_frames(ArrayStore& store, const std::vector<KeyFrame>& frames) {
         const KeyFrame& frame = frames[k];
         const std::string prefix = fmt::format("frame{}", k);
         std::vector<float> centre_x, centre_y, angle;
-        for (const FrameBody& body : frame.bodies) {
+        for (const FrameBody& body : frame.particles.bodies) {
             const Vec2 centre = mean(body.outline);
             centre_x.push_back(static_cast<float>(centre.x));
             centre_y.push_back(static_cast<float>(centre.y));
@@ -134,8 +134,8 @@ Json add_frames(ArrayStore& store, const std::vector<KeyFrame>& frames) {
         store.add(prefix + ".angle", angle);
         listed.push_back({{"role", frame.role},
                           {"file", frame.file},
-                          {"time", frame.time},
-                          {"axial_strain", frame.axial_strain},
+                          {"time", frame.particles.time},
+                          {"axial_strain", frame.particles.axial_strain},
                           {"prefix", prefix}});
     }
     return listed;

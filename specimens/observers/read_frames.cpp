@@ -6,11 +6,9 @@
 
 #include <algorithm>
 #include <bit>
-#include <charconv>
 #include <cstdint>
 #include <cstring>
 #include <pugixml.hpp>
-#include <set>
 
 #include "solver/errors.hpp"
 #include "specimens/observers/base64.hpp"
@@ -189,42 +187,32 @@ PolyData read_polydata(const std::filesystem::path& file) {
     for (const pugi::xml_node array : piece.child("CellData").children("DataArray")) {
         data.cell_data[array.attribute("Name").value()] = read_array(file, array);
     }
+    for (const pugi::xml_node array : root.child("PolyData").child("FieldData").children("DataArray")) {
+        const std::vector<double> values = read_array(file, array);
+        if (values.size() == 1) data.field_values[array.attribute("Name").value()] = values.front();
+    }
     return data;
 }
 
-std::vector<FrameBody> read_particle_frame(const std::filesystem::path& file) {
+ParticleFrame read_particle_frame(const std::filesystem::path& file) {
     const PolyData data = read_polydata(file);
     const std::vector<double>& id = column(file, data, "id");
     const std::vector<double>& radius = column(file, data, "radius");
     const std::vector<double>& angle = column(file, data, "angle");
+    const auto field = [&](const char* name) {
+        const auto found = data.field_values.find(name);
+        if (found == data.field_values.end()) refuse(file, fmt::format("found no field value '{}'", name));
+        return found->second;
+    };
 
-    std::vector<FrameBody> bodies;
-    std::set<int> seen;
+    ParticleFrame frame{field("time"), field("axial_strain"), {}};
     for (std::size_t k = 0; k < data.cells.size(); ++k) {
         FrameBody body{static_cast<int>(id[k]), radius[k], angle[k], data.cells[k].line, {}};
         for (const std::size_t point : data.cells[k].points) body.outline.push_back(data.points[point]);
         if (body.outline.empty()) refuse(file, fmt::format("body {} has no points", body.id));
-        if (!seen.insert(body.id).second)
-            refuse(file, fmt::format("found body {} twice, expected each id once", body.id));
-        bodies.push_back(std::move(body));
+        frame.bodies.push_back(std::move(body));
     }
-    return bodies;
-}
-
-std::map<std::string, double> read_frame_times(const std::filesystem::path& collection) {
-    const pugi::xml_document document = load(collection);
-    std::map<std::string, double> times;
-    for (const pugi::xml_node entry : document.child("VTKFile").child("Collection").children("DataSet")) {
-        const std::string name = std::filesystem::path(entry.attribute("file").value()).filename().string();
-        const std::string_view text = entry.attribute("timestep").value();
-        double time = 0.0;
-        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), time);
-        if (error != std::errc() || end != text.data() + text.size()) {
-            refuse(collection, fmt::format("DataSet '{}': timestep: found '{}', expected a time in s", name, text));
-        }
-        times[name] = time;
-    }
-    return times;
+    return frame;
 }
 
 }  // namespace crackle

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reads back the frames of a test: VTK XML PolyData with zlib-compressed inline binary arrays, and the collection that
-// lists them. Polygon cells are particles (circles as polygons with a radius), line cells are open chains (platens).
+// Reads back the frames of a test: VTK XML PolyData with zlib-compressed inline binary arrays, as frames.hpp writes
+// them. Polygon cells are particles (circles as polygons with a radius), line cells are open chains (platens).
 #pragma once
 
 #include <filesystem>
@@ -21,24 +21,29 @@ struct PolyData {
     std::vector<Vec2> points;  ///< m
     std::vector<Cell> cells;
     std::map<std::string, std::vector<double>> cell_data;  ///< component by component, cells.size() × components values
+    std::map<std::string, double> field_values;            ///< one number each, for the whole file
 };
 
 /// @throws InputError naming the file and what is missing or broken in it
 PolyData read_polydata(const std::filesystem::path& file);
 
+/// One drawn element of a body: its outline, or one circle of it (a clump has several with its id).
 struct FrameBody {
     int id = 0;                 ///< as in the input
     double radius = 0.0;        ///< m; 0 for polygons and open chains
-    double angle = 0.0;         ///< rad, counter-clockwise
+    double angle = 0.0;         ///< rad, turned since loading began, counter-clockwise
     bool open = false;          ///< an open chain
     std::vector<Vec2> outline;  ///< m, present position
 };
 
-/// The bodies of one frame, from its cell data `id`, `radius` and `angle`.
-/// @throws InputError as above, and for two bodies of one id
-std::vector<FrameBody> read_particle_frame(const std::filesystem::path& file);
+struct ParticleFrame {
+    double time = 0.0;          ///< s
+    double axial_strain = 0.0;  ///< positive in the sense of the test
+    std::vector<FrameBody> bodies;
+};
 
-/// Time (s) of each file that a .pvd collection lists, by file name without folders.
-std::map<std::string, double> read_frame_times(const std::filesystem::path& collection);
+/// One particles_NNNNN.vtp: cell data `id`, `radius` and `angle`, field data `time` and `axial_strain`.
+/// @throws InputError as above
+ParticleFrame read_particle_frame(const std::filesystem::path& file);
 
 }  // namespace crackle

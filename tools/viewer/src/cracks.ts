@@ -132,18 +132,28 @@ function facesOf(bodies: Bodies, i: number, j: number): CrackFace[] {
     return outlineFaces(bodies, i, j);
 }
 
+/// How far the surfaces of two drawn elements are apart, about: tells which circles of two clumps touched.
+function gap(bodies: Bodies, i: number, j: number): number {
+    const a = centre(bodies, i), b = centre(bodies, j);
+    return Math.hypot(a.x - b.x, a.y - b.y) - bodies.radius[i]! - bodies.radius[j]!;
+}
+
 /// One crack a pair of bodies, in the order of their first breaks.
 export function findCracks(bodies: Bodies, events: Events): Crack[] {
-    const indexOf = new Map<number, number>();
-    for (let body = 0; body < bodies.id.length; ++body) indexOf.set(bodies.id[body]!, body);
+    const elementsOf = new Map<number, number[]>(); // several for a clump
+    for (let element = 0; element < bodies.id.length; ++element) {
+        const id = bodies.id[element]!;
+        elementsOf.set(id, [...(elementsOf.get(id) ?? []), element]);
+    }
     const cracks = new Map<string, Crack>();
     for (let event = 0; event < events.count; ++event) {
-        const i = indexOf.get(events.bodyI[event]!);
-        const j = indexOf.get(events.bodyJ[event]!);
-        if (i === undefined || j === undefined) throw new Error(`break ${event + 1}: body ${events.bodyI[event]} or ${events.bodyJ[event]} is not drawn`);
-        const key = i < j ? `${i} ${j}` : `${j} ${i}`;
+        const ids = [events.bodyI[event]!, events.bodyJ[event]!] as const;
+        const key = ids[0] < ids[1] ? `${ids[0]} ${ids[1]}` : `${ids[1]} ${ids[0]}`;
         let crack = cracks.get(key);
         if (!crack) {
+            const pairs = (elementsOf.get(ids[0]) ?? []).flatMap((i) => (elementsOf.get(ids[1]) ?? []).map((j) => ({i, j, gap: gap(bodies, i, j)})));
+            if (pairs.length === 0) throw new Error(`break ${event + 1}: body ${ids[0]} or ${ids[1]} is not drawn`);
+            const {i, j} = pairs.reduce((best, pair) => (pair.gap < best.gap ? pair : best));
             crack = {faces: facesOf(bodies, i, j), breaks: []};
             cracks.set(key, crack);
         }
