@@ -8,6 +8,9 @@
 #include <cereal/types/array.hpp>
 #include <cereal/types/optional.hpp>
 #include <cereal/types/vector.hpp>
+#define XXH_INLINE_ALL
+#include <xxhash.h>
+
 #include <sstream>
 
 #include "solver/errors.hpp"
@@ -16,7 +19,7 @@
 namespace crackle {
 
 // Raise when the fields below change.
-constexpr std::uint32_t checkpoint_version = 1;
+constexpr std::uint32_t checkpoint_version = 2;
 constexpr std::uint64_t checkpoint_magic = 0x454c4b4341524321ULL;  // "!CRACKLE"
 
 // NOLINTBEGIN(bugprone-macro-parentheses)
@@ -126,34 +129,38 @@ void serialize(Archive& a, World& w) {
 
 std::string save_world(const World& world) {
     std::ostringstream out(std::ios::binary);
-    cereal::BinaryOutputArchive archive(out);
-    archive(checkpoint_magic, checkpoint_version, world);
-    return std::move(out).str();
+    cereal::BinaryOutputArchive(out)(world);
+    const std::string payload = std::move(out).str();
+    std::ostringstream framed(std::ios::binary);
+    cereal::BinaryOutputArchive archive(framed);
+    archive(checkpoint_magic, checkpoint_version, static_cast<std::uint64_t>(payload.size()),
+            XXH3_64bits(payload.data(), payload.size()));
+    framed.write(payload.data(), static_cast<std::streamsize>(payload.size()));
+    return std::move(framed).str();
 }
 
 World load_world(const std::string& bytes, const std::string& name) {
+    constexpr std::size_t frame = 3 * sizeof(std::uint64_t) + sizeof(std::uint32_t);
+    std::uint64_t magic = 0, size = 0, hash = 0;
+    std::uint32_t version = 0;
     std::istringstream in(bytes, std::ios::binary);
+    if (bytes.size() < frame)
+        throw InputError(fmt::format("{}: found {} bytes, expected a crackle checkpoint", name, bytes.size()));
+    cereal::BinaryInputArchive archive(in);
+    archive(magic, version, size, hash);
+    if (magic != checkpoint_magic)
+        throw InputError(fmt::format("{}: found other data, expected a crackle checkpoint", name));
+    if (version != checkpoint_version) {
+        throw InputError(
+            fmt::format("{}: found checkpoint version {}, expected {}; run the test again with this crackle", name,
+                        version, checkpoint_version));
+    }
+    // Judged before a single length in it is believed.
+    if (size != bytes.size() - frame || XXH3_64bits(bytes.data() + frame, bytes.size() - frame) != hash) {
+        throw InputError(fmt::format("{}: found a truncated or damaged checkpoint, expected a complete one", name));
+    }
     World world;
-    try {
-        cereal::BinaryInputArchive archive(in);
-        std::uint64_t magic = 0;
-        std::uint32_t version = 0;
-        archive(magic, version);
-        if (magic != checkpoint_magic)
-            throw InputError(fmt::format("{}: found other data, expected a crackle checkpoint", name));
-        if (version != checkpoint_version) {
-            throw InputError(
-                fmt::format("{}: found checkpoint version {}, expected {}; run the test again with this crackle", name,
-                            version, checkpoint_version));
-        }
-        archive(world);
-    } catch (const cereal::Exception& error) {
-        throw InputError(fmt::format("{}: found a truncated or damaged checkpoint ({}), expected a complete one", name,
-                                     error.what()));
-    }
-    if (in.peek() != std::istringstream::traits_type::eof()) {
-        throw InputError(fmt::format("{}: found more bytes than a checkpoint has, expected a complete one", name));
-    }
+    archive(world);
     world.threads = 1;
     world.thread_blocks.assign(1, 0);
     return world;
