@@ -8,7 +8,6 @@
 #include <cereal/types/array.hpp>
 #include <cereal/types/optional.hpp>
 #include <cereal/types/vector.hpp>
-#define XXH_INLINE_ALL
 #include <xxhash.h>
 
 #include <sstream>
@@ -129,7 +128,8 @@ void serialize(Archive& a, World& w) {
 
 std::string save_world(const World& world) {
     std::ostringstream out(std::ios::binary);
-    cereal::BinaryOutputArchive(out)(world);
+    cereal::BinaryOutputArchive inner(out);
+    inner(world);
     const std::string payload = std::move(out).str();
     std::ostringstream framed(std::ios::binary);
     cereal::BinaryOutputArchive archive(framed);
