@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// See contact_files.hpp.
+
+#include "solver/demseg/contact_files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <ostream>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "solver/demseg/deck_reader.hpp"
+#include "solver/errors.hpp"
+
+namespace crackle {
+namespace {
+
+/// A point as the files name it, seen from one of its bodies.
+struct PointName {
+    int body, other;       // input ids; walls negative
+    int element, partner;  // from 1; 0: outline or wall
+    auto operator<=>(const PointName&) const = default;
+
+    PointName seen_from_other() const { return {other, body, partner, element}; }
+};
+
+int number_of(const BodyInfo& info, std::uint32_t element) {
+    return static_cast<int>(element - info.first_element) + 1;
+}
+
+/// One of the two names of a point, always the same one: whoever owns the element, and of two circles the lower id.
+PointName name_of(const World& world, PointIndex k) {
+    const PointKind kind = view_point(world, k).kind;
+    const ContactPoint& point = world.points[k];
+    const BodyInfo& owner = world.info[point.body_i];
+    PointName name{owner.id, partner_id(world, kind, point), number_of(owner, point.element_i), 0};
+    if (kind == PointKind::circle_circle || kind == PointKind::element_element) {
+        name.partner = number_of(world.info[point.body_j], point.feature_j);
+        if (name.other < name.body) name = name.seen_from_other();
+    }
+    return name;
+}
+
+bool is_wall(PointIndex k, const World& world) {
+    return k >= world.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
+}
+
+/// Points by name, in name order, each under one name.
+std::map<PointName, PointIndex> points_by_name(const World& world) {
+    std::map<PointName, PointIndex> points;
+    for (PointIndex k = 0; k < world.points.size(); ++k) points.emplace(name_of(world, k), k);
+    return points;
+}
+
+/// Bodies of the scene by id, with the number of their elements.
+class BodyNames {
+  public:
+    explicit BodyNames(const Scene& scene) {
+        for (const Body& body : scene.bodies) bodies_[body.id] = &body;
+    }
+
+    const Body* find(std::int64_t id) const {
+        const auto found =
+            id > 0 && id <= std::numeric_limits<int>::max() ? bodies_.find(static_cast<int>(id)) : bodies_.end();
+        return found == bodies_.end() ? nullptr : found->second;
+    }
+
+  private:
+    std::unordered_map<int, const Body*> bodies_;
+};
+
+int element_count(const Body& body) { return static_cast<int>(body.circle_count + body.vertex_count); }
+
+/// Both bodies single circles: the guide's two columns say all.
+bool plain_pair(const Body& a, const Body& b) { return a.circle_count == 1 && b.circle_count == 1; }
+
+/// Per body of the scene `id count`, then its lines.
+using LinesOfBodies = std::unordered_map<int, std::vector<std::pair<PointName, std::string>>>;
+
+void write_lists(std::ostream& out, const Scene& scene, LinesOfBodies& lines) {
+    for (const Body& body : scene.bodies) {
+        auto& own = lines[body.id];
+        std::sort(own.begin(), own.end());
+        out << fmt::format("{} {}\n", body.id, own.size());
+        for (const auto& [name, text] : own) out << text;
+    }
+}
+
+double back_tension(const World& world, PointIndex k) {
+    const ContactPoint& point = world.points[k];
+    return (point.flags & point_bonded) != 0 ? -world.laws[point.law].normal_stiffness * point.bond_overlap : 0.0;
+}
+
+/// δ0 as back_tension() would give it back.
+double bond_overlap(const World& world, PointIndex k, double tension) {
+    return -tension / world.laws[world.points[k].law].normal_stiffness;
+}
+
+/// Reads `id count` of the next list; the lists follow the bodies of the scene.
+std::int64_t read_list_head(DeckReader& reader, const Body& body) {
+    const std::int64_t id = reader.integer("body id", 1, std::numeric_limits<int>::max());
+    if (id != body.id) reader.refuse("body id", fmt::format("{}, in the order of in_gm.dat", body.id));
+    return reader.integer(fmt::format("body {}: count", body.id), 0, std::numeric_limits<int>::max());
+}
+
+}  // namespace
+
+int partner_id(const World& world, PointKind kind, const ContactPoint& point) {
+    return kind == PointKind::element_wall ? -static_cast<int>(point.body_j) - 1 : world.info[point.body_j].id;
+}
+
+void write_contacts(std::ostream& out, const Scene& scene, const World& world) {
+    LinesOfBodies lines;
+    for (PointIndex k = 0; k < world.points.size(); ++k) {
+        const ContactPoint& point = world.points[k];
+        if ((point.flags & (point_touching | point_bonded)) == 0) continue;
+        const PointName name = name_of(world, k);
+        lines[name.body].emplace_back(
+            name, fmt::format("{} {} {} {} {} {}\n", name.other, name.element, name.partner, point.shear_force,
+                              back_tension(world, k), (point.flags & point_slid) != 0 ? 1 : 0));
+    }
+    write_lists(out, scene, lines);
+}
+
+void read_contacts(DeckReader& reader, const Scene& scene, World& world) {
+    const BodyNames names(scene);
+    const std::map<PointName, PointIndex> points = points_by_name(world);
+    bool bonds = false;
+    for (const Body& body : scene.bodies) {
+        const std::int64_t count = read_list_head(reader, body);
+        for (std::int64_t c = 0; c < count; ++c) {
+            const std::string key = fmt::format("body {}: contact {}: ", body.id, c + 1);
+            const std::int64_t other = reader.integer(key + "other body", -4, std::numeric_limits<int>::max());
+            const Body* partner = names.find(other);
+            if (other >= 0 && partner == nullptr)
+                reader.refuse(key + "other body", "a body of in_gm.dat, or -1 to -4 for a wall");
+            PointName name{body.id, static_cast<int>(other), 0, 0};
+            name.element = static_cast<int>(reader.integer(key + "own element", 1, element_count(body)));
+            name.partner = static_cast<int>(
+                reader.integer(key + "other's element", 0, partner == nullptr ? 0 : element_count(*partner)));
+            const double shear_force = reader.number(key + "shear force");
+            const double tension = reader.number(key + "back-tension");
+            if (tension > 0.0) reader.refuse(key + "back-tension", "0 (not bonded) or less");
+            const bool slid = reader.integer(key + "slid", 0, 1) == 1;
+            const auto found = points.find(name);
+            if (found == points.end()) {
+                // A contact that has opened by more than the list reaches is over; a bond would have had to break on
+                // the way.
+                if (tension == 0.0) continue;
+                reader.refuse(key + "bond", fmt::format("bodies {} and {} apart", body.id, other),
+                              "them in contact; are in_gm.dat and in_cf.dat of one run?");
+            }
+            ContactPoint& point = world.points[found->second];
+            point.shear_force = shear_force;
+            point.flags = static_cast<std::uint16_t>(point_touching | (slid ? point_slid : 0));
+            if (tension == 0.0) continue;
+            bonds = true;
+            point.flags |= point_bonded;
+            point.bond_overlap = bond_overlap(world, found->second, tension);
+        }
+    }
+    reader.expect_end("the last contact");
+    if (bonds) finish_bonding(world);
+}
+
+void write_back_tensions(std::ostream& out, const Scene& scene, const World& world) {
+    const BodyNames names(scene);
+    LinesOfBodies lines;
+    for (PointIndex k = 0; k < world.points.size() && !is_wall(k, world); ++k) {
+        double tension = back_tension(world, k);
+        if (!world.has_bonds)
+            tension = -world.laws[world.points[k].law].normal_stiffness * std::max(0.0, view_point(world, k).overlap);
+        if (!(tension < 0.0)) continue;
+        const PointName name = name_of(world, k);
+        const bool plain = plain_pair(*names.find(name.body), *names.find(name.other));
+        for (const PointName& side : {name, name.seen_from_other()}) {
+            lines[side.body].emplace_back(
+                side, plain ? fmt::format("{} {}\n", side.other, tension)
+                            : fmt::format("{} {} {} {}\n", side.other, tension, side.element, side.partner));
+        }
+    }
+    write_lists(out, scene, lines);
+}
+
+void read_back_tensions(DeckReader& reader, const Scene& scene, World& world) {
+    const BodyNames names(scene);
+    const std::map<PointName, PointIndex> points = points_by_name(world);
+    struct Listing {
+        double tension;
+        int line;
+    };
+    std::map<PointName, Listing> listed;
+    for (const Body& body : scene.bodies) {
+        const std::int64_t count = read_list_head(reader, body);
+        for (std::int64_t c = 0; c < count; ++c) {
+            const std::string key = fmt::format("body {}: back-tension {}: ", body.id, c + 1);
+            const std::int64_t other = reader.integer(key + "other body", 1, std::numeric_limits<int>::max());
+            const Body* partner = names.find(other);
+            if (partner == nullptr || partner == &body) reader.refuse(key + "other body", "another body of in_gm.dat");
+            const double tension = reader.number(key + "value");
+            if (tension > 0.0) reader.refuse(key + "value", "a back-tension, 0 or less (tension is negative)");
+            PointName name{body.id, static_cast<int>(other), 1, 1};
+            if (!plain_pair(body, *partner)) {
+                name.element = static_cast<int>(reader.integer(key + "own element", 0, element_count(body)));
+                name.partner = static_cast<int>(reader.integer(key + "other's element", 0, element_count(*partner)));
+            }
+            if (!listed.emplace(name, Listing{tension, reader.line()}).second)
+                reader.refuse(key + "other body", "every contact point once");
+        }
+    }
+    reader.expect_end("the last back-tension");
+    for (const auto& [name, listing] : listed) {
+        const std::string where =
+            fmt::format("{}:{}: bodies {} and {}", reader.name(), listing.line, name.body, name.other);
+        const auto mirror = listed.find(name.seen_from_other());
+        if (mirror == listed.end() || mirror->second.tension != listing.tension) {
+            throw InputError(fmt::format(
+                "{}: found the back-tension {} in one list and {} in the other, expected the same in both", where,
+                listing.tension, mirror == listed.end() ? "none" : fmt::format("{}", mirror->second.tension)));
+        }
+        const auto found = points.find(name);
+        if (found == points.end()) {
+            if (points.contains(name.seen_from_other()) || listing.tension == 0.0) continue;
+            throw InputError(fmt::format(
+                "{}: found no contact there, expected bonded bodies to touch; are in_gm.dat and in_cf0.dat of one run?",
+                where));
+        }
+        if (listing.tension == 0.0) continue;
+        ContactPoint& point = world.points[found->second];
+        point.bond_overlap = bond_overlap(world, found->second, listing.tension);
+        point.flags = point_bonded | point_touching;
+    }
+    finish_bonding(world);
+}
+
+}  // namespace crackle

@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// See deck_run.hpp.
+
+#include "solver/demseg/deck_run.hpp"
+
+#include <fmt/format.h>
+
+#include <sstream>
+#include <unordered_map>
+#include <utility>
+
+#include "solver/demseg/contact_files.hpp"
+#include "solver/demseg/deck_reader.hpp"
+#include "solver/demseg/deck_state.hpp"
+#include "solver/demseg/outputs.hpp"
+#include "solver/demseg/random_circles.hpp"
+#include "solver/errors.hpp"
+
+namespace crackle {
+namespace {
+
+// Steps between two looks at the run's health; one look costs about a step.
+constexpr std::int64_t health_interval = 100;
+
+constexpr const char* state_name = "new_state.bin";
+
+template <typename Write>
+std::string text_of(Write&& write) {
+    std::ostringstream out;
+    write(out);
+    return std::move(out).str();
+}
+
+bool due(std::int64_t step, std::int64_t interval) { return step % interval == 0; }
+
+}  // namespace
+
+/// By deck_text_names.
+struct DeckRun::Texts {
+    DeckTexts contents;
+    std::array<bool, 4> present{};
+    std::array<std::string, 4> names;  // as the user would write them
+
+    DeckReader reader(std::size_t which) const { return {names[which], contents[which]}; }
+};
+
+std::filesystem::path DeckRun::input(const std::string& name) const {
+    return options_.folder / (options_.goes_on ? "new_" + name : name);
+}
+
+DeckRun::DeckRun(DeckOptions options) : options_(std::move(options)) {
+    if (!std::filesystem::is_directory(options_.folder)) {
+        throw InputError(fmt::format("{}: found no such folder, expected one with in_gm.dat and in_bc.dat",
+                                     options_.folder.string()));
+    }
+    std::error_code same;
+    if (std::filesystem::equivalent(options_.folder, options_.output, same)) options_.output.clear();
+    if (options_.steps && *options_.steps < 1)
+        throw InputError(fmt::format("steps: found {}, expected at least 1", *options_.steps));
+    Texts texts;
+    for (std::size_t k = 0; k < texts.contents.size(); ++k) {
+        const std::filesystem::path path = input(deck_text_names[k]);
+        texts.names[k] = path.string();
+        texts.present[k] =
+            k < 2 || std::filesystem::exists(path);  // reading in_gm.dat and in_bc.dat says if they are missing
+        if (texts.present[k]) texts.contents[k] = read_text_file(path);
+    }
+    DeckReader reader = texts.reader(1);
+    asked_ = read_boundary(reader);
+    if (asked_.start != DeckStart::continued) {
+        start_new(texts);
+    } else if (!start_from_state(texts)) {
+        start_from_contacts(texts);
+    }
+    find_bodies();
+    first_step_ = world_.step;
+    last_step_ = first_step_ + options_.steps.value_or(asked_.steps);
+    refuse_existing_outputs();
+}
+
+void DeckRun::start_new(const Texts& texts) {
+    DeckReader mode_reader = texts.reader(0), reader = texts.reader(0);
+    if (mode_reader.integer("mode", 0, 1) == 0) {
+        const std::uint64_t seed = options_.seed.value_or(1);
+        base_ = make_random_circles(read_random_geometry(reader), seed);
+        notices_.push_back(
+            fmt::format("{}: {} random circles made with seed {}", texts.names[0], base_.scene.bodies.size(), seed));
+    } else {
+        base_ = read_deck_geometry(reader);
+        if (options_.seed)
+            notices_.push_back(fmt::format("{}: bodies are given (mode 1), the seed has no effect", texts.names[0]));
+    }
+    boundary_ = asked_;
+    Scene scene = base_.scene;
+    apply_controls(boundary_, scene);
+    scene.allow_unstable = options_.allow_unstable;
+    scene.threads = options_.threads;
+    world_ = build_world(std::move(scene));
+    enter_steps_before();
+    if (asked_.start != DeckStart::bonded) return;
+    if (texts.present[3]) {
+        DeckReader tensions = texts.reader(3);
+        read_back_tensions(tensions, base_.scene, world_);
+    } else {
+        bond_all(world_, world_.thick);
+        notices_.push_back(fmt::format("{}: not there, so {} bonds were made from the present overlaps", texts.names[3],
+                                       world_.bonds_initial));
+    }
+}
+
+void DeckRun::start_from_contacts(const Texts& texts) {
+    if (!texts.present[2]) {
+        throw InputError(fmt::format(
+            "{}: not found, expected it because jclid is 1; rename the last run's new_in_cf.dat, or set jclid to 0 for "
+            "a new start",
+            texts.names[2]));
+    }
+    DeckReader geometry = texts.reader(0), contacts = texts.reader(2);
+    base_ = read_deck_geometry(geometry);
+    boundary_ = asked_;
+    Scene scene = base_.scene;
+    apply_controls(boundary_, scene);
+    scene.allow_unstable = options_.allow_unstable;
+    scene.threads = options_.threads;
+    world_ = build_world(std::move(scene));
+    read_contacts(contacts, base_.scene, world_);
+    enter_steps_before();
+    world_.drift = world_.time_step;  // the bodies have just moved: the first force pass takes up the slip of that step
+}
+
+bool DeckRun::start_from_state(const Texts& texts) {
+    std::vector<std::filesystem::path> candidates;
+    if (!options_.goes_on) candidates.push_back(options_.folder / "in_state.bin");
+    candidates.push_back(options_.folder / state_name);
+    for (const std::filesystem::path& path : candidates) {
+        if (!std::filesystem::exists(path)) continue;
+        std::vector<std::string> edited;
+        std::optional<DeckState> state = load_deck_state(path, texts.contents, texts.present, edited);
+        if (!state) {
+            notices_.push_back(fmt::format("{}: ignored, because it does not belong to {} as {} now", path.string(),
+                                           fmt::join(edited, ", "), edited.size() == 1 ? "it is" : "they are"));
+            continue;
+        }
+        DeckReader geometry(path.string() + " (geometry)", state->base_geometry);
+        DeckReader boundary(path.string() + " (boundary conditions)", state->base_boundary);
+        base_ = read_deck_geometry(geometry);
+        boundary_ = read_boundary(boundary);
+        world_ = std::move(state->world);
+        world_.allow_unstable = options_.allow_unstable;
+        set_threads(world_, options_.threads);
+        return true;
+    }
+    return false;
+}
+
+void DeckRun::enter_steps_before() {
+    world_.step = boundary_.steps_before;
+    world_.time = static_cast<double>(world_.step) * world_.time_step;
+    for (ControlState& control : world_.controls) control.first_step = world_.step;
+}
+
+void DeckRun::find_bodies() {
+    std::unordered_map<int, BodyIndex> index_of;
+    for (std::size_t b = 0; b < world_.info.size(); ++b) index_of[world_.info[b].id] = static_cast<BodyIndex>(b);
+    for (const Body& body : base_.scene.bodies) order_.push_back(index_of.at(body.id));
+    for (const int id : boundary_.watched) watched_.push_back(index_of.at(id));
+    velocity_ = watched_;
+    if (velocity_.empty()) velocity_.push_back(order_.front());
+}
+
+void DeckRun::refuse_existing_outputs() const {
+    if (options_.overwrite || appends()) return;
+    std::vector<std::string> names(deck_output_names.begin(), deck_output_names.end());
+    for (const char* name : deck_text_names) names.push_back(std::string("new_") + name);
+    // new_state.bin may be there as an input, as DEMseg's users rename the text files alone.
+    for (const std::string& name : names) {
+        const std::filesystem::path path = output_folder() / name;
+        if (!std::filesystem::exists(path)) continue;
+        throw InputError(fmt::format(
+            "{}: found the output of an earlier run, expected none; give another folder with -o, go on with that run "
+            "with --continue, or replace it with --force",
+            path.string()));
+    }
+}
+
+void DeckRun::write_rows(DeckOutputs& outputs) const {
+    const std::int64_t step = world_.step;
+    const bool beginning = step == first_step_;
+    if (beginning || due(step, asked_.output_interval)) outputs.write_frame(world_, order_);
+    const bool row = due(step, asked_.row_interval);
+    if (beginning || row) outputs.write_energy_row(world_, velocity_);
+    if (!beginning && (row || step == 1)) outputs.write_force_rows(world_, watched_);
+}
+
+void DeckRun::run(const std::function<bool(const World&)>& go_on) {
+    std::error_code error;
+    std::filesystem::create_directories(output_folder(), error);
+    if (error)
+        throw InputError(fmt::format("{}: cannot be made ({}), expected a writable folder", output_folder().string(),
+                                     error.message()));
+    const bool first_part = asked_.start != DeckStart::continued;
+    DeckOutputs outputs(output_folder(), appends()    ? OutputMode::appending
+                                         : first_part ? OutputMode::fresh
+                                                      : OutputMode::part);
+    while (world_.step < last_step_ && (!go_on || go_on(world_))) {
+        compute_forces(world_);
+        if (due(world_.step, health_interval)) check_health(world_);
+        if (first_part || world_.step > first_step_)
+            write_rows(outputs);  // the last part has written the row of its last step
+        advance(world_);
+    }
+    const auto files = files_for_next();
+    compute_forces(world_);
+    check_health(world_);
+    if (world_.step > first_step_) write_rows(outputs);
+    outputs.flush();
+    for (const auto& [name, contents] : files) replace_file(output_folder() / name, contents);
+}
+
+Scene DeckRun::present_scene() const {
+    Scene scene = base_.scene;
+    for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
+        Body& body = scene.bodies[k];
+        const BodyState& state = world_.bodies[order_[k]];
+        body.velocity = {state.vx, state.vy};
+        body.spin = state.omega;
+        const std::vector<Vec2> positions = element_positions(world_, order_[k]);
+        const double turn = body.circle_count > 0 ? state.angle - scene.circles[body.first_circle].angle : 0.0;
+        for (std::uint32_t e = 0; e < body.circle_count; ++e) {
+            CircleElement& circle = scene.circles[body.first_circle + e];
+            circle.centre = positions[e];
+            circle.angle = e == 0 ? state.angle : circle.angle + turn;
+        }
+        for (std::uint32_t v = 0; v < body.vertex_count; ++v) scene.vertices[body.first_vertex + v] = positions[v];
+    }
+    return scene;
+}
+
+BoundaryConditions DeckRun::boundary_for_next() const {
+    const bool over = finished();
+    const std::int64_t left = over ? boundary_.steps : boundary_.steps - (world_.step - boundary_.steps_before);
+    BoundaryConditions next = boundary_;
+    next.start = DeckStart::continued;
+    next.steps_before = world_.step;
+    next.steps = left;
+    for (BodyControl& control : next.controls) {
+        for (DofControl* dof : {&control.x, &control.y, &control.rotation}) {
+            if (dof->drive != Drive::displacement) continue;
+            dof->value = over ? 0.0 : dof->value * static_cast<double>(left) / static_cast<double>(boundary_.steps);
+        }
+    }
+    return next;
+}
+
+std::vector<std::pair<std::string, std::string>> DeckRun::files_for_next() const {
+    const BoundaryConditions next = boundary_for_next();
+    const DeckTexts texts{
+        text_of([&](std::ostream& out) { write_geometry(out, present_scene(), base_.large_segments); }),
+        text_of([&](std::ostream& out) { write_boundary(out, next); }),
+        text_of([&](std::ostream& out) { write_contacts(out, base_.scene, world_); }),
+        text_of([&](std::ostream& out) { write_back_tensions(out, base_.scene, world_); }),
+    };
+    DeckState state;
+    state.world = world_;
+    state.base_geometry = text_of([&](std::ostream& out) { write_geometry(out, base_.scene, base_.large_segments); });
+    state.base_boundary = text_of([&](std::ostream& out) { write_boundary(out, finished() ? next : boundary_); });
+    std::vector<std::pair<std::string, std::string>> files;
+    for (std::size_t k = 0; k < texts.size(); ++k)
+        files.emplace_back(std::string("new_") + deck_text_names[k], texts[k]);
+    files.emplace_back(state_name, save_deck_state(state, texts));
+    return files;
+}
+
+}  // namespace crackle

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A DEMseg deck from its files to its outputs: reads, builds the world, steps it, writes, and leaves the files with
+// which the run goes on.
+//
+// The row of step n shows positions x_n and the forces there: n full steps, then the force pass, then the row. What
+// goes into new_* is the state before that last force pass, for the next run does it again.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "solver/demseg/boundary.hpp"
+#include "solver/demseg/geometry.hpp"
+#include "solver/world.hpp"
+
+namespace crackle {
+
+class DeckOutputs;
+
+struct DeckOptions {
+    std::filesystem::path folder;  ///< of in_gm.dat and in_bc.dat
+    std::filesystem::path output;  ///< empty: the same folder
+    bool goes_on = false;    ///< start from new_in_gm.dat and its fellows; in the same folder, outputs are appended
+    bool overwrite = false;  ///< existing outputs may be replaced
+    std::optional<std::int64_t> steps;  ///< do so many instead of nstep; ramps keep the length nstep
+    std::optional<std::uint64_t> seed;  ///< of mode 0; 1 if not given
+    bool allow_unstable = false;
+    int threads = 1;
+};
+
+class DeckRun {
+  public:
+    /// Reads and judges everything, and writes nothing.
+    /// @throws InputError on files that cannot be used, and on outputs that are there already.
+    explicit DeckRun(DeckOptions options);
+
+    /// Steps to the end and writes. @param go_on asked before every step; on false the run ends there, with all its
+    /// files.
+    /// @throws InputError if something cannot be written; UnstableRun, after which the outputs so far are there and
+    /// new_* as they were before.
+    void run(const std::function<bool(const World&)>& go_on = {});
+
+    const World& world() const { return world_; }
+    /// What the user should know, one sentence each.
+    const std::vector<std::string>& notices() const { return notices_; }
+    std::int64_t first_step() const { return first_step_; }
+    std::int64_t last_step() const { return last_step_; }
+    std::filesystem::path output_folder() const { return options_.output.empty() ? options_.folder : options_.output; }
+
+  private:
+    struct Texts;  // the deck's files as read
+
+    void start_new(const Texts& texts);
+    void start_from_contacts(const Texts& texts);
+    bool start_from_state(const Texts& texts);
+    void enter_steps_before();
+    void find_bodies();
+    void refuse_existing_outputs() const;
+    bool appends() const { return options_.goes_on && options_.output.empty(); }
+    std::filesystem::path input(const std::string& name) const;
+
+    void write_rows(DeckOutputs& outputs) const;
+    bool finished() const { return world_.step - boundary_.steps_before >= boundary_.steps; }
+    Scene present_scene() const;
+    BoundaryConditions boundary_for_next() const;
+    /// Contents of new_in_gm.dat, new_in_bc.dat, new_in_cf.dat, new_in_cf0.dat and new_state.bin, by name.
+    std::vector<std::pair<std::string, std::string>> files_for_next() const;
+
+    DeckOptions options_;
+    BoundaryConditions asked_;     // in_bc.dat of this run
+    DeckGeometry base_;            // bodies as they were when the run, all parts of it, began
+    BoundaryConditions boundary_;  // and its conditions: ramps are counted from its steps_before
+    World world_;
+    std::vector<BodyIndex> order_;     // bodies in the order of the deck
+    std::vector<BodyIndex> watched_;   // npfd's
+    std::vector<BodyIndex> velocity_;  // those in velocity_y.dat
+    std::vector<std::string> notices_;
+    std::int64_t first_step_ = 0, last_step_ = 0;
+};
+
+}  // namespace crackle

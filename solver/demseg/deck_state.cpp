@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// See deck_state.hpp. Layout: magic, version, four hashes, then three strings, each with its length before it.
+
+#include "solver/demseg/deck_state.hpp"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <bit>
+#include <cstring>
+#include <string_view>
+
+#include "solver/demseg/deck_reader.hpp"
+#include "solver/errors.hpp"
+
+namespace crackle {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "state files are little-endian");
+
+constexpr std::string_view magic = "CRKLDECK";
+constexpr std::uint64_t version = 1;
+
+void put(std::string& out, std::uint64_t value) {
+    char bytes[sizeof value];
+    std::memcpy(bytes, &value, sizeof value);
+    out.append(bytes, sizeof value);
+}
+
+void put(std::string& out, const std::string& text) {
+    put(out, static_cast<std::uint64_t>(text.size()));
+    out += text;
+}
+
+class Source {
+  public:
+    Source(const std::string& name, std::string_view bytes) : name_(name), bytes_(bytes) {}
+
+    std::string_view take(std::uint64_t count) {
+        if (count > bytes_.size())
+            throw InputError(
+                fmt::format("{}: found a truncated state, expected a complete one; remove it to go without", name_));
+        const std::string_view result = bytes_.substr(0, count);
+        bytes_.remove_prefix(count);
+        return result;
+    }
+    std::uint64_t number() {
+        std::uint64_t value = 0;
+        std::memcpy(&value, take(sizeof value).data(), sizeof value);
+        return value;
+    }
+    std::string text() { return std::string(take(number())); }
+    bool at_end() const { return bytes_.empty(); }
+
+  private:
+    const std::string& name_;
+    std::string_view bytes_;
+};
+
+std::uint64_t hash_of(const std::string& text) { return XXH3_64bits(text.data(), text.size()); }
+
+}  // namespace
+
+std::string save_deck_state(const DeckState& state, const DeckTexts& texts) {
+    std::string out(magic);
+    put(out, version);
+    for (const std::string& text : texts) put(out, hash_of(text));
+    put(out, state.base_geometry);
+    put(out, state.base_boundary);
+    put(out, save_world(state.world));
+    return out;
+}
+
+std::optional<DeckState> load_deck_state(const std::filesystem::path& path, const DeckTexts& texts,
+                                         const std::array<bool, 4>& present, std::vector<std::string>& edited) {
+    const std::string name = path.string();
+    const std::string bytes = read_text_file(path);
+    Source source(name, bytes);
+    if (source.take(magic.size()) != magic)
+        throw InputError(fmt::format("{}: found other data, expected a deck's state; remove it to go without", name));
+    const std::uint64_t found_version = source.number();
+    if (found_version != version) {
+        throw InputError(fmt::format("{}: found version {} of a deck's state, expected {}; remove it to go without",
+                                     name, found_version, version));
+    }
+    for (std::size_t k = 0; k < texts.size(); ++k) {
+        const std::uint64_t hash = source.number();
+        if (present[k] && hash != hash_of(texts[k])) edited.emplace_back(deck_text_names[k]);
+    }
+    if (!edited.empty()) return std::nullopt;
+    DeckState state;
+    state.base_geometry = source.text();
+    state.base_boundary = source.text();
+    state.world = load_world(source.text(), name);
+    if (!source.at_end())
+        throw InputError(
+            fmt::format("{}: found bytes after its end, expected a complete state; remove it to go without", name));
+    return state;
+}
+
+}  // namespace crackle

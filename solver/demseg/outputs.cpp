@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// See outputs.hpp.
+
+#include "solver/demseg/outputs.hpp"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <iterator>
+#include <system_error>
+
+#include "solver/demseg/contact_files.hpp"
+#include "solver/errors.hpp"
+
+namespace crackle {
+namespace {
+
+constexpr std::array<const char*, 6> headers{
+    "# step time circles segments, then per circle: body radius xc yc angle, per segment: body xs ys xe ye\n",
+    "# step time contacts, then per contact: body other x y fx fy (force on body, dashpots included)\n",
+    "# step time contacts, then per contact: body other nx ny overlap normal_force shear_force back_tension "
+    "(springs)\n",
+    "# step enrg enva enka enca enfr enxd enxf err enfb\n",
+    "",  // as in the guide: rows only
+    "# step body vy\n",
+};
+
+[[noreturn]] void refuse_output(const std::filesystem::path& path) {
+    throw InputError(fmt::format("{}: cannot be written ({}), expected a writable folder with room on the disc",
+                                 path.string(), std::strerror(errno)));
+}
+
+bool touching(const World& world, PointIndex k) { return (world.points[k].flags & point_touching) != 0; }
+
+}  // namespace
+
+void replace_file(const std::filesystem::path& path, const std::string& contents) {
+    std::filesystem::path temporary = path;
+    temporary += ".tmp";
+    {
+        errno = 0;
+        std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
+        file.write(contents.data(), static_cast<std::streamsize>(contents.size()));
+        file.close();
+        if (!file) refuse_output(temporary);
+    }
+    std::error_code error;
+    std::filesystem::rename(temporary, path, error);
+    if (error) throw InputError(fmt::format("{}: cannot be replaced ({})", path.string(), error.message()));
+}
+
+DeckOutputs::DeckOutputs(const std::filesystem::path& folder, OutputMode mode) : folder_(folder) {
+    for (std::size_t k = 0; k < files_.size(); ++k) {
+        errno = 0;
+        files_[k].open(folder / deck_output_names[k],
+                       std::ios::binary | (mode == OutputMode::appending ? std::ios::app : std::ios::trunc));
+        if (!files_[k]) refuse_output(folder / deck_output_names[k]);
+        if (mode == OutputMode::fresh) files_[k] << headers[k];
+    }
+    flush();
+}
+
+void DeckOutputs::write(Which which, const std::string& text) {
+    errno = 0;
+    files_[which].write(text.data(), static_cast<std::streamsize>(text.size()));
+    if (!files_[which]) refuse_output(folder_ / deck_output_names[which]);
+}
+
+void DeckOutputs::flush() {
+    for (std::size_t k = 0; k < files_.size(); ++k) {
+        errno = 0;
+        if (!files_[k].flush()) refuse_output(folder_ / deck_output_names[k]);
+    }
+}
+
+void DeckOutputs::write_frame(const World& world, std::span<const BodyIndex> order) {
+    std::string circles, segments;
+    std::size_t circle_count = 0, segment_count = 0;
+    for (const BodyIndex b : order) {
+        const BodyInfo& info = world.info[b];
+        const std::vector<Vec2> points = element_positions(world, b);
+        if (info.piece_count == 0) {
+            for (std::size_t k = 0; k < points.size(); ++k, ++circle_count) {
+                fmt::format_to(std::back_inserter(circles), "{} {} {} {} {}\n", info.id,
+                               world.elements[info.first_element + k].radius, points[k].x, points[k].y,
+                               world.bodies[b].angle);
+            }
+            continue;
+        }
+        const std::size_t count = info.closed ? points.size() : points.size() - 1;
+        for (std::size_t k = 0; k < count; ++k, ++segment_count) {
+            const Vec2 end = points[(k + 1) % points.size()];
+            fmt::format_to(std::back_inserter(segments), "{} {} {} {} {}\n", info.id, points[k].x, points[k].y, end.x,
+                           end.y);
+        }
+    }
+    write(positions,
+          fmt::format("{} {} {} {}\n", world.step, world.time, circle_count, segment_count) + circles + segments);
+
+    std::string forces, details;
+    std::size_t contacts = 0;
+    for (PointIndex k = 0; k < world.points.size(); ++k) {
+        if (!touching(world, k)) continue;
+        ++contacts;
+        const PointView view = view_point(world, k);
+        const ContactPoint& point = world.points[k];
+        const int id = world.info[point.body_i].id, other = partner_id(world, view.kind, point);
+        fmt::format_to(std::back_inserter(forces), "{} {} {} {} {} {}\n", id, other, view.position.x, view.position.y,
+                       world.point_forces[k].fx, world.point_forces[k].fy);
+        fmt::format_to(std::back_inserter(details), "{} {} {} {} {} {} {} {}\n", id, other, view.normal.x,
+                       view.normal.y, view.overlap, view.normal_force, view.shear_force,
+                       view.bonded ? -view.normal_stiffness * view.bond_overlap : 0.0);
+    }
+    const std::string head = fmt::format("{} {} {}\n", world.step, world.time, contacts);
+    write(contact_forces, head + forces);
+    write(contact_details, head + details);
+}
+
+void DeckOutputs::write_energy_row(const World& world, std::span<const BodyIndex> bodies) {
+    const Ledger e = measure_ledger(world);
+    write(energies,
+          fmt::format("{} {} {} {} {} {} {} {} {} {}\n", world.step, e.potential, e.kinetic, e.strain, e.dashpot_loss,
+                      e.friction_loss, e.displacement_work, e.force_work, e.closing_error, e.fracture_loss));
+    for (const BodyIndex b : bodies)
+        write(velocities, fmt::format("{} {} {}\n", world.step, world.info[b].id, world.bodies[b].vy));
+}
+
+void DeckOutputs::write_force_rows(const World& world, std::span<const BodyIndex> bodies) {
+    for (const BodyIndex b : bodies) {
+        const BodyForce& f = world.forces[b];
+        const BodyState& s = world.bodies[b];
+        write(force_displacement, fmt::format("{} {} {} {} {} {} {} {}\n", world.step, world.info[b].id, f.fx, s.x,
+                                              f.fy, s.y, f.torque, s.angle));
+    }
+}
+
+}  // namespace crackle

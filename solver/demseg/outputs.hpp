@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a deck run writes on its way: positions and contact forces every nprn1 steps, energies, controlled bodies and
+// velocities every nprn2. Formats: FORMATS.md. Every number reads back to the same bits.
+#pragma once
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "solver/world.hpp"
+
+namespace crackle {
+
+/// Names of the output files, in the order in which DeckOutputs holds them.
+inline constexpr std::array<const char*, 6> deck_output_names{"output.dat", "cont.dat",      "cont2.dat",
+                                                              "energy.dat", "f-d_curve.dat", "velocity_y.dat"};
+
+enum class OutputMode {
+    fresh,      ///< begins files with their headers
+    part,       ///< begins files without: a later part, to be put behind an earlier one
+    appending,  ///< goes on with the files of the earlier part
+};
+
+class DeckOutputs {
+  public:
+    /// @throws InputError naming a file that cannot be written.
+    DeckOutputs(const std::filesystem::path& folder, OutputMode mode);
+
+    /// output.dat, cont.dat, cont2.dat. Needs current forces. @param order bodies in the order of the deck.
+    void write_frame(const World& world, std::span<const BodyIndex> order);
+    /// energy.dat and velocity_y.dat. @param bodies whose velocity is written.
+    void write_energy_row(const World& world, std::span<const BodyIndex> bodies);
+    /// f-d_curve.dat. @param bodies npfd's.
+    void write_force_rows(const World& world, std::span<const BodyIndex> bodies);
+    /// @throws InputError if something could not be written (a full disc, say).
+    void flush();
+
+  private:
+    enum Which { positions, contact_forces, contact_details, energies, force_displacement, velocities };
+
+    void write(Which which, const std::string& text);
+
+    std::filesystem::path folder_;
+    std::array<std::ofstream, 6> files_;
+};
+
+/// Writes a whole file under a temporary name and renames it, so that a failure leaves the earlier one as it was.
+/// @throws InputError if it cannot be written.
+void replace_file(const std::filesystem::path& path, const std::string& contents);
+
+}  // namespace crackle
