@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Inset of a convex polygon: the intersection of its half-planes, each moved inwards by the depth d.
+// A corner between unit edge directions t1, t2 moves by d·(t2 - t1)/(t1 × t2). If every edge keeps a positive length
+// that is the result; if not, the edges that vanish are found by clipping the outline by one half-plane after another.
+
+#include "mesher/inset.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "mesher/partition.hpp"
+
+namespace crackle {
+namespace {
+
+constexpr double eps = std::numeric_limits<double>::epsilon();
+// Edges below this share of the perimeter are dropped from an inset: they are corners to any force, and far above
+// rounding.
+constexpr double shortest_share = 1e-12;
+// A corner turning by less than this sine is no corner: its edges' offsets meet nowhere in particular.
+constexpr double flattest_turn = 1e-12;
+// An inset with less than this share of the outline's area is the rounding of an empty one.
+constexpr double smallest_area_share = 1e-12;
+
+double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
+double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
+
+}  // namespace
+
+double polygon_area(std::span<const Point> outline) {
+    double twice = 0.0;
+    for (std::size_t k = 1; k + 1 < outline.size(); ++k) {
+        const Point a{outline[k].x - outline[0].x, outline[k].y - outline[0].y};
+        const Point b{outline[k + 1].x - outline[0].x, outline[k + 1].y - outline[0].y};
+        twice += cross(a, b);
+    }
+    return 0.5 * twice;
+}
+
+void Inset::measure_edges() {
+    const std::size_t count = outline_.size();
+    direction_.resize(count);
+    length_.resize(count);
+    for (std::size_t k = 0; k < count; ++k) {
+        const Point a = outline_[k], b = outline_[k + 1 == count ? 0 : k + 1];
+        const Point d{b.x - a.x, b.y - a.y};
+        length_[k] = std::sqrt(dot(d, d));
+        direction_[k] = {d.x / length_[k], d.y / length_[k]};
+    }
+}
+
+// A corner within rounding of the line between its neighbours, or turning the wrong way by rounding.
+void Inset::drop_flat_corners(std::vector<Point>& polygon) const {
+    bool changed = true;
+    while (changed && polygon.size() >= 3) {
+        changed = false;
+        for (std::size_t k = 0; k < polygon.size() && polygon.size() >= 3; ++k) {
+            const std::size_t count = polygon.size();
+            const Point a = polygon[(k + count - 1) % count], b = polygon[k], c = polygon[(k + 1) % count];
+            const Point in{b.x - a.x, b.y - a.y}, out{c.x - b.x, c.y - b.y};
+            const double lengths = std::sqrt(dot(in, in) * dot(out, out));
+            const double turn = cross(in, out);
+            const double chord = std::hypot(c.x - a.x, c.y - a.y);
+            const bool straight_on = dot(in, out) > 0.0;
+            if (lengths == 0.0 ||
+                (straight_on && (turn <= flattest_turn * lengths || turn <= 4.0 * eps * scale_ * chord))) {
+                polygon.erase(polygon.begin() + static_cast<std::ptrdiff_t>(k));
+                changed = true;
+                --k;
+            }
+        }
+    }
+}
+
+// @return false if an edge vanishes, or the outline has corners that are none.
+bool Inset::straightforward() {
+    const std::size_t count = outline_.size();
+    result_.resize(count);
+    double perimeter = 0.0;
+    for (const double length : length_) perimeter += length;
+    const double shortest = std::max(shortest_share * perimeter, 16.0 * eps * scale_);
+    // An edge loses d·tan(turn/2) at each end, tan(turn/2) = (1 - cos)/sin = sin/(1 + cos).
+    double lost_before = 0.0, lost_at_first = 0.0;
+    for (std::size_t k = 0; k < count; ++k) {
+        const std::size_t before = k == 0 ? count - 1 : k - 1;
+        const Point t1 = direction_[before], t2 = direction_[k];
+        const double sine = cross(t1, t2), cosine = dot(t1, t2);
+        if (sine <= flattest_turn && cosine > 0.0) return false;
+        if (sine * std::min(length_[before], length_[k]) <= 16.0 * eps * scale_) return false;
+        Point move;
+        double lost;
+        if (cosine > 0.0) {  // (t2 - t1)/sine = (n1 + n2)/(1 + cosine), n the inward normals: no small difference
+            const double share = depth_ / (1.0 + cosine);
+            move = {-share * (t1.y + t2.y), share * (t1.x + t2.x)};
+            lost = share * sine;
+        } else {
+            const double share = depth_ / sine;
+            move = {share * (t2.x - t1.x), share * (t2.y - t1.y)};
+            lost = share * (1.0 - cosine);
+        }
+        result_[k] = {outline_[k].x + move.x, outline_[k].y + move.y};
+        if (k == 0) {
+            lost_at_first = lost;
+        } else if (length_[before] - lost_before - lost <= shortest) {
+            return false;
+        }
+        lost_before = lost;
+    }
+    return length_[count - 1] - lost_before - lost_at_first > shortest;
+}
+
+void Inset::by_half_planes() {
+    drop_flat_corners(outline_);
+    result_.clear();
+    if (outline_.size() < 3) return;
+    measure_edges();
+    if (straightforward()) return;
+    const double area = polygon_area(outline_);
+    result_ = outline_;
+    double perimeter = 0.0;
+    for (std::size_t k = 0; k < outline_.size() && !result_.empty(); ++k) {
+        const double nx = -direction_[k].y, ny = direction_[k].x;
+        clip(result_, nx, ny, nx * outline_[k].x + ny * outline_[k].y + depth_, scratch_);
+        perimeter += length_[k];
+    }
+    const double shortest = std::max(shortest_share * perimeter, 16.0 * eps * scale_);
+    const auto near = [shortest](Point a, Point b) { return std::hypot(a.x - b.x, a.y - b.y) <= shortest; };
+    result_.erase(std::unique(result_.begin(), result_.end(), near), result_.end());
+    while (result_.size() > 1 && near(result_.front(), result_.back())) result_.pop_back();
+    drop_flat_corners(result_);
+    if (result_.size() < 3 || polygon_area(result_) <= smallest_area_share * area) result_.clear();
+}
+
+std::span<const Point> Inset::of(std::span<const Point> outline) {
+    outline_.assign(outline.begin(), outline.end());
+    result_.clear();
+    if (outline_.size() < 3) return result_;
+    measure_edges();
+    if (!straightforward()) by_half_planes();
+    return result_;
+}
+
+double inscribed_radius(std::span<const Point> outline, double coordinate_scale) {
+    double perimeter = 0.0;
+    for (std::size_t k = 0; k < outline.size(); ++k) {
+        const Point a = outline[k], b = outline[k + 1 == outline.size() ? 0 : k + 1];
+        perimeter += std::hypot(b.x - a.x, b.y - a.y);
+    }
+    // A disc of radius r inside leaves each edge a triangle of height r at least: A >= rP/2.
+    double low = 0.0, high = 2.0 * polygon_area(outline) / perimeter;
+    for (int halving = 0; halving < 50; ++halving) {
+        const double middle = 0.5 * (low + high);
+        (Inset(middle, coordinate_scale).of(outline).empty() ? high : low) = middle;
+    }
+    return low;
+}
+
+}  // namespace crackle

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A destroyed triangle is a sliver: its longest edge is nearly as long as the other two, and the quadrangle it forms
+// with the triangle beyond is as a rule convex.
+
+#include "mesher/merge.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <map>
+
+#include "mesher/inset.hpp"
+
+namespace crackle {
+namespace {
+
+// Edge from a corner to the next one of the polygon; the triangle it belongs to leads to the neighbour beyond.
+struct Side {
+    int corner;
+    int triangle;
+};
+using Polygon = std::vector<Side>;
+
+// Sine below which a corner counts as straight: the wall faces' own points lie on one line exactly.
+constexpr double straight = 1e-12;
+
+class Joiner {
+  public:
+    Joiner(const Triangles& mesh, double depth, double scale) : mesh_(mesh), scale_(scale), inset_(depth, scale) {}
+
+    void join(const std::vector<int>& destroyed);
+    JoinedTriangles result() const;
+
+  private:
+    int owner(int triangle) const;
+    Polygon polygon_of(int triangle) const;
+    int beyond(const Polygon& polygon, std::size_t side) const;
+    Point corner(const Side& side) const { return mesh_.points[static_cast<std::size_t>(side.corner)]; }
+    bool convex(const Polygon& polygon) const;
+    bool survives(const Polygon& polygon);
+
+    const Triangles& mesh_;
+    double scale_;
+    Inset inset_;
+    std::map<int, Polygon> polygons_;  // by lowest triangle: those made so far
+    std::map<int, int> owner_;         // joined triangle -> key of its polygon
+};
+
+int Joiner::owner(int triangle) const {
+    const auto found = owner_.find(triangle);
+    return found == owner_.end() ? triangle : found->second;
+}
+
+Polygon Joiner::polygon_of(int key) const {
+    const auto found = polygons_.find(key);
+    if (found != polygons_.end()) return found->second;
+    const auto& c = mesh_.corners[static_cast<std::size_t>(key)];
+    return {{c[0], key}, {c[1], key}, {c[2], key}};
+}
+
+// @return triangle on the other side of an edge, -1 at the end of the mesh.
+int Joiner::beyond(const Polygon& polygon, std::size_t side) const {
+    const auto triangle = static_cast<std::size_t>(polygon[side].triangle);
+    const auto& corners = mesh_.corners[triangle];
+    for (std::size_t k = 0; k < 3; ++k) {
+        if (corners[(k + 1) % 3] == polygon[side].corner) return mesh_.neighbours[triangle][k];
+    }
+    return -1;
+}
+
+bool Joiner::convex(const Polygon& polygon) const {
+    const std::size_t count = polygon.size();
+    if (count < 3) return false;
+    for (std::size_t k = 0; k < count; ++k) {
+        const Point a = corner(polygon[k]), b = corner(polygon[(k + 1) % count]), c = corner(polygon[(k + 2) % count]);
+        const double ux = b.x - a.x, uy = b.y - a.y, vx = c.x - b.x, vy = c.y - b.y;
+        const double turn = ux * vy - uy * vx, ahead = ux * vx + uy * vy;
+        const double flat = straight * std::hypot(ux, uy) * std::hypot(vx, vy);
+        if (turn < -flat || (turn <= flat && ahead <= 0.0)) return false;
+    }
+    return true;
+}
+
+bool Joiner::survives(const Polygon& polygon) {
+    std::vector<Point> outline;
+    for (const Side& side : polygon) outline.push_back(corner(side));
+    return !inset_.of(outline).empty();
+}
+
+void Joiner::join(const std::vector<int>& destroyed) {
+    std::deque<int> waiting(destroyed.begin(), destroyed.end());
+    while (!waiting.empty()) {
+        const int key = owner(waiting.front());
+        waiting.pop_front();
+        const Polygon polygon = polygon_of(key);
+        if (survives(polygon)) continue;  // joined by a neighbour meanwhile
+        std::vector<std::size_t> sides(polygon.size());
+        for (std::size_t k = 0; k < sides.size(); ++k) sides[k] = k;
+        const auto length = [&](std::size_t k) {
+            const Point a = corner(polygon[k]), b = corner(polygon[(k + 1) % polygon.size()]);
+            return std::hypot(b.x - a.x, b.y - a.y);
+        };
+        std::stable_sort(sides.begin(), sides.end(),
+                         [&](std::size_t a, std::size_t b) { return length(a) > length(b); });
+        Polygon best;
+        int best_other = -1;
+        for (const std::size_t side : sides) {
+            const int across = beyond(polygon, side);
+            if (across < 0) continue;
+            const int other = owner(across);
+            const Polygon theirs = polygon_of(other);
+            const int end = polygon[(side + 1) % polygon.size()].corner;
+            const auto shared = std::find_if(theirs.begin(), theirs.end(),
+                                             [&](const Side& s) { return s.corner == end && s.triangle == across; });
+            if (shared == theirs.end()) continue;
+            const auto j = static_cast<std::size_t>(shared - theirs.begin());
+            Polygon both;
+            for (std::size_t k = 1; k < polygon.size(); ++k) both.push_back(polygon[(side + k) % polygon.size()]);
+            for (std::size_t k = 1; k < theirs.size(); ++k) both.push_back(theirs[(j + k) % theirs.size()]);
+            if (!convex(both)) continue;
+            const bool lives = survives(both);
+            if (lives || best.empty()) best = both, best_other = other;
+            if (lives) break;
+        }
+        if (best.empty()) {
+            const auto& c = mesh_.corners[static_cast<std::size_t>(key)];
+            const Point at = mesh_.points[static_cast<std::size_t>(c[0])];
+            throw MeshError(fmt::format(
+                "mesh: found triangle {} at ({:.9g}, {:.9g}) destroyed by the inset and convex with none of its "
+                "neighbours, expected one to merge it with; use a smaller thick or inset, or kind voronoi",
+                key, at.x, at.y));
+        }
+        const int lowest = std::min(key, best_other);
+        polygons_.erase(key);
+        polygons_.erase(best_other);
+        for (const Side& side : best) owner_[side.triangle] = lowest;
+        // A triangle whose three edges are inside has no side left to find it by.
+        owner_[key] = owner_[best_other] = lowest;
+        for (auto& [triangle, polygon_key] : owner_) {
+            if (polygon_key == key || polygon_key == best_other) polygon_key = lowest;
+        }
+        polygons_[lowest] = std::move(best);
+        waiting.push_back(lowest);
+    }
+}
+
+JoinedTriangles Joiner::result() const {
+    JoinedTriangles out;
+    out.joined.assign(mesh_.corners.size(), false);
+    for (const auto& [triangle, key] : owner_) out.joined[static_cast<std::size_t>(triangle)] = true;
+    for (const auto& [key, polygon] : polygons_) {
+        out.outlines.push_back({key, {}});
+        for (const Side& side : polygon) out.outlines.back().corners.push_back(side.corner);
+    }
+    return out;
+}
+
+}  // namespace
+
+JoinedTriangles join_destroyed(const Triangles& mesh, const std::vector<int>& destroyed, double depth,
+                               double coordinate_scale) {
+    Joiner joiner(mesh, depth, coordinate_scale);
+    joiner.join(destroyed);
+    return joiner.result();
+}
+
+}  // namespace crackle

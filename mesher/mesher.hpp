@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Polygon particles from seeds: Delaunay triangles or Voronoi cells of a rectangle, each inset so that neighbours stand
+// apart.
+//   seeds -> partition of the rectangle -> every polygon moved inwards by `inset` along every edge, domain faces
+//   included
+// Facing edges of neighbours are then 2·inset apart; the default inset thick/2 makes every gap the segment thickness.
+// Lengths in m (any consistent unit). Follows volonoi.f of the DEMseg guide; where it departs, the declarations below
+// say so.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace crackle {
+
+/// A place in the plane, m.
+struct Point {
+    double x = 0.0;
+    double y = 0.0;
+
+    friend bool operator==(const Point&, const Point&) = default;
+};
+
+/// Centre from which a cell grows: a circle centre of a packing.
+using Seed = Point;
+
+/// The domain to be partitioned, m.
+struct Rectangle {
+    double x1 = 0.0, x2 = 0.0, y1 = 0.0, y2 = 0.0;
+};
+
+enum class MeshKind : std::uint8_t { delaunay, voronoi };
+
+/// How Delaunay triangles end at the domain; Voronoi cells always fill the domain.
+enum class Boundary : std::uint8_t {
+    domain,  ///< seeds next to a wall are also projected onto it and the corners added: flat faces, areas sum to the
+             ///< domain's
+    seeds,   ///< only triangles between three seeds (the guide's): 2n - 2 - h, h seeds along the outer chain
+};
+
+struct MeshRequest {
+    MeshKind kind = MeshKind::voronoi;
+    Boundary boundary = Boundary::domain;
+    double thick = 0.0;           ///< m, >= 0: gap between facing edges
+    std::optional<double> inset;  ///< m, >= 0: depth by which each edge moves inwards; thick/2 where absent
+    /// Cells that the inset destroys: false, an error; true, Voronoi: the seed is left out and its neighbours take its
+    /// place; Delaunay: the triangle joins a neighbour with which it is convex (an error where there is none).
+    bool merge_destroyed = false;
+};
+
+/// Sides of the domain, as bits of Cell::sides.
+enum SideBit : std::uint8_t { side_left = 1, side_right = 2, side_bottom = 4, side_top = 8 };
+
+/// A convex polygon, counter-clockwise after the inset.
+struct Cell {
+    std::uint32_t first_corner = 0;  ///< into Mesh::corners
+    std::uint32_t corner_count = 0;
+    int seed = -1;  ///< Voronoi: index of its seed; triangles: -1
+    std::array<int, 3> seeds{-1, -1,
+                             -1};  ///< triangles: seeds at the corners, -1 for a corner added on the domain's face
+    std::uint8_t sides = 0;        ///< SideBit: domain faces on which the cell had an edge before the inset
+
+    bool on_left() const { return (sides & side_left) != 0; }
+    bool on_right() const { return (sides & side_right) != 0; }
+    bool on_bottom() const { return (sides & side_bottom) != 0; }
+    bool on_top() const { return (sides & side_top) != 0; }
+};
+
+struct MeshReport {
+    std::int64_t cells = 0;
+    std::int64_t segments = 0;         ///< sum of the cells' edges
+    double shortest_edge = 0.0;        ///< m, after the inset
+    double smallest_angle = 0.0;       ///< degrees, interior, after the inset
+    std::int64_t cells_destroyed = 0;  ///< by the inset, all of them merged
+    double area_before_inset = 0.0;    ///< m2, sum over the cells
+    double area_after_inset = 0.0;     ///< m2
+};
+
+struct Mesh {
+    std::vector<Point> corners;  ///< of all cells, numbered along space
+    std::vector<Cell> cells;     ///< Voronoi: in the order of the seeds; triangles: along space
+    MeshReport report;
+
+    std::span<const Point> outline(const Cell& cell) const {
+        return std::span(corners).subspan(cell.first_corner, cell.corner_count);
+    }
+};
+
+/// Seeds or a request from which no mesh can be made. `seeds` holds the indices it names, if any.
+class MeshError : public std::runtime_error {
+  public:
+    explicit MeshError(const std::string& text, std::vector<int> named = {})
+        : std::runtime_error(text), seeds(std::move(named)) {}
+
+    std::vector<int> seeds;
+};
+
+/// Partitions `domain` and insets every cell. Same input, same bytes.
+/// @param seeds  inside the domain or on its boundary, no two coincident
+/// @throws MeshError no, coincident, outside or NaN seeds; no area; bad thick or inset; no triangle; a destroyed cell
+/// Cost: close to the bare Delaunay triangulation of the seeds; see tests/benchmarks for the share.
+Mesh make_mesh(std::span<const Seed> seeds, const Rectangle& domain, const MeshRequest& request);
+
+}  // namespace crackle

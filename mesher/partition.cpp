@@ -1,0 +1,521 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Delaunay triangulation and its dual Voronoi partition of a rectangle, by CGAL (exact predicates, inexact
+// constructions).
+//
+// A seed whose cell would cross a wall is mirrored across it, which makes the wall an edge of the partition: beyond a
+// wall every mirror image is nearer than its seed. Images are added until every seed that meets an image across a wall
+// has its own there and no circumcentre of seeds lies outside, which is the partition that mirroring all seeds would
+// give. What is on a wall is then known from the triangulation, not from coordinates: a face of seeds and images across
+// a wall has its circumcentre exactly on that wall (two walls: in the corner). So positions are put there, and cell
+// areas sum to the domain's whatever the rounding. Four guards far away close the cells of outermost seeds from the
+// start; they are further from every point of the domain than any seed is. A seed exactly on a wall is its own image;
+// its cell is cut at the wall.
+
+#include "mesher/partition.hpp"
+
+#include <CGAL/Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Spatial_sort_traits_adapter_2.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <CGAL/property_map.h>
+#include <CGAL/spatial_sort.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <utility>
+
+namespace crackle {
+namespace {
+
+enum class Origin : std::uint8_t { seed, image, guard, added };
+
+struct VertexInfo {
+    int index = -1;  // seed (also an image's), or number of the added point
+    Origin origin = Origin::guard;
+    std::uint8_t wall = 0;  // SideBit an image was mirrored across
+};
+
+struct FaceInfo {
+    Point dual;            // circumcentre, where the Voronoi cells of the corners meet
+    int index = -1;        // triangle, or member of a cluster of equal duals
+    bool outside = false;  // beyond a wall on which all of the face's seeds lie
+};
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using VertexBase = CGAL::Triangulation_vertex_base_with_info_2<VertexInfo, Kernel>;
+using FaceBase = CGAL::Triangulation_face_base_with_info_2<FaceInfo, Kernel>;
+using Triangulation =
+    CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>>;
+using CgalPoint = Triangulation::Point;
+using VertexHandle = Triangulation::Vertex_handle;
+using FaceHandle = Triangulation::Face_handle;
+
+constexpr std::array<std::uint8_t, 4> all_sides{side_left, side_right, side_bottom, side_top};
+constexpr double eps = std::numeric_limits<double>::epsilon();
+// Edges shorter than this share of their circumradius are taken for the zero-length edges of co-circular seeds: the
+// rounding of a circumcentre is some eps of the radius, and 1e-10 leaves room for badly shaped triangles.
+constexpr double zero_edge_share = 1e-10;
+// Seeds nearer than this share of the mean spacing have a bisector, and cells, made of rounding errors.
+constexpr double coincidence_share = 1e-9;
+// Distance of the guards from the middle, in diagonals of the domain: none of its points is as far from its nearest
+// seed.
+constexpr double guard_distance = 4.0;
+
+double squared_distance(Point a, Point b) { return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y); }
+
+Point position(VertexHandle v) { return {v->point().x(), v->point().y()}; }
+
+// Relative to one corner, so that the size of the coordinates does not enter before the last addition.
+Point circumcentre(FaceHandle face) {
+    const Point a = position(face->vertex(0)), b = position(face->vertex(1)), c = position(face->vertex(2));
+    const double bx = b.x - a.x, by = b.y - a.y, cx = c.x - a.x, cy = c.y - a.y;
+    const double b2 = bx * bx + by * by, c2 = cx * cx + cy * cy;
+    const double twice = 2.0 * (bx * cy - by * cx);
+    return {a.x + (cy * b2 - by * c2) / twice, a.y + (bx * c2 - cx * b2) / twice};
+}
+
+class Partition {
+  public:
+    Partition(std::span<const Seed> seeds, const Rectangle& domain)
+        : seeds_(seeds), domain_(domain), scale_(coordinate_scale(domain)) {
+        insert_guards();
+        insert_seeds();
+        mirror_where_needed();
+    }
+
+    VoronoiCells cells();
+    Triangles triangles(Boundary boundary);
+
+  private:
+    struct Image {
+        VertexHandle vertex;
+        int seed;
+        std::uint8_t wall;
+    };
+
+    void insert_guards();
+    void insert_seeds();
+    void refuse_coincident(int a, int b) const;
+    void mirror_where_needed();
+    void note_needs(FaceHandle face, std::vector<int>& wanting);
+    void mirror(int seed, std::uint8_t walls, std::vector<int>& touched);
+
+    bool is_seed(VertexHandle v) const { return v->info().origin == Origin::seed; }
+    unsigned walls_beyond(Point p) const;
+    unsigned snapped_walls(FaceHandle face) const;
+    Point dual(FaceHandle face, unsigned snapped) const;
+    Point on_wall(FaceHandle face, std::uint8_t wall) const;
+    void place_duals();
+    bool collect_cells(VoronoiCells& out, bool allow_zero_edges) const;
+    void contract_zero_edges();
+    void cut_at_walls(std::vector<Point>& polygon, std::vector<Point>& scratch) const;
+    double zero_edge(Point dual_point, Point seed) const;
+    bool meets_wall(const Image& image) const;
+    void close_with_flat_faces(std::vector<Point>& points);
+
+    std::span<const Seed> seeds_;
+    Rectangle domain_;
+    double scale_;
+    Triangulation triangulation_;
+    std::vector<VertexHandle> vertex_of_;
+    std::vector<std::uint8_t> settled_;  // by seed: walls it is mirrored across or lies on
+    std::vector<std::uint8_t> lies_on_;  // by seed: walls it lies on
+    std::vector<std::uint8_t> wanted_;   // by seed: walls to be mirrored across in the present round
+    std::vector<Image> images_;
+    std::vector<VertexHandle> guards_;
+};
+
+void Partition::insert_guards() {
+    const double reach = guard_distance * std::hypot(domain_.x2 - domain_.x1, domain_.y2 - domain_.y1);
+    const double x = 0.5 * (domain_.x1 + domain_.x2), y = 0.5 * (domain_.y1 + domain_.y2);
+    for (const auto& [dx, dy] : {std::pair{-reach, 0.0}, {reach, 0.0}, {0.0, -reach}, {0.0, reach}}) {
+        guards_.push_back(triangulation_.insert(CgalPoint(x + dx, y + dy)));
+    }
+}
+
+// Along a space-filling curve, each located from the one before; the seed's number travels in the vertex.
+void Partition::insert_seeds() {
+    const std::size_t count = seeds_.size();
+    std::vector<CgalPoint> places;
+    places.reserve(count);
+    for (const Seed& seed : seeds_) places.emplace_back(seed.x, seed.y);
+    std::vector<std::size_t> order(count);  // CGAL's property map counts by size_t
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto place_of = CGAL::make_property_map(places);
+    CGAL::spatial_sort(order.begin(), order.end(),
+                       CGAL::Spatial_sort_traits_adapter_2<Kernel, decltype(place_of)>(place_of));
+    vertex_of_.resize(count);
+    FaceHandle hint = guards_.back()->face();
+    for (const std::size_t number : order) {
+        const std::size_t before = triangulation_.number_of_vertices();
+        const VertexHandle v = triangulation_.insert(places[number], hint);
+        if (triangulation_.number_of_vertices() == before) refuse_coincident(v->info().index, static_cast<int>(number));
+        v->info() = {static_cast<int>(number), Origin::seed, 0};
+        vertex_of_[number] = v;
+        hint = v->face();
+    }
+    settled_.resize(count);
+    wanted_.assign(count, 0);
+    for (std::size_t k = 0; k < count; ++k) settled_[k] = static_cast<std::uint8_t>(sides_at(seeds_[k], domain_));
+    lies_on_ = settled_;
+}
+
+void Partition::refuse_coincident(int a, int b) const {
+    const auto [first, second] = std::minmax(a, b);
+    const Seed& p = seeds_[static_cast<std::size_t>(first)];
+    const Seed& q = seeds_[static_cast<std::size_t>(second)];
+    throw MeshError(
+        fmt::format("mesh: found seeds {} and {} at the same place (({:.17g}, {:.17g}) and ({:.17g}, {:.17g}), {:.3g} "
+                    "apart), expected distinct seeds; remove one of them",
+                    first, second, p.x, p.y, q.x, q.y, std::sqrt(squared_distance(p, q))),
+        {first, second});
+}
+
+unsigned Partition::walls_beyond(Point p) const {
+    return bit(p.x < domain_.x1, side_left) | bit(p.x > domain_.x2, side_right) | bit(p.y < domain_.y1, side_bottom) |
+           bit(p.y > domain_.y2, side_top);
+}
+
+// Walls on which the face's circumcentre is known to lie: it has an image across the wall, and a seed that is not on
+// it.
+unsigned Partition::snapped_walls(FaceHandle face) const {
+    unsigned images = 0, on_all = ~0U;
+    for (int k = 0; k < 3; ++k) {
+        const VertexInfo& info = face->vertex(k)->info();
+        if (info.origin == Origin::image) images |= info.wall;
+        if (info.origin == Origin::seed) on_all &= lies_on_[static_cast<std::size_t>(info.index)];
+    }
+    return images & ~on_all;
+}
+
+// Where the bisector of the face's corners meets the wall: (p - wall)² + (y - s)² equal for two of them, an image
+// standing for its seed. The pair that is furthest apart along the wall is taken; no difference of nearly equal squares
+// enters.
+Point Partition::on_wall(FaceHandle face, std::uint8_t wall) const {
+    const bool upright = wall == side_left || wall == side_right;
+    const double level = wall == side_left     ? domain_.x1
+                         : wall == side_right  ? domain_.x2
+                         : wall == side_bottom ? domain_.y1
+                                               : domain_.y2;
+    std::array<double, 3> along{}, off{};
+    for (int k = 0; k < 3; ++k) {
+        const VertexInfo& info = face->vertex(k)->info();
+        const bool mirrored = info.origin == Origin::image && info.wall == wall;
+        const Point p = mirrored ? seeds_[static_cast<std::size_t>(info.index)] : position(face->vertex(k));
+        along[static_cast<std::size_t>(k)] = upright ? p.y : p.x;
+        off[static_cast<std::size_t>(k)] = (upright ? p.x : p.y) - level;
+    }
+    std::size_t i = 0, j = 1;
+    if (std::abs(along[1] - along[2]) > std::abs(along[i] - along[j])) i = 1, j = 2;
+    if (std::abs(along[0] - along[2]) > std::abs(along[i] - along[j])) i = 0, j = 2;
+    const double apart = along[j] - along[i];
+    const double place = along[i] + 0.5 * apart + 0.5 * ((off[j] - off[i]) / apart) * (off[j] + off[i]);
+    return upright ? Point{level, place} : Point{place, level};
+}
+
+Point Partition::dual(FaceHandle face, unsigned snapped) const {
+    switch (snapped) {
+        case side_left:
+        case side_right:
+        case side_bottom:
+        case side_top:
+            return on_wall(face, static_cast<std::uint8_t>(snapped));
+        case side_left | side_bottom:
+            return {domain_.x1, domain_.y1};
+        case side_right | side_bottom:
+            return {domain_.x2, domain_.y1};
+        case side_left | side_top:
+            return {domain_.x1, domain_.y2};
+        case side_right | side_top:
+            return {domain_.x2, domain_.y2};
+        default:  // no wall, or opposite walls while images are still missing
+            return circumcentre(face);
+    }
+}
+
+// Adds to wanted_ the walls across which the face's seeds must still be mirrored.
+void Partition::note_needs(FaceHandle face, std::vector<int>& wanting) {
+    unsigned images = 0;
+    bool any_seed = false;
+    for (int k = 0; k < 3; ++k) {
+        const VertexInfo& info = face->vertex(k)->info();
+        if (info.origin == Origin::image) images |= info.wall;
+        any_seed = any_seed || info.origin == Origin::seed;
+    }
+    if (!any_seed) return;
+    const unsigned needs = images | walls_beyond(dual(face, snapped_walls(face)));
+    if (needs == 0) return;
+    for (int k = 0; k < 3; ++k) {
+        const VertexInfo& info = face->vertex(k)->info();
+        if (info.origin != Origin::seed) continue;
+        const auto seed = static_cast<std::size_t>(info.index);
+        const unsigned missing = needs & ~unsigned{settled_[seed]};
+        if (missing == 0) continue;
+        if (wanted_[seed] == 0) wanting.push_back(info.index);
+        wanted_[seed] = static_cast<std::uint8_t>(wanted_[seed] | missing);
+    }
+}
+
+void Partition::mirror(int seed, std::uint8_t walls, std::vector<int>& touched) {
+    const auto number = static_cast<std::size_t>(seed);
+    const Seed s = seeds_[number];
+    for (const std::uint8_t wall : all_sides) {
+        if ((walls & wall) == 0) continue;
+        const Point place = wall == side_left     ? Point{2.0 * domain_.x1 - s.x, s.y}
+                            : wall == side_right  ? Point{2.0 * domain_.x2 - s.x, s.y}
+                            : wall == side_bottom ? Point{s.x, 2.0 * domain_.y1 - s.y}
+                                                  : Point{s.x, 2.0 * domain_.y2 - s.y};
+        const VertexHandle v = triangulation_.insert(CgalPoint(place.x, place.y), vertex_of_[number]->face());
+        v->info() = {seed, Origin::image, wall};
+        images_.push_back({v, seed, wall});
+        auto neighbour = triangulation_.incident_vertices(v);
+        const auto end = neighbour;
+        do {
+            if (!triangulation_.is_infinite(neighbour) && is_seed(neighbour))
+                touched.push_back(neighbour->info().index);
+        } while (++neighbour != end);
+    }
+    settled_[number] = static_cast<std::uint8_t>(settled_[number] | walls);
+    touched.push_back(seed);
+}
+
+void Partition::mirror_where_needed() {
+    const double spacing =
+        std::sqrt((domain_.x2 - domain_.x1) * (domain_.y2 - domain_.y1) / static_cast<double>(seeds_.size()));
+    const double too_close = std::max(64.0 * eps * scale_, coincidence_share * spacing);
+    std::vector<int> wanting, touched;
+    for (const FaceHandle face : triangulation_.finite_face_handles()) {
+        for (int k = 0; k < 3; ++k) {
+            const VertexHandle a = face->vertex(k), b = face->vertex(Triangulation::ccw(k));
+            if (is_seed(a) && is_seed(b) && squared_distance(position(a), position(b)) < too_close * too_close) {
+                refuse_coincident(a->info().index, b->info().index);
+            }
+        }
+        note_needs(face, wanting);
+    }
+    // Only faces around new images and their seeds can have changed.
+    while (!wanting.empty()) {
+        touched.clear();
+        for (const int seed : wanting)
+            mirror(seed, std::exchange(wanted_[static_cast<std::size_t>(seed)], std::uint8_t{0}), touched);
+        wanting.clear();
+        std::sort(touched.begin(), touched.end());
+        touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+        for (const int seed : touched) {
+            auto face = triangulation_.incident_faces(vertex_of_[static_cast<std::size_t>(seed)]);
+            const auto end = face;
+            do note_needs(face, wanting);
+            while (++face != end);
+        }
+    }
+}
+
+void Partition::place_duals() {
+    for (const FaceHandle face : triangulation_.finite_face_handles()) {
+        unsigned on_all = ~0U;
+        bool any_seed = false;
+        for (int k = 0; k < 3; ++k) {
+            const VertexInfo& info = face->vertex(k)->info();
+            if (info.origin != Origin::seed) continue;
+            any_seed = true;
+            on_all &= lies_on_[static_cast<std::size_t>(info.index)];
+        }
+        if (!any_seed) continue;
+        Point p = dual(face, snapped_walls(face));
+        const unsigned beyond = walls_beyond(p);
+        face->info().outside = (beyond & on_all) != 0;
+        if (beyond != 0 && !face->info().outside) {  // by rounding: all its seeds are mirrored there
+            p = {std::clamp(p.x, domain_.x1, domain_.x2), std::clamp(p.y, domain_.y1, domain_.y2)};
+        }
+        face->info().dual = p;
+    }
+}
+
+double Partition::zero_edge(Point dual_point, Point seed) const {
+    const double rounding = 64.0 * eps * scale_;
+    return std::max(rounding * rounding, zero_edge_share * zero_edge_share * squared_distance(dual_point, seed));
+}
+
+// @return false if a cell has a zero-length edge, unless they are allowed.
+bool Partition::collect_cells(VoronoiCells& out, bool allow_zero_edges) const {
+    out.corners.clear();
+    out.corners.reserve(6 * seeds_.size() + 16);
+    out.cells.assign(seeds_.size(), {});
+    std::vector<Point> polygon, scratch;
+    for (const VertexHandle v : triangulation_.finite_vertex_handles()) {
+        if (!is_seed(v)) continue;
+        polygon.clear();
+        bool outside = false;
+        auto face = triangulation_.incident_faces(v);
+        const auto end = face;
+        do {
+            outside = outside || face->info().outside;
+            const Point p = face->info().dual;
+            if (polygon.empty() || p != polygon.back()) polygon.push_back(p);
+        } while (++face != end);
+        while (polygon.size() > 1 && polygon.back() == polygon.front()) polygon.pop_back();
+        if (outside) cut_at_walls(polygon, scratch);
+        for (std::size_t k = 0; !allow_zero_edges && !outside && k < polygon.size(); ++k) {
+            const Point p = polygon[k], q = polygon[k + 1 == polygon.size() ? 0 : k + 1];
+            if (squared_distance(p, q) < zero_edge(p, position(v))) return false;
+        }
+        out.cells[static_cast<std::size_t>(v->info().index)] = {static_cast<std::uint32_t>(out.corners.size()),
+                                                                static_cast<std::uint32_t>(polygon.size())};
+        out.corners.insert(out.corners.end(), polygon.begin(), polygon.end());
+    }
+    return true;
+}
+
+// The cell of a seed on a wall reaches beyond it.
+void Partition::cut_at_walls(std::vector<Point>& polygon, std::vector<Point>& scratch) const {
+    clip(polygon, 1.0, 0.0, domain_.x1, scratch);
+    clip(polygon, -1.0, 0.0, -domain_.x2, scratch);
+    clip(polygon, 0.0, 1.0, domain_.y1, scratch);
+    clip(polygon, 0.0, -1.0, -domain_.y2, scratch);
+    const double rounding = 64.0 * eps * scale_;
+    for (Point& p : polygon) {
+        for (const double x : {domain_.x1, domain_.x2}) p.x = std::abs(p.x - x) <= rounding ? x : p.x;
+        for (const double y : {domain_.y1, domain_.y2}) p.y = std::abs(p.y - y) <= rounding ? y : p.y;
+    }
+    const auto near = [rounding](Point a, Point b) { return squared_distance(a, b) <= rounding * rounding; };
+    polygon.erase(std::unique(polygon.begin(), polygon.end(), near), polygon.end());
+    while (polygon.size() > 1 && near(polygon.front(), polygon.back())) polygon.pop_back();
+}
+
+// Joins circumcentres that differ by rounding alone, for all cells alike, so that the areas still add up.
+void Partition::contract_zero_edges() {
+    std::vector<FaceHandle> members;
+    std::vector<std::size_t> parent;
+    const auto root = [&parent](std::size_t k) {
+        while (parent[k] != k) k = parent[k] = parent[parent[k]];
+        return k;
+    };
+    const auto member = [&](FaceHandle face) {
+        if (face->info().index < 0) {
+            face->info().index = static_cast<int>(members.size());
+            parent.push_back(members.size());
+            members.push_back(face);
+        }
+        return static_cast<std::size_t>(face->info().index);
+    };
+    for (auto edge = triangulation_.finite_edges_begin(); edge != triangulation_.finite_edges_end(); ++edge) {
+        const FaceHandle f = edge->first, g = f->neighbor(edge->second);
+        const VertexHandle a = f->vertex(Triangulation::ccw(edge->second)),
+                           b = f->vertex(Triangulation::cw(edge->second));
+        if (!is_seed(a) && !is_seed(b)) continue;
+        if (f->info().outside || g->info().outside) continue;
+        const Point p = f->info().dual, q = g->info().dual;
+        const double zero = 4.0 * zero_edge(p, position(is_seed(a) ? a : b));
+        if (squared_distance(p, q) < zero) parent[root(member(f))] = root(member(g));
+    }
+    // A point on walls stands for those beside it; the order decides among equals, whatever the numbering of faces.
+    const auto walls = [this](Point p) {
+        return (p.x == domain_.x1 || p.x == domain_.x2 ? 1 : 0) + (p.y == domain_.y1 || p.y == domain_.y2 ? 1 : 0);
+    };
+    const auto stands_before = [&walls](Point p, Point q) {
+        if (walls(p) != walls(q)) return walls(p) > walls(q);
+        return p.x != q.x ? p.x < q.x : p.y < q.y;
+    };
+    std::vector<Point> best(members.size());
+    for (std::size_t k = 0; k < members.size(); ++k) best[k] = members[k]->info().dual;
+    for (std::size_t k = 0; k < members.size(); ++k) {
+        Point& chosen = best[root(k)];
+        if (stands_before(members[k]->info().dual, chosen)) chosen = members[k]->info().dual;
+    }
+    for (std::size_t k = 0; k < members.size(); ++k) {
+        members[k]->info().dual = best[root(k)];
+        members[k]->info().index = -1;
+    }
+}
+
+VoronoiCells Partition::cells() {
+    place_duals();
+    VoronoiCells out;
+    if (!collect_cells(out, false)) {
+        contract_zero_edges();
+        collect_cells(out, true);
+    }
+    return out;
+}
+
+// The cell of the image's seed has an edge on the wall, not just a co-circular touch.
+bool Partition::meets_wall(const Image& image) const {
+    FaceHandle face;
+    int k = 0;
+    const VertexHandle v = vertex_of_[static_cast<std::size_t>(image.seed)];
+    if (!triangulation_.is_edge(v, image.vertex, face, k)) return false;
+    const FaceHandle other = face->neighbor(k);
+    const Point p = dual(face, snapped_walls(face)), q = dual(other, snapped_walls(other));
+    return squared_distance(p, q) > zero_edge(p, position(v));
+}
+
+void Partition::close_with_flat_faces(std::vector<Point>& points) {
+    struct Foot {
+        Point place;
+        VertexHandle beside;
+    };
+    std::vector<Foot> feet;
+    for (const Image& image : images_) {
+        if (!meets_wall(image)) continue;
+        Point foot = seeds_[static_cast<std::size_t>(image.seed)];
+        if (image.wall == side_left) foot.x = domain_.x1;
+        if (image.wall == side_right) foot.x = domain_.x2;
+        if (image.wall == side_bottom) foot.y = domain_.y1;
+        if (image.wall == side_top) foot.y = domain_.y2;
+        feet.push_back({foot, vertex_of_[static_cast<std::size_t>(image.seed)]});
+    }
+    for (const Image& image : images_) triangulation_.remove(image.vertex);
+    images_.clear();
+    const auto add = [&](Point p, FaceHandle hint) {
+        const VertexHandle v = triangulation_.insert(CgalPoint(p.x, p.y), hint);
+        if (v->info().origin != Origin::guard) return;  // a seed, or another foot, is there already
+        v->info() = {static_cast<int>(points.size()), Origin::added, 0};
+        points.push_back(p);
+    };
+    for (const double x : {domain_.x1, domain_.x2}) {
+        for (const double y : {domain_.y1, domain_.y2}) add({x, y}, guards_.front()->face());
+    }
+    for (const VertexHandle guard : guards_) triangulation_.remove(guard);
+    for (const Foot& foot : feet) add(foot.place, foot.beside->face());
+}
+
+Triangles Partition::triangles(Boundary boundary) {
+    Triangles out;
+    out.points.assign(seeds_.begin(), seeds_.end());
+    if (boundary == Boundary::domain) close_with_flat_faces(out.points);
+    const auto kept = [](VertexHandle v) {
+        return v->info().origin == Origin::seed || v->info().origin == Origin::added;
+    };
+    std::vector<FaceHandle> faces;
+    faces.reserve(2 * out.points.size());
+    for (const FaceHandle face : triangulation_.finite_face_handles()) {
+        if (!kept(face->vertex(0)) || !kept(face->vertex(1)) || !kept(face->vertex(2))) continue;
+        face->info().index = static_cast<int>(faces.size());
+        faces.push_back(face);
+    }
+    out.corners.reserve(faces.size());
+    out.neighbours.reserve(faces.size());
+    for (const FaceHandle face : faces) {
+        out.corners.push_back(
+            {face->vertex(0)->info().index, face->vertex(1)->info().index, face->vertex(2)->info().index});
+        out.neighbours.push_back(
+            {face->neighbor(0)->info().index, face->neighbor(1)->info().index, face->neighbor(2)->info().index});
+    }
+    return out;
+}
+
+}  // namespace
+
+VoronoiCells voronoi_cells(std::span<const Seed> seeds, const Rectangle& domain) {
+    return Partition(seeds, domain).cells();
+}
+
+Triangles delaunay_triangles(std::span<const Seed> seeds, const Rectangle& domain, Boundary boundary) {
+    return Partition(seeds, domain).triangles(boundary);
+}
+
+}  // namespace crackle

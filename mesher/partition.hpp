@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Partitions of a rectangle before the inset. The one place that knows CGAL is partition.cpp.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "mesher/mesher.hpp"
+
+namespace crackle {
+
+/// Voronoi cells of the domain; neighbours share their corners bit for bit (a seed on the boundary: to rounding).
+struct VoronoiCells {
+    struct Range {
+        std::uint32_t first = 0, count = 0;  // into corners, counter-clockwise
+    };
+    std::vector<Point> corners;
+    std::vector<Range> cells;  // by seed
+};
+
+/// Delaunay triangles, counter-clockwise.
+struct Triangles {
+    std::vector<Point> points;                   // the seeds, then the points added on the domain's faces
+    std::vector<std::array<int, 3>> corners;     // into points
+    std::vector<std::array<int, 3>> neighbours;  // across the edge opposite to corner k; -1: none
+};
+
+/// @throws MeshError on coincident seeds. The seeds are finite and inside the domain.
+VoronoiCells voronoi_cells(std::span<const Seed> seeds, const Rectangle& domain);
+
+/// @throws MeshError on coincident seeds. The seeds are finite and inside the domain.
+Triangles delaunay_triangles(std::span<const Seed> seeds, const Rectangle& domain, Boundary boundary);
+
+/// Keeps the part of a convex polygon for which nx·x + ny·y >= offset. @param scratch working memory
+void clip(std::vector<Point>& polygon, double nx, double ny, double offset, std::vector<Point>& scratch);
+
+/// A side's bit, or none.
+inline unsigned bit(bool set, SideBit side) { return set ? unsigned{side} : 0U; }
+
+/// Bits of the sides on which a point lies.
+unsigned sides_at(Point p, const Rectangle& domain);
+
+/// Bits of the sides on which the polygon has an edge.
+std::uint8_t sides_of(std::span<const Point> polygon, const Rectangle& domain);
+
+/// Largest coordinate of the domain: rounding errors of positions are a few eps of it.
+double coordinate_scale(const Rectangle& domain);
+
+}  // namespace crackle
