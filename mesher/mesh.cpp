@@ -91,14 +91,28 @@ double slenderness(std::span<const Point> outline) {
     return 2.0 * polygon_area(outline) / perimeter;
 }
 
-void add_cell(Mesh& mesh, Cell cell, std::span<const Point> before, std::span<const Point> after,
+// Neumaier's compensated sum: a million equal areas would lose the last five digits otherwise.
+class Sum {
+  public:
+    void add(double value) {
+        const double next = total_ + value;
+        lost_ += std::abs(total_) >= std::abs(value) ? (total_ - next) + value : (value - next) + total_;
+        total_ = next;
+    }
+    double value() const { return total_ + lost_; }
+
+  private:
+    double total_ = 0.0, lost_ = 0.0;
+};
+
+void add_cell(Mesh& mesh, Sum& area, Cell cell, std::span<const Point> before, std::span<const Point> after,
               const Rectangle& domain) {
     cell.first_corner = static_cast<std::uint32_t>(mesh.corners.size());
     cell.corner_count = static_cast<std::uint32_t>(after.size());
     cell.sides = sides_of(before, domain);
     mesh.corners.insert(mesh.corners.end(), after.begin(), after.end());
     mesh.cells.push_back(cell);
-    mesh.report.area_before_inset += polygon_area(before);
+    area.add(polygon_area(before));
 }
 
 // One inset pass over the cells. @return seeds whose cells are destroyed.
@@ -108,6 +122,7 @@ std::vector<int> inset_voronoi(const VoronoiCells& voronoi, const std::vector<in
     mesh = {};
     mesh.corners.reserve(voronoi.corners.size());
     mesh.cells.reserve(count);
+    Sum area;
     std::vector<int> destroyed;
     for (std::size_t k = 0; k < count; ++k) {
         const auto& range = voronoi.cells[k];
@@ -119,8 +134,9 @@ std::vector<int> inset_voronoi(const VoronoiCells& voronoi, const std::vector<in
         }
         Cell cell;
         cell.seed = seed_of[k];
-        add_cell(mesh, cell, before, after, domain);
+        add_cell(mesh, area, cell, before, after, domain);
     }
+    mesh.report.area_before_inset = area.value();
     return destroyed;
 }
 
@@ -208,6 +224,7 @@ Mesh mesh_delaunay(std::span<const Seed> seeds, const Rectangle& domain, const M
         }
         return cell;
     };
+    Sum area;
     std::vector<int> destroyed;
     for (std::size_t t = 0; t < triangles.corners.size(); ++t) {
         const auto before = outline(t);
@@ -216,8 +233,9 @@ Mesh mesh_delaunay(std::span<const Seed> seeds, const Rectangle& domain, const M
             destroyed.push_back(static_cast<int>(t));
             continue;
         }
-        add_cell(mesh, cell_of(t), before, after, domain);
+        add_cell(mesh, area, cell_of(t), before, after, domain);
     }
+    mesh.report.area_before_inset = area.value();
     if (destroyed.empty()) return mesh;
     if (!request.merge_destroyed) {
         const int worst = *std::min_element(destroyed.begin(), destroyed.end(), [&](int a, int b) {
@@ -237,6 +255,7 @@ Mesh mesh_delaunay(std::span<const Seed> seeds, const Rectangle& domain, const M
     }
     const JoinedTriangles joined = join_destroyed(triangles, destroyed, depth, scale);
     mesh = {};
+    area = {};
     auto next = joined.outlines.begin();
     std::vector<Point> before;
     for (std::size_t t = 0; t < triangles.corners.size(); ++t) {
@@ -249,8 +268,9 @@ Mesh mesh_delaunay(std::span<const Seed> seeds, const Rectangle& domain, const M
         } else {
             continue;
         }
-        add_cell(mesh, cell_of(t), before, inset.of(before), domain);
+        add_cell(mesh, area, cell_of(t), before, inset.of(before), domain);
     }
+    mesh.report.area_before_inset = area.value();
     mesh.report.cells_destroyed = static_cast<std::int64_t>(destroyed.size());
     return mesh;
 }
@@ -259,6 +279,7 @@ void measure(Mesh& mesh) {
     MeshReport& report = mesh.report;
     report.cells = static_cast<std::int64_t>(mesh.cells.size());
     report.segments = static_cast<std::int64_t>(mesh.corners.size());
+    Sum area;
     double shortest = std::numeric_limits<double>::infinity();
     // Angles are compared by a measure that grows with them and needs no arc function: sin up to 90 degrees, 2 - sin
     // beyond.
@@ -278,11 +299,12 @@ void measure(Mesh& mesh) {
             in = out;
             in_length = out_length;
         }
-        report.area_after_inset += polygon_area(corners);
+        area.add(polygon_area(corners));
     }
     const double quarter = std::asin(std::clamp(smallest <= 1.0 ? smallest : 2.0 - smallest, -1.0, 1.0));
     report.smallest_angle = (smallest <= 1.0 ? quarter : std::numbers::pi - quarter) * 180.0 / std::numbers::pi;
     report.shortest_edge = shortest;
+    report.area_after_inset = area.value();
 }
 
 }  // namespace

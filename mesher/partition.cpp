@@ -25,7 +25,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 namespace crackle {
@@ -140,22 +139,20 @@ void Partition::insert_guards() {
 // Along a space-filling curve, each located from the one before; the seed's number travels in the vertex.
 void Partition::insert_seeds() {
     const std::size_t count = seeds_.size();
-    std::vector<CgalPoint> places;
-    places.reserve(count);
-    for (const Seed& seed : seeds_) places.emplace_back(seed.x, seed.y);
-    std::vector<std::size_t> order(count);  // CGAL's property map counts by size_t
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    const auto place_of = CGAL::make_property_map(places);
-    CGAL::spatial_sort(order.begin(), order.end(),
-                       CGAL::Spatial_sort_traits_adapter_2<Kernel, decltype(place_of)>(place_of));
+    using Placed = std::pair<CgalPoint, int>;  // sorted itself: sorting numbers of places would wait for memory
+    std::vector<Placed> order;
+    order.reserve(count);
+    for (const Seed& seed : seeds_) order.emplace_back(CgalPoint(seed.x, seed.y), static_cast<int>(order.size()));
+    using PlaceOf = CGAL::First_of_pair_property_map<Placed>;
+    CGAL::spatial_sort(order.begin(), order.end(), CGAL::Spatial_sort_traits_adapter_2<Kernel, PlaceOf>());
     vertex_of_.resize(count);
     FaceHandle hint = guards_.back()->face();
-    for (const std::size_t number : order) {
+    for (const auto& [place, number] : order) {
         const std::size_t before = triangulation_.number_of_vertices();
-        const VertexHandle v = triangulation_.insert(places[number], hint);
-        if (triangulation_.number_of_vertices() == before) refuse_coincident(v->info().index, static_cast<int>(number));
-        v->info() = {static_cast<int>(number), Origin::seed, 0};
-        vertex_of_[number] = v;
+        const VertexHandle v = triangulation_.insert(place, hint);
+        if (triangulation_.number_of_vertices() == before) refuse_coincident(v->info().index, number);
+        v->info() = {number, Origin::seed, 0};
+        vertex_of_[static_cast<std::size_t>(number)] = v;
         hint = v->face();
     }
     settled_.resize(count);
