@@ -114,7 +114,7 @@ function peakLabel(test: TestData, stress: number): string {
     return quantity(stress, 'N/m') + (test.failed ? '' : ', peak so far');
 }
 
-function stressSeries(member: Member, scale: Scale, theme: Theme) {
+function stressSeries(member: Member, range: number, scale: Scale, theme: Theme) {
     const colour = theme.series[member.colour % theme.series.length]!;
     const peak = peakOf(member.test);
     const curve = {
@@ -128,9 +128,9 @@ function stressSeries(member: Member, scale: Scale, theme: Theme) {
         type: 'scatter', name: member.shortLabel, id: `peak ${member.label}`, xAxisIndex: 0, yAxisIndex: 0,
         data: [[peak.strain / strainFactor, peak.stress / scale.factor]],
         symbol: member.test.failed ? 'circle' : 'diamond', symbolSize: member.test.failed ? 7 : 10,
-        itemStyle: {color: member.test.failed ? colour : theme.background, borderColor: colour, borderWidth: 1.5},
+        itemStyle: {color: member.test.failed ? colour : theme.background, borderColor: colour, borderWidth: 1.5, opacity: 1},
         label: {
-            show: true, position: 'top', distance: 5, formatter: peakLabel(member.test, peak.stress), color: colour,
+            show: true, position: peak.strain > 0.85 * range ? 'left' : 'top', distance: 6, formatter: peakLabel(member.test, peak.stress), color: colour,
             fontFamily, fontSize: 11.5, textBorderColor: theme.background, textBorderWidth: 3,
         },
         labelLayout: {moveOverlap: 'shiftY'},
@@ -179,7 +179,7 @@ export function panelOption(panel: Panel, theme: Theme) {
         axisPointer: {show: true, type: 'line', snap: false, label: {show: false}, lineStyle: {color: theme.muted, type: 'solid', width: 1}},
     }));
     const yAxis: object[] = [{
-        type: 'value', gridIndex: 0, axisLine, axisTick, splitLine: {lineStyle: {color: theme.grid}}, axisLabel: text, splitNumber: 6,
+        type: 'value', gridIndex: 0, axisLine, axisTick, splitLine: {lineStyle: {color: theme.grid}}, axisLabel: text, splitNumber: 6, boundaryGap: [0, '7%'],
         name: `Axial stress [${scale.unit}]`, nameLocation: 'middle', nameGap: 44, nameTextStyle: {...text, fontSize: 13},
         axisPointer: {show: false},
     }];
@@ -207,7 +207,7 @@ export function panelOption(panel: Panel, theme: Theme) {
             {text: panel.title, left, top: 8, padding: 0, textStyle: {...text, fontSize: 15, fontWeight: 600}},
             ...titles,
             {
-                text: `bars: bonds broken per ${strainText(width)} of strain   line: so far (right axis)`,
+                text: `bars: per ${strainText(width, 1)} of strain, line: so far`,
                 right, top: stripTop(1) - 19, padding: 0, textAlign: 'auto', textStyle: {...small, fontWeight: 400},
             },
         ],
@@ -233,7 +233,7 @@ export function panelOption(panel: Panel, theme: Theme) {
         },
         dataZoom: [{type: 'inside', xAxisIndex: 'all', filterMode: 'none', zoomOnMouseWheel: 'shift', moveOnMouseMove: true}],
         series: [
-            ...members.flatMap((member) => stressSeries(member, scale, theme)),
+            ...members.flatMap((member) => stressSeries(member, range, scale, theme)),
             ...prepared.flatMap((one, index) => stripSeries(one, index + 1, theme)),
         ],
     };

@@ -11,7 +11,7 @@ export interface Histogram {
 }
 
 /// 1, 2 or 5 times a power of ten: the interval that cuts `range` into about `target` pieces.
-export function intervalWidth(range: number, target = 60): number {
+export function intervalWidth(range: number, target = 80): number {
     if (!(range > 0)) return 1e-6;
     const raw = range / target;
     const power = 10 ** Math.floor(Math.log10(raw));

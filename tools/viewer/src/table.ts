@@ -46,6 +46,10 @@ function percent(name: string, read: Read, note?: string): Row {
     return {name, ...(note ? {note} : {}), cells: (tests) => ({unit: '%', values: tests.map(read).map((value) => (value === undefined ? undefined : significant(value * 100, 2)))})};
 }
 
+function millions(name: string, read: Read): Row {
+    return {name, cells: (tests) => ({unit: '10⁶/s', values: tests.map(read).map((value) => (value === undefined ? undefined : significant(value / 1e6)))})};
+}
+
 function words(name: string, read: (test: TestData) => unknown): Row {
     return {name, cells: (tests) => ({unit: '', values: tests.map(read).map((value) => (value === undefined || value === null ? undefined : String(value)))})};
 }
@@ -87,7 +91,7 @@ const groups: readonly {title: string; rows: readonly Row[]}[] = [
         percent('Energy closing error', key('energy_closing_error')),
         percent('Platens out of balance', key('platen_out_of_balance'), 'difference of the two platens’ stresses: loading-rate error'),
         measured('Wall time', 's', key('wall_seconds')),
-        measured('Particle-steps per second', '1/s', key('particle_steps_per_second')),
+        millions('Particle-steps per second', key('particle_steps_per_second')),
         words('Seed', (test) => test.summary['seed']),
     ]},
 ];
@@ -115,7 +119,7 @@ export function summaryTable(tests: Styled[]): HTMLElement {
                     class: [firstOfKind(data, index), !data[index]!.failed && /^(Peak stress|Strain at peak|Failed)$/.test(row.name) ? 'warning' : ''].join(' ').trim(),
                 }, value ?? missing)))))];
     });
-    return element('div', {class: 'scroll'}, element('table', {class: 'summary'}, head, ...body));
+    return element('div', {class: 'scroll'}, element('table', {class: columns.length < 4 ? 'summary narrow' : 'summary'}, head, ...body));
 }
 
 function firstOfKind(data: TestData[], index: number): string {

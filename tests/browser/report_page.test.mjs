@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Reports of made-up results, opened in headless Chromium: what the page shows is what the files say.
+//   CRACKLE_PROGRAM, SAMPLE_RESULTS: the programs; CHROMIUM: the browser
+import assert from 'node:assert/strict';
+import {execFileSync} from 'node:child_process';
+import {mkdtempSync, readFileSync, rmSync} from 'node:fs';
+import {tmpdir} from 'node:os';
+import {join} from 'node:path';
+import {after, before, test} from 'node:test';
+import {pathToFileURL} from 'node:url';
+
+import {chromium} from 'playwright-core';
+
+import {brokenPairs, results, stressAt} from './results.mjs';
+
+const flags = ['--no-sandbox', '--disable-gpu', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'];
+const sixFolders = ['tension', 'compression'].flatMap((kind) => ['circles', 'delaunay', 'voronoi'].map((specimen) => `${specimen}-${kind}`));
+
+let root, browser;
+
+before(async () => {
+    root = mkdtempSync(join(tmpdir(), 'crackle-browser-'));
+    execFileSync(process.env.SAMPLE_RESULTS, [root]);
+    report(sixFolders, 'six.html');
+    report(['stopped'], 'stopped.html');
+    report(['markup', 'stopped'], 'markup.html');
+    report(['markup'], 'markup-title.html');
+    browser = await chromium.launch({executablePath: process.env.CHROMIUM, args: flags});
+});
+
+after(async () => {
+    await browser?.close();
+    if (root) rmSync(root, {recursive: true, force: true});
+});
+
+function report(folders, page) {
+    execFileSync(process.env.CRACKLE_PROGRAM, ['report', ...folders.map((folder) => join(root, folder)), '-o', join(root, page)]);
+}
+
+/// The opened page, and what it complained of or asked the network for.
+async function open(file, options = {}) {
+    const context = await browser.newContext({viewport: {width: 1280, height: 800}, ...options});
+    const page = await context.newPage();
+    const complaints = [], requests = [];
+    page.on('console', (message) => { if (['error', 'warning'].includes(message.type())) complaints.push(message.text()); });
+    page.on('pageerror', (error) => complaints.push(String(error)));
+    page.on('request', (request) => { if (!/^(data|blob):/.test(request.url())) requests.push(request.url()); });
+    const address = pathToFileURL(join(root, file)).href;
+    await page.goto(address);
+    await page.waitForSelector('html[data-ready="true"]', {timeout: 30000});
+    return {page, complaints, requests, address, close: () => context.close()};
+}
+
+/// Heights of all shapes of one fill in a panel, px.
+const filledHeights = (panel, fill) => panel.locator(`path[fill="${fill}"]`).evaluateAll((shapes) => shapes.map((shape) => shape.getBBox().height));
+
+test('opens without a console error, and nothing is asked of the network', async () => {
+    const {page, complaints, requests, address, close} = await open('six.html');
+    for (const view of ['specimen', 'test', 'kind']) await page.click(`button[data-value="${view}"]`);
+    for (const factor of ['50', '1']) await page.click(`button[data-value="${factor}"]`);
+    await page.click('button.theme');
+    assert.deepEqual(complaints, []);
+    assert.deepEqual(requests, [address]);
+    await close();
+});
+
+test('two panels, tension and compression, each with three curves that rise to the peaks of the summaries', async () => {
+    const {page, close} = await open('six.html');
+    assert.deepEqual(await page.locator('[data-panel]').evaluateAll((panels) => panels.map((panel) => panel.dataset.panel)), ['Tension', 'Compression']);
+    for (const kind of ['tension', 'compression']) {
+        const panel = page.locator(`[data-panel="${kind === 'tension' ? 'Tension' : 'Compression'}"]`);
+        const text = await panel.textContent();
+        const heights = await panel.locator('path[stroke-width="1.6"]').evaluateAll((curves) => curves.map((curve) => curve.getBBox().height));
+        assert.equal(heights.length, 3, `${kind}: expected 3 stress curves, got ${heights.length}`);
+        assert.equal(await panel.locator('path[stroke-width="1.3"]').count(), 3, `${kind}: lines of the breaks so far`);
+        const peaks = ['circles', 'delaunay', 'voronoi'].map((specimen) => results(join(root, `${specimen}-${kind}`)).summary.peak_stress);
+        peaks.forEach((peak, index) => {
+            const shown = (peak / 1000).toPrecision(3);
+            assert.match(text, new RegExp(`${shown.replace('.', '\\.')}\\s?kN/m`), `${kind}: peak ${shown} kN/m is not shown`);
+            const expected = peak / peaks[0], got = heights[index] / heights[0];
+            console.log(`  ${kind}: height over that of the circles' curve: expected ${expected.toFixed(3)}, got ${got.toFixed(3)}`);
+            assert.ok(Math.abs(got - expected) < 0.02 * expected, `${kind}: curve ${index}: expected height ${expected}, got ${got}`);
+        });
+        assert.ok(Math.max(...heights) > 200, `the strongest curve should fill the panel, got ${Math.max(...heights)} px`);
+    }
+    await close();
+});
+
+test('bars of bond breaks add up to the events, mode by mode', async () => {
+    const {page, close} = await open('six.html', {colorScheme: 'light'});
+    await page.click('button[data-value="test"]');
+    for (const folder of sixFolders) {
+        const {events} = results(join(root, folder));
+        const shear = events.filter((event) => event.mode === 'shear').length;
+        const [specimen, kind] = folder.split('-');
+        const panel = page.locator(`[data-panel="${specimen[0].toUpperCase()}${specimen.slice(1)}, ${kind}"]`);
+        const sum = (values) => values.reduce((total, value) => total + value, 0);
+        const drawn = {tension: sum(await filledHeights(panel, '#0072b2')), shear: sum(await filledHeights(panel, '#d55e00'))};
+        const expected = shear / (events.length - shear), got = drawn.shear / drawn.tension;
+        console.log(`  ${folder}: shear to tension bars: expected ${expected.toFixed(4)}, got ${got.toFixed(4)}`);
+        assert.ok(Math.abs(got - expected) < 0.01 * expected, `${folder}: shear to tension bars: expected ${expected}, got ${got}`);
+        assert.ok((await panel.textContent()).includes(`${events.length} breaks`), `${folder}: expected ${events.length} breaks`);
+    }
+    await close();
+});
+
+test('each specimen stands at start, peak and end with all its particles, its platens and its broken bonds', async () => {
+    const {page, close} = await open('six.html');
+    for (const folder of sixFolders) {
+        const {summary, curve, events} = results(join(root, folder));
+        const drawings = page.locator(`article[data-test="${folder}"] svg`);
+        assert.deepEqual(await drawings.evaluateAll((all) => all.map((one) => one.dataset.role)), ['start', 'peak', 'end']);
+        const times = [0, summary.peak_strain / 0.01, curve.at(-1).time];
+        for (const [index, time] of times.entries()) {
+            const drawn = await drawings.nth(index).evaluate((svg) => Object.fromEntries(
+                [...svg.querySelectorAll('path[data-count]')].map((path) => [path.getAttribute('class'), Number(path.dataset.count)])));
+            assert.equal(drawn.grains, summary.particles, `${folder}: particles`);
+            assert.equal(drawn.platens, 2, `${folder}: platens`);
+            const faces = drawn.tension + drawn.shear + drawn['tension-part'] + drawn['shear-part'];
+            assert.equal(faces, 2 * brokenPairs(events, time * (1 + 1e-12)), `${folder} at ${time} s: faces of broken interfaces`);
+        }
+        const caption = await page.locator(`article[data-test="${folder}"] figcaption`).last().textContent();
+        assert.ok(caption.includes(`${events.length} broken`), `${folder}: expected ${events.length} broken, got '${caption}'`);
+    }
+    await close();
+});
+
+test('the cursor reads the stress off the curve', async () => {
+    const {page, close} = await open('six.html');
+    const panel = page.locator('[data-panel="Tension"] .panel');
+    await panel.scrollIntoViewIfNeeded();
+    const box = await panel.boundingBox();
+    await page.mouse.move(box.x + 200, box.y + 180);
+    await page.mouse.move(box.x + 204, box.y + 180);
+    const cursor = page.locator('.cursor').first();
+    await cursor.waitFor({state: 'visible', timeout: 5000});
+    const strain = 1e-3 * Number((await cursor.locator('div').first().textContent()).match(/strain ([\d.]+)×10⁻³/)[1]);
+    const row = await cursor.locator('tr', {hasText: 'Voronoi'}).locator('td').first().textContent();
+    const [, number, prefix] = row.match(/([\d.]+)\s?(k?)N\/m/);
+    const got = Number(number) * (prefix ? 1000 : 1);
+    const expected = stressAt(results(join(root, 'voronoi-tension')).curve, strain);
+    console.log(`  stress at strain ${strain}: expected ${expected.toFixed(1)}, got ${got}`);
+    assert.ok(Math.abs(got - expected) < 0.02 * expected, `stress at strain ${strain}: expected ${expected}, got ${got}`);
+    await close();
+});
+
+test('the table states the summaries in one unit a row', async () => {
+    const {page, close} = await open('six.html');
+    const cells = async (name) => page.locator('table.summary tr', {has: page.locator(`th:text-is("${name}")`)}).locator('td').allTextContents();
+    const [unit, ...peaks] = await cells('Peak stress');
+    assert.equal(unit, 'kN/m');
+    assert.deepEqual(peaks, sixFolders.map((folder) => (results(join(root, folder)).summary.peak_stress / 1000).toPrecision(3)));
+    assert.deepEqual((await cells('Failed')).slice(1), sixFolders.map(() => 'yes'));
+    assert.deepEqual((await cells('Young’s modulus E')).slice(0, 3), ['MN/m', '5.10', '16.0']);
+    await close();
+});
+
+test('a test that has not failed says so, beside the curve, in the table and by its drawings', async () => {
+    const {page, close} = await open('stopped.html');
+    assert.match(await page.locator('.notice.warning').textContent(), /^Not failed: Voronoi, compression\. .*peak so far/);
+    assert.match(await page.locator('[data-panel]').textContent(), /peak so far/);
+    assert.match(await page.locator('table.summary').textContent(), /no: peak so far/);
+    assert.match(await page.locator('article .warning').textContent(), /not failed/);
+    await close();
+});
+
+test('markup in a title stays text', async () => {
+    for (const file of ['markup.html', 'markup-title.html']) {
+        const {page, complaints, close} = await open(file);
+        assert.deepEqual(complaints, []);
+        assert.notEqual(await page.title(), 'broken out');
+        assert.equal(await page.locator('b:text-is("bold")').count(), 0);
+        if (file === 'markup-title.html') {
+            assert.equal(await page.locator('h1').textContent(), results(join(root, 'markup')).summary.title);
+        }
+        await close();
+    }
+});
+
+test('light and dark, laptop and tablet width: readable, nothing runs off the side', async () => {
+    const {page, close} = await open('six.html');
+    for (const colorScheme of ['light', 'dark']) {
+        await page.emulateMedia({colorScheme});
+        for (const width of [1440, 1024, 768]) {
+            await page.setViewportSize({width, height: 800});
+            const overflow = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+            assert.ok(overflow <= 0, `${colorScheme}, ${width} px: runs ${overflow} px off the side`);
+        }
+        const [paper, ink] = await page.evaluate(() => {
+            const style = getComputedStyle(document.body);
+            return [style.backgroundColor, style.color].map((colour) => colour.match(/\d+/g).map(Number).reduce((a, b) => a + b));
+        });
+        assert.ok(colorScheme === 'light' ? paper - ink > 400 : ink - paper > 400, `${colorScheme}: paper ${paper}, ink ${ink}`);
+    }
+    await close();
+});
+
+test('the page is one file that names no other place to fetch from', () => {
+    const page = readFileSync(join(root, 'six.html'), 'utf8');
+    assert.doesNotMatch(page, /<(script|img|iframe|link)[^>]+(src|href)\s*=\s*["']?(https?:)?\/\//i);
+    assert.match(page, /Content-Security-Policy" content="default-src 'none'/);
+});

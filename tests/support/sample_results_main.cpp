@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// sample_results ROOT: six made-up folders of results, one that has not failed and one whose texts try to be markup.
+#include <iostream>
+
+#include "tests/support/sample_results.hpp"
+
+int main(int argc, char** argv) {
+    using namespace crackle::testing;
+    if (argc != 2) {
+        std::cerr << "usage: sample_results ROOT\n";
+        return 2;
+    }
+    const std::filesystem::path root = argv[1];
+    write_six_sample_results(root);
+    SampleTest unfinished;
+    unfinished.failed = false;
+    unfinished.specimen = "voronoi";
+    unfinished.title = "Stopped early";
+    write_sample_results(root / "stopped", unfinished);
+    SampleTest markup;
+    markup.title = "</script><script>document.title='broken out'</script> <b>bold</b> & \"quoted\"";
+    write_sample_results(root / "markup", markup);
+    return 0;
+}
