@@ -18,6 +18,7 @@ struct Command {
 };
 
 int run_deck(const Arguments& arguments);
+int test(const Arguments& arguments);
 int report(const Arguments& arguments);
 
 // Exit codes of the program.

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A case: everything one virtual test needs to know, read from one TOML file.
+//
+// Every parameter is declared once, in case_parameters.cpp: table, key, unit, default, range, sentence. The reader, the
+// error texts, `crackle test --keys` and the resolved case that a test leaves beside its results all come from that
+// declaration. A case may begin with include = "other.toml": the other file's values hold wherever the case is silent,
+// so that several tests share one specimen.
+//
+// Units: any consistent set, SI in what we ship. Strictly 2D: stiffnesses, stresses and moduli in N/m.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <iosfwd>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace crackle {
+
+/// One virtual test as the user wrote it, defaults filled in. Units and ranges: case_parameters.cpp.
+struct TestCase {
+    std::string title;
+
+    struct Particles {
+        std::optional<std::string> file;  ///< as written; resolve_path() leads to it
+    } particles;
+
+    struct Packing {
+        std::optional<double> width, height;    // m
+        std::optional<std::int64_t> count;      // circles; with height_to_width in place of width and height
+        std::optional<double> height_to_width;  // -
+        std::string sizes = "uniform";
+        std::optional<double> radius_min, radius_max;               // m
+        std::optional<double> radius_median, radius_log_deviation;  // m, -
+        std::optional<std::string> sieve;                           // CSV file
+        std::optional<double> mean_overlap;                         // m
+        std::optional<double> void_ratio;                           // -
+        std::int64_t seed = 1;
+    } packing;
+
+    struct Mesh {
+        std::optional<std::string> kind;
+        std::optional<double> thick;  // m
+        std::optional<double> inset;  // m
+        std::string boundary = "domain";
+        bool merge_destroyed = false;
+    } mesh;
+
+    struct MaterialKeys {
+        std::optional<double> density;           // kg/m2
+        std::optional<double> normal_stiffness;  // N/m
+        std::optional<double> shear_stiffness;   // N/m
+        std::optional<double> friction_angle;    // degrees
+        std::optional<double> damping_ratio;     // -
+        std::optional<double> normal_damping;    // N s/m
+        std::optional<double> shear_damping;     // N s/m
+    } material;
+
+    struct Bond {
+        std::optional<double> thick;  // m
+    } bond;
+
+    struct Loading {
+        std::string kind;  // "compression" or "tension"
+        double axial_strain_rate = 0.0;
+        double max_axial_strain = 0.0;
+        double stop_at_share_of_peak = 0.0;
+        std::string platens;                          // "bonded" or "frictional"
+        std::optional<double> platen_friction_angle;  // degrees
+    } loading;
+
+    struct Numerics {
+        std::optional<double> time_step;  // s
+        double safety_factor = 0.0;
+        std::int64_t threads = 1;
+        std::string contact_law;
+        bool intact = false;
+        bool allow_unstable = false;
+    } numerics;
+
+    struct Output {
+        std::int64_t curve_rows = 0;
+        std::int64_t frames = 0;
+        double checkpoint_interval = 0.0;     // s, wall clock
+        double out_of_plane_thickness = 0.0;  // m
+    } output;
+
+    std::filesystem::path source;                 ///< the case file
+    std::map<std::string, std::string> position;  ///< "table.key" → "file:line", for keys that somebody wrote
+    std::map<std::string, bool> table_present;    ///< "packing", "mesh", …
+    std::vector<std::filesystem::path> inputs;    ///< files read so far, the case first
+
+    bool has_table(const std::string& table) const { return table_present.contains(table); }
+    /// «file:line: table.key», or «file: table.key» for a key nobody wrote.
+    std::string at(const std::string& key) const;
+    /// A path written in the case, relative to the file that wrote it.
+    std::filesystem::path resolve_path(const std::string& key, const std::string& written) const;
+};
+
+/// Reads and judges a case. @throws InputError «file:line: key: found X, expected Y; what to do».
+TestCase read_case(const std::filesystem::path& path);
+
+/// Writes the case with every value in the open, each with its unit and sentence; reading it back gives the same test.
+/// @param folder where the text will stand: paths are written relative to it.
+void write_resolved_case(std::ostream& out, const TestCase& test, const std::filesystem::path& folder);
+
+/// The table of all keys with unit, default, range and sentence, for people.
+void describe_case_keys(std::ostream& out);
+
+}  // namespace crackle

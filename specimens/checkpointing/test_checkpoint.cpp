@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/checkpointing/test_checkpoint.hpp"
+
+#include <fmt/format.h>
+
+#include <cereal/archives/binary.hpp>
+#include <cereal/types/string.hpp>
+#include <cereal/types/utility.hpp>
+#include <cereal/types/vector.hpp>
+#include <sstream>
+
+#include "solver/errors.hpp"
+#include "specimens/sha256.hpp"
+
+namespace crackle {
+
+// Names the layout; the number is raised whenever a field below changes.
+constexpr const char* checkpoint_title = "crackle test checkpoint ";
+constexpr const char* checkpoint_version = "1";
+constexpr std::size_t hash_digits = 64;
+
+// The archive is given one member after the other: structs have padding, whose bytes are nobody's.
+template <class Archive>
+void serialize(Archive& a, Vec2& v) {
+    a(v.x, v.y);
+}
+template <class Archive>
+void serialize(Archive& a, CurveRow& r) {
+    a(r.axial_strain, r.axial_stress, r.stress_top, r.stress_bottom, r.lateral_strain, r.bonds_broken, r.kinetic_energy,
+      r.strain_energy, r.time, r.step, r.interfaces_lost, r.points_sliding, r.dashpot_loss, r.friction_loss,
+      r.fracture_loss, r.platen_work, r.energy_error, r.contacts_gained);
+}
+template <class Archive>
+void serialize(Archive& a, FailureTracker& f) {
+    a(f.share_of_peak, f.peak_stress, f.peak_strain, f.peak_row, f.below_since, f.failed);
+}
+template <class Archive>
+void serialize(Archive& a, CellArray& c) {
+    a(c.name, c.components, c.real, c.integer);
+}
+template <class Archive>
+void serialize(Archive& a, CellList& c) {
+    a(c.connectivity, c.offsets);
+}
+template <class Archive>
+void serialize(Archive& a, VtpData& d) {
+    a(d.points, d.lines, d.polygons, d.cell_arrays, d.field_values);
+}
+template <class Archive>
+void serialize(Archive& a, Frame& f) {
+    a(f.row, f.axial_strain, f.axial_stress, f.time, f.particles, f.bonds);
+}
+template <class Archive>
+void serialize(Archive& a, FrameEntry& f) {
+    a(f.row, f.axial_strain, f.time);
+}
+template <class Archive>
+void serialize(Archive& a, StartPlace& p) {
+    a(p.x, p.y, p.angle);
+}
+template <class Archive>
+void serialize(Archive& a, BondAnchor& b) {
+    a(b.kind, b.body_i, b.body_j, b.element_i, b.feature_j, b.on_i, b.on_j);
+}
+template <class Archive>
+void serialize(Archive& a, TestSetup& s) {
+    a(s.compression, s.specimen, s.polygons, s.width, s.height, s.bond_thick, s.mesh_thick, s.bottom_id, s.top_id,
+      s.bottom, s.top, s.top_start, s.left, s.right, s.gauge_length, s.particles, s.segments, s.seeds,
+      s.contacts_initial, s.mean_bond_overlap, s.mean_back_tension, s.mean_back_tension_interface, s.time_step_bound,
+      s.start, s.bonds, s.notices);
+}
+template <class Archive>
+void serialize(Archive& a, TestState& s) {
+    a(s.rows, s.failure, s.peak_frame, s.frames, s.next_frame, s.breaks_in_shear, s.breaks_in_tension, s.ended_by,
+      s.youngs_modulus, s.poissons_ratio, s.curve_bytes, s.events_bytes, s.wall_seconds, s.step_seconds, s.command);
+}
+
+std::string save_test(const std::string& case_hash, const TestSetup& setup, const TestState& state,
+                      const World& world) {
+    std::ostringstream out(std::ios::binary);
+    cereal::BinaryOutputArchive archive(out);
+    archive(case_hash, setup, state, save_world(world));
+    const std::string content = std::move(out).str();
+    return fmt::format("{}{}\n{}", checkpoint_title, checkpoint_version, sha256(content)) + content;
+}
+
+TestCheckpoint load_test(const std::string& bytes, const std::string& name) {
+    const std::string title = checkpoint_title;
+    const std::size_t line_end = bytes.find('\n');
+    if (!bytes.starts_with(title) || line_end == std::string::npos) {
+        throw InputError(fmt::format(
+            "{}: found other data, expected a crackle test checkpoint; run the test again with --force", name));
+    }
+    const std::string version = bytes.substr(title.size(), line_end - title.size());
+    if (version != checkpoint_version) {
+        throw InputError(fmt::format(
+            "{}: found checkpoint version {}, expected {}; resume with the crackle that wrote it, or run the "
+            "test again with --force",
+            name, version, checkpoint_version));
+    }
+    const std::size_t begin = line_end + 1 + hash_digits;
+    const std::string content = bytes.size() < begin ? "" : bytes.substr(begin);
+    if (bytes.size() < begin || bytes.compare(line_end + 1, hash_digits, sha256(content)) != 0) {
+        throw InputError(
+            fmt::format("{}: found a truncated or damaged checkpoint, expected a complete one; run the test again with "
+                        "--force",
+                        name));
+    }
+    TestCheckpoint checkpoint;
+    std::string world;
+    std::istringstream in(content, std::ios::binary);
+    cereal::BinaryInputArchive archive(in);
+    archive(checkpoint.case_hash, checkpoint.setup, checkpoint.state, world);
+    checkpoint.world = load_world(world, name);
+    return checkpoint;
+}
+
+}  // namespace crackle

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The checkpoint of a test: complete state as bytes. A resumed test ends with the bytes of an uninterrupted one.
+//
+// Layout: the line "crackle test checkpoint 1", the SHA-256 of all that follows it, and cereal's binary archive of the
+// resolved case's SHA-256, setup, state and world. The hash is checked first, so that damage never reaches the archive.
+#pragma once
+
+#include <string>
+
+#include "specimens/test_setup.hpp"
+#include "specimens/test_state.hpp"
+
+namespace crackle {
+
+struct TestCheckpoint {
+    std::string case_hash;  ///< SHA-256 of OUT/case.toml
+    TestSetup setup;
+    TestState state;
+    World world;
+};
+
+std::string save_test(const std::string& case_hash, const TestSetup& setup, const TestState& state, const World& world);
+
+/// @throws InputError on foreign, damaged, truncated or newer data; `name` is used in the message.
+TestCheckpoint load_test(const std::string& bytes, const std::string& name);
+
+}  // namespace crackle

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// When a test has failed: the stress stays below a share of its peak (half, settable) for a tenth of the strain at
+// peak.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+namespace crackle {
+
+/// Judges the rows of a curve one after the other. Stress and strain positive in the sense of the test.
+struct FailureTracker {
+    double share_of_peak = 0.5;
+    double peak_stress = 0.0;  // N/m, largest so far
+    double peak_strain = 0.0;
+    std::int64_t peak_row = -1;                                     ///< -1: no stress yet
+    double below_since = std::numeric_limits<double>::quiet_NaN();  ///< strain; not a number: not below
+    bool failed = false;
+
+    /// Takes the next row. @return whether it is a new peak
+    bool update(std::int64_t row, double strain, double stress);
+};
+
+/// Strain that the stress must stay below, as a share of the strain at peak.
+inline constexpr double failure_strain_share = 0.1;
+
+}  // namespace crackle

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The loading loop: forces, observers, step; until failure, the largest strain, or an interrupt.
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <utility>
+#include <vector>
+
+#include "specimens/observers/test_files.hpp"
+#include "specimens/virtual_test.hpp"
+
+namespace crackle {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::int64_t steps_between_health_checks = 100;
+constexpr std::int64_t steps_between_clock_looks =
+    64;  // reading the clock and asking for interrupts stay off the profile
+constexpr double seconds_between_progress = 0.2;
+
+/// The world at the largest stress so far. While the stress rises every row is a new peak, so what changes is only
+/// copied, and drawn when somebody needs the picture.
+class PeakMoment {
+  public:
+    void keep(const World& world, const CurveRow& row, std::int64_t index) {
+        bodies_ = world.bodies;
+        points_ = world.points;
+        kind_begin_ = world.kind_begin;
+        row_ = row;
+        index_ = index;
+        waiting_ = true;
+    }
+
+    /// Puts the picture into the state, if there is a new one.
+    void draw(World& world, const TestSetup& setup, TestState& state) {
+        if (!waiting_) return;
+        exchange(world);
+        state.peak_frame = capture_frame(world, setup, row_, index_);
+        exchange(world);
+        waiting_ = false;
+    }
+
+  private:
+    void exchange(World& world) {
+        std::swap(world.bodies, bodies_);
+        std::swap(world.points, points_);
+        std::swap(world.kind_begin, kind_begin_);
+    }
+
+    std::vector<BodyState> bodies_;
+    std::vector<ContactPoint> points_;
+    std::array<PointIndex, point_kinds + 1> kind_begin_{};
+    CurveRow row_;
+    std::int64_t index_ = -1;
+    bool waiting_ = false;
+};
+
+class LoadingLoop {
+  public:
+    LoadingLoop(VirtualTest& test, const TestHooks& hooks, TestFiles* files)
+        : world_(test.world),
+          setup_(test.setup),
+          state_(test.state),
+          hooks_(hooks),
+          files_(files),
+          max_strain_(test.description.loading.max_axial_strain),
+          row_spacing_(max_strain_ / static_cast<double>(test.description.output.curve_rows)),
+          frame_spacing_(max_strain_ / static_cast<double>(test.description.output.frames)),
+          checkpoint_interval_(test.description.output.checkpoint_interval),
+          begun_(Clock::now()),
+          last_checkpoint_(begun_),
+          last_progress_(begun_),
+          first_step_(test.world.step),
+          step_seconds_before_(test.state.step_seconds) {}
+
+    void run() {
+        if (files_ != nullptr && state_.rows.empty()) files_->write_checkpoint(setup_, state_, world_);
+        while (true) {
+            if (world_.step % steps_between_clock_looks == 0 && look_at_clock()) break;
+            compute_forces(world_);
+            record_breaks();
+            const double strain = setup_.axial_strain(world_);
+            const bool at_end = strain >= max_strain_;
+            if (at_end || strain >= row_spacing_ * static_cast<double>(state_.rows.size())) record_row(at_end);
+            if (!state_.ended_by.empty()) break;
+            if (world_.step % steps_between_health_checks == 0) check_health(world_);
+            advance(world_);
+        }
+        peak_.draw(world_, setup_, state_);
+        state_.step_seconds = step_seconds();
+    }
+
+  private:
+    double step_seconds() const { return step_seconds_before_ + seconds(begun_, Clock::now()); }
+    static double seconds(Clock::time_point from, Clock::time_point to) {
+        return std::chrono::duration<double>(to - from).count();
+    }
+
+    void record_breaks() {
+        if (world_.events.size() == events_counted_) return;
+        const double strain = setup_.axial_strain(world_);
+        for (std::size_t k = events_counted_; k < world_.events.size(); ++k) {
+            const BreakEvent& event = world_.events[k];
+            ++(event.shear_mode ? state_.breaks_in_shear : state_.breaks_in_tension);
+            if (files_ != nullptr) files_->add_event(event, strain);
+        }
+        if (files_ != nullptr) world_.events.clear();
+        events_counted_ = world_.events.size();
+    }
+
+    void record_row(bool at_end) {
+        const auto index = static_cast<std::int64_t>(state_.rows.size());
+        const CurveRow row = observe_row(world_, setup_);
+        state_.rows.push_back(row);
+        const bool new_peak = state_.failure.update(index, row.axial_strain, row.axial_stress);
+        if (state_.failure.failed) {
+            state_.ended_by = ended_by_failure;
+        } else if (at_end) {
+            state_.ended_by = ended_by_strain;
+        }
+        if (files_ == nullptr) return;
+        files_->add_row(row);
+        const bool frame_due = row.axial_strain >= frame_spacing_ * static_cast<double>(state_.next_frame);
+        while (row.axial_strain >= frame_spacing_ * static_cast<double>(state_.next_frame)) ++state_.next_frame;
+        const bool frame_wanted = frame_due || !state_.ended_by.empty();
+        if (new_peak) peak_.keep(world_, row, index);
+        if (frame_wanted) files_->add_frame(capture_frame(world_, setup_, row, index), state_);
+    }
+
+    /// Between steps: progress, checkpoint, interrupt. @return whether to stop
+    bool look_at_clock() {
+        if (hooks_.interrupted && hooks_.interrupted()) return true;
+        const Clock::time_point now = Clock::now();
+        if (hooks_.progress && seconds(last_progress_, now) >= seconds_between_progress) {
+            last_progress_ = now;
+            report_progress(seconds(begun_, now));
+        }
+        if (files_ != nullptr && seconds(last_checkpoint_, now) >= checkpoint_interval_) {
+            peak_.draw(world_, setup_, state_);
+            state_.step_seconds = step_seconds();
+            files_->write_checkpoint(setup_, state_, world_);
+            last_checkpoint_ = Clock::now();
+        }
+        return false;
+    }
+
+    void report_progress(double elapsed) const {
+        TestProgress p;
+        p.axial_strain = setup_.axial_strain(world_);
+        p.share_done = p.axial_strain / max_strain_;
+        p.axial_stress = state_.rows.empty() ? 0.0 : state_.rows.back().axial_stress;
+        p.peak_stress = state_.failure.peak_stress;
+        p.bonds_broken = world_.bonds_broken;
+        p.step = world_.step;
+        p.steps_per_second = static_cast<double>(world_.step - first_step_) / elapsed;
+        const double strain_per_step = p.axial_strain / static_cast<double>(std::max<std::int64_t>(1, world_.step));
+        p.seconds_left = (max_strain_ - p.axial_strain) / (strain_per_step * p.steps_per_second);
+        hooks_.progress(p);
+    }
+
+    World& world_;
+    const TestSetup& setup_;
+    TestState& state_;
+    const TestHooks& hooks_;
+    TestFiles* files_;
+    double max_strain_, row_spacing_, frame_spacing_, checkpoint_interval_;
+    Clock::time_point begun_, last_checkpoint_, last_progress_;
+    std::int64_t first_step_;
+    double step_seconds_before_;
+    std::size_t events_counted_ = 0;
+    PeakMoment peak_;
+};
+
+}  // namespace
+
+void load_specimen(VirtualTest& test, const TestHooks& hooks, TestFiles* files) {
+    LoadingLoop(test, hooks, files).run();
+}
+
+}  // namespace crackle

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/observers/curve.hpp"
+
+#include <fmt/format.h>
+
+#include "specimens/test_setup.hpp"
+
+namespace crackle {
+
+CurveRow observe_row(const World& world, const TestSetup& setup) {
+    CurveRow row;
+    const double sense = setup.compression ? 1.0 : -1.0;
+    row.axial_strain = setup.axial_strain(world);
+    row.stress_top = sense * world.forces[setup.top].fy / setup.width;
+    row.stress_bottom = -sense * world.forces[setup.bottom].fy / setup.width;
+    row.axial_stress = 0.5 * (row.stress_top + row.stress_bottom);
+    row.lateral_strain = setup.lateral_strain(world);
+    row.bonds_broken = world.bonds_broken;
+    row.interfaces_lost = world.interfaces_lost;
+    row.time = world.time;
+    row.step = world.step;
+    for (const ContactPoint& point : world.points) {
+        const bool touching = (point.flags & point_touching) != 0;
+        if (touching && (point.flags & point_sliding) != 0) ++row.points_sliding;
+        if (touching && (point.flags & point_bonded) == 0) ++row.contacts_gained;
+    }
+    const Ledger ledger = measure_ledger(world);
+    row.kinetic_energy = ledger.kinetic;
+    row.strain_energy = ledger.strain;
+    row.dashpot_loss = ledger.dashpot_loss;
+    row.friction_loss = ledger.friction_loss;
+    row.fracture_loss = ledger.fracture_loss;
+    row.platen_work = ledger.displacement_work;
+    row.energy_error = ledger.closing_error;
+    return row;
+}
+
+const std::vector<CurveColumn>& curve_columns() {
+    static const std::vector<CurveColumn> columns{
+        {"axial_strain", "-, positive in the sense of the test", [](const CurveRow& r) { return r.axial_strain; },
+         false},
+        {"axial_stress", "N/m, mean of both platens, positive in the sense of the test",
+         [](const CurveRow& r) { return r.axial_stress; }, false},
+        {"stress_top", "N/m, upper platen, positive in the sense of the test",
+         [](const CurveRow& r) { return r.stress_top; }, false},
+        {"stress_bottom", "N/m, lower platen, positive in the sense of the test",
+         [](const CurveRow& r) { return r.stress_bottom; }, false},
+        {"lateral_strain", "-, positive when the specimen widens", [](const CurveRow& r) { return r.lateral_strain; },
+         false},
+        {"bonds_broken", "bonded points broken so far",
+         [](const CurveRow& r) { return static_cast<double>(r.bonds_broken); }, true},
+        {"kinetic_energy", "J", [](const CurveRow& r) { return r.kinetic_energy; }, false},
+        {"strain_energy", "J, of all contact points, from the bonded state",
+         [](const CurveRow& r) { return r.strain_energy; }, false},
+        {"time", "s since loading began", [](const CurveRow& r) { return r.time; }, false},
+        {"step", "steps since loading began", [](const CurveRow& r) { return static_cast<double>(r.step); }, true},
+        {"interfaces_lost", "pairs of bodies whose last bond has broken so far",
+         [](const CurveRow& r) { return static_cast<double>(r.interfaces_lost); }, true},
+        {"points_sliding", "contact points at the Coulomb limit in this step",
+         [](const CurveRow& r) { return static_cast<double>(r.points_sliding); }, true},
+        {"dashpot_loss", "J, so far", [](const CurveRow& r) { return r.dashpot_loss; }, false},
+        {"friction_loss", "J, so far", [](const CurveRow& r) { return r.friction_loss; }, false},
+        {"fracture_loss", "J, so far", [](const CurveRow& r) { return r.fracture_loss; }, false},
+        {"platen_work", "J, done on the specimen so far", [](const CurveRow& r) { return r.platen_work; }, false},
+        {"energy_error", "J, kinetic - initial kinetic + strain + losses - work",
+         [](const CurveRow& r) { return r.energy_error; }, false},
+    };
+    return columns;
+}
+
+std::string curve_header() {
+    std::string line;
+    for (const CurveColumn& column : curve_columns()) {
+        if (!line.empty()) line += ',';
+        line += column.name;
+    }
+    return line + '\n';
+}
+
+std::string curve_line(const CurveRow& row) {
+    std::string line;
+    for (const CurveColumn& column : curve_columns()) {
+        if (!line.empty()) line += ',';
+        const double value = column.value(row);
+        line += column.whole ? fmt::format("{}", static_cast<std::int64_t>(value)) : fmt::format("{}", value);
+    }
+    return line + '\n';
+}
+
+}  // namespace crackle

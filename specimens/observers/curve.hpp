@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The stress-strain curve: what is measured in a step that somebody reads, and how curve.csv shows it.
+//
+// Stress = force of the specimen on a platen (dashpots included) over the initial width, axial strain = displacement of
+// the upper platen over the initial height; both positive in the sense of the test (compression in compression, tension
+// in tension). Lateral strain = change of the distance between the mean x of the right and of the left side particles
+// over its initial value, positive when the specimen widens. Strictly 2D: stress in N/m.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "solver/world.hpp"
+
+namespace crackle {
+
+struct TestSetup;
+
+struct CurveRow {
+    double axial_strain = 0.0;
+    double axial_stress = 0.0;   // N/m, mean of the two platens
+    double stress_top = 0.0;     // N/m
+    double stress_bottom = 0.0;  // N/m
+    double lateral_strain = 0.0;
+    std::int64_t bonds_broken = 0;
+    double kinetic_energy = 0.0;  // J
+    double strain_energy = 0.0;   // J
+    double time = 0.0;            // s
+    std::int64_t step = 0;
+    std::int64_t interfaces_lost = 0;
+    std::int64_t points_sliding = 0;
+    double dashpot_loss = 0.0;         // J
+    double friction_loss = 0.0;        // J
+    double fracture_loss = 0.0;        // J
+    double platen_work = 0.0;          // J
+    double energy_error = 0.0;         // J
+    std::int64_t contacts_gained = 0;  ///< points touching without a bond; kept for the summary, not a column
+};
+
+/// Needs compute_forces() to have been called.
+CurveRow observe_row(const World& world, const TestSetup& setup);
+
+struct CurveColumn {
+    const char* name;
+    const char* unit_and_sign;
+    double (*value)(const CurveRow&);
+    bool whole;  ///< a count
+};
+const std::vector<CurveColumn>& curve_columns();
+
+std::string curve_header();                   ///< with line end
+std::string curve_line(const CurveRow& row);  ///< numbers read back to the same bits; with line end
+
+}  // namespace crackle

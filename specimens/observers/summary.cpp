@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/observers/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "specimens/curve_analysis.hpp"
+
+namespace crackle {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// JSON has no NaN: what is not defined is null.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+struct Writer {
+    Json& json;
+    Json& units;
+    double out_of_plane_thickness;
+
+    void put(const std::string& key, Json value, const std::string& unit) {
+        json[key] = std::move(value);
+        units[key] = unit;
+    }
+    /// A stress or modulus, with its conversion beside it.
+    void stress(const std::string& key, double value, const std::string& meaning) {
+        put(key, number(value), "N/m, " + meaning);
+        put(key + "_pa", number(value / out_of_plane_thickness), "Pa, the same over out_of_plane_thickness");
+    }
+};
+
+void describe(Writer& w, const TestCase& test, const TestSetup& setup, const TestState& state) {
+    w.json["title"] = test.title;
+    w.json["kind"] = test.loading.kind;
+    w.json["specimen"] = setup.specimen;
+    w.json["platens"] = test.loading.platens;
+    w.json["failed"] = state.failure.failed;
+    w.json["interrupted"] = state.ended_by == ended_by_interrupt;
+    w.json["ended_by"] = state.ended_by.empty() ? Json(nullptr) : Json(state.ended_by);
+    if (!state.failure.failed) {
+        w.json["note"] =
+            fmt::format("the specimen has not failed (ended by {}): peak and moduli refer to the largest stress so far",
+                        state.ended_by.empty() ? "nothing yet" : state.ended_by);
+    }
+}
+
+void strength(Writer& w, const TestSetup& setup, const TestState& state) {
+    const FailureTracker& f = state.failure;
+    const std::string so_far = f.failed ? "" : "_so_far";
+    w.stress("peak_stress" + so_far, f.peak_row < 0 ? NAN : f.peak_stress, "positive in the sense of the test");
+    w.put("peak_strain" + so_far, number(f.peak_row < 0 ? NAN : f.peak_strain), "-, positive in the sense of the test");
+    w.stress("youngs_modulus", state.youngs_modulus,
+             "small strain, all bonds intact and sticking, platens bonded (sparse solve)");
+    w.put("poissons_ratio", number(state.poissons_ratio), "-, small strain, as youngs_modulus");
+
+    const Tangent initial = initial_tangent(state.rows, f.peak_row, setup.compression);
+    w.stress("initial_tangent_modulus", initial.modulus, "regression over the first twentieth of the strain at peak");
+    w.put("initial_poissons_ratio", number(initial.poissons_ratio), "-, over the same rows");
+    w.put("initial_tangent_window",
+          {{"rows", initial.rows},
+           {"strain_to", initial.strain_to},
+           {"bonds_broken", initial.bonds_broken},
+           {"points_sliding", initial.points_sliding},
+           {"contacts_gained", initial.contacts_gained}},
+          "counts within the window; points_sliding at its end");
+    const Tangent half = tangent_at_half_peak(state.rows, f.peak_row, setup.compression);
+    w.stress("tangent_modulus_50", half.modulus, "regression from 40 % to 60 % of the peak");
+    w.put("tangent_50_poissons_ratio", number(half.poissons_ratio), "-, over the same rows");
+}
+
+void counts(Writer& w, const TestSetup& setup, const TestState& state, const World& world) {
+    w.put("initial_width", setup.width, "m");
+    w.put("initial_height", setup.height, "m");
+    w.put("particles", setup.particles, "bodies without platens");
+    if (setup.seeds > 0) w.put("seeds", setup.seeds, "circles the polygons were meshed from");
+    if (setup.polygons) w.put("segments", setup.segments, "edges of all polygons");
+    w.put("bond_thick", setup.bond_thick, "m, segment thickness at bonding");
+    w.put("contacts_initial", setup.contacts_initial, "contact points when loading begins");
+    w.put("bonds_initial", world.bonds_initial, "bonded points");
+    w.put("bonds_broken", world.bonds_broken, "bonded points");
+    w.put("bonds_broken_in_shear", state.breaks_in_shear, "bonded points");
+    w.put("bonds_broken_in_tension", state.breaks_in_tension, "bonded points");
+    w.put("interfaces_initial", world.interfaces_initial, "bonded pairs of bodies");
+    w.put("interfaces_lost", world.interfaces_lost, "pairs whose last bond has broken");
+    w.put("mean_back_tension", setup.mean_back_tension, "N, over bonded points");
+    w.put("mean_back_tension_interface", setup.mean_back_tension_interface,
+          "N, summed over the points of an interface");
+    w.put("mean_bond_overlap", setup.mean_bond_overlap, "m, over bonded points");
+    w.put("platen_bottom_id", setup.bottom_id, "id in events.csv and frames");
+    w.put("platen_top_id", setup.top_id, "id in events.csv and frames");
+}
+
+void numerics(Writer& w, const TestCase& test, const TestSetup& setup, const TestState& state, const World& world) {
+    const CurveRow last = state.rows.empty() ? CurveRow{} : state.rows.back();
+    w.put("axial_strain_end", last.axial_strain, "-, positive in the sense of the test");
+    w.put("energy_closing_error", number(last.energy_error / last.platen_work),
+          "-, over the platens' work, at the end");
+    w.put("platen_out_of_balance", number(platen_out_of_balance(state.rows, state.failure.peak_row)),
+          "-, largest difference of the platens' stresses up to the peak, over the peak");
+    w.put("time_step", world.time_step, "s");
+    w.put("time_step_bound", setup.time_step_bound, "s, guaranteed stable below, when loading began");
+    w.put("steps", world.step, "time steps");
+    w.put("simulated_time", world.time, "s");
+    w.put("list_builds", world.list_builds, "times the neighbour list was built");
+    w.put("seed", test.has_table("packing") ? Json(test.packing.seed) : Json(nullptr), "of the packing");
+}
+
+void frames(Writer& w, const TestState& state) {
+    const auto name = [](std::int64_t row) { return "frames/" + particles_file(row); };
+    const auto& list = state.frames;
+    w.json["frame_start"] = list.empty() ? Json(nullptr) : Json(name(list.front().row));
+    w.json["frame_peak"] =
+        list.empty() || state.failure.peak_row < 0 ? Json(nullptr) : Json(name(state.failure.peak_row));
+    w.json["frame_end"] = list.empty() ? Json(nullptr) : Json(name(list.back().row));
+}
+
+}  // namespace
+
+nlohmann::ordered_json make_summary(const TestCase& test, const TestSetup& setup, const TestState& state,
+                                    const World& world, const TestTiming& timing) {
+    Json json, units;
+    Writer w{json, units, test.output.out_of_plane_thickness};
+    describe(w, test, setup, state);
+    strength(w, setup, state);
+    counts(w, setup, state, world);
+    numerics(w, test, setup, state, world);
+    frames(w, state);
+    w.put("out_of_plane_thickness", test.output.out_of_plane_thickness,
+          "m, converts what is reported and nothing else");
+    json["notices"] = setup.notices;
+    json["version"] = CRACKLE_VERSION;
+    json["compiler"] = __VERSION__;
+    json["command"] = state.command;
+    w.put("threads", timing.threads, "");
+    w.put("wall_seconds", timing.wall_seconds, "s, whole process");
+    w.put("step_seconds", timing.step_seconds, "s, stepping loop with rebuilds, breaks and observers");
+    w.put("particle_steps_per_second",
+          number(static_cast<double>(setup.particles) * static_cast<double>(world.step) / timing.step_seconds),
+          "1/s, particles times steps over step_seconds");
+    for (const CurveColumn& column : curve_columns()) json["columns"][column.name] = column.unit_and_sign;
+    json["units"] = units;
+    return json;
+}
+
+}  // namespace crackle

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// summary.json: what came out of a test in one place, with its numerical errors. Keys, units and signs stand in the
+// file itself
+// (`units`, `columns`). Until the specimen has failed, what refers to the peak is called ..._so_far.
+#pragma once
+
+#include <nlohmann/json.hpp>
+
+#include "specimens/case_file.hpp"
+#include "specimens/test_setup.hpp"
+#include "specimens/test_state.hpp"
+
+namespace crackle {
+
+/// Wall-clock figures of the whole test, resumed parts included, s. The only keys that differ between two runs of one
+/// case.
+struct TestTiming {
+    double wall_seconds = 0.0;  ///< whole process
+    double step_seconds = 0.0;  ///< stepping loop with rebuilds, breaks and observers
+    int threads = 1;
+};
+
+nlohmann::ordered_json make_summary(const TestCase& test, const TestSetup& setup, const TestState& state,
+                                    const World& world, const TestTiming& timing);
+
+}  // namespace crackle

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/observers/test_files.hpp"
+
+#include <algorithm>
+#include <set>
+#include <system_error>
+#include <vector>
+
+#include "specimens/checkpointing/test_checkpoint.hpp"
+#include "specimens/observers/events.hpp"
+
+namespace crackle {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Pictures that the state does not know of were taken after its checkpoint, and may not be taken again.
+void remove_unlisted_frames(const fs::path& frames, const TestState& state) {
+    std::set<std::string> listed;
+    for (const FrameEntry& entry : state.frames) listed.insert({particles_file(entry.row), bonds_file(entry.row)});
+    std::vector<fs::path> unlisted;
+    std::error_code error;
+    for (const auto& file : fs::directory_iterator(frames, error)) {
+        const std::string name = file.path().filename().string();
+        const bool picture = name.starts_with("particles_") || name.starts_with("bonds_");
+        if (picture && !listed.contains(name)) unlisted.push_back(file.path());
+    }
+    for (const fs::path& file : unlisted) fs::remove(file, error);
+}
+
+}  // namespace
+
+TestFiles::TestFiles(const OutputFolder& folder, std::string case_hash, const TestState& state)
+    : folder_(folder),
+      case_hash_(std::move(case_hash)),
+      curve_(folder.path() / "curve.csv", state.curve_bytes),
+      events_(folder.path() / "events.csv", state.events_bytes) {
+    if (state.curve_bytes == 0) curve_.write(curve_header());
+    if (state.events_bytes == 0) events_.write(events_header());
+    remove_unlisted_frames(folder.path() / "frames", state);
+}
+
+void TestFiles::add_row(const CurveRow& row) { curve_.write(curve_line(row)); }
+
+void TestFiles::add_event(const BreakEvent& event, double axial_strain) {
+    events_.write(event_line(event, axial_strain));
+}
+
+void TestFiles::add_frame(const Frame& frame, TestState& state) {
+    const auto later = std::lower_bound(state.frames.begin(), state.frames.end(), frame.row,
+                                        [](const FrameEntry& entry, std::int64_t row) { return entry.row < row; });
+    if (later != state.frames.end() && later->row == frame.row) return;
+    state.frames.insert(later, {frame.row, frame.axial_strain, frame.time});
+    folder_.write("frames/" + particles_file(frame.row), vtp_text(frame.particles));
+    folder_.write("frames/" + bonds_file(frame.row), vtp_text(frame.bonds));
+    write_collection(state);
+}
+
+void TestFiles::write_collection(const TestState& state) const {
+    std::vector<CollectionEntry> entries;
+    for (const FrameEntry& frame : state.frames) {
+        entries.push_back({frame.time, 0, particles_file(frame.row)});
+        entries.push_back({frame.time, 1, bonds_file(frame.row)});
+    }
+    folder_.write("frames/frames.pvd", pvd_text(entries));
+}
+
+void TestFiles::write_checkpoint(const TestSetup& setup, TestState& state, const World& world) {
+    flush();
+    state.curve_bytes = curve_.bytes();
+    state.events_bytes = events_.bytes();
+    folder_.write("checkpoint", save_test(case_hash_, setup, state, world));
+}
+
+void TestFiles::flush() {
+    curve_.flush();
+    events_.flush();
+}
+
+void TestFiles::write_summary(const nlohmann::ordered_json& summary) {
+    folder_.write("summary.json", summary.dump(2) + '\n');
+}
+
+}  // namespace crackle

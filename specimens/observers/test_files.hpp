@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The files that grow while a test runs: curve.csv, events.csv, frames/, checkpoint, and summary.json at the end.
+#pragma once
+
+#include <string>
+
+#include "specimens/observers/summary.hpp"
+#include "specimens/output_folder.hpp"
+
+namespace crackle {
+
+class TestFiles {
+  public:
+    /// Begins afresh (state without rows) or goes on where the state says, taking away what came after it.
+    TestFiles(const OutputFolder& folder, std::string case_hash, const TestState& state);
+
+    void add_row(const CurveRow& row);
+    void add_event(const BreakEvent& event, double axial_strain);
+    /// Writes both pictures of a frame and lists it in state.frames, in the order of rows.
+    void add_frame(const Frame& frame, TestState& state);
+    /// Flushes the growing files, notes their lengths in the state, and writes the checkpoint.
+    void write_checkpoint(const TestSetup& setup, TestState& state, const World& world);
+    /// Without a checkpoint: for a run that has gone wrong, whose last good checkpoint stays.
+    void flush();
+    void write_summary(const nlohmann::ordered_json& summary);
+
+  private:
+    void write_collection(const TestState& state) const;
+
+    const OutputFolder& folder_;
+    std::string case_hash_;
+    GrowingFile curve_, events_;
+};
+
+}  // namespace crackle

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The folder a test writes into, and the promise that goes with it: earlier results are never touched before the new
+// ones are complete. A folder with results is refused; with `force` the new results grow in OUT.new beside it and take
+// the old ones' place at the end. Single files appear under a temporary name and are renamed, so that a full disc
+// leaves the previous one.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+namespace crackle {
+
+/// Names that a test makes in its folder; anything else there belongs to the user.
+bool is_result_name(const std::string& name);
+
+class OutputFolder {
+  public:
+    /// @throws InputError if the folder holds results (without force), or cannot be written.
+    static OutputFolder create(const std::filesystem::path& wanted, bool force);
+    /// An existing folder, to go on with. @throws InputError if there is none.
+    static OutputFolder reopen(const std::filesystem::path& folder);
+
+    OutputFolder(OutputFolder&&) = default;
+    OutputFolder& operator=(OutputFolder&&) = delete;
+    /// Takes away what create() made, if nothing was written into it.
+    ~OutputFolder();
+
+    const std::filesystem::path& path() const { return working_; }   ///< where files are written now
+    const std::filesystem::path& target() const { return target_; }  ///< where they will be in the end
+    bool staged() const { return working_ != target_; }
+
+    /// Writes a whole file, under a temporary name first. @param name relative to the folder
+    void write(const std::string& name, const std::string& bytes) const;
+    /// Puts staged results in the place of the old ones; path() is target() from then on.
+    void finish();
+
+  private:
+    OutputFolder(std::filesystem::path target, std::filesystem::path working)
+        : target_(std::move(target)), working_(std::move(working)) {}
+
+    std::filesystem::path target_, working_;
+    bool made_ = false;
+};
+
+/// A text file that grows; knows its length, so that a checkpoint can say where to go on.
+class GrowingFile {
+  public:
+    /// Keeps the first `bytes` bytes and goes on behind them; 0 starts afresh.
+    /// @throws InputError if the file is shorter or cannot be written.
+    GrowingFile(std::filesystem::path path, std::uint64_t bytes);
+    void write(const std::string& text);
+    /// @throws InputError if the disc did not take it all.
+    void flush();
+    std::uint64_t bytes() const { return bytes_; }
+
+  private:
+    std::filesystem::path path_;
+    std::ofstream out_;
+    std::uint64_t bytes_;
+};
+
+}  // namespace crackle

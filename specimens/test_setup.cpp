@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/test_setup.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <unordered_map>
+
+namespace crackle {
+namespace {
+
+double mean_x(const World& world, const std::vector<BodyIndex>& bodies) {
+    double sum = 0.0;
+    for (const BodyIndex b : bodies) sum += world.bodies[b].x;
+    return sum / static_cast<double>(bodies.size());
+}
+
+/// Side particles with centres in the middle half of the height, away from what the platens hold.
+std::vector<BodyIndex> gauge(const World& world, const std::vector<int>& ids, const Domain& domain) {
+    std::unordered_map<int, BodyIndex> index;
+    for (std::size_t b = 0; b < world.info.size(); ++b) index[world.info[b].id] = static_cast<BodyIndex>(b);
+    const double middle = 0.5 * (domain.y1 + domain.y2);
+    const double quarter = 0.25 * (domain.y2 - domain.y1);
+    std::vector<BodyIndex> bodies;
+    for (const int id : ids) {
+        const BodyIndex b = index.at(id);
+        if (std::abs(world.bodies[b].y - middle) <= quarter) bodies.push_back(b);
+    }
+    return bodies;
+}
+
+void record_bonds(TestSetup& setup, const World& world) {
+    std::map<std::pair<BodyIndex, BodyIndex>, double> interfaces;  // ordered: the sum must not depend on hashing
+    double overlap = 0.0, tension = 0.0;
+    for (PointIndex k = 0; k < world.points.size(); ++k) {
+        const ContactPoint& point = world.points[k];
+        if ((point.flags & point_touching) != 0) ++setup.contacts_initial;
+        if ((point.flags & point_bonded) == 0) continue;
+        BondAnchor anchor = anchor_of(world, k);
+        const PointView view = view_point(world, k);
+        const bool outline = view.kind == PointKind::element_outline && setup.polygons;
+        const Vec2 half_gap = (outline ? 0.5 * (setup.bond_thick - view.overlap) : 0.0) * view.normal;
+        anchor.on_i = view.position - half_gap;
+        anchor.on_j = view.position + half_gap;
+        setup.bonds.push_back(anchor);
+        overlap += point.bond_overlap;
+        tension += view.normal_stiffness * point.bond_overlap;
+        interfaces[std::minmax(point.body_i, point.body_j)] += view.normal_stiffness * point.bond_overlap;
+    }
+    std::sort(setup.bonds.begin(), setup.bonds.end(),
+              [](const BondAnchor& a, const BondAnchor& b) { return a.key() < b.key(); });
+    if (setup.bonds.empty()) return;
+    setup.mean_bond_overlap = overlap / static_cast<double>(setup.bonds.size());
+    setup.mean_back_tension = tension / static_cast<double>(setup.bonds.size());
+    setup.mean_back_tension_interface = tension / static_cast<double>(interfaces.size());
+}
+
+}  // namespace
+
+BondAnchor anchor_of(const World& world, PointIndex k) {
+    const ContactPoint& point = world.points[k];
+    BondAnchor anchor;
+    int kind = 0;
+    while (k >= world.kind_begin[static_cast<std::size_t>(kind) + 1]) ++kind;
+    anchor.kind = static_cast<PointKind>(kind);
+    anchor.body_i = point.body_i;
+    anchor.body_j = point.body_j;
+    anchor.element_i = point.element_i;
+    anchor.feature_j = anchor.kind == PointKind::element_element ? point.feature_j : 0;
+    return anchor;
+}
+
+double TestSetup::axial_strain(const World& world) const {
+    const double rise = world.bodies[top].y - top_start;
+    return (compression ? -rise : rise) / height;
+}
+
+double TestSetup::lateral_strain(const World& world) const {
+    if (gauge_length == 0.0) return std::numeric_limits<double>::quiet_NaN();
+    return (mean_x(world, right) - mean_x(world, left)) / gauge_length - 1.0;
+}
+
+TestSetup record_setup(const World& world, const Specimen& specimen, const Platens& platens, bool compression) {
+    TestSetup setup;
+    setup.compression = compression;
+    setup.specimen = specimen.kind;
+    setup.polygons = specimen.polygons;
+    setup.width = specimen.width;
+    setup.height = specimen.height;
+    setup.bond_thick = world.thick;
+    setup.mesh_thick = specimen.thick;
+    setup.bottom_id = platens.bottom_id;
+    setup.top_id = platens.top_id;
+    setup.bottom = body_of_id(world, platens.bottom_id);
+    setup.top = body_of_id(world, platens.top_id);
+    setup.top_start = world.bodies[setup.top].y;
+    setup.particles = static_cast<std::int64_t>(specimen.scene.bodies.size());
+    setup.segments = specimen.segments;
+    setup.seeds = specimen.seeds;
+    setup.time_step_bound = world.step_bound;
+    setup.notices = specimen.notices;
+    for (const BodyState& body : world.bodies) setup.start.push_back({body.x, body.y, body.angle});
+    setup.left = gauge(world, specimen.left_ids, world.domain);
+    setup.right = gauge(world, specimen.right_ids, world.domain);
+    if (setup.left.empty() || setup.right.empty()) {
+        setup.notices.push_back("no particles at both side faces in the middle half of the height: no lateral strain");
+    } else {
+        setup.gauge_length = mean_x(world, setup.right) - mean_x(world, setup.left);
+    }
+    record_bonds(setup, world);
+    return setup;
+}
+
+}  // namespace crackle

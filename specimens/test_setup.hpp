@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a loaded specimen was when loading began: everything that a measurement refers back to.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <tuple>
+#include <vector>
+
+#include "solver/world.hpp"
+#include "specimens/platen.hpp"
+#include "specimens/specimen.hpp"
+
+namespace crackle {
+
+/// Where a body was when loading began.
+struct StartPlace {
+    double x = 0.0, y = 0.0, angle = 0.0;
+};
+
+/// One bonded point, held to both bodies by a place on each (world coordinates at the start, m).
+struct BondAnchor {
+    PointKind kind = PointKind::circle_circle;
+    BodyIndex body_i = 0, body_j = 0;
+    std::uint32_t element_i = 0;
+    std::uint32_t feature_j = 0;  ///< of clumps; 0 elsewhere, where the solver's value is a hint
+    Vec2 on_i, on_j;
+
+    /// What tells bonds apart, whatever the order of the points.
+    auto key() const { return std::tuple(kind, body_i, body_j, element_i, feature_j); }
+};
+
+struct TestSetup {
+    bool compression = true;
+    std::string specimen;  ///< circles, delaunay, voronoi
+    bool polygons = false;
+    double width = 0.0, height = 0.0;    // m, initial
+    double bond_thick = 0.0;             // m
+    double mesh_thick = 0.0;             // m
+    int bottom_id = 0, top_id = 0;       // as in outputs
+    BodyIndex bottom = 0, top = 0;       // in the world
+    double top_start = 0.0;              // m, y of the upper platen
+    std::vector<BodyIndex> left, right;  ///< side particles in the middle half of the height
+    double gauge_length = 0.0;           ///< m, initial distance of their mean x; 0 if a side has none
+
+    std::int64_t particles = 0, segments = 0, seeds = 0;
+    std::int64_t contacts_initial = 0;         ///< contact points that touch when loading begins
+    double mean_bond_overlap = 0.0;            // m, over bonded points
+    double mean_back_tension = 0.0;            // N, over bonded points
+    double mean_back_tension_interface = 0.0;  // N, over pairs of bodies
+    double time_step_bound = 0.0;              // s, when loading began
+
+    std::vector<StartPlace> start;  ///< by body
+    std::vector<BondAnchor> bonds;  ///< sorted by key
+    std::vector<std::string> notices;
+
+    double axial_strain(const World& world) const;
+    /// Not a number if the specimen has no side particles in the middle half of its height.
+    double lateral_strain(const World& world) const;
+};
+
+/// Takes down the start of loading. Needs a bonded world with its platens in place and compute_forces() done.
+TestSetup record_setup(const World& world, const Specimen& specimen, const Platens& platens, bool compression);
+
+/// The bond a point of the world would be, if it is bonded.
+BondAnchor anchor_of(const World& world, PointIndex point);
+
+}  // namespace crackle

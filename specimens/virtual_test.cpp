@@ -1,0 +1,241 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Prepares a specimen for its test and runs it with its files; the loading loop itself is in load_specimen.cpp.
+
+#include "specimens/virtual_test.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include "solver/elastic.hpp"
+#include "solver/errors.hpp"
+#include "specimens/checkpointing/test_checkpoint.hpp"
+#include "specimens/observers/test_files.hpp"
+#include "specimens/output_folder.hpp"
+#include "specimens/sha256.hpp"
+
+namespace crackle {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+// Circles bond at the overlaps they have whatever the thickness; this one keeps platens thin beside the particles.
+constexpr double circle_thick_share = 0.1;  // of the mean radius
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+void say(const StageReport& stage, const std::string& line) {
+    if (stage) stage(line);
+}
+
+std::string read_bytes(const fs::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    if (!in) throw InputError(fmt::format("{}: cannot be read, expected a file; check the path", path.string()));
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+struct Bonded {
+    World world;
+    Platens platens;
+};
+
+/// Platens added, world built, bonds made, platens in place.
+Bonded bond_specimen(const Specimen& specimen, const TestCase& test, const TestCase::Loading& loading) {
+    Scene scene = specimen.scene;
+    scene.thick = test.bond.thick ? *test.bond.thick : circle_thick_share * specimen.mean_radius;
+    scene.time_step = test.numerics.time_step.value_or(0.0);
+    scene.safety_factor = test.numerics.safety_factor;
+    scene.allow_unstable = test.numerics.allow_unstable;
+    scene.first_kick = FirstKick::half;
+    scene.threads = static_cast<int>(test.numerics.threads);
+    scene.intact = {test.numerics.intact, test.numerics.intact, test.numerics.intact};
+    Bonded bonded;
+    bonded.platens = add_platens(scene, specimen, loading, scene.thick);
+    const double thick = scene.thick;
+    bonded.world = build_world(std::move(scene));
+    bond_all(bonded.world, thick);
+    place_platens(bonded.world, bonded.platens);
+    compute_forces(bonded.world);
+    return bonded;
+}
+
+/// A bonded platen that holds nothing would test nothing.
+void check_platen_bonds(const World& world, const TestSetup& setup, const TestCase& test) {
+    for (const BodyIndex platen : {setup.bottom, setup.top}) {
+        const auto holds = [&](const BondAnchor& bond) { return bond.body_i == platen || bond.body_j == platen; };
+        if (std::any_of(setup.bonds.begin(), setup.bonds.end(), holds)) continue;
+        throw InputError(
+            fmt::format("{}: found no particle near enough to bond with the {} platen (at y = {:.6g} m), expected at "
+                        "least one; circles must overlap the domain's face, polygons end half the meshing thickness "
+                        "inside it (mesh.boundary = \"domain\")",
+                        test.at("bond.thick"), platen == setup.bottom ? "lower" : "upper", world.bodies[platen].y));
+    }
+}
+
+/// Young's modulus and Poisson's ratio by the definitions of the curve, from the linear solution at unit strain.
+/// @param world with bonded platens; bodies are found by their ids, its numbering may be its own
+void solve_moduli(TestState& state, TestSetup& setup, const World& world, const Specimen& specimen) {
+    try {
+        const TestSetup own = record_setup(world, specimen, Platens{setup.bottom_id, setup.top_id}, setup.compression);
+        const ElasticSolution solution = solve_elastic(world, {{own.bottom, {}}, {own.top, {0.0, setup.height, 0.0}}});
+        state.youngs_modulus = 0.5 * (solution.reaction[1].y - solution.reaction[0].y) / setup.width;
+        if (setup.gauge_length == 0.0) return;
+        const auto mean = [&](const std::vector<BodyIndex>& bodies) {
+            double sum = 0.0;
+            for (const BodyIndex b : bodies) sum += solution.displacement[b].x;
+            return sum / static_cast<double>(bodies.size());
+        };
+        state.poissons_ratio = -(mean(own.right) - mean(own.left)) / own.gauge_length;
+    } catch (const InputError& error) {
+        setup.notices.push_back(fmt::format("no small-strain modulus: {}", error.what()));
+    }
+}
+
+std::string resolved_case(const TestCase& test, const fs::path& folder) {
+    std::ostringstream text;
+    text << "# Resolved case of crackle " << CRACKLE_VERSION
+         << ": every value in the open. Its inputs, with their SHA-256:\n";
+    for (const fs::path& input : test.inputs) {
+        text << "#   " << sha256(read_bytes(input)) << "  " << input.filename().string() << '\n';
+    }
+    write_resolved_case(text, test, folder);
+    return text.str();
+}
+
+TestTiming timing_of(const VirtualTest& test, const TestOptions& options) {
+    return {test.state.wall_seconds + seconds_since(options.process_start), test.state.step_seconds,
+            test.world.threads};
+}
+
+/// Loads with files open, and closes the account whatever the end.
+TestOutcome run_with_files(VirtualTest& test, const TestOptions& options, const TestHooks& hooks, OutputFolder& folder,
+                           TestFiles& files) {
+    TestOutcome outcome;
+    const auto write_summary = [&] {
+        outcome.summary = make_summary(test.description, test.setup, test.state, test.world, timing_of(test, options));
+        files.write_summary(outcome.summary);
+    };
+    const auto write_peak = [&] {
+        if (test.state.peak_frame.row >= 0) files.add_frame(test.state.peak_frame, test.state);
+    };
+    try {
+        load_specimen(test, hooks, &files);
+    } catch (const UnstableRun& error) {
+        test.state.ended_by = ended_by_instability;
+        test.setup.notices.push_back(error.what());
+        files.flush();
+        write_peak();
+        write_summary();
+        throw;
+    }
+    outcome.interrupted = test.state.ended_by.empty();
+    if (outcome.interrupted) {
+        // The checkpoint knows neither this end nor the picture of the peak so far: a resumed test may pass a higher
+        // one.
+        TestState kept = test.state;
+        kept.wall_seconds += seconds_since(options.process_start);
+        files.write_checkpoint(test.setup, kept, test.world);
+        test.state.ended_by = ended_by_interrupt;
+        write_peak();
+        write_summary();
+    } else {
+        write_peak();
+        TestState kept = test.state;
+        kept.wall_seconds = kept.step_seconds =
+            0.0;  // nothing is left to add them to: the same run gives the same bytes
+        files.write_checkpoint(test.setup, kept, test.world);
+        write_summary();
+        folder.finish();
+    }
+    outcome.folder = folder.path();
+    return outcome;
+}
+
+}  // namespace
+
+VirtualTest prepare_test(const TestCase& description, const StageReport& stage) {
+    VirtualTest test;
+    test.description = description;
+    const Specimen specimen = make_specimen(description, [&](const std::string& line) { say(stage, line); });
+    Bonded bonded = bond_specimen(specimen, description, description.loading);
+    test.world = std::move(bonded.world);
+    test.setup = record_setup(test.world, specimen, bonded.platens, description.loading.kind == "compression");
+    test.state.failure.share_of_peak = description.loading.stop_at_share_of_peak;
+    say(stage, fmt::format("bonded {} points of {} interfaces, time step {:.3g} s", test.world.bonds_initial,
+                           test.world.interfaces_initial, test.world.time_step));
+    if (bonded.platens.bonded) {
+        check_platen_bonds(test.world, test.setup, description);
+        solve_moduli(test.state, test.setup, test.world, specimen);
+    } else {
+        TestCase::Loading held = description.loading;
+        held.platens = "bonded";
+        const Bonded twin = bond_specimen(specimen, description, held);
+        solve_moduli(test.state, test.setup, twin.world, specimen);
+    }
+    if (std::isfinite(test.state.youngs_modulus)) {
+        say(stage, fmt::format("small strain: E = {:.4g} N/m, nu = {:.3g}", test.state.youngs_modulus,
+                               test.state.poissons_ratio));
+    }
+    for (const std::string& notice : test.setup.notices) say(stage, "notice: " + notice);
+    return test;
+}
+
+TestOutcome run_test(const TestCase& description, const TestOptions& options, const TestHooks& hooks) {
+    OutputFolder folder = OutputFolder::create(options.folder, options.force);
+    VirtualTest test = prepare_test(description, hooks.stage);
+    if (options.threads > 0) set_threads(test.world, options.threads);
+    test.state.command = options.command;
+    TestCase recorded = description;
+    if (description.particles.file)
+        recorded.inputs.push_back(description.resolve_path("particles.file", *description.particles.file));
+    if (description.packing.sieve)
+        recorded.inputs.push_back(description.resolve_path("packing.sieve", *description.packing.sieve));
+    const std::string text = resolved_case(recorded, folder.target());
+    folder.write("case.toml", text);
+    TestFiles files(folder, sha256(text), test.state);
+    return run_with_files(test, options, hooks, folder, files);
+}
+
+TestOutcome resume_test(const TestOptions& options, const TestHooks& hooks) {
+    OutputFolder folder = OutputFolder::reopen(options.folder);
+    const fs::path checkpoint_path = folder.path() / "checkpoint";
+    std::error_code error;
+    if (!fs::is_regular_file(checkpoint_path, error)) {
+        throw InputError(
+            fmt::format("{}: found no checkpoint, expected one to resume from; run the test again with --force",
+                        checkpoint_path.string()));
+    }
+    const fs::path case_path = folder.path() / "case.toml";
+    VirtualTest test;
+    test.description = read_case(case_path);
+    TestCheckpoint checkpoint = load_test(read_bytes(checkpoint_path), checkpoint_path.string());
+    if (checkpoint.case_hash != sha256(read_bytes(case_path))) {
+        throw InputError(fmt::format(
+            "{}: found another case than the one the checkpoint belongs to, expected it unchanged; restore it, "
+            "or run the test again with --force",
+            case_path.string()));
+    }
+    test.setup = std::move(checkpoint.setup);
+    test.state = std::move(checkpoint.state);
+    test.world = std::move(checkpoint.world);
+    set_threads(test.world,
+                options.threads > 0 ? options.threads : static_cast<int>(test.description.numerics.threads));
+    if (!test.state.ended_by.empty()) {
+        TestOutcome outcome;
+        outcome.summary = nlohmann::ordered_json::parse(read_bytes(folder.path() / "summary.json"), nullptr, false);
+        outcome.folder = folder.path();
+        outcome.was_finished = true;
+        return outcome;
+    }
+    TestFiles files(folder, checkpoint.case_hash, test.state);
+    say(hooks.stage,
+        fmt::format("resumed at step {}, axial strain {:.4g}", test.world.step, test.setup.axial_strain(test.world)));
+    return run_with_files(test, options, hooks, folder, files);
+}
+
+}  // namespace crackle

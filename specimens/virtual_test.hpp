@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One virtual test from its case to its results.
+//
+//   prepare_test()  case → specimen → platens → world → bonds → elastic solution: ready to be loaded, nothing written
+//   load_specimen() steps the world until it fails, reaches its largest strain or is interrupted; files are optional
+//   run_test(), resume_test()  the same with the folder OUT
+//
+// Observers look in steps that somebody reads, in a fixed order: curve row, failure, frame; broken bonds as they come.
+// Nothing of this reaches the kernels.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "specimens/case_file.hpp"
+#include "specimens/specimen.hpp"
+#include "specimens/test_setup.hpp"
+#include "specimens/test_state.hpp"
+
+namespace crackle {
+
+class TestFiles;
+
+struct VirtualTest {
+    TestCase description;
+    TestSetup setup;
+    TestState state;
+    World world;
+};
+
+struct TestProgress {
+    double axial_strain = 0.0;
+    double share_done = 0.0;                       ///< of max_axial_strain
+    double axial_stress = 0.0, peak_stress = 0.0;  // N/m
+    std::int64_t bonds_broken = 0, step = 0;
+    double steps_per_second = 0.0;
+    double seconds_left = 0.0;  ///< until max_axial_strain; failure may come first
+};
+
+/// What the caller wants to know or to say while a test runs; empty members are skipped.
+struct TestHooks {
+    StageReport stage;
+    std::function<void(const TestProgress&)> progress;  ///< a few times a second
+    std::function<bool()> interrupted;
+};
+
+struct TestOptions {
+    std::filesystem::path folder;  ///< OUT
+    bool force = false;
+    int threads = 0;      ///< 0: the case's
+    std::string command;  ///< for the summary
+    std::chrono::steady_clock::time_point process_start = std::chrono::steady_clock::now();
+};
+
+struct TestOutcome {
+    nlohmann::ordered_json summary;
+    std::filesystem::path folder;  ///< where the results are: OUT, or OUT.new if earlier results are still in OUT
+    bool interrupted = false;
+    bool was_finished = false;  ///< resume_test() found nothing to do
+};
+
+/// @throws InputError for everything that makes the case impossible.
+VirtualTest prepare_test(const TestCase& description, const StageReport& stage = {});
+
+/// Loads to the end. @param files where to write; nullptr: rows and events stay in memory (state.rows, world.events)
+/// @throws UnstableRun with everything so far kept.
+void load_specimen(VirtualTest& test, const TestHooks& hooks = {}, TestFiles* files = nullptr);
+
+/// @throws InputError, UnstableRun (results up to there are kept)
+TestOutcome run_test(const TestCase& description, const TestOptions& options, const TestHooks& hooks = {});
+
+/// Goes on with a test from its last checkpoint. @throws InputError if the folder, its case or its checkpoint do not
+/// fit.
+TestOutcome resume_test(const TestOptions& options, const TestHooks& hooks = {});
+
+}  // namespace crackle
