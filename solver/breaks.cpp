@@ -24,10 +24,12 @@ double orientation_of(Vec2 normal) {
     return angle;
 }
 
+/// Whether a bond is left between the two; one found broken in the same pass but not yet recorded still counts, so that
+/// an interface that loses several at once is lost once.
 bool interface_holds(const World& world, BodyIndex a, BodyIndex b) {
     for (std::uint32_t s = world.body_begin[a]; s < world.body_begin[a + 1]; ++s) {
         const ContactPoint& point = world.points[world.body_slots[s] >> 1];
-        if ((point.flags & point_bonded) == 0) continue;
+        if ((point.flags & (point_bonded | point_just_broken)) == 0) continue;
         if ((point.body_i == a && point.body_j == b) || (point.body_i == b && point.body_j == a)) return true;
     }
     return false;
@@ -55,11 +57,11 @@ void record_breaks(World& world) {
         event.shear_force = history.shear_force;
         event.slid = (point.flags & point_slid) != 0;
         event.shear_mode = event.slid && std::abs(history.shear_force) > std::abs(history.normal_force);
-        event.last_of_interface = !interface_holds(world, point.body_i, point.body_j);
-        world.fracture_loss += event.energy;
         point.shear_force = 0.0;
         point.bond_overlap = 0.0;
         point.flags = 0;
+        event.last_of_interface = !interface_holds(world, point.body_i, point.body_j);
+        world.fracture_loss += event.energy;
         world.bonds_broken += 1;
         world.interfaces_lost += event.last_of_interface ? 1 : 0;
         world.events.push_back(event);
