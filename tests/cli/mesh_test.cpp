@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `crackle mesh` as a user calls it: what it writes, and what it says of input it cannot use.
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "solver/demseg/geometry.hpp"
+#include "tests/support/claim.hpp"
+#include "tests/support/deck_files.hpp"
+
+namespace crackle {
+namespace {
+
+using testing::agrees;
+using testing::ScratchFolder;
+
+struct Answer {
+    int code;
+    std::string out, err;
+};
+
+std::string text_of(const std::filesystem::path& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::stringstream text;
+    text << file.rdbuf();
+    return text.str();
+}
+
+class CrackleMesh : public ::testing::Test {
+  protected:
+    Answer call(const std::string& words) const {
+        const int status = std::system(
+            fmt::format("cd '{}' && '{}' mesh {} > out.txt 2> err.txt", scratch_.path.string(), CRACKLE_PROGRAM, words)
+                .c_str());
+        return {WEXITSTATUS(status), text_of(scratch_ / "out.txt"), text_of(scratch_ / "err.txt")};
+    }
+    void write(const std::string& name, const std::string& text) const { std::ofstream(scratch_ / name) << text; }
+    bool exists(const std::string& name) const { return std::filesystem::exists(scratch_ / name); }
+
+    /// One message, exit code 2, nothing written.
+    void expect_refusal(const std::string& words, const std::string& says) const {
+        const Answer answer = call(words);
+        fmt::print("  {}", answer.err);
+        EXPECT_EQ(answer.code, 2) << words;
+        EXPECT_NE(answer.err.find(says), std::string::npos) << answer.err;
+        EXPECT_EQ(std::count(answer.err.begin(), answer.err.end(), '\n'), 1) << answer.err;
+        EXPECT_TRUE(answer.out.empty()) << answer.out;
+        EXPECT_FALSE(exists("in_gm_volo.dat") || exists("in_gm_tri.dat"));
+    }
+
+    /// Circles of radius 0.05 on a jittered lattice, two materials.
+    void write_packing() const {
+        std::string deck = "1 0 0\n1d-4 0 -9.8\n2\n2500 1e7 2.5e6 0 0 27\n2600 2e7 5e6 0 0 30\n0 1 0 2 0\n50 0 0\n";
+        int id = 0;
+        for (int j = 0; j < 10; ++j) {
+            for (int i = 0; i < 5; ++i) {
+                ++id;
+                deck += fmt::format("{} {} 1\n0 0 0\n1 0.05\n{} {} 0\n", id, 1 + id % 2,
+                                    0.1 + 0.2 * i + 0.01 * (id % 3), 0.1 + 0.2 * j - 0.01 * (id % 4));
+            }
+        }
+        write("in_gm.dat", deck);
+    }
+
+    ScratchFolder scratch_;
+};
+
+TEST_F(CrackleMesh, WritesADeckOfPolygonsThatFillsTheDomain) {
+    write_packing();
+    for (const auto& [kind, file] : {std::pair{"voronoi", "in_gm_volo.dat"}, {"delaunay", "in_gm_tri.dat"}}) {
+        const Answer answer = call(fmt::format("in_gm.dat --kind {} --thick 0", kind));
+        ASSERT_EQ(answer.code, 0) << answer.err;
+        const Scene scene = read_geometry(scratch_ / file);
+        double area = 0.0;
+        for (const Body& body : scene.bodies) {
+            EXPECT_TRUE(body.closed);
+            area +=
+                mass_properties(scene, body).mass / scene.materials[static_cast<std::size_t>(body.material)].density;
+        }
+        EXPECT_TRUE(agrees("area of the polygons", area, 2.0, 1e-12));
+        EXPECT_EQ(scene.materials.size(), 2U);
+        EXPECT_EQ(scene.domain.y2, 2.0);
+        if (std::string(kind) == "voronoi") {
+            ASSERT_EQ(scene.bodies.size(), 50U);
+            for (const Body& body : scene.bodies) EXPECT_EQ(body.material, body.id % 2) << "the circle's material";
+        }
+        EXPECT_NE(answer.out.find(fmt::format("cells            {} ({})", scene.bodies.size(), kind)),
+                  std::string::npos)
+            << answer.out;
+        for (const char* line : {"segments", "shortest edge", "smallest angle", "cells destroyed  0"}) {
+            EXPECT_NE(answer.out.find(line), std::string::npos) << answer.out;
+        }
+    }
+}
+
+TEST_F(CrackleMesh, ThickIsWrittenAndSetsTheGap) {
+    write_packing();
+    ASSERT_EQ(call("in_gm.dat --kind voronoi --thick 4e-3 -o cells.dat").code, 0);
+    const Scene scene = read_geometry(scratch_ / "cells.dat");
+    EXPECT_EQ(scene.thick, 4e-3);
+    double lowest = 1.0;
+    for (const Vec2& corner : scene.vertices) lowest = std::min(lowest, corner.y);
+    EXPECT_TRUE(agrees("gap to the domain's face", lowest, 2e-3, 1e-12));
+}
+
+TEST_F(CrackleMesh, ReadsAPlainListOfSeeds) {
+    write("seeds.txt", "# x y\n-0.5 0.25\n\n 0.5  2.5d-1\r\n-0.5 0.75 # comment\n0.5 0.75\n");
+    const Answer answer = call("seeds.txt --kind voronoi --thick 1e-3 --domain -1 1 0 1");
+    ASSERT_EQ(answer.code, 0) << answer.err;
+    const Scene scene = read_geometry(scratch_ / "in_gm_volo.dat");
+    EXPECT_EQ(scene.bodies.size(), 4U);
+    EXPECT_EQ(scene.vertices.size(), 16U);
+    EXPECT_EQ(scene.domain.x1, -1.0);
+    ASSERT_EQ(call("seeds.txt --kind delaunay --thick 1e-3 --bounding-box").code, 0);
+    EXPECT_EQ(read_geometry(scratch_ / "in_gm_tri.dat").bodies.size(), 2U);
+}
+
+TEST_F(CrackleMesh, MergesWhatTheInsetDestroysOnRequest) {
+    write("seeds.txt", "0.2 0.5\n0.5 0.5\n0.50001 0.5\n0.50002 0.5\n0.8 0.5\n");
+    expect_refusal("seeds.txt --kind voronoi --thick 1e-3 --domain 0 1 0 1", "seed 2 is seeds.txt:3");
+    const Answer answer = call("seeds.txt --kind voronoi --thick 1e-3 --domain 0 1 0 1 --merge");
+    ASSERT_EQ(answer.code, 0) << answer.err;
+    EXPECT_NE(answer.out.find("cells            4"), std::string::npos) << answer.out;
+    EXPECT_NE(answer.out.find("cells destroyed  1 (merged)"), std::string::npos) << answer.out;
+}
+
+TEST_F(CrackleMesh, LeavesAnExistingFileAlone) {
+    write("seeds.txt", "0.2 0.5\n0.5 0.5\n");
+    write("mine.dat", "precious\n");
+    const std::string words = "seeds.txt --kind voronoi --thick 1e-3 --domain 0 1 0 1 -o mine.dat";
+    expect_refusal(words, "--force");
+    expect_refusal("seeds.txt --kind voronoi --thick 1e-3 --domain 0 1 0 1 --force -o seeds.txt", "the input itself");
+    expect_refusal("seeds.txt --kind voronoi --thick 1e-3 --domain 0 1 0 0 --force -o mine.dat", "y1 < y2");
+    EXPECT_EQ(text_of(scratch_ / "mine.dat"), "precious\n");
+    EXPECT_EQ(call(words + " --force").code, 0);
+    EXPECT_EQ(read_geometry(scratch_ / "mine.dat").bodies.size(), 2U);
+}
+
+TEST_F(CrackleMesh, RefusesBadInputInOneMessage) {
+    write_packing();
+    const std::string cells = " --kind voronoi --thick 1e-3";
+    expect_refusal("absent.dat" + cells, "absent.dat");
+    expect_refusal(cells, "expected an in_gm.dat or a list of seeds");
+    expect_refusal("in_gm.dat --thick 1e-3", "--kind: found nothing, expected delaunay or voronoi");
+    expect_refusal("in_gm.dat --kind hexagons --thick 1e-3", "--kind: found hexagons");
+    expect_refusal("in_gm.dat --kind voronoi", "--thick: found nothing");
+    expect_refusal("in_gm.dat --kind voronoi --thick -1", "thick: found -1");
+    expect_refusal("in_gm.dat --kind voronoi --thick nan", "thick");
+    expect_refusal("in_gm.dat --kind voronoi --thick thin", "thin");
+    expect_refusal("in_gm.dat --kind voronoi --thick 1", "destroyed by the inset of 0.5");
+    expect_refusal("in_gm.dat --kind voronoi --thick 1e-3 --boundary seeds", "--boundary: found seeds");
+    expect_refusal("in_gm.dat --domain 0 1 0 1" + cells, "--domain");
+    expect_refusal("in_gm.dat --colour red" + cells, "--colour");
+    expect_refusal("in_gm.dat -o nowhere/at/all.dat" + cells, "nowhere/at");
+
+    write("empty.txt", "");
+    expect_refusal("empty.txt" + cells, "empty.txt");
+    write("seeds.txt", "0.2 0.5\n0.3\n");
+    expect_refusal("seeds.txt --domain 0 1 0 1" + cells, "seeds.txt:2: found 1 word");
+    write("seeds.txt", "0.2 0.5\n0.3 nan\n");
+    expect_refusal("seeds.txt --domain 0 1 0 1" + cells, "seeds.txt:2: y: found 'nan'");
+    write("seeds.txt", "0.2 0.5\n0.3 0.5\n0.2 0.5\n");
+    expect_refusal("seeds.txt --domain 0 1 0 1" + cells, "seed 0 is seeds.txt:1, seed 2 is seeds.txt:3");
+    expect_refusal("seeds.txt" + cells, "found neither");
+    expect_refusal("seeds.txt --bounding-box --domain 0 1 0 1" + cells, "found both");
+    expect_refusal("seeds.txt --domain 0 1 0" + cells, "expected four numbers");
+    expect_refusal("seeds.txt --bounding-box" + cells, "y1 < y2");
+
+    const std::string deck = text_of(scratch_ / "in_gm.dat");
+    write("cut.dat", deck.substr(0, deck.size() / 2));
+    expect_refusal("cut.dat" + cells, "cut.dat:");
+    write("outside.dat", std::string(deck).replace(deck.find("0 1 0 2 0\n"), 9, "0 0.3 0 2 0"));
+    expect_refusal("outside.dat" + cells, "inside the domain");
+}
+
+}  // namespace
+}  // namespace crackle

@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Frames and tables come back as they were written; damage is found, never believed.
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "solver/errors.hpp"
+#include "specimens/observers/base64.hpp"
+#include "specimens/observers/read_frames.hpp"
+#include "specimens/observers/vtk_polydata.hpp"
+#include "specimens/results.hpp"
+#include "tests/support/sample_results.hpp"
+
+namespace crackle {
+namespace {
+
+namespace fs = std::filesystem;
+
+class TemporaryFile {
+  public:
+    explicit TemporaryFile(const std::string& text)
+        : path(fs::temp_directory_path() / ("crackle-reading-" + std::to_string(::getpid()) + ".vtp")) {
+        std::ofstream(path, std::ios::binary) << text;
+    }
+    ~TemporaryFile() { fs::remove(path); }
+    fs::path path;
+};
+
+std::string message_of(const std::string& text) {
+    const TemporaryFile file(text);
+    try {
+        read_particle_frame(file.path);
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "read without complaint";
+}
+
+VtpData one_platen_one_triangle() {
+    VtpData data;
+    data.add_line({{0.1, 0.2}, {1.0 / 3.0, 0.2}});
+    data.add_polygon({{0.0, 0.0}, {1.0, 0.0}, {0.0, 1e-300}});
+    data.cell_arrays = {{"id", 1, {}, {9, 4}},
+                        {"radius", 1, {0.0, 0.0}, {}},
+                        {"angle", 1, {0.0, -0.25}, {}},
+                        {"displacement", 3, {1, 2, 3, 4, 5, 6}, {}}};
+    data.field_values = {{"time", 0.125}, {"axial_strain", 1e-3}};
+    return data;
+}
+
+std::string replaced(std::string text, const std::string& old_text, const std::string& new_text) {
+    const std::size_t at = text.find(old_text);
+    EXPECT_NE(at, std::string::npos) << old_text;
+    return text.replace(at, old_text.size(), new_text);
+}
+
+TEST(Base64, ComesBackForEveryLength) {
+    std::vector<unsigned char> bytes;
+    for (int length = 0; length < 300; ++length) {
+        EXPECT_EQ(decode_base64(encode_base64(bytes)), bytes) << length << " bytes";
+        bytes.push_back(static_cast<unsigned char>(length * 37));
+    }
+}
+
+TEST(Base64, MatchesTheExamplesOfItsStandard) {  // RFC 4648, section 10
+    const auto encoded = [](const std::string& text) {
+        return encode_base64({reinterpret_cast<const unsigned char*>(text.data()), text.size()});
+    };
+    EXPECT_EQ(encoded(""), "");
+    EXPECT_EQ(encoded("f"), "Zg==");
+    EXPECT_EQ(encoded("fo"), "Zm8=");
+    EXPECT_EQ(encoded("foobar"), "Zm9vYmFy");
+}
+
+TEST(Base64, RefusesWhatIsNotBase64) {
+    for (const char* text : {"Zg=", "Zg", "Z!==", "====", "Zg==Zg==", "=Zg="})
+        EXPECT_FALSE(decode_base64(text)) << text;
+}
+
+TEST(ReadFrames, BodiesComeBackBitForBit) {
+    const TemporaryFile file(vtp_text(one_platen_one_triangle()));
+    const ParticleFrame frame = read_particle_frame(file.path);
+    EXPECT_EQ(frame.time, 0.125);
+    EXPECT_EQ(frame.axial_strain, 1e-3);
+    ASSERT_EQ(frame.bodies.size(), 2U);
+    EXPECT_TRUE(frame.bodies[0].open);
+    EXPECT_EQ(frame.bodies[0].id, 9);
+    EXPECT_EQ(frame.bodies[0].outline, (std::vector<Vec2>{{0.1, 0.2}, {1.0 / 3.0, 0.2}}));
+    EXPECT_FALSE(frame.bodies[1].open);
+    EXPECT_EQ(frame.bodies[1].id, 4);
+    EXPECT_EQ(frame.bodies[1].angle, -0.25);
+    EXPECT_EQ(frame.bodies[1].outline, (std::vector<Vec2>{{0.0, 0.0}, {1.0, 0.0}, {0.0, 1e-300}}));
+    EXPECT_EQ(read_polydata(file.path).cell_data.at("displacement"), (std::vector<double>{1, 2, 3, 4, 5, 6}));
+}
+
+TEST(ReadFrames, ReadsArraysInSeveralBlocksAsVtkWritesThem) {
+    // 600 doubles in blocks of 1000 bytes: four full ones and a shorter fifth.
+    std::vector<double> values(600);
+    for (std::size_t k = 0; k < values.size(); ++k) values[k] = 0.1 * static_cast<double>(k);
+    std::vector<unsigned char> bytes(4800), packed;
+    std::memcpy(bytes.data(), values.data(), bytes.size());
+    std::vector<std::uint64_t> header{5, 1000, 800};
+    for (std::size_t at = 0; at < bytes.size(); at += 1000) {
+        const std::size_t count = std::min<std::size_t>(1000, bytes.size() - at);
+        uLongf size = compressBound(count);
+        std::vector<unsigned char> block(size);
+        ASSERT_EQ(compress(block.data(), &size, bytes.data() + at, count), Z_OK);
+        header.push_back(size);
+        packed.insert(packed.end(), block.begin(), block.begin() + static_cast<std::ptrdiff_t>(size));
+    }
+    std::vector<unsigned char> header_bytes(8 * header.size());
+    std::memcpy(header_bytes.data(), header.data(), header_bytes.size());
+    const TemporaryFile file(
+        R"(<VTKFile type="PolyData" version="1.0" byte_order="LittleEndian" header_type="UInt64" compressor="vtkZLibDataCompressor">)"
+        R"(<PolyData><Piece><CellData><DataArray type="Float64" Name="long" format="binary">)"
+        "\n  " +
+        encode_base64(header_bytes) + encode_base64(packed) + "\n</DataArray></CellData></Piece></PolyData></VTKFile>");
+    EXPECT_EQ(read_polydata(file.path).cell_data.at("long"), values);
+}
+
+TEST(ReadFrames, SaysWhatIsWrongWithAFrame) {
+    const std::string good = vtp_text(one_platen_one_triangle());
+    EXPECT_NE(message_of(replaced(good, "vtkZLibDataCompressor", "vtkLZ4DataCompressor"))
+                  .find("expected 'vtkZLibDataCompressor'"),
+              std::string::npos);
+    EXPECT_NE(message_of(replaced(good, "\"PolyData\"", "\"ImageData\"")).find("expected 'PolyData'"),
+              std::string::npos);
+    EXPECT_NE(message_of(replaced(good, "Name=\"radius\"", "Name=\"size\"")).find("cell data 'radius': found 0 values"),
+              std::string::npos);
+    EXPECT_NE(message_of(replaced(good, "Name=\"time\"", "Name=\"date\"")).find("found no field value 'time'"),
+              std::string::npos);
+    EXPECT_NE(message_of(replaced(good, "type=\"Int64\" Name=\"id\"", "type=\"String\" Name=\"id\""))
+                  .find("found type 'String'"),
+              std::string::npos);
+    EXPECT_NE(message_of(replaced(good, "format=\"binary\"", "format=\"appended\"")).find("expected 'binary'"),
+              std::string::npos);
+}
+
+TEST(ReadFrames, EveryFlippedLetterOfItsDataIsReadOrRefusedButNeverCrashes) {
+    const std::string good = vtp_text(one_platen_one_triangle());
+    int refused = 0, read = 0;
+    for (std::size_t at = 0; at < good.size(); ++at) {
+        std::string bad = good;
+        bad[at] = bad[at] == 'A' ? 'Z' : 'A';
+        message_of(bad) == "read without complaint" ? ++read : ++refused;
+    }
+    std::printf("  %d of %zu damaged files refused\n", refused, good.size());
+    EXPECT_GT(refused, read);
+}
+
+TEST(ReadResults, SampleFolderComesBackWithItsCounts) {
+    const fs::path folder = fs::temp_directory_path() / ("crackle-sample-" + std::to_string(::getpid()));
+    testing::SampleTest test;
+    test.specimen = "voronoi";
+    const testing::SampleCounts counts = testing::write_sample_results(folder, test);
+    const TestResults results = read_results(folder);
+    fs::remove_all(folder);
+
+    const std::vector<double>& modes = *results.events.find("mode");
+    EXPECT_EQ(std::count(modes.begin(), modes.end(), 1.0), counts.shear_breaks);
+    EXPECT_EQ(std::count(modes.begin(), modes.end(), 0.0), counts.tension_breaks);
+    EXPECT_EQ(results.curve.rows(), 601U);
+    ASSERT_EQ(results.frames.size(), 3U);
+    for (const KeyFrame& frame : results.frames)
+        EXPECT_EQ(frame.particles.bodies.size(), static_cast<std::size_t>(counts.particles) + 2);
+    EXPECT_EQ(results.frames[2].particles.axial_strain, 1.5e-3);
+}
+
+}  // namespace
+}  // namespace crackle
