@@ -57,7 +57,7 @@ const filledHeights = (panel, fill) => panel.locator(`path[fill="${fill}"]`).eva
 test('opens without a console error, and nothing is asked of the network', async () => {
     const {page, complaints, requests, address, close} = await open('six.html');
     for (const view of ['specimen', 'test', 'kind']) await page.click(`button[data-value="${view}"]`);
-    for (const factor of ['50', '1']) await page.click(`button[data-value="${factor}"]`);
+    for (const factor of ['20', '1']) await page.click(`button[data-value="${factor}"]`);
     await page.click('button.theme');
     assert.deepEqual(complaints, []);
     assert.deepEqual(requests, [address]);

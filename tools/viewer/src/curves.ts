@@ -24,6 +24,9 @@ echarts.use([
     SVGRenderer, TitleComponent, TooltipComponent,
 ]);
 
+const solidIcon = 'path://M0,0L22,0L22,3L0,3Z';
+const dashedIcon = 'path://M0,0L9,0L9,3L0,3ZM13,0L22,0L22,3L13,3Z';
+
 // Sizes in CSS pixels.
 const left = 66, right = 58, top = 44;
 const stressHeight = 300, stripHeight = 58, stripGap = 30, bottom = 46;
@@ -213,7 +216,7 @@ export function panelOption(panel: Panel, theme: Theme) {
         ],
         legend: {
             right, top: 6, itemWidth: 22, itemHeight: 8, itemGap: 14, padding: 0, textStyle: text,
-            data: members.map((member) => ({name: member.shortLabel, icon: 'path://M0,0L22,0L22,3L0,3Z',
+            data: members.map((member) => ({name: member.shortLabel, icon: member.dashed ? dashedIcon : solidIcon,
                 itemStyle: {color: theme.series[member.colour % theme.series.length]}})),
             inactiveColor: theme.grid,
         },

@@ -8,7 +8,7 @@ import {brokenUntil, drawSpecimen, extentOfTest, type Extent} from './specimen';
 import type {Theme} from './theme';
 import {counted, quantity, strain} from './units';
 
-export const magnifications = [1, 10, 50, 200] as const;
+export const magnifications = [1, 5, 20, 100] as const;
 const drawnHeight = 330; // px, tallest specimen
 const cardWidth = 560; // px, three drawings and their gaps
 
