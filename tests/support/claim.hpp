@@ -13,8 +13,8 @@ namespace crackle::testing {
 /// |got - expected| <= tolerance·|expected|; prints both and the relative error.
 inline ::testing::AssertionResult agrees(const std::string& claim, double got, double expected, double tolerance) {
     const double error = std::abs(got - expected) / std::abs(expected);
-    const std::string text =
-        fmt::format("{}: expected {:.10g}, got {:.10g}, relative error {:.3g} (tolerance {:.3g})", claim, expected, got, error, tolerance);
+    const std::string text = fmt::format("{}: expected {:.10g}, got {:.10g}, relative error {:.3g} (tolerance {:.3g})",
+                                         claim, expected, got, error, tolerance);
     fmt::print("  {}\n", text);
     if (error <= tolerance) return ::testing::AssertionSuccess();
     return ::testing::AssertionFailure() << text;
@@ -23,8 +23,8 @@ inline ::testing::AssertionResult agrees(const std::string& claim, double got, d
 /// |got - expected| <= tolerance; prints both and the error.
 inline ::testing::AssertionResult within(const std::string& claim, double got, double expected, double tolerance) {
     const double error = std::abs(got - expected);
-    const std::string text =
-        fmt::format("{}: expected {:.10g}, got {:.10g}, error {:.3g} (tolerance {:.3g})", claim, expected, got, error, tolerance);
+    const std::string text = fmt::format("{}: expected {:.10g}, got {:.10g}, error {:.3g} (tolerance {:.3g})", claim,
+                                         expected, got, error, tolerance);
     fmt::print("  {}\n", text);
     if (error <= tolerance) return ::testing::AssertionSuccess();
     return ::testing::AssertionFailure() << text;

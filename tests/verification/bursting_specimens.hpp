@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bonded specimens that fly apart, so that bonds break and neighbour lists age quickly, and traces of their state
+// bytes.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "solver/world.hpp"
+#include "specimens/catalogue/disordered.hpp"
+#include "tests/support/claim.hpp"
+#include "tests/support/measures.hpp"
+
+namespace crackle::testing {
+
+/// Bodies fly apart from the centre at a few strains a second and at random on top, so that bonds break and lists age.
+inline void burst(World& world, double rate, double noise, std::uint64_t seed) {
+    shake(world, noise * breaking_energy(world), seed);
+    Vec2 middle;
+    for (const BodyState& body : world.bodies) middle = middle + Vec2{body.x, body.y};
+    middle = (1.0 / static_cast<double>(world.bodies.size())) * middle;
+    for (BodyState& body : world.bodies) {
+        body.vx += rate * (body.x - middle.x);
+        body.vy += 0.3 * rate * (body.y - middle.y);
+    }
+}
+
+inline World bursting_discs(int columns, int rows, double rate, double noise) {
+    DisorderedDiscs request;
+    request.columns = columns, request.rows = rows, request.shake = 5e-5;
+    Material material = rock();
+    material.damping_ratio = 0.05;
+    Scene scene = disordered_discs(request, material);
+    scene.domain = {-0.1, 0.04 * columns + 0.1, -0.05, 0.0, {true, true, true, false}};
+    scene.gravity = {0.0, -9.81};
+    World world = build_world(std::move(scene));
+    bond_all(world, 0.0);
+    burst(world, rate, noise, 3);
+    return world;
+}
+
+inline World bursting_cells(int columns, int rows, double rate, double noise) {
+    ShakenCells request;
+    request.columns = columns, request.rows = rows;
+    Material material = rock();
+    material.damping_ratio = 0.05;
+    World world = build_world(shaken_cells(request, material));
+    bond_all(world, 1.08e-3);
+    burst(world, rate, noise, 4);
+    return world;
+}
+
+struct Trace {
+    std::vector<std::uint64_t> hashes;  // every 100 steps
+    std::string last;                   // all bytes at the end
+    std::int64_t broken = 0, rebuilds = 0;
+    std::vector<std::int64_t> thread_blocks;
+};
+
+inline Trace trace_of(World world, int threads, int steps) {
+    set_threads(world, threads);
+    Trace trace;
+    const std::int64_t built = world.list_builds;
+    for (int n = 1; n <= steps; ++n) {
+        step(world);
+        if (n % 100 == 0) trace.hashes.push_back(hash_of(save_world(world)));
+    }
+    trace.last = save_world(world);
+    trace.broken = world.bonds_broken;
+    trace.rebuilds = world.list_builds - built;
+    trace.thread_blocks = world.thread_blocks;
+    return trace;
+}
+
+inline void check_threads(const World& start, int steps, std::int64_t least_rebuilds, std::int64_t least_breaks) {
+    const Trace one = trace_of(start, 1, steps);
+    fmt::print("  {} bodies, {} steps, {} rebuilds, {} breaks, final hash {:016x}\n", start.bodies.size(), steps,
+               one.rebuilds, one.broken, one.hashes.back());
+    EXPECT_GE(one.rebuilds, least_rebuilds);
+    EXPECT_GE(one.broken, least_breaks);
+    for (const int threads : {2, 3, 7}) {
+        const Trace many = trace_of(start, threads, steps);
+        for (std::size_t k = 0; k < one.hashes.size(); ++k) {
+            ASSERT_EQ(many.hashes[k], one.hashes[k]) << threads << " threads, first seen at step " << 100 * (k + 1);
+        }
+        EXPECT_TRUE(many.last == one.last);
+        ASSERT_EQ(many.thread_blocks.size(), static_cast<std::size_t>(threads));
+        std::int64_t sum = 0;
+        for (std::size_t t = 0; t < many.thread_blocks.size(); ++t) {
+            EXPECT_GT(many.thread_blocks[t], 0) << "thread " << t << " of " << threads;
+            sum += many.thread_blocks[t];
+        }
+        EXPECT_EQ(sum, one.thread_blocks[0]);
+    }
+}
+
+}  // namespace crackle::testing

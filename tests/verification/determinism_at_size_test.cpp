@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The bytes of a run of 20,000 discs with many rebuilds and breaks do not depend on the number of threads.
+
+#include "tests/verification/bursting_specimens.hpp"
+
+namespace crackle {
+namespace {
+
+using namespace testing;
+
+TEST(DeterminismAtSize, ThreadsDoNotChangeABitForTwentyThousandDiscs) {
+    check_threads(bursting_discs(142, 141, 0.03, 0.02), 500, 10, 100);
+}
+
+}  // namespace
+}  // namespace crackle

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The bytes of a run do not depend on the number of threads, nor on where it was stopped and taken up again. Threads
+// are forced even where the machine has fewer cores; each must have done blocks of points.
+
+#include <map>
+
+#include "tests/verification/bursting_specimens.hpp"
+
+namespace crackle {
+namespace {
+
+using namespace testing;
+
+TEST(Determinism, ThreadsDoNotChangeABitForBurstingDiscs) {
+    check_threads(bursting_discs(30, 30, 0.3, 0.1), 500, 5, 50);
+}
+
+TEST(Determinism, ThreadsDoNotChangeABitForBurstingPolygons) {
+    check_threads(bursting_cells(14, 14, 3.0, 0.2), 600, 3, 20);
+}
+
+void check_restarts(const World& start, int steps, std::uint64_t seed) {
+    const Trace straight = trace_of(start, 1, steps);
+    EXPECT_GT(straight.broken, 0);
+    std::mt19937_64 generator(seed);
+    for (int k = 0; k < 5; ++k) {
+        const int stop = 1 + static_cast<int>(uniform_below(generator, static_cast<std::uint64_t>(steps - 1)));
+        const bool forces_known = k % 2 == 1;  // stopped after the force pass, or after the step
+        World world = start;
+        for (int n = 0; n < stop; ++n) step(world);
+        if (forces_known) compute_forces(world);
+        const std::int64_t events = static_cast<std::int64_t>(world.events.size());
+        World again = load_world(save_world(world), "memory");
+        EXPECT_TRUE(save_world(again) == save_world(world)) << "stopped at step " << stop;
+        EXPECT_EQ(static_cast<std::int64_t>(again.events.size()), events);
+        set_threads(again, 1 + k % 3);
+        for (int n = stop; n < steps; ++n) step(again);
+        const std::string bytes = save_world(again);
+        fmt::print("  stopped at step {} {}: {}\n", stop, forces_known ? "with forces" : "after the step",
+                   bytes == straight.last ? "same bytes" : "OTHER BYTES");
+        EXPECT_TRUE(bytes == straight.last);
+        // The events of both parts together are those of the run in one: none lost, none twice.
+        EXPECT_EQ(static_cast<std::int64_t>(again.events.size()), straight.broken);
+    }
+}
+
+TEST(Determinism, StoppingAndTakingUpAgainDoesNotChangeABitForDiscs) {
+    check_restarts(bursting_discs(14, 14, 1.0, 0.2), 500, 21);
+}
+
+TEST(Determinism, StoppingAndTakingUpAgainDoesNotChangeABitForPolygons) {
+    check_restarts(bursting_cells(7, 7, 1.0, 0.2), 500, 22);
+}
+
+TEST(Events, AreTheDifferenceOfTheBondSets) {
+    for (World world : {bursting_discs(14, 14, 1.0, 0.2), bursting_cells(10, 10, 2.0, 0.2)}) {
+        const auto bonds = [](const World& w) {
+            std::map<std::pair<int, int>, int> count;
+            for (const ContactPoint& p : w.points) {
+                if ((p.flags & point_bonded) == 0) continue;
+                const int a = w.info[p.body_i].id, b = w.info[p.body_j].id;
+                ++count[{std::min(a, b), std::max(a, b)}];
+            }
+            return count;
+        };
+        auto before = bonds(world);
+        const std::int64_t interfaces = static_cast<std::int64_t>(before.size());
+        EXPECT_EQ(world.interfaces_initial, interfaces);
+        for (int n = 0; n < 1500; ++n) step(world);
+        compute_forces(world);
+        std::int64_t last = 0;
+        for (const BreakEvent& event : world.events) {
+            --before[{std::min(event.body_i, event.body_j), std::max(event.body_i, event.body_j)}];
+            last += event.last_of_interface ? 1 : 0;
+        }
+        std::erase_if(before, [](const auto& entry) { return entry.second == 0; });
+        EXPECT_EQ(before, bonds(world));
+        EXPECT_EQ(last, world.interfaces_lost);
+        EXPECT_EQ(interfaces - static_cast<std::int64_t>(before.size()), world.interfaces_lost);
+        EXPECT_EQ(static_cast<std::int64_t>(world.events.size()), world.bonds_broken);
+        fmt::print("  {} of {} bonds broken, {} of {} interfaces lost\n", world.bonds_broken, world.bonds_initial,
+                   world.interfaces_lost, world.interfaces_initial);
+        EXPECT_GT(world.interfaces_lost, 0);
+        EXPECT_LT(world.interfaces_lost, interfaces);
+    }
+}
+
+TEST(Checkpoint, ForeignTruncatedAndLongerBytesAreRefused) {
+    const std::string good = save_world(bursting_discs(4, 4, 1.0, 0.1));
+    const auto refused = [](const std::string& bytes) {
+        try {
+            load_world(bytes, "some/checkpoint");
+        } catch (const std::runtime_error& error) {
+            EXPECT_NE(std::string(error.what()).find("some/checkpoint"), std::string::npos) << error.what();
+            return true;
+        }
+        return false;
+    };
+    EXPECT_TRUE(refused(""));
+    EXPECT_TRUE(refused("not a checkpoint at all, but long enough"));
+    EXPECT_TRUE(refused(good.substr(0, good.size() - 1)));
+    EXPECT_TRUE(refused(good.substr(0, good.size() / 2)));
+    EXPECT_TRUE(refused(good + "x"));
+    EXPECT_FALSE(refused(good));
+}
+
+}  // namespace
+}  // namespace crackle
