@@ -73,7 +73,7 @@ INSTANTIATE_TEST_SUITE_P(GuideExamples, ConservesEnergy,
                          ::testing::Values(std::pair{"circle", 0.01}, std::pair{"clump", 0.01},
                                            std::pair{"segment", 0.05}, std::pair{"triangle", 0.01},
                                            std::pair{"controlled_segment_displacement", 0.01}),
-                         [](const auto& info) { return std::string(info.param.first); });
+                         [](const auto& deck) { return std::string(deck.param.first); });
 
 // The circle falls from 5 onto a floor that it touches at height 2 and comes back to 5 for ever (e = 1).
 TEST(GuideCircle, BouncesBackToItsHeightForEver) {
@@ -340,8 +340,9 @@ TEST(GuidePulledChain, BreaksAtItsBackTension) {
     EXPECT_TRUE(agrees("strength", strength, 2e7, 0.01));
     EXPECT_TRUE(agrees("strength under gravity", strength_with, 2e7, 0.02));
     fmt::print("  bonds broken of 19: {} without gravity, {} with\n", broken, broken_with);
-    EXPECT_GT(broken, broken_with);
+    EXPECT_GE(broken, 17);
     EXPECT_GE(broken_with, 1);
+    EXPECT_LE(broken_with, 10);
 }
 
 TEST(GuideEmbankment, IsPushedAsideByEarthPressureAgainstFriction) {

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A deck run in parts is the deck run in one: with the state file to the byte, from the text files alone to 1e-9.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <random>
+
+#include "solver/demseg/deck_state.hpp"
+#include "solver/demseg/outputs.hpp"
+#include "tests/support/claim.hpp"
+#include "tests/support/deck_files.hpp"
+
+namespace crackle {
+namespace {
+
+using namespace testing;
+
+struct SplitCase {
+    const char* name;
+    std::int64_t steps;  // of the whole
+    std::int64_t
+        text_steps;  // of the whole where only text files are passed on: before chaos has blown up the last digits
+};
+
+std::ostream& operator<<(std::ostream& out, const SplitCase& c) { return out << c.name; }
+
+class SplitRun : public ::testing::TestWithParam<SplitCase> {
+  protected:
+    static DeckOptions part(const std::filesystem::path& from, const std::filesystem::path& to, std::int64_t steps,
+                            bool goes_on) {
+        DeckOptions options;
+        options.folder = from;
+        options.output = to;
+        options.steps = steps;
+        options.goes_on = goes_on;
+        return options;
+    }
+
+    /// Three cuts, in order, none at an end.
+    std::vector<std::int64_t> lengths(std::int64_t steps) const {
+        std::mt19937_64 random(std::hash<std::string>{}(GetParam().name));
+        std::vector<std::int64_t> cuts{0, steps};
+        while (cuts.size() < 5) {
+            const auto cut = 1 + static_cast<std::int64_t>(random() % static_cast<std::uint64_t>(steps - 1));
+            if (std::find(cuts.begin(), cuts.end(), cut) == cuts.end()) cuts.push_back(cut);
+        }
+        std::sort(cuts.begin(), cuts.end());
+        std::vector<std::int64_t> parts;
+        for (std::size_t k = 1; k < cuts.size(); ++k) parts.push_back(cuts[k] - cuts[k - 1]);
+        return parts;
+    }
+
+    /// Runs the parts one after the other, each into a folder of its own. @return the folders
+    std::vector<std::filesystem::path> run_parts(std::int64_t steps, bool with_state) {
+        std::vector<std::filesystem::path> folders;
+        std::filesystem::path from = shipped_deck(GetParam().name);
+        for (const std::int64_t length : lengths(steps)) {
+            const auto to = scratch_ / ("part" + std::to_string(folders.size()));
+            DeckRun run(part(from, to, length, !folders.empty()));
+            EXPECT_TRUE(folders.empty() || run.notices().empty());
+            run.run();
+            if (!with_state) std::filesystem::remove(to / "new_state.bin");
+            folders.push_back(to);
+            from = to;
+        }
+        return folders;
+    }
+
+    ScratchFolder scratch_;
+};
+
+TEST_P(SplitRun, HasTheBytesOfTheRunInOne) {
+    const auto whole = scratch_ / "whole";
+    DeckRun(part(shipped_deck(GetParam().name), whole, GetParam().steps, false)).run();
+    const auto parts = run_parts(GetParam().steps, true);
+    for (const char* name : deck_output_names) {
+        std::string joined;
+        for (const auto& folder : parts) joined += read_text_file(folder / name);
+        EXPECT_TRUE(joined == read_text_file(whole / name)) << name << " of the parts, put together";
+        EXPECT_FALSE(std::string(name) != "f-d_curve.dat" && joined.empty()) << name;
+    }
+    for (const char* name : {"new_in_gm.dat", "new_in_bc.dat", "new_in_cf.dat", "new_in_cf0.dat", "new_state.bin"}) {
+        EXPECT_TRUE(read_text_file(parts.back() / name) == read_text_file(whole / name)) << name;
+    }
+}
+
+TEST_P(SplitRun, FromTheTextFilesAloneAgreesTo1e9) {
+    const auto whole = scratch_ / "whole";
+    const std::int64_t steps = GetParam().text_steps;
+    DeckRun(part(shipped_deck(GetParam().name), whole, steps, false)).run();
+    const auto parts = run_parts(steps, false);
+    const Scene expected = read_geometry(whole / "new_in_gm.dat"), got = read_geometry(parts.back() / "new_in_gm.dat");
+    double error = 0.0, extent = 0.0, fastest = 1e-300, speed_error = 0.0;
+    const auto compare = [&](Vec2 a, Vec2 b) {
+        error = std::max(error, norm(a - b));
+        extent = std::max(extent, norm(a));
+    };
+    for (std::size_t k = 0; k < expected.circles.size(); ++k)
+        compare(expected.circles[k].centre, got.circles[k].centre);
+    for (std::size_t k = 0; k < expected.vertices.size(); ++k) compare(expected.vertices[k], got.vertices[k]);
+    for (std::size_t k = 0; k < expected.bodies.size(); ++k) {
+        fastest = std::max(fastest, norm(expected.bodies[k].velocity));
+        speed_error = std::max(speed_error, norm(expected.bodies[k].velocity - got.bodies[k].velocity));
+    }
+    EXPECT_TRUE(within("positions over the extent", error / extent, 0.0, 1e-9));
+    EXPECT_TRUE(within("velocities over the largest", speed_error / fastest, 0.0, 1e-9));
+}
+
+INSTANTIATE_TEST_SUITE_P(ShippedDecks, SplitRun,
+                         ::testing::Values(SplitCase{"circle", 20000, 20000}, SplitCase{"clump", 20000, 20000},
+                                           SplitCase{"segment", 20000, 20000}, SplitCase{"triangle", 20000, 20000},
+                                           SplitCase{"controlled_segment_displacement", 20000, 20000},
+                                           SplitCase{"controlled_segment_force", 20000, 20000},
+                                           SplitCase{"wave_chain", 400, 400}, SplitCase{"rebound", 300000, 300000},
+                                           SplitCase{"slope_k1", 7000, 7000}, SplitCase{"slope_k100", 70000, 70000},
+                                           SplitCase{"embankment", 10000, 600}, SplitCase{"repose", 2000, 100},
+                                           SplitCase{"chain_hanging", 500000, 20000},
+                                           SplitCase{"chain_pulled", 20000, 16000},
+                                           SplitCase{"random_packing", 20000, 100}),
+                         [](const auto& deck) { return std::string(deck.param.name); });
+
+}  // namespace
+}  // namespace crackle
