@@ -109,6 +109,24 @@ TEST_P(SplitRun, FromTheTextFilesAloneAgreesTo1e9) {
     EXPECT_TRUE(within("velocities over the largest", speed_error / fastest, 0.0, 1e-9));
 }
 
+TEST(DeckThreads, DoNotChangeAByte) {
+    const ScratchFolder scratch;
+    const auto run = [&](int threads) {
+        DeckOptions options;
+        options.folder = shipped_deck("embankment");
+        options.output = scratch / std::to_string(threads);
+        options.steps = 1000;
+        options.threads = threads;
+        DeckRun(options).run();
+        return options.output;
+    };
+    const auto one = run(1), three = run(3);
+    for (const char* name :
+         {"output.dat", "cont.dat", "energy.dat", "f-d_curve.dat", "new_in_gm.dat", "new_in_cf.dat", "new_state.bin"}) {
+        EXPECT_TRUE(read_text_file(one / name) == read_text_file(three / name)) << name;
+    }
+}
+
 INSTANTIATE_TEST_SUITE_P(ShippedDecks, SplitRun,
                          ::testing::Values(SplitCase{"circle", 20000, 20000}, SplitCase{"clump", 20000, 20000},
                                            SplitCase{"segment", 20000, 20000}, SplitCase{"triangle", 20000, 20000},
