@@ -9,7 +9,7 @@ namespace {
 using namespace testing;
 
 TEST(DeterminismAtSize, ThreadsDoNotChangeABitForTwentyThousandDiscs) {
-    check_threads(bursting_discs(142, 141, 0.03, 0.02), 500, 10, 100);
+    check_threads(bursting_discs(142, 141, 0.02, 0.01), 400, 10, 100);
 }
 
 }  // namespace

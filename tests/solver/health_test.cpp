@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A run that goes wrong stops and names step, body and cause; a time step that cannot work is refused beforehand.
+
+#include <limits>
+
+#include "solver/errors.hpp"
+#include "solver/world.hpp"
+#include "specimens/catalogue/disordered.hpp"
+#include "tests/support/claim.hpp"
+#include "tests/support/measures.hpp"
+
+namespace crackle {
+namespace {
+
+using testing::rock;
+
+Scene heap() {
+    DisorderedDiscs request;
+    request.columns = 6, request.rows = 6;
+    Scene scene = disordered_discs(request, rock());
+    scene.domain = {-0.05, 0.3, -0.05, 0.4, {true, true, true, true}};
+    return scene;
+}
+
+/// Text of the UnstableRun that check_health() must throw; the body must be `id` (0: any).
+std::string verdict(World& world, int id) {
+    try {
+        check_health(world);
+    } catch (const UnstableRun& error) {
+        EXPECT_EQ(error.step, world.step);
+        if (id != 0) {
+            EXPECT_EQ(error.body, id) << error.what();
+        }
+        EXPECT_NE(std::string(error.what()).find(fmt::format("step {}, body {}", error.step, error.body)),
+                  std::string::npos)
+            << error.what();
+        fmt::print("  {}\n", error.what());
+        return error.what();
+    }
+    ADD_FAILURE() << "expected the run to be stopped";
+    return {};
+}
+
+TEST(Health, OfASoundRunIsGood) {
+    World world = build_world(heap());
+    bond_all(world, 0.0);
+    testing::shake(world, 0.5 * testing::breaking_energy(world), 2);
+    for (int n = 0; n < 2000; ++n) {
+        compute_forces(world);
+        EXPECT_NO_THROW(check_health(world));
+        advance(world);
+    }
+    EXPECT_GT(world.bonds_broken, 0);
+}
+
+TEST(Health, NotANumberStopsTheRunAndNamesTheBody) {
+    for (int component = 0; component < 3; ++component) {
+        World world = build_world(heap());
+        step(world);
+        BodyState& body = world.bodies[body_of_id(world, 17)];
+        (component == 0 ? body.vx : component == 1 ? body.omega : body.y) = std::numeric_limits<double>::quiet_NaN();
+        EXPECT_NE(verdict(world, 17).find("not a number"), std::string::npos);
+    }
+}
+
+TEST(Health, NotANumberIsNoticedByTheStepItself) {
+    World world = build_world(heap());
+    step(world);
+    world.bodies[body_of_id(world, 17)].vx = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(step(world), UnstableRun);
+}
+
+TEST(Health, ABodyBeyondAWallStopsTheRun) {
+    World world = build_world(heap());
+    step(world);
+    world.bodies[body_of_id(world, 5)].y = -0.06;
+    EXPECT_NE(verdict(world, 5).find("left the domain"), std::string::npos);
+}
+
+TEST(Health, ABodyTooFastForTheListStopsTheRunAtOnce) {
+    Scene scene = heap();
+    scene.bodies[7].velocity = {1e4, 0.0};
+    World world = build_world(scene);
+    try {
+        step(world);
+        FAIL() << "expected the run to be stopped";
+    } catch (const UnstableRun& error) {
+        fmt::print("  {}\n", error.what());
+        EXPECT_EQ(error.body, scene.bodies[7].id);
+        EXPECT_EQ(error.step, 1);
+    }
+}
+
+TEST(Health, RunawayEnergyStopsTheRun) {
+    World world = build_world(heap());
+    bond_all(world, 0.0);
+    world.automatic_step = false;
+    world.time_step = 1.3 * world.step_bound;  // past what build_world would let through
+    testing::shake(world, 1e-4 * testing::breaking_energy(world), 2);
+    std::string cause;
+    for (int n = 0; n < 2000 && cause.empty(); ++n) {
+        try {
+            compute_forces(world);
+            if (n % 10 == 0) check_health(world);
+            advance(world);
+        } catch (const UnstableRun& error) {
+            cause = error.what();
+            EXPECT_GT(error.step, 0);
+            EXPECT_GE(error.body, 1);
+        }
+    }
+    fmt::print("  {}\n", cause);
+    EXPECT_NE(cause.find("runaway energy"), std::string::npos) << cause;
+    EXPECT_NE(cause.find("bound"), std::string::npos);
+}
+
+TEST(TimeStep, AboveTheBoundIsRefusedNamingBoth) {
+    Scene scene = heap();
+    const double bound = build_world(scene).step_bound;
+    scene.time_step = 1.5 * bound;
+    try {
+        build_world(scene);
+        FAIL() << "expected the time step to be refused";
+    } catch (const InputError& error) {
+        const std::string text = error.what();
+        fmt::print("  {}\n", text);
+        EXPECT_NE(text.find(fmt::format("{}", scene.time_step)), std::string::npos);
+        EXPECT_NE(text.find(fmt::format("{:.6g}", bound)), std::string::npos);
+        EXPECT_NE(text.find("--allow-unstable"), std::string::npos);
+    }
+    scene.allow_unstable = true;
+    EXPECT_NO_THROW(build_world(scene));
+    scene.allow_unstable = false;
+    scene.time_step = bound;
+    EXPECT_NO_THROW(build_world(scene));
+}
+
+TEST(TimeStep, ChosenByItselfIsTheSafeShareOfTheBound) {
+    Scene scene = heap();
+    scene.safety_factor = 0.3;
+    const World world = build_world(scene);
+    EXPECT_TRUE(testing::agrees("step over bound", world.time_step / world.step_bound, 0.3, 1e-15));
+}
+
+}  // namespace
+}  // namespace crackle

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The neighbour list against a plain search of everything against everything: no touching point is missed, for any
+// mixture of sizes, at rest and in motion, and what a point remembers survives a rebuild.
+
+#include <map>
+#include <set>
+#include <tuple>
+
+#include "solver/world.hpp"
+#include "specimens/catalogue/disordered.hpp"
+#include "tests/support/claim.hpp"
+#include "tests/support/measures.hpp"
+#include "tests/support/plain_distance.hpp"
+
+namespace crackle {
+namespace {
+
+using testing::distance_to_outline;
+using testing::rock;
+
+double uniform(std::mt19937_64& generator, double low, double high) {
+    return low + (high - low) * uniform_number(generator);
+}
+
+/// (element's body id, element within the body, partner's id, partner's circle or -1); walls have ids -1 … -4.
+using Touch = std::tuple<int, std::uint32_t, int, std::int64_t>;
+
+std::set<Touch> listed(const World& world) {
+    std::set<Touch> touches;
+    for (PointIndex k = 0; k < world.points.size(); ++k) {
+        const ContactPoint& p = world.points[k];
+        const PointView view = view_point(world, k);
+        if (view.overlap <= 0.0) continue;
+        const BodyInfo& i = world.info[p.body_i];
+        const std::uint32_t element = p.element_i - i.first_element;
+        if (view.kind == PointKind::element_wall) {
+            touches.insert({i.id, element, -1 - static_cast<int>(p.body_j), -1});
+            continue;
+        }
+        const BodyInfo& j = world.info[p.body_j];
+        if (view.kind == PointKind::element_outline) {
+            touches.insert({i.id, element, j.id, -1});
+        } else {
+            const std::uint32_t other = p.feature_j >= j.first_element ? p.feature_j - j.first_element : 0;
+            const bool first = i.id < j.id;
+            touches.insert(first ? Touch{i.id, element, j.id, other} : Touch{j.id, other, i.id, element});
+        }
+    }
+    return touches;
+}
+
+std::set<Touch> searched(const World& world) {
+    std::set<Touch> touches;
+    std::vector<std::vector<Vec2>> places;
+    for (std::size_t b = 0; b < world.bodies.size(); ++b)
+        places.push_back(element_positions(world, static_cast<BodyIndex>(b)));
+    const Domain& d = world.domain;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const bool chain_i = world.info[i].piece_count > 0;
+        for (std::uint32_t e = 0; e < places[i].size(); ++e) {
+            const Vec2 p = places[i][e];
+            const double radius = world.elements[world.info[i].first_element + e].radius;
+            const double bare = chain_i ? 0.0 : radius;
+            const double to_wall[4] = {p.x - d.x1, d.x2 - p.x, p.y - d.y1, d.y2 - p.y};
+            for (int wall = 0; wall < 4; ++wall) {
+                if (d.wall_present[static_cast<std::size_t>(wall)] && to_wall[wall] < bare)
+                    touches.insert({world.info[i].id, e, -1 - wall, -1});
+            }
+            for (std::size_t j = 0; j < places.size(); ++j) {
+                if (j == i) continue;
+                if (world.info[j].piece_count > 0) {
+                    const double reach = chain_i ? world.thick : radius + world.thick;
+                    if (distance_to_outline(p, places[j], world.info[j].closed) < reach)
+                        touches.insert({world.info[i].id, e, world.info[j].id, -1});
+                } else if (!chain_i && world.info[i].id < world.info[j].id) {
+                    for (std::uint32_t f = 0; f < places[j].size(); ++f) {
+                        const double other = world.elements[world.info[j].first_element + f].radius;
+                        if (norm(places[j][f] - p) < radius + other)
+                            touches.insert({world.info[i].id, e, world.info[j].id, f});
+                    }
+                }
+            }
+        }
+    }
+    return touches;
+}
+
+/// Discs of very different sizes, clumps, polygons, chains and platens, thrown together at random.
+Scene mixture(std::uint64_t seed) {
+    std::mt19937_64 generator(seed);
+    Scene scene;
+    scene.materials = {rock()};
+    scene.thick = 0.02;
+    scene.domain = {-1.0, 11.0, -1.0, 11.0, {true, true, true, true}};
+    int id = 0;
+    const auto place = [&] { return Vec2{uniform(generator, 0.0, 10.0), uniform(generator, 0.0, 10.0)}; };
+    const auto turned = [&](std::vector<Vec2> outline, Vec2 at, double size) {
+        const double angle = uniform(generator, 0.0, 6.3), c = std::cos(angle), s = std::sin(angle);
+        for (Vec2& p : outline) p = at + size * Vec2{c * p.x - s * p.y, s * p.x + c * p.y};
+        return outline;
+    };
+    for (int k = 0; k < 300; ++k) scene.add_circle_body(++id, 0, {place(), uniform(generator, 0.02, 0.2), 0.0});
+    for (int k = 0; k < 3; ++k) scene.add_circle_body(++id, 0, {place(), uniform(generator, 0.5, 2.0), 0.0});
+    for (int k = 0; k < 20; ++k) {
+        const Vec2 at = place();
+        scene.add_circle_body(++id, 0, {at, uniform(generator, 0.05, 0.2), 0.0});
+        scene.circles.push_back({at + Vec2{0.15, 0.05}, 0.1, 0.0});
+        scene.bodies.back().circle_count = 2;
+    }
+    for (int k = 0; k < 40; ++k)
+        scene.add_chain_body(
+            ++id, 0, turned({{0, 0}, {1, 0.1}, {0.7, 0.9}, {-0.1, 0.6}}, place(), uniform(generator, 0.1, 1.0)), true);
+    for (int k = 0; k < 5; ++k)  // an L
+        scene.add_chain_body(++id, 0, turned({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 3}, {0, 3}}, place(), 0.4), true);
+    for (int k = 0; k < 10; ++k) scene.add_chain_body(++id, 0, turned({{0, 0}, {1, 0}, {1, 1}}, place(), 0.5), false);
+    scene.add_chain_body(++id, 0, {{-0.9, -0.3}, {10.9, -0.2}}, false);  // platens far larger than anything else
+    scene.add_chain_body(++id, 0, {{-0.9, 10.2}, {10.9, 10.3}}, false);
+    for (Body& body : scene.bodies) {
+        body.velocity = {uniform(generator, -1.0, 1.0), uniform(generator, -1.0, 1.0)};
+        body.spin = uniform(generator, -1.0, 1.0);
+    }
+    return scene;
+}
+
+std::size_t missed(const World& world) {
+    const std::set<Touch> plain = searched(world), quick = listed(world);
+    std::size_t count = 0;
+    for (const Touch& touch : plain) count += quick.contains(touch) ? 0u : 1u;
+    EXPECT_EQ(quick.size(), plain.size());
+    return count;
+}
+
+TEST(NeighbourList, MissesNoTouchingPointOfAnyMixtureOfSizes) {
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+        const World world = build_world(mixture(seed));
+        const std::size_t touching = searched(world).size();
+        EXPECT_EQ(missed(world), 0u) << "seed " << seed;
+        EXPECT_GT(touching, 200u);
+        if (seed == 1)
+            fmt::print("  {} bodies, {} touching points, {} listed\n", world.bodies.size(), touching,
+                       world.points.size());
+    }
+}
+
+TEST(NeighbourList, MissesNoTouchingPointInMotionBetweenRebuilds) {
+    for (const double skin : {0.02, 0.1, 0.3}) {
+        Scene scene = mixture(20);
+        scene.allow_unstable = true;  // the heap starts deeply overlapped: let it fly
+        scene.skin = skin;
+        scene.thick = 0.02;
+        scene.time_step = 2e-3;
+        scene.materials[0].normal_stiffness = 10.0;  // soft, so that bodies pass through each other at their speeds
+        scene.materials[0].shear_stiffness = 5.0;
+        scene.domain.wall_present = {false, false, false, false};
+        World world = build_world(scene);
+        std::size_t touching = 0, checks = 0;
+        for (int n = 1; n <= 400; ++n) {
+            compute_forces(world);
+            if (n % 7 == 0) {
+                EXPECT_EQ(missed(world), 0u) << "skin " << skin << ", step " << n;
+                touching += listed(world).size();
+                ++checks;
+            }
+            advance(world);
+        }
+        fmt::print("  skin {:.3g} m: {} rebuilds in 400 steps, {} touching points on average\n", world.skin,
+                   world.list_builds, touching / checks);
+        EXPECT_GT(world.list_builds, 3);
+        EXPECT_LT(world.list_builds, 400);
+    }
+}
+
+TEST(NeighbourList, RebuildKeepsSpringsBondsAndFlags) {
+    DisorderedDiscs request;
+    request.columns = 8, request.rows = 8, request.shake = 5e-5;
+    Material material = rock(10.0);
+    World world = build_world(disordered_discs(request, material));
+    bond_all(world, 0.0);
+    testing::shake(world, 0.3 * testing::breaking_energy(world), 5);
+    for (int n = 0; n < 200; ++n) step(world);
+    World again = world;
+    again.list_valid = false;
+    refresh_neighbours(again);
+    EXPECT_GT(again.list_builds, world.list_builds);
+    using Memory = std::tuple<double, double, std::uint16_t>;
+    const auto memory = [](const World& w) {
+        std::map<std::pair<int, int>, Memory> result;
+        for (const ContactPoint& p : w.points) {
+            if (p.shear_force == 0.0 && p.flags == 0) continue;
+            result[{w.info[p.body_i].id, w.info[p.body_j].id}] = {p.shear_force, p.bond_overlap, p.flags};
+        }
+        return result;
+    };
+    EXPECT_GT(memory(world).size(), 50u);
+    EXPECT_TRUE(memory(world) == memory(again));
+}
+
+}  // namespace
+}  // namespace crackle

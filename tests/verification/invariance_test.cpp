@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The same physics whatever the order and numbers of the bodies, the handedness and the direction of the axes, and the
+// units: impacts with friction, dashpots, bonds that break, gravity and walls, compared body by body.
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <numbers>
+
+#include "solver/world.hpp"
+#include "specimens/catalogue/disordered.hpp"
+#include "tests/support/claim.hpp"
+#include "tests/support/measures.hpp"
+
+namespace crackle {
+namespace {
+
+using testing::rock;
+
+/// A few bonded discs and a few bonded polygons, moving, near two walls, with a driven disc.
+Scene busy_scene() {
+    Material material = rock();
+    material.damping_ratio = 0.1;
+    DisorderedDiscs discs;
+    discs.columns = 4, discs.rows = 4, discs.shake = 5e-5;
+    Scene scene = disordered_discs(discs, material);
+    ShakenCells cells;
+    cells.columns = 3, cells.rows = 3;
+    const Scene other = shaken_cells(cells, material);
+    scene.thick = other.thick;
+    int id = 1000;
+    for (const Body& body : other.bodies) {
+        std::vector<Vec2> corners;
+        for (std::uint32_t k = 0; k < body.vertex_count; ++k)
+            corners.push_back(other.vertices[body.first_vertex + k] + Vec2{0.17, 0.013});
+        scene.add_chain_body(++id, 0, corners, true);
+    }
+    for (Body& body : scene.bodies) {
+        body.velocity = {body.vertex_count > 0 ? -0.3 : 0.2, 0.06 * std::sin(body.id)};
+        body.spin = 0.5 * std::cos(body.id);
+    }
+    scene.controls.push_back({2, {Drive::velocity, 0.02}, {Drive::force, 30.0}, {}, 0});
+    scene.gravity = {1.0, -9.81};
+    scene.domain = {-0.0205, 0.7, -0.0205, 1.0, {true, true, true, true}};
+    return scene;
+}
+
+struct Fate {
+    Vec2 centre, velocity;
+    double turn, spin;
+};
+struct Story {
+    std::map<int, Fate> bodies;  // by id
+    double energy;               // kinetic and stored, J
+    std::int64_t broken;
+};
+
+constexpr int story_steps = 800;
+
+Story story_of(Scene scene, double time_step, double bond_thick) {
+    scene.time_step = time_step;
+    World world = build_world(std::move(scene));
+    bond_all(world, bond_thick);
+    std::vector<double> angles;
+    for (const BodyState& body : world.bodies) angles.push_back(body.angle);
+    for (int n = 0; n < story_steps; ++n) step(world);
+    compute_forces(world);
+    Story story;
+    for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+        const BodyState& body = world.bodies[b];
+        story.bodies[world.info[b].id] = {{body.x, body.y}, {body.vx, body.vy}, body.angle - angles[b], body.omega};
+    }
+    const Ledger ledger = measure_ledger(world);
+    story.energy = ledger.kinetic + ledger.strain;
+    story.broken = world.bonds_broken;
+    return story;
+}
+
+/// Largest difference over the scales of the plain story, after `back` has brought a fate to its axes and units.
+double difference(
+    const Story& plain, const Story& other, const std::function<Fate(const Fate&)>& back, double energy_unit,
+    const std::function<int(int)>& id = [](int k) { return k; }) {
+    double worst = 0.0, length = 0.0, speed = 0.0, turn = 0.0, spin = 0.0;
+    for (const auto& [name, fate] : plain.bodies) {
+        length = std::max(length, norm(fate.centre));
+        speed = std::max(speed, norm(fate.velocity));
+        turn = std::max(turn, std::abs(fate.turn));
+        spin = std::max(spin, std::abs(fate.spin));
+    }
+    for (const auto& [name, fate] : plain.bodies) {
+        const Fate got = back(other.bodies.at(id(name)));
+        worst = std::max({worst, norm(got.centre - fate.centre) / length, norm(got.velocity - fate.velocity) / speed,
+                          std::abs(got.turn - fate.turn) / turn, std::abs(got.spin - fate.spin) / spin});
+    }
+    EXPECT_EQ(plain.broken, other.broken);
+    return std::max(worst, std::abs(other.energy / energy_unit - plain.energy) / plain.energy);
+}
+
+constexpr double time_step = 2e-5, bond_thick = 1.08e-3;
+constexpr auto same = [](const Fate& f) { return f; };
+
+Story plain_story() {
+    const Story plain = story_of(busy_scene(), time_step, bond_thick);
+    EXPECT_GT(plain.broken, 5);
+    return plain;
+}
+
+/// Scene with every point, velocity and wall mapped by a rotation or reflection, spins and moments by its determinant.
+Scene mapped(const Scene& scene, const std::function<Vec2(Vec2)>& map, double handedness) {
+    Scene result = scene;
+    for (CircleElement& c : result.circles) c.centre = map(c.centre);
+    for (Vec2& v : result.vertices) v = map(v);
+    for (Body& body : result.bodies) {
+        body.velocity = map(body.velocity);
+        body.spin *= handedness;
+    }
+    result.gravity = map(scene.gravity);
+    const Vec2 a = map({scene.domain.x1, scene.domain.y1}), b = map({scene.domain.x2, scene.domain.y2});
+    result.domain = {
+        std::min(a.x, b.x), std::max(a.x, b.x), std::min(a.y, b.y), std::max(a.y, b.y), {true, true, true, true}};
+    return result;
+}
+
+TEST(Invariance, OrderAndNumbersOfTheBodiesDoNotMatter) {
+    const Scene scene = busy_scene();
+    std::mt19937_64 generator(3);
+    std::vector<std::size_t> order(scene.bodies.size());
+    for (std::size_t k = 0; k < order.size(); ++k) order[k] = k;
+    shuffle(order, generator);
+    Scene other = scene;
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        other.bodies[k] = scene.bodies[order[k]];
+        other.bodies[k].id = 7 * other.bodies[k].id + 3;
+        if (order[k] == 2) other.controls[0].body = static_cast<int>(k);
+    }
+    const double off =
+        difference(plain_story(), story_of(other, time_step, bond_thick), same, 1.0, [](int k) { return 7 * k + 3; });
+    EXPECT_TRUE(testing::within("renumbered and reordered at random", off, 0.0, 1e-9));
+}
+
+TEST(Invariance, MirrorTurnAndShiftedStartOfOutlinesDoNotMatter) {
+    const Scene scene = busy_scene();
+    const Story plain = plain_story();
+
+    const auto mirror = [](Vec2 v) { return Vec2{-v.x, v.y}; };
+    Scene mirrored = mapped(scene, mirror, -1.0);
+    mirrored.controls[0].x.value *= -1.0;
+    EXPECT_TRUE(testing::within("mirrored",
+                                difference(
+                                    plain, story_of(mirrored, time_step, bond_thick),
+                                    [&](const Fate& f) {
+                                        return Fate{mirror(f.centre), mirror(f.velocity), -f.turn, -f.spin};
+                                    },
+                                    1.0),
+                                0.0, 1e-9));
+
+    Scene turned = mapped(scene, perpendicular, 1.0);
+    turned.controls[0].x = {Drive::force, -30.0};
+    turned.controls[0].y = {Drive::velocity, 0.02};
+    EXPECT_TRUE(
+        testing::within("turned by 90 degrees",
+                        difference(
+                            plain, story_of(turned, time_step, bond_thick),
+                            [](const Fate& f) {
+                                return Fate{-perpendicular(f.centre), -perpendicular(f.velocity), f.turn, f.spin};
+                            },
+                            1.0),
+                        0.0, 1e-9));
+
+    Scene rotated = scene;  // outlines that start at their second corner
+    for (const Body& body : rotated.bodies) {
+        if (body.vertex_count == 0) continue;
+        const auto first = rotated.vertices.begin() + body.first_vertex;
+        std::rotate(first, first + 1, first + body.vertex_count);
+    }
+    EXPECT_TRUE(testing::within("outlines starting elsewhere",
+                                difference(plain, story_of(rotated, time_step, bond_thick), same, 1.0), 0.0, 1e-9));
+
+    const Vec2 by{16.0, -8.0};
+    Scene shifted = scene;
+    for (CircleElement& c : shifted.circles) c.centre = c.centre + by;
+    for (Vec2& v : shifted.vertices) v = v + by;
+    shifted.domain.x1 += by.x, shifted.domain.x2 += by.x, shifted.domain.y1 += by.y, shifted.domain.y2 += by.y;
+    // Coordinates of 16 m have lost two digits of those of a few centimetres.
+    EXPECT_TRUE(testing::within("shifted by 18 m",
+                                difference(
+                                    plain, story_of(shifted, time_step, bond_thick),
+                                    [&](const Fate& f) {
+                                        return Fate{f.centre - by, f.velocity, f.turn, f.spin};
+                                    },
+                                    1.0),
+                                0.0, 1e-7));
+}
+
+TEST(Invariance, CentimetresAndGramsGiveTheSamePhysics) {
+    // Per unit thickness: kg/m2 = 0.1 g/cm2, N/m = 1000 dyn/cm, N = 1e5 dyn, J = 1e7 erg.
+    Scene scene = busy_scene();
+    for (CircleElement& c : scene.circles) c.centre = 100.0 * c.centre, c.radius *= 100.0;
+    for (Vec2& v : scene.vertices) v = 100.0 * v;
+    for (Body& body : scene.bodies) body.velocity = 100.0 * body.velocity;
+    for (Material& m : scene.materials) {
+        m.density *= 0.1;
+        m.normal_stiffness *= 1000.0;
+        m.shear_stiffness *= 1000.0;
+    }
+    scene.domain.x1 *= 100.0, scene.domain.x2 *= 100.0, scene.domain.y1 *= 100.0, scene.domain.y2 *= 100.0;
+    scene.gravity = 100.0 * scene.gravity;
+    scene.thick *= 100.0;
+    scene.controls[0].x.value *= 100.0;
+    scene.controls[0].y.value *= 1e5;
+    const double off = difference(
+        plain_story(), story_of(scene, time_step, 100.0 * bond_thick),
+        [](const Fate& f) {
+            return Fate{0.01 * f.centre, 0.01 * f.velocity, f.turn, f.spin};
+        },
+        1e7);
+    EXPECT_TRUE(testing::within("cgs against SI", off, 0.0, 1e-9));
+}
+
+}  // namespace
+}  // namespace crackle
