@@ -3,6 +3,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <charconv>
 #include <filesystem>
@@ -25,7 +26,8 @@ class ScratchFolder {
   public:
     ScratchFolder() {
         const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-        std::string name = std::string("crackle_") + test->test_suite_name() + "_" + test->name();
+        std::string name =
+            std::string("crackle_") + test->test_suite_name() + "_" + test->name() + "_" + std::to_string(::getpid());
         for (char& c : name) {
             if (c == '/') c = '_';
         }

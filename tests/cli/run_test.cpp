@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `crackle run` as a user calls it: exit codes, what is written, and an interrupt that costs nothing.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <thread>
+
+#include "tests/support/deck_files.hpp"
+
+namespace crackle {
+namespace {
+
+using namespace testing;
+
+class RunCommand : public ::testing::Test {
+  protected:
+    /// Exit code; stdout and stderr go to `said()`.
+    int crackle(const std::string& words) const {
+        const std::string line =
+            fmt::format("'{}' {} > '{}' 2>&1", CRACKLE_PROGRAM, words, (scratch_ / "said").string());
+        return WEXITSTATUS(std::system(line.c_str()));
+    }
+    std::string said() const { return read_text_file(scratch_ / "said"); }
+    std::string quoted(const std::filesystem::path& path) const { return fmt::format("'{}'", path.string()); }
+
+    ScratchFolder scratch_;
+};
+
+TEST_F(RunCommand, WritesEveryOutputOfTheGuide) {
+    const auto out = scratch_ / "out";
+    ASSERT_EQ(crackle(fmt::format("run {} -o {}", quoted(shipped_deck("controlled_segment_force")), quoted(out))), 0)
+        << said();
+    for (const char* name : {"output.dat", "cont.dat", "cont2.dat", "energy.dat", "f-d_curve.dat", "velocity_y.dat",
+                             "new_in_gm.dat", "new_in_bc.dat", "new_in_cf.dat", "new_in_cf0.dat", "new_state.bin"}) {
+        EXPECT_TRUE(std::filesystem::exists(out / name)) << name;
+    }
+    EXPECT_EQ(said().find('\r'), std::string::npos) << "no progress line where there is no terminal";
+}
+
+TEST_F(RunCommand, BadInputEndsInOneMessageAndCode2) {
+    const auto deck = scratch_ / "deck";
+    std::filesystem::create_directories(deck);
+    EXPECT_EQ(crackle("run " + quoted(scratch_ / "nowhere")), 2);
+    EXPECT_NE(said().find("nowhere: found no such folder"), std::string::npos) << said();
+    EXPECT_EQ(crackle("run " + quoted(deck)), 2);
+    EXPECT_NE(said().find("in_gm.dat: cannot be read (No such file or directory)"), std::string::npos) << said();
+    std::filesystem::copy_file(shipped_deck("circle") / "in_bc.dat", deck / "in_bc.dat");
+    const std::string geometry = read_text_file(shipped_deck("circle") / "in_gm.dat");
+    std::ofstream(deck / "in_gm.dat") << geometry.substr(0, geometry.size() / 2);
+    EXPECT_EQ(crackle("run " + quoted(deck)), 2);
+    EXPECT_NE(said().find("found the end of the file"), std::string::npos) << said();
+    std::ofstream(deck / "in_gm.dat") << geometry;
+    EXPECT_EQ(crackle("run --threads 0 " + quoted(deck)), 2);
+    EXPECT_EQ(crackle("run --no-such-option " + quoted(deck)), 2);
+    EXPECT_EQ(crackle("run"), 2);
+    EXPECT_FALSE(std::filesystem::exists(deck / "energy.dat"));
+    EXPECT_EQ(crackle("run " + quoted(deck)), 0) << said();
+    EXPECT_EQ(crackle("run " + quoted(deck)), 2);
+    EXPECT_NE(said().find("--force"), std::string::npos) << said();
+}
+
+TEST_F(RunCommand, AStepAboveTheBoundNeedsAllowUnstable) {
+    const auto deck = scratch_ / "deck";
+    std::filesystem::create_directories(deck);
+    std::ofstream(deck / "in_bc.dat") << "0 0 200 100 10 0 0";
+    std::string geometry = read_text_file(shipped_deck("circle") / "in_gm.dat");
+    std::ofstream(deck / "in_gm.dat") << geometry.replace(geometry.find("5.0d-5"), 6, "1.2d-3");
+    EXPECT_EQ(crackle("run " + quoted(deck)), 2);
+    EXPECT_NE(said().find("0.0012"), std::string::npos) << said();
+    EXPECT_NE(said().find("0.00112"), std::string::npos) << "states the bound too: " << said();
+    EXPECT_EQ(crackle("run --allow-unstable " + quoted(deck)), 0) << said();
+}
+
+TEST_F(RunCommand, AnInterruptedRunGoesOnAsIfNothingHadHappened) {
+    const std::string deck = shipped_deck("chain_hanging").string(), out = (scratch_ / "out").string(),
+                      whole = (scratch_ / "whole").string();
+    ASSERT_EQ(crackle(fmt::format("run -q '{}' -o '{}'", deck, whole)), 0) << said();
+    const pid_t child = ::fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+        ::execl(CRACKLE_PROGRAM, CRACKLE_PROGRAM, "run", "-q", deck.c_str(), "-o", out.c_str(),
+                static_cast<char*>(nullptr));
+        ::_exit(127);
+    }
+    const auto begun = std::filesystem::path(out) / "velocity_y.dat";  // the last one that is opened
+    while (!std::filesystem::exists(begun)) {
+        ASSERT_EQ(::waitpid(child, nullptr, WNOHANG), 0) << "ended before it began";
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    ::kill(child, SIGINT);
+    int status = 0;
+    ::waitpid(child, &status, 0);
+    ASSERT_TRUE(WIFEXITED(status));
+    ASSERT_EQ(WEXITSTATUS(status), 130);
+    ASSERT_EQ(crackle(fmt::format("run -q '{}' --continue", out)), 0) << said();
+    for (const char* name :
+         {"output.dat", "cont.dat", "energy.dat", "f-d_curve.dat", "new_in_gm.dat", "new_in_bc.dat", "new_state.bin"}) {
+        EXPECT_TRUE(read_text_file(std::filesystem::path(out) / name) ==
+                    read_text_file(std::filesystem::path(whole) / name))
+            << name;
+    }
+}
+
+}  // namespace
+}  // namespace crackle
