@@ -20,6 +20,8 @@ struct Command {
 int run_deck(const Arguments& arguments);
 int test(const Arguments& arguments);
 int report(const Arguments& arguments);
+int doctor(const Arguments& arguments);
+int version(const Arguments& arguments);  // crackle --version
 
 // Exit codes of the program.
 inline constexpr int exit_done = 0;

@@ -19,6 +19,7 @@ const std::vector<Command>& commands() {
     static const std::vector<Command> all{
         {"run", "runs a DEMseg deck (in_gm.dat, in_bc.dat) and writes DEMseg's outputs", run_deck},
         {"report", "one self-contained HTML page from the results of tests", report},
+        {"doctor", "what this build is made of and what it can do", doctor},
     };
     return all;
 }
@@ -37,6 +38,7 @@ int run(const std::vector<std::string>& words) {
         print_help(words.empty() ? std::cerr : std::cout);
         return words.empty() ? exit_bad_input : exit_done;
     }
+    if (words[0] == "--version") return version({});
     for (const Command& command : commands()) {
         if (words[0] == command.name) return command.run({words.begin() + 1, words.end()});
     }
