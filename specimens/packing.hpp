@@ -9,12 +9,12 @@
 // Mean overlap: over all circle-circle contacts and those with the bottom and top walls, which become platen bonds; the
 // side walls are gone when a specimen is bonded, and do not count.
 //
-// Box. With a count, the width and the height are free of each other, so the stress is isotropic to the tolerance of the
-// equilibrium, and the box keeps the asked aspect to max_aspect_error (exact figures: report). With a width and a height, the box
-// is met exactly: the count is chosen so that all radii need be scaled by at most max_radius_scaling (report: radius_scale), the
-// aspect is kept while the pressure acts, and what remains of anisotropy is at most max_anisotropy. Packings that miss these are
-// drawn anew (report: attempts), with the same seed and the next stream of random numbers; a small packing that cannot meet
-// them in max_attempts is taken as near as it came, and its report says so (isotropic, box_met).
+// Box. Width and height are free of each other while the pressure acts, so the stress is isotropic to the tolerance of the
+// equilibrium; a box whose shape strays is sheared back and settled again, and keeps the asked height over width to
+// max_aspect_error (exact figures: report). With a width and a height, the count is the one whose packing fills the box
+// nearest, and all lengths are then scaled by one factor that meets the width exactly (report: radius_scale). Packings that
+// cannot be settled, or miss the shape, are drawn anew with the next stream of random numbers (report: attempts); the one that came
+// nearest is taken, and its report says what it missed (box_met).
 //
 // Reachable void ratios end where frictionless circles jam: looser arrangements cannot carry load at rest.
 #pragma once
@@ -34,7 +34,7 @@ struct PackingRequest {
     std::optional<double> width, height;  ///< m
     // ... or a count.
     std::optional<std::int64_t> count;
-    double aspect = 2.0;  ///< height / width, with a count
+    std::optional<double> height_to_width;  ///< shape of the box, with a count; 2 if not given
 
     SizeDistribution sizes;
 
@@ -76,7 +76,7 @@ struct Packing {
     PackingReport report;
 };
 
-inline constexpr double max_aspect_error = 1e-3;
+inline constexpr double max_aspect_error = 1e-2;
 inline constexpr double max_anisotropy = 0.01;
 inline constexpr double max_radius_scaling = 0.005;
 inline constexpr std::int64_t min_packing_circles = 10;

@@ -187,8 +187,8 @@ double radius_at(const SizeDistribution& sizes, double probability) {
 double share_below(const SizeDistribution& sizes, double radius) {
     return std::visit(
         overloaded{[&](const UniformRadii& uniform) {
-                       if (radius <= uniform.radius_min) return 0.0;
                        if (radius >= uniform.radius_max) return 1.0;
+                       if (radius <= uniform.radius_min) return 0.0;
                        return (radius - uniform.radius_min) / (uniform.radius_max - uniform.radius_min);
                    },
                    [&](const LognormalRadii& lognormal) {

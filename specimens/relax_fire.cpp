@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// FIRE 2.0 (J. Guénolé et al., Comput. Mater. Sci. 175, 109584, 2020): semi-implicit Euler; the velocity is turned towards the
+// force while the power F·v is positive, and dropped with half a step back when it is not. The box strains are coordinates
+// like the positions (Q = c·ε, with c² = 8 Σr² so that a unit of Q is about as stiff as a contact); positions follow the box.
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "specimens/relaxation.hpp"
+
+namespace crackle {
+namespace {
+
+// Stiffness is 1 and masses are about 1, so these are in units of a contact's sqrt(m/k). A disc with six contacts oscillates at
+// up to about 2.4, stable to a step of 0.8; half of that leaves room for large discs among many small ones.
+constexpr double first_step = 0.1, largest_step = 0.55, smallest_step = 0.002;
+constexpr double step_growth = 1.1, step_cut = 0.5;
+constexpr double first_turn = 0.1, turn_decay = 0.99;  // α of the papers
+constexpr int passes_before_growth = 10;
+constexpr int passes_between_reports = 200;
+
+// Mean overlap below this share of the mean radius in a fixed box: the discs have parted, or will.
+constexpr double loose_overlap = 1e-9;
+
+struct Fire {
+    DiscAssembly& assembly;
+    const BoxLoad& load;
+    DiscMotion motion;
+    Vec2 box_velocity;  // dQ/dt
+    double box_scale;   // c, m
+
+    Fire(DiscAssembly& discs, const BoxLoad& box_load) : assembly(discs), load(box_load) {
+        double squares = 0.0;
+        motion.velocity.resize(assembly.discs.size());
+        // Larger discs have more neighbours: a mass in proportion keeps their frequencies down.
+        for (const Disc& disc : assembly.discs) {
+            motion.inverse_mass.push_back(1.0 / (0.5 + 0.5 * disc.radius / assembly.mean_radius()));
+            squares += disc.radius * disc.radius;
+        }
+        box_scale = std::sqrt(8.0 * squares);
+    }
+
+    Vec2 box_force(const AssemblySums& sums) const {
+        const double hold = load.pressure * assembly.area();
+        switch (load.freedom) {
+            case BoxFreedom::fixed: return {};
+            case BoxFreedom::free: return {(sums.virial_x - hold) / box_scale, (sums.virial_y - hold) / box_scale};
+            case BoxFreedom::shape_kept: break;
+        }
+        const double both = 0.5 * (sums.virial_x + sums.virial_y - 2.0 * hold) / box_scale;
+        return {both, both};
+    }
+
+    /// Half of `step` back where the power was negative (`uphill`, velocities then start at 0), kick, turn by α, and move.
+    void advance(const AssemblySums& sums, const Vec2& on_box, double step, double turn, bool uphill, double step_back) {
+        const double keep = uphill ? 0.0 : 1.0, back = uphill ? 0.5 * step_back : 0.0;
+        const double pull_square = sums.pull_square + dot(on_box, on_box);
+        const double speed_square = keep * (sums.speed_square + dot(box_velocity, box_velocity)) +
+                                    2.0 * step * keep * (sums.speed_pull + dot(box_velocity, on_box)) + step * step * pull_square;
+        const double along = pull_square > 0.0 ? turn * std::sqrt(std::max(0.0, speed_square) / pull_square) : 0.0;
+        const Vec2 box_before = box_velocity;
+        box_velocity = (1.0 - turn) * (keep * box_velocity + step * on_box) + along * on_box;
+        const bool box_moves = load.freedom != BoxFreedom::fixed;
+        const double factor_x = box_moves ? 1.0 + (step * box_velocity.x - back * box_before.x) / box_scale : 1.0;
+        const double factor_y = box_moves ? 1.0 + (step * box_velocity.y - back * box_before.y) / box_scale : 1.0;
+        assembly.width *= factor_x;
+        assembly.height *= factor_y;
+        const std::size_t count = motion.velocity.size();
+#pragma omp parallel for schedule(static) num_threads(assembly.threads) if (count >= assembly_parallel_from)
+        for (std::size_t i = 0; i < count; ++i) {
+            const Vec2 before = motion.velocity[i], pull = motion.inverse_mass[i] * assembly.forces[i];
+            const Vec2 after = (1.0 - turn) * (keep * before + step * pull) + along * pull;
+            motion.velocity[i] = after;
+            Disc& disc = assembly.discs[i];
+            disc.x = (disc.x + step * after.x - back * before.x) * factor_x;
+            disc.y = (disc.y + step * after.y - back * before.y) * factor_y;
+        }
+    }
+};
+
+}  // namespace
+
+double imbalance(const DiscAssembly& assembly, const BoxLoad& load, const AssemblySums& sums) {
+    const double hold = load.pressure * assembly.area();
+    switch (load.freedom) {
+        case BoxFreedom::fixed: return sums.residual();
+        case BoxFreedom::free:
+            return std::max({sums.residual(), std::abs(sums.virial_x - hold) / hold, std::abs(sums.virial_y - hold) / hold});
+        case BoxFreedom::shape_kept: break;
+    }
+    return std::max(sums.residual(), std::abs(0.5 * (sums.virial_x + sums.virial_y) - hold) / hold);
+}
+
+RelaxationResult relax_fire(DiscAssembly& assembly, const BoxLoad& load, double tolerance, int max_passes,
+                            const RelaxationCallback& progress) {
+    Fire fire(assembly, load);
+    double step = first_step, turn = first_turn;
+    int downhill = 0;
+    RelaxationResult result;
+    for (int pass = 0; pass < max_passes; ++pass) {
+        result.sums = assembly.compute_forces(&fire.motion);
+        result.imbalance = imbalance(assembly, load, result.sums);
+        result.loose = load.freedom == BoxFreedom::fixed && result.sums.mean_overlap() < loose_overlap * assembly.mean_radius();
+        result.converged = !result.loose && result.sums.contacts > 0.0 && result.imbalance <= tolerance;
+        if (result.converged || result.loose) return result;
+        if (progress && pass % passes_between_reports == 0) progress(result.imbalance);
+
+        const Vec2 on_box = fire.box_force(result.sums);
+        const bool uphill = result.sums.power + dot(on_box, fire.box_velocity) <= 0.0;
+        const double last_step = step;
+        if (!uphill) {
+            if (++downhill > passes_before_growth) {
+                step = std::min(step * step_growth, largest_step);
+                turn *= turn_decay;
+            }
+        } else {
+            if (downhill > 0) step = std::max(step * step_cut, smallest_step);
+            downhill = 0;
+            turn = first_turn;
+        }
+        fire.advance(result.sums, on_box, step, turn, uphill, last_step);
+    }
+    return result;
+}
+
+RelaxationResult relax(DiscAssembly& assembly, const BoxLoad& load, double tolerance, const RelaxationCallback& progress) {
+    // What FIRE has to reach before Newton tries; a hundredth each time Newton has failed, so that in the end FIRE does it alone.
+    double hand_over = 0.1;
+    RelaxationResult result;
+    for (int round = 0; round < 8; ++round) {
+        result = relax_fire(assembly, load, std::max(tolerance, hand_over), 100'000, progress);
+        if (result.loose || (result.converged && result.imbalance <= tolerance)) return result;
+        result = relax_newton(assembly, load, tolerance, 40, progress);
+        if (result.converged) return result;
+        hand_over = 0.1 * std::min(hand_over, result.imbalance);
+    }
+    return result;
+}
+
+}  // namespace crackle
