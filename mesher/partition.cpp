@@ -165,11 +165,10 @@ void Partition::refuse_coincident(int a, int b) const {
     const auto [first, second] = std::minmax(a, b);
     const Seed& p = seeds_[static_cast<std::size_t>(first)];
     const Seed& q = seeds_[static_cast<std::size_t>(second)];
-    throw MeshError(
-        fmt::format("mesh: found seeds {} and {} at the same place (({:.17g}, {:.17g}) and ({:.17g}, {:.17g}), {:.3g} "
-                    "apart), expected distinct seeds; remove one of them",
-                    first, second, p.x, p.y, q.x, q.y, std::sqrt(squared_distance(p, q))),
-        {first, second});
+    throw MeshError(fmt::format("mesh: found seeds {} and {} at the same place (({}, {}) and ({}, {}), {:.3g} "
+                                "apart), expected distinct seeds; remove one of them",
+                                first, second, p.x, p.y, q.x, q.y, std::sqrt(squared_distance(p, q))),
+                    {first, second});
 }
 
 unsigned Partition::walls_beyond(Point p) const {

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -33,9 +34,9 @@ std::string text_of(const std::filesystem::path& path) {
 class CrackleMesh : public ::testing::Test {
   protected:
     Answer call(const std::string& words) const {
-        const int status = std::system(
-            fmt::format("cd '{}' && '{}' mesh {} > out.txt 2> err.txt", scratch_.path.string(), CRACKLE_PROGRAM, words)
-                .c_str());
+        const int status = std::system(fmt::format("cd '{}' && '{}' mesh {} > out.txt 2> err.txt",
+                                                   (scratch_ / "").string(), CRACKLE_PROGRAM, words)
+                                           .c_str());
         return {WEXITSTATUS(status), text_of(scratch_ / "out.txt"), text_of(scratch_ / "err.txt")};
     }
     void write(const std::string& name, const std::string& text) const { std::ofstream(scratch_ / name) << text; }
