@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <system_error>
@@ -41,6 +42,20 @@ void require_columns(const std::filesystem::path& file, const NumberTable& table
         if (!table.find(name))
             throw InputError(fmt::format(
                 "{}:1: found no column '{}'; write the results anew with `crackle test --force`", file.string(), name));
+    }
+}
+
+void require_whole_numbers(const std::filesystem::path& file, const NumberTable& table,
+                           const std::vector<const char*>& names) {
+    for (const char* name : names) {
+        const std::vector<double>& values = *table.find(name);
+        const auto wrong = std::find_if(values.begin(), values.end(), [](double value) {
+            return !(std::abs(value) < 2e9 && value == std::round(value));
+        });
+        if (wrong != values.end()) {
+            throw InputError(fmt::format("{}:{}: {}: found {}, expected a whole number", file.string(),
+                                         wrong - values.begin() + 2, name, *wrong));
+        }
     }
 }
 
@@ -144,6 +159,7 @@ TestResults read_results(const std::filesystem::path& folder) {
     results.events = read_number_table(folder / "events.csv", "mode", {"tension", "shear"});
     require_columns(folder / "events.csv", results.events,
                     {"time", "axial_strain", "x", "y", "body_i", "body_j", "mode", "last_of_interface"});
+    require_whole_numbers(folder / "events.csv", results.events, {"body_i", "body_j", "last_of_interface"});
 
     for (const char* role : {"start", "peak", "end"}) {
         const auto entry = results.summary.find(std::string("frame_") + role);

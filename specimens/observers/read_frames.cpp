@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <pugixml.hpp>
@@ -207,6 +208,8 @@ ParticleFrame read_particle_frame(const std::filesystem::path& file) {
 
     ParticleFrame frame{field("time"), field("axial_strain"), {}};
     for (std::size_t k = 0; k < data.cells.size(); ++k) {
+        if (!(std::abs(id[k]) < 2e9))
+            refuse(file, fmt::format("cell {}: id: found {}, expected a whole number", k, id[k]));
         FrameBody body{static_cast<int>(id[k]), radius[k], angle[k], data.cells[k].line, {}};
         for (const std::size_t point : data.cells[k].points) body.outline.push_back(data.points[point]);
         if (body.outline.empty()) refuse(file, fmt::format("body {} has no points", body.id));

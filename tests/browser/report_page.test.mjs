@@ -157,7 +157,7 @@ test('the table states the summaries in one unit a row', async () => {
 
 test('a test that has not failed says so, beside the curve, in the table and by its drawings', async () => {
     const {page, close} = await open('stopped.html');
-    assert.match(await page.locator('.notice.warning').textContent(), /^Not failed: Voronoi, compression\. .*peak so far/);
+    assert.match(await page.locator('.notice.warning').textContent(), /^Not failed: Voronoi, compression \(ended by max_axial_strain\)\. .*peak so far/);
     assert.match(await page.locator('[data-panel]').textContent(), /peak so far/);
     assert.match(await page.locator('table.summary').textContent(), /no: peak so far/);
     assert.match(await page.locator('article .warning').textContent(), /not failed/);

@@ -161,6 +161,11 @@ TEST_F(Report, NamesAnUnknownMode) {
     expect_refused("test -o page.html", {"events.csv:", "mode: found 'torn', expected one of: tension, shear"});
 }
 
+TEST_F(Report, NamesABodyThatIsNoWholeNumber) {
+    replace_in(root / "test" / "events.csv", ",1\n", ",nan\n");
+    expect_refused("test -o page.html", {"events.csv:2: last_of_interface: found nan, expected a whole number"});
+}
+
 TEST_F(Report, NamesBrokenJson) {
     replace_in(root / "test" / "summary.json", "\"kind\":", "\"kind\" ");
     expect_refused("test -o page.html", {"test/summary.json: found broken JSON at byte"});

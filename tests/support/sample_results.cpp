@@ -262,6 +262,7 @@ std::string summary_text(const SampleTest& test, std::size_t particles, const Bo
                                    {"kind", test.kind},
                                    {"specimen", test.specimen},
                                    {"failed", test.failed},
+                                   {"ended_by", test.failed ? "failure" : "max_axial_strain"},
                                    {test.failed ? "peak_stress" : "peak_stress_so_far", stress_at(test, peak_at)},
                                    {test.failed ? "peak_strain" : "peak_strain_so_far", peak_at},
                                    {"initial_width", width},

@@ -39,7 +39,7 @@ class Page {
         this.root.replaceChildren(
             element('header', {}, element('div', {}, element('h1', {}, this.report.title), element('p', {class: 'about'}, this.about())), this.themeButton()),
             ...(unfinished.length === 0 ? [] : [element('p', {class: 'notice warning', role: 'note'},
-                `Not failed: ${unfinished.map(({label}) => label).join('; ')}. What is shown as the peak of ${unfinished.length === 1 ? 'this test' : 'these tests'} is the peak so far.`)]),
+                `Not failed: ${unfinished.map(({label, test}) => label + endedBy(test.summary['ended_by'])).join('; ')}. What is shown as the peak of ${unfinished.length === 1 ? 'this test' : 'these tests'} is the peak so far.`)]),
             element('section', {id: 'curves'},
                 element('h2', {}, 'Stress, strain and bond breaks'),
                 element('div', {class: 'controls'}, ...(views.length > 1 ? [choice('One panel for each', views, this.state.view, (value) => {
@@ -128,6 +128,10 @@ class Page {
         addEventListener('beforeprint', () => paper(true));
         addEventListener('afterprint', () => paper(false));
     }
+}
+
+function endedBy(reason: unknown): string {
+    return typeof reason === 'string' && reason !== '' ? ` (ended by ${reason})` : '';
 }
 
 function mark(mode: 'tension' | 'shear'): HTMLElement {
