@@ -84,7 +84,8 @@ CaseValue value_of(const Parameter& p, const toml::node& node, const std::string
             }
             break;
     }
-    refuse(fmt::format("{} ({})", shown(node), kind_name(node)));
+    const bool scalar = node.is_value();
+    refuse(scalar ? fmt::format("{} ({})", shown(node), kind_name(node)) : kind_name(node));
     return {};
 }
 

@@ -38,6 +38,11 @@ bool holds_results(const fs::path& folder) {
                        [&](const char* name) { return fs::exists(folder / name, error); });
 }
 
+void remove_results(const fs::path& folder) {
+    std::error_code ignored;
+    for (const char* name : result_names) fs::remove_all(folder / name, ignored);
+}
+
 fs::path without_trailing_slash(const fs::path& path) { return path.has_filename() ? path : path.parent_path(); }
 
 /// Making a file tells more than permission bits: full discs and read-only mounts show, too.
@@ -75,12 +80,7 @@ OutputFolder OutputFolder::create(const fs::path& wanted, bool force) {
                             target.string()));
         }
         working = fs::path(target.string() + ".new");
-        if (holds_results(working)) {
-            throw InputError(
-                fmt::format("{}: found results of an unfinished test, expected nothing; go on with --resume {}, or "
-                            "remove it",
-                            working.string(), working.string()));
-        }
+        remove_results(working);  // of a forced test that was never finished; those in the target stay
     }
     OutputFolder folder(target, working);
     folder.made_ = !fs::exists(working, error);

@@ -18,6 +18,10 @@
 namespace crackle {
 namespace {
 
+void say(const TestHooks& hooks, const std::string& line) {
+    if (hooks.stage) hooks.stage(line);
+}
+
 void apply_material(const TestCase::MaterialKeys& keys, Material& material) {
     if (keys.density) material.density = *keys.density;
     if (keys.normal_stiffness) material.normal_stiffness = *keys.normal_stiffness;
@@ -39,7 +43,7 @@ SizeDistribution sizes_of(const TestCase& test) {
     return UniformRadii{*keys.radius_min, *keys.radius_max};
 }
 
-Scene packed_scene(const TestCase& test, const StageReport& report) {
+Scene packed_scene(const TestCase& test, const TestHooks& hooks) {
     const auto& keys = test.packing;
     PackingRequest request;
     request.width = keys.width;
@@ -52,18 +56,21 @@ Scene packed_scene(const TestCase& test, const StageReport& report) {
     request.seed = static_cast<std::uint64_t>(keys.seed);
     request.threads = static_cast<int>(test.numerics.threads);
     apply_material(test.material, request.material);
-    Packing packing = make_packing(request);
-    report(fmt::format("packed {} circles into {:.4g} m x {:.4g} m: void ratio {:.4g}, mean overlap {:.4g} m, seed {}",
-                       packing.report.circles, packing.report.width, packing.report.height, packing.report.void_ratio,
-                       packing.report.mean_overlap, keys.seed));
+    Packing packing = make_packing(request, [&](const PackingProgress&) {
+        if (hooks.interrupted && hooks.interrupted()) throw TestInterrupted();
+    });
+    say(hooks,
+        fmt::format("packed {} circles into {:.4g} m x {:.4g} m: void ratio {:.4g}, mean overlap {:.4g} m, seed {}",
+                    packing.report.circles, packing.report.width, packing.report.height, packing.report.void_ratio,
+                    packing.report.mean_overlap, keys.seed));
     return std::move(packing.scene);
 }
 
-Scene read_particles(const TestCase& test, const StageReport& report) {
+Scene read_particles(const TestCase& test, const TestHooks& hooks) {
     const auto path = test.resolve_path("particles.file", *test.particles.file);
     Scene scene = read_geometry(path);
     for (Material& material : scene.materials) apply_material(test.material, material);
-    report(fmt::format("read {} bodies from {}", scene.bodies.size(), path.string()));
+    say(hooks, fmt::format("read {} bodies from {}", scene.bodies.size(), path.string()));
     return scene;
 }
 
@@ -152,7 +159,7 @@ bool cell_on_side(const Cell& cell, Wall side, bool domain_boundary, const std::
 }
 
 /// Replaces the circles by the polygons of their centres; ids count from 1 in the mesh's order.
-void mesh_specimen(Specimen& specimen, const TestCase& test, const StageReport& report) {
+void mesh_specimen(Specimen& specimen, const TestCase& test, const TestHooks& hooks) {
     const Scene circles = specimen.scene;
     std::vector<Seed> seeds;
     std::vector<char> touches_left, touches_right;
@@ -199,8 +206,8 @@ void mesh_specimen(Specimen& specimen, const TestCase& test, const StageReport& 
     specimen.thick = *test.mesh.thick;
     specimen.seeds = static_cast<std::int64_t>(seeds.size());
     specimen.segments = mesh.report.segments;
-    report(fmt::format("meshed into {} {} cells with {} segments", mesh.report.cells, specimen.kind,
-                       mesh.report.segments));
+    say(hooks, fmt::format("meshed into {} {} cells with {} segments", mesh.report.cells, specimen.kind,
+                           mesh.report.segments));
 }
 
 void measure_polygons(Specimen& specimen, const TestCase& test) {
@@ -219,9 +226,9 @@ void measure_polygons(Specimen& specimen, const TestCase& test) {
 
 }  // namespace
 
-Specimen make_specimen(const TestCase& test, const StageReport& report) {
+Specimen make_specimen(const TestCase& test, const TestHooks& hooks) {
     Specimen specimen;
-    specimen.scene = test.has_table("packing") ? packed_scene(test, report) : read_particles(test, report);
+    specimen.scene = test.has_table("packing") ? packed_scene(test, hooks) : read_particles(test, hooks);
     classify(specimen, test);
     quieten(specimen.scene, specimen.notices);
     measure_circles(specimen);
@@ -230,7 +237,7 @@ Specimen make_specimen(const TestCase& test, const StageReport& report) {
             throw InputError(fmt::format(
                 "{}: found a particle file of polygons, expected circles to mesh; remove [mesh]", test.at("mesh")));
         }
-        mesh_specimen(specimen, test, report);
+        mesh_specimen(specimen, test, hooks);
     } else if (specimen.polygons) {
         measure_polygons(specimen, test);
     }

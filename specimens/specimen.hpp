@@ -4,12 +4,12 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "solver/scene.hpp"
 #include "specimens/case_file.hpp"
+#include "specimens/test_hooks.hpp"
 
 namespace crackle {
 
@@ -28,11 +28,8 @@ struct Specimen {
     std::vector<std::string> notices;  ///< what a user should know
 };
 
-/// One line a stage: "packed 304 circles, …".
-using StageReport = std::function<void(const std::string&)>;
-
 /// Makes or reads the specimen that the case describes.
-/// @throws InputError for what cannot be read, packed, meshed or tested, naming the case's key.
-Specimen make_specimen(const TestCase& test, const StageReport& report);
+/// @throws InputError for what cannot be read, packed, meshed or tested, naming the case's key; TestInterrupted.
+Specimen make_specimen(const TestCase& test, const TestHooks& hooks);
 
 }  // namespace crackle

@@ -29,8 +29,8 @@ constexpr double circle_thick_share = 0.1;  // of the mean radius
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-void say(const StageReport& stage, const std::string& line) {
-    if (stage) stage(line);
+void say(const TestHooks& hooks, const std::string& line) {
+    if (hooks.stage) hooks.stage(line);
 }
 
 std::string read_bytes(const fs::path& path) {
@@ -43,6 +43,17 @@ struct Bonded {
     World world;
     Platens platens;
 };
+
+/// A time step above the bound is the case's: the error shall lead there.
+World build(Scene scene, const TestCase& test) {
+    try {
+        return build_world(std::move(scene));
+    } catch (const InputError& error) {
+        const std::string text = error.what();
+        if (!text.starts_with("time step:")) throw;
+        throw InputError(test.at("numerics.time_step") + text.substr(text.find(':')));
+    }
+}
 
 /// Platens added, world built, bonds made, platens in place.
 Bonded bond_specimen(const Specimen& specimen, const TestCase& test, const TestCase::Loading& loading) {
@@ -57,7 +68,7 @@ Bonded bond_specimen(const Specimen& specimen, const TestCase& test, const TestC
     Bonded bonded;
     bonded.platens = add_platens(scene, specimen, loading, scene.thick);
     const double thick = scene.thick;
-    bonded.world = build_world(std::move(scene));
+    bonded.world = build(std::move(scene), test);
     bond_all(bonded.world, thick);
     place_platens(bonded.world, bonded.platens);
     compute_forces(bonded.world);
@@ -158,15 +169,15 @@ TestOutcome run_with_files(VirtualTest& test, const TestOptions& options, const 
 
 }  // namespace
 
-VirtualTest prepare_test(const TestCase& description, const StageReport& stage) {
+VirtualTest prepare_test(const TestCase& description, const TestHooks& hooks) {
     VirtualTest test;
     test.description = description;
-    const Specimen specimen = make_specimen(description, [&](const std::string& line) { say(stage, line); });
+    const Specimen specimen = make_specimen(description, hooks);
     Bonded bonded = bond_specimen(specimen, description, description.loading);
     test.world = std::move(bonded.world);
     test.setup = record_setup(test.world, specimen, bonded.platens, description.loading.kind == "compression");
     test.state.failure.share_of_peak = description.loading.stop_at_share_of_peak;
-    say(stage, fmt::format("bonded {} points of {} interfaces, time step {:.3g} s", test.world.bonds_initial,
+    say(hooks, fmt::format("bonded {} points of {} interfaces, time step {:.3g} s", test.world.bonds_initial,
                            test.world.interfaces_initial, test.world.time_step));
     if (bonded.platens.bonded) {
         check_platen_bonds(test.world, test.setup, description);
@@ -178,16 +189,16 @@ VirtualTest prepare_test(const TestCase& description, const StageReport& stage) 
         solve_moduli(test.state, test.setup, twin.world, specimen);
     }
     if (std::isfinite(test.state.youngs_modulus)) {
-        say(stage, fmt::format("small strain: E = {:.4g} N/m, nu = {:.3g}", test.state.youngs_modulus,
+        say(hooks, fmt::format("small strain: E = {:.4g} N/m, nu = {:.3g}", test.state.youngs_modulus,
                                test.state.poissons_ratio));
     }
-    for (const std::string& notice : test.setup.notices) say(stage, "notice: " + notice);
+    for (const std::string& notice : test.setup.notices) say(hooks, "notice: " + notice);
     return test;
 }
 
 TestOutcome run_test(const TestCase& description, const TestOptions& options, const TestHooks& hooks) {
     OutputFolder folder = OutputFolder::create(options.folder, options.force);
-    VirtualTest test = prepare_test(description, hooks.stage);
+    VirtualTest test = prepare_test(description, hooks);
     if (options.threads > 0) set_threads(test.world, options.threads);
     test.state.command = options.command;
     TestCase recorded = description;
@@ -233,7 +244,7 @@ TestOutcome resume_test(const TestOptions& options, const TestHooks& hooks) {
         return outcome;
     }
     TestFiles files(folder, checkpoint.case_hash, test.state);
-    say(hooks.stage,
+    say(hooks,
         fmt::format("resumed at step {}, axial strain {:.4g}", test.world.step, test.setup.axial_strain(test.world)));
     return run_with_files(test, options, hooks, folder, files);
 }

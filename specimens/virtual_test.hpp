@@ -17,6 +17,7 @@
 
 #include "specimens/case_file.hpp"
 #include "specimens/specimen.hpp"
+#include "specimens/test_hooks.hpp"
 #include "specimens/test_setup.hpp"
 #include "specimens/test_state.hpp"
 
@@ -29,22 +30,6 @@ struct VirtualTest {
     TestSetup setup;
     TestState state;
     World world;
-};
-
-struct TestProgress {
-    double axial_strain = 0.0;
-    double share_done = 0.0;                       ///< of max_axial_strain
-    double axial_stress = 0.0, peak_stress = 0.0;  // N/m
-    std::int64_t bonds_broken = 0, step = 0;
-    double steps_per_second = 0.0;
-    double seconds_left = 0.0;  ///< until max_axial_strain; failure may come first
-};
-
-/// What the caller wants to know or to say while a test runs; empty members are skipped.
-struct TestHooks {
-    StageReport stage;
-    std::function<void(const TestProgress&)> progress;  ///< a few times a second
-    std::function<bool()> interrupted;
 };
 
 struct TestOptions {
@@ -62,14 +47,14 @@ struct TestOutcome {
     bool was_finished = false;  ///< resume_test() found nothing to do
 };
 
-/// @throws InputError for everything that makes the case impossible.
-VirtualTest prepare_test(const TestCase& description, const StageReport& stage = {});
+/// @throws InputError for everything that makes the case impossible; TestInterrupted.
+VirtualTest prepare_test(const TestCase& description, const TestHooks& hooks = {});
 
 /// Loads to the end. @param files where to write; nullptr: rows and events stay in memory (state.rows, world.events)
 /// @throws UnstableRun with everything so far kept.
 void load_specimen(VirtualTest& test, const TestHooks& hooks = {}, TestFiles* files = nullptr);
 
-/// @throws InputError, UnstableRun (results up to there are kept)
+/// @throws InputError, UnstableRun (results up to there are kept), TestInterrupted
 TestOutcome run_test(const TestCase& description, const TestOptions& options, const TestHooks& hooks = {});
 
 /// Goes on with a test from its last checkpoint. @throws InputError if the folder, its case or its checkpoint do not

@@ -178,7 +178,13 @@ int test(const Arguments& arguments) {
     } else {
         TestCase description = read_case(values["case"].as<std::string>());
         if (values.contains("allow-unstable")) description.numerics.allow_unstable = true;
-        outcome = run_test(description, options, hooks);
+        try {
+            outcome = run_test(description, options, hooks);
+        } catch (const TestInterrupted& stop) {
+            line.clear();
+            std::cerr << "crackle: " << stop.what() << '\n';
+            return exit_interrupted;
+        }
     }
     line.clear();
     return finish(outcome, options.folder.string(), quiet);

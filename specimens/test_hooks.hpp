@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the caller of a test wants to know or to say while it runs.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <stdexcept>
+#include <string>
+
+namespace crackle {
+
+struct TestProgress {
+    double axial_strain = 0.0;
+    double share_done = 0.0;                       ///< of max_axial_strain
+    double axial_stress = 0.0, peak_stress = 0.0;  // N/m
+    std::int64_t bonds_broken = 0, step = 0;
+    double steps_per_second = 0.0;
+    double seconds_left = 0.0;  ///< until max_axial_strain; failure may come first
+};
+
+/// Empty members are skipped.
+struct TestHooks {
+    std::function<void(const std::string&)> stage;      ///< one line a stage: "packed 304 circles …"
+    std::function<void(const TestProgress&)> progress;  ///< a few times a second
+    std::function<bool()> interrupted;
+};
+
+/// The caller's interrupt before loading has begun: there is nothing to keep.
+class TestInterrupted : public std::runtime_error {
+  public:
+    TestInterrupted() : std::runtime_error("interrupted before loading began, nothing is written") {}
+};
+
+}  // namespace crackle

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `crackle test` as a user calls it: exit codes, what it says of input it cannot use, Ctrl-C and going on.
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "tests/support/claim.hpp"
+#include "tests/support/deck_files.hpp"
+#include "tests/support/small_rock.hpp"
+
+namespace crackle {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ScratchFolder;
+using testing::SmallCase;
+using testing::write_small_case;
+
+struct Answer {
+    int code = -1;
+    std::string out, err;
+};
+
+class CrackleTest : public ::testing::Test {
+  protected:
+    CrackleTest() : folder_(scratch_ / "") { write_small_case(folder_, {}); }
+
+    Answer call(const std::string& words) const {
+        const int status = std::system(
+            fmt::format("cd '{}' && '{}' test {} > out.txt 2> err.txt", folder_.string(), CRACKLE_PROGRAM, words)
+                .c_str());
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text_file(folder_ / "out.txt"),
+                read_text_file(folder_ / "err.txt")};
+    }
+
+    std::map<std::string, std::string> snapshot() const {
+        std::map<std::string, std::string> files;
+        for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
+            const std::string name = entry.path().filename();
+            if (entry.is_regular_file() && name != "out.txt" && name != "err.txt")
+                files[entry.path()] = read_text_file(entry.path());
+        }
+        return files;
+    }
+
+    /// Exit code 2, one line that says it, and no file made, changed or lost.
+    void expect_refused(const std::string& words, const std::string& says) const {
+        const auto before = snapshot();
+        const Answer answer = call(words);
+        fmt::print("  {}", answer.err);
+        EXPECT_EQ(answer.code, 2) << words << '\n' << answer.err;
+        EXPECT_NE(answer.err.find(says), std::string::npos) << "expected: " << says << "\ngot: " << answer.err;
+        const auto lines = std::count(answer.err.begin(), answer.err.end(), '\n');
+        EXPECT_EQ(lines, 1) << answer.err;
+        EXPECT_TRUE(answer.out.empty()) << answer.out;
+        EXPECT_TRUE(snapshot() == before) << "files were made, changed or lost";
+    }
+
+    void replace(const std::string& file, const std::string& old_text, const std::string& new_text) const {
+        std::string text = read_text_file(folder_ / file);
+        const std::size_t at = text.find(old_text);
+        ASSERT_NE(at, std::string::npos) << old_text;
+        std::ofstream(folder_ / file) << text.replace(at, old_text.size(), new_text);
+    }
+
+    ScratchFolder scratch_;
+    fs::path folder_;
+};
+
+TEST_F(CrackleTest, RunsQuietlyInAPipeAndPrintsItsFigures) {
+    const Answer answer = call("case.toml -o out");
+    EXPECT_EQ(answer.code, 0) << answer.err;
+    EXPECT_NE(answer.out.find("circles, tension: failed"), std::string::npos) << answer.out;
+    EXPECT_EQ(answer.err.find('\r'), std::string::npos) << "no progress line in a pipe";
+    const Answer quiet = call("case.toml -o quiet -q");
+    EXPECT_EQ(quiet.code, 0);
+    EXPECT_EQ(quiet.out + quiet.err, "");
+}
+
+TEST_F(CrackleTest, HelpShowsExamplesAndKeysShowUnits) {
+    EXPECT_NE(call("--help").out.find("examples:"), std::string::npos);
+    EXPECT_NE(call("--keys").out.find("axial_strain_rate        a number > 0 and < 1e+06 in 1/s; required."),
+              std::string::npos)
+        << call("--keys").out;
+}
+
+TEST_F(CrackleTest, MissingCase) { expect_refused("nowhere.toml -o out", "nowhere.toml: found no such file"); }
+
+TEST_F(CrackleTest, MissingParticleFile) {
+    fs::remove(folder_ / "rock.dat");
+    expect_refused("case.toml -o out -q", "rock.dat");
+}
+
+TEST_F(CrackleTest, TruncatedParticleFile) {
+    fs::resize_file(folder_ / "rock.dat", fs::file_size(folder_ / "rock.dat") / 2);
+    expect_refused("case.toml -o out -q", "rock.dat:");
+}
+
+TEST_F(CrackleTest, UnknownKey) {
+    replace("case.toml", "damping_ratio", "damping");
+    expect_refused("case.toml -o out", "case.toml:4: material.damping: found an unknown key, expected one of density");
+}
+
+TEST_F(CrackleTest, WrongType) {
+    replace("case.toml", "damping_ratio = 0.2", "damping_ratio = \"some\"");
+    expect_refused("case.toml -o out",
+                   "case.toml:4: material.damping_ratio: found \"some\" (a text), expected a number >= 0");
+}
+
+TEST_F(CrackleTest, NegativeRadius) {
+    replace("rock.dat", "0.02", "-0.02");
+    expect_refused("case.toml -o out -q", "rock.dat:");
+}
+
+TEST_F(CrackleTest, NotANumber) {
+    replace("case.toml", "damping_ratio = 0.2", "damping_ratio = nan");
+    expect_refused("case.toml -o out", "case.toml:4: material.damping_ratio: found nan");
+}
+
+TEST_F(CrackleTest, AbsurdTimeStep) {
+    write_small_case(folder_, {.numerics = "time_step = 1e3"});
+    expect_refused("case.toml -o out -q", "case.toml:11: numerics.time_step: found 1000 s, expected at most");
+}
+
+TEST_F(CrackleTest, ZeroCircles) {
+    Scene empty = testing::small_rock_scene();
+    empty.bodies.clear();
+    empty.circles.clear();
+    std::ofstream out(folder_ / "rock.dat");
+    write_geometry(out, empty);
+    out.close();
+    expect_refused("case.toml -o out -q", "rock.dat");
+}
+
+TEST_F(CrackleTest, CellDestroyedByTheInset) {
+    write_small_case(folder_, {.mesh = "voronoi"});
+    replace("case.toml", "thick = 1.0e-3", "thick = 0.9e-1");
+    replace("case.toml", "thick = 1.08e-3", "thick = 1.0e-1");
+    expect_refused("case.toml -o out -q", "case.toml:7: mesh.thick: ");
+}
+
+TEST_F(CrackleTest, UnwritableFolder) {
+    std::ofstream(folder_ / "file") << "in the way\n";
+    expect_refused("case.toml -o file -q", "file: found a file, expected a folder or nothing");
+    expect_refused("case.toml -o file/out -q", "file/out: cannot be written");
+    expect_refused("case.toml -o /proc/crackle -q", "/proc/crackle: cannot be written");
+}
+
+TEST_F(CrackleTest, FolderWithResults) {
+    ASSERT_EQ(call("case.toml -o out -q").code, 0);
+    expect_refused("case.toml -o out -q", "--force replaces them, --resume goes on with them");
+    EXPECT_EQ(call("case.toml -o out -q --force").code, 0);
+}
+
+TEST_F(CrackleTest, WrongWords) {
+    expect_refused("case.toml", "found no -o OUT");
+    expect_refused("-o out", "found no CASE.toml");
+    expect_refused("case.toml --resume out", "expected one of them");
+    expect_refused("case.toml -o out --threads 0", "--threads: found 0");
+    expect_refused("case.toml -o out --frobnicate", "frobnicate");
+}
+
+TEST_F(CrackleTest, CtrlCEndsCleanlyAndResumeEndsWithTheSameCurve) {
+    // Slow enough that the signal meets it while it loads, whatever the machine.
+    write_small_case(folder_, {.rate = 2e-4, .max_strain = 0.005});
+    const fs::path curve = folder_ / "out/curve.csv";
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+        ASSERT_EQ(chdir(folder_.c_str()), 0);
+        execl(CRACKLE_PROGRAM, CRACKLE_PROGRAM, "test", "case.toml", "-o", "out", "-q", static_cast<char*>(nullptr));
+        _exit(127);
+    }
+    for (int wait = 0; wait < 3000 && !fs::exists(folder_ / "out/checkpoint"); ++wait) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    }
+    ASSERT_TRUE(fs::exists(folder_ / "out/checkpoint")) << "loading has begun";
+    kill(child, SIGINT);
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 130);
+    const auto summary = nlohmann::json::parse(read_text_file(folder_ / "out/summary.json"));
+    EXPECT_TRUE(summary["interrupted"].get<bool>());
+    EXPECT_FALSE(summary["failed"].get<bool>());
+
+    EXPECT_EQ(call("--resume out -q").code, 0);
+    EXPECT_EQ(call("case.toml -o whole -q").code, 0);
+    EXPECT_TRUE(read_text_file(curve) == read_text_file(folder_ / "whole/curve.csv"));
+    EXPECT_TRUE(read_text_file(folder_ / "out/events.csv") == read_text_file(folder_ / "whole/events.csv"));
+}
+
+}  // namespace
+}  // namespace crackle

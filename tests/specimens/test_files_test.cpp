@@ -1,0 +1,292 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The folder of a test: complete, the same bytes however often it was interrupted and whatever the threads, and never
+// at the expense of earlier results.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "solver/errors.hpp"
+#include "specimens/output_folder.hpp"
+#include "specimens/results.hpp"
+#include "specimens/virtual_test.hpp"
+#include "tests/support/claim.hpp"
+#include "tests/support/deck_files.hpp"
+#include "tests/support/small_rock.hpp"
+
+namespace crackle {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ScratchFolder;
+using testing::SmallCase;
+using testing::write_small_case;
+
+/// Every file by name; summary.json without what the clock says.
+std::map<std::string, std::string> contents(const fs::path& folder) {
+    std::map<std::string, std::string> files;
+    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+        if (!entry.is_regular_file()) continue;
+        std::string text = read_text_file(entry.path());
+        if (entry.path().filename() == "summary.json") {
+            auto json = nlohmann::ordered_json::parse(text);
+            for (const char* key : {"wall_seconds", "step_seconds", "particle_steps_per_second", "threads"})
+                json.erase(key);
+            text = json.dump();
+        }
+        files[fs::relative(entry.path(), folder).string()] = text;
+    }
+    return files;
+}
+
+void expect_same(const std::map<std::string, std::string>& got, const std::map<std::string, std::string>& expected,
+                 const std::string& what) {
+    for (const auto& [name, text] : expected) {
+        const auto found = got.find(name);
+        if (found == got.end()) {
+            ADD_FAILURE() << what << ": " << name << " is missing";
+        } else {
+            EXPECT_TRUE(found->second == text) << what << ": " << name << " has other bytes";
+        }
+    }
+    EXPECT_EQ(got.size(), expected.size()) << what << ": number of files";
+}
+
+std::string refusal(const std::function<void()>& act) {
+    try {
+        act();
+    } catch (const InputError& error) {
+        fmt::print("  {}\n", error.what());
+        return error.what();
+    }
+    return "went through";
+}
+
+class TestFolder : public ::testing::Test {
+  protected:
+    TestOptions options(const std::string& name) const {
+        TestOptions wanted;
+        wanted.folder = scratch_ / name;
+        wanted.command = "crackle test";
+        return wanted;
+    }
+    TestCase small_case(const SmallCase& wanted = {}) const {
+        return read_case(write_small_case(scratch_ / "", wanted));
+    }
+    /// Stops when asked for the nth time; the loop asks every 64 steps.
+    static TestHooks stopping_at(int questions) {
+        TestHooks hooks;
+        hooks.interrupted = [left = questions]() mutable { return --left < 0; };
+        return hooks;
+    }
+
+    ScratchFolder scratch_;
+};
+
+TEST_F(TestFolder, HoldsWhatReadersLookFor) {
+    const TestOutcome outcome = run_test(small_case(), options("out"));
+    const TestResults results = read_results(scratch_ / "out");
+    EXPECT_TRUE(results.summary["failed"].get<bool>());
+    EXPECT_EQ(results.frames.size(), 3u) << "start, peak, end";
+    EXPECT_EQ(results.frames[0].particles.bodies.size(), 79u) << "77 discs and two platens";
+    const std::string curve = read_text_file(scratch_ / "out/curve.csv");
+    EXPECT_EQ(static_cast<std::ptrdiff_t>(results.curve.rows()), std::count(curve.begin(), curve.end(), '\n') - 1);
+    EXPECT_EQ(results.events.rows(), results.summary["bonds_broken"].get<std::size_t>());
+    const std::vector<double>& stress = *results.curve.find("axial_stress");
+    EXPECT_EQ(*std::max_element(stress.begin(), stress.end()), results.summary["peak_stress"].get<double>())
+        << "the same number in both files";
+    const std::vector<double>& ids = *results.events.find("body_i");
+    EXPECT_GT(*std::min_element(ids.begin(), ids.end()), 100.0) << "ids of the input";
+    for (const char* key : {"title",
+                            "kind",
+                            "specimen",
+                            "failed",
+                            "initial_width",
+                            "initial_height",
+                            "particles",
+                            "contacts_initial",
+                            "bonds_initial",
+                            "bonds_broken",
+                            "interfaces_initial",
+                            "interfaces_lost",
+                            "mean_back_tension",
+                            "mean_bond_overlap",
+                            "youngs_modulus",
+                            "initial_tangent_modulus",
+                            "tangent_modulus_50",
+                            "poissons_ratio",
+                            "peak_stress",
+                            "peak_stress_pa",
+                            "peak_strain",
+                            "energy_closing_error",
+                            "platen_out_of_balance",
+                            "time_step",
+                            "time_step_bound",
+                            "steps",
+                            "seed",
+                            "version",
+                            "command",
+                            "wall_seconds",
+                            "step_seconds",
+                            "particle_steps_per_second",
+                            "frame_start",
+                            "frame_peak",
+                            "frame_end",
+                            "columns"}) {
+        EXPECT_TRUE(outcome.summary.contains(key)) << key;
+    }
+    EXPECT_NE(
+        curve.find("axial_strain,axial_stress,stress_top,stress_bottom,lateral_strain,bonds_broken,kinetic_energy,"
+                   "strain_energy,time,"
+                   "step,interfaces_lost,points_sliding,dashpot_loss,friction_loss,fracture_loss,platen_work,"
+                   "energy_error\n"),
+        std::string::npos);
+    EXPECT_NE(read_text_file(scratch_ / "out/case.toml").find("rock.dat"), std::string::npos)
+        << "inputs and their hashes";
+}
+
+TEST_F(TestFolder, EndsBeforeFailureWithAPeakSoFar) {
+    SmallCase wanted;
+    wanted.max_strain = 2e-4;
+    const TestOutcome outcome = run_test(small_case(wanted), options("out"));
+    EXPECT_FALSE(outcome.summary["failed"].get<bool>());
+    EXPECT_TRUE(outcome.summary.contains("peak_stress_so_far"));
+    EXPECT_FALSE(outcome.summary.contains("peak_stress"));
+    EXPECT_EQ(outcome.summary["ended_by"], "max_axial_strain");
+}
+
+TEST_F(TestFolder, ResolvedCaseRunsToTheSameCurve) {
+    run_test(small_case(), options("out"));
+    run_test(read_case(scratch_ / "out/case.toml"), options("again"));
+    EXPECT_EQ(read_text_file(scratch_ / "out/curve.csv"), read_text_file(scratch_ / "again/curve.csv"));
+}
+
+TEST_F(TestFolder, HasTheSameBytesForAnyNumberOfThreads) {
+    SmallCase wanted;
+    wanted.mesh = "voronoi";
+    wanted.rate = 0.05;
+    const TestCase test = small_case(wanted);
+    const TestOutcome first = run_test(test, options("one"));
+    ASSERT_TRUE(first.summary["failed"].get<bool>());
+    const auto one = contents(scratch_ / "one");
+    for (const int threads : {2, 3, 7}) {
+        TestOptions several = options("several");
+        several.threads = threads;
+        several.force = true;
+        run_test(test, several);
+        expect_same(contents(scratch_ / "several"), one, fmt::format("{} threads", threads));
+    }
+}
+
+TEST_F(TestFolder, ResumedEndsWithTheBytesOfAnUninterruptedTest) {
+    for (const char* mesh : {"", "voronoi"}) {
+        SmallCase wanted;
+        wanted.kind = *mesh == '\0' ? "compression" : "tension";
+        wanted.mesh = mesh;
+        wanted.max_strain = 7e-3;
+        const TestCase test = small_case(wanted);
+        TestOptions straight = options("straight"), broken = options("broken");
+        straight.force = broken.force = true;
+        const TestOutcome whole = run_test(test, straight);
+        ASSERT_GT(whole.summary["bonds_broken"].get<int>(), 0);
+
+        TestOutcome outcome = run_test(test, broken, stopping_at(2));
+        int interrupts = 0;
+        while (outcome.interrupted) {
+            ++interrupts;
+            EXPECT_EQ(outcome.summary["ended_by"], "interrupt");
+            broken.folder = outcome.folder;
+            outcome = resume_test(broken, stopping_at(1 + 3 * interrupts));
+        }
+        fmt::print("  {} interrupts in {} steps\n", interrupts, whole.summary["steps"].get<int>());
+        EXPECT_GE(interrupts, 3);
+        expect_same(contents(outcome.folder), contents(scratch_ / "straight"), fmt::format("resumed {}", mesh));
+        fs::remove_all(outcome.folder);
+        fs::remove_all(scratch_ / "straight");
+    }
+}
+
+TEST_F(TestFolder, ResumingTakesAwayWhatCameAfterTheCheckpoint) {
+    const TestCase test = small_case();
+    run_test(test, options("straight"));
+    run_test(test, options("broken"), stopping_at(4));
+    // As after a kill: the files have grown beyond the checkpoint.
+    std::ofstream(scratch_ / "broken/curve.csv", std::ios::app) << "1,2,3\n";
+    std::ofstream(scratch_ / "broken/events.csv", std::ios::app) << "1,2,3\n";
+    std::ofstream(scratch_ / "broken/frames/particles_99999.vtp") << "later\n";
+    EXPECT_FALSE(resume_test(options("broken")).interrupted);
+    expect_same(contents(scratch_ / "broken"), contents(scratch_ / "straight"), "resumed after a kill");
+    EXPECT_TRUE(resume_test(options("broken")).was_finished);
+}
+
+TEST_F(TestFolder, ResumingRefusesWhatDoesNotFit) {
+    const auto refused = [&](const std::string& says) {
+        const std::string message = refusal([&] { resume_test(options("out")); });
+        EXPECT_NE(message.find(says), std::string::npos) << message;
+    };
+    refused("out: found no such folder");
+    run_test(small_case(), options("out"), stopping_at(3));
+    const std::string checkpoint = read_text_file(scratch_ / "out/checkpoint");
+    const auto put = [&](const std::string& bytes) {
+        std::ofstream(scratch_ / "out/checkpoint", std::ios::binary) << bytes;
+    };
+    put(checkpoint.substr(0, checkpoint.size() / 2));
+    refused("truncated or damaged checkpoint");
+    std::string flipped = checkpoint;
+    flipped[checkpoint.size() / 2] = static_cast<char>(flipped[checkpoint.size() / 2] ^ 1);
+    put(flipped);
+    refused("truncated or damaged checkpoint");
+    put("crackle test checkpoint 9\n");
+    refused("found checkpoint version 9");
+    put("hello");
+    refused("found other data");
+    put(checkpoint);
+    std::ofstream(scratch_ / "out/case.toml", std::ios::app) << "# edited\n";
+    refused("found another case than the one the checkpoint belongs to");
+    fs::remove(scratch_ / "out/checkpoint");
+    refused("found no checkpoint");
+}
+
+TEST_F(TestFolder, KeepsEarlierResultsUntilNewOnesAreComplete) {
+    SmallCase wanted;
+    run_test(small_case(wanted), options("out"));
+    std::ofstream(scratch_ / "out/notes.txt") << "mine\n";
+    const auto earlier = contents(scratch_ / "out");
+
+    EXPECT_NE(refusal([&] { run_test(small_case(wanted), options("out")); }).find("--force"), std::string::npos);
+    expect_same(contents(scratch_ / "out"), earlier, "after a refusal");
+
+    TestOptions forced = options("out");
+    forced.force = true;
+    wanted.max_strain = 4e-3;
+    const TestOutcome stopped = run_test(small_case(wanted), forced, stopping_at(3));
+    EXPECT_TRUE(stopped.interrupted);
+    EXPECT_EQ(stopped.folder, scratch_ / "out.new");
+    expect_same(contents(scratch_ / "out"), earlier, "after an interrupt");
+
+    run_test(small_case(wanted), forced);
+    EXPECT_FALSE(fs::exists(scratch_ / "out.new"));
+    EXPECT_NE(contents(scratch_ / "out")["case.toml"], earlier.at("case.toml")) << "replaced";
+    EXPECT_EQ(read_text_file(scratch_ / "out/notes.txt"), "mine\n") << "what is not ours stays";
+}
+
+TEST_F(TestFolder, IsNotMadeForACaseThatCannotBeTested) {
+    SmallCase wanted;
+    wanted.numerics = "time_step = 1.0";
+    refusal([&] { run_test(small_case(wanted), options("out")); });
+    EXPECT_FALSE(fs::exists(scratch_ / "out"));
+}
+
+TEST_F(TestFolder, FullDiscIsOneErrorThatNamesTheFile) {
+    const OutputFolder folder = OutputFolder::create(scratch_ / "out", false);
+    fs::create_symlink("/dev/full", scratch_ / "out/case.toml.tmp");
+    const std::string message = refusal([&] { folder.write("case.toml", std::string(100000, 'x')); });
+    EXPECT_NE(message.find("case.toml: cannot be written (No space left on device)"), std::string::npos) << message;
+    EXPECT_FALSE(fs::exists(scratch_ / "out/case.toml"));
+}
+
+}  // namespace
+}  // namespace crackle

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A specimen between its platens: where they stand, what they measure, and that the linear solve agrees.
+
+#include "specimens/virtual_test.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/errors.hpp"
+#include "tests/support/claim.hpp"
+#include "tests/support/deck_files.hpp"
+#include "tests/support/small_rock.hpp"
+
+namespace crackle {
+namespace {
+
+using testing::agrees;
+using testing::ScratchFolder;
+using testing::SmallCase;
+using testing::within;
+using testing::write_small_case;
+
+class VirtualRock : public ::testing::Test {
+  protected:
+    VirtualTest prepare(const SmallCase& wanted) const {
+        return prepare_test(read_case(write_small_case(scratch_ / "", wanted)));
+    }
+    VirtualTest tested(const SmallCase& wanted) const {
+        VirtualTest test = prepare(wanted);
+        load_specimen(test);
+        return test;
+    }
+    ScratchFolder scratch_;
+};
+
+TEST_F(VirtualRock, CirclesOverlapTheirPlatensByWhatTheyOverlappedTheWalls) {
+    const VirtualTest test = prepare({});
+    const Scene packed = testing::small_rock_scene();
+    int platen_bonds = 0;
+    double worst = 0.0;
+    for (PointIndex k = 0; k < test.world.points.size(); ++k) {
+        const ContactPoint& point = test.world.points[k];
+        if ((point.flags & point_bonded) == 0) continue;
+        const bool top = point.body_j == test.setup.top;
+        if (!top && point.body_j != test.setup.bottom) continue;
+        ++platen_bonds;
+        const int id = test.world.info[point.body_i].id;
+        const auto body =
+            std::find_if(packed.bodies.begin(), packed.bodies.end(), [&](const Body& b) { return b.id == id; });
+        ASSERT_NE(body, packed.bodies.end()) << id;
+        const double y = packed.circles[body->first_circle].centre.y;
+        const double to_wall = testing::rock_radius - (top ? packed.domain.y2 - y : y - packed.domain.y1);
+        worst = std::max(worst, std::abs(point.bond_overlap - to_wall));
+    }
+    EXPECT_EQ(platen_bonds, 6 + 5) << "the lowest row has six discs, the highest five";
+    EXPECT_TRUE(within("largest difference of the overlaps, m", worst, 0.0, 1e-15));
+}
+
+TEST_F(VirtualRock, PolygonsStandAsFarFromTheirPlatensAsFromEachOther) {
+    for (const char* kind : {"voronoi", "delaunay"}) {
+        SmallCase wanted;
+        wanted.mesh = kind;
+        const VirtualTest test = prepare(wanted);
+        double low = 1.0, high = 0.0;
+        int platen_bonds = 0;
+        for (const ContactPoint& point : test.world.points) {
+            if ((point.flags & point_bonded) == 0 ||
+                (point.body_j != test.setup.top && point.body_j != test.setup.bottom))
+                continue;
+            ++platen_bonds;
+            low = std::min(low, point.bond_overlap);
+            high = std::max(high, point.bond_overlap);
+        }
+        fmt::print("  {}: {} platen bonds\n", kind, platen_bonds);
+        EXPECT_GE(platen_bonds, 20);
+        EXPECT_TRUE(agrees("smallest overlap with a platen, m", low, 8e-5, 1e-9));
+        EXPECT_TRUE(agrees("largest overlap with a platen, m", high, 8e-5, 1e-9));
+    }
+}
+
+TEST_F(VirtualRock, BeginsWithVelocityLinearBetweenThePlatensAndNoWalls) {
+    const VirtualTest test = prepare({});
+    const double low = test.world.bodies[test.setup.bottom].y, high = test.world.bodies[test.setup.top].y;
+    const double speed = 0.02 * test.setup.height;
+    double worst = 0.0;
+    for (const BodyState& body : test.world.bodies) {
+        worst = std::max(worst, std::abs(body.vy - speed * (body.y - low) / (high - low)));
+        EXPECT_EQ(body.vx, 0.0);
+        EXPECT_EQ(body.omega, 0.0);
+    }
+    EXPECT_TRUE(within("largest deviation of the velocities, m/s", worst, 0.0, 1e-15));
+    EXPECT_EQ(test.world.domain.wall_present, (std::array<bool, 4>{false, false, false, false}));
+}
+
+TEST_F(VirtualRock, IntactRunHasTheModulusOfTheSparseSolve) {
+    for (const char* mesh : {"", "voronoi"}) {
+        for (const char* kind : {"tension", "compression"}) {
+            SmallCase wanted;
+            wanted.kind = kind;
+            wanted.mesh = mesh;
+            wanted.rate = 0.002;
+            wanted.max_strain = 1e-4;  // small: the solve is linear
+            wanted.numerics = "intact = true";
+            const VirtualTest test = tested(wanted);
+            const auto& rows = test.state.rows;
+            // Over the upper half of the strain, where what starting to load set in motion has died away.
+            const CurveRow& half = rows[rows.size() / 2];
+            const CurveRow& last = rows.back();
+            const double strain = last.axial_strain - half.axial_strain;
+            const double lateral = (last.lateral_strain - half.lateral_strain) / strain;
+            EXPECT_TRUE(agrees(fmt::format("E of {} {}", mesh, kind), (last.axial_stress - half.axial_stress) / strain,
+                               test.state.youngs_modulus, 5e-3));
+            EXPECT_TRUE(agrees("its Poisson's ratio", test.setup.compression ? lateral : -lateral,
+                               test.state.poissons_ratio, 1e-2));
+            EXPECT_EQ(test.world.bonds_broken, 0);
+            EXPECT_FALSE(test.state.failure.failed);
+            EXPECT_EQ(test.state.ended_by, ended_by_strain);
+        }
+    }
+}
+
+TEST_F(VirtualRock, PulledFailsWithPositiveStressAndBalancedEnergy) {
+    const VirtualTest test = tested({});
+    EXPECT_TRUE(test.state.failure.failed);
+    EXPECT_EQ(test.state.ended_by, ended_by_failure);
+    EXPECT_GT(test.state.failure.peak_stress, 0.0);
+    EXPECT_GT(test.world.bodies[test.setup.top].y, test.setup.top_start);
+    EXPECT_EQ(static_cast<std::int64_t>(test.world.events.size()), test.world.bonds_broken);
+    EXPECT_EQ(test.state.breaks_in_shear + test.state.breaks_in_tension, test.world.bonds_broken);
+    const CurveRow& last = test.state.rows.back();
+    const CurveRow& first = test.state.rows.front();
+    EXPECT_EQ(last.bonds_broken, test.world.bonds_broken);
+    const double balance = last.kinetic_energy - first.kinetic_energy + last.strain_energy + last.dashpot_loss +
+                           last.friction_loss + last.fracture_loss - last.platen_work;
+    EXPECT_TRUE(agrees("energy_error against the columns, J", balance, last.energy_error, 1e-6));
+    EXPECT_TRUE(within("energy balance over work", balance / last.platen_work, 0.0, 5e-3));
+    // No stress can exceed what the bonds across the narrower row could carry.
+    const double bound = 6.0 * 1e7 * 2.0 * testing::rock_overlap / test.setup.width;
+    EXPECT_LT(test.state.failure.peak_stress, bound);
+}
+
+TEST_F(VirtualRock, SqueezedIsStrongerThanPulledAndWidens) {
+    SmallCase squeezed;
+    squeezed.kind = "compression";
+    const VirtualTest compression = tested(squeezed);
+    const VirtualTest tension = tested({});
+    fmt::print("  strength {:.4g} N/m squeezed, {:.4g} N/m pulled\n", compression.state.failure.peak_stress,
+               tension.state.failure.peak_stress);
+    EXPECT_GT(compression.state.failure.peak_stress, tension.state.failure.peak_stress);
+    EXPECT_GT(compression.state.rows[10].lateral_strain, 0.0);
+    EXPECT_LT(tension.state.rows[10].lateral_strain, 0.0);
+    EXPECT_LT(compression.world.bodies[compression.setup.top].y, compression.setup.top_start);
+}
+
+TEST_F(VirtualRock, FrictionalPlatensStartWithoutForceAndHoldNoBond) {
+    SmallCase wanted;
+    wanted.kind = "compression";
+    wanted.loading = "platens = \"frictional\"\nplaten_friction_angle = 5";
+    VirtualTest test = prepare(wanted);
+    for (const BondAnchor& bond : test.setup.bonds) {
+        EXPECT_NE(bond.body_j, test.setup.top);
+        EXPECT_NE(bond.body_j, test.setup.bottom);
+    }
+    load_specimen(test);
+    EXPECT_LT(std::abs(test.state.rows.front().axial_stress), 1e-3 * test.state.failure.peak_stress);
+    EXPECT_GT(test.state.failure.peak_stress, 1e3) << "N/m: the platens press";
+    EXPECT_TRUE(std::isfinite(test.state.youngs_modulus)) << "of the specimen with bonded platens";
+}
+
+TEST_F(VirtualRock, HalfTheStepGivesThePeakWithinFivePercent) {
+    SmallCase coarse, fine;
+    fine.numerics = "safety_factor = 0.4";
+    EXPECT_TRUE(agrees("peak at half the step, N/m", tested(fine).state.failure.peak_stress,
+                       tested(coarse).state.failure.peak_stress, 0.05));
+}
+
+TEST_F(VirtualRock, TooLargeATimeStepIsRefusedWithTheBound) {
+    SmallCase wanted;
+    wanted.numerics = "time_step = 1.0e-2";
+    try {
+        prepare(wanted);
+        FAIL() << "accepted";
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("found 0.01 s, expected at most"), std::string::npos) << error.what();
+    }
+}
+
+TEST_F(VirtualRock, NothingToBondWithAPlatenIsRefused) {
+    const auto path = write_small_case(scratch_ / "", {});
+    Scene scene = testing::small_rock_scene();
+    scene.domain.y2 += 0.01;
+    std::ofstream out(scratch_ / "rock.dat");
+    write_geometry(out, scene);
+    out.close();
+    try {
+        prepare_test(read_case(path));
+        FAIL() << "accepted";
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("upper platen"), std::string::npos) << error.what();
+    }
+}
+
+}  // namespace
+}  // namespace crackle

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A small specimen and its case, written as a user would: discs on a slightly shaken triangular lattice between four
+// walls that they overlap, so that bonding has something to bond; cells of the same centres for polygons.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <random>
+#include <string>
+
+#include "solver/demseg/geometry.hpp"
+
+namespace crackle::testing {
+
+inline constexpr double rock_radius = 0.02;      // m
+inline constexpr double rock_overlap = 7.74e-5;  // m, mean
+
+inline Scene small_rock_scene(int columns = 6, int rows = 14, std::uint64_t seed = 1) {
+    std::mt19937_64 generator(seed);
+    const auto random = [&] { return static_cast<double>(generator() >> 11) * 0x1p-53 - 0.5; };
+    const double spacing = 2.0 * rock_radius - rock_overlap;
+    const double row_height = spacing * std::sqrt(0.75);
+    const double first = rock_radius - rock_overlap;
+    Scene scene;
+    Material material;
+    material.density = 2500.0;
+    material.normal_stiffness = 1e7;
+    material.shear_stiffness = 2.5e6;
+    material.friction_angle = 27.0;
+    scene.materials = {material};
+    int id = 100;  // ids of a file need not begin at 1
+    for (int row = 0; row < rows; ++row) {
+        for (int column = 0; column < columns - row % 2; ++column) {
+            const Vec2 centre{first + spacing * (column + 0.5 * (row % 2)) + 0.5 * rock_overlap * random(),
+                              first + row_height * row + 0.5 * rock_overlap * random()};
+            scene.add_circle_body(++id, 0, {centre, rock_radius, 0.0});
+        }
+    }
+    scene.domain = {0.0,
+                    2.0 * first + spacing * (columns - 1),
+                    0.0,
+                    2.0 * first + row_height * (rows - 1),
+                    {true, true, true, true}};
+    scene.time_step = 1e-5;
+    return scene;
+}
+
+inline void write_small_rock(const std::filesystem::path& file, int columns = 6, int rows = 14) {
+    std::ofstream out(file);
+    write_geometry(out, small_rock_scene(columns, rows));
+}
+
+/// What a test wants to vary of a case.
+struct SmallCase {
+    std::string kind = "tension";
+    std::string mesh = {};  ///< "delaunay", "voronoi" or nothing
+    double rate = 0.02;     // 1/s
+    double max_strain = 0.005;
+    std::string loading = {}, numerics = {}, output = "curve_rows = 200\nframes = 5";  ///< further keys
+};
+
+/// Writes rock.dat and case.toml into the folder. @return the case's path
+inline std::filesystem::path write_small_case(const std::filesystem::path& folder, const SmallCase& wanted) {
+    write_small_rock(folder / "rock.dat");
+    std::ofstream out(folder / "case.toml");
+    out << "[particles]\nfile = \"rock.dat\"\n[material]\ndamping_ratio = 0.2\n";
+    if (!wanted.mesh.empty()) {
+        out << fmt::format("[mesh]\nkind = \"{}\"\nthick = 1.0e-3\n[bond]\nthick = 1.08e-3\n", wanted.mesh);
+    }
+    out << fmt::format("[loading]\nkind = \"{}\"\naxial_strain_rate = {}\nmax_axial_strain = {}\n{}\n", wanted.kind,
+                       wanted.rate, wanted.max_strain, wanted.loading);
+    out << "[numerics]\n" << wanted.numerics << "\n[output]\n" << wanted.output << '\n';
+    return folder / "case.toml";
+}
+
+}  // namespace crackle::testing
