@@ -2,7 +2,7 @@
 // Free polygons: spin, and collisions corner to corner, corner to edge and edge to edge. Contact forces act at one
 // point of both bodies and derive from ½k_n δ² with δ C¹ outside a convex outline, so momentum and angular momentum are
 // kept to rounding and, without friction and dashpots, energy to second order in the step, corners passing corners
-// included.
+// included. Notched polygons and open chains as well.
 
 #include <cmath>
 #include <numbers>
@@ -31,11 +31,15 @@ std::vector<Vec2> placed(const std::vector<Vec2>& outline, double turn, Vec2 shi
 const std::vector<Vec2> square{{-0.02, -0.02}, {0.02, -0.02}, {0.02, 0.02}, {-0.02, 0.02}};
 const std::vector<Vec2> kite{{-0.03, -0.01}, {0.01, -0.02}, {0.025, 0.0}, {0.005, 0.02}};
 
+/// An L whose notch opens to the left and down.
+const std::vector<Vec2> notched{{0.03, -0.05}, {0.03, 0.03}, {-0.05, 0.03}, {-0.05, 0.01}, {0.0, 0.01}, {0.0, -0.05}};
+
 struct Collision {
     const char* name;
     std::vector<Vec2> left, right;
     Vec2 velocity;  // of the left one, m/s
     double spin;    // of the right one, rad/s
+    bool right_closed = true;
 };
 
 std::vector<Collision> collisions() {
@@ -66,6 +70,13 @@ std::vector<Collision> collisions() {
          placed(square, 0.0, {0.02, 0.0}),
          {0.1, -1.0},
          2.0},
+        {"corner into the notch of an L", placed(square, 30.0 * degree, {-0.0285, -0.0185}), notched, {0.1, 0.1}, 0.4},
+        {"corner against an open chain",
+         placed(square, 40.0 * degree, {-0.0299, 0.004}),
+         {{0.0, -0.03}, {0.0, 0.02}, {0.03, 0.03}},
+         {0.1, 0.02},
+         0.5,
+         false},
     };
 }
 
@@ -82,7 +93,7 @@ Outcome collide(const Collision& c, double step_share, double friction_angle) {
     scene.domain.wall_present = {false, false, false, false};
     scene.thick = 1e-3;
     scene.add_chain_body(1, 0, c.left, true);
-    scene.add_chain_body(2, 0, c.right, true);
+    scene.add_chain_body(2, 0, c.right, c.right_closed);
     scene.bodies[0].velocity = c.velocity;
     scene.bodies[1].spin = c.spin;
     const double mass = mass_properties(scene, scene.bodies[0]).mass;
