@@ -46,23 +46,26 @@ function move(motion: Motion, point: Point): Point {
 function extentOf(bodies: Bodies, moved: Motion[], into?: Extent): Extent {
     const extent = into ?? {x1: Infinity, x2: -Infinity, y1: Infinity, y2: -Infinity};
     moved.forEach((motion, body) => {
+        const room = bodies.radius[body]!;
         for (const point of outline(bodies, body)) {
             const at = move(motion, point);
-            extent.x1 = Math.min(extent.x1, at.x);
-            extent.x2 = Math.max(extent.x2, at.x);
-            extent.y1 = Math.min(extent.y1, at.y);
-            extent.y2 = Math.max(extent.y2, at.y);
+            extent.y1 = Math.min(extent.y1, at.y - room);
+            extent.y2 = Math.max(extent.y2, at.y + room);
+            if (bodies.open[body] === 1) continue; // platens may be far wider than the specimen: cut off
+            extent.x1 = Math.min(extent.x1, at.x - room);
+            extent.x2 = Math.max(extent.x2, at.x + room);
         }
     });
     return extent;
 }
 
-/// The box that holds all of a test's frames, platens included.
+/// The box that holds all of a test's frames, and of the platens a little more than the specimen's width.
 export function extentOfTest(test: TestData, magnification: number): Extent {
     let extent: Extent | undefined;
     const start = test.frames[0]!;
     for (const frame of test.frames) extent = extentOf(test.bodies, motions(test.bodies, start, frame, magnification), extent);
-    return extent!;
+    const beside = 0.06 * (extent!.x2 - extent!.x1);
+    return {...extent!, x1: extent!.x1 - beside, x2: extent!.x2 + beside};
 }
 
 export interface BrokenSoFar {
