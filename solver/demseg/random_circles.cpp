@@ -23,15 +23,18 @@ double uniform(std::mt19937_64& generator, double low, double high) {
     return low + (high - low) * (static_cast<double>(generator() >> 11) * unit);
 }
 
-/// Circles placed so far, in square cells of the largest diameter, so that whatever overlaps lies in nine of them.
+/// Circles placed so far, in square cells of at least the largest diameter, so that whatever overlaps lies in nine of
+/// them.
 class PlacedCircles {
   public:
-    PlacedCircles(const Domain& domain, double radius_max)
-        : origin_{domain.x1, domain.y1},
-          size_(2.0 * radius_max),
-          columns_(static_cast<std::size_t>((domain.x2 - domain.x1) / size_) + 1),
-          rows_(static_cast<std::size_t>((domain.y2 - domain.y1) / size_) + 1),
-          cells_(columns_ * rows_) {}
+    PlacedCircles(const Domain& domain, double radius_max, std::int64_t count) : origin_{domain.x1, domain.y1} {
+        const double width = domain.x2 - domain.x1, height = domain.y2 - domain.y1, n = static_cast<double>(count);
+        // Larger cells where few circles have much room, so that memory follows the number of circles.
+        size_ = std::max({2.0 * radius_max, std::sqrt(width / n * height), std::max(width, height) / (n + 64.0)});
+        columns_ = static_cast<std::size_t>(width / size_) + 1;
+        rows_ = static_cast<std::size_t>(height / size_) + 1;
+        cells_.resize(columns_ * rows_);
+    }
 
     /// Σ δ² over the circles that it overlaps: the energy that its contacts would hold, up to k_n/2.
     double squared_overlaps(const CircleElement& circle) const {
@@ -60,8 +63,8 @@ class PlacedCircles {
     }
 
     Vec2 origin_;
-    double size_;
-    std::size_t columns_, rows_;
+    double size_ = 0.0;
+    std::size_t columns_ = 0, rows_ = 0;
     std::vector<std::vector<CircleElement>> cells_;
 };
 
@@ -76,9 +79,9 @@ std::int64_t random_circle_count(const RandomGeometry& geometry) {
     const double area = (geometry.domain.x2 - geometry.domain.x1) * (geometry.domain.y2 - geometry.domain.y1);
     const double mean_square = (r1 * r1 + r1 * r2 + r2 * r2) / 3.0;
     const double count = std::round(area / ((1.0 + geometry.void_ratio) * std::numbers::pi * mean_square));
-    if (!(count >= 1.0 && count <= 1e8)) {
+    if (!(count >= 1.0 && count <= 1e7)) {
         throw InputError(fmt::format(
-            "in_gm.dat: random circles: found {} of them by domain, radii and void ratio, expected 1 to 1e8", count));
+            "in_gm.dat: random circles: found {} of them by domain, radii and void ratio, expected 1 to 1e7", count));
     }
     return static_cast<std::int64_t>(count);
 }
@@ -101,7 +104,7 @@ DeckGeometry make_random_circles(const RandomGeometry& geometry, std::uint64_t s
     scene.bare_segment_width = deck_bare_segment_width;
     std::mt19937_64 generator(seed);
     const std::int64_t count = random_circle_count(geometry);
-    PlacedCircles placed(domain, geometry.radius_max);
+    PlacedCircles placed(domain, geometry.radius_max, count);
     for (std::int64_t k = 1; k <= count; ++k) {
         CircleElement circle;
         circle.radius = uniform(generator, geometry.radius_min, geometry.radius_max);
