@@ -2,13 +2,13 @@
 // Guaranteed bound on the stable step, from per-body blocks.
 //
 // Leapfrog with the lagged dashpot is stable while 4M - 2Δt·C - Δt²·K is positive definite. Every point contributes
-// ½k(a_i - a_j)² to the energy, a the displacement of each body's material at the point, and (a_i - a_j)² <= 2a_i² +
-// 2a_j²
-// (<= a_i² where the partner is held), so K and C are bounded by block-diagonal matrices of doubled body blocks. With κ
-// and γ the largest eigenvalues of M^-½ K_b M^-½ and M^-½ C_b M^-½, body b is stable below (sqrt(γ² + 4κ) - γ)/κ; the
-// bound is the least of these. One spring and dashpot against a wall gives the guide's 2 sqrt(m/k)(sqrt(h²+1) - h)
-// exactly. All listed points count as if they carried load, so it holds until the list is rebuilt; a body without
-// points counts one against a wall.
+// ½k(a_i - a_j)² to the energy, a the displacement of each body's material at the point, and for any α > 0
+// (a_i - a_j)² <= (1 + α)a_i² + (1 + 1/α)a_j² (<= a_i² where the partner is held), so K and C are bounded by
+// block-diagonal matrices K_b and C_b. α = κ_j/κ_i, the ratio of the bodies' own scaled stiffnesses, charges a light
+// sliver hardly anything for its heavy neighbours; equal bodies share by halves. With κ and γ the largest eigenvalues
+// of M^-½ K_b M^-½ and M^-½ C_b M^-½, body b is stable below (sqrt(γ² + 4κ) - γ)/κ; the bound is the least of these.
+// One spring and dashpot against a wall gives the guide's 2 sqrt(m/k)(sqrt(h²+1) - h) exactly. All listed points count
+// as if they carried load, so it holds until the list is rebuilt; a body without points counts one against a wall.
 
 #include <algorithm>
 #include <cmath>
@@ -81,22 +81,48 @@ double stable_step_of(const BodyBlocks& blocks) {
     return 4.0 / (std::sqrt(c * c + 4.0 * k) + c);
 }
 
-}  // namespace
+/// 1 + α for a side of own stiffness κ against κ of its partner (0: held); a side that cannot move along the point adds
+/// nothing.
+double share_of(double own, double partner) { return own > 0.0 ? 1.0 + partner / own : 1.0; }
 
-double stable_step_bound(const World& world) {
+/// Largest scaled stiffness of every body's own points, held bodies 0.
+std::vector<double> own_stiffness(const World& world) {
     std::vector<BodyBlocks> blocks(world.bodies.size());
     for (PointIndex k = 0; k < world.points.size(); ++k) {
         const ContactPoint& point = world.points[k];
         const PointView view = view_point(world, k);
         const ContactLaw& law = world.laws[point.law];
+        const auto add = [&](BodyIndex b, Vec2 arm) {
+            if (!held(world.inertia[b]))
+                add_side(blocks[b], world.inertia[b], law, point.root_effective_mass, 1.0, view.normal, arm);
+        };
+        add(point.body_i, view.arm_i);
+        if (view.kind != PointKind::element_wall) add(point.body_j, view.arm_j);
+    }
+    std::vector<double> stiffness;
+    stiffness.reserve(blocks.size());
+    for (const BodyBlocks& block : blocks) stiffness.push_back(largest_eigenvalue(block.stiffness));
+    return stiffness;
+}
+
+}  // namespace
+
+double stable_step_bound(const World& world) {
+    const std::vector<double> own = own_stiffness(world);
+    std::vector<BodyBlocks> blocks(world.bodies.size());
+    for (PointIndex k = 0; k < world.points.size(); ++k) {
+        const ContactPoint& point = world.points[k];
+        const PointView view = view_point(world, k);
+        const ContactLaw& law = world.laws[point.law];
+        const BodyIndex i = point.body_i, j = point.body_j;
         const bool wall = view.kind == PointKind::element_wall;
-        const bool i_held = held(world.inertia[point.body_i]), j_held = wall || held(world.inertia[point.body_j]);
+        const bool i_held = held(world.inertia[i]), j_held = wall || held(world.inertia[j]);
+        const double share_i = share_of(own[i], j_held ? 0.0 : own[j]),
+                     share_j = share_of(own[j], i_held ? 0.0 : own[i]);
         if (!i_held)
-            add_side(blocks[point.body_i], world.inertia[point.body_i], law, point.root_effective_mass,
-                     j_held ? 1.0 : 2.0, view.normal, view.arm_i);
+            add_side(blocks[i], world.inertia[i], law, point.root_effective_mass, share_i, view.normal, view.arm_i);
         if (!j_held)
-            add_side(blocks[point.body_j], world.inertia[point.body_j], law, point.root_effective_mass,
-                     i_held ? 1.0 : 2.0, view.normal, view.arm_j);
+            add_side(blocks[j], world.inertia[j], law, point.root_effective_mass, share_j, view.normal, view.arm_j);
     }
     double bound = std::numeric_limits<double>::infinity();
     const std::size_t wall_laws = world.materials.size() * world.materials.size();

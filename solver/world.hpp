@@ -312,9 +312,8 @@ std::vector<Vec2> element_positions(const World& world, BodyIndex body);
 void check_health(World& world);
 
 // ---- stable step (solver/stable_step.cpp)
-/// Guaranteed bound: with (a-b)² <= 2a²+2b² the stiffness and damping matrices are bounded by their doubled body
-/// blocks, so 4M - 2Δt·C - Δt²·K stays positive definite below the smallest per-body solution, over all listed points
-/// as if active.
+/// Guaranteed bound on the stable step, s: 4M - 2Δt·C - Δt²·K stays positive definite below it, over all listed points
+/// as if they carried load. Derivation: stable_step.cpp.
 double stable_step_bound(const World& world);
 
 // ---- checkpoint (solver/checkpoint.cpp)

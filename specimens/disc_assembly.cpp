@@ -49,7 +49,12 @@ struct Grid {
 }  // namespace
 
 DiscAssembly::DiscAssembly(double box_width, double box_height, std::vector<Disc> all, int thread_count)
-    : width(box_width), height(box_height), discs(std::move(all)), forces(discs.size()), threads(thread_count), skin(0.0) {
+    : width(box_width),
+      height(box_height),
+      discs(std::move(all)),
+      forces(discs.size()),
+      threads(thread_count),
+      skin(0.0) {
     for (const Disc& disc : discs) {
         mean_radius_ += disc.radius / static_cast<double>(discs.size());
         largest_radius_ = std::max(largest_radius_, disc.radius);
@@ -81,7 +86,8 @@ bool DiscAssembly::list_outdated() const {
     // In shares of the box a uniform strain moves nothing; what it does to a pair is bounded by their listed distance.
     const std::size_t count = discs.size();
     double largest_square = 0.0;
-#pragma omp parallel for schedule(static) num_threads(threads) reduction(max : largest_square) if (count >= assembly_parallel_from)
+#pragma omp parallel for schedule(static) num_threads(threads) \
+    reduction(max : largest_square) if (count >= assembly_parallel_from)
     for (std::size_t i = 0; i < count; ++i) {
         const double dx = discs[i].x - listed_at_[i].x * width, dy = discs[i].y - listed_at_[i].y * height;
         largest_square = std::max(largest_square, dx * dx + dy * dy);
@@ -118,7 +124,8 @@ void DiscAssembly::build_list() {
 
 AssemblySums DiscAssembly::compute_block(std::size_t begin, std::size_t end, const DiscMotion* motion) {
     AssemblySums sums;
-    double pair_energy = 0.0, pair_virial_x = 0.0, pair_virial_y = 0.0, pair_overlap = 0.0;  // each pair from both sides
+    double pair_energy = 0.0, pair_virial_x = 0.0, pair_virial_y = 0.0,
+           pair_overlap = 0.0;  // each pair from both sides
     std::size_t pair_contacts = 0;
     for (std::size_t i = begin; i < end; ++i) {
         const Disc disc = discs[i];

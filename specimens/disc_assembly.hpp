@@ -3,8 +3,9 @@
 //
 //   discs   δ = r_i + r_j - |x_j - x_i|,   walls   δ = r - distance,   f = δ (stiffness 1, so forces are lengths)
 //
-// The box spans 0..width × 0..height. Each disc adds up its own forces over a full neighbour list (every pair is seen from both
-// sides): twice the arithmetic of a half list, but no scatter, so the result is the same bytes for any number of threads.
+// The box spans 0..width × 0..height. Each disc adds up its own forces over a full neighbour list (every pair is seen
+// from both sides): twice the arithmetic of a half list, but no scatter, so the result is the same bytes for any number
+// of threads.
 #pragma once
 
 #include <cstdint>
@@ -27,13 +28,13 @@ struct DiscMotion {
 
 /// Sums over all contacts at the present positions. Forces in units of length (stiffness 1).
 struct AssemblySums {
-    double energy = 0.0;                 // Σ δ²/2
-    double virial_x = 0.0, virial_y = 0.0;  // -dU/dε: Σ f·|n_x|·|branch_x|, walls included
-    double overlap = 0.0;                // m, Σ δ over all contacts
-    double contacts = 0.0;               // number of contacts, walls included
-    double platen_overlap = 0.0;         // Σ δ without the side walls
-    double platen_contacts = 0.0;        // contacts without those with the side walls
-    double largest_force = 0.0;          // largest unbalanced force on a disc
+    double energy = 0.0;                                        // Σ δ²/2
+    double virial_x = 0.0, virial_y = 0.0;                      // -dU/dε: Σ f·|n_x|·|branch_x|, walls included
+    double overlap = 0.0;                                       // m, Σ δ over all contacts
+    double contacts = 0.0;                                      // number of contacts, walls included
+    double platen_overlap = 0.0;                                // Σ δ without the side walls
+    double platen_contacts = 0.0;                               // contacts without those with the side walls
+    double largest_force = 0.0;                                 // largest unbalanced force on a disc
     double power = 0.0, speed_square = 0.0, pull_square = 0.0;  // Σ F·v, Σ v², Σ (F/m)²; 0 without a motion
     double speed_pull = 0.0;                                    // Σ v·F/m
 
@@ -81,11 +82,12 @@ class DiscAssembly {
     double mean_radius_ = 0.0, largest_radius_ = 0.0, disc_area_ = 0.0;
     std::vector<std::uint32_t> list_begin_, neighbours_;
     std::vector<AssemblySums> partial_;  // a block's sums
-    std::vector<Vec2> listed_at_;  // positions when the list was built, as shares of the box
+    std::vector<Vec2> listed_at_;        // positions when the list was built, as shares of the box
     double listed_width_ = 0.0, listed_height_ = 0.0;
 };
 
-/// Discs handed to a thread at a time, and the unit in which sums are taken: fixed, so that sums do not depend on the threads.
+/// Discs handed to a thread at a time, and the unit in which sums are taken: fixed, so that sums do not depend on the
+/// threads.
 inline constexpr std::size_t assembly_block = 256;
 
 /// Below this many discs a parallel region costs more than it saves.

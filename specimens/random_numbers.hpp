@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Distributions on std::mt19937_64, whose sequence the standard fixes; what std::uniform_real_distribution and its kin make
-// of it is up to each library, and a seed must give the same specimen everywhere.
+// Distributions on std::mt19937_64, whose sequence the standard fixes; what std::uniform_real_distribution and its kin
+// make of it is up to each library, and a seed must give the same specimen everywhere.
 #pragma once
 
 #include <cstdint>
@@ -24,7 +24,8 @@ inline std::uint64_t uniform_below(std::mt19937_64& generator, std::uint64_t bou
 /// Fisher-Yates.
 template <typename T>
 void shuffle(std::vector<T>& items, std::mt19937_64& generator) {
-    for (std::size_t left = items.size(); left > 1; --left) std::swap(items[left - 1], items[uniform_below(generator, left)]);
+    for (std::size_t left = items.size(); left > 1; --left)
+        std::swap(items[left - 1], items[uniform_below(generator, left)]);
 }
 
 }  // namespace crackle

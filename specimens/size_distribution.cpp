@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Quantiles and cumulative curves in closed form, so that a sample is one formula a circle. See the header for the model.
+// Quantiles and cumulative curves in closed form, so that a sample is one formula a circle. See the header for the
+// model.
 
 #include "specimens/size_distribution.hpp"
 
@@ -32,7 +33,8 @@ bool positive(double value) { return value > 0.0 && std::isfinite(value); }
 
 double normal_share_below(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
 
-/// Inverse of normal_share_below, by bisection and Newton steps: erfc is the only special function of the standard library.
+/// Inverse of normal_share_below, by bisection and Newton steps: erfc is the only special function of the standard
+/// library.
 double normal_quantile(double probability) {
     double low = -38.0, high = 38.0, z = 0.0;
     for (int iteration = 0; iteration < 200 && high - low > 1e-15 * (1.0 + std::abs(z)); ++iteration) {
@@ -51,12 +53,15 @@ struct CutOff {
     double below_min, below_max;
 };
 CutOff cut_off(const LognormalRadii& sizes) {
-    const auto share = [&](double radius) { return normal_share_below(std::log(radius / sizes.median) / sizes.log_deviation); };
-    return {sizes.radius_min > 0.0 ? share(sizes.radius_min) : 0.0, sizes.radius_max > 0.0 ? share(sizes.radius_max) : 1.0};
+    const auto share = [&](double radius) {
+        return normal_share_below(std::log(radius / sizes.median) / sizes.log_deviation);
+    };
+    return {sizes.radius_min > 0.0 ? share(sizes.radius_min) : 0.0,
+            sizes.radius_max > 0.0 ? share(sizes.radius_max) : 1.0};
 }
 
-/// Number of circles between the lower end of a sieve interval and `size`, for a unit of mass density: slope is the mass
-/// share per ln(size); N = slope/2·(a⁻² - size⁻²).
+/// Number of circles between the lower end of a sieve interval and `size`, for a unit of mass density: slope is the
+/// mass share per ln(size); N = slope/2·(a⁻² - size⁻²).
 double number_in_interval(const SievePoint& a, const SievePoint& b, double size) {
     const double slope = (b.passing_by_mass - a.passing_by_mass) / std::log(b.size / a.size);
     return 0.5 * slope * (1.0 / (a.size * a.size) - 1.0 / (size * size));
@@ -95,7 +100,8 @@ double sieve_share_below(const SieveCurve& curve, double radius) {
 }
 
 void validate_sieve(const SieveCurve& curve) {
-    if (curve.points.size() < 2) throw InputError("sieve curve: found fewer than two points, expected at least the sizes with shares 0 and 1");
+    if (curve.points.size() < 2)
+        throw InputError("sieve curve: found fewer than two points, expected at least the sizes with shares 0 and 1");
     for (std::size_t k = 0; k < curve.points.size(); ++k) {
         const SievePoint& point = curve.points[k];
         const std::string where = fmt::format("sieve curve: point {}", k + 1);
@@ -104,7 +110,8 @@ void validate_sieve(const SieveCurve& curve) {
             refuse(where + ": passing_by_mass", point.passing_by_mass, "a share from 0 to 1");
         }
         if (k == 0) continue;
-        if (!(point.size > curve.points[k - 1].size)) refuse(where + ": size", point.size, "sizes that increase from row to row");
+        if (!(point.size > curve.points[k - 1].size))
+            refuse(where + ": size", point.size, "sizes that increase from row to row");
         if (point.passing_by_mass < curve.points[k - 1].passing_by_mass) {
             refuse(where + ": passing_by_mass", point.passing_by_mass, "shares that do not decrease from row to row");
         }
@@ -143,26 +150,30 @@ std::string trimmed(const std::string& text) {
 
 void validate(const SizeDistribution& sizes) {
     std::visit(overloaded{[](const UniformRadii& uniform) {
-                              if (!positive(uniform.radius_min)) refuse("radius_min", uniform.radius_min, "a length > 0 in m");
+                              if (!positive(uniform.radius_min))
+                                  refuse("radius_min", uniform.radius_min, "a length > 0 in m");
                               if (!positive(uniform.radius_max) || uniform.radius_max < uniform.radius_min) {
                                   refuse("radius_max", uniform.radius_max,
                                          fmt::format("a length of at least radius_min = {} m", uniform.radius_min));
                               }
                           },
                           [](const LognormalRadii& lognormal) {
-                              if (!positive(lognormal.median)) refuse("lognormal median radius", lognormal.median, "a length > 0 in m");
+                              if (!positive(lognormal.median))
+                                  refuse("lognormal median radius", lognormal.median, "a length > 0 in m");
                               if (!positive(lognormal.log_deviation) || lognormal.log_deviation > 2.0) {
                                   refuse("lognormal deviation of ln(radius)", lognormal.log_deviation,
                                          "a number > 0 and at most 2 (radii from a 2000th to 2000 times the median)");
                               }
-                              if (!(lognormal.radius_min >= 0.0)) refuse("radius_min", lognormal.radius_min, "a length >= 0 in m");
+                              if (!(lognormal.radius_min >= 0.0))
+                                  refuse("radius_min", lognormal.radius_min, "a length >= 0 in m");
                               if (lognormal.radius_max != 0.0 && !(lognormal.radius_max > lognormal.radius_min)) {
                                   refuse("radius_max", lognormal.radius_max,
                                          fmt::format("a length above radius_min = {} m", lognormal.radius_min));
                               }
                               const CutOff cut = cut_off(lognormal);
                               if (cut.below_max - cut.below_min < 1e-3) {
-                                  refuse("radius_min to radius_max: share of the lognormal distribution", cut.below_max - cut.below_min,
+                                  refuse("radius_min to radius_max: share of the lognormal distribution",
+                                         cut.below_max - cut.below_min,
                                          "at least 0.001; move the cut-offs to where the distribution is");
                               }
                           },
@@ -194,7 +205,8 @@ double share_below(const SizeDistribution& sizes, double radius) {
                    [&](const LognormalRadii& lognormal) {
                        const CutOff cut = cut_off(lognormal);
                        if (radius <= 0.0) return 0.0;
-                       const double below = normal_share_below(std::log(radius / lognormal.median) / lognormal.log_deviation);
+                       const double below =
+                           normal_share_below(std::log(radius / lognormal.median) / lognormal.log_deviation);
                        return std::clamp((below - cut.below_min) / (cut.below_max - cut.below_min), 0.0, 1.0);
                    },
                    [&](const SieveCurve& curve) { return sieve_share_below(curve, radius); }},
@@ -220,7 +232,8 @@ double kolmogorov_distance(const SizeDistribution& sizes, std::vector<double> ra
         while (end < radii.size() && radii[end] == radii[k]) ++end;
         // Just below and at a value; a distribution of one size jumps there itself.
         const double below = share_below(sizes, std::nextafter(radii[k], 0.0)), at = share_below(sizes, radii[k]);
-        distance = std::max({distance, std::abs(below - static_cast<double>(k) / count), std::abs(at - static_cast<double>(end) / count)});
+        distance = std::max({distance, std::abs(below - static_cast<double>(k) / count),
+                             std::abs(at - static_cast<double>(end) / count)});
         k = end;
     }
     return distance;
@@ -228,7 +241,9 @@ double kolmogorov_distance(const SizeDistribution& sizes, std::vector<double> ra
 
 SieveCurve read_sieve_curve(const std::filesystem::path& path) {
     std::ifstream in(path);
-    if (!in) throw InputError(fmt::format("{}: cannot be read; expected a CSV with the columns size,passing_by_mass", path.string()));
+    if (!in)
+        throw InputError(
+            fmt::format("{}: cannot be read; expected a CSV with the columns size,passing_by_mass", path.string()));
     SieveCurve curve;
     std::string line;
     bool header = false;
@@ -241,7 +256,8 @@ SieveCurve read_sieve_curve(const std::filesystem::path& path) {
         const std::string second = comma == std::string::npos ? "" : trimmed(text.substr(comma + 1));
         if (!header) {
             if (first != "size" || second != "passing_by_mass") {
-                throw InputError(fmt::format("{}: found '{}', expected the column names size,passing_by_mass", where, text));
+                throw InputError(
+                    fmt::format("{}: found '{}', expected the column names size,passing_by_mass", where, text));
             }
             header = true;
             continue;

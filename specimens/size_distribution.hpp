@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Distributions of circle radii, by number: uniform, lognormal, or a sieve curve (grading curve, by mass).
 //
-// A sample is stratified: circle k of n takes a random quantile out of the n-th part k of the distribution, and the order is
-// then shuffled. Every circle still follows the distribution, but the sample as a whole follows it far closer than independent
-// draws would (largest distance of the cumulative curves at most 1/n, against about 0.9/sqrt(n)), so that packings of different
-// seeds differ in their arrangement and not in their grading.
+// A sample is stratified: circle k of n takes a random quantile out of the n-th part k of the distribution, and the
+// order is then shuffled. Every circle still follows the distribution, but the sample as a whole follows it far closer
+// than independent draws would (largest distance of the cumulative curves at most 1/n, against about 0.9/sqrt(n)), so
+// that packings of different seeds differ in their arrangement and not in their grading.
 //
-// Sieve curve: size is a diameter [m], passing_by_mass the share of the mass [-] of circles smaller than that. Between two
-// points the share is linear in ln(size), as grading curves are drawn. With mass ∝ size² (2D) the number of circles between two
-// points goes as dN ∝ size⁻³ d(size).
+// Sieve curve: size is a diameter [m], passing_by_mass the share of the mass [-] of circles smaller than that. Between
+// two points the share is linear in ln(size), as grading curves are drawn. With mass ∝ size² (2D) the number of circles
+// between two points goes as dN ∝ size⁻³ d(size).
 #pragma once
 
 #include <cstddef>
@@ -58,8 +58,8 @@ std::vector<double> sample_radii(const SizeDistribution& sizes, std::size_t coun
 /// Largest distance between the cumulative curves of the sample and of the distribution (Kolmogorov-Smirnov statistic).
 double kolmogorov_distance(const SizeDistribution& sizes, std::vector<double> radii);
 
-/// Reads a CSV whose first line is `size,passing_by_mass`; lines starting with # are comments. The last row's share may be 1
-/// or 100 (then all shares are percentages). @throws InputError naming file and line.
+/// Reads a CSV whose first line is `size,passing_by_mass`; lines starting with # are comments. The last row's share may
+/// be 1 or 100 (then all shares are percentages). @throws InputError naming file and line.
 SieveCurve read_sieve_curve(const std::filesystem::path& path);
 
 }  // namespace crackle

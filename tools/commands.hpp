@@ -17,6 +17,7 @@ struct Command {
     int (*run)(const Arguments& arguments);
 };
 
+int pack(const Arguments& arguments);
 int mesh(const Arguments& arguments);
 int run_deck(const Arguments& arguments);
 int test(const Arguments& arguments);

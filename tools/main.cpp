@@ -17,6 +17,7 @@ namespace {
 // Kept in the order of a user's work.
 const std::vector<Command>& commands() {
     static const std::vector<Command> all{
+        {"pack", "random circles in a box, compressed to equilibrium: in_gm.dat", pack},
         {"mesh", "polygon particles from a packing or a list of seeds: in_gm_tri.dat, in_gm_volo.dat", mesh},
         {"run", "runs a DEMseg deck (in_gm.dat, in_bc.dat) and writes DEMseg's outputs", run_deck},
         {"test", "one virtual test: specimen, bonding, platens, loading; curve, events, summary, frames", test},

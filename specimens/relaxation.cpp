@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// FIRE 2.0 (J. Guénolé et al., Comput. Mater. Sci. 175, 109584, 2020): semi-implicit Euler; the velocity is turned towards the
-// force while the power F·v is positive, and dropped with half a step back when it is not. The box strains are coordinates
-// like the positions (Q = c·ε, with c² = 8 Σr² so that a unit of Q is about as stiff as a contact); positions follow the box.
+// FIRE 2.0 (J. Guénolé et al., Comput. Mater. Sci. 175, 109584, 2020): semi-implicit Euler; the velocity is turned
+// towards the force while the power F·v is positive, and dropped with half a step back when it is not. The box strains
+// are coordinates like the positions (Q = c·ε, with c² = 8 Σr² so that a unit of Q is about as stiff as a contact);
+// positions follow the box.
 
 #include <algorithm>
 #include <cmath>
@@ -12,11 +13,11 @@
 namespace crackle {
 namespace {
 
-// Stiffness is 1 and masses are about 1, so these are in units of a contact's sqrt(m/k). A disc with six contacts oscillates at
-// up to about 2.4, stable to a step of 0.8; half of that leaves room for large discs among many small ones.
-constexpr double first_step = 0.1, largest_step = 0.55, smallest_step = 0.002;
+// Stiffness is 1 and masses are about 1, so these are in units of a contact's sqrt(m/k). A disc with six contacts
+// oscillates at up to about 2.4, stable to a step of 0.8; less leaves room for large discs among many small ones.
+constexpr double first_step = 0.1, largest_step = 0.5, smallest_step = 0.002;
 constexpr double step_growth = 1.1, step_cut = 0.5;
-constexpr double first_turn = 0.1, turn_decay = 0.99;  // α of the papers
+constexpr double first_turn = 0.2, turn_decay = 0.99;  // α of the papers
 constexpr int passes_before_growth = 10;
 constexpr int passes_between_reports = 200;
 
@@ -44,20 +45,26 @@ struct Fire {
     Vec2 box_force(const AssemblySums& sums) const {
         const double hold = load.pressure * assembly.area();
         switch (load.freedom) {
-            case BoxFreedom::fixed: return {};
-            case BoxFreedom::free: return {(sums.virial_x - hold) / box_scale, (sums.virial_y - hold) / box_scale};
-            case BoxFreedom::shape_kept: break;
+            case BoxFreedom::fixed:
+                return {};
+            case BoxFreedom::free:
+                return {(sums.virial_x - hold) / box_scale, (sums.virial_y - hold) / box_scale};
+            case BoxFreedom::shape_kept:
+                break;
         }
         const double both = 0.5 * (sums.virial_x + sums.virial_y - 2.0 * hold) / box_scale;
         return {both, both};
     }
 
-    /// Half of `step` back where the power was negative (`uphill`, velocities then start at 0), kick, turn by α, and move.
-    void advance(const AssemblySums& sums, const Vec2& on_box, double step, double turn, bool uphill, double step_back) {
+    /// Half of `step` back where the power was negative (`uphill`, velocities then start at 0), kick, turn by α, and
+    /// move.
+    void advance(const AssemblySums& sums, const Vec2& on_box, double step, double turn, bool uphill,
+                 double step_back) {
         const double keep = uphill ? 0.0 : 1.0, back = uphill ? 0.5 * step_back : 0.0;
         const double pull_square = sums.pull_square + dot(on_box, on_box);
         const double speed_square = keep * (sums.speed_square + dot(box_velocity, box_velocity)) +
-                                    2.0 * step * keep * (sums.speed_pull + dot(box_velocity, on_box)) + step * step * pull_square;
+                                    2.0 * step * keep * (sums.speed_pull + dot(box_velocity, on_box)) +
+                                    step * step * pull_square;
         const double along = pull_square > 0.0 ? turn * std::sqrt(std::max(0.0, speed_square) / pull_square) : 0.0;
         const Vec2 box_before = box_velocity;
         box_velocity = (1.0 - turn) * (keep * box_velocity + step * on_box) + along * on_box;
@@ -84,16 +91,19 @@ struct Fire {
 double imbalance(const DiscAssembly& assembly, const BoxLoad& load, const AssemblySums& sums) {
     const double hold = load.pressure * assembly.area();
     switch (load.freedom) {
-        case BoxFreedom::fixed: return sums.residual();
+        case BoxFreedom::fixed:
+            return sums.residual();
         case BoxFreedom::free:
-            return std::max({sums.residual(), std::abs(sums.virial_x - hold) / hold, std::abs(sums.virial_y - hold) / hold});
-        case BoxFreedom::shape_kept: break;
+            return std::max(
+                {sums.residual(), std::abs(sums.virial_x - hold) / hold, std::abs(sums.virial_y - hold) / hold});
+        case BoxFreedom::shape_kept:
+            break;
     }
     return std::max(sums.residual(), std::abs(0.5 * (sums.virial_x + sums.virial_y) - hold) / hold);
 }
 
-RelaxationResult relax_fire(DiscAssembly& assembly, const BoxLoad& load, double tolerance, int max_passes,
-                            const RelaxationCallback& progress) {
+RelaxationResult relax(DiscAssembly& assembly, const BoxLoad& load, double tolerance, int max_passes,
+                       const RelaxationCallback& progress) {
     Fire fire(assembly, load);
     double step = first_step, turn = first_turn;
     int downhill = 0;
@@ -101,7 +111,8 @@ RelaxationResult relax_fire(DiscAssembly& assembly, const BoxLoad& load, double 
     for (int pass = 0; pass < max_passes; ++pass) {
         result.sums = assembly.compute_forces(&fire.motion);
         result.imbalance = imbalance(assembly, load, result.sums);
-        result.loose = load.freedom == BoxFreedom::fixed && result.sums.mean_overlap() < loose_overlap * assembly.mean_radius();
+        result.loose =
+            load.freedom == BoxFreedom::fixed && result.sums.mean_overlap() < loose_overlap * assembly.mean_radius();
         result.converged = !result.loose && result.sums.contacts > 0.0 && result.imbalance <= tolerance;
         if (result.converged || result.loose) return result;
         if (progress && pass % passes_between_reports == 0) progress(result.imbalance);
@@ -120,20 +131,6 @@ RelaxationResult relax_fire(DiscAssembly& assembly, const BoxLoad& load, double 
             turn = first_turn;
         }
         fire.advance(result.sums, on_box, step, turn, uphill, last_step);
-    }
-    return result;
-}
-
-RelaxationResult relax(DiscAssembly& assembly, const BoxLoad& load, double tolerance, const RelaxationCallback& progress) {
-    // What FIRE has to reach before Newton tries; a hundredth each time Newton has failed, so that in the end FIRE does it alone.
-    double hand_over = 0.1;
-    RelaxationResult result;
-    for (int round = 0; round < 8; ++round) {
-        result = relax_fire(assembly, load, std::max(tolerance, hand_over), 100'000, progress);
-        if (result.loose || (result.converged && result.imbalance <= tolerance)) return result;
-        result = relax_newton(assembly, load, tolerance, 40, progress);
-        if (result.converged) return result;
-        hand_over = 0.1 * std::min(hand_over, result.imbalance);
     }
     return result;
 }

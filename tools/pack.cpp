@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `crackle pack`: random circles in a box, compressed to equilibrium, as an in_gm.dat.
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <boost/program_options.hpp>
+#include <filesystem>
+#include <iostream>
+#include <sstream>
+#include <string>
+
+#include "solver/demseg/geometry.hpp"
+#include "solver/demseg/outputs.hpp"
+#include "solver/errors.hpp"
+#include "specimens/packing.hpp"
+#include "tools/commands.hpp"
+
+namespace crackle::tools {
+namespace {
+
+namespace po = boost::program_options;
+
+constexpr const char* usage =
+    "usage: crackle pack (--count N | --width W --height H) SIZES (--mean-overlap D | --void-ratio E) [OPTIONS]\n\n"
+    "Packs random circles between four smooth walls to mechanical equilibrium and writes them as an in_gm.dat.\n\n";
+
+constexpr const char* examples =
+    "\nexamples:\n"
+    "  crackle pack --count 304 --radius-min 1.333e-2 --radius-max 2.667e-2 --mean-overlap 7.74e-5 -o in_gm.dat\n"
+    "  crackle pack --width 0.5 --height 1 --radius-min 0.01 --radius-max 0.02 --void-ratio 0.19 --seed 7 -o "
+    "dense.dat\n"
+    "  crackle pack --count 1000 --lognormal-median 0.01 --lognormal-deviation 0.3 --radius-min 5e-3 --radius-max 2e-2 "
+    "\\\n"
+    "      --mean-overlap 2e-5 -o graded.dat\n"
+    "  crackle pack --count 500 --sieve curve.csv --mean-overlap 2e-5 -o sieved.dat     (CSV: size,passing_by_mass)\n";
+
+po::options_description visible_options() {
+    const Material usual{2500.0, 1.0e7, 2.5e6, 0.0, 0.0, {}, 27.0};
+    po::options_description options("options");
+    options.add_options()("help,h", "this text")                                                           //
+        ("count", po::value<std::int64_t>(), "number of circles; the box follows")                         //
+        ("height-to-width", po::value<double>(), "shape of the box, with --count (2 if not given)")        //
+        ("width", po::value<double>(), "of the box, m; met exactly")                                       //
+        ("height", po::value<double>(), "of the box, m; met within 1 %, as the stress is made isotropic")  //
+        ("radius-min", po::value<double>(), "smallest radius, m (alone with --radius-max: uniform)")       //
+        ("radius-max", po::value<double>(), "largest radius, m")                                           //
+        ("lognormal-median", po::value<double>(), "median radius, m")                                      //
+        ("lognormal-deviation", po::value<double>(), "standard deviation of ln(radius)")                   //
+        ("sieve", po::value<std::string>(),
+         "grading curve, CSV with the columns size (diameter, m),passing_by_mass")                     //
+        ("mean-overlap", po::value<double>(), "target: mean over circles and bottom and top wall, m")  //
+        ("void-ratio", po::value<double>(), "target: (box - circles) / circles")                       //
+        ("seed", po::value<std::uint64_t>()->default_value(1), "of the random numbers")                //
+        ("threads", po::value<int>()->default_value(1), "never change a byte")                         //
+        ("output,o", po::value<std::string>()->default_value("in_gm.dat"), "file to write")            //
+        ("force", "replace the output if it is there")                                                 //
+        ("quiet,q", "no progress line")                                                                //
+        ("density", po::value<double>()->default_value(usual.density), "kg/m2")                        //
+        ("normal-stiffness", po::value<double>()->default_value(usual.normal_stiffness), "N/m")        //
+        ("shear-stiffness", po::value<double>()->default_value(usual.shear_stiffness), "N/m")          //
+        ("friction-angle", po::value<double>()->default_value(usual.friction_angle), "degrees");
+    return options;
+}
+
+template <typename T>
+std::optional<T> optional_value(const po::variables_map& values, const char* name) {
+    if (!values.contains(name)) return std::nullopt;
+    return values[name].as<T>();
+}
+
+SizeDistribution sizes_of(const po::variables_map& values) {
+    const auto low = optional_value<double>(values, "radius-min"), high = optional_value<double>(values, "radius-max");
+    const auto median = optional_value<double>(values, "lognormal-median");
+    const auto deviation = optional_value<double>(values, "lognormal-deviation");
+    if (values.contains("sieve")) {
+        if (low || high || median || deviation)
+            throw InputError("--sieve: found other sizes beside it, expected the curve alone");
+        return read_sieve_curve(values["sieve"].as<std::string>());
+    }
+    if (median || deviation) {
+        if (!median || !deviation)
+            throw InputError("--lognormal-median and --lognormal-deviation: found one, expected both");
+        return LognormalRadii{*median, *deviation, low.value_or(0.0), high.value_or(0.0)};
+    }
+    if (!low || !high)
+        throw InputError("sizes: found none, expected --radius-min and --radius-max, a lognormal, or --sieve FILE");
+    return UniformRadii{*low, *high};
+}
+
+PackingRequest request_of(const po::variables_map& values) {
+    PackingRequest request;
+    request.count = optional_value<std::int64_t>(values, "count");
+    request.height_to_width = optional_value<double>(values, "height-to-width");
+    request.width = optional_value<double>(values, "width");
+    request.height = optional_value<double>(values, "height");
+    request.sizes = sizes_of(values);
+    request.mean_overlap = optional_value<double>(values, "mean-overlap");
+    request.void_ratio = optional_value<double>(values, "void-ratio");
+    request.seed = values["seed"].as<std::uint64_t>();
+    request.threads = values["threads"].as<int>();
+    request.material.density = values["density"].as<double>();
+    request.material.normal_stiffness = values["normal-stiffness"].as<double>();
+    request.material.shear_stiffness = values["shear-stiffness"].as<double>();
+    request.material.friction_angle = values["friction-angle"].as<double>();
+    return request;
+}
+
+void print_report(const PackingReport& r, const std::string& output) {
+    std::cout << fmt::format("circles          {}, radii {:.6g} to {:.6g} m\n", r.circles, r.radius_min, r.radius_max)
+              << fmt::format("box              {:.9g} m x {:.9g} m\n", r.width, r.height)
+              << fmt::format("void ratio       {:.6g}\n", r.void_ratio)
+              << fmt::format("mean overlap     {:.6g} m (circles, bottom and top)\n", r.mean_overlap)
+              << fmt::format("contacts         {} between circles; walls {} left, {} right, {} bottom, {} top\n",
+                             r.circle_contacts, r.wall_contacts[0], r.wall_contacts[1], r.wall_contacts[2],
+                             r.wall_contacts[3])
+              << fmt::format(
+                     "coordination     {:.4g} of all circles, {:.4g} of those that carry load, walls included\n",
+                     r.coordination, r.coordination_of_carrying)
+              << fmt::format("floating         {} circles without contact\n", r.floating)
+              << fmt::format("stress           x {:.6g}, y {:.6g} N/m; anisotropy {:.2g}\n", r.stress_x, r.stress_y,
+                             r.anisotropy)
+              << fmt::format("unbalanced       {:.2g} of the mean contact force {:.6g} N, at most\n", r.residual,
+                             r.mean_contact_force);
+    if (r.radius_scale != 1.0)
+        std::cout << fmt::format("radii            drawn sizes times {:.6f}, to fill the box\n", r.radius_scale);
+    if (!r.box_met)
+        std::cout << fmt::format(
+            "notice           the box misses the asked shape by {:.2g}; more circles would meet it\n", r.aspect_error);
+    std::cout << "written          " << output << '\n';
+}
+
+}  // namespace
+
+int pack(const Arguments& arguments) {
+    po::variables_map values;
+    po::store(po::command_line_parser(arguments).options(visible_options()).positional({}).run(), values);
+    po::notify(values);
+    if (values.contains("help")) {
+        std::cout << usage << visible_options() << examples;
+        return exit_done;
+    }
+    const std::string output = values["output"].as<std::string>();
+    if (std::filesystem::exists(output) && !values.contains("force")) {
+        throw InputError(
+            fmt::format("--output: found {} there already, expected a new file; add --force to replace it", output));
+    }
+    const PackingRequest request = request_of(values);
+    const bool talk = !values.contains("quiet") && isatty(STDERR_FILENO) == 1;
+    const Packing packing = make_packing(request, [&](const PackingProgress& p) {
+        if (talk) std::cerr << fmt::format("\r{} (attempt {}): imbalance {:.2e}   ", p.stage, p.attempt, p.residual);
+    });
+    if (talk) std::cerr << '\r' << std::string(60, ' ') << '\r';
+    std::ostringstream deck;
+    write_geometry(deck, packing.scene);
+    replace_file(output, deck.str());
+    print_report(packing.report, output);
+    return exit_done;
+}
+
+}  // namespace crackle::tools
