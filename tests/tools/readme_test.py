@@ -45,7 +45,7 @@ class Readme(unittest.TestCase):
     def test_its_commands_run(self):
         self.assertGreaterEqual(len(blocks("sh")), 6)
         self.assertEqual(self.run_of_commands.returncode, 0)
-        for made in ("out/rock/in_gm.dat", "out/rock/in_gm_volo.dat", "out/pulled/summary.json", "out/squeezed/curve.csv",
+        for made in ("out/in_gm.dat", "out/in_gm_volo.dat", "out/pulled/summary.json", "out/squeezed/curve.csv",
                      "out/report.html", "out/triangle/output.dat"):
             self.assertTrue((self.folder / made).is_file(), f"{made}: found nothing, expected what the README's commands make")
 
