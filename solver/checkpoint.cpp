@@ -4,11 +4,11 @@
 
 #include <fmt/format.h>
 
+#include <xxhash.h>
 #include <cereal/archives/binary.hpp>
 #include <cereal/types/array.hpp>
 #include <cereal/types/optional.hpp>
 #include <cereal/types/vector.hpp>
-#include <xxhash.h>
 
 #include <sstream>
 

@@ -27,8 +27,8 @@ int version(const Arguments& arguments);  // crackle --version
 
 // Exit codes of the program.
 inline constexpr int exit_done = 0;
-inline constexpr int exit_bad_input = 2;     // InputError, wrong options
-inline constexpr int exit_unstable = 3;      // UnstableRun; outputs up to there are kept
+inline constexpr int exit_bad_input = 2;      // InputError, wrong options
+inline constexpr int exit_unstable = 3;       // UnstableRun; outputs up to there are kept
 inline constexpr int exit_interrupted = 130;  // Ctrl-C; outputs up to there are kept
 
 }  // namespace crackle::tools

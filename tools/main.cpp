@@ -31,7 +31,8 @@ void print_help(std::ostream& out) {
     out << "crackle: makes bonded rock specimens and tests them\n\nusage: crackle COMMAND [OPTIONS]   (crackle COMMAND "
            "--help shows examples)\n\n";
     for (const Command& command : commands()) {
-        out << "  " << command.name << std::string(12 - std::string(command.name).size(), ' ') << command.summary << '\n';
+        out << "  " << command.name << std::string(12 - std::string(command.name).size(), ' ') << command.summary
+            << '\n';
     }
     out << "\nexit codes: 0 done, 2 bad input, 3 the run became unstable, 130 interrupted\n";
 }
