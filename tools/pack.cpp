@@ -153,6 +153,9 @@ int pack(const Arguments& arguments) {
     if (talk) std::cerr << '\r' << std::string(60, ' ') << '\r';
     std::ostringstream deck;
     write_geometry(deck, packing.scene);
+    const std::filesystem::path folder = std::filesystem::path(output).parent_path();
+    std::error_code refused;  // replace_file() says what cannot be written
+    if (!folder.empty()) std::filesystem::create_directories(folder, refused);
     replace_file(output, deck.str());
     print_report(packing.report, output);
     return exit_done;
