@@ -183,7 +183,13 @@ test('light and dark, laptop and tablet width: readable, nothing runs off the si
         await page.emulateMedia({colorScheme});
         for (const width of [1440, 1024, 768]) {
             await page.setViewportSize({width, height: 800});
-            const overflow = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+            const runsOff = () => page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+            // Charts follow a new width through a resize observer: give them a second to settle.
+            let overflow = await runsOff();
+            for (let wait = 0; overflow > 0 && wait < 20; ++wait) {
+                await page.waitForTimeout(50);
+                overflow = await runsOff();
+            }
             assert.ok(overflow <= 0, `${colorScheme}, ${width} px: runs ${overflow} px off the side`);
         }
         const [paper, ink] = await page.evaluate(() => {
