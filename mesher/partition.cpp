@@ -208,6 +208,7 @@ Point Partition::on_wall(FaceHandle face, std::uint8_t wall) const {
     std::size_t i = 0, j = 1;
     if (std::abs(along[1] - along[2]) > std::abs(along[i] - along[j])) i = 1, j = 2;
     if (std::abs(along[0] - along[2]) > std::abs(along[i] - along[j])) i = 0, j = 2;
+    if (along[i] > along[j]) std::swap(i, j);  // the faces on both sides of a pair and its images get the same bits
     const double apart = along[j] - along[i];
     const double place = along[i] + 0.5 * apart + 0.5 * ((off[j] - off[i]) / apart) * (off[j] + off[i]);
     return upright ? Point{level, place} : Point{place, level};
@@ -293,7 +294,8 @@ void Partition::mirror_where_needed() {
         }
         note_needs(face, wanting);
     }
-    // Only faces around new images and their seeds can have changed.
+    // A cell that crosses a wall has a corner beyond it, so one round is all but for rounding. Only faces around new
+    // images and their seeds can have changed.
     while (!wanting.empty()) {
         touched.clear();
         for (const int seed : wanting)
