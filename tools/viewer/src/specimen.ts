@@ -43,8 +43,8 @@ function move(motion: Motion, point: Point): Point {
     };
 }
 
-function extentOf(bodies: Bodies, moved: Motion[], into?: Extent): Extent {
-    const extent = into ?? {x1: Infinity, x2: -Infinity, y1: Infinity, y2: -Infinity};
+function extentOf(bodies: Bodies, moved: Motion[]): Extent {
+    const extent = {x1: Infinity, x2: -Infinity, y1: Infinity, y2: -Infinity};
     moved.forEach((motion, body) => {
         const room = bodies.radius[body]!;
         for (const point of outline(bodies, body)) {
@@ -59,13 +59,20 @@ function extentOf(bodies: Bodies, moved: Motion[], into?: Extent): Extent {
     return extent;
 }
 
-/// The box that holds all of a test's frames, and of the platens a little more than the specimen's width.
+/// The box that holds all of a test's frames, and of the platens a little more than the specimen's width. Fragments that
+/// flew off are followed sideways for three tenths of the width, so that they do not make the specimen small (all the way
+/// where displacements are magnified).
 export function extentOfTest(test: TestData, magnification: number): Extent {
-    let extent: Extent | undefined;
     const start = test.frames[0]!;
-    for (const frame of test.frames) extent = extentOf(test.bodies, motions(test.bodies, start, frame, magnification), extent);
-    const beside = 0.06 * (extent!.x2 - extent!.x1);
-    return {...extent!, x1: extent!.x1 - beside, x2: extent!.x2 + beside};
+    const extents = test.frames.map((frame) => extentOf(test.bodies, motions(test.bodies, start, frame, magnification)));
+    const first = extents[0]!, width = first.x2 - first.x1, room = magnification > 1 ? Infinity : 0.3 * width;
+    const left = Math.min(...extents.map((extent) => extent.x1)), right = Math.max(...extents.map((extent) => extent.x2));
+    return {
+        x1: Math.max(left, first.x1 - room) - 0.06 * width,
+        x2: Math.min(right, first.x2 + room) + 0.06 * width,
+        y1: Math.min(...extents.map((extent) => extent.y1)),
+        y2: Math.max(...extents.map((extent) => extent.y2)),
+    };
 }
 
 export interface BrokenSoFar {
