@@ -175,7 +175,7 @@ inline ContactGeometry contact_geometry(const World& world, const ContactPoint& 
         const Vec2 oi = turned(i, a);
         const double radius = point.feature_j == 1 ? 0.0 : a.radius;
         const Domain& domain = world.domain;
-        ContactGeometry g;
+        ContactGeometry g{};
         double distance = 0.0;
         switch (static_cast<Wall>(point.body_j)) {
             case Wall::left:
