@@ -19,8 +19,9 @@ namespace {
 
 constexpr int max_attempts = 12;
 constexpr std::int64_t largest_count = 20'000'000;
-// Where the count for a box is first looked for; the packing drawn then tells what these sizes really fill.
-constexpr double first_fill = 0.835;
+// Where the count for a box is first looked for, from packings of 304 and 5,000 circles, radii 1 to 2: walls cost room
+// in proportion to their length. The packing drawn then tells what the sizes at hand really fill.
+constexpr double fill_without_walls = 0.849, fill_lost_beside_walls = 0.2;
 constexpr int size_samples = 20'000;
 
 struct SizeMoments {
@@ -147,7 +148,9 @@ Packing make_packing(const PackingRequest& request, const PackingCallback& progr
     const double height_to_width = box_asked ? *request.height / *request.width : request.height_to_width.value_or(2.0);
     CompressionTarget target{request.mean_overlap, request.void_ratio, box_asked ? *request.width : 0.0};
 
-    double fill = request.void_ratio ? 1.0 / (1.0 + *request.void_ratio) : first_fill;
+    double fill = fill_without_walls;
+    if (box_asked) fill -= fill_lost_beside_walls * size.mean * 2.0 * (1.0 / *request.width + 1.0 / *request.height);
+    if (request.void_ratio) fill = 1.0 / (1.0 + *request.void_ratio);
     std::optional<Compression> best;
     double best_shortfall = 0.0, best_scale = 1.0;
     int attempts = 0;
@@ -163,7 +166,7 @@ Packing make_packing(const PackingRequest& request, const PackingCallback& progr
                                     });
         if (!draw.converged) continue;
         const double scale = box_asked ? *request.width / draw.assembly.width : 1.0;
-        fill = draw.assembly.disc_area() / draw.assembly.area();
+        if (!request.void_ratio) fill = draw.assembly.disc_area() / draw.assembly.area();
         const double missing = shortfall(draw, scale);
         if (!best || missing < best_shortfall) {
             best = std::move(draw);
