@@ -28,7 +28,7 @@ constexpr double straight = 1e-12;
 
 class Joiner {
   public:
-    Joiner(const Triangles& mesh, double depth, double scale) : mesh_(mesh), scale_(scale), inset_(depth, scale) {}
+    Joiner(const Triangles& mesh, double depth, double scale) : mesh_(mesh), inset_(depth, scale) {}
 
     void join(const std::vector<int>& destroyed);
     JoinedTriangles result() const;
@@ -42,7 +42,6 @@ class Joiner {
     bool survives(const Polygon& polygon);
 
     const Triangles& mesh_;
-    double scale_;
     Inset inset_;
     std::map<int, Polygon> polygons_;  // by lowest triangle: those made so far
     std::map<int, int> owner_;         // joined triangle -> key of its polygon

@@ -66,9 +66,11 @@ struct With {
     operator Parameter() && { return std::move(p); }
 };
 
+// NOLINTBEGIN(bugprone-macro-parentheses): names of members and lists of calls
 #define CRACKLE_MEMBER(path) [](TestCase& c) -> auto& { return c.path; }
 #define CRACKLE_KEY(table, key, unit, sentence) \
     With { declare(#table, #key, unit, CRACKLE_MEMBER(table.key), sentence) }
+// NOLINTEND(bugprone-macro-parentheses)
 
 std::vector<Parameter> all_parameters() {
     using Text = std::string;

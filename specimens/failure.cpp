@@ -17,8 +17,11 @@ bool FailureTracker::update(std::int64_t row, double strain, double stress) {
         below_since = std::numeric_limits<double>::quiet_NaN();
         return false;
     }
-    if (std::isnan(below_since)) below_since = strain;
-    failed = failed || strain - below_since >= failure_strain_share * peak_strain;
+    if (std::isnan(below_since)) {
+        below_since = strain;
+        below_row = row;
+    }
+    failed = failed || (strain - below_since >= failure_strain_share * peak_strain && row - below_row >= failure_rows);
     return false;
 }
 

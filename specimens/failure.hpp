@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // When a test has failed: the stress stays below a share of its peak (half, settable) for a tenth of the strain at
-// peak.
+// peak, and for ten rows of the curve: where loading has hardly begun a tenth of the strain is nothing, and the first
+// rows of a specimen that its platens only just touch go up and down.
 #pragma once
 
 #include <cstdint>
@@ -15,6 +16,7 @@ struct FailureTracker {
     double peak_strain = 0.0;
     std::int64_t peak_row = -1;                                     ///< -1: no stress yet
     double below_since = std::numeric_limits<double>::quiet_NaN();  ///< strain; not a number: not below
+    std::int64_t below_row = -1;                                    ///< the row that began it
     bool failed = false;
 
     /// Takes the next row. @return whether it is a new peak
@@ -23,5 +25,6 @@ struct FailureTracker {
 
 /// Strain that the stress must stay below, as a share of the strain at peak.
 inline constexpr double failure_strain_share = 0.1;
+inline constexpr std::int64_t failure_rows = 10;
 
 }  // namespace crackle

@@ -177,7 +177,7 @@ std::vector<double> anisotropy_gradient(const DiscAssembly& assembly, const BoxL
         respond(system, system.coupling.col(1) - system.coupling.col(0), system.box(1, 1) - system.box(0, 0));
     if (!response.found) return {};
     const auto moved = [&](std::uint32_t i) {
-        const auto at = static_cast<Eigen::Index>(2 * i);
+        const auto at = 2 * static_cast<Eigen::Index>(i);
         return Vec2{response.of_discs[at], response.of_discs[at + 1]};
     };
     std::vector<double> gradient(assembly.discs.size(), 0.0);

@@ -90,13 +90,17 @@ Platens add_platens(Scene& scene, const Specimen& specimen, const TestCase::Load
     const int material = platen_material(scene, loading);
     const double middle = 0.5 * (domain.x1 + domain.x2);
     const double half = 0.5 * platen_width_ratio * specimen.width;
-    const double parking = platens.bonded ? 0.0 : platen_parking_distance * specimen.height;
-    const double bottom_y = platens.bottom_y - parking;
-    const double top_y = platens.top_y + parking;
-    const auto bottom = scene.add_chain_body(platens.bottom_id, material,
-                                             {{middle - half, bottom_y}, {middle + half, bottom_y}}, false);
-    const auto top =
-        scene.add_chain_body(platens.top_id, material, {{middle - half, top_y}, {middle + half, top_y}}, false);
+    const double left = middle - half, right = middle + half;
+    const double depth = platen_depth_ratio * specimen.height;
+    platens.parked = platens.bonded ? 0.0 : platen_parking_distance * specimen.height;
+    const double bottom_y = platens.bottom_y - platens.parked;
+    const double top_y = platens.top_y + platens.parked;
+    // Counter-clockwise, the face first.
+    const auto bottom = scene.add_chain_body(
+        platens.bottom_id, material,
+        {{right, bottom_y}, {left, bottom_y}, {left, bottom_y - depth}, {right, bottom_y - depth}}, true);
+    const auto top = scene.add_chain_body(
+        platens.top_id, material, {{left, top_y}, {right, top_y}, {right, top_y + depth}, {left, top_y + depth}}, true);
     hold(scene, bottom, 0.0);
     hold(scene, top, platens.velocity);
     scene.domain.wall_present = {false, false, false, false};
@@ -105,8 +109,8 @@ Platens add_platens(Scene& scene, const Specimen& specimen, const TestCase::Load
 
 void place_platens(World& world, const Platens& platens) {
     if (platens.bonded) return;
-    world.bodies[body_of_id(world, platens.bottom_id)].y = platens.bottom_y;
-    world.bodies[body_of_id(world, platens.top_id)].y = platens.top_y;
+    world.bodies[body_of_id(world, platens.bottom_id)].y += platens.parked;
+    world.bodies[body_of_id(world, platens.top_id)].y -= platens.parked;
     world.list_valid = false;
     world.forces_current = false;
 }

@@ -39,7 +39,7 @@ struct TestSetup {
     double mesh_thick = 0.0;             // m
     int bottom_id = 0, top_id = 0;       // as in outputs
     BodyIndex bottom = 0, top = 0;       // in the world
-    double top_start = 0.0;              // m, y of the upper platen
+    double top_start = 0.0;              // m, y of the upper platen's centroid
     std::vector<BodyIndex> left, right;  ///< side particles in the middle half of the height
     double gauge_length = 0.0;           ///< m, initial distance of their mean x; 0 if a side has none
 
@@ -54,6 +54,7 @@ struct TestSetup {
     std::vector<BondAnchor> bonds;  ///< sorted by key
     std::vector<std::string> notices;
 
+    bool is_platen(BodyIndex body) const { return body == bottom || body == top; }
     double axial_strain(const World& world) const;
     /// Not a number if the specimen has no side particles in the middle half of its height.
     double lateral_strain(const World& world) const;

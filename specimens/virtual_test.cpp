@@ -76,15 +76,16 @@ Bonded bond_specimen(const Specimen& specimen, const TestCase& test, const TestC
 }
 
 /// A bonded platen that holds nothing would test nothing.
-void check_platen_bonds(const World& world, const TestSetup& setup, const TestCase& test) {
+void check_platen_bonds(const Platens& platens, const TestSetup& setup, const TestCase& test) {
     for (const BodyIndex platen : {setup.bottom, setup.top}) {
         const auto holds = [&](const BondAnchor& bond) { return bond.body_i == platen || bond.body_j == platen; };
         if (std::any_of(setup.bonds.begin(), setup.bonds.end(), holds)) continue;
-        throw InputError(
-            fmt::format("{}: found no particle near enough to bond with the {} platen (at y = {:.6g} m), expected at "
-                        "least one; circles must overlap the domain's face, polygons end half the meshing thickness "
-                        "inside it (mesh.boundary = \"domain\")",
-                        test.at("bond.thick"), platen == setup.bottom ? "lower" : "upper", world.bodies[platen].y));
+        throw InputError(fmt::format(
+            "{}: found no particle near enough to bond with the {} platen (face at y = {:.6g} m), expected at "
+            "least one; circles must overlap the domain's face, polygons end half the meshing thickness "
+            "inside it (mesh.boundary = \"domain\")",
+            test.at("bond.thick"), platen == setup.bottom ? "lower" : "upper",
+            platen == setup.bottom ? platens.bottom_y : platens.top_y));
     }
 }
 
@@ -180,7 +181,7 @@ VirtualTest prepare_test(const TestCase& description, const TestHooks& hooks) {
     say(hooks, fmt::format("bonded {} points of {} interfaces, time step {:.3g} s", test.world.bonds_initial,
                            test.world.interfaces_initial, test.world.time_step));
     if (bonded.platens.bonded) {
-        check_platen_bonds(test.world, test.setup, description);
+        check_platen_bonds(bonded.platens, test.setup, description);
         solve_moduli(test.state, test.setup, test.world, specimen);
     } else {
         TestCase::Loading held = description.loading;

@@ -217,6 +217,7 @@ void write_report(const std::vector<std::filesystem::path>& folders, const std::
                   const std::string& title) {
     refuse_foreign_file(output);
     std::vector<TestResults> tests;
+    tests.reserve(folders.size());
     for (const std::filesystem::path& folder : folders) tests.push_back(read_results(folder));
     const std::string page = report_page(page_template(), title.empty() ? default_title(tests) : title, tests);
 

@@ -90,7 +90,8 @@ Scene shaken_cells(const ShakenCells& request, const Material& material) {
     for (int row = 0; row < request.rows; ++row) {
         for (int column = 0; column < request.columns; ++column) {
             const auto node = [&](int dr, int dc) {
-                return nodes[static_cast<std::size_t>((row + dr) * across + column + dc)];
+                const int index = (row + dr) * across + column + dc;
+                return nodes[static_cast<std::size_t>(index)];
             };
             const Vec2 a = node(0, 0), b = node(0, 1), c = node(1, 1), d = node(1, 0);
             if (uniform_number(generator) < 0.5) {

@@ -16,7 +16,7 @@ namespace crackle {
 
 // Names the layout; the number is raised whenever a field below changes.
 constexpr const char* checkpoint_title = "crackle test checkpoint ";
-constexpr const char* checkpoint_version = "1";
+constexpr const char* checkpoint_version = "2";
 constexpr std::size_t hash_digits = 64;
 
 // The archive is given one member after the other: structs have padding, whose bytes are nobody's.
@@ -32,7 +32,7 @@ void serialize(Archive& a, CurveRow& r) {
 }
 template <class Archive>
 void serialize(Archive& a, FailureTracker& f) {
-    a(f.share_of_peak, f.peak_stress, f.peak_strain, f.peak_row, f.below_since, f.failed);
+    a(f.share_of_peak, f.peak_stress, f.peak_strain, f.peak_row, f.below_since, f.below_row, f.failed);
 }
 template <class Archive>
 void serialize(Archive& a, CellArray& c) {

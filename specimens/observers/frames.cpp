@@ -25,8 +25,6 @@ std::vector<Vec2> circle_outline(Vec2 centre, double radius, double angle) {
     return corners;
 }
 
-bool is_platen(const BodyInfo& info) { return info.piece_count > 0 && !info.closed; }
-
 struct ParticleArrays {
     CellArray id{"id", 1, {}, {}}, material{"material", 1, {}, {}};
     CellArray radius{"radius", 1, {}, {}}, angle{"angle", 1, {}, {}};
@@ -45,10 +43,10 @@ struct ParticleArrays {
 };
 
 /// Platens first, as VTK counts lines before polygons, then by id.
-std::vector<BodyIndex> drawing_order(const World& world) {
+std::vector<BodyIndex> drawing_order(const World& world, const TestSetup& setup) {
     std::vector<BodyIndex> order(world.bodies.size());
     for (std::size_t b = 0; b < order.size(); ++b) order[b] = static_cast<BodyIndex>(b);
-    const auto rank = [&](BodyIndex b) { return std::pair(!is_platen(world.info[b]), world.info[b].id); };
+    const auto rank = [&](BodyIndex b) { return std::pair(!setup.is_platen(b), world.info[b].id); };
     std::sort(order.begin(), order.end(), [&](BodyIndex a, BodyIndex b) { return rank(a) < rank(b); });
     return order;
 }
@@ -56,11 +54,12 @@ std::vector<BodyIndex> drawing_order(const World& world) {
 VtpData draw_particles(const World& world, const TestSetup& setup) {
     VtpData data;
     ParticleArrays arrays;
-    for (const BodyIndex b : drawing_order(world)) {
+    for (const BodyIndex b : drawing_order(world, setup)) {
         const BodyInfo& info = world.info[b];
         const std::vector<Vec2> places = element_positions(world, b);
         if (info.piece_count > 0) {
-            is_platen(info) ? data.add_line(places) : data.add_polygon(places);
+            // Of a platen its face, which is all that touches.
+            setup.is_platen(b) ? data.add_line({places[0], places[1]}) : data.add_polygon(places);
             arrays.add(world, setup, b, 0.0);
             continue;
         }

@@ -56,6 +56,16 @@ TEST(Failure, IsATenthOfThePeakStrainBelowHalfThePeak) {
     EXPECT_NEAR(static_cast<double>(row - 1), 111.0, 1.0) << "below from row 101 on, for ten rows";
 }
 
+TEST(Failure, DoesNotComeFromTheFirstTrembling) {
+    FailureTracker tracker;
+    const std::vector<double> stress{3.0, 1.0, 0.5, 1.2, 0.4, 0.2, 2.0, 50.0, 100.0, 150.0, 200.0};
+    for (std::size_t row = 0; row < stress.size(); ++row) {
+        tracker.update(static_cast<std::int64_t>(row), 1e-6 * static_cast<double>(row), stress[row]);
+    }
+    EXPECT_FALSE(tracker.failed);
+    EXPECT_EQ(tracker.peak_row, 10);
+}
+
 TEST(Failure, DoesNotComeAboveTheShareNorAfterARecovery) {
     EXPECT_FALSE(judge(straight_curve(5e6, 1e-3, 0.51, 0.3, 100)).failed);
     EXPECT_TRUE(judge(straight_curve(5e6, 1e-3, 0.51, 0.3, 100), 0.6).failed) << "the share is settable";

@@ -82,11 +82,14 @@ TEST_F(VirtualRock, PolygonsStandAsFarFromTheirPlatensAsFromEachOther) {
 
 TEST_F(VirtualRock, BeginsWithVelocityLinearBetweenThePlatensAndNoWalls) {
     const VirtualTest test = prepare({});
-    const double low = test.world.bodies[test.setup.bottom].y, high = test.world.bodies[test.setup.top].y;
+    const double low = element_positions(test.world, test.setup.bottom)[0].y;
+    const double high = element_positions(test.world, test.setup.top)[0].y;
     const double speed = 0.02 * test.setup.height;
     double worst = 0.0;
-    for (const BodyState& body : test.world.bodies) {
-        worst = std::max(worst, std::abs(body.vy - speed * (body.y - low) / (high - low)));
+    for (BodyIndex b = 0; b < test.world.bodies.size(); ++b) {
+        const BodyState& body = test.world.bodies[b];
+        const double share = b == test.setup.top ? 1.0 : b == test.setup.bottom ? 0.0 : (body.y - low) / (high - low);
+        worst = std::max(worst, std::abs(body.vy - speed * share));
         EXPECT_EQ(body.vx, 0.0);
         EXPECT_EQ(body.omega, 0.0);
     }
@@ -167,6 +170,32 @@ TEST_F(VirtualRock, FrictionalPlatensStartWithoutForceAndHoldNoBond) {
     EXPECT_LT(std::abs(test.state.rows.front().axial_stress), 1e-3 * test.state.failure.peak_stress);
     EXPECT_GT(test.state.failure.peak_stress, 1e3) << "N/m: the platens press";
     EXPECT_TRUE(std::isfinite(test.state.youngs_modulus)) << "of the specimen with bonded platens";
+}
+
+TEST_F(VirtualRock, CornersPressedThroughAPlatensFaceArePushedBackInProportion) {
+    // Behind a single segment they would be pushed on, and the specimen's strength would be k_n t a corner.
+    SmallCase wanted;
+    wanted.mesh = "voronoi";
+    wanted.kind = "compression";
+    wanted.loading = "platens = \"frictional\"\nplaten_friction_angle = 5";
+    VirtualTest test = prepare(wanted);
+    World& world = test.world;
+    const double thick = world.thick;
+    world.bodies[test.setup.top].y -= 2.5 * thick;
+    for (BodyState& body : world.bodies) body.vx = body.vy = body.omega = 0.0;  // the dashpots' share
+    world.list_valid = world.forces_current = false;
+    compute_forces(world);
+    const double face = element_positions(world, test.setup.top)[0].y;
+    double expected = 0.0, deepest = 0.0;
+    for (BodyIndex b = 0; b < world.bodies.size(); ++b) {
+        if (test.setup.is_platen(b)) continue;
+        for (const Vec2 corner : element_positions(world, b)) {
+            expected += 1e7 * std::max(0.0, thick - (face - corner.y));
+            deepest = std::max(deepest, corner.y - face);
+        }
+    }
+    EXPECT_GT(deepest, 1.4 * thick);
+    EXPECT_TRUE(agrees("force on the platen, N", world.forces[test.setup.top].fy, expected, 1e-9));
 }
 
 TEST_F(VirtualRock, HalfTheStepGivesThePeakWithinFivePercent) {
