@@ -11,6 +11,8 @@
 #include <ostream>
 #include <sstream>
 #include <system_error>
+#include <utility>
+#include <vector>
 
 #include "solver/errors.hpp"
 #include "specimens/case_parameters.hpp"
@@ -155,28 +157,34 @@ void take_file(TestCase& test, const fs::path& file, const toml::table& content)
     }
 }
 
-void take_include(TestCase& test, const fs::path& path, const toml::table& content) {
-    const toml::node* include = content.get("include");
-    if (include == nullptr) return;
-    const std::string where = line_of(path, *include);
-    const auto* text = include->as_string();
-    if (text == nullptr) {
-        throw InputError(fmt::format("{}: include: found {}, expected a file name in quotes", where, shown(*include)));
+/// Takes a file after what it includes, so that its own keys stand over it.
+/// @param within the files that include this one, the case first: none may come again
+void take_with_includes(TestCase& test, const fs::path& path, std::vector<fs::path> within) {
+    const toml::table content = parse(path);
+    test.inputs.push_back(path);
+    if (const toml::node* include = content.get("include")) {
+        const std::string where = line_of(path, *include);
+        const auto* text = include->as_string();
+        if (text == nullptr) {
+            throw InputError(
+                fmt::format("{}: include: found {}, expected a file name in quotes", where, shown(*include)));
+        }
+        const fs::path other = (path.parent_path() / text->get()).lexically_normal();
+        std::error_code error;
+        if (!fs::is_regular_file(other, error)) {
+            throw InputError(fmt::format("{}: include: found no file {}, expected a case file; check the path", where,
+                                         other.string()));
+        }
+        within.push_back(path);
+        if (std::any_of(within.begin(), within.end(),
+                        [&](const fs::path& file) { return fs::equivalent(file, other, error); })) {
+            throw InputError(
+                fmt::format("{}: include: found {}, which includes this file, expected no ring; remove one", where,
+                            other.string()));
+        }
+        take_with_includes(test, other, std::move(within));
     }
-    const fs::path other = path.parent_path() / text->get();
-    std::error_code error;
-    if (!fs::is_regular_file(other, error)) {
-        throw InputError(
-            fmt::format("{}: include: found no file {}, expected a case file; check the path", where, other.string()));
-    }
-    const toml::table included = parse(other);
-    if (const toml::node* nested = included.get("include")) {
-        throw InputError(
-            fmt::format("{}: include: found an include in an included file, expected none; write the keys out",
-                        line_of(other, *nested)));
-    }
-    test.inputs.push_back(other);
-    take_file(test, other, included);
+    take_file(test, path, content);
 }
 
 void fill_defaults(TestCase& test) {
@@ -336,12 +344,9 @@ fs::path TestCase::resolve_path(const std::string& key, const std::string& writt
 }
 
 TestCase read_case(const fs::path& path) {
-    const toml::table content = parse(path);
     TestCase test;
     test.source = path;
-    test.inputs.push_back(path);
-    take_include(test, path, content);
-    take_file(test, path, content);
+    take_with_includes(test, path, {});
     fill_defaults(test);
     Judge(test).judge();
     return test;
@@ -385,7 +390,8 @@ void write_resolved_case(std::ostream& out, const TestCase& test, const fs::path
 }
 
 void describe_case_keys(std::ostream& out) {
-    out << "include = \"FILE\" at the top: values of FILE hold wherever the case is silent.\n";
+    out << "include = \"FILE\" at the top: values of FILE hold wherever the case is silent; FILE may include "
+           "another.\n";
     for (const TableDescription& table : case_tables()) {
         if (!table.name.empty()) out << "\n[" << table.name << "]  " << table.sentence << '\n';
         for (const Parameter& p : case_parameters()) {

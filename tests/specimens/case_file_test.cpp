@@ -102,6 +102,16 @@ TEST_F(CaseFile, IncludedFileHoldsWhereTheCaseIsSilent) {
     EXPECT_NE(refusal("include = \"rocks.toml\"\n").find(":1: include: found no file"), std::string::npos);
 }
 
+TEST_F(CaseFile, IncludesNestButNotInARing) {
+    std::ofstream(scratch_ / "rock.toml") << good_case;
+    std::ofstream(scratch_ / "faster.toml") << "include = \"rock.toml\"\n[loading]\naxial_strain_rate = 0.5\n";
+    const TestCase test = read("include = \"faster.toml\"\n[packing]\nseed = 8\n");
+    EXPECT_EQ(test.loading.axial_strain_rate, 0.5) << "the nearer file's";
+    EXPECT_EQ(test.inputs.size(), 3u);
+    std::ofstream(scratch_ / "rock.toml") << "include = \"faster.toml\"\n";
+    EXPECT_NE(refusal("include = \"faster.toml\"\n").find("expected no ring"), std::string::npos);
+}
+
 TEST_F(CaseFile, PathsAreRelativeToTheFileThatWritesThem) {
     std::filesystem::create_directories(scratch_ / "shared");
     std::ofstream(scratch_ / "shared/rock.toml") << "[particles]\nfile = \"../in_gm.dat\"\n";

@@ -15,45 +15,18 @@
 #include "specimens/virtual_test.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/deck_files.hpp"
+#include "tests/support/folder_contents.hpp"
 #include "tests/support/small_rock.hpp"
 
 namespace crackle {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::contents;
+using testing::expect_same;
 using testing::ScratchFolder;
 using testing::SmallCase;
 using testing::write_small_case;
-
-/// Every file by name; summary.json without what the clock says.
-std::map<std::string, std::string> contents(const fs::path& folder) {
-    std::map<std::string, std::string> files;
-    for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-        if (!entry.is_regular_file()) continue;
-        std::string text = read_text_file(entry.path());
-        if (entry.path().filename() == "summary.json") {
-            auto json = nlohmann::ordered_json::parse(text);
-            for (const char* key : {"wall_seconds", "step_seconds", "particle_steps_per_second", "threads"})
-                json.erase(key);
-            text = json.dump();
-        }
-        files[fs::relative(entry.path(), folder).string()] = text;
-    }
-    return files;
-}
-
-void expect_same(const std::map<std::string, std::string>& got, const std::map<std::string, std::string>& expected,
-                 const std::string& what) {
-    for (const auto& [name, text] : expected) {
-        const auto found = got.find(name);
-        if (found == got.end()) {
-            ADD_FAILURE() << what << ": " << name << " is missing";
-        } else {
-            EXPECT_TRUE(found->second == text) << what << ": " << name << " has other bytes";
-        }
-    }
-    EXPECT_EQ(got.size(), expected.size()) << what << ": number of files";
-}
 
 std::string refusal(const std::function<void()>& act) {
     try {

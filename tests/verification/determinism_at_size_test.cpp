@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The bytes of a run of 20,000 discs with many rebuilds and breaks do not depend on the number of threads.
+// The bytes of a run of 20,000 discs with many rebuilds and breaks depend neither on the number of threads nor on where
+// it was stopped and taken up again.
 
 #include "tests/verification/bursting_specimens.hpp"
 
@@ -10,6 +11,10 @@ using namespace testing;
 
 TEST(DeterminismAtSize, ThreadsDoNotChangeABitForTwentyThousandDiscs) {
     check_threads(bursting_discs(142, 141, 0.02, 0.01), 400, 10, 100);
+}
+
+TEST(DeterminismAtSize, StoppingAndTakingUpAgainDoesNotChangeABitForTwentyThousandDiscs) {
+    check_restarts(bursting_discs(142, 141, 0.02, 0.01), 400, 23);
 }
 
 }  // namespace

@@ -19,31 +19,6 @@ TEST(Determinism, ThreadsDoNotChangeABitForBurstingPolygons) {
     check_threads(bursting_cells(14, 14, 3.0, 0.2), 600, 3, 20);
 }
 
-void check_restarts(const World& start, int steps, std::uint64_t seed) {
-    const Trace straight = trace_of(start, 1, steps);
-    EXPECT_GT(straight.broken, 0);
-    std::mt19937_64 generator(seed);
-    for (int k = 0; k < 5; ++k) {
-        const int stop = 1 + static_cast<int>(uniform_below(generator, static_cast<std::uint64_t>(steps - 1)));
-        const bool forces_known = k % 2 == 1;  // stopped after the force pass, or after the step
-        World world = start;
-        for (int n = 0; n < stop; ++n) step(world);
-        if (forces_known) compute_forces(world);
-        const std::int64_t events = static_cast<std::int64_t>(world.events.size());
-        World again = load_world(save_world(world), "memory");
-        EXPECT_TRUE(save_world(again) == save_world(world)) << "stopped at step " << stop;
-        EXPECT_EQ(static_cast<std::int64_t>(again.events.size()), events);
-        set_threads(again, 1 + k % 3);
-        for (int n = stop; n < steps; ++n) step(again);
-        const std::string bytes = save_world(again);
-        fmt::print("  stopped at step {} {}: {}\n", stop, forces_known ? "with forces" : "after the step",
-                   bytes == straight.last ? "same bytes" : "OTHER BYTES");
-        EXPECT_TRUE(bytes == straight.last);
-        // The events of both parts together are those of the run in one: none lost, none twice.
-        EXPECT_EQ(static_cast<std::int64_t>(again.events.size()), straight.broken);
-    }
-}
-
 TEST(Determinism, StoppingAndTakingUpAgainDoesNotChangeABitForDiscs) {
     check_restarts(bursting_discs(14, 14, 1.0, 0.2), 500, 21);
 }
