@@ -51,7 +51,7 @@ po::options_description visible_options() {
          "grading curve, CSV with the columns size (diameter, m),passing_by_mass")                     //
         ("mean-overlap", po::value<double>(), "target: mean over circles and bottom and top wall, m")  //
         ("void-ratio", po::value<double>(), "target: (box - circles) / circles")                       //
-        ("seed", po::value<std::uint64_t>()->default_value(1), "of the random numbers")                //
+        ("seed", po::value<std::int64_t>()->default_value(1), "of the random numbers")                 //
         ("threads", po::value<int>()->default_value(1), "never change a byte")                         //
         ("output,o", po::value<std::string>()->default_value("in_gm.dat"), "file to write")            //
         ("force", "replace the output if it is there")                                                 //
@@ -97,7 +97,9 @@ PackingRequest request_of(const po::variables_map& values) {
     request.sizes = sizes_of(values);
     request.mean_overlap = optional_value<double>(values, "mean-overlap");
     request.void_ratio = optional_value<double>(values, "void-ratio");
-    request.seed = values["seed"].as<std::uint64_t>();
+    const auto seed = values["seed"].as<std::int64_t>();
+    if (seed < 0) throw InputError(fmt::format("--seed: found {}, expected a whole number >= 0", seed));
+    request.seed = static_cast<std::uint64_t>(seed);
     request.threads = values["threads"].as<int>();
     request.material.density = values["density"].as<double>();
     request.material.normal_stiffness = values["normal-stiffness"].as<double>();

@@ -94,6 +94,7 @@ void counts(Writer& w, const TestSetup& setup, const TestState& state, const Wor
 
 void numerics(Writer& w, const TestCase& test, const TestSetup& setup, const TestState& state, const World& world) {
     const CurveRow last = state.rows.empty() ? CurveRow{} : state.rows.back();
+    w.put("axial_strain_rate", test.loading.axial_strain_rate, "1/s");
     w.put("axial_strain_end", last.axial_strain, "-, positive in the sense of the test");
     w.put("energy_closing_error", number(last.energy_error / last.platen_work),
           "-, over the platens' work, at the end");

@@ -11,47 +11,17 @@
 
 #include "solver/demseg/geometry.hpp"
 #include "tests/support/claim.hpp"
-#include "tests/support/deck_files.hpp"
+#include "tests/support/program_call.hpp"
 
 namespace crackle {
 namespace {
 
 using testing::agrees;
-using testing::ScratchFolder;
+using testing::Answer;
 
-struct Answer {
-    int code;
-    std::string out, err;
-};
-
-std::string text_of(const std::filesystem::path& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::stringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
-
-class CrackleMesh : public ::testing::Test {
+class CrackleMesh : public testing::ProgramCall {
   protected:
-    Answer call(const std::string& words) const {
-        const int status = std::system(fmt::format("cd '{}' && '{}' mesh {} > out.txt 2> err.txt",
-                                                   (scratch_ / "").string(), CRACKLE_PROGRAM, words)
-                                           .c_str());
-        return {WEXITSTATUS(status), text_of(scratch_ / "out.txt"), text_of(scratch_ / "err.txt")};
-    }
-    void write(const std::string& name, const std::string& text) const { std::ofstream(scratch_ / name) << text; }
-    bool exists(const std::string& name) const { return std::filesystem::exists(scratch_ / name); }
-
-    /// One message, exit code 2, nothing written.
-    void expect_refusal(const std::string& words, const std::string& says) const {
-        const Answer answer = call(words);
-        fmt::print("  {}", answer.err);
-        EXPECT_EQ(answer.code, 2) << words;
-        EXPECT_NE(answer.err.find(says), std::string::npos) << answer.err;
-        EXPECT_EQ(std::count(answer.err.begin(), answer.err.end(), '\n'), 1) << answer.err;
-        EXPECT_TRUE(answer.out.empty()) << answer.out;
-        EXPECT_FALSE(exists("in_gm_volo.dat") || exists("in_gm_tri.dat"));
-    }
+    CrackleMesh() : ProgramCall("mesh") {}
 
     /// Circles of radius 0.05 on a jittered lattice, two materials.
     void write_packing() const {
@@ -66,8 +36,6 @@ class CrackleMesh : public ::testing::Test {
         }
         write("in_gm.dat", deck);
     }
-
-    ScratchFolder scratch_;
 };
 
 TEST_F(CrackleMesh, WritesADeckOfPolygonsThatFillsTheDomain) {
@@ -122,7 +90,7 @@ TEST_F(CrackleMesh, ReadsAPlainListOfSeeds) {
 
 TEST_F(CrackleMesh, MergesWhatTheInsetDestroysOnRequest) {
     write("seeds.txt", "0.2 0.5\n0.5 0.5\n0.50001 0.5\n0.50002 0.5\n0.8 0.5\n");
-    expect_refusal("seeds.txt --kind voronoi --thick 1e-3 --domain 0 1 0 1", "seed 2 is seeds.txt:3");
+    expect_refused("seeds.txt --kind voronoi --thick 1e-3 --domain 0 1 0 1", "seed 2 is seeds.txt:3");
     const Answer answer = call("seeds.txt --kind voronoi --thick 1e-3 --domain 0 1 0 1 --merge");
     ASSERT_EQ(answer.code, 0) << answer.err;
     EXPECT_NE(answer.out.find("cells            4"), std::string::npos) << answer.out;
@@ -133,10 +101,10 @@ TEST_F(CrackleMesh, LeavesAnExistingFileAlone) {
     write("seeds.txt", "0.2 0.5\n0.5 0.5\n");
     write("mine.dat", "precious\n");
     const std::string words = "seeds.txt --kind voronoi --thick 1e-3 --domain 0 1 0 1 -o mine.dat";
-    expect_refusal(words, "--force");
-    expect_refusal("seeds.txt --kind voronoi --thick 1e-3 --domain 0 1 0 1 --force -o seeds.txt", "the input itself");
-    expect_refusal("seeds.txt --kind voronoi --thick 1e-3 --domain 0 1 0 0 --force -o mine.dat", "y1 < y2");
-    EXPECT_EQ(text_of(scratch_ / "mine.dat"), "precious\n");
+    expect_refused(words, "--force");
+    expect_refused("seeds.txt --kind voronoi --thick 1e-3 --domain 0 1 0 1 --force -o seeds.txt", "the input itself");
+    expect_refused("seeds.txt --kind voronoi --thick 1e-3 --domain 0 1 0 0 --force -o mine.dat", "y1 < y2");
+    EXPECT_EQ(read("mine.dat"), "precious\n");
     EXPECT_EQ(call(words + " --force").code, 0);
     EXPECT_EQ(read_geometry(scratch_ / "mine.dat").bodies.size(), 2U);
 }
@@ -144,38 +112,38 @@ TEST_F(CrackleMesh, LeavesAnExistingFileAlone) {
 TEST_F(CrackleMesh, RefusesBadInputInOneMessage) {
     write_packing();
     const std::string cells = " --kind voronoi --thick 1e-3";
-    expect_refusal("absent.dat" + cells, "absent.dat");
-    expect_refusal(cells, "expected an in_gm.dat or a list of seeds");
-    expect_refusal("in_gm.dat --thick 1e-3", "--kind: found nothing, expected delaunay or voronoi");
-    expect_refusal("in_gm.dat --kind hexagons --thick 1e-3", "--kind: found hexagons");
-    expect_refusal("in_gm.dat --kind voronoi", "--thick: found nothing");
-    expect_refusal("in_gm.dat --kind voronoi --thick -1", "thick: found -1");
-    expect_refusal("in_gm.dat --kind voronoi --thick nan", "thick");
-    expect_refusal("in_gm.dat --kind voronoi --thick thin", "thin");
-    expect_refusal("in_gm.dat --kind voronoi --thick 1", "destroyed by the inset of 0.5");
-    expect_refusal("in_gm.dat --kind voronoi --thick 1e-3 --boundary seeds", "--boundary: found seeds");
-    expect_refusal("in_gm.dat --domain 0 1 0 1" + cells, "--domain");
-    expect_refusal("in_gm.dat --colour red" + cells, "--colour");
-    expect_refusal("in_gm.dat -o nowhere/at/all.dat" + cells, "nowhere/at");
+    expect_refused("absent.dat" + cells, "absent.dat");
+    expect_refused(cells, "expected an in_gm.dat or a list of seeds");
+    expect_refused("in_gm.dat --thick 1e-3", "--kind: found nothing, expected delaunay or voronoi");
+    expect_refused("in_gm.dat --kind hexagons --thick 1e-3", "--kind: found hexagons");
+    expect_refused("in_gm.dat --kind voronoi", "--thick: found nothing");
+    expect_refused("in_gm.dat --kind voronoi --thick -1", "thick: found -1");
+    expect_refused("in_gm.dat --kind voronoi --thick nan", "thick");
+    expect_refused("in_gm.dat --kind voronoi --thick thin", "thin");
+    expect_refused("in_gm.dat --kind voronoi --thick 1", "destroyed by the inset of 0.5");
+    expect_refused("in_gm.dat --kind voronoi --thick 1e-3 --boundary seeds", "--boundary: found seeds");
+    expect_refused("in_gm.dat --domain 0 1 0 1" + cells, "--domain");
+    expect_refused("in_gm.dat --colour red" + cells, "--colour");
+    expect_refused("in_gm.dat -o nowhere/at/all.dat" + cells, "nowhere/at");
 
     write("empty.txt", "");
-    expect_refusal("empty.txt" + cells, "empty.txt");
+    expect_refused("empty.txt" + cells, "empty.txt");
     write("seeds.txt", "0.2 0.5\n0.3\n");
-    expect_refusal("seeds.txt --domain 0 1 0 1" + cells, "seeds.txt:2: found 1 word");
+    expect_refused("seeds.txt --domain 0 1 0 1" + cells, "seeds.txt:2: found 1 word");
     write("seeds.txt", "0.2 0.5\n0.3 nan\n");
-    expect_refusal("seeds.txt --domain 0 1 0 1" + cells, "seeds.txt:2: y: found 'nan'");
+    expect_refused("seeds.txt --domain 0 1 0 1" + cells, "seeds.txt:2: y: found 'nan'");
     write("seeds.txt", "0.2 0.5\n0.3 0.5\n0.2 0.5\n");
-    expect_refusal("seeds.txt --domain 0 1 0 1" + cells, "seed 0 is seeds.txt:1, seed 2 is seeds.txt:3");
-    expect_refusal("seeds.txt" + cells, "found neither");
-    expect_refusal("seeds.txt --bounding-box --domain 0 1 0 1" + cells, "found both");
-    expect_refusal("seeds.txt --domain 0 1 0" + cells, "expected four numbers");
-    expect_refusal("seeds.txt --bounding-box" + cells, "y1 < y2");
+    expect_refused("seeds.txt --domain 0 1 0 1" + cells, "seed 0 is seeds.txt:1, seed 2 is seeds.txt:3");
+    expect_refused("seeds.txt" + cells, "found neither");
+    expect_refused("seeds.txt --bounding-box --domain 0 1 0 1" + cells, "found both");
+    expect_refused("seeds.txt --domain 0 1 0" + cells, "expected four numbers");
+    expect_refused("seeds.txt --bounding-box" + cells, "y1 < y2");
 
-    const std::string deck = text_of(scratch_ / "in_gm.dat");
+    const std::string deck = read("in_gm.dat");
     write("cut.dat", deck.substr(0, deck.size() / 2));
-    expect_refusal("cut.dat" + cells, "cut.dat:");
+    expect_refused("cut.dat" + cells, "cut.dat:");
     write("outside.dat", std::string(deck).replace(deck.find("0 1 0 2 0\n"), 9, "0 0.3 0 2 0"));
-    expect_refusal("outside.dat" + cells, "inside the domain");
+    expect_refused("outside.dat" + cells, "inside the domain");
 }
 
 }  // namespace

@@ -15,66 +15,20 @@
 #include <thread>
 
 #include "tests/support/claim.hpp"
-#include "tests/support/deck_files.hpp"
+#include "tests/support/program_call.hpp"
 #include "tests/support/small_rock.hpp"
 
 namespace crackle {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::ScratchFolder;
+using testing::Answer;
 using testing::SmallCase;
 using testing::write_small_case;
 
-struct Answer {
-    int code = -1;
-    std::string out, err;
-};
-
-class CrackleTest : public ::testing::Test {
+class CrackleTest : public testing::ProgramCall {
   protected:
-    CrackleTest() : folder_(scratch_ / "") { write_small_case(folder_, {}); }
-
-    Answer call(const std::string& words) const {
-        const int status = std::system(
-            fmt::format("cd '{}' && '{}' test {} > out.txt 2> err.txt", folder_.string(), CRACKLE_PROGRAM, words)
-                .c_str());
-        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_text_file(folder_ / "out.txt"),
-                read_text_file(folder_ / "err.txt")};
-    }
-
-    std::map<std::string, std::string> snapshot() const {
-        std::map<std::string, std::string> files;
-        for (const auto& entry : fs::recursive_directory_iterator(folder_)) {
-            const std::string name = entry.path().filename();
-            if (entry.is_regular_file() && name != "out.txt" && name != "err.txt")
-                files[entry.path()] = read_text_file(entry.path());
-        }
-        return files;
-    }
-
-    /// Exit code 2, one line that says it, and no file made, changed or lost.
-    void expect_refused(const std::string& words, const std::string& says) const {
-        const auto before = snapshot();
-        const Answer answer = call(words);
-        fmt::print("  {}", answer.err);
-        EXPECT_EQ(answer.code, 2) << words << '\n' << answer.err;
-        EXPECT_NE(answer.err.find(says), std::string::npos) << "expected: " << says << "\ngot: " << answer.err;
-        const auto lines = std::count(answer.err.begin(), answer.err.end(), '\n');
-        EXPECT_EQ(lines, 1) << answer.err;
-        EXPECT_TRUE(answer.out.empty()) << answer.out;
-        EXPECT_TRUE(snapshot() == before) << "files were made, changed or lost";
-    }
-
-    void replace(const std::string& file, const std::string& old_text, const std::string& new_text) const {
-        std::string text = read_text_file(folder_ / file);
-        const std::size_t at = text.find(old_text);
-        ASSERT_NE(at, std::string::npos) << old_text;
-        std::ofstream(folder_ / file) << text.replace(at, old_text.size(), new_text);
-    }
-
-    ScratchFolder scratch_;
-    fs::path folder_;
+    CrackleTest() : ProgramCall("test") { write_small_case(folder_, {}); }
 };
 
 TEST_F(CrackleTest, RunsQuietlyInAPipeAndPrintsItsFigures) {

@@ -103,6 +103,7 @@ TEST_F(TestFolder, HoldsWhatReadersLookFor) {
                             "version",
                             "command",
                             "wall_seconds",
+                            "axial_strain_rate",
                             "step_seconds",
                             "particle_steps_per_second",
                             "frame_start",

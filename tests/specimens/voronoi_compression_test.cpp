@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The shipped Voronoi compression, loaded five times as fast and past failure: its bytes depend neither on the number of
-// threads, each of which has worked, nor on where it was stopped and resumed.
+// The shipped Voronoi compression, loaded five times as fast and past failure: its bytes depend neither on the number
+// of threads, each of which has worked, nor on where it was stopped and resumed.
 
 #include <gtest/gtest.h>
 

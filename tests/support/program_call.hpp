@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `crackle COMMAND ...` as a user calls it, in a scratch folder: what it answers, and that a refusal touches no file.
+#pragma once
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "tests/support/deck_files.hpp"
+
+namespace crackle::testing {
+
+struct Answer {
+    int code = -1;
+    std::string out, err;
+};
+
+/// Base of the tests of one command.
+class ProgramCall : public ::testing::Test {
+  protected:
+    explicit ProgramCall(std::string command) : command_(std::move(command)) {}
+
+    Answer call(const std::string& words) const {
+        const int status = std::system(fmt::format("cd '{}' && '{}' {} {} > out.txt 2> err.txt", folder_.string(),
+                                                   CRACKLE_PROGRAM, command_, words)
+                                           .c_str());
+        return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(out_), read(err_)};
+    }
+
+    std::string read(const std::string& name) const { return read_text_file(folder_ / name); }
+    void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
+    bool exists(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
+
+    void replace(const std::string& file, const std::string& old_text, const std::string& new_text) const {
+        std::string text = read(file);
+        const std::size_t at = text.find(old_text);
+        ASSERT_NE(at, std::string::npos) << old_text;
+        write(file, text.replace(at, old_text.size(), new_text));
+    }
+
+    std::map<std::string, std::string> snapshot() const {
+        std::map<std::string, std::string> files;
+        for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_)) {
+            const std::string name = entry.path().filename();
+            if (entry.is_regular_file() && name != out_ && name != err_)
+                files[entry.path()] = read_text_file(entry.path());
+        }
+        return files;
+    }
+
+    /// Exit code 2, one line that says it, and no file made, changed or lost.
+    void expect_refused(const std::string& words, const std::string& says) const {
+        const auto before = snapshot();
+        const Answer answer = call(words);
+        fmt::print("  {}", answer.err);
+        EXPECT_EQ(answer.code, 2) << words << '\n' << answer.err;
+        EXPECT_NE(answer.err.find(says), std::string::npos) << "expected: " << says << "\ngot: " << answer.err;
+        EXPECT_EQ(std::count(answer.err.begin(), answer.err.end(), '\n'), 1) << answer.err;
+        EXPECT_TRUE(answer.out.empty()) << answer.out;
+        EXPECT_TRUE(snapshot() == before) << "files were made, changed or lost";
+    }
+
+    static constexpr const char *out_ = "out.txt", *err_ = "err.txt";
+    ScratchFolder scratch_;
+    std::filesystem::path folder_ = scratch_ / "";
+
+  private:
+    std::string command_;
+};
+
+}  // namespace crackle::testing
