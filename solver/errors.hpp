@@ -23,6 +23,9 @@ class UnstableRun : public std::runtime_error {
                              ": " + likely_cause),
           step(at_step),
           body(body_id) {}
+    /// The same with what else there is to say, such as where the output is.
+    UnstableRun(const UnstableRun& error, const std::string& more)
+        : std::runtime_error(std::string(error.what()) + "; " + more), step(error.step), body(error.body) {}
 
     std::int64_t step;  ///< steps done since the run began
     int body;           ///< id as in the input

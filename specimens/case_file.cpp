@@ -303,10 +303,14 @@ class Judge {
 
     void mesh() const {
         if (!test_.has_table("mesh")) return;
+        if (*test_.mesh.kind == "voronoi" && test_.mesh.boundary == "seeds") {
+            refuse("mesh.boundary", "\"seeds\"", "\"domain\" with kind = \"voronoi\"", "Voronoi cells always fill it");
+        }
         need("bond.thick", "polygons bond at the excess of bond.thick over mesh.thick");
-        if (*test_.bond.thick <= *test_.mesh.thick) {
+        const double gap = test_.mesh.inset ? 2.0 * *test_.mesh.inset : *test_.mesh.thick;
+        if (*test_.bond.thick <= gap) {
             refuse("bond.thick", fmt::format("{} m", *test_.bond.thick),
-                   fmt::format("more than mesh.thick = {} m", *test_.mesh.thick),
+                   fmt::format("more than {} = {} m", test_.mesh.inset ? "twice mesh.inset" : "mesh.thick", gap),
                    "the excess is the overlap that bonds the polygons");
         }
     }

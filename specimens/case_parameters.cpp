@@ -3,6 +3,8 @@
 
 #include "specimens/case_parameters.hpp"
 
+#include "specimens/packing.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -85,7 +87,9 @@ std::vector<Parameter> all_parameters() {
 
         CRACKLE_KEY(packing, width, "m", "Width of the box.").above(0),
         CRACKLE_KEY(packing, height, "m", "Height of the box.").above(0),
-        CRACKLE_KEY(packing, count, "", "Number of circles, in place of width and height.").at_least(2).at_most(5e6),
+        CRACKLE_KEY(packing, count, "", "Number of circles, in place of width and height.")
+            .at_least(static_cast<double>(min_packing_circles))
+            .at_most(static_cast<double>(max_packing_circles)),
         CRACKLE_KEY(packing, height_to_width, "", "Height over width of the box, with count; 2 if not given.").above(0),
         CRACKLE_KEY(packing, sizes, "", "Distribution of the radii.")
             .one_of({"uniform", "lognormal", "sieve"})
@@ -161,7 +165,9 @@ std::vector<Parameter> all_parameters() {
         CRACKLE_KEY(numerics, allow_unstable, "", "Run a time step above the stable bound, to show the limit.")
             .otherwise(false),
 
-        CRACKLE_KEY(output, curve_rows, "", "Rows of curve.csv over max_axial_strain.")
+        CRACKLE_KEY(output, curve_rows, "",
+                    "Rows of curve.csv over max_axial_strain; peak and failure are judged by at least 2000 whatever is "
+                    "written.")
             .at_least(10)
             .at_most(99998)
             .otherwise(whole(2000)),

@@ -19,6 +19,9 @@ constexpr std::int64_t steps_between_health_checks = 100;
 constexpr std::int64_t steps_between_clock_looks =
     64;  // reading the clock and asking for interrupts stay off the profile
 constexpr double seconds_between_progress = 0.2;
+// Rows that peak, failure and moduli are judged by, at least, however few of them are written: what is reported must
+// not depend on how much of it is looked at.
+constexpr std::int64_t min_judged_rows = 2000;
 
 /// The world at the largest stress so far. While the stress rises every row is a new peak, so what changes is only
 /// copied, and drawn when somebody needs the picture.
@@ -66,7 +69,8 @@ class LoadingLoop {
           hooks_(hooks),
           files_(files),
           max_strain_(test.description.loading.max_axial_strain),
-          row_spacing_(max_strain_ / static_cast<double>(test.description.output.curve_rows)),
+          judged_per_written_((min_judged_rows - 1) / test.description.output.curve_rows + 1),
+          row_spacing_(max_strain_ / static_cast<double>(test.description.output.curve_rows * judged_per_written_)),
           frame_spacing_(max_strain_ / static_cast<double>(test.description.output.frames)),
           checkpoint_interval_(test.description.output.checkpoint_interval),
           begun_(Clock::now()),
@@ -121,7 +125,7 @@ class LoadingLoop {
             state_.ended_by = ended_by_strain;
         }
         if (files_ == nullptr) return;
-        files_->add_row(row);
+        if (index % judged_per_written_ == 0 || !state_.ended_by.empty()) files_->add_row(row);
         const bool frame_due = row.axial_strain >= frame_spacing_ * static_cast<double>(state_.next_frame);
         while (row.axial_strain >= frame_spacing_ * static_cast<double>(state_.next_frame)) ++state_.next_frame;
         const bool frame_wanted = frame_due || !state_.ended_by.empty();
@@ -165,7 +169,9 @@ class LoadingLoop {
     TestState& state_;
     const TestHooks& hooks_;
     TestFiles* files_;
-    double max_strain_, row_spacing_, frame_spacing_, checkpoint_interval_;
+    double max_strain_;
+    std::int64_t judged_per_written_;
+    double row_spacing_, frame_spacing_, checkpoint_interval_;
     Clock::time_point begun_, last_checkpoint_, last_progress_;
     std::int64_t first_step_;
     double step_seconds_before_;

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "specimens/output_folder.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -10,6 +13,7 @@
 #include <system_error>
 
 #include "solver/errors.hpp"
+#include "specimens/results.hpp"
 
 namespace crackle {
 namespace {
@@ -22,6 +26,7 @@ constexpr std::array<const char*, 6> result_names{"case.toml", "curve.csv",  "ev
 constexpr const char* report_name =
     "report.html";  // made of the results by another command; stale once they are replaced
 constexpr const char* temporary_suffix = ".tmp";
+constexpr const char* staged_mark = "replaces-older-results";  // in OUT.new: a forced test's own, to be begun anew
 
 [[noreturn]] void cannot_write(const fs::path& path, const std::string& why) {
     throw InputError(
@@ -38,9 +43,57 @@ bool holds_results(const fs::path& folder) {
                        [&](const char* name) { return fs::exists(folder / name, error); });
 }
 
+bool begins_with(const fs::path& file, const std::string& mark) {
+    std::ifstream in(file, std::ios::binary);
+    std::string begin(mark.size(), '\0');
+    return in.read(begin.data(), static_cast<std::streamsize>(begin.size())) && begin == mark;
+}
+
+/// A case.toml or a frames/ alone may be anybody's.
+bool are_of_a_test(const fs::path& folder) {
+    std::error_code error;
+    return fs::exists(folder / "summary.json", error) || fs::exists(folder / "checkpoint", error) ||
+           begins_with(folder / "case.toml", resolved_case_mark);
+}
+
+bool is_frame(const std::string& name) {
+    return name == "frames.pvd" ||
+           ((name.starts_with("particles_") || name.starts_with("bonds_")) && name.ends_with(".vtp"));
+}
+
 void remove_results(const fs::path& folder) {
     std::error_code ignored;
     for (const char* name : result_names) fs::remove_all(folder / name, ignored);
+}
+
+/// Puts the frames in `from` in the place of those in `to`; other files there stay.
+void replace_frames(const fs::path& from, const fs::path& to, std::error_code& error) {
+    std::vector<fs::path> old_frames, new_frames;
+    fs::create_directories(to, error);
+    if (error) return;
+    for (const auto& entry : fs::directory_iterator(to, error)) {
+        if (is_frame(entry.path().filename().string())) old_frames.push_back(entry.path());
+    }
+    for (const auto& entry : fs::directory_iterator(from, error)) new_frames.push_back(entry.path());
+    for (const fs::path& file : old_frames) fs::remove(file, error);
+    for (const fs::path& file : new_frames) {
+        fs::rename(file, to / file.filename(), error);
+        if (error) return;
+    }
+    fs::remove(from, error);
+}
+
+void refuse_inputs_among_results(const fs::path& target, std::span<const fs::path> inputs) {
+    std::error_code error;
+    for (const fs::path& input : inputs) {
+        for (const char* name : result_names) {
+            if (!fs::equivalent(input, target / name, error) || error) continue;
+            throw InputError(
+                fmt::format("{}: is an input of the test, expected a folder where no result takes its place; choose "
+                            "another -o",
+                            (target / name).string()));
+        }
+    }
 }
 
 fs::path without_trailing_slash(const fs::path& path) { return path.has_filename() ? path : path.parent_path(); }
@@ -60,49 +113,89 @@ void probe(const fs::path& folder) {
 
 }  // namespace
 
+FolderLock::FolderLock(const fs::path& folder)
+    : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    if (descriptor_ < 0) cannot_write(folder, last_error());
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
+    const bool taken = errno == EWOULDBLOCK;
+    const std::string why = last_error();
+    ::close(descriptor_);
+    if (!taken) cannot_write(folder, why);
+    throw InputError(fmt::format(
+        "{}: another crackle is writing here, expected a folder of one's own; wait for it, or choose another -o",
+        folder.string()));
+}
+
+FolderLock::~FolderLock() {
+    if (descriptor_ >= 0) ::close(descriptor_);  // which unlocks
+}
+
 bool is_result_name(const std::string& name) {
     return std::find(result_names.begin(), result_names.end(), name) != result_names.end();
 }
 
-OutputFolder OutputFolder::create(const fs::path& wanted, bool force) {
+OutputFolder OutputFolder::create(const fs::path& wanted, bool force, std::span<const fs::path> inputs) {
     const fs::path target = without_trailing_slash(wanted);
     std::error_code error;
     if (fs::exists(target, error) && !fs::is_directory(target, error)) {
         throw InputError(
             fmt::format("{}: found a file, expected a folder or nothing; choose another -o", target.string()));
     }
+    refuse_inputs_among_results(target, inputs);
     fs::path working = target;
-    if (holds_results(target)) {
+    const bool staged = holds_results(target);
+    if (staged) {
         if (!force) {
             throw InputError(
                 fmt::format("{}: found results, expected an empty or new folder; --force replaces them, --resume goes "
                             "on with them",
                             target.string()));
         }
+        if (!are_of_a_test(target)) {
+            throw InputError(
+                fmt::format("{}: found files with names of results that no test wrote, expected a test's results to "
+                            "replace; choose another -o",
+                            target.string()));
+        }
         working = fs::path(target.string() + ".new");
-        remove_results(working);  // of a forced test that was never finished; those in the target stay
+        if (holds_results(working) && !fs::exists(working / staged_mark, error)) {
+            throw InputError(
+                fmt::format("{}: found results, expected nothing where the new ones grow before they replace those in "
+                            "{}; move or remove them",
+                            working.string(), target.string()));
+        }
     }
     OutputFolder folder(target, working);
     folder.made_ = !fs::exists(working, error);
     fs::create_directories(working, error);
     if (error) cannot_write(working, error.message());
+    folder.locks_.emplace_back(working);
+    if (staged) {
+        folder.locks_.emplace_back(target);
+        remove_results(working);  // of a forced test that was never finished; those in the target stay
+        folder.write(staged_mark, "");
+    }
     probe(working);
     return folder;
 }
 
-OutputFolder OutputFolder::reopen(const fs::path& folder) {
-    const fs::path target = without_trailing_slash(folder);
+OutputFolder OutputFolder::reopen(const fs::path& wanted) {
+    const fs::path target = without_trailing_slash(wanted);
     std::error_code error;
     if (!fs::is_directory(target, error)) {
         throw InputError(fmt::format("{}: found no such folder, expected one that a test was writing; check the path",
                                      target.string()));
     }
+    OutputFolder folder(target, target);
+    folder.locks_.emplace_back(target);
     probe(target);
-    return {target, target};
+    fs::remove(target / staged_mark, error);  // gone on with, they are results to keep
+    return folder;
 }
 
 OutputFolder::~OutputFolder() {
     std::error_code ignored;  // not empty: results are kept
+    if (staged() && !holds_results(working_)) fs::remove(working_ / staged_mark, ignored);
     if (made_) fs::remove(working_, ignored);
 }
 
@@ -128,13 +221,17 @@ void OutputFolder::write(const std::string& name, const std::string& bytes) cons
 void OutputFolder::finish() {
     if (!staged()) return;
     std::error_code error;
-    fs::remove(target_ / report_name, error);
-    for (const char* name : result_names) {
+    if (is_report_page(target_ / report_name)) fs::remove(target_ / report_name, error);
+    for (const std::string name : result_names) {
         if (!fs::exists(working_ / name, error)) continue;
-        fs::remove_all(target_ / name, error);
-        if (!error) fs::rename(working_ / name, target_ / name, error);
+        if (name == "frames") {
+            replace_frames(working_ / name, target_ / name, error);
+        } else {
+            fs::rename(working_ / name, target_ / name, error);
+        }
         if (error) cannot_write(target_ / name, error.message());
     }
+    fs::remove(working_ / staged_mark, error);
     fs::remove(working_, error);
     working_ = target_;
     made_ = false;

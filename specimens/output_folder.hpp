@@ -1,24 +1,47 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The folder a test writes into, and the promise that goes with it: earlier results are never touched before the new
 // ones are complete. A folder with results is refused; with `force` the new results grow in OUT.new beside it and take
-// the old ones' place at the end. Single files appear under a temporary name and are renamed, so that a full disc
-// leaves the previous one.
+// the old ones' place at the end. Nothing but a test's results is ever replaced. Single files appear under a temporary
+// name and are renamed, so that a full disc leaves the previous one. While an OutputFolder lives its folders are locked
+// against other processes.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <span>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace crackle {
 
 /// Names that a test makes in its folder; anything else there belongs to the user.
 bool is_result_name(const std::string& name);
 
+/// First line of a test's case.toml: by it a folder's case is known to be a result, not somebody's own.
+inline constexpr const char* resolved_case_mark = "# Resolved case of crackle ";
+
+/// Holds a folder against other processes as long as it lives.
+class FolderLock {
+  public:
+    /// @throws InputError if another process holds it.
+    explicit FolderLock(const std::filesystem::path& folder);
+    FolderLock(FolderLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+    FolderLock& operator=(FolderLock&&) = delete;
+    ~FolderLock();
+
+  private:
+    int descriptor_;
+};
+
 class OutputFolder {
   public:
-    /// @throws InputError if the folder holds results (without force), or cannot be written.
-    static OutputFolder create(const std::filesystem::path& wanted, bool force);
+    /// @param inputs files of the case, which must not lie where results go
+    /// @throws InputError if the folder holds results (without force) or what only looks like them, is in use by
+    /// another process, or cannot be written.
+    static OutputFolder create(const std::filesystem::path& wanted, bool force,
+                               std::span<const std::filesystem::path> inputs);
     /// An existing folder, to go on with. @throws InputError if there is none.
     static OutputFolder reopen(const std::filesystem::path& folder);
 
@@ -42,6 +65,7 @@ class OutputFolder {
 
     std::filesystem::path target_, working_;
     bool made_ = false;
+    std::vector<FolderLock> locks_;
 };
 
 /// A text file that grows; knows its length, so that a checkpoint can say where to go on.

@@ -18,7 +18,6 @@ namespace crackle {
 namespace {
 
 constexpr int max_attempts = 12;
-constexpr std::int64_t largest_count = 20'000'000;
 // Where the count for a box is first looked for, from packings of 304 and 5,000 circles, radii 1 to 2: walls cost room
 // in proportion to their length. The packing drawn then tells what the sizes at hand really fill.
 constexpr double fill_without_walls = 0.849, fill_lost_beside_walls = 0.2;
@@ -64,9 +63,9 @@ void check(const PackingRequest& request) {
         throw InputError(fmt::format("target of the packing: found {}, expected one of mean_overlap and void_ratio",
                                      request.mean_overlap ? "both" : "none"));
     }
-    if (request.count && (*request.count < min_packing_circles || *request.count > largest_count)) {
+    if (request.count && (*request.count < min_packing_circles || *request.count > max_packing_circles)) {
         throw InputError(fmt::format("count: found {}, expected {} to {} circles", *request.count, min_packing_circles,
-                                     largest_count));
+                                     max_packing_circles));
     }
     if (request.threads < 1) throw InputError(fmt::format("threads: found {}, expected at least 1", request.threads));
     const SizeMoments size = moments(request.sizes);
@@ -98,10 +97,10 @@ std::mt19937_64 stream(std::uint64_t seed, int attempt) {
 /// Circles that fill a share of the box; never fewer than a packing needs.
 std::size_t count_for_box(const PackingRequest& request, double mean_square, double fill) {
     const double count = std::round(fill * *request.width * *request.height / (std::numbers::pi * mean_square));
-    if (count < static_cast<double>(min_packing_circles) || count > static_cast<double>(largest_count)) {
+    if (count < static_cast<double>(min_packing_circles) || count > static_cast<double>(max_packing_circles)) {
         throw InputError(fmt::format(
             "width, height: found {} x {} m, which takes about {:.0f} circles of these sizes, expected {} to {}",
-            *request.width, *request.height, count, min_packing_circles, largest_count));
+            *request.width, *request.height, count, min_packing_circles, max_packing_circles));
     }
     return static_cast<std::size_t>(count);
 }

@@ -24,6 +24,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "solver/scene.hpp"
 #include "specimens/size_distribution.hpp"
@@ -80,7 +81,7 @@ struct Packing {
 inline constexpr double max_aspect_error = 1e-3;
 inline constexpr double max_anisotropy = 0.01;
 inline constexpr double max_radius_scaling = 0.005;
-inline constexpr std::int64_t min_packing_circles = 10;
+inline constexpr std::int64_t min_packing_circles = 10, max_packing_circles = 20'000'000;
 
 /// What make_packing() is doing: a stage in words, and how far the equilibrium is (largest unbalanced / mean contact
 /// force).
@@ -99,6 +100,9 @@ Packing make_packing(const PackingRequest& request, const PackingCallback& progr
 
 /// Measures a scene of single circles between four walls anew, from nothing but the scene.
 PackingReport measure_packing(const Scene& scene, const SizeDistribution& sizes);
+
+/// What the packing misses of what was asked, in words; nothing where all was met.
+std::vector<std::string> packing_notices(const PackingReport& report);
 
 /// Time step written into the deck: a tenth of the lightest circle's 2·sqrt(m/k_n) [s]. Its contacts number at most
 /// about six and carry dashpots, so that the bound of the bonded specimen is a few times larger.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Measures a packing from its scene alone, so that the figures are those of what was written and not of what was meant.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -76,6 +78,27 @@ PackingReport measure_packing(const Scene& scene, const SizeDistribution& sizes)
     report.residual = sums.residual();
     report.isotropic = report.anisotropy <= max_anisotropy;
     return report;
+}
+
+std::vector<std::string> packing_notices(const PackingReport& r) {
+    std::vector<std::string> notices;
+    if (!r.isotropic) {
+        notices.push_back(fmt::format(
+            "the stresses of the packing differ: |sx - sy|/(sx + sy) = {:.2g}, above {}; more circles, or a box less "
+            "than a few of them narrow, would meet it",
+            r.anisotropy, max_anisotropy));
+    }
+    if (std::abs(r.aspect_error) > max_aspect_error) {
+        notices.push_back(fmt::format(
+            "the box misses the asked height over width by {:.2g} of it; more circles would meet it", r.aspect_error));
+    }
+    if (std::abs(r.radius_scale - 1.0) > max_radius_scaling) {
+        notices.push_back(
+            fmt::format("radii were multiplied by {:.4f} to fill the box, beyond {} of the asked sizes; more circles "
+                        "would meet them",
+                        r.radius_scale, max_radius_scaling));
+    }
+    return notices;
 }
 
 }  // namespace crackle

@@ -98,6 +98,14 @@ void require_same_bodies(const ParticleFrame& first, const ParticleFrame& later,
 
 }  // namespace
 
+bool is_report_page(const std::filesystem::path& file) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error)) return false;
+    std::ifstream in(file);
+    std::string first, second;
+    return std::getline(in, first) && std::getline(in, second) && second == report_mark;
+}
+
 const std::vector<double>* NumberTable::find(std::string_view name) const {
     const auto found = std::find(names.begin(), names.end(), name);
     return found == names.end() ? nullptr : &columns[static_cast<std::size_t>(found - names.begin())];

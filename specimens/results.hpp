@@ -13,6 +13,10 @@
 
 namespace crackle {
 
+/// Second line of every report page; a file without it is somebody else's.
+inline constexpr std::string_view report_mark = "<!-- crackle report -->";
+bool is_report_page(const std::filesystem::path& file);
+
 /// A table of numbers with named columns.
 struct NumberTable {
     std::vector<std::string> names;

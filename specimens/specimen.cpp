@@ -13,6 +13,7 @@
 #include "mesher/mesher.hpp"
 #include "solver/demseg/geometry.hpp"
 #include "solver/errors.hpp"
+#include "specimens/cell_bodies.hpp"
 #include "specimens/packing.hpp"
 
 namespace crackle {
@@ -43,7 +44,14 @@ SizeDistribution sizes_of(const TestCase& test) {
     return UniformRadii{*keys.radius_min, *keys.radius_max};
 }
 
-Scene packed_scene(const TestCase& test, const TestHooks& hooks) {
+/// Packing errors begin with the key; the case knows where that was written.
+InputError located(const TestCase& test, const std::string& text) {
+    const std::string key = text.substr(0, text.find_first_of(": ,"));
+    const bool known = test.position.contains("packing." + key);
+    return InputError(known ? test.at("packing." + key) + text.substr(key.size()) : test.at("packing") + ": " + text);
+}
+
+Scene packed_scene(const TestCase& test, const TestHooks& hooks, Specimen& specimen) {
     const auto& keys = test.packing;
     PackingRequest request;
     request.width = keys.width;
@@ -56,9 +64,26 @@ Scene packed_scene(const TestCase& test, const TestHooks& hooks) {
     request.seed = static_cast<std::uint64_t>(keys.seed);
     request.threads = static_cast<int>(test.numerics.threads);
     apply_material(test.material, request.material);
-    Packing packing = make_packing(request, [&](const PackingProgress&) {
-        if (hooks.interrupted && hooks.interrupted()) throw TestInterrupted();
-    });
+    Packing packing;
+    try {
+        packing = make_packing(request, [&](const PackingProgress&) {
+            if (hooks.interrupted && hooks.interrupted()) throw TestInterrupted();
+        });
+    } catch (const InputError& error) {
+        throw located(test, error.what());
+    }
+    const PackingReport& report = packing.report;
+    specimen.notices = packing_notices(report);
+    specimen.packing = {{"void_ratio", report.void_ratio},
+                        {"mean_overlap", report.mean_overlap},
+                        {"coordination", report.coordination},
+                        {"coordination_of_carrying", report.coordination_of_carrying},
+                        {"floating", static_cast<double>(report.floating)},
+                        {"stress_x", report.stress_x},
+                        {"stress_y", report.stress_y},
+                        {"anisotropy", report.anisotropy},
+                        {"unbalanced", report.residual},
+                        {"radius_scale", report.radius_scale}};
     say(hooks,
         fmt::format("packed {} circles into {:.4g} m x {:.4g} m: void ratio {:.4g}, mean overlap {:.4g} m, seed {}",
                     packing.report.circles, packing.report.width, packing.report.height, packing.report.void_ratio,
@@ -162,10 +187,12 @@ bool cell_on_side(const Cell& cell, Wall side, bool domain_boundary, const std::
 void mesh_specimen(Specimen& specimen, const TestCase& test, const TestHooks& hooks) {
     const Scene circles = specimen.scene;
     std::vector<Seed> seeds;
+    std::vector<int> materials;
     std::vector<char> touches_left, touches_right;
     for (const Body& body : circles.bodies) {
         const Vec2 centre = mass_properties(circles, body).centroid;
         seeds.push_back({centre.x, centre.y});
+        materials.push_back(body.material);
         touches_left.push_back(circle_overlaps_side(circles, body, Wall::left) ? 1 : 0);
         touches_right.push_back(circle_overlaps_side(circles, body, Wall::right) ? 1 : 0);
     }
@@ -191,19 +218,17 @@ void mesh_specimen(Specimen& specimen, const TestCase& test, const TestHooks& ho
     specimen.left_ids.clear();
     specimen.right_ids.clear();
     const bool domain_boundary = voronoi || request.boundary == Boundary::domain;
+    add_cell_bodies(scene, mesh, materials);
     int id = 0;
     for (const Cell& cell : mesh.cells) {
         ++id;
-        std::vector<Vec2> outline;
-        for (const Point corner : mesh.outline(cell)) outline.push_back({corner.x, corner.y});
-        scene.add_chain_body(id, circles.bodies.front().material, outline, true);
         if (cell_on_side(cell, Wall::left, domain_boundary, touches_left)) specimen.left_ids.push_back(id);
         if (cell_on_side(cell, Wall::right, domain_boundary, touches_right)) specimen.right_ids.push_back(id);
     }
     specimen.scene = std::move(scene);
     specimen.polygons = true;
     specimen.kind = *test.mesh.kind;
-    specimen.thick = *test.mesh.thick;
+    specimen.thick = request.inset ? 2.0 * *request.inset : request.thick;
     specimen.seeds = static_cast<std::int64_t>(seeds.size());
     specimen.segments = mesh.report.segments;
     say(hooks, fmt::format("meshed into {} {} cells with {} segments", mesh.report.cells, specimen.kind,
@@ -228,7 +253,7 @@ void measure_polygons(Specimen& specimen, const TestCase& test) {
 
 Specimen make_specimen(const TestCase& test, const TestHooks& hooks) {
     Specimen specimen;
-    specimen.scene = test.has_table("packing") ? packed_scene(test, hooks) : read_particles(test, hooks);
+    specimen.scene = test.has_table("packing") ? packed_scene(test, hooks, specimen) : read_particles(test, hooks);
     classify(specimen, test);
     quieten(specimen.scene, specimen.notices);
     measure_circles(specimen);

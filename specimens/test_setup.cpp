@@ -100,6 +100,7 @@ TestSetup record_setup(const World& world, const Specimen& specimen, const Plate
     setup.seeds = specimen.seeds;
     setup.time_step_bound = world.step_bound;
     setup.notices = specimen.notices;
+    setup.packing = specimen.packing;
     for (const BodyState& body : world.bodies) setup.start.push_back({body.x, body.y, body.angle});
     setup.left = gauge(world, specimen.left_ids, world.domain);
     setup.right = gauge(world, specimen.right_ids, world.domain);

@@ -53,6 +53,7 @@ struct TestSetup {
     std::vector<StartPlace> start;  ///< by body
     std::vector<BondAnchor> bonds;  ///< sorted by key
     std::vector<std::string> notices;
+    std::vector<std::pair<std::string, double>> packing;  ///< figures of the packing by name; empty for a particle file
 
     bool is_platen(BodyIndex body) const { return body == bottom || body == top; }
     double axial_strain(const World& world) const;

@@ -16,6 +16,7 @@
 #include "specimens/checkpointing/test_checkpoint.hpp"
 #include "specimens/observers/test_files.hpp"
 #include "specimens/output_folder.hpp"
+#include "specimens/platen_hold.hpp"
 #include "specimens/sha256.hpp"
 
 namespace crackle {
@@ -75,20 +76,6 @@ Bonded bond_specimen(const Specimen& specimen, const TestCase& test, const TestC
     return bonded;
 }
 
-/// A bonded platen that holds nothing would test nothing.
-void check_platen_bonds(const Platens& platens, const TestSetup& setup, const TestCase& test) {
-    for (const BodyIndex platen : {setup.bottom, setup.top}) {
-        const auto holds = [&](const BondAnchor& bond) { return bond.body_i == platen || bond.body_j == platen; };
-        if (std::any_of(setup.bonds.begin(), setup.bonds.end(), holds)) continue;
-        throw InputError(fmt::format(
-            "{}: found no particle near enough to bond with the {} platen (face at y = {:.6g} m), expected at "
-            "least one; circles must overlap the domain's face, polygons end half the meshing thickness "
-            "inside it (mesh.boundary = \"domain\")",
-            test.at("bond.thick"), platen == setup.bottom ? "lower" : "upper",
-            platen == setup.bottom ? platens.bottom_y : platens.top_y));
-    }
-}
-
 /// Young's modulus and Poisson's ratio by the definitions of the curve, from the linear solution at unit strain.
 /// @param world with bonded platens; bodies are found by their ids, its numbering may be its own
 void solve_moduli(TestState& state, TestSetup& setup, const World& world, const Specimen& specimen) {
@@ -110,8 +97,7 @@ void solve_moduli(TestState& state, TestSetup& setup, const World& world, const 
 
 std::string resolved_case(const TestCase& test, const fs::path& folder) {
     std::ostringstream text;
-    text << "# Resolved case of crackle " << CRACKLE_VERSION
-         << ": every value in the open. Its inputs, with their SHA-256:\n";
+    text << resolved_case_mark << CRACKLE_VERSION << ": every value in the open. Its inputs, with their SHA-256:\n";
     for (const fs::path& input : test.inputs) {
         text << "#   " << sha256(read_bytes(input)) << "  " << input.filename().string() << '\n';
     }
@@ -143,7 +129,8 @@ TestOutcome run_with_files(VirtualTest& test, const TestOptions& options, const 
         files.flush();
         write_peak();
         write_summary();
-        throw;
+        throw UnstableRun(error, fmt::format("output so far in {}{}", folder.path().string(),
+                                             folder.staged() ? "; earlier results are as they were" : ""));
     }
     outcome.interrupted = test.state.ended_by.empty();
     if (outcome.interrupted) {
@@ -181,13 +168,19 @@ VirtualTest prepare_test(const TestCase& description, const TestHooks& hooks) {
     say(hooks, fmt::format("bonded {} points of {} interfaces, time step {:.3g} s", test.world.bonds_initial,
                            test.world.interfaces_initial, test.world.time_step));
     if (bonded.platens.bonded) {
-        check_platen_bonds(bonded.platens, test.setup, description);
+        check_platen_hold(test.world, test.setup, bonded.platens, description);
         solve_moduli(test.state, test.setup, test.world, specimen);
     } else {
         TestCase::Loading held = description.loading;
         held.platens = "bonded";
         const Bonded twin = bond_specimen(specimen, description, held);
-        solve_moduli(test.state, test.setup, twin.world, specimen);
+        try {
+            const TestSetup own = record_setup(twin.world, specimen, twin.platens, test.setup.compression);
+            check_platen_hold(twin.world, own, twin.platens, description);
+            solve_moduli(test.state, test.setup, twin.world, specimen);
+        } catch (const InputError& error) {
+            test.setup.notices.push_back(fmt::format("no small-strain modulus: {}", error.what()));
+        }
     }
     if (std::isfinite(test.state.youngs_modulus)) {
         say(hooks, fmt::format("small strain: E = {:.4g} N/m, nu = {:.3g}", test.state.youngs_modulus,
@@ -198,15 +191,15 @@ VirtualTest prepare_test(const TestCase& description, const TestHooks& hooks) {
 }
 
 TestOutcome run_test(const TestCase& description, const TestOptions& options, const TestHooks& hooks) {
-    OutputFolder folder = OutputFolder::create(options.folder, options.force);
-    VirtualTest test = prepare_test(description, hooks);
-    if (options.threads > 0) set_threads(test.world, options.threads);
-    test.state.command = options.command;
     TestCase recorded = description;
     if (description.particles.file)
         recorded.inputs.push_back(description.resolve_path("particles.file", *description.particles.file));
     if (description.packing.sieve)
         recorded.inputs.push_back(description.resolve_path("packing.sieve", *description.packing.sieve));
+    OutputFolder folder = OutputFolder::create(options.folder, options.force, recorded.inputs);
+    VirtualTest test = prepare_test(description, hooks);
+    if (options.threads > 0) set_threads(test.world, options.threads);
+    test.state.command = options.command;
     const std::string text = resolved_case(recorded, folder.target());
     folder.write("case.toml", text);
     TestFiles files(folder, sha256(text), test.state);

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Takes the pictures that the README shows out of the report that tools/quickstart made, and its comparison with the guide.
 //   node tools/gallery.mjs [FOLDER] [GALLERY]    default out/guide_rock, specimens/gallery
+// Needs tools/quickstart and tools/test run before.
 // The browser driver is the one that building the tests installs (tools/test), the browser Debian's Chromium.
+import {existsSync} from 'node:fs';
 import {copyFile, mkdir} from 'node:fs/promises';
 import {createRequire} from 'node:module';
 import {dirname, join, resolve} from 'node:path';
@@ -11,7 +13,12 @@ import {fileURLToPath, pathToFileURL} from 'node:url';
 const top = dirname(dirname(fileURLToPath(import.meta.url)));
 const results = resolve(process.argv[2] ?? join(top, 'out/guide_rock'));
 const gallery = resolve(process.argv[3] ?? join(top, 'specimens/gallery'));
-const {chromium} = createRequire(join(top, 'build/release/tests/browser/package.json'))('playwright-core');
+const driver = join(top, 'build/release/tests/browser/package.json');
+if (!existsSync(driver)) {
+    console.error(`${driver}: found no browser driver, expected the one of the tests; run tools/test first`);
+    process.exit(2);
+}
+const {chromium} = createRequire(driver)('playwright-core');
 
 const browser = await chromium.launch({executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: ['--no-sandbox', '--disable-gpu']});
 try {

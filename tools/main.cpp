@@ -3,7 +3,9 @@
 
 #include <boost/program_options/errors.hpp>
 #include <exception>
+#include <filesystem>
 #include <iostream>
+#include <new>
 #include <span>
 #include <string>
 #include <vector>
@@ -61,6 +63,13 @@ int main(int argc, char** argv) {
         return run({all.begin() + 1, all.end()});
     } catch (const crackle::InputError& error) {
         std::cerr << "crackle: " << error.what() << '\n';
+        return exit_bad_input;
+    } catch (const std::filesystem::filesystem_error& error) {
+        std::cerr << "crackle: " << error.path1().string() << ": " << error.code().message()
+                  << ", expected a path that can be read and written; check its permissions\n";
+        return exit_bad_input;
+    } catch (const std::bad_alloc&) {
+        std::cerr << "crackle: found less memory than the input needs; make the specimen smaller\n";
         return exit_bad_input;
     } catch (const boost::program_options::error& error) {
         std::cerr << "crackle: " << error.what() << " (see --help)\n";

@@ -16,6 +16,7 @@
 #include "solver/demseg/geometry.hpp"
 #include "solver/demseg/outputs.hpp"
 #include "solver/errors.hpp"
+#include "specimens/cell_bodies.hpp"
 #include "tools/commands.hpp"
 #include "tools/seed_list.hpp"
 
@@ -176,18 +177,7 @@ Mesh mesh_source(const Source& source, const MeshRequest& request) {
 Scene scene_of(Source source, const Mesh& mesh, double thick) {
     Scene scene = std::move(source.scene);
     scene.thick = thick;
-    std::vector<Vec2> outline;
-    int id = 0;
-    for (const Cell& cell : mesh.cells) {
-        outline.clear();
-        for (const Point& corner : mesh.outline(cell)) outline.push_back({corner.x, corner.y});
-        // A triangle takes the material of its first corner that is a seed.
-        int seed = cell.seed;
-        for (const int corner : cell.seeds) seed = seed < 0 ? corner : seed;
-        scene.add_chain_body(++id,
-                             seed < 0 ? source.materials.front() : source.materials[static_cast<std::size_t>(seed)],
-                             outline, true);
-    }
+    add_cell_bodies(scene, mesh, source.materials);
     validate(scene);
     return scene;
 }

@@ -38,15 +38,15 @@ constexpr const char* examples =
 po::options_description visible_options() {
     const Material usual{2500.0, 1.0e7, 2.5e6, 0.0, 0.0, {}, 27.0};
     po::options_description options("options");
-    options.add_options()("help,h", "this text")                                                           //
-        ("count", po::value<std::int64_t>(), "number of circles; the box follows")                         //
-        ("height-to-width", po::value<double>(), "shape of the box, with --count (2 if not given)")        //
-        ("width", po::value<double>(), "of the box, m; met exactly")                                       //
-        ("height", po::value<double>(), "of the box, m; met within 1 %, as the stress is made isotropic")  //
-        ("radius-min", po::value<double>(), "smallest radius, m (alone with --radius-max: uniform)")       //
-        ("radius-max", po::value<double>(), "largest radius, m")                                           //
-        ("lognormal-median", po::value<double>(), "median radius, m")                                      //
-        ("lognormal-deviation", po::value<double>(), "standard deviation of ln(radius)")                   //
+    options.add_options()("help,h", "this text")                                                         //
+        ("count", po::value<std::int64_t>(), "number of circles; the box follows")                       //
+        ("height-to-width", po::value<double>(), "shape of the box, with --count (2 if not given)")      //
+        ("width", po::value<double>(), "of the box, m; met exactly, by scaling the radii within 0.5 %")  //
+        ("height", po::value<double>(), "of the box, m; likewise")                                       //
+        ("radius-min", po::value<double>(), "smallest radius, m (alone with --radius-max: uniform)")     //
+        ("radius-max", po::value<double>(), "largest radius, m")                                         //
+        ("lognormal-median", po::value<double>(), "median radius, m")                                    //
+        ("lognormal-deviation", po::value<double>(), "standard deviation of ln(radius)")                 //
         ("sieve", po::value<std::string>(),
          "grading curve, CSV with the columns size (diameter, m),passing_by_mass")                     //
         ("mean-overlap", po::value<double>(), "target: mean over circles and bottom and top wall, m")  //
@@ -126,9 +126,7 @@ void print_report(const PackingReport& r, const std::string& output) {
                              r.mean_contact_force);
     if (r.radius_scale != 1.0)
         std::cout << fmt::format("radii            drawn sizes times {:.6f}, to fill the box\n", r.radius_scale);
-    if (!r.box_met)
-        std::cout << fmt::format(
-            "notice           the box misses the asked shape by {:.2g}; more circles would meet it\n", r.aspect_error);
+    for (const std::string& notice : packing_notices(r)) std::cout << "notice           " << notice << '\n';
     std::cout << "written          " << output << '\n';
 }
 
@@ -143,7 +141,8 @@ int pack(const Arguments& arguments) {
         return exit_done;
     }
     const std::string output = values["output"].as<std::string>();
-    if (std::filesystem::exists(output) && !values.contains("force")) {
+    std::error_code unreadable;  // writing says what cannot be written
+    if (std::filesystem::exists(output, unreadable) && !values.contains("force")) {
         throw InputError(
             fmt::format("--output: found {} there already, expected a new file; add --force to replace it", output));
     }

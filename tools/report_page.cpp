@@ -20,7 +20,6 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr std::string_view data_marker = "@CRACKLE_DATA@";
-constexpr std::string_view report_mark = "<!-- crackle report -->";  // second line of every report
 
 template <class T>
 constexpr const char* type_name();
@@ -179,13 +178,9 @@ std::string default_title(const std::vector<TestResults>& tests) {
 }
 
 void refuse_foreign_file(const std::filesystem::path& output) {
-    if (!std::filesystem::exists(output)) return;
-    std::string first, second;
-    if (std::ifstream in(output); in && !std::filesystem::is_directory(output)) {
-        std::getline(in, first);
-        std::getline(in, second);
-    }
-    if (second != report_mark) {
+    std::error_code error;  // write_report() says what cannot be written
+    if (!std::filesystem::exists(output, error)) return;
+    if (!is_report_page(output)) {
         throw InputError(fmt::format(
             "{}: found something that is not a crackle report, expected a new name or an earlier report; choose "
             "another name with -o",

@@ -101,6 +101,9 @@ void print_figures(const TestOutcome& outcome) {
                              shown(s, "energy_closing_error"), shown(s, "platen_out_of_balance"));
     std::cout << fmt::format("  {} steps in {} s: {} particle-steps/s\n", shown(s, "steps"), shown(s, "step_seconds"),
                              shown(s, "particle_steps_per_second"));
+    for (const auto& notice : s.value("notices", nlohmann::ordered_json::array())) {
+        std::cout << "  notice: " << notice.get<std::string>() << '\n';
+    }
     std::cout << "  results in " << outcome.folder.string() << '\n';
 }
 

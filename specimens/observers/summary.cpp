@@ -108,6 +108,31 @@ void numerics(Writer& w, const TestCase& test, const TestSetup& setup, const Tes
     w.put("seed", test.has_table("packing") ? Json(test.packing.seed) : Json(nullptr), "of the packing");
 }
 
+void packing(Writer& w, const TestSetup& setup) {
+    if (setup.packing.empty()) return;
+    Json figures;
+    for (const auto& [name, value] : setup.packing) figures[name] = number(value);
+    w.put("packing", figures,
+          "before bonding: mean_overlap in m over circles, bottom and top wall; stress_x, stress_y in N/m; anisotropy "
+          "|sx - sy|/(sx + sy); unbalanced: largest force on a circle over the mean contact force; the rest counts and "
+          "ratios");
+}
+
+/// Those of the start, and what the curve turned out to resolve badly.
+std::vector<std::string> notices_of(const TestCase& test, const TestSetup& setup, const TestState& state) {
+    constexpr std::int64_t rows_that_resolve = 100;
+    std::vector<std::string> notices = setup.notices;
+    const FailureTracker& f = state.failure;
+    if (f.failed && f.peak_row < rows_that_resolve) {
+        notices.push_back(
+            fmt::format("only {} rows of the curve lie before the peak: peak and moduli are coarse; lower "
+                        "loading.max_axial_strain = {} "
+                        "towards {:.2g}",
+                        f.peak_row, test.loading.max_axial_strain, 10.0 * f.peak_strain));
+    }
+    return notices;
+}
+
 void frames(Writer& w, const TestState& state) {
     const auto name = [](std::int64_t row) { return "frames/" + particles_file(row); };
     const auto& list = state.frames;
@@ -127,10 +152,11 @@ nlohmann::ordered_json make_summary(const TestCase& test, const TestSetup& setup
     strength(w, setup, state);
     counts(w, setup, state, world);
     numerics(w, test, setup, state, world);
+    packing(w, setup);
     frames(w, state);
     w.put("out_of_plane_thickness", test.output.out_of_plane_thickness,
           "m, converts what is reported and nothing else");
-    json["notices"] = setup.notices;
+    json["notices"] = notices_of(test, setup, state);
     json["version"] = CRACKLE_VERSION;
     json["compiler"] = __VERSION__;
     json["command"] = state.command;

@@ -125,6 +125,7 @@ TEST_F(CrackleMesh, RefusesBadInputInOneMessage) {
     expect_refused("in_gm.dat --domain 0 1 0 1" + cells, "--domain");
     expect_refused("in_gm.dat --colour red" + cells, "--colour");
     expect_refused("in_gm.dat -o nowhere/at/all.dat" + cells, "nowhere/at");
+    expect_refused("in_gm.dat -o " + std::string(300, 'x') + cells, "xxx");
 
     write("empty.txt", "");
     expect_refused("empty.txt" + cells, "empty.txt");

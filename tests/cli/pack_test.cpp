@@ -78,6 +78,7 @@ TEST_F(CracklePack, RefusesBadInputInOneMessage) {
     expect_refused(count + sizes_ + target_ + " --seed -1", "seed: found -1");
     expect_refused(count + sizes_ + target_ + " --colour red", "--colour");
     expect_refused(count + sizes_ + target_ + " -o /proc/nowhere/rock.dat", "/proc/nowhere");
+    expect_refused(count + sizes_ + target_ + " -o " + std::string(300, 'x'), "");
     expect_refused(count + " --sieve absent.csv" + target_, "absent.csv: cannot be read");
     expect_refused(count + " --sieve absent.csv" + sizes_ + target_, "expected the curve alone");
     expect_refused(count + " --lognormal-median 0.01" + target_, "expected both");

@@ -108,6 +108,16 @@ TEST_F(CrackleTest, UnwritableFolder) {
     expect_refused("case.toml -o file -q", "file: found a file, expected a folder or nothing");
     expect_refused("case.toml -o file/out -q", "file/out: cannot be written");
     expect_refused("case.toml -o /proc/crackle -q", "/proc/crackle: cannot be written");
+    expect_refused("case.toml -o " + std::string(300, 'x'), "name too long");
+}
+
+TEST_F(CrackleTest, PackingOutOfReachNamesTheLineOfItsKey) {
+    write(
+        "pack.toml",
+        "[packing]\ncount = 50\nradius_min = 0.01\nradius_max = 0.02\nvoid_ratio = 0.7\n[material]\ndensity = 2500\n"
+        "normal_stiffness = 1e7\nshear_stiffness = 2.5e6\nfriction_angle = 27\ndamping_ratio = 0.2\n[loading]\nkind = "
+        "\"tension\"\naxial_strain_rate = 0.1\nmax_axial_strain = 0.01\n");
+    expect_refused("pack.toml -o out -q", "pack.toml:5: packing.void_ratio: found 0.7, expected");
 }
 
 TEST_F(CrackleTest, FolderWithResults) {

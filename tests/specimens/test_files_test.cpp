@@ -247,6 +247,76 @@ TEST_F(TestFolder, KeepsEarlierResultsUntilNewOnesAreComplete) {
     EXPECT_EQ(read_text_file(scratch_ / "out/notes.txt"), "mine\n") << "what is not ours stays";
 }
 
+TEST_F(TestFolder, PeakAndFailureDoNotDependOnTheRowsWritten) {
+    SmallCase wanted;
+    wanted.output = "curve_rows = 10\nframes = 5";
+    const auto few = run_test(small_case(wanted), options("few")).summary;
+    wanted.output = "curve_rows = 2000\nframes = 5";
+    const auto many = run_test(small_case(wanted), options("many")).summary;
+    for (const char* key :
+         {"failed", "peak_stress", "peak_strain", "initial_tangent_modulus", "platen_out_of_balance"}) {
+        EXPECT_EQ(few[key], many[key]) << key;
+    }
+    EXPECT_LT(read_results(scratch_ / "few").curve.rows(), 13U);
+    EXPECT_GT(read_results(scratch_ / "many").curve.rows(), 500U);
+}
+
+TEST_F(TestFolder, IsRefusedWhereAnInputOrForeignFilesWouldBeReplaced) {
+    write_small_case(scratch_ / "", {});
+    TestOptions here = options("");
+    here.folder = scratch_ / "";
+    here.force = true;
+    const auto before = contents(scratch_ / "");
+    EXPECT_NE(refusal([&] { run_test(read_case(scratch_ / "case.toml"), here); }).find("is an input of the test"),
+              std::string::npos);
+    expect_same(contents(scratch_ / ""), before, "an input in the way");
+
+    fs::create_directories(scratch_ / "mine/frames");
+    std::ofstream(scratch_ / "mine/frames/holiday.png") << "mine\n";
+    TestOptions mine = options("mine");
+    mine.force = true;
+    EXPECT_NE(refusal([&] { run_test(small_case(), mine); }).find("that no test wrote"), std::string::npos);
+
+    run_test(small_case(), options("out"));
+    run_test(small_case(), options("out.new"));
+    TestOptions forced = options("out");
+    forced.force = true;
+    EXPECT_NE(refusal([&] { run_test(small_case(), forced); }).find("out.new: found results"), std::string::npos);
+    fs::remove_all(scratch_ / "out.new");
+    std::ofstream(scratch_ / "out/frames/holiday.png") << "mine\n";
+    std::ofstream(scratch_ / "out/report.html") << "my own page\n";
+    run_test(small_case(), forced);
+    EXPECT_EQ(read_text_file(scratch_ / "out/frames/holiday.png"), "mine\n");
+    EXPECT_EQ(read_text_file(scratch_ / "out/report.html"), "my own page\n");
+}
+
+TEST_F(TestFolder, IsRefusedWhileAnotherTestWritesIntoIt) {
+    const TestCase test = small_case();
+    int asked = 0;
+    TestHooks hooks;
+    hooks.interrupted = [&] {
+        if (asked++ != 3) return false;
+        EXPECT_NE(refusal([&] { resume_test(options("out")); }).find("another crackle is writing here"),
+                  std::string::npos);
+        return false;
+    };
+    EXPECT_FALSE(run_test(test, options("out"), hooks).interrupted);
+    EXPECT_GT(asked, 3);
+}
+
+TEST_F(TestFolder, OfAnUnstableRunIsNamedInItsMessage) {
+    SmallCase wanted;
+    wanted.numerics = "time_step = 1.0e-3\nallow_unstable = true";
+    try {
+        run_test(small_case(wanted), options("out"));
+        ADD_FAILURE() << "ran to its end";
+    } catch (const UnstableRun& error) {
+        fmt::print("  {}\n", error.what());
+        EXPECT_NE(std::string(error.what()).find("output so far in " + (scratch_ / "out").string()), std::string::npos);
+    }
+    EXPECT_TRUE(fs::exists(scratch_ / "out/summary.json"));
+}
+
 TEST_F(TestFolder, IsNotMadeForACaseThatCannotBeTested) {
     SmallCase wanted;
     wanted.numerics = "time_step = 1.0";
@@ -255,7 +325,7 @@ TEST_F(TestFolder, IsNotMadeForACaseThatCannotBeTested) {
 }
 
 TEST_F(TestFolder, FullDiscIsOneErrorThatNamesTheFile) {
-    const OutputFolder folder = OutputFolder::create(scratch_ / "out", false);
+    const OutputFolder folder = OutputFolder::create(scratch_ / "out", false, {});
     fs::create_symlink("/dev/full", scratch_ / "out/case.toml.tmp");
     const std::string message = refusal([&] { folder.write("case.toml", std::string(100000, 'x')); });
     EXPECT_NE(message.find("case.toml: cannot be written (No space left on device)"), std::string::npos) << message;
