@@ -41,13 +41,14 @@ void* aligned_alloc(std::size_t alignment, std::size_t size) {
 }
 }
 #else
-void* operator new(std::size_t size) {
+// Never inlined: g++ would see memory of malloc end in what it takes for the library's delete.
+[[gnu::noinline]] void* operator new(std::size_t size) {
     ++requests;
     if (void* memory = std::malloc(size)) return memory;
     throw std::bad_alloc();
 }
-void operator delete(void* memory) noexcept { std::free(memory); }
-void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
+[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 #endif
 
 namespace crackle {
