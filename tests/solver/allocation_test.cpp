@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A step allocates nothing: every request for memory of this executable is counted, through operator new and, where the
-// C library is glibc, through malloc and its kin as well. Also the sizes of the records that a step touches.
+// A step allocates nothing: every request for memory of this executable is counted, in place
+// of glibc's malloc and its kin, which operator new calls. Also the sizes of the records that a step touches.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,6 @@ namespace {
 std::atomic<std::int64_t> requests{0};
 }
 
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__)
 extern "C" {
 void* __libc_malloc(std::size_t);                 // NOLINT(bugprone-reserved-identifier): glibc's own names
 void* __libc_calloc(std::size_t, std::size_t);    // NOLINT
@@ -40,16 +39,6 @@ void* aligned_alloc(std::size_t alignment, std::size_t size) {
     return __libc_memalign(alignment, size);
 }
 }
-#else
-// Never inlined: g++ would see memory of malloc end in what it takes for the library's delete.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-    ++requests;
-    if (void* memory = std::malloc(size)) return memory;
-    throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* memory) noexcept { std::free(memory); }
-[[gnu::noinline]] void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
-#endif
 
 namespace crackle {
 namespace {
