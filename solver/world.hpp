@@ -314,7 +314,8 @@ void check_health(World& world);
 // ---- stable step (solver/stable_step.cpp)
 /// Guaranteed bound on the stable step, s: 4M - 2Δt·C - Δt²·K stays positive definite below it, over all listed points
 /// as if they carried load. Derivation: stable_step.cpp.
-double stable_step_bound(const World& world);
+/// @param limiting receives the body that sets the bound; left as it is where none does.
+double stable_step_bound(const World& world, BodyIndex* limiting = nullptr);
 
 // ---- checkpoint (solver/checkpoint.cpp)
 /// Complete state, versioned; straight and restarted runs agree byte for byte.

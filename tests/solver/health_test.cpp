@@ -142,5 +142,34 @@ TEST(TimeStep, ChosenByItselfIsTheSafeShareOfTheBound) {
     EXPECT_TRUE(testing::agrees("step over bound", world.time_step / world.step_bound, 0.3, 1e-15));
 }
 
+TEST(StableStep, OfGroupsApartIsTheLeastForAnyThreadsAndNamesItsBody) {
+    double least = 1.0;
+    Scene both;
+    for (const double scale : {1.0, 0.3, 2.0}) {  // light discs between heavier ones set it
+        Scene group = heap();
+        for (CircleElement& circle : group.circles) {
+            circle.centre = scale * circle.centre + Vec2{3.0 * scale, 0.0};
+            circle.radius *= scale;
+        }
+        group.domain.wall_present = {false, false, false, false};
+        least = std::min(least, build_world(group).step_bound);
+        const auto before = static_cast<int>(both.bodies.size());
+        for (const CircleElement& circle : group.circles)
+            both.add_circle_body(static_cast<int>(both.bodies.size()) + 1, 0, circle);
+        both.materials = group.materials;
+        both.domain = group.domain;
+        both.skin = 0.0;
+        EXPECT_EQ(both.bodies.size(), before + group.bodies.size());
+    }
+    const World one = build_world(both);
+    both.threads = 3;
+    const World three = build_world(both);
+    EXPECT_EQ(one.step_bound, three.step_bound);
+    BodyIndex limiting = 0;
+    EXPECT_EQ(stable_step_bound(three, &limiting), one.step_bound);
+    EXPECT_TRUE(testing::within("body of the second group", one.info[limiting].id, 54.5, 18.0));
+    EXPECT_TRUE(testing::agrees("bound", one.step_bound, least, 1e-8));  // an eigenvalue loses half its digits at worst
+}
+
 }  // namespace
 }  // namespace crackle
