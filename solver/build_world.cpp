@@ -171,7 +171,7 @@ void rank_by_size(World& world) {
 
 void choose_time_step(World& world, const Scene& scene) {
     world.automatic_step = scene.time_step == 0.0;
-    world.time_step = world.automatic_step ? scene.safety_factor * world.step_bound : scene.time_step;
+    world.time_step = world.automatic_step ? derived_step_share(world) * world.step_bound : scene.time_step;
     if (!world.automatic_step && !world.allow_unstable && world.time_step > world.step_bound) {
         throw InputError(
             fmt::format("time step: found {} s, expected at most the stable bound of this scene, {:.6g} s; give a "

@@ -344,8 +344,11 @@ void rebuild(World& world) {
     world.list_valid = true;
     world.list_builds += 1;
     world.step_bound = stable_step_bound(world);
-    if (world.automatic_step && world.time_step > world.step_bound)
-        world.time_step = world.safety_factor * world.step_bound;
+    if (world.automatic_step) {
+        const double share = derived_step_share(world);
+        if (world.time_step > share / world.safety_factor * world.step_bound)
+            world.time_step = share * world.step_bound;
+    }
 }
 
 }  // namespace

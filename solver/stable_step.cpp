@@ -167,6 +167,11 @@ std::vector<double> own_stiffness(const World& world, const std::vector<PointArm
 
 }  // namespace
 
+double derived_step_share(const World& world) {
+    const bool bonded = world.has_bonds && world.bonds_initial > 0;
+    return bonded ? world.safety_factor : std::min(world.safety_factor, loose_step_share);
+}
+
 double stable_step_bound(const World& world, BodyIndex* limiting) {
     const std::vector<PointArms> arms = arms_of(world);
     std::vector<Roots> roots;

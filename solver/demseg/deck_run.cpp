@@ -96,16 +96,17 @@ void DeckRun::start_new(const Texts& texts) {
     scene.allow_unstable = options_.allow_unstable;
     scene.threads = options_.threads;
     world_ = build_world(std::move(scene));
-    enter_steps_before();
-    if (asked_.start != DeckStart::bonded) return;
-    if (texts.present[3]) {
-        DeckReader tensions = texts.reader(3);
-        read_back_tensions(tensions, base_.scene, world_);
-    } else {
-        bond_all(world_, world_.thick);
-        notices_.push_back(fmt::format("{}: not there, so {} bonds were made from the present overlaps", texts.names[3],
-                                       world_.bonds_initial));
+    if (asked_.start == DeckStart::bonded) {
+        if (texts.present[3]) {
+            DeckReader tensions = texts.reader(3);
+            read_back_tensions(tensions, base_.scene, world_);
+        } else {
+            bond_all(world_, world_.thick);
+            notices_.push_back(fmt::format("{}: not there, so {} bonds were made from the present overlaps",
+                                           texts.names[3], world_.bonds_initial));
+        }
     }
+    enter_steps_before();  // a derived step is known once there are bonds
 }
 
 void DeckRun::start_from_contacts(const Texts& texts) {

@@ -138,8 +138,23 @@ TEST(TimeStep, AboveTheBoundIsRefusedNamingBoth) {
 TEST(TimeStep, ChosenByItselfIsTheSafeShareOfTheBound) {
     Scene scene = heap();
     scene.safety_factor = 0.3;
-    const World world = build_world(scene);
+    World world = build_world(scene);
+    bond_all(world, 0.0);
     EXPECT_TRUE(testing::agrees("step over bound", world.time_step / world.step_bound, 0.3, 1e-15));
+    scene.safety_factor = 0.5 * loose_step_share;
+    world = build_world(scene);
+    EXPECT_TRUE(testing::agrees("smaller than the loose share", world.time_step / world.step_bound, scene.safety_factor,
+                                1e-15));
+}
+
+TEST(TimeStep, ChosenByItselfTakesTheLooseShareUntilThereAreBonds) {
+    Scene scene = heap();
+    scene.thick = 0.0;
+    World world = build_world(scene);
+    EXPECT_TRUE(testing::agrees("step over bound, loose", world.time_step / world.step_bound, loose_step_share, 1e-15));
+    const double bound = world.step_bound;
+    bond_all(world, 0.0);
+    EXPECT_TRUE(testing::agrees("step over bound, bonded", world.time_step / bound, scene.safety_factor, 1e-15));
 }
 
 TEST(StableStep, OfGroupsApartIsTheLeastForAnyThreadsAndNamesItsBody) {

@@ -181,5 +181,40 @@ TEST(Controls, TheGuidesForceControlledSegmentMovesAsPrinted) {
     EXPECT_EQ(fmt::format("{:.6g}", world.bodies[0].x), "-2.99933");
 }
 
+/// Largest closing error over the energy of the fall: the guide's circle falls by its radius and a half onto a floor
+/// without losses and comes back, 20 times. @param share of the stable bound that the step takes; 0: derived
+double bouncing_error(double share) {
+    Scene scene;
+    Material material;
+    material.density = 2.5;
+    material.normal_stiffness = 1e8;
+    material.shear_stiffness = 0.25e8;
+    scene.materials = {material};
+    scene.domain = {-10.0, 10.0, 0.0, 10.0, {true, true, true, true}};
+    scene.gravity = {0.0, -980.0};
+    scene.add_circle_body(1, 0, {{0.0, 5.0}, 2.0, 0.0});
+    if (share > 0.0) scene.time_step = share * build_world(scene).step_bound;
+    World world = build_world(scene);
+    const double fall = world.inertia[0].mass * 980.0 * 3.0, once = 2.0 * std::sqrt(2.0 * 3.0 / 980.0);
+    double worst = 0.0;
+    while (world.time < 20.0 * once) {
+        compute_forces(world);
+        worst = std::max(worst, std::abs(measure_ledger(world).closing_error));
+        advance(world);
+    }
+    return worst / fall;
+}
+
+// What twenty bounces may cost; loose_step_share is chosen to keep it.
+constexpr double loose_step_error = 0.02;
+
+TEST(TimeStep, DerivedWithoutBondsKeepsTheEnergyOfABouncingCircle) {
+    for (const double share : {0.2, 0.1, 0.05}) {
+        fmt::print("  share {}: largest closing error over the energy of the fall {:.3g}\n", share,
+                   bouncing_error(share));
+    }
+    EXPECT_TRUE(within("error at the derived step", bouncing_error(0.0), 0.0, loose_step_error));
+}
+
 }  // namespace
 }  // namespace crackle
