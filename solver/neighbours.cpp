@@ -7,6 +7,8 @@
 // flags) is carried over by one linear merge of the old list with the new one. Everything depends on positions alone,
 // never on the number of threads.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -15,6 +17,7 @@
 
 #include "solver/contact_geometry.hpp"
 #include "solver/contact_pass.hpp"
+#include "solver/errors.hpp"
 #include "solver/world.hpp"
 
 namespace crackle {
@@ -343,11 +346,19 @@ void rebuild(World& world) {
     world.travelled = 0.0;
     world.list_valid = true;
     world.list_builds += 1;
-    world.step_bound = stable_step_bound(world);
+    BodyIndex limiting = 0;
+    world.step_bound = stable_step_bound(world, &limiting);
     if (world.automatic_step) {
         const double share = derived_step_share(world);
         if (world.time_step > share / world.safety_factor * world.step_bound)
             world.time_step = share * world.step_bound;
+    } else if (!world.allow_unstable && world.time_step > world.step_bound) {
+        throw UnstableRun(
+            world.step, world.info[limiting].id,
+            fmt::format("the time step, {:.6g} s, is above the stable bound, which fell to {:.6g} s as contacts came "
+                        "about at this body; give a smaller one, leave it out (0 in a deck) to have it chosen, or run "
+                        "with --allow-unstable",
+                        world.time_step, world.step_bound));
     }
 }
 

@@ -292,6 +292,8 @@ void step(World& world);
 
 // ---- neighbours (solver/neighbours.cpp)
 /// Rebuilds the list if something has moved half the skin since it was built (always when list_valid is false).
+/// @throws UnstableRun if the stable bound of the new list is below a time step that was given (not with
+/// allow_unstable).
 void refresh_neighbours(World& world);
 
 // ---- bonding (solver/bonding.cpp)

@@ -239,6 +239,33 @@ TEST_F(DeckFolder, GoingOnInPlaceAppends) {
     EXPECT_EQ(rows[20][0], 200.0);
 }
 
+TEST_F(DeckFolder, AStepThatThePileOutgrowsStopsTheRunWithItsOutputs) {
+    // Two discs come within each other's reach: the bound of a pair is 1/sqrt(2) of that of a disc alone, 1.12e-3 s.
+    std::ofstream(folder_ / "in_gm.dat") << "1 0 0\n0.9e-3 0 0\n1\n2.5 1e8 0 0 0 0\n-10 10 -10 10 0\n2 0 0\n"
+                                            "1 1 1\n1 0 0\n1 2\n-2.125 0 0\n2 1 1\n-1 0 0\n1 2\n2.125 0 0\n";
+    std::ofstream(folder_ / "in_bc.dat") << "0 0 200 100 10\n0\n0\n";
+    DeckOptions longer = options();
+    longer.steps = 200;
+    DeckRun run(longer);
+    try {
+        run.run();
+        FAIL() << "expected the run to be stopped";
+    } catch (const UnstableRun& error) {
+        const std::string text = error.what();
+        fmt::print("  {}\n", text);
+        EXPECT_NE(text.find("0.0009 s"), std::string::npos);
+        EXPECT_NE(text.find("0.000792"), std::string::npos);
+        EXPECT_EQ(error.step, run.world().step);
+    }
+    const Rows rows = read_rows(folder_ / "energy.dat");
+    ASSERT_GE(rows.size(), 2u);
+    EXPECT_GT(rows.back()[0], static_cast<double>(run.world().step) - 11.0);
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "new_in_gm.dat"));
+    longer.overwrite = true;
+    longer.allow_unstable = true;
+    EXPECT_NO_THROW(DeckRun(longer).run());
+}
+
 TEST_F(DeckFolder, RenamedFilesGoOnWithTheStateUnlessTheyWereEdited) {
     DeckRun(options()).run();
     for (const char* name : {"in_gm.dat", "in_bc.dat", "in_cf.dat", "in_cf0.dat"}) {

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A run that goes wrong stops and names step, body and cause; a time step that cannot work is refused beforehand.
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
+#include <utility>
 
 #include "solver/errors.hpp"
 #include "solver/world.hpp"
@@ -145,6 +149,63 @@ TEST(TimeStep, ChosenByItselfIsTheSafeShareOfTheBound) {
     world = build_world(scene);
     EXPECT_TRUE(testing::agrees("smaller than the loose share", world.time_step / world.step_bound, scene.safety_factor,
                                 1e-15));
+}
+
+/// A disc and six more around it, `gap` away from its surface.
+Scene ring(double gap) {
+    Scene scene;
+    scene.materials = {rock()};
+    scene.domain = {-1.0, 1.0, -1.0, 1.0, {true, true, true, true}};
+    scene.add_circle_body(1, 0, {{0.0, 0.0}, 0.02, 0.0});
+    for (int k = 0; k < 6; ++k) {
+        const double angle = std::numbers::pi / 3.0 * k, distance = 0.04 + gap;
+        scene.add_circle_body(2 + k, 0, {{distance * std::cos(angle), distance * std::sin(angle)}, 0.02, 0.0});
+    }
+    return scene;
+}
+
+/// Moves the bodies of a ring until they touch.
+void close_ring(World& world) {
+    for (BodyState& body : world.bodies) {
+        const double distance = std::hypot(body.x, body.y);
+        if (distance < 0.01) continue;
+        body.x *= 0.04 / distance;
+        body.y *= 0.04 / distance;
+    }
+    world.list_valid = false;
+    world.forces_current = false;
+    compute_forces(world);
+}
+
+TEST(TimeStep, OutgrownByAPileStopsTheRunNamingBoth) {
+    Scene scene = ring(0.01);
+    scene.time_step = 0.95 * build_world(scene).step_bound;
+    World world = build_world(scene);
+    for (int n = 0; n < 3; ++n) step(world);
+    try {
+        close_ring(world);
+        FAIL() << "expected the run to be stopped";
+    } catch (const UnstableRun& error) {
+        const std::string text = error.what();
+        fmt::print("  {}\n", text);
+        EXPECT_EQ(error.step, 3);
+        EXPECT_EQ(error.body, 1) << "the disc in the middle";
+        EXPECT_NE(text.find(fmt::format("{:.6g} s", world.time_step)), std::string::npos);
+        EXPECT_NE(text.find(fmt::format("{:.6g} s", world.step_bound)), std::string::npos);
+        EXPECT_NE(text.find("--allow-unstable"), std::string::npos);
+    }
+    scene.allow_unstable = true;
+    world = build_world(scene);
+    EXPECT_NO_THROW(close_ring(world));
+}
+
+TEST(TimeStep, ChosenByItselfIsLoweredAsBodiesPileUp) {
+    World world = build_world(ring(0.01));
+    const double before = world.time_step;
+    close_ring(world);
+    EXPECT_LT(world.time_step, before);
+    EXPECT_TRUE(
+        testing::agrees("step over bound", world.time_step / world.step_bound, derived_step_share(world), 1e-15));
 }
 
 TEST(TimeStep, ChosenByItselfTakesTheLooseShareUntilThereAreBonds) {
