@@ -247,5 +247,23 @@ TEST(StableStep, OfGroupsApartIsTheLeastForAnyThreadsAndNamesItsBody) {
     EXPECT_TRUE(testing::agrees("bound", one.step_bound, least, 1e-8));  // an eigenvalue loses half its digits at worst
 }
 
+TEST(Health, RoundingAtRestIsNoRunaway) {
+    Scene scene = heap();
+    for (CircleElement& circle : scene.circles) circle.centre = circle.centre + Vec2{3.0, 7.0};
+    scene.domain.wall_present = {false, false, false, false};
+    World world = build_world(scene);
+    bond_all(world, 0.0);
+    for (ContactPoint& point : world.points)
+        point.bond_overlap = std::nextafter(point.bond_overlap, 1.0);  // as a text file may give it back
+    double largest = 0.0;
+    for (int n = 0; n < 20000; ++n) {
+        compute_forces(world);
+        ASSERT_NO_THROW(check_health(world)) << "step " << n;
+        if (n % 100 == 0) largest = std::max(largest, measure_ledger(world).kinetic);
+        advance(world);
+    }
+    fmt::print("  largest kinetic energy of the rounding: {:.3g} J\n", largest);
+}
+
 }  // namespace
 }  // namespace crackle
