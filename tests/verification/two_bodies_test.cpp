@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One and two bodies against closed forms (reference/verification.md, first table).
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "solver/controls.hpp"
 #include "solver/world.hpp"
 #include "tests/support/claim.hpp"
 
@@ -214,6 +216,38 @@ TEST(TimeStep, DerivedWithoutBondsKeepsTheEnergyOfABouncingCircle) {
                    bouncing_error(share));
     }
     EXPECT_TRUE(within("error at the derived step", bouncing_error(0.0), 0.0, loose_step_error));
+}
+
+TEST(Ledger, ClosesWhenAHeldVelocityChanges) {
+    const DofControl still{Drive::velocity, 0.0};
+    for (const bool ramp : {true, false}) {
+        Scene scene = one_disc(0.02, 0.0, 0.0);
+        scene.circles[0].centre.y = 1.0;
+        const DofControl x = ramp ? DofControl{Drive::displacement, 0.01} : DofControl{Drive::velocity, 0.5};
+        const DofControl turn = ramp ? DofControl{Drive::displacement, 0.3} : DofControl{Drive::velocity, 20.0};
+        scene.controls.push_back({0, x, still, turn, 100});
+        scene.time_step = 1e-4;
+        World world = build_world(scene);
+        compute_forces(world);
+        const double moving = measure_ledger(world).kinetic;
+        double worst = 0.0;
+        for (int n = 0; n < 300; ++n) {
+            step(world);
+            if (n == 99 && !ramp) {
+                const DofControl faster[3] = {{Drive::velocity, 0.7}, still, still};
+                set_control(world, 0, faster, 0);
+            }
+            if (n == 199) {
+                const DofControl again[3] = {{Drive::displacement, -0.02}, still, {Drive::displacement, 0.1}};
+                set_control(world, 0, again, 50);
+            }
+            compute_forces(world);
+            worst = std::max(worst, std::abs(measure_ledger(world).closing_error));
+        }
+        ASSERT_GT(moving, 0.0);
+        EXPECT_EQ(measure_ledger(world).kinetic, 0.0);
+        EXPECT_TRUE(within("closing error over the kinetic energy", worst / moving, 0.0, 1e-12));
+    }
 }
 
 }  // namespace
