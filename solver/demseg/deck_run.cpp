@@ -220,6 +220,7 @@ void DeckRun::run(const std::function<bool(const World&)>& go_on) {
 
 Scene DeckRun::present_scene() const {
     Scene scene = base_.scene;
+    scene.time_step = world_.time_step;  // a derived one as it is in use: from here it might come out otherwise
     for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
         Body& body = scene.bodies[k];
         const BodyState& state = world_.bodies[order_[k]];

@@ -239,6 +239,14 @@ TEST_F(DeckFolder, GoingOnInPlaceAppends) {
     EXPECT_EQ(rows[20][0], 200.0);
 }
 
+TEST_F(DeckFolder, ADerivedStepIsHandedOnAsTheStepInUse) {
+    edit("in_gm.dat", "2.0d-5", "0");
+    DeckRun run(options());
+    run.run();
+    EXPECT_EQ(read_geometry(folder_ / "new_in_gm.dat").time_step, run.world().time_step);
+    EXPECT_GT(run.world().time_step, 0.0);
+}
+
 TEST_F(DeckFolder, AStepThatThePileOutgrowsStopsTheRunWithItsOutputs) {
     // Two discs come within each other's reach: the bound of a pair is 1/sqrt(2) of that of a disc alone, 1.12e-3 s.
     std::ofstream(folder_ / "in_gm.dat") << "1 0 0\n0.9e-3 0 0\n1\n2.5 1e8 0 0 0 0\n-10 10 -10 10 0\n2 0 0\n"
