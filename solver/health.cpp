@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "solver/errors.hpp"
+#include "solver/outside.hpp"
 #include "solver/world.hpp"
 
 namespace crackle {
@@ -19,7 +20,6 @@ bool finite(const BodyState& b) {
 }
 
 void check_bodies(const World& world) {
-    const Domain& d = world.domain;
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
         const BodyState& body = world.bodies[b];
         const int id = world.info[b].id;
@@ -36,9 +36,7 @@ void check_bodies(const World& world) {
                                           "the time step is too large or the impact too fast",
                                           move, world.fastest_allowed_move));
         }
-        const bool out = (d.wall_present[0] && body.x < d.x1) || (d.wall_present[1] && body.x > d.x2) ||
-                         (d.wall_present[2] && body.y < d.y1) || (d.wall_present[3] && body.y > d.y2);
-        if (out) {
+        if (outside_domain(world, b)) {
             throw UnstableRun(world.step, id,
                               fmt::format("it left the domain at ({:.6g}, {:.6g}) through a wall; the time step is too "
                                           "large or the impact too fast",

@@ -151,6 +151,16 @@ TEST(TimeStep, ChosenByItselfIsTheSafeShareOfTheBound) {
                                 1e-15));
 }
 
+std::string refusal(Scene scene) {
+    try {
+        build_world(std::move(scene));
+    } catch (const InputError& error) {
+        fmt::print("  {}\n", error.what());
+        return error.what();
+    }
+    return "accepted";
+}
+
 /// A disc and six more around it, `gap` away from its surface.
 Scene ring(double gap) {
     Scene scene;
@@ -247,6 +257,18 @@ TEST(StableStep, OfGroupsApartIsTheLeastForAnyThreadsAndNamesItsBody) {
     EXPECT_TRUE(testing::agrees("bound", one.step_bound, least, 1e-8));  // an eigenvalue loses half its digits at worst
 }
 
+TEST(TimeStep, CannotBeDerivedWhereEveryBodyIsHeld) {
+    Scene scene;
+    scene.materials = {rock()};
+    scene.domain = {-1.0, 1.0, -1.0, 1.0, {true, true, true, true}};
+    scene.add_circle_body(1, 0, {{0.0, 0.0}, 0.02, 0.0});
+    const DofControl held{Drive::velocity, 0.1};
+    scene.controls.push_back({0, held, held, held, 0});
+    EXPECT_NE(refusal(scene).find("time step: found 0 (to be derived)"), std::string::npos);
+    scene.time_step = 1e-5;
+    EXPECT_EQ(refusal(scene), "accepted");
+}
+
 TEST(Health, RoundingAtRestIsNoRunaway) {
     Scene scene = heap();
     for (CircleElement& circle : scene.circles) circle.centre = circle.centre + Vec2{3.0, 7.0};
@@ -263,6 +285,20 @@ TEST(Health, RoundingAtRestIsNoRunaway) {
         advance(world);
     }
     fmt::print("  largest kinetic energy of the rounding: {:.3g} J\n", largest);
+}
+
+TEST(Health, AHeldBodyMayLieBeyondAWallAFreeOneIsRefused) {
+    Scene scene = heap();
+    // An L whose centroid lies outside although its foot reaches in.
+    const auto wall = scene.add_chain_body(
+        900, 0, {{-0.2, -0.04}, {-0.2, 0.3}, {-0.21, 0.3}, {-0.21, -0.05}, {0.3, -0.05}, {0.3, -0.04}}, true);
+    const DofControl held{Drive::velocity, 0.0};
+    scene.controls.push_back({static_cast<int>(wall), held, held, held, 0});
+    World world = build_world(scene);
+    compute_forces(world);
+    EXPECT_NO_THROW(check_health(world));
+    scene.controls.clear();
+    EXPECT_NE(refusal(scene).find("body 900: found its centroid at ("), std::string::npos);
 }
 
 }  // namespace
