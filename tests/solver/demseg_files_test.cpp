@@ -6,6 +6,7 @@
 #include <fstream>
 #include <functional>
 #include <sstream>
+#include <utility>
 
 #include "solver/demseg/boundary.hpp"
 #include "solver/demseg/contact_files.hpp"
@@ -163,6 +164,57 @@ TEST(ContactFiles, RefuseWhatCannotBe) {
     EXPECT_EQ(tensions(far),
               "in_cf0.dat:2: bodies 1 and 3: found no contact there, expected bonded bodies to touch; are in_gm.dat "
               "and in_cf0.dat of one run?");
+}
+
+/// Message about an in_cf.dat for the mixed scene: bodies 1 (circle), 2 (clump), 3 and 4 (squares).
+std::string contacts_refusal(const std::string& text, World* world = nullptr, double speed = 0.0) {
+    return refusal([&] {
+        Scene scene = mixed_scene();
+        for (Body& body : scene.bodies) {
+            if (body.id == 4) body.velocity = {speed, 0.0};
+        }
+        World fresh = build_world(scene);
+        DeckReader reader("in_cf.dat", text);
+        read_contacts(reader, scene, fresh);
+        if (world != nullptr) *world = std::move(fresh);
+    });
+}
+
+TEST(ContactFiles, AContactListedFromItsOtherBodyIsTheSame) {
+    World from_one, from_other;
+    ASSERT_EQ(contacts_refusal("1 0\n2 0\n3 1\n4 2 0 5.5 -2e3 1\n4 0\n", &from_one), "accepted");
+    ASSERT_EQ(contacts_refusal("1 0\n2 0\n3 0\n4 1\n3 0 2 5.5 -2e3 1\n", &from_other), "accepted");
+    EXPECT_EQ(from_one.bonds_initial, 1);
+    EXPECT_TRUE(save_world(from_one) == save_world(from_other));
+    ASSERT_EQ(contacts_refusal("1 0\n2 0\n3 0\n4 1\n3 0 2 5.5 0 1\n", &from_other), "accepted");
+    double shear = 0.0;
+    for (const ContactPoint& point : from_other.points) shear += point.shear_force;
+    EXPECT_EQ(shear, 5.5) << "a spring without a bond";
+}
+
+TEST(ContactFiles, UnknownContactsDuplicatesAndBondedWallsAreRefusedWithTheirLine) {
+    EXPECT_EQ(contacts_refusal("1 0\n2 0\n3 1\n4 1 0 5.5 0 0\n4 0\n"),
+              "in_cf.dat:4: body 3: contact 1: found no contact of its element 1 with element 0 of body 4, expected "
+              "them to touch; are in_gm.dat and in_cf.dat of one run?")
+        << "corner 1 is on the far side";
+    EXPECT_EQ(contacts_refusal("1 0\n2 0\n3 1\n4 2 1 5.5 0 0\n4 0\n"),
+              "in_cf.dat:4: body 3: contact 1: found no contact of its element 2 with element 1 of body 4, expected "
+              "them to touch; are in_gm.dat and in_cf.dat of one run?");
+    EXPECT_EQ(contacts_refusal("1 0\n2 0\n3 1\n3 2 0 5.5 0 0\n4 0\n"),
+              "in_cf.dat:4: body 3: contact 1: other body: found '3', expected another body of in_gm.dat, or -1 to -4 "
+              "for a wall");
+    EXPECT_EQ(contacts_refusal("1 0\n2 0\n3 2\n4 2 0 5.5 0 0\n4 2 0 5.5 0 0\n4 0\n"),
+              "in_cf.dat:5: body 3: contact 2: found the contact with body 4 a second time, expected every contact "
+              "point once");
+    EXPECT_EQ(contacts_refusal("1 0\n2 0\n3 1\n4 2 0 5.5 0 0\n4 1\n3 0 2 5.5 0 0\n"),
+              "in_cf.dat:6: body 4: contact 1: found the contact with body 3 a second time, expected every contact "
+              "point once");
+    EXPECT_EQ(contacts_refusal("1 0\n2 0\n3 1\n-3 2 0 5.5 -1e3 0\n4 0\n"),
+              "in_cf.dat:4: body 3: contact 1: back-tension: found '-1e3', expected 0; domain walls are never bonded");
+}
+
+TEST(ContactFiles, AContactThatOpenedBeyondTheListInItsLastStepIsOver) {
+    EXPECT_EQ(contacts_refusal("1 0\n2 0\n3 1\n4 1 0 5.5 0 0\n4 0\n", nullptr, 1e6), "accepted");
 }
 
 TEST(RandomCircles, CountIsTheGuidesAndSeedsRepeat) {
