@@ -200,6 +200,7 @@ void DeckRun::run(const std::function<bool(const World&)>& go_on) {
         throw InputError(fmt::format("{}: cannot be made ({}), expected a writable folder", output_folder().string(),
                                      error.message()));
     const bool first_part = asked_.start != DeckStart::continued;
+    if (appends()) drop_rows_after(output_folder(), first_step_);
     DeckOutputs outputs(output_folder(), appends()    ? OutputMode::appending
                                          : first_part ? OutputMode::fresh
                                                       : OutputMode::part);

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <fstream>
 #include <functional>
+#include <map>
 #include <sstream>
 #include <utility>
 
@@ -289,6 +291,50 @@ TEST_F(DeckFolder, GoingOnInPlaceAppends) {
     ASSERT_EQ(rows.size(), 21u);
     EXPECT_EQ(rows[10][0], 100.0);
     EXPECT_EQ(rows[20][0], 200.0);
+}
+
+TEST_F(DeckFolder, GoingOnDropsWhatAFailedPartHadWrittenBeyondItsBeginning) {
+    const std::array<const char*, 6> outputs{"output.dat", "cont.dat",      "cont2.dat",
+                                             "energy.dat", "f-d_curve.dat", "velocity_y.dat"};
+    edit("in_bc.dat", "3 0 20000 200 10", "3 0 20000 50 10");
+    DeckOptions whole = options();
+    whole.output = scratch_ / "whole";
+    whole.steps = 200;
+    DeckRun(whole).run();
+    for (const bool with_state : {true, false}) {
+        DeckOptions first = options(), second = options(true);
+        first.output = scratch_ / (with_state ? "state" : "text");
+        second.folder = first.output;
+        DeckRun(first).run();
+        std::map<std::string, std::string> left;
+        for (const char* name : {"new_in_gm.dat", "new_in_bc.dat", "new_in_cf.dat", "new_in_cf0.dat", "new_state.bin"})
+            left[name] = read_text_file(first.output / name);
+        DeckRun(second).run();  // the part that is lost: rows and frames to step 200, the last of them cut short
+        for (const auto& [name, text] : left) std::ofstream(first.output / name, std::ios::binary) << text;
+        if (!with_state) std::filesystem::remove(first.output / "new_state.bin");
+        for (const char* name : outputs) {
+            std::filesystem::resize_file(first.output / name, std::filesystem::file_size(first.output / name) - 7);
+            std::ofstream(first.output / name, std::ios::app) << "\n2";
+        }
+        DeckRun(second).run();
+        for (const char* name : outputs) {
+            if (with_state) {
+                EXPECT_TRUE(read_text_file(first.output / name) == read_text_file(whole.output / name)) << name;
+                continue;
+            }
+            const Rows expected = read_rows(whole.output / name), got = read_rows(first.output / name);
+            ASSERT_EQ(got.size(), expected.size()) << name;
+            for (std::size_t k = 0; k < got.size(); ++k) EXPECT_EQ(got[k][0], expected[k][0]) << name << ", row " << k;
+        }
+    }
+}
+
+TEST_F(DeckFolder, AForeignOutputIsRefusedBeforeAnythingIsAppended) {
+    DeckRun(options()).run();
+    std::ofstream(folder_ / "energy.dat") << "once upon a time\n";
+    DeckRun next(options(true));
+    EXPECT_NE(refusal([&] { next.run(); }).find("energy.dat:1: found 'once"), std::string::npos);
+    EXPECT_EQ(read_text_file(folder_ / "energy.dat"), "once upon a time\n");
 }
 
 TEST_F(DeckFolder, ADerivedStepIsHandedOnAsTheStepInUse) {
