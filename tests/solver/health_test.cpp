@@ -301,5 +301,18 @@ TEST(Health, AHeldBodyMayLieBeyondAWallAFreeOneIsRefused) {
     EXPECT_NE(refusal(scene).find("body 900: found its centroid at ("), std::string::npos);
 }
 
+TEST(Scene, SoFarFromTheOriginThatPositionsCannotMoveIsRefused) {
+    Scene scene = heap();
+    scene.domain.wall_present = {false, false, false, false};
+    scene.circles[4].centre.x += 1e6;
+    const std::string text = refusal(scene);
+    EXPECT_NE(text.find(fmt::format("body {}: ", scene.bodies[4].id)), std::string::npos) << text;
+    EXPECT_NE(text.find("shift the origin"), std::string::npos) << text;
+    scene.circles[4].centre.x -= 0.99e6;
+    EXPECT_EQ(refusal(scene), "accepted");
+    scene.add_chain_body(901, 0, {{1e9, 0.0}, {1e9 + 0.5, 0.0}, {1e9, 0.5}}, true);
+    EXPECT_NE(refusal(scene).find("body 901: "), std::string::npos);
+}
+
 }  // namespace
 }  // namespace crackle
