@@ -292,4 +292,18 @@ void validate(Scene& scene) {
     }
 }
 
+std::vector<std::string> scene_notices(const Scene& scene) {
+    std::vector<std::string> notices;
+    const auto chain = [](const Body& body) { return body.vertex_count > 0; };
+    const auto open = [&](const Body& body) { return chain(body) && !body.closed; };
+    const auto segment = std::ranges::find_if(scene.bodies, open);
+    if (scene.thick == 0.0 && segment != scene.bodies.end() && std::ranges::count_if(scene.bodies, chain) > 1) {
+        notices.push_back(
+            fmt::format("thick: found 0 with open segments (body {}) and corners of other bodies; neither has an "
+                        "inside, so they never touch each other; give a thickness > 0 if they should",
+                        segment->id));
+    }
+    return notices;
+}
+
 }  // namespace crackle

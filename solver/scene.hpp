@@ -140,4 +140,7 @@ MassProperties mass_properties(const Scene& scene, const Body& body);
 /// Checks every value and turns clockwise polygons. @throws InputError naming body, key, what was found and expected.
 void validate(Scene& scene);
 
+/// What is allowed but may surprise, one sentence each.
+std::vector<std::string> scene_notices(const Scene& scene);
+
 }  // namespace crackle

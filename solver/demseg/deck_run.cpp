@@ -90,6 +90,8 @@ void DeckRun::start_new(const Texts& texts) {
         if (options_.seed)
             notices_.push_back(fmt::format("{}: bodies are given (mode 1), the seed has no effect", texts.names[0]));
     }
+    for (const std::string& notice : scene_notices(base_.scene))
+        notices_.push_back(fmt::format("{}: {}", texts.names[0], notice));
     boundary_ = asked_;
     Scene scene = base_.scene;
     apply_controls(boundary_, scene);

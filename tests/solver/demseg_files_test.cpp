@@ -372,6 +372,15 @@ TEST_F(DeckFolder, AStepThatThePileOutgrowsStopsTheRunWithItsOutputs) {
     EXPECT_NO_THROW(DeckRun(longer).run());
 }
 
+TEST_F(DeckFolder, BareSegmentsThatNoCornerCanTouchAreTold) {
+    std::ofstream(folder_ / "in_gm.dat") << "1 0 0\n1e-5 0 0\n1\n2.5 1e8 0 0 0 0\n-10 10 -10 10 0\n0 2 0\n"
+                                            "1 1 1\n0 0 0\n1 0 0\n5 0\n2 1 1\n0 0 0\n1 0 1\n5 1\n";
+    std::ofstream(folder_ / "in_bc.dat") << "0 0 200 100 10\n0\n0\n";
+    DeckRun run(options());
+    ASSERT_EQ(run.notices().size(), 1u);
+    EXPECT_NE(run.notices()[0].find("thick: found 0"), std::string::npos) << run.notices()[0];
+}
+
 TEST_F(DeckFolder, RenamedFilesGoOnWithTheStateUnlessTheyWereEdited) {
     DeckRun(options()).run();
     for (const char* name : {"in_gm.dat", "in_bc.dat", "in_cf.dat", "in_cf0.dat"}) {

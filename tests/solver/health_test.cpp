@@ -314,5 +314,21 @@ TEST(Scene, SoFarFromTheOriginThatPositionsCannotMoveIsRefused) {
     EXPECT_NE(refusal(scene).find("body 901: "), std::string::npos);
 }
 
+TEST(Scene, BareSegmentsAndCornersThatCannotTouchAreTold) {
+    Scene scene = heap();
+    scene.bare_segment_width = 0.1;
+    EXPECT_TRUE(scene_notices(scene).empty());
+    scene.add_chain_body(901, 0, {{-0.04, -0.04}, {0.2, -0.04}}, false);
+    EXPECT_TRUE(scene_notices(scene).empty()) << "circles touch open segments at any thickness";
+    scene.add_chain_body(902, 0, {{0.0, 0.3}, {0.02, 0.3}, {0.01, 0.32}}, true);
+    const std::vector<std::string> notices = scene_notices(scene);
+    ASSERT_EQ(notices.size(), 1u);
+    fmt::print("  {}\n", notices[0]);
+    EXPECT_NE(notices[0].find("thick: found 0"), std::string::npos);
+    EXPECT_NE(notices[0].find("body 901"), std::string::npos);
+    scene.thick = 1e-3;
+    EXPECT_TRUE(scene_notices(scene).empty());
+}
+
 }  // namespace
 }  // namespace crackle
