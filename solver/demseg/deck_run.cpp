@@ -216,7 +216,7 @@ void DeckRun::run(const std::function<bool(const World&)>& go_on) {
     const auto files = files_for_next();
     compute_forces(world_);
     check_health(world_);
-    if (world_.step > first_step_) write_rows(outputs);
+    if (first_part || world_.step > first_step_) write_rows(outputs);
     outputs.flush();
     for (const auto& [name, contents] : files) replace_file(output_folder() / name, contents);
 }

@@ -329,6 +329,17 @@ TEST_F(DeckFolder, GoingOnDropsWhatAFailedPartHadWrittenBeyondItsBeginning) {
     }
 }
 
+TEST_F(DeckFolder, ARunInterruptedBeforeItsFirstStepHasTheRowOfItsBeginning) {
+    DeckOptions whole = options();
+    whole.output = scratch_ / "whole";
+    DeckRun(whole).run();
+    DeckRun(options()).run([](const World&) { return false; });
+    DeckRun(options(true)).run([](const World&) { return false; });
+    DeckRun(options(true)).run();
+    for (const char* name : {"output.dat", "cont.dat", "cont2.dat", "energy.dat", "f-d_curve.dat", "velocity_y.dat"})
+        EXPECT_TRUE(read_text_file(folder_ / name) == read_text_file(whole.output / name)) << name;
+}
+
 TEST_F(DeckFolder, AForeignOutputIsRefusedBeforeAnythingIsAppended) {
     DeckRun(options()).run();
     std::ofstream(folder_ / "energy.dat") << "once upon a time\n";
