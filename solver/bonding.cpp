@@ -62,6 +62,8 @@ void finish_bonding(World& world) {
     world.bonds_initial = std::count_if(world.points.begin(), world.points.end(),
                                         [](const ContactPoint& p) { return (p.flags & point_bonded) != 0; });
     world.interfaces_initial = count_interfaces(world);
+    // Bonds stay closed: the step may be longer than that of loose bodies.
+    if (world.automatic_step) world.time_step = derived_step_share(world) * world.step_bound;
     world.bonds_broken = 0;
     world.interfaces_lost = 0;
     world.bond_history.assign(world.points.size(), BondHistory{0.0, 0.0});

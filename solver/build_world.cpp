@@ -14,6 +14,7 @@
 #include "solver/controls.hpp"
 #include "solver/convex_pieces.hpp"
 #include "solver/errors.hpp"
+#include "solver/outside.hpp"
 #include "solver/world.hpp"
 
 namespace crackle {
@@ -39,7 +40,8 @@ std::vector<std::uint32_t> spatial_order(const std::vector<MassProperties>& prop
         low = {std::min(low.x, p.centroid.x), std::min(low.y, p.centroid.y)};
         high = {std::max(high.x, p.centroid.x), std::max(high.y, p.centroid.y)};
     }
-    const double extent = std::max({high.x - low.x, high.y - low.y, 1e-300});
+    const double widest = std::max(high.x - low.x, high.y - low.y);
+    const double extent = widest > 1e-290 ? widest : 1.0;  // one body, or all at one place: all keys are 0
     std::vector<std::uint64_t> key(properties.size());
     for (std::size_t k = 0; k < properties.size(); ++k) {
         const Vec2 c = (4294967295.0 / extent) * (properties[k].centroid - low);
@@ -169,9 +171,24 @@ void rank_by_size(World& world) {
     world.fastest_allowed_move = 0.5 * world.info[order[n - 1]].reach;
 }
 
+void refuse_bodies_outside(const World& world) {
+    for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+        if (!outside_domain(world, b)) continue;
+        throw InputError(
+            fmt::format("body {}: found its centroid at ({:.6g}, {:.6g}), beyond a wall of the domain, expected it "
+                        "inside; move it, widen the domain, or hold the body",
+                        world.info[b].id, world.bodies[b].x, world.bodies[b].y));
+    }
+}
+
 void choose_time_step(World& world, const Scene& scene) {
     world.automatic_step = scene.time_step == 0.0;
-    world.time_step = world.automatic_step ? scene.safety_factor * world.step_bound : scene.time_step;
+    if (world.automatic_step && !std::isfinite(world.step_bound)) {
+        throw InputError(
+            "time step: found 0 (to be derived), expected a number > 0 in s; every body is held, so that no stiffness "
+            "bounds it");
+    }
+    world.time_step = world.automatic_step ? derived_step_share(world) * world.step_bound : scene.time_step;
     if (!world.automatic_step && !world.allow_unstable && world.time_step > world.step_bound) {
         throw InputError(
             fmt::format("time step: found {} s, expected at most the stable bound of this scene, {:.6g} s; give a "
@@ -212,6 +229,7 @@ World build_world(Scene scene) {
     build_laws(world);
     rank_by_size(world);
     build_controls(world, scene, internal_of);  // inverse masses of driven bodies enter m_eff and the bound
+    refuse_bodies_outside(world);
     refresh_neighbours(world);
     choose_time_step(world, scene);
     build_controls(world, scene, internal_of);  // ramp velocities need the time step

@@ -110,15 +110,16 @@ void force_block(World& world, const PassRange& range) {
         }
         if constexpr (Damping) {
             const double normal_dashpot = normal_damping(law, point.root_effective_mass) * closing;
-            const double shear_dashpot = sliding ? 0.0 : shear_damping(law, point.root_effective_mass) * slipping;
+            const double shear_damper =
+                sliding ? 0.0 : shear_dashpot(law, point.root_effective_mass, slipping, g.overlap);
             if constexpr (Ledger) {
                 PointDissipation& last = world.dissipation[k];
                 loss.dashpot +=
-                    0.5 * dt * ((last.normal + normal_dashpot) * closing + (last.shear + shear_dashpot) * slipping);
-                last = {normal_dashpot, shear_dashpot};
+                    0.5 * dt * ((last.normal + normal_dashpot) * closing + (last.shear + shear_damper) * slipping);
+                last = {normal_dashpot, shear_damper};
             }
             normal += normal_dashpot;
-            tangential -= shear_dashpot;
+            tangential -= shear_damper;
         }
 
         // Force on i: -f_n along the normal (pushed away from j), f_t along the tangent.

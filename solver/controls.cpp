@@ -26,6 +26,15 @@ double ramp_position(const ControlState& control, int dof, std::int64_t step) {
            control.dof[dof].value * static_cast<double>(n) / static_cast<double>(control.ramp_steps);
 }
 
+/// Sets a held velocity. The drive brings the kinetic energy at once, so it is displacement work: its force is
+/// infinitely large for no time and shows in no reaction.
+void set_velocity(World& world, BodyIndex b, int dof, double velocity) {
+    double& now = velocity_of(world.bodies[b], dof);
+    const double weight = dof < 2 ? world.inertia[b].mass : world.info[b].moment;
+    if (world.initial_energy_taken) world.displacement_work += 0.5 * weight * (velocity * velocity - now * now);
+    now = velocity;
+}
+
 void enter(World& world, ControlState& control) {
     BodyState& body = world.bodies[control.body];
     BodyInertia& inertia = world.inertia[control.body];
@@ -35,9 +44,9 @@ void enter(World& world, ControlState& control) {
         control.last_force[d] = 0.0;
         control.last_move[d] = 0.0;
         inverse_of(inertia, d) = held(control.dof[d]) ? 0.0 : d < 2 ? 1.0 / inertia.mass : 1.0 / info.moment;
-        if (control.dof[d].drive == Drive::velocity) velocity_of(body, d) = control.dof[d].value;
+        if (control.dof[d].drive == Drive::velocity) set_velocity(world, control.body, d, control.dof[d].value);
         if (control.dof[d].drive == Drive::displacement) {
-            velocity_of(body, d) = ramp_velocity(control, d, world.step, world.time_step);
+            set_velocity(world, control.body, d, ramp_velocity(control, d, world.step, world.time_step));
         }
     }
 }
@@ -90,7 +99,7 @@ void kick_controls(World& world, double kick) {
             if (control.dof[d].drive == Drive::force) {
                 velocity_of(body, d) += kick * control.dof[d].value * inverse_of(world.inertia[control.body], d);
             } else if (control.dof[d].drive == Drive::displacement) {
-                velocity_of(body, d) = ramp_velocity(control, d, world.step, world.time_step);
+                set_velocity(world, control.body, d, ramp_velocity(control, d, world.step, world.time_step));
             }
         }
     }

@@ -7,6 +7,8 @@
 // flags) is carried over by one linear merge of the old list with the new one. Everything depends on positions alone,
 // never on the number of threads.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -15,6 +17,7 @@
 
 #include "solver/contact_geometry.hpp"
 #include "solver/contact_pass.hpp"
+#include "solver/errors.hpp"
 #include "solver/world.hpp"
 
 namespace crackle {
@@ -245,7 +248,8 @@ PointKey key_of(PointKind kind, const ContactPoint& p) {
             kind == PointKind::element_element ? p.feature_j : 0u};
 }
 
-/// Replaces the points of the world, carrying over what the old ones remember.
+/// Replaces the points of the world, carrying over what the old ones remember. A bond is carried over whether its point
+/// is listed or not: it lasts until the force pass finds it broken, and intact ones hold at any opening.
 void exchange_points(World& world, PointLists& lists) {
     std::vector<ContactPoint> points;
     std::vector<PointDissipation> dissipation;
@@ -256,28 +260,40 @@ void exchange_points(World& world, PointLists& lists) {
     points.reserve(total);
     if (world.ledger_on) dissipation.reserve(total);
     if (world.has_bonds) history.reserve(total);
+    constexpr PointIndex none = std::numeric_limits<PointIndex>::max();
+    const auto add = [&](const ContactPoint& point, PointIndex old) {
+        points.push_back(point);
+        if (world.ledger_on) dissipation.push_back(old != none ? world.dissipation[old] : PointDissipation{0.0, 0.0});
+        if (world.has_bonds)
+            history.push_back(old != none && !world.bond_history.empty() ? world.bond_history[old]
+                                                                         : BondHistory{0.0, 0.0});
+    };
+    const auto bonded = [&](PointIndex old) { return (world.points[old].flags & point_bonded) != 0; };
+    const auto add_unlisted = [&](PointIndex old) {
+        if (!bonded(old)) return;
+        ContactPoint point = world.points[old];
+        point.root_effective_mass = root_effective_mass(world, point.body_i, point.body_j);
+        add(point, old);
+    };
     for (std::size_t kind = 0; kind < point_kinds; ++kind) {
         begin[kind] = static_cast<PointIndex>(points.size());
         PointIndex old = world.kind_begin[kind];
         const PointIndex old_end = world.kind_begin[kind + 1];
+        const auto old_key = [&] { return key_of(static_cast<PointKind>(kind), world.points[old]); };
         for (ContactPoint& point : lists[kind]) {
             const PointKey key = key_of(static_cast<PointKind>(kind), point);
-            while (old < old_end && key_of(static_cast<PointKind>(kind), world.points[old]) < key) ++old;
-            const bool known = old < old_end && key_of(static_cast<PointKind>(kind), world.points[old]) == key;
-            if (world.has_bonds && world.intact.no_new_contacts &&
-                !(known && (world.points[old].flags & point_bonded) != 0))
-                continue;
+            for (; old < old_end && old_key() < key; ++old) add_unlisted(old);
+            const bool known = old < old_end && old_key() == key;
             if (known) {
                 point.shear_force = world.points[old].shear_force;
                 point.bond_overlap = world.points[old].bond_overlap;
                 point.flags = world.points[old].flags;
             }
-            points.push_back(point);
-            if (world.ledger_on) dissipation.push_back(known ? world.dissipation[old] : PointDissipation{0.0, 0.0});
-            if (world.has_bonds)
-                history.push_back(known && !world.bond_history.empty() ? world.bond_history[old]
-                                                                       : BondHistory{0.0, 0.0});
+            if (!(world.has_bonds && world.intact.no_new_contacts) || (known && bonded(old)))
+                add(point, known ? old : none);
+            if (known) ++old;
         }
+        for (; old < old_end; ++old) add_unlisted(old);
         std::vector<ContactPoint>().swap(lists[kind]);
     }
     begin[point_kinds] = static_cast<PointIndex>(points.size());
@@ -285,7 +301,7 @@ void exchange_points(World& world, PointLists& lists) {
     world.dissipation = std::move(dissipation);
     world.bond_history = std::move(history);
     world.kind_begin = begin;
-    world.point_forces.assign(total, PointForce{});
+    world.point_forces.assign(world.points.size(), PointForce{});
     world.loss_blocks.assign(block_count(world), World::LossBlock{});
 }
 
@@ -330,9 +346,20 @@ void rebuild(World& world) {
     world.travelled = 0.0;
     world.list_valid = true;
     world.list_builds += 1;
-    world.step_bound = stable_step_bound(world);
-    if (world.automatic_step && world.time_step > world.step_bound)
-        world.time_step = world.safety_factor * world.step_bound;
+    BodyIndex limiting = 0;
+    world.step_bound = stable_step_bound(world, &limiting);
+    if (world.automatic_step) {
+        const double share = derived_step_share(world);
+        if (world.time_step > share / world.safety_factor * world.step_bound)
+            world.time_step = share * world.step_bound;
+    } else if (!world.allow_unstable && world.time_step > world.step_bound) {
+        throw UnstableRun(
+            world.step, world.info[limiting].id,
+            fmt::format("the time step, {:.6g} s, is above the stable bound, which fell to {:.6g} s as contacts came "
+                        "about at this body; give a smaller one, leave it out (0 in a deck) to have it chosen, or run "
+                        "with --allow-unstable",
+                        world.time_step, world.step_bound));
+    }
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <span>
 #include <unordered_set>
@@ -145,6 +146,31 @@ void validate_chain(Scene& scene, const Body& body) {
     }
 }
 
+/// Far from the origin neighbouring numbers lie so far apart that a body would move in jerks, or not at all.
+void require_room_to_move(const Scene& scene, const Body& body) {
+    constexpr double largest_share = 1e-9;  // of the body's size; contact overlaps are 1e-6 of it and more
+    double farthest = 0.0, size = std::numeric_limits<double>::infinity();
+    const auto visit = [&](Vec2 p) { farthest = std::max({farthest, std::abs(p.x), std::abs(p.y)}); };
+    for (std::uint32_t k = 0; k < body.circle_count; ++k) {
+        const CircleElement& circle = scene.circles[body.first_circle + k];
+        visit(circle.centre);
+        size = std::min(size, circle.radius);
+    }
+    if (body.vertex_count > 0) {
+        size = 0.0;  // of the whole outline: meshes may have edges of any shortness
+        for (std::uint32_t k = 0; k < body.vertex_count; ++k) {
+            visit(scene.vertices[body.first_vertex + k]);
+            size = std::max(size, norm(scene.vertices[body.first_vertex + k] - scene.vertices[body.first_vertex]));
+        }
+    }
+    const double gap = std::nextafter(farthest, std::numeric_limits<double>::infinity()) - farthest;
+    if (gap <= largest_share * size) return;
+    throw InputError(fmt::format(
+        "body {}: found coordinates up to {:.6g} m, where numbers lie {:.2g} m apart, expected at most {} of "
+        "the body's size, {:.4g} m; shift the origin towards the bodies",
+        body.id, farthest, gap, largest_share, size));
+}
+
 void validate_body(Scene& scene, const Body& body) {
     const std::string name = fmt::format("body {}: ", body.id);
     if (body.material < 0 || static_cast<std::size_t>(body.material) >= scene.materials.size()) {
@@ -164,6 +190,7 @@ void validate_body(Scene& scene, const Body& body) {
         require_finite(name + "centre y", circle.centre.y);
     }
     if (body.vertex_count > 0) validate_chain(scene, body);
+    require_room_to_move(scene, body);
     if (body.mass) require_positive(name + "mass", *body.mass, "kg");
     const bool bare = body.vertex_count > 0 && !body.closed && scene.thick == 0.0;
     if (bare && !body.mass && !(scene.bare_segment_width > 0.0)) {
@@ -263,6 +290,20 @@ void validate(Scene& scene) {
             }
         }
     }
+}
+
+std::vector<std::string> scene_notices(const Scene& scene) {
+    std::vector<std::string> notices;
+    const auto chain = [](const Body& body) { return body.vertex_count > 0; };
+    const auto open = [&](const Body& body) { return chain(body) && !body.closed; };
+    const auto segment = std::ranges::find_if(scene.bodies, open);
+    if (scene.thick == 0.0 && segment != scene.bodies.end() && std::ranges::count_if(scene.bodies, chain) > 1) {
+        notices.push_back(
+            fmt::format("thick: found 0 with open segments (body {}) and corners of other bodies; neither has an "
+                        "inside, so they never touch each other; give a thickness > 0 if they should",
+                        segment->id));
+    }
+    return notices;
 }
 
 }  // namespace crackle

@@ -109,7 +109,8 @@ struct Scene {
     Vec2 gravity;  ///< m/s2
 
     double time_step = 0.0;       ///< s; 0: derived from the stiffness bound times safety_factor
-    double safety_factor = 0.8;   ///< share of the stiffness bound taken when the step is derived
+    double safety_factor = 0.8;   ///< share of the bound taken when the step is derived (without bonds: at most
+                                  ///< loose_step_share)
     bool allow_unstable = false;  ///< run a given time step above the bound, and beyond runaway energy
     FirstKick first_kick = FirstKick::half;
     bool ledger = true;  ///< keep the account of dissipated energy
@@ -138,5 +139,8 @@ MassProperties mass_properties(const Scene& scene, const Body& body);
 
 /// Checks every value and turns clockwise polygons. @throws InputError naming body, key, what was found and expected.
 void validate(Scene& scene);
+
+/// What is allowed but may surprise, one sentence each.
+std::vector<std::string> scene_notices(const Scene& scene);
 
 }  // namespace crackle

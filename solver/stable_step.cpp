@@ -28,6 +28,7 @@ struct Block {
 
     /// Adds s·vvᵀ.
     void add(double s, double x, double y, double r) {
+        if (s == 0.0) return;  // no damping, say
         xx += s * x * x;
         yy += s * y * y;
         rr += s * r * r;
@@ -51,80 +52,146 @@ double largest_eigenvalue(const Block& m) {
     return (mean + 2.0 * p * std::cos(angle)) * (1.0 + 1e-12);
 }
 
+/// Largest eigenvalue from above, at the price of one square root: the formula's cosine is at most 1.
+double eigenvalue_at_most(const Block& m) {
+    const double off = m.xy * m.xy + m.xr * m.xr + m.yr * m.yr;
+    const double mean = (m.xx + m.yy + m.rr) / 3.0;
+    const double dx = m.xx - mean, dy = m.yy - mean, dr = m.rr - mean;
+    return (mean + 2.0 * std::sqrt((dx * dx + dy * dy + dr * dr + 2.0 * off) / 6.0)) * (1.0 + 1e-11);
+}
+
 struct BodyBlocks {
     Block stiffness, damping;
 };
 
-/// Adds one side of a point: normal n and tangent at `arm` from the centroid, scaled by the square roots of inverse
-/// masses.
-void add_side(BodyBlocks& blocks, const BodyInertia& inertia, const ContactLaw& law, double root_mass, double share,
-              Vec2 n, Vec2 arm) {
-    const double sx = std::sqrt(inertia.inverse_mass_x), sy = std::sqrt(inertia.inverse_mass_y),
-                 sr = std::sqrt(inertia.inverse_moment);
+/// Square roots of a body's inverse masses.
+struct Roots {
+    double x, y, r;
+};
+
+Roots roots_of(const BodyInertia& inertia) {
+    return {std::sqrt(inertia.inverse_mass_x), std::sqrt(inertia.inverse_mass_y), std::sqrt(inertia.inverse_moment)};
+}
+
+/// Where a point acts.
+struct PointArms {
+    Vec2 normal, arm_i, arm_j;
+};
+
+/// One side of a point, scaled by the roots: rows of its normal n and of the tangent, at `arm` from the centroid.
+struct Side {
+    double nx, ny, nr, tx, ty, tr;
+};
+
+Side side_of(const Roots& roots, Vec2 n, Vec2 arm) {
     const Vec2 t = perpendicular(n);
-    const double nr = sr * cross(arm, n), tr = sr * cross(arm, t);
-    blocks.stiffness.add(share * law.normal_stiffness, sx * n.x, sy * n.y, nr);
-    blocks.damping.add(share * normal_damping(law, root_mass), sx * n.x, sy * n.y, nr);
-    if (law.friction <= 0.0) return;
-    blocks.stiffness.add(share * law.shear_stiffness, sx * t.x, sy * t.y, tr);
-    blocks.damping.add(share * shear_damping(law, root_mass), sx * t.x, sy * t.y, tr);
+    return {roots.x * n.x, roots.y * n.y, roots.r * cross(arm, n),
+            roots.x * t.x, roots.y * t.y, roots.r * cross(arm, t)};
+}
+
+void add_stiffness(Block& block, const Side& side, const ContactLaw& law, double share) {
+    block.add(share * law.normal_stiffness, side.nx, side.ny, side.nr);
+    if (law.friction > 0.0) block.add(share * law.shear_stiffness, side.tx, side.ty, side.tr);
+}
+
+void add_damping(Block& block, const Side& side, const ContactLaw& law, double root_mass, double share) {
+    block.add(share * normal_damping(law, root_mass), side.nx, side.ny, side.nr);
+    if (law.friction > 0.0) block.add(share * shear_damping(law, root_mass), side.tx, side.ty, side.tr);
+}
+
+void add_side(BodyBlocks& blocks, const Side& side, const ContactLaw& law, double root_mass, double share) {
+    add_stiffness(blocks.stiffness, side, law, share);
+    add_damping(blocks.damping, side, law, root_mass, share);
 }
 
 bool held(const BodyInertia& inertia) {
     return inertia.inverse_mass_x == 0.0 && inertia.inverse_mass_y == 0.0 && inertia.inverse_moment == 0.0;
 }
 
-double stable_step_of(const BodyBlocks& blocks) {
-    const double k = largest_eigenvalue(blocks.stiffness), c = largest_eigenvalue(blocks.damping);
-    if (k <= 0.0) return std::numeric_limits<double>::infinity();
-    // (sqrt(c² + 4k) - c)/k, written without the cancellation.
-    return 4.0 / (std::sqrt(c * c + 4.0 * k) + c);
+/// (sqrt(c² + 4k) - c)/k, written without the cancellation.
+double stable_step_of(double k, double c) {
+    return k > 0.0 ? 4.0 / (std::sqrt(c * c + 4.0 * k) + c) : std::numeric_limits<double>::infinity();
 }
+
+/// The least stable step so far and its body.
+struct Least {
+    double bound = std::numeric_limits<double>::infinity();
+    BodyIndex body = 0;
+
+    /// Most bodies are let off after the cheap estimate.
+    void lower_to(const BodyBlocks& blocks, BodyIndex b) {
+        if (stable_step_of(eigenvalue_at_most(blocks.stiffness), eigenvalue_at_most(blocks.damping)) >= bound) return;
+        const double exact = stable_step_of(largest_eigenvalue(blocks.stiffness), largest_eigenvalue(blocks.damping));
+        if (exact < bound) *this = {exact, b};
+    }
+};
 
 /// 1 + α for a side of own stiffness κ against κ of its partner (0: held); a side that cannot move along the point adds
 /// nothing.
 double share_of(double own, double partner) { return own > 0.0 ? 1.0 + partner / own : 1.0; }
 
+/// The geometry of all points, found once.
+std::vector<PointArms> arms_of(const World& world) {
+    std::vector<PointArms> arms(world.points.size());
+    const auto count = static_cast<std::int64_t>(arms.size());
+#pragma omp parallel for num_threads(world.threads) if (world.threads > 1) schedule(static)
+    for (std::int64_t k = 0; k < count; ++k) {
+        const PointView view = view_point(world, static_cast<PointIndex>(k));
+        arms[static_cast<std::size_t>(k)] = {view.normal, view.arm_i, view.arm_j};
+    }
+    return arms;
+}
+
+bool with_wall(const World& world, PointIndex k) {
+    return k >= world.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
+}
+
 /// Largest scaled stiffness of every body's own points, held bodies 0.
-std::vector<double> own_stiffness(const World& world) {
-    std::vector<BodyBlocks> blocks(world.bodies.size());
+std::vector<double> own_stiffness(const World& world, const std::vector<PointArms>& arms,
+                                  const std::vector<Roots>& roots) {
+    std::vector<Block> blocks(world.bodies.size());
     for (PointIndex k = 0; k < world.points.size(); ++k) {
         const ContactPoint& point = world.points[k];
-        const PointView view = view_point(world, k);
         const ContactLaw& law = world.laws[point.law];
         const auto add = [&](BodyIndex b, Vec2 arm) {
-            if (!held(world.inertia[b]))
-                add_side(blocks[b], world.inertia[b], law, point.root_effective_mass, 1.0, view.normal, arm);
+            if (!held(world.inertia[b])) add_stiffness(blocks[b], side_of(roots[b], arms[k].normal, arm), law, 1.0);
         };
-        add(point.body_i, view.arm_i);
-        if (view.kind != PointKind::element_wall) add(point.body_j, view.arm_j);
+        add(point.body_i, arms[k].arm_i);
+        if (!with_wall(world, k)) add(point.body_j, arms[k].arm_j);
     }
     std::vector<double> stiffness;
     stiffness.reserve(blocks.size());
-    for (const BodyBlocks& block : blocks) stiffness.push_back(largest_eigenvalue(block.stiffness));
+    for (const Block& block : blocks) stiffness.push_back(largest_eigenvalue(block));
     return stiffness;
 }
 
 }  // namespace
 
-double stable_step_bound(const World& world) {
-    const std::vector<double> own = own_stiffness(world);
+double derived_step_share(const World& world) {
+    const bool bonded = world.has_bonds && world.bonds_initial > 0;
+    return bonded ? world.safety_factor : std::min(world.safety_factor, loose_step_share);
+}
+
+double stable_step_bound(const World& world, BodyIndex* limiting) {
+    const std::vector<PointArms> arms = arms_of(world);
+    std::vector<Roots> roots;
+    roots.reserve(world.bodies.size());
+    for (const BodyInertia& inertia : world.inertia) roots.push_back(roots_of(inertia));
+    const std::vector<double> own = own_stiffness(world, arms, roots);
     std::vector<BodyBlocks> blocks(world.bodies.size());
     for (PointIndex k = 0; k < world.points.size(); ++k) {
         const ContactPoint& point = world.points[k];
-        const PointView view = view_point(world, k);
         const ContactLaw& law = world.laws[point.law];
         const BodyIndex i = point.body_i, j = point.body_j;
-        const bool wall = view.kind == PointKind::element_wall;
+        const bool wall = with_wall(world, k);
         const bool i_held = held(world.inertia[i]), j_held = wall || held(world.inertia[j]);
         const double share_i = share_of(own[i], j_held ? 0.0 : own[j]),
-                     share_j = share_of(own[j], i_held ? 0.0 : own[i]);
-        if (!i_held)
-            add_side(blocks[i], world.inertia[i], law, point.root_effective_mass, share_i, view.normal, view.arm_i);
-        if (!j_held)
-            add_side(blocks[j], world.inertia[j], law, point.root_effective_mass, share_j, view.normal, view.arm_j);
+                     share_j = share_of(j_held ? 0.0 : own[j], i_held ? 0.0 : own[i]);
+        const double root_mass = point.root_effective_mass;
+        if (!i_held) add_side(blocks[i], side_of(roots[i], arms[k].normal, arms[k].arm_i), law, root_mass, share_i);
+        if (!j_held) add_side(blocks[j], side_of(roots[j], arms[k].normal, arms[k].arm_j), law, root_mass, share_j);
     }
-    double bound = std::numeric_limits<double>::infinity();
+    Least least;
     const std::size_t wall_laws = world.materials.size() * world.materials.size();
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
         const BodyInertia& inertia = world.inertia[b];
@@ -134,16 +201,18 @@ double stable_step_bound(const World& world) {
             // Nothing near: the first thing it meets, a circle head-on or a corner at the longest lever it has.
             const ContactLaw& law = world.laws[wall_laws + static_cast<std::size_t>(info.material)];
             const Vec2 along{info.reach, 0.0};
-            add_side(blocks[b], inertia, law, std::sqrt(inertia.mass), 1.0, {1.0, 0.0}, along);
+            const double root_mass = std::sqrt(inertia.mass);
+            add_side(blocks[b], side_of(roots[b], {1.0, 0.0}, along), law, root_mass, 1.0);
             if (!info.single_circle) {
                 BodyBlocks corner;
-                add_side(corner, inertia, law, std::sqrt(inertia.mass), 1.0, {0.0, 1.0}, along);
-                bound = std::min(bound, stable_step_of(corner));
+                add_side(corner, side_of(roots[b], {0.0, 1.0}, along), law, root_mass, 1.0);
+                least.lower_to(corner, static_cast<BodyIndex>(b));
             }
         }
-        bound = std::min(bound, stable_step_of(blocks[b]));
+        least.lower_to(blocks[b], static_cast<BodyIndex>(b));
     }
-    return bound;
+    if (limiting != nullptr && std::isfinite(least.bound)) *limiting = least.body;
+    return least.bound;
 }
 
 }  // namespace crackle

@@ -12,6 +12,7 @@
 #include <ostream>
 #include <string>
 #include <unordered_map>
+#include <unordered_set>
 #include <vector>
 
 #include "solver/demseg/deck_reader.hpp"
@@ -108,6 +109,24 @@ std::int64_t read_list_head(DeckReader& reader, const Body& body) {
     return reader.integer(fmt::format("body {}: count", body.id), 0, std::numeric_limits<int>::max());
 }
 
+std::unordered_map<int, BodyIndex> indices_by_id(const World& world) {
+    std::unordered_map<int, BodyIndex> indices;
+    for (std::size_t b = 0; b < world.info.size(); ++b) indices.emplace(world.info[b].id, static_cast<BodyIndex>(b));
+    return indices;
+}
+
+/// Whether a point that touched a step ago can have left the list: its surfaces moved apart by more than the skin.
+bool may_have_parted(const World& world, const std::unordered_map<int, BodyIndex>& index_of, const PointName& name) {
+    double speed = 0.0;
+    for (const int id : {name.body, name.other}) {
+        if (id < 0) continue;  // a wall
+        const BodyIndex b = index_of.at(id);
+        const BodyState& body = world.bodies[b];
+        speed += norm({body.vx, body.vy}) + world.info[b].reach * std::abs(body.omega);
+    }
+    return speed * world.time_step >= world.skin;
+}
+
 }  // namespace
 
 int partner_id(const World& world, PointKind kind, const ContactPoint& point) {
@@ -130,6 +149,8 @@ void write_contacts(std::ostream& out, const Scene& scene, const World& world) {
 void read_contacts(DeckReader& reader, const Scene& scene, World& world) {
     const BodyNames names(scene);
     const std::map<PointName, PointIndex> points = points_by_name(world);
+    const std::unordered_map<int, BodyIndex> index_of = indices_by_id(world);
+    std::unordered_set<PointIndex> entered;
     bool bonds = false;
     for (const Body& body : scene.bodies) {
         const std::int64_t count = read_list_head(reader, body);
@@ -137,24 +158,34 @@ void read_contacts(DeckReader& reader, const Scene& scene, World& world) {
             const std::string key = fmt::format("body {}: contact {}: ", body.id, c + 1);
             const std::int64_t other = reader.integer(key + "other body", -4, std::numeric_limits<int>::max());
             const Body* partner = names.find(other);
-            if (other >= 0 && partner == nullptr)
-                reader.refuse(key + "other body", "a body of in_gm.dat, or -1 to -4 for a wall");
+            if (other >= 0 && (partner == nullptr || partner == &body))
+                reader.refuse(key + "other body", "another body of in_gm.dat, or -1 to -4 for a wall");
             PointName name{body.id, static_cast<int>(other), 0, 0};
-            name.element = static_cast<int>(reader.integer(key + "own element", 1, element_count(body)));
+            name.element = static_cast<int>(reader.integer(key + "own element", 0, element_count(body)));
             name.partner = static_cast<int>(
                 reader.integer(key + "other's element", 0, partner == nullptr ? 0 : element_count(*partner)));
             const double shear_force = reader.number(key + "shear force");
             const double tension = reader.number(key + "back-tension");
             if (tension > 0.0) reader.refuse(key + "back-tension", "0 (not bonded) or less");
+            if (tension < 0.0 && partner == nullptr)
+                reader.refuse(key + "back-tension", "0; domain walls are never bonded");
             const bool slid = reader.integer(key + "slid", 0, 1) == 1;
-            const auto found = points.find(name);
+            const std::string contact = fmt::format("body {}: contact {}", body.id, c + 1);
+            const std::string with = partner == nullptr ? fmt::format("wall {}", other) : fmt::format("body {}", other);
+            auto found = points.find(name);
+            // Seen from the other body both the normal and the force turn round: the number is the same.
+            if (found == points.end()) found = points.find(name.seen_from_other());
             if (found == points.end()) {
-                // A contact that has opened by more than the list reaches is over; a bond would have had to break on
-                // the way.
-                if (tension == 0.0) continue;
-                reader.refuse(key + "bond", fmt::format("bodies {} and {} apart", body.id, other),
-                              "them in contact; are in_gm.dat and in_cf.dat of one run?");
+                // One that opened by more than the list reaches in its last step is over; a bond would have broken.
+                if (tension == 0.0 && may_have_parted(world, index_of, name)) continue;
+                reader.refuse(
+                    contact,
+                    fmt::format("no contact of its element {} with element {} of {}", name.element, name.partner, with),
+                    "them to touch; are in_gm.dat and in_cf.dat of one run?");
             }
+            if (!entered.insert(found->second).second)
+                reader.refuse(contact, fmt::format("the contact with {} a second time", with),
+                              "every contact point once");
             ContactPoint& point = world.points[found->second];
             point.shear_force = shear_force;
             point.flags = static_cast<std::uint16_t>(point_touching | (slid ? point_slid : 0));

@@ -19,8 +19,9 @@ class DeckReader;
 /// pass at the present positions, so that a reader finds springs and positions as the next force pass needs them.
 /// @param scene gives the order of the bodies.
 void write_contacts(std::ostream& out, const Scene& scene, const World& world);
-/// Enters the contacts into a freshly built world. @throws InputError on bodies or elements that do not exist, and on
-/// bonds between bodies that are not near each other.
+/// Enters the contacts into a freshly built world; a point may be listed from either of its bodies. @throws InputError
+/// on points that do not exist or come twice, and on bonds with walls. Only a point that can have opened by more than
+/// the list reaches in its last step may be missing.
 void read_contacts(DeckReader& reader, const Scene& scene, World& world);
 
 /// in_cf0.dat: per body its back-tensions -k_n δ0; of a world without bonds those its present overlaps would give.

@@ -90,22 +90,25 @@ void DeckRun::start_new(const Texts& texts) {
         if (options_.seed)
             notices_.push_back(fmt::format("{}: bodies are given (mode 1), the seed has no effect", texts.names[0]));
     }
+    for (const std::string& notice : scene_notices(base_.scene))
+        notices_.push_back(fmt::format("{}: {}", texts.names[0], notice));
     boundary_ = asked_;
     Scene scene = base_.scene;
     apply_controls(boundary_, scene);
     scene.allow_unstable = options_.allow_unstable;
     scene.threads = options_.threads;
     world_ = build_world(std::move(scene));
-    enter_steps_before();
-    if (asked_.start != DeckStart::bonded) return;
-    if (texts.present[3]) {
-        DeckReader tensions = texts.reader(3);
-        read_back_tensions(tensions, base_.scene, world_);
-    } else {
-        bond_all(world_, world_.thick);
-        notices_.push_back(fmt::format("{}: not there, so {} bonds were made from the present overlaps", texts.names[3],
-                                       world_.bonds_initial));
+    if (asked_.start == DeckStart::bonded) {
+        if (texts.present[3]) {
+            DeckReader tensions = texts.reader(3);
+            read_back_tensions(tensions, base_.scene, world_);
+        } else {
+            bond_all(world_, world_.thick);
+            notices_.push_back(fmt::format("{}: not there, so {} bonds were made from the present overlaps",
+                                           texts.names[3], world_.bonds_initial));
+        }
     }
+    enter_steps_before();  // a derived step is known once there are bonds
 }
 
 void DeckRun::start_from_contacts(const Texts& texts) {
@@ -199,6 +202,7 @@ void DeckRun::run(const std::function<bool(const World&)>& go_on) {
         throw InputError(fmt::format("{}: cannot be made ({}), expected a writable folder", output_folder().string(),
                                      error.message()));
     const bool first_part = asked_.start != DeckStart::continued;
+    if (appends()) drop_rows_after(output_folder(), first_step_);
     DeckOutputs outputs(output_folder(), appends()    ? OutputMode::appending
                                          : first_part ? OutputMode::fresh
                                                       : OutputMode::part);
@@ -212,13 +216,14 @@ void DeckRun::run(const std::function<bool(const World&)>& go_on) {
     const auto files = files_for_next();
     compute_forces(world_);
     check_health(world_);
-    if (world_.step > first_step_) write_rows(outputs);
+    if (first_part || world_.step > first_step_) write_rows(outputs);
     outputs.flush();
     for (const auto& [name, contents] : files) replace_file(output_folder() / name, contents);
 }
 
 Scene DeckRun::present_scene() const {
     Scene scene = base_.scene;
+    scene.time_step = world_.time_step;  // a derived one as it is in use: from here it might come out otherwise
     for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
         Body& body = scene.bodies[k];
         const BodyState& state = world_.bodies[order_[k]];

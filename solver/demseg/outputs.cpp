@@ -6,9 +6,12 @@
 #include <fmt/format.h>
 
 #include <cerrno>
+#include <charconv>
 #include <cstring>
 #include <iterator>
+#include <string_view>
 #include <system_error>
+#include <utility>
 
 #include "solver/demseg/contact_files.hpp"
 #include "solver/errors.hpp"
@@ -31,6 +34,51 @@ constexpr std::array<const char*, 6> headers{
                                  path.string(), std::strerror(errno)));
 }
 
+/// Whole numbers at the beginning of a row: its step, and from the third word on the counts of a frame's lines.
+/// @return false if the row is none of ours
+bool read_head(std::string_view line, bool frame, std::int64_t& step, std::int64_t& lines) {
+    const char *at = line.data(), *end = line.data() + line.size();
+    auto result = std::from_chars(at, end, step);
+    if (result.ec != std::errc() || result.ptr == end || *result.ptr != ' ') return false;
+    lines = 0;
+    if (!frame) return true;
+    double time = 0.0;
+    result = std::from_chars(result.ptr + 1, end, time);
+    if (result.ec != std::errc() || result.ptr == end) return false;
+    while (result.ptr != end) {
+        std::int64_t count = 0;
+        result = std::from_chars(result.ptr + 1, end, count);
+        if (result.ec != std::errc() || count < 0) return false;
+        lines += count;
+    }
+    return true;
+}
+
+/// Bytes up to the last complete row or frame of a step up to `step`.
+std::uintmax_t length_up_to(const std::filesystem::path& path, std::int64_t step, bool frames) {
+    std::ifstream file(path, std::ios::binary);
+    std::string line;
+    std::uintmax_t at = 0, kept = 0;
+    std::int64_t number = 0, row_step = 0, lines_left = 0;
+    while (std::getline(file, line) && !file.eof()) {  // at the end of the file: a line cut short
+        at += line.size() + 1;
+        ++number;
+        if (lines_left > 0) {
+            --lines_left;
+        } else if (!line.starts_with('#')) {
+            if (!read_head(line, frames, row_step, lines_left)) {
+                throw InputError(
+                    fmt::format("{}:{}: found '{}', expected a row of an earlier part; give another folder with -o, or "
+                                "move the file away",
+                                path.string(), number, line.substr(0, 40)));
+            }
+            if (row_step > step) break;
+        }
+        if (lines_left == 0) kept = at;
+    }
+    return kept;
+}
+
 bool touching(const World& world, PointIndex k) { return (world.points[k].flags & point_touching) != 0; }
 
 }  // namespace
@@ -48,6 +96,20 @@ void replace_file(const std::filesystem::path& path, const std::string& contents
     std::error_code error;
     std::filesystem::rename(temporary, path, error);
     if (error) throw InputError(fmt::format("{}: cannot be replaced ({})", path.string(), error.message()));
+}
+
+void drop_rows_after(const std::filesystem::path& folder, std::int64_t step) {
+    std::vector<std::pair<std::filesystem::path, std::uintmax_t>> lengths;
+    for (std::size_t k = 0; k < deck_output_names.size(); ++k) {
+        const std::filesystem::path path = folder / deck_output_names[k];
+        if (std::filesystem::exists(path)) lengths.emplace_back(path, length_up_to(path, step, k < 3));
+    }
+    for (const auto& [path, length] : lengths) {
+        std::error_code error;
+        if (std::filesystem::file_size(path, error) != length && !error)
+            std::filesystem::resize_file(path, length, error);
+        if (error) throw InputError(fmt::format("{}: cannot be shortened ({})", path.string(), error.message()));
+    }
 }
 
 DeckOutputs::DeckOutputs(const std::filesystem::path& folder, OutputMode mode) : folder_(folder) {

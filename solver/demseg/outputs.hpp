@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
 #include <span>
@@ -46,6 +47,12 @@ class DeckOutputs {
     std::filesystem::path folder_;
     std::array<std::ofstream, 6> files_;
 };
+
+/// Cuts the outputs of an earlier part back to their last complete row or frame of a step up to `step`: what a part
+/// that failed or was killed wrote behind the point from which the run goes on. Files that are not there are left
+/// alone.
+/// @throws InputError on a file that is none of ours, before any is touched.
+void drop_rows_after(const std::filesystem::path& folder, std::int64_t step);
 
 /// Writes a whole file under a temporary name and renames it, so that a failure leaves the earlier one as it was.
 /// @throws InputError if it cannot be written.

@@ -78,6 +78,29 @@ TEST_F(RunCommand, AStepAboveTheBoundNeedsAllowUnstable) {
     EXPECT_EQ(crackle("run --allow-unstable " + quoted(deck)), 0) << said();
 }
 
+TEST_F(RunCommand, NoticesOfTheSceneArePrinted) {
+    const auto deck = scratch_ / "deck";
+    std::filesystem::create_directories(deck);
+    std::ofstream(deck / "in_gm.dat") << "1 0 0\n1e-5 0 0\n1\n2.5 1e8 0 0 0 0\n-10 10 -10 10 0\n0 2 0\n"
+                                         "1 1 1\n0 0 0\n1 0 0\n5 0\n2 1 1\n0 0 0\n1 0 1\n5 1\n";
+    std::ofstream(deck / "in_bc.dat") << "0 0 10 10 10\n0\n0\n";
+    EXPECT_EQ(crackle("run " + quoted(deck)), 0) << said();
+    EXPECT_NE(said().find("thick: found 0"), std::string::npos) << said();
+    EXPECT_EQ(crackle("run --quiet --force " + quoted(deck)), 0);
+    EXPECT_EQ(said(), "");
+}
+
+TEST_F(RunCommand, AStepThatThePileOutgrowsEndsInCode3) {
+    const auto deck = scratch_ / "deck";
+    std::filesystem::create_directories(deck);
+    std::ofstream(deck / "in_gm.dat") << "1 0 0\n0.9e-3 0 0\n1\n2.5 1e8 0 0 0 0\n-10 10 -10 10 0\n2 0 0\n"
+                                         "1 1 1\n1 0 0\n1 2\n-2.125 0 0\n2 1 1\n-1 0 0\n1 2\n2.125 0 0\n";
+    std::ofstream(deck / "in_bc.dat") << "0 0 200 100 10\n0\n0\n";
+    EXPECT_EQ(crackle("run " + quoted(deck)), 3) << said();
+    EXPECT_NE(said().find("0.0009 s, is above the stable bound"), std::string::npos) << said();
+    EXPECT_EQ(crackle("run --force --allow-unstable " + quoted(deck)), 0) << said();
+}
+
 TEST_F(RunCommand, AnInterruptedRunGoesOnAsIfNothingHadHappened) {
     const std::string deck = shipped_deck("chain_hanging").string(), out = (scratch_ / "out").string(),
                       whole = (scratch_ / "whole").string();

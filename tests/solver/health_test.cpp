@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A run that goes wrong stops and names step, body and cause; a time step that cannot work is refused beforehand.
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
+#include <numbers>
+#include <utility>
 
 #include "solver/errors.hpp"
 #include "solver/world.hpp"
@@ -138,8 +142,192 @@ TEST(TimeStep, AboveTheBoundIsRefusedNamingBoth) {
 TEST(TimeStep, ChosenByItselfIsTheSafeShareOfTheBound) {
     Scene scene = heap();
     scene.safety_factor = 0.3;
-    const World world = build_world(scene);
+    World world = build_world(scene);
+    bond_all(world, 0.0);
     EXPECT_TRUE(testing::agrees("step over bound", world.time_step / world.step_bound, 0.3, 1e-15));
+    scene.safety_factor = 0.5 * loose_step_share;
+    world = build_world(scene);
+    EXPECT_TRUE(testing::agrees("smaller than the loose share", world.time_step / world.step_bound, scene.safety_factor,
+                                1e-15));
+}
+
+std::string refusal(Scene scene) {
+    try {
+        build_world(std::move(scene));
+    } catch (const InputError& error) {
+        fmt::print("  {}\n", error.what());
+        return error.what();
+    }
+    return "accepted";
+}
+
+/// A disc and six more around it, `gap` away from its surface.
+Scene ring(double gap) {
+    Scene scene;
+    scene.materials = {rock()};
+    scene.domain = {-1.0, 1.0, -1.0, 1.0, {true, true, true, true}};
+    scene.add_circle_body(1, 0, {{0.0, 0.0}, 0.02, 0.0});
+    for (int k = 0; k < 6; ++k) {
+        const double angle = std::numbers::pi / 3.0 * k, distance = 0.04 + gap;
+        scene.add_circle_body(2 + k, 0, {{distance * std::cos(angle), distance * std::sin(angle)}, 0.02, 0.0});
+    }
+    return scene;
+}
+
+/// Moves the bodies of a ring until they touch.
+void close_ring(World& world) {
+    for (BodyState& body : world.bodies) {
+        const double distance = std::hypot(body.x, body.y);
+        if (distance < 0.01) continue;
+        body.x *= 0.04 / distance;
+        body.y *= 0.04 / distance;
+    }
+    world.list_valid = false;
+    world.forces_current = false;
+    compute_forces(world);
+}
+
+TEST(TimeStep, OutgrownByAPileStopsTheRunNamingBoth) {
+    Scene scene = ring(0.01);
+    scene.time_step = 0.95 * build_world(scene).step_bound;
+    World world = build_world(scene);
+    for (int n = 0; n < 3; ++n) step(world);
+    try {
+        close_ring(world);
+        FAIL() << "expected the run to be stopped";
+    } catch (const UnstableRun& error) {
+        const std::string text = error.what();
+        fmt::print("  {}\n", text);
+        EXPECT_EQ(error.step, 3);
+        EXPECT_EQ(error.body, 1) << "the disc in the middle";
+        EXPECT_NE(text.find(fmt::format("{:.6g} s", world.time_step)), std::string::npos);
+        EXPECT_NE(text.find(fmt::format("{:.6g} s", world.step_bound)), std::string::npos);
+        EXPECT_NE(text.find("--allow-unstable"), std::string::npos);
+    }
+    scene.allow_unstable = true;
+    world = build_world(scene);
+    EXPECT_NO_THROW(close_ring(world));
+}
+
+TEST(TimeStep, ChosenByItselfIsLoweredAsBodiesPileUp) {
+    World world = build_world(ring(0.01));
+    const double before = world.time_step;
+    close_ring(world);
+    EXPECT_LT(world.time_step, before);
+    EXPECT_TRUE(
+        testing::agrees("step over bound", world.time_step / world.step_bound, derived_step_share(world), 1e-15));
+}
+
+TEST(TimeStep, ChosenByItselfTakesTheLooseShareUntilThereAreBonds) {
+    Scene scene = heap();
+    scene.thick = 0.0;
+    World world = build_world(scene);
+    EXPECT_TRUE(testing::agrees("step over bound, loose", world.time_step / world.step_bound, loose_step_share, 1e-15));
+    const double bound = world.step_bound;
+    bond_all(world, 0.0);
+    EXPECT_TRUE(testing::agrees("step over bound, bonded", world.time_step / bound, scene.safety_factor, 1e-15));
+}
+
+TEST(StableStep, OfGroupsApartIsTheLeastForAnyThreadsAndNamesItsBody) {
+    double least = 1.0;
+    Scene both;
+    for (const double scale : {1.0, 0.3, 2.0}) {  // light discs between heavier ones set it
+        Scene group = heap();
+        for (CircleElement& circle : group.circles) {
+            circle.centre = scale * circle.centre + Vec2{3.0 * scale, 0.0};
+            circle.radius *= scale;
+        }
+        group.domain.wall_present = {false, false, false, false};
+        least = std::min(least, build_world(group).step_bound);
+        const auto before = static_cast<int>(both.bodies.size());
+        for (const CircleElement& circle : group.circles)
+            both.add_circle_body(static_cast<int>(both.bodies.size()) + 1, 0, circle);
+        both.materials = group.materials;
+        both.domain = group.domain;
+        both.skin = 0.0;
+        EXPECT_EQ(both.bodies.size(), before + group.bodies.size());
+    }
+    const World one = build_world(both);
+    both.threads = 3;
+    const World three = build_world(both);
+    EXPECT_EQ(one.step_bound, three.step_bound);
+    BodyIndex limiting = 0;
+    EXPECT_EQ(stable_step_bound(three, &limiting), one.step_bound);
+    EXPECT_TRUE(testing::within("body of the second group", one.info[limiting].id, 54.5, 18.0));
+    EXPECT_TRUE(testing::agrees("bound", one.step_bound, least, 1e-8));  // an eigenvalue loses half its digits at worst
+}
+
+TEST(TimeStep, CannotBeDerivedWhereEveryBodyIsHeld) {
+    Scene scene;
+    scene.materials = {rock()};
+    scene.domain = {-1.0, 1.0, -1.0, 1.0, {true, true, true, true}};
+    scene.add_circle_body(1, 0, {{0.0, 0.0}, 0.02, 0.0});
+    const DofControl held{Drive::velocity, 0.1};
+    scene.controls.push_back({0, held, held, held, 0});
+    EXPECT_NE(refusal(scene).find("time step: found 0 (to be derived)"), std::string::npos);
+    scene.time_step = 1e-5;
+    EXPECT_EQ(refusal(scene), "accepted");
+}
+
+TEST(Health, RoundingAtRestIsNoRunaway) {
+    Scene scene = heap();
+    for (CircleElement& circle : scene.circles) circle.centre = circle.centre + Vec2{3.0, 7.0};
+    scene.domain.wall_present = {false, false, false, false};
+    World world = build_world(scene);
+    bond_all(world, 0.0);
+    for (ContactPoint& point : world.points)
+        point.bond_overlap = std::nextafter(point.bond_overlap, 1.0);  // as a text file may give it back
+    double largest = 0.0;
+    for (int n = 0; n < 20000; ++n) {
+        compute_forces(world);
+        ASSERT_NO_THROW(check_health(world)) << "step " << n;
+        if (n % 100 == 0) largest = std::max(largest, measure_ledger(world).kinetic);
+        advance(world);
+    }
+    fmt::print("  largest kinetic energy of the rounding: {:.3g} J\n", largest);
+}
+
+TEST(Health, AHeldBodyMayLieBeyondAWallAFreeOneIsRefused) {
+    Scene scene = heap();
+    // An L whose centroid lies outside although its foot reaches in.
+    const auto wall = scene.add_chain_body(
+        900, 0, {{-0.2, -0.04}, {-0.2, 0.3}, {-0.21, 0.3}, {-0.21, -0.05}, {0.3, -0.05}, {0.3, -0.04}}, true);
+    const DofControl held{Drive::velocity, 0.0};
+    scene.controls.push_back({static_cast<int>(wall), held, held, held, 0});
+    World world = build_world(scene);
+    compute_forces(world);
+    EXPECT_NO_THROW(check_health(world));
+    scene.controls.clear();
+    EXPECT_NE(refusal(scene).find("body 900: found its centroid at ("), std::string::npos);
+}
+
+TEST(Scene, SoFarFromTheOriginThatPositionsCannotMoveIsRefused) {
+    Scene scene = heap();
+    scene.domain.wall_present = {false, false, false, false};
+    scene.circles[4].centre.x += 1e6;
+    const std::string text = refusal(scene);
+    EXPECT_NE(text.find(fmt::format("body {}: ", scene.bodies[4].id)), std::string::npos) << text;
+    EXPECT_NE(text.find("shift the origin"), std::string::npos) << text;
+    scene.circles[4].centre.x -= 0.99e6;
+    EXPECT_EQ(refusal(scene), "accepted");
+    scene.add_chain_body(901, 0, {{1e9, 0.0}, {1e9 + 0.5, 0.0}, {1e9, 0.5}}, true);
+    EXPECT_NE(refusal(scene).find("body 901: "), std::string::npos);
+}
+
+TEST(Scene, BareSegmentsAndCornersThatCannotTouchAreTold) {
+    Scene scene = heap();
+    scene.bare_segment_width = 0.1;
+    EXPECT_TRUE(scene_notices(scene).empty());
+    scene.add_chain_body(901, 0, {{-0.04, -0.04}, {0.2, -0.04}}, false);
+    EXPECT_TRUE(scene_notices(scene).empty()) << "circles touch open segments at any thickness";
+    scene.add_chain_body(902, 0, {{0.0, 0.3}, {0.02, 0.3}, {0.01, 0.32}}, true);
+    const std::vector<std::string> notices = scene_notices(scene);
+    ASSERT_EQ(notices.size(), 1u);
+    fmt::print("  {}\n", notices[0]);
+    EXPECT_NE(notices[0].find("thick: found 0"), std::string::npos);
+    EXPECT_NE(notices[0].find("body 901"), std::string::npos);
+    scene.thick = 1e-3;
+    EXPECT_TRUE(scene_notices(scene).empty());
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 // The neighbour list against a plain search of everything against everything: no touching point is missed, for any
 // mixture of sizes, at rest and in motion, and what a point remembers survives a rebuild.
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 #include <tuple>
@@ -193,6 +195,97 @@ TEST(NeighbourList, RebuildKeepsSpringsBondsAndFlags) {
     };
     EXPECT_GT(memory(world).size(), 50u);
     EXPECT_TRUE(memory(world) == memory(again));
+}
+
+/// Two bodies side by side, discs or squares, to be bonded at an overlap of 1e-4 m.
+World bonded_pair(bool squares, const IntactOptions& intact, double speed = 0.0) {
+    Scene scene;
+    scene.materials = {rock()};
+    scene.intact = intact;
+    scene.domain = {-1.0, 1.0, -1.0, 1.0, {false, false, false, false}};
+    if (squares) {
+        scene.thick = 1e-3;
+        const double left = 0.04 + 0.9e-3;
+        scene.add_chain_body(1, 0, {{0.0, 0.0}, {0.04, 0.0}, {0.04, 0.04}, {0.0, 0.04}}, true);
+        scene.add_chain_body(2, 0, {{left, 0.0}, {left + 0.04, 0.0}, {left + 0.04, 0.04}, {left, 0.04}}, true);
+    } else {
+        scene.add_circle_body(1, 0, {{0.0, 0.0}, 0.02, 0.0});
+        scene.add_circle_body(2, 0, {{0.04 - 1e-4, 0.0}, 0.02, 0.0});
+    }
+    scene.bodies[1].velocity = {speed, 0.0};
+    World world = build_world(scene);
+    bond_all(world, scene.thick);
+    return world;
+}
+
+std::int64_t bonds_held(const World& world) {
+    return std::count_if(world.points.begin(), world.points.end(),
+                         [](const ContactPoint& p) { return (p.flags & point_bonded) != 0; });
+}
+
+TEST(NeighbourList, IntactBondsHoldAtAnyOpening) {
+    for (const bool squares : {false, true}) {
+        for (const bool no_new_contacts : {false, true}) {
+            World world = bonded_pair(squares, {true, true, no_new_contacts});
+            const BodyIndex far = body_of_id(world, 2);
+            for (const double skins : {0.5, 2.5, 30.0, 1.0}) {
+                const double start = world.bodies[far].x, opening = skins * world.skin;
+                world.bodies[far].x += opening;
+                world.list_valid = false;
+                world.forces_current = false;
+                compute_forces(world);
+                const std::string claim = fmt::format("{} opened by {} skins", squares ? "squares" : "discs", skins);
+                EXPECT_EQ(bonds_held(world), world.bonds_initial) << claim;
+                EXPECT_TRUE(testing::agrees(claim + ": pull over stiffness, m", -world.forces[far].fx / 1e7,
+                                            static_cast<double>(world.bonds_initial) * opening, 1e-9));
+                world.bodies[far].x = start;
+            }
+        }
+    }
+}
+
+TEST(NeighbourList, IntactBondsOfAWholeSpecimenKeepTheirOrderWhenItIsBlownUp) {
+    DisorderedDiscs request;
+    request.columns = 6, request.rows = 6;
+    Scene scene = disordered_discs(request, rock());
+    scene.domain.wall_present = {false, false, false, false};
+    scene.intact = {true, true, false};
+    World world = build_world(scene);
+    ASSERT_GT(bond_all(world, 0.0), 60);
+    const auto bonds = [&] {
+        std::vector<std::pair<std::uint64_t, double>> all;
+        for (const ContactPoint& p : world.points) {
+            if ((p.flags & point_bonded) == 0) continue;
+            all.emplace_back((static_cast<std::uint64_t>(p.body_i) << 32) | p.body_j, p.bond_overlap);
+        }
+        return all;
+    };
+    const auto before = bonds();
+    for (const double scale : {1.5, 1.3, 0.7, 1.0}) {
+        const std::vector<BodyState> start = world.bodies;
+        for (BodyState& body : world.bodies) body.x *= scale, body.y *= scale;
+        world.list_valid = false;
+        world.forces_current = false;
+        compute_forces(world);
+        EXPECT_TRUE(bonds() == before) << "blown up by " << scale;
+        double sum = 0.0, size = 0.0;
+        for (const BodyForce& force : world.forces) sum += force.fx, size += std::abs(force.fx);
+        EXPECT_LE(std::abs(sum), 1e-12 * size) << "action and reaction, blown up by " << scale;
+        world.bodies = start;
+    }
+}
+
+TEST(NeighbourList, ABreakThatOpensBeyondTheSkinInOneStepGivesItsEvent) {
+    for (const bool squares : {false, true}) {
+        const double step_length = bonded_pair(squares, {}).time_step;
+        World world = bonded_pair(squares, {}, 0.3 * 0.02 / step_length);  // three skins of the discs a step
+        step(world);
+        compute_forces(world);
+        EXPECT_EQ(static_cast<std::int64_t>(world.events.size()), world.bonds_initial)
+            << (squares ? "squares" : "discs");
+        EXPECT_EQ(world.bonds_broken, world.bonds_initial);
+        EXPECT_EQ(world.interfaces_lost, 1);
+    }
 }
 
 }  // namespace

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One and two bodies against closed forms (reference/verification.md, first table).
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "solver/controls.hpp"
 #include "solver/world.hpp"
 #include "tests/support/claim.hpp"
 
@@ -179,6 +181,73 @@ TEST(Controls, TheGuidesForceControlledSegmentMovesAsPrinted) {
             within(fmt::format("x after {} steps", n), world.bodies[0].x, -3.0 + a * 4e-10 * n * (n + 1) / 2.0, 1e-14));
     }
     EXPECT_EQ(fmt::format("{:.6g}", world.bodies[0].x), "-2.99933");
+}
+
+/// Largest closing error over the energy of the fall: the guide's circle falls by its radius and a half onto a floor
+/// without losses and comes back, 20 times. @param share of the stable bound that the step takes; 0: derived
+double bouncing_error(double share) {
+    Scene scene;
+    Material material;
+    material.density = 2.5;
+    material.normal_stiffness = 1e8;
+    material.shear_stiffness = 0.25e8;
+    scene.materials = {material};
+    scene.domain = {-10.0, 10.0, 0.0, 10.0, {true, true, true, true}};
+    scene.gravity = {0.0, -980.0};
+    scene.add_circle_body(1, 0, {{0.0, 5.0}, 2.0, 0.0});
+    if (share > 0.0) scene.time_step = share * build_world(scene).step_bound;
+    World world = build_world(scene);
+    const double fall = world.inertia[0].mass * 980.0 * 3.0, once = 2.0 * std::sqrt(2.0 * 3.0 / 980.0);
+    double worst = 0.0;
+    while (world.time < 20.0 * once) {
+        compute_forces(world);
+        worst = std::max(worst, std::abs(measure_ledger(world).closing_error));
+        advance(world);
+    }
+    return worst / fall;
+}
+
+// What twenty bounces may cost; loose_step_share is chosen to keep it.
+constexpr double loose_step_error = 0.02;
+
+TEST(TimeStep, DerivedWithoutBondsKeepsTheEnergyOfABouncingCircle) {
+    for (const double share : {0.2, 0.1, 0.05}) {
+        fmt::print("  share {}: largest closing error over the energy of the fall {:.3g}\n", share,
+                   bouncing_error(share));
+    }
+    EXPECT_TRUE(within("error at the derived step", bouncing_error(0.0), 0.0, loose_step_error));
+}
+
+TEST(Ledger, ClosesWhenAHeldVelocityChanges) {
+    const DofControl still{Drive::velocity, 0.0};
+    for (const bool ramp : {true, false}) {
+        Scene scene = one_disc(0.02, 0.0, 0.0);
+        scene.circles[0].centre.y = 1.0;
+        const DofControl x = ramp ? DofControl{Drive::displacement, 0.01} : DofControl{Drive::velocity, 0.5};
+        const DofControl turn = ramp ? DofControl{Drive::displacement, 0.3} : DofControl{Drive::velocity, 20.0};
+        scene.controls.push_back({0, x, still, turn, 100});
+        scene.time_step = 1e-4;
+        World world = build_world(scene);
+        compute_forces(world);
+        const double moving = measure_ledger(world).kinetic;
+        double worst = 0.0;
+        for (int n = 0; n < 300; ++n) {
+            step(world);
+            if (n == 99 && !ramp) {
+                const DofControl faster[3] = {{Drive::velocity, 0.7}, still, still};
+                set_control(world, 0, faster, 0);
+            }
+            if (n == 199) {
+                const DofControl again[3] = {{Drive::displacement, -0.02}, still, {Drive::displacement, 0.1}};
+                set_control(world, 0, again, 50);
+            }
+            compute_forces(world);
+            worst = std::max(worst, std::abs(measure_ledger(world).closing_error));
+        }
+        ASSERT_GT(moving, 0.0);
+        EXPECT_EQ(measure_ledger(world).kinetic, 0.0);
+        EXPECT_TRUE(within("closing error over the kinetic energy", worst / moving, 0.0, 1e-12));
+    }
 }
 
 }  // namespace
