@@ -88,8 +88,10 @@ class LoadingLoop {
             const double strain = setup_.axial_strain(world_);
             const bool at_end = strain >= max_strain_;
             if (at_end || strain >= row_spacing_ * static_cast<double>(state_.rows.size())) record_row(at_end);
-            if (!state_.ended_by.empty()) break;
-            if (world_.step % steps_between_health_checks == 0) check_health(world_);
+            const bool ended = !state_.ended_by.empty();
+            // An end that instability brought about is none.
+            if (ended || world_.step % steps_between_health_checks == 0) check_health(world_);
+            if (ended) break;
             advance(world_);
         }
         peak_.draw(world_, setup_, state_);

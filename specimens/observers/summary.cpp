@@ -119,8 +119,10 @@ void packing(Writer& w, const TestSetup& setup) {
 }
 
 /// Those of the start, and what the curve turned out to resolve badly.
-std::vector<std::string> notices_of(const TestCase& test, const TestSetup& setup, const TestState& state) {
+std::vector<std::string> notices_of(const TestCase& test, const TestSetup& setup, const TestState& state,
+                                    const World& world) {
     constexpr std::int64_t rows_that_resolve = 100;
+    constexpr double closing_error_to_mention = 0.02;  // ten times what a step of 0.8 of the bound leaves
     std::vector<std::string> notices = setup.notices;
     const FailureTracker& f = state.failure;
     if (f.failed && f.peak_row < rows_that_resolve) {
@@ -129,6 +131,21 @@ std::vector<std::string> notices_of(const TestCase& test, const TestSetup& setup
                         "loading.max_axial_strain = {} "
                         "towards {:.2g}",
                         f.peak_row, test.loading.max_axial_strain, 10.0 * f.peak_strain));
+    }
+    if (world.time_step > setup.time_step_bound) {
+        notices.push_back(
+            fmt::format("the time step of {:.3g} s lies above the stable bound of {:.3g} s: this shows the limit, its "
+                        "numbers are no "
+                        "results",
+                        world.time_step, setup.time_step_bound));
+    }
+    const CurveRow last = state.rows.empty() ? CurveRow{} : state.rows.back();
+    if (std::abs(last.energy_error) > closing_error_to_mention * std::abs(last.platen_work)) {
+        notices.push_back(
+            fmt::format("the energy balance misses {:.3g} of the platens' work: halve numerics.safety_factor, or load "
+                        "more slowly, and "
+                        "compare",
+                        last.energy_error / last.platen_work));
     }
     return notices;
 }
@@ -156,7 +173,7 @@ nlohmann::ordered_json make_summary(const TestCase& test, const TestSetup& setup
     frames(w, state);
     w.put("out_of_plane_thickness", test.output.out_of_plane_thickness,
           "m, converts what is reported and nothing else");
-    json["notices"] = notices_of(test, setup, state);
+    json["notices"] = notices_of(test, setup, state, world);
     json["version"] = CRACKLE_VERSION;
     json["compiler"] = __VERSION__;
     json["command"] = state.command;

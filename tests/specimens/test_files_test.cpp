@@ -306,7 +306,7 @@ TEST_F(TestFolder, IsRefusedWhileAnotherTestWritesIntoIt) {
 
 TEST_F(TestFolder, OfAnUnstableRunIsNamedInItsMessage) {
     SmallCase wanted;
-    wanted.numerics = "time_step = 1.0e-3\nallow_unstable = true";
+    wanted.rate = 3000.0;  // the platen moves farther in a step than a particle is large
     try {
         run_test(small_case(wanted), options("out"));
         ADD_FAILURE() << "ran to its end";
@@ -315,6 +315,16 @@ TEST_F(TestFolder, OfAnUnstableRunIsNamedInItsMessage) {
         EXPECT_NE(std::string(error.what()).find("output so far in " + (scratch_ / "out").string()), std::string::npos);
     }
     EXPECT_TRUE(fs::exists(scratch_ / "out/summary.json"));
+}
+
+TEST_F(TestFolder, SaysWhereItsNumbersAreNoResults) {
+    SmallCase wanted;
+    wanted.numerics = "time_step = 1.0e-2\nallow_unstable = true";
+    wanted.rate = 1e-4;
+    const std::string notices = run_test(small_case(wanted), options("out")).summary["notices"].dump();
+    fmt::print("  {}\n", notices);
+    EXPECT_NE(notices.find("above the stable bound"), std::string::npos);
+    EXPECT_NE(notices.find("energy balance misses"), std::string::npos);
 }
 
 TEST_F(TestFolder, IsNotMadeForACaseThatCannotBeTested) {

@@ -263,6 +263,10 @@ TEST_F(VirtualRock, RaggedFacesThatPlatensHoldByACornerAreRefused) {
         const auto path = write_small_case(scratch_ / "", wanted);
         std::string text = read_text_file(path);
         text.insert(text.find("[bond]"), more + "\n");
+        const std::string lattice = "[particles]\nfile = \"rock.dat\"\n[material]\n";
+        text.replace(text.find(lattice), lattice.size(),
+                     "[packing]\ncount = 80\nradius_min = 0.015\nradius_max = 0.025\nmean_overlap = 8e-5\n[material]\n"
+                     "density = 2500\nnormal_stiffness = 1e7\nshear_stiffness = 2.5e6\nfriction_angle = 27\n");
         std::ofstream(path) << text;
         return refusal_of(path);
     };

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdint>
+#include <memory>
 #include <random>
 #include <string>
 #include <vector>
@@ -93,10 +94,16 @@ TEST(VoronoiCompression, HasTheSameFilesForAnyNumberOfThreadsAndResumedAtFiveRan
             expect_same(contents(options.folder), one, fmt::format("{} threads", threads));
             continue;
         }
+        // Packing asks, too: counting begins with loading.
         const auto stop = [&] {
+            const auto loading = std::make_shared<bool>(false);
             TestHooks hooks;
-            hooks.interrupted = [left = uniform_below(generator, static_cast<std::uint64_t>(questions / 6))]() mutable {
-                return left-- == 0;
+            hooks.stage = [loading](const std::string& line) {
+                *loading = *loading || line.starts_with("bonded") || line.starts_with("resumed");
+            };
+            hooks.interrupted = [loading,
+                                 left = uniform_below(generator, static_cast<std::uint64_t>(questions / 6))]() mutable {
+                return *loading && left-- == 0;
             };
             return hooks;
         };

@@ -58,7 +58,7 @@ struct SmallCase {
     std::string mesh = {};  ///< "delaunay", "voronoi" or nothing
     double rate = 0.02;     // 1/s
     double max_strain = 0.005;
-    std::string loading = {}, numerics = {}, output = "curve_rows = 200\nframes = 5";  ///< further keys
+    std::string loading = {}, numerics = {}, output = "curve_rows = 2000\nframes = 5";  ///< further keys
 };
 
 /// Writes rock.dat and case.toml into the folder. @return the case's path
