@@ -45,13 +45,16 @@ function move(motion: Motion, point: Point): Point {
 
 function extentOf(bodies: Bodies, moved: Motion[]): Extent {
     const extent = {x1: Infinity, x2: -Infinity, y1: Infinity, y2: -Infinity};
+    const betweenPlatens = bodies.open.includes(1);
     moved.forEach((motion, body) => {
-        const room = bodies.radius[body]!;
+        const room = bodies.radius[body]!, platen = bodies.open[body] === 1;
         for (const point of outline(bodies, body)) {
             const at = move(motion, point);
-            extent.y1 = Math.min(extent.y1, at.y - room);
-            extent.y2 = Math.max(extent.y2, at.y + room);
-            if (bodies.open[body] === 1) continue; // platens may be far wider than the specimen: cut off
+            if (platen || !betweenPlatens) { // what flies off beyond the platens is cut off
+                extent.y1 = Math.min(extent.y1, at.y - room);
+                extent.y2 = Math.max(extent.y2, at.y + room);
+            }
+            if (platen) continue; // platens may be far wider than the specimen: cut off
             extent.x1 = Math.min(extent.x1, at.x - room);
             extent.x2 = Math.max(extent.x2, at.x + room);
         }
