@@ -205,6 +205,23 @@ TEST_F(VirtualRock, HalfTheStepGivesThePeakWithinFivePercent) {
                        tested(coarse).state.failure.peak_stress, 0.05));
 }
 
+TEST_F(VirtualRock, EnergyOfARunToFailureClosesBetterWithTheStep) {
+    // What a break stores is found within a step after it broke: an error of first order in the step.
+    std::vector<double> errors;
+    for (const char* share : {"0.8", "0.4", "0.2"}) {
+        SmallCase wanted;
+        wanted.mesh = "voronoi";
+        wanted.numerics = std::string("safety_factor = ") + share;
+        const VirtualTest test = tested(wanted);
+        ASSERT_TRUE(test.state.failure.failed);
+        const CurveRow& end = test.state.rows.back();
+        errors.push_back(end.energy_error / end.platen_work);
+        fmt::print("  {} of the bound: {:.3g} of the work\n", share, errors.back());
+    }
+    EXPECT_LT(std::abs(errors[2]), 1e-3);
+    EXPECT_LT(std::abs(errors[2]), 0.5 * std::abs(errors[0])) << "a quarter, but for where single breaks fall";
+}
+
 TEST_F(VirtualRock, TooLargeATimeStepIsRefusedWithTheBound) {
     SmallCase wanted;
     wanted.numerics = "time_step = 1.0e-2";
