@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "solver/contact_pass.hpp"
+#include "solver/critical_step.hpp"
 #include "solver/world.hpp"
 
 namespace crackle {
@@ -62,8 +63,11 @@ void finish_bonding(World& world) {
     world.bonds_initial = std::count_if(world.points.begin(), world.points.end(),
                                         [](const ContactPoint& p) { return (p.flags & point_bonded) != 0; });
     world.interfaces_initial = count_interfaces(world);
-    // Bonds stay closed: the step may be longer than that of loose bodies.
-    if (world.automatic_step) world.time_step = derived_step_share(world) * world.step_bound;
+    const CriticalStep exact = critical_step(world, ClosedPoints::touching);
+    world.exact_step = exact.step;
+    world.exact_step_proved = exact.proved;
+    world.step_goal = world.automatic_step && world.bonds_initial > 0 ? world.safety_factor * exact.step : 0.0;
+    evaluate_step_bound(world);
     world.bonds_broken = 0;
     world.interfaces_lost = 0;
     world.bond_history.assign(world.points.size(), BondHistory{0.0, 0.0});

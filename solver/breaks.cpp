@@ -2,9 +2,11 @@
 // Breaking of bonds: bookkeeping after the force pass, in the order of the points, so that events never depend on
 // threads.
 //
-// The energy stored when the break is found, ½k_n(δ-δ0)² + ½f_t²/k_s, goes to the account of fracture. A break is
-// `shear` if the point had been at its Coulomb limit since bonding and |f_t| > |f_n| in the last step in which it
-// carried at least half its strength; else `tension`. Source: model.md 3.
+// A break found at time n lets the forces go between n-1 and n: by the trapezoidal rule, as every other work and loss
+// is taken, they still do half their work over that drift. What is left of the stored energy goes to the account of
+// fracture: ½k_n(δ-δ0)' (δ-δ0) + ½f_t' f_t/k_s, the primed values those of n-1; ½k_n(δ-δ0)² + ½f_t²/k_s as Δt → 0. A
+// break is `shear` if the point had been at its Coulomb limit since bonding and |f_t| > |f_n| in the last step in which
+// it carried at least half its strength; else `tension`. Source: model.md 3.
 
 #include "solver/breaks.hpp"
 
@@ -22,6 +24,20 @@ double orientation_of(Vec2 normal) {
     if (angle > 0.5 * std::numbers::pi) angle -= std::numbers::pi;
     if (angle <= -0.5 * std::numbers::pi) angle += std::numbers::pi;
     return angle;
+}
+
+/// Energy that a break takes, J (see above).
+double fracture_energy(const World& world, const ContactPoint& point, const PointView& view) {
+    const ContactLaw& law = world.laws[point.law];
+    const BodyState &i = world.bodies[point.body_i], &j = world.bodies[point.body_j];
+    const Vec2 speed{i.vx - i.omega * view.arm_i.y - (j.vx - j.omega * view.arm_j.y),
+                     i.vy + i.omega * view.arm_i.x - (j.vy + j.omega * view.arm_j.x)};
+    const double opening = view.overlap - point.bond_overlap;
+    const double before = opening - world.drift * dot(speed, view.normal);
+    const double normal = 0.5 * law.normal_stiffness * before * opening;
+    if (law.shear_stiffness == 0.0) return normal;
+    const double shear = point.shear_force - law.shear_stiffness * world.drift * dot(speed, perpendicular(view.normal));
+    return normal + 0.5 * point.shear_force * shear / law.shear_stiffness;
 }
 
 /// Whether a bond is left between the two; one found broken in the same pass but not yet recorded still counts, so that
@@ -51,7 +67,7 @@ void record_breaks(World& world) {
         event.body_j = world.info[point.body_j].id;
         event.position = view.position;
         event.orientation = orientation_of(view.normal);
-        event.energy = strain_energy(law, view.overlap, point.bond_overlap, point.shear_force);
+        event.energy = fracture_energy(world, point, view);
         event.strength = law.normal_stiffness * point.bond_overlap;
         event.normal_force = history.normal_force;
         event.shear_force = history.shear_force;
@@ -59,7 +75,7 @@ void record_breaks(World& world) {
         event.shear_mode = event.slid && std::abs(history.shear_force) > std::abs(history.normal_force);
         point.shear_force = 0.0;
         point.bond_overlap = 0.0;
-        point.flags = 0;
+        point.flags = static_cast<std::uint16_t>(point.flags & point_counted);  // until the bound is found anew
         event.last_of_interface = !interface_holds(world, point.body_i, point.body_j);
         world.fracture_loss += event.energy;
         world.bonds_broken += 1;

@@ -18,7 +18,7 @@
 namespace crackle {
 
 // Raise when the fields below change.
-constexpr std::uint32_t checkpoint_version = 2;
+constexpr std::uint32_t checkpoint_version = 3;
 constexpr std::uint64_t checkpoint_magic = 0x454c4b4341524321ULL;  // "!CRACKLE"
 
 // NOLINTBEGIN(bugprone-macro-parentheses)
@@ -104,7 +104,7 @@ void serialize(Archive& a, ListReference& r) {
 }
 template <class Archive>
 void serialize(Archive& a, World::LossBlock& b) {
-    a(b.dashpot, b.friction, b.broken, b.padding);
+    a(b.dashpot, b.friction, b.broken, b.gained);
 }
 template <class Archive>
 void serialize(Archive& a, BreakEvent& e) {
@@ -118,7 +118,8 @@ void serialize(Archive& a, World& w) {
     a(w.skin, w.list_reference, w.turning_reach, w.size_rank, w.largest_smaller, w.travelled, w.fastest,
       w.fastest_allowed_move, w.list_valid, w.list_builds);
     a(w.domain, w.thick, w.gravity, w.time_step, w.drift, w.automatic_step, w.safety_factor, w.step_bound,
-      w.allow_unstable, w.has_bonds, w.ledger_on, w.intact);
+      w.limiting_body, w.step_weights, w.exact_step, w.exact_step_proved, w.step_goal, w.allow_unstable, w.has_bonds,
+      w.ledger_on, w.intact);
     a(w.step, w.time, w.forces_current, w.kick_share, w.events, w.bonds_initial, w.bonds_broken, w.interfaces_initial,
       w.interfaces_lost);
     a(w.loss_blocks, w.dashpot_loss, w.friction_loss, w.fracture_loss, w.displacement_work, w.force_work,

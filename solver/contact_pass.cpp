@@ -101,6 +101,7 @@ void force_block(World& world, const PassRange& range) {
         }
         point.flags = flags;
         if constexpr (Bonds) {
+            loss.gained += (flags & point_counted) == 0 ? 1u : 0u;
             if (bonded) {
                 const double half_strength = 0.5 * law.normal_stiffness * point.bond_overlap;
                 if (normal * normal + tangential * tangential >= half_strength * half_strength) {

@@ -6,6 +6,7 @@
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
 #include <cmath>
+#include <random>
 
 #include "solver/errors.hpp"
 
@@ -14,100 +15,100 @@ namespace {
 
 using Matrix = Eigen::SparseMatrix<double>;
 using Vector = Eigen::VectorXd;
+using Factor = Eigen::SimplicialLDLT<Matrix, Eigen::Lower>;
 
-// Far below the softest mode that carries load (about 1/N² of a spring), far above rounding.
-constexpr double shift_share = 1e-12;
+// In those units; far below the softest mode that carries load, far above rounding.
+constexpr double shift = 1e-12;
+constexpr double free_energy = 1e-9;
 constexpr double residual_goal = 1e-9;
 constexpr int refinements = 20;
+// Projections of random vectors on the free motions: a body that takes part in one is missed by none but by chance.
+constexpr int probes = 3;
+constexpr double taking_part = 1e-6;
 
-/// One spring row: stiffness and the six coefficients (i: x, y, rotation; j: x, y, rotation).
-struct Spring {
-    BodyIndex i, j;
-    double stiffness;
-    double coefficient[6];
-};
-
-Spring spring_along(const PointView& v, double stiffness, Vec2 d) {
-    return {v.body_i, v.body_j, stiffness, {d.x, d.y, cross(v.arm_i, d), -d.x, -d.y, -cross(v.arm_j, d)}};
-}
-
-std::vector<Spring> springs_of(const World& world) {
-    std::vector<Spring> springs;
-    for (PointIndex k = 0; k < world.kind_begin[static_cast<std::size_t>(PointKind::element_wall)]; ++k) {
-        const PointView view = view_point(world, k);
-        if (world.has_bonds ? !view.bonded : !view.touching) continue;
-        springs.push_back(spring_along(view, view.normal_stiffness, view.normal));
-        if (view.shear_stiffness > 0.0)
-            springs.push_back(spring_along(view, view.shear_stiffness, perpendicular(view.normal)));
+/// The free degrees of freedom and the stiffness over them, in units of the bodies' own springs: entries of 1 or less.
+class ScaledSystem {
+  public:
+    ScaledSystem(const World& world, const std::vector<Spring>& springs, const std::vector<bool>& held) {
+        number_.assign(3 * world.bodies.size(), -1);
+        int rows = 0;
+        for (std::size_t b = 0; b < held.size(); ++b) {
+            if (held[b]) continue;
+            for (std::size_t d = 0; d < 3; ++d) number_[3 * b + d] = rows++;
+        }
+        // The diagonal itself would not do: a frictionless disc's own is rounding, and scaled up would pass for
+        // stiffness.
+        std::vector<double> stiffness(world.bodies.size(), 0.0);
+        for (const Spring& s : springs) {
+            stiffness[s.i] += s.stiffness;
+            stiffness[s.j] += s.stiffness;
+        }
+        scale_ = Vector::Ones(rows);
+        for (std::size_t b = 0; b < held.size(); ++b) {
+            if (held[b] || stiffness[b] == 0.0) continue;
+            const double root = std::sqrt(stiffness[b]);
+            scale_[number(b, 0)] = scale_[number(b, 1)] = 1.0 / root;
+            scale_[number(b, 2)] = 1.0 / (root * world.info[b].reach);
+        }
+        assemble(springs, rows);
     }
-    return springs;
-}
 
-double component(const Motion& m, int d) { return d == 0 ? m.x : d == 1 ? m.y : m.rotation; }
-double& component(Motion& m, int d) { return d == 0 ? m.x : d == 1 ? m.y : m.rotation; }
+    int number(const Spring& s, int a) const {
+        return number_[3 * std::size_t{a < 3 ? s.i : s.j} + static_cast<std::size_t>(a % 3)];
+    }
+    int number(std::size_t body, int dof) const { return number_[3 * body + static_cast<std::size_t>(dof)]; }
+    double scale(int row) const { return scale_[row]; }
+    const Matrix& stiffness() const { return stiffness_; }  // lower triangle
 
-double elongation(const Spring& s, const std::vector<Motion>& u) {
-    double sum = 0.0;
-    for (int d = 0; d < 3; ++d)
-        sum += s.coefficient[d] * component(u[s.i], d) + s.coefficient[d + 3] * component(u[s.j], d);
-    return sum;
-}
+    /// K + by·I, factorised.
+    void factorise(Factor& factor, double by) const {
+        Matrix identity(stiffness_.rows(), stiffness_.rows());
+        identity.setIdentity();
+        factor.compute(stiffness_ + by * identity);
+        if (factor.info() != Eigen::Success)
+            throw InputError("elastic solve: the stiffness matrix could not be factorised; is any body bonded?");
+    }
 
-struct System {
-    Matrix stiffness;  // free degrees of freedom, lower triangle
-    Vector load;       // from the prescribed motions
-};
-
-/// @param number per body and degree of freedom: row of the free system, -1 where prescribed.
-System assemble(const std::vector<Spring>& springs, const std::vector<std::array<int, 3>>& number,
-                const std::vector<Motion>& held, int rows) {
-    std::vector<Eigen::Triplet<double>> entries;
-    entries.reserve(springs.size() * 21);
-    System system;
-    system.load = Vector::Zero(rows);
-    for (const Spring& s : springs) {
-        const double imposed = elongation(s, held);
-        for (int a = 0; a < 6; ++a) {
-            const int row = number[a < 3 ? s.i : s.j][static_cast<std::size_t>(a % 3)];
-            if (row < 0) continue;
-            system.load[row] -= s.stiffness * imposed * s.coefficient[a];
-            for (int b = 0; b < 6; ++b) {
-                const int column = number[b < 3 ? s.i : s.j][static_cast<std::size_t>(b % 3)];
-                if (column < 0 || column > row) continue;
-                entries.emplace_back(row, column, s.stiffness * s.coefficient[a] * s.coefficient[b]);
+  private:
+    void assemble(const std::vector<Spring>& springs, int rows) {
+        std::vector<Eigen::Triplet<double>> entries;
+        entries.reserve(springs.size() * 21);
+        for (const Spring& s : springs) {
+            for (int a = 0; a < 6; ++a) {
+                const int row = number(s, a);
+                if (row < 0) continue;
+                for (int b = 0; b < 6; ++b) {
+                    const int column = number(s, b);
+                    if (column < 0 || column > row) continue;
+                    entries.emplace_back(
+                        row, column, s.stiffness * s.coefficient[a] * scale_[row] * s.coefficient[b] * scale_[column]);
+                }
             }
         }
+        stiffness_.resize(rows, rows);
+        stiffness_.setFromTriplets(entries.begin(), entries.end());
     }
-    system.stiffness.resize(rows, rows);
-    system.stiffness.setFromTriplets(entries.begin(), entries.end());
-    return system;
-}
 
-/// K with a shifted diagonal, so that loose degrees of freedom do not stop the factorisation.
-Matrix shifted(const Matrix& stiffness) {
-    double largest = 0.0;
-    for (Eigen::Index k = 0; k < stiffness.rows(); ++k) largest = std::max(largest, stiffness.coeff(k, k));
-    Matrix identity(stiffness.rows(), stiffness.rows());
-    identity.setIdentity();
-    return stiffness + (shift_share * largest) * identity;
-}
+    std::vector<int> number_;  // per body and degree of freedom: row, -1 where held
+    Vector scale_;             // per row: displacement for a unit of the scaled unknown
+    Matrix stiffness_;
+};
 
-Vector solve(const System& system, double& residual) {
-    const Eigen::SimplicialLDLT<Matrix, Eigen::Lower> factor(shifted(system.stiffness));
-    if (factor.info() != Eigen::Success)
-        throw InputError("elastic solve: the stiffness matrix could not be factorised; is any body bonded?");
-    const auto full = system.stiffness.selfadjointView<Eigen::Lower>();
-    const double scale = system.load.norm();
-    Vector u = factor.solve(system.load);
-    Vector rest = system.load - full * u;
-    for (int k = 0; k < refinements && rest.norm() > 1e-3 * residual_goal * scale; ++k) {
+Vector solve(const ScaledSystem& system, const Vector& load, double& residual) {
+    Factor factor;
+    system.factorise(factor, shift);
+    const auto full = system.stiffness().selfadjointView<Eigen::Lower>();
+    const double size = load.norm();
+    Vector u = factor.solve(load);
+    Vector rest = load - full * u;
+    for (int k = 0; k < refinements && rest.norm() > 1e-3 * residual_goal * size; ++k) {
         const Vector better = u + factor.solve(rest);
-        const Vector after = system.load - full * better;
+        const Vector after = load - full * better;
         if (!(after.norm() < rest.norm())) break;
         u = better;
         rest = after;
     }
-    residual = scale > 0.0 ? rest.norm() / scale : 0.0;
+    residual = size > 0.0 ? rest.norm() / size : 0.0;
     if (!(residual <= residual_goal)) {
         throw InputError(
             fmt::format("elastic solve: found a residual of {:.3g}, expected at most {:.3g}; the specimen's stiffness "
@@ -123,27 +124,34 @@ ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>&
     if (prescribed.empty()) throw InputError("elastic solve: found no prescribed body, expected at least one platen");
     ElasticSolution solution;
     solution.displacement.assign(world.bodies.size(), Motion{});
-    std::vector<std::array<int, 3>> number(world.bodies.size(), {0, 0, 0});
+    std::vector<bool> held(world.bodies.size(), false);
     for (const Prescribed& p : prescribed) {
-        number[p.body] = {-1, -1, -1};
+        held[p.body] = true;
         solution.displacement[p.body] = p.motion;
     }
-    int rows = 0;
-    for (auto& dofs : number) {
-        for (int& dof : dofs) dof = dof < 0 ? -1 : rows++;
-    }
-    const std::vector<Spring> springs = springs_of(world);
-    const Vector u =
-        rows > 0 ? solve(assemble(springs, number, solution.displacement, rows), solution.residual) : Vector();
-    for (std::size_t b = 0; b < number.size(); ++b) {
-        for (int d = 0; d < 3; ++d) {
-            const int row = number[b][static_cast<std::size_t>(d)];
-            if (row >= 0) component(solution.displacement[b], d) = u[row];
+    const std::vector<Spring> springs = springs_of(world, ClosedPoints::bonded);
+    const ScaledSystem system(world, springs, held);
+    solution.unknowns = system.stiffness().rows();
+    if (solution.unknowns > 0) {
+        Vector load = Vector::Zero(system.stiffness().rows());
+        for (const Spring& s : springs) {
+            const double imposed = stretch(s, solution.displacement);
+            for (int a = 0; a < 6; ++a) {
+                const int row = system.number(s, a);
+                if (row >= 0) load[row] -= s.stiffness * imposed * s.coefficient[a] * system.scale(row);
+            }
+        }
+        const Vector u = solve(system, load, solution.residual);
+        for (std::size_t b = 0; b < held.size(); ++b) {
+            for (int d = 0; d < 3; ++d) {
+                const int row = system.number(b, d);
+                if (row >= 0) component(solution.displacement[b], d) = u[row] * system.scale(row);
+            }
         }
     }
     std::vector<Motion> force(world.bodies.size());
     for (const Spring& s : springs) {
-        const double a = elongation(s, solution.displacement);
+        const double a = stretch(s, solution.displacement);
         solution.energy += 0.5 * s.stiffness * a * a;
         for (int d = 0; d < 3; ++d) {
             component(force[s.i], d) += s.stiffness * a * s.coefficient[d];
@@ -152,6 +160,37 @@ ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>&
     }
     for (const Prescribed& p : prescribed) solution.reaction.push_back(force[p.body]);
     return solution;
+}
+
+FreeMotions find_free_motions(const World& world, const std::vector<BodyIndex>& held_bodies) {
+    std::vector<bool> held(world.bodies.size(), false);
+    for (const BodyIndex b : held_bodies) held[b] = true;
+    const ScaledSystem system(world, springs_of(world, ClosedPoints::bonded), held);
+    FreeMotions free;
+    if (system.stiffness().rows() == 0) return free;
+    Factor factor;
+    system.factorise(factor, -free_energy);
+    free.count = (factor.vectorD().array() < 0.0).count();
+    if (free.count == 0) return free;
+    system.factorise(factor, shift);
+    std::vector<bool> takes_part(world.bodies.size(), false);
+    std::minstd_rand random(1);
+    for (int n = 0; n < probes; ++n) {
+        Vector z(system.stiffness().rows());
+        for (double& value : z) value = 2.0 * static_cast<double>(random()) / std::minstd_rand::max() - 1.0;
+        z = shift * factor.solve(z);  // leaves what has no energy, and 1e-12 over its energy of the rest
+        z = shift * factor.solve(z);
+        for (std::size_t b = 0; b < held.size(); ++b) {
+            for (int d = 0; d < 3; ++d) {
+                const int row = system.number(b, d);
+                if (row >= 0 && std::abs(z[row]) > taking_part) takes_part[b] = true;
+            }
+        }
+    }
+    for (std::size_t b = 0; b < takes_part.size(); ++b) {
+        if (takes_part[b]) free.bodies.push_back(static_cast<BodyIndex>(b));
+    }
+    return free;
 }
 
 }  // namespace crackle

@@ -1,23 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Small-strain solution of a bonded specimen: K u = f from its own bonds and driven bodies, without time stepping.
 //
-// Every bonded point (every touching one in a world without bonds) contributes ½k_n a_n² + ½k_s a_t², with
-//     a_n = n·(u_i - u_j) + (r_i × n) θ_i - (r_j × n) θ_j          and a_t with the tangent t for n,
-// linearised about the present positions: the contact forces there are zero after back-tension bonding, so there is no
-// geometric stiffness, and the solution is exact for small strain with all bonds intact and sticking.
+// Every bonded point (every touching one in a world without bonds) is two linear springs, springs.hpp. The contact
+// forces are zero after back-tension bonding, so the solution is exact for small strain with all bonds intact and
+// sticking.
+//
+// Floating particles, particles held by one circle contact and other mechanisms make K singular. It is scaled
+// by each body's own springs (displacements by their sum k, rotations by k times the square of its bounding radius),
+// and a shift of 1e-12 keeps the factorisation (LDLᵀ) going; iterative refinement removes it again from all that
+// carries load, and what does not stays where it is. Motions of an energy below 1e-9 of the scaled stiffness count as
+// free: the softest mode that carries load has about 1/N, N the particles.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
+#include "solver/springs.hpp"
 #include "solver/world.hpp"
 
 namespace crackle {
-
-/// Displacement and rotation of a body, m and rad; or force and moment on it, N and N m.
-struct Motion {
-    double x = 0.0, y = 0.0, rotation = 0.0;
-};
 
 struct Prescribed {
     BodyIndex body;
@@ -28,13 +29,18 @@ struct ElasticSolution {
     std::vector<Motion> displacement;  ///< per body
     std::vector<Motion> reaction;      ///< per entry of `prescribed`: force needed to hold it there
     double energy = 0.0;               ///< J, ½uᵀKu
-    double residual = 0.0;             ///< |f - Ku| over |f| on the free degrees of freedom
+    double residual = 0.0;             ///< |f - Ku| over |f| on the free degrees of freedom, scaled
+    std::int64_t unknowns = 0;         ///< free degrees of freedom
 };
 
-/// Sparse Cholesky (Eigen's LDLᵀ). Degrees of freedom without stiffness (floating circles, circles hanging on one
-/// contact) are held by a diagonal shift of 1e-12 that iterative refinement removes from everything that does carry
-/// load.
 /// @throws InputError if nothing is prescribed, or the refinement does not reach a residual of 1e-9.
 ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>& prescribed);
+
+/// Motions without energy of a world whose `held` bodies stay in place.
+struct FreeMotions {
+    std::int64_t count = 0;         ///< dimension of the null space, by Sylvester's law of inertia
+    std::vector<BodyIndex> bodies;  ///< that take part in one
+};
+FreeMotions find_free_motions(const World& world, const std::vector<BodyIndex>& held);
 
 }  // namespace crackle

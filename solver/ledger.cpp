@@ -12,8 +12,7 @@ namespace crackle {
 namespace {
 
 double kinetic_energy(const World& world) {
-    // Share of the coming kick that lies before time n: none at a half-kick start, half of it otherwise.
-    const double share = (world.kick_share - 0.5) * world.time_step;
+    const double share = kick_before(world);
     double sum = 0.0;
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
         const BodyState& body = world.bodies[b];

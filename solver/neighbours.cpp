@@ -346,20 +346,7 @@ void rebuild(World& world) {
     world.travelled = 0.0;
     world.list_valid = true;
     world.list_builds += 1;
-    BodyIndex limiting = 0;
-    world.step_bound = stable_step_bound(world, &limiting);
-    if (world.automatic_step) {
-        const double share = derived_step_share(world);
-        if (world.time_step > share / world.safety_factor * world.step_bound)
-            world.time_step = share * world.step_bound;
-    } else if (!world.allow_unstable && world.time_step > world.step_bound) {
-        throw UnstableRun(
-            world.step, world.info[limiting].id,
-            fmt::format("the time step, {:.6g} s, is above the stable bound, which fell to {:.6g} s as contacts came "
-                        "about at this body; give a smaller one, leave it out (0 in a deck) to have it chosen, or run "
-                        "with --allow-unstable",
-                        world.time_step, world.step_bound));
-    }
+    evaluate_step_bound(world);
 }
 
 }  // namespace

@@ -90,14 +90,17 @@ double move_bodies(World& world, double kick) {
     return finite ? fastest : std::numeric_limits<double>::quiet_NaN();
 }
 
-void sum_losses(World& world) {
-    std::uint32_t broken = 0;
+/// Adds up what the blocks of the force pass report, in their order.
+void sum_blocks(World& world) {
+    std::uint32_t broken = 0, gained = 0;
     for (const World::LossBlock& block : world.loss_blocks) {
         world.dashpot_loss += block.dashpot;
         world.friction_loss += block.friction;
         broken += block.broken;
+        gained += block.gained;
     }
     if (broken > 0) record_breaks(world);
+    if (gained > 0) count_new_points(world);
 }
 
 }  // namespace
@@ -112,7 +115,7 @@ void compute_forces(World& world) {
 #pragma omp barrier
         gather_forces(world);
     }
-    sum_losses(world);
+    sum_blocks(world);
     account_controls(world);
     world.forces_current = true;
     if (!world.initial_energy_taken) {
@@ -123,7 +126,7 @@ void compute_forces(World& world) {
 }
 
 void advance(World& world) {
-    world.fastest = std::sqrt(move_bodies(world, world.kick_share * world.time_step));
+    world.fastest = std::sqrt(move_bodies(world, kick_before(world) + 0.5 * world.time_step));
     world.drift = world.time_step;
     world.step += 1;
     world.time += world.time_step;

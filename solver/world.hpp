@@ -87,9 +87,10 @@ inline constexpr int point_kinds = 4;
 enum PointFlag : std::uint16_t {
     point_touching = 1,  // overlap > 0 or bonded, in the last force pass
     point_bonded = 2,
-    point_sliding = 4,      // at the Coulomb limit in the last force pass
-    point_slid = 8,         // has been at the limit since bonding (or since contact began)
-    point_just_broken = 16  // bond lost in the last force pass; cleared when its event is recorded
+    point_sliding = 4,       // at the Coulomb limit in the last force pass
+    point_slid = 8,          // has been at the limit since bonding (or since contact began)
+    point_just_broken = 16,  // bond lost in the last force pass; cleared when its event is recorded
+    point_counted = 32       // counts in World::step_bound
 };
 
 /// One contact point. δ0 = bond_overlap; back-tension f_b = -k_n δ0.
@@ -143,7 +144,7 @@ struct BreakEvent {
     int body_i, body_j;   // input ids
     Vec2 position;        // m
     double orientation;   // rad, direction of the contact normal, in (-π/2, π/2]
-    double energy;        // J: stored when the break was found, ½k_n(δ-δ0)² + ½f_t²/k_s
+    double energy;        // J: taken by the break, breaks.cpp
     double strength;      // N: k_n δ0
     double normal_force;  // N, of BondHistory
     double shear_force;   // N
@@ -233,7 +234,12 @@ struct World {
     double drift = 0.0;           // s, length of the drift that led to the present positions (0 before the first)
     bool automatic_step = false;  // may be lowered when the list is rebuilt
     double safety_factor = 0.8;
-    double step_bound = std::numeric_limits<double>::infinity();  // s, guaranteed stable below
+    double step_bound = std::numeric_limits<double>::infinity();  // s, guaranteed stable below, of the counted points
+    BodyIndex limiting_body = 0;                                  // sets step_bound
+    std::vector<double> step_weights;                             // per body, see stable_step.cpp
+    double exact_step = 0.0;  // s, exact stable step when bonds were made; 0: no bonds yet
+    bool exact_step_proved = false;
+    double step_goal = 0.0;  // s, what a derived step goes back to: safety_factor times the exact one; 0: none
     bool allow_unstable = false;
     bool has_bonds = false;
     bool ledger_on = true;
@@ -253,7 +259,7 @@ struct World {
     struct LossBlock {
         double dashpot = 0.0, friction = 0.0;
         std::uint32_t broken = 0;
-        std::uint32_t padding = 0;
+        std::uint32_t gained = 0;  // points that carry load and are not counted in step_bound yet
     };
     std::vector<LossBlock> loss_blocks;
     double dashpot_loss = 0.0, friction_loss = 0.0, fracture_loss = 0.0, displacement_work = 0.0, force_work = 0.0;
@@ -262,6 +268,13 @@ struct World {
     bool initial_energy_taken = false;
     double largest_supply = 0.0;  // J, for the runaway check
 };
+
+/// Part of the coming kick that lies before time n, s: half of the drift that led here (of the coming one where a deck
+/// starts with a full kick), nothing at a half-kick start. Kicks join the middles of drifts, whatever their lengths.
+inline double kick_before(const World& world) {
+    if (world.kick_share < 1.0) return 0.0;
+    return 0.5 * (world.drift > 0.0 ? world.drift : world.time_step);
+}
 
 /// Everything about one contact point at the present positions, for outputs, solves and checks (never for the step).
 struct PointView {
@@ -292,8 +305,7 @@ void step(World& world);
 
 // ---- neighbours (solver/neighbours.cpp)
 /// Rebuilds the list if something has moved half the skin since it was built (always when list_valid is false).
-/// @throws UnstableRun if the stable bound of the new list is below a time step that was given (not with
-/// allow_unstable).
+/// @throws UnstableRun if the stable bound is below a time step that was given (not with allow_unstable).
 void refresh_neighbours(World& world);
 
 // ---- bonding (solver/bonding.cpp)
@@ -319,11 +331,18 @@ std::vector<Vec2> element_positions(const World& world, BodyIndex body);
 /// @throws UnstableRun on a value that is not a number, runaway energy, or a body that left the world.
 void check_health(World& world);
 
-// ---- stable step (solver/stable_step.cpp)
+// ---- stable step (solver/stable_step.cpp; exact: solver/critical_step.hpp)
 /// Guaranteed bound on the stable step, s: 4M - 2Δt·C - Δt²·K stays positive definite below it, over all listed points
 /// as if they carried load. Derivation: stable_step.cpp.
 /// @param limiting receives the body that sets the bound; left as it is where none does.
 double stable_step_bound(const World& world, BodyIndex* limiting = nullptr);
+/// World::step_bound anew, of the points that carry load (without bonds: of all listed ones), and the step kept below.
+/// @throws UnstableRun if a time step that was given lies above it (not with allow_unstable)
+void evaluate_step_bound(World& world);
+/// Lowers World::step_bound by the points that have come to carry load since, and the step with it. @throws UnstableRun
+void count_new_points(World& world);
+/// A derived step is lowered to what step_bound allows (up to step_goal again when it rises). @throws UnstableRun
+void keep_step_below_bound(World& world);
 /// Share of the bound that a derived step takes: safety_factor, without bonds at most loose_step_share.
 double derived_step_share(const World& world);
 

@@ -98,6 +98,8 @@ TestSetup record_setup(const World& world, const Specimen& specimen, const Plate
     setup.particles = static_cast<std::int64_t>(specimen.scene.bodies.size());
     setup.segments = specimen.segments;
     setup.seeds = specimen.seeds;
+    setup.stable_time_step = world.exact_step;
+    setup.stable_time_step_proved = world.exact_step_proved;
     setup.time_step_bound = world.step_bound;
     setup.notices = specimen.notices;
     setup.packing = specimen.packing;

@@ -48,7 +48,9 @@ struct TestSetup {
     double mean_bond_overlap = 0.0;            // m, over bonded points
     double mean_back_tension = 0.0;            // N, over bonded points
     double mean_back_tension_interface = 0.0;  // N, over pairs of bodies
-    double time_step_bound = 0.0;              // s, when loading began
+    double stable_time_step = 0.0;             // s, exact, when bonds were made
+    bool stable_time_step_proved = false;      ///< by factorisation; else it is the bound
+    double time_step_bound = 0.0;              // s, kept up during the run; when loading began
 
     std::vector<StartPlace> start;  ///< by body
     std::vector<BondAnchor> bonds;  ///< sorted by key

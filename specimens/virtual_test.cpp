@@ -11,9 +11,9 @@
 #include <iterator>
 #include <sstream>
 
-#include "solver/elastic.hpp"
 #include "solver/errors.hpp"
 #include "specimens/checkpointing/test_checkpoint.hpp"
+#include "specimens/moduli.hpp"
 #include "specimens/observers/test_files.hpp"
 #include "specimens/output_folder.hpp"
 #include "specimens/platen_hold.hpp"
@@ -76,20 +76,12 @@ Bonded bond_specimen(const Specimen& specimen, const TestCase& test, const TestC
     return bonded;
 }
 
-/// Young's modulus and Poisson's ratio by the definitions of the curve, from the linear solution at unit strain.
-/// @param world with bonded platens; bodies are found by their ids, its numbering may be its own
-void solve_moduli(TestState& state, TestSetup& setup, const World& world, const Specimen& specimen) {
+/// Small-strain moduli, or a notice why there are none.
+void take_moduli(TestState& state, TestSetup& setup, const World& world, const TestSetup& own) {
     try {
-        const TestSetup own = record_setup(world, specimen, Platens{setup.bottom_id, setup.top_id}, setup.compression);
-        const ElasticSolution solution = solve_elastic(world, {{own.bottom, {}}, {own.top, {0.0, setup.height, 0.0}}});
-        state.youngs_modulus = 0.5 * (solution.reaction[1].y - solution.reaction[0].y) / setup.width;
-        if (setup.gauge_length == 0.0) return;
-        const auto mean = [&](const std::vector<BodyIndex>& bodies) {
-            double sum = 0.0;
-            for (const BodyIndex b : bodies) sum += solution.displacement[b].x;
-            return sum / static_cast<double>(bodies.size());
-        };
-        state.poissons_ratio = -(mean(own.right) - mean(own.left)) / own.gauge_length;
+        const Moduli moduli = solve_moduli(world, own);
+        state.youngs_modulus = moduli.youngs_modulus;
+        state.poissons_ratio = moduli.poissons_ratio;
     } catch (const InputError& error) {
         setup.notices.push_back(fmt::format("no small-strain modulus: {}", error.what()));
     }
@@ -169,7 +161,7 @@ VirtualTest prepare_test(const TestCase& description, const TestHooks& hooks) {
                            test.world.interfaces_initial, test.world.time_step));
     if (bonded.platens.bonded) {
         check_platen_hold(test.world, test.setup, bonded.platens, description);
-        solve_moduli(test.state, test.setup, test.world, specimen);
+        take_moduli(test.state, test.setup, test.world, test.setup);
     } else {
         TestCase::Loading held = description.loading;
         held.platens = "bonded";
@@ -177,7 +169,7 @@ VirtualTest prepare_test(const TestCase& description, const TestHooks& hooks) {
         try {
             const TestSetup own = record_setup(twin.world, specimen, twin.platens, test.setup.compression);
             check_platen_hold(twin.world, own, twin.platens, description);
-            solve_moduli(test.state, test.setup, twin.world, specimen);
+            take_moduli(test.state, test.setup, twin.world, own);
         } catch (const InputError& error) {
             test.setup.notices.push_back(fmt::format("no small-strain modulus: {}", error.what()));
         }

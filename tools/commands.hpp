@@ -21,6 +21,7 @@ int pack(const Arguments& arguments);
 int mesh(const Arguments& arguments);
 int run_deck(const Arguments& arguments);
 int test(const Arguments& arguments);
+int elastic(const Arguments& arguments);
 int report(const Arguments& arguments);
 int doctor(const Arguments& arguments);
 int version(const Arguments& arguments);  // crackle --version

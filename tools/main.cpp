@@ -23,6 +23,7 @@ const std::vector<Command>& commands() {
         {"mesh", "polygon particles from a packing or a list of seeds: in_gm_tri.dat, in_gm_volo.dat", mesh},
         {"run", "runs a DEMseg deck (in_gm.dat, in_bc.dat) and writes DEMseg's outputs", run_deck},
         {"test", "one virtual test: specimen, bonding, platens, loading; curve, events, summary, frames", test},
+        {"elastic", "the same specimen by a sparse solve: moduli, first break and slip, stable time step", elastic},
         {"report", "one self-contained HTML page from the results of tests", report},
         {"doctor", "what this build is made of and what it can do", doctor},
     };

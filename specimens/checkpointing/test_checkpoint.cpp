@@ -16,7 +16,7 @@ namespace crackle {
 
 // Names the layout; the number is raised whenever a field below changes.
 constexpr const char* checkpoint_title = "crackle test checkpoint ";
-constexpr const char* checkpoint_version = "3";
+constexpr const char* checkpoint_version = "4";
 constexpr std::size_t hash_digits = 64;
 
 // The archive is given one member after the other: structs have padding, whose bytes are nobody's.
@@ -66,8 +66,8 @@ template <class Archive>
 void serialize(Archive& a, TestSetup& s) {
     a(s.compression, s.specimen, s.polygons, s.width, s.height, s.bond_thick, s.mesh_thick, s.bottom_id, s.top_id,
       s.bottom, s.top, s.top_start, s.left, s.right, s.gauge_length, s.particles, s.segments, s.seeds,
-      s.contacts_initial, s.mean_bond_overlap, s.mean_back_tension, s.mean_back_tension_interface, s.time_step_bound,
-      s.start, s.bonds, s.notices, s.packing);
+      s.contacts_initial, s.mean_bond_overlap, s.mean_back_tension, s.mean_back_tension_interface, s.stable_time_step,
+      s.stable_time_step_proved, s.time_step_bound, s.start, s.bonds, s.notices, s.packing);
 }
 template <class Archive>
 void serialize(Archive& a, TestState& s) {

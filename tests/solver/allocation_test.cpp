@@ -73,7 +73,7 @@ TEST(Step, AllocatesNothingInTenThousandStepsOfDiscs) {
     request.columns = 12, request.rows = 12;
     Scene scene = disordered_discs(request, damped_rock());
     scene.domain = {-0.021, 10.0, -0.021, 10.0, {true, true, true, true}};
-    scene.skin = 0.05;  // wide enough for all the way they go
+    scene.skin = 0.6;  // wide enough for all the way they go
     for (const int threads : {1, 2}) {
         World world = build_world(scene);
         bond_all(world, 0.0);
@@ -90,6 +90,7 @@ TEST(Step, AllocatesNothingInTenThousandStepsOfPolygonsAndDrivenBodies) {
     ShakenCells request;
     request.columns = 6, request.rows = 6;
     Scene scene = shaken_cells(request, damped_rock());
+    scene.skin = 0.01;  // as above
     scene.controls.push_back({0, {Drive::velocity, 0.0}, {Drive::displacement, -1e-5}, {}, 5000});
     scene.controls.push_back({5, {Drive::force, 10.0}, {}, {Drive::force, 0.01}, 0});
     World world = build_world(scene);

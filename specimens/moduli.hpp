@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Young's modulus and Poisson's ratio of a bonded specimen by the definitions of the curve, from the linear solution.
+#pragma once
+
+#include "solver/elastic.hpp"
+#include "specimens/test_setup.hpp"
+
+namespace crackle {
+
+struct Moduli {
+    double youngs_modulus;     // N/m
+    double poissons_ratio;     ///< not a number without side particles
+    ElasticSolution solution;  ///< for an axial strain of 1 in tension, the lower platen in place
+};
+
+/// @param world bonded, with the platens and side particles of `setup`
+/// @throws InputError where there is no linear solution
+Moduli solve_moduli(const World& world, const TestSetup& setup);
+
+}  // namespace crackle

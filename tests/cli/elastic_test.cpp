@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `crackle elastic` as a user calls it.
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/support/claim.hpp"
+#include "tests/support/program_call.hpp"
+#include "tests/support/small_rock.hpp"
+
+namespace crackle {
+namespace {
+
+using testing::agrees;
+using testing::Answer;
+
+class CrackleElastic : public testing::ProgramCall {
+  protected:
+    CrackleElastic() : ProgramCall("elastic") { testing::write_small_case(scratch_ / "", {}); }
+};
+
+TEST_F(CrackleElastic, AnswersInJsonWithWhatATestWouldHave) {
+    const Answer answer = call("case.toml --json --modes 2");
+    ASSERT_EQ(answer.code, 0) << answer.err;
+    EXPECT_TRUE(answer.err.empty()) << answer.err;
+    const auto json = nlohmann::json::parse(answer.out);
+    EXPECT_EQ(json["angular_frequencies"].size(), 2U);
+    EXPECT_LT(json["first_slip_stress"].get<double>(), json["first_break_stress"].get<double>());
+    EXPECT_LT(json["residual"].get<double>(), 1e-9);
+    EXPECT_TRUE(json["stable_time_step_proved"].get<bool>());
+    EXPECT_TRUE(agrees("the step a test takes over the exact one",
+                       json["time_step"].get<double>() / json["stable_time_step"].get<double>(), 0.8, 1e-12));
+    for (const char* key : {"youngs_modulus", "poissons_ratio", "stable_time_step", "first_break_stress"})
+        EXPECT_TRUE(json["units"].contains(key) && json[key].is_number()) << key;
+    EXPECT_EQ(snapshot().size(), 2U) << "nothing is written unasked";
+}
+
+TEST_F(CrackleElastic, WritesBondForcesOfHalfTheStrainHalfAsLarge) {
+    ASSERT_EQ(call("case.toml -q --strain 1e-4 --bonds full.csv").code, 0);
+    ASSERT_EQ(call("case.toml -q --strain 5e-5 --bonds half.csv").code, 0);
+    const auto sum = [&](const char* file) {
+        std::istringstream in(read(file));
+        std::string line;
+        std::getline(in, line);
+        double total = 0.0;
+        for (int rows = 0; std::getline(in, line); ++rows) {
+            std::istringstream fields(line);
+            std::string field;
+            for (int column = 0; column <= 5 && std::getline(fields, field, ','); ++column) {
+            }
+            total += std::abs(std::stod(field));
+        }
+        return total;
+    };
+    EXPECT_GT(sum("full.csv"), 0.0);
+    EXPECT_TRUE(agrees("sum of the bonds' normal forces", sum("full.csv"), 2.0 * sum("half.csv"), 1e-12));
+}
+
+TEST_F(CrackleElastic, RefusesWhatItCannotUse) {
+    write("mine.csv", "1,2\n");
+    expect_refused("", "found no CASE.toml");
+    expect_refused("absent.toml", "absent.toml");
+    expect_refused("case.toml -q --strain 0", "--strain: found 0, expected a number > 0");
+    expect_refused("case.toml -q --modes -1", "--modes: found -1");
+    expect_refused("case.toml -q --modes 100000", "ask for fewer");
+    expect_refused("case.toml -q --bonds mine.csv", "mine.csv: exists already");
+}
+
+}  // namespace
+}  // namespace crackle
