@@ -33,4 +33,12 @@ TestCase packed_case(std::int64_t seed, const char* kind, double rate, double ma
     return test;
 }
 
+void mesh_voronoi(TestCase& test) {
+    test.mesh.kind = "voronoi";
+    test.mesh.thick = 1e-3;
+    test.mesh.merge_destroyed = true;
+    test.table_present["mesh"] = true;
+    test.bond.thick = 1.08e-3;
+}
+
 }  // namespace crackle::verification
