@@ -109,7 +109,7 @@ int bench_verify(const Arguments& arguments) {
     std::vector<CheckedClaim> checked;
     bool fails = false;
     for (const Claim& claim : wanted) {
-        checked.push_back({claim, claim.check()});
+        checked.push_back({claim, verification::check_claim(claim)});
         fails = fails || checked.back().fails();
         tell(checked.back());
     }

@@ -24,11 +24,13 @@ struct ClaimRow {
     Relation relation = Relation::equal;
     double expected = none;
     double got = none;        ///< not a number in a row that the engine does not offer
-    double error = none;      ///< relative or absolute, as the tolerance is
+    double error = none;      ///< absolute, or over the expected value
     double tolerance = none;  ///< not a number in a row that only shows a figure
     std::string estimate;     ///< where the tolerance comes from, in a word or two
     std::optional<double> order, expected_order;
     bool holds = false;
+    bool relative_error = false;  ///< error and tolerance are over the expected value
+    bool shown_only = false;      ///< a figure that belongs to the claim but is not judged; holds
 };
 
 struct Claim {
@@ -44,7 +46,10 @@ struct Claim {
 /// All claims in the order of the page.
 const std::vector<Claim>& claims();
 
-/// «holds», «FAILS» or «not offered».
+/// The rows of a claim. A check that ends with an exception (an unstable run, say) is a row that fails and names it.
+std::vector<ClaimRow> check_claim(const Claim& claim);
+
+/// «holds», «FAILS», «shown» or «not offered».
 const char* verdict_of(const Claim& claim, const ClaimRow& row);
 
 }  // namespace crackle::verification

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <limits>
 
+#include "specimens/verification/rows.hpp"
+
 namespace crackle::verification {
 namespace {
 
@@ -44,11 +46,11 @@ std::string verdict_of_all(const CheckedClaim& checked) {
     return checked.fails() ? "FAILS" : "holds";
 }
 
+std::string error_of(const ClaimRow& row) { return number(row.error, 2) + (row.relative_error ? " rel." : ""); }
+
 std::string row_line(const Claim& claim, const ClaimRow& row) {
-    const bool judged = !row.estimate.empty() || !claim.offered;
     return fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", cell(row.label), expected_of(row), number(row.got, 8),
-                       number(row.error, 2), cell(tolerance_of(row)), order_of(row),
-                       judged ? verdict_of(claim, row) : "shown");
+                       error_of(row), cell(tolerance_of(row)), order_of(row), verdict_of(claim, row));
 }
 
 std::string overview(const std::vector<CheckedClaim>& checked) {
@@ -85,19 +87,22 @@ double CheckedClaim::share_of_tolerance() const {
 }
 
 std::string verification_page(const std::vector<CheckedClaim>& checked, const std::string& command) {
-    std::size_t held = 0, failed = 0, unoffered = 0;
+    std::size_t held = 0, failed = 0, shown = 0, unoffered = 0;
     for (const CheckedClaim& one : checked) {
-        for (const ClaimRow& row : one.rows) ++(!one.claim.offered ? unoffered : row.holds ? held : failed);
+        for (const ClaimRow& row : one.rows) {
+            std::size_t& count = !one.claim.offered ? unoffered : row.shown_only ? shown : row.holds ? held : failed;
+            ++count;
+        }
     }
     std::string text = fmt::format(
-        "# Verification\n\nMade by `{}`; the same rows are tests (`ctest -R claims`). {} claims; {} rows hold, {} "
-        "fail, {} are of options that the engine does not offer.\n\nErrors are relative to the expected value, "
-        "absolute "
-        "where that is 0. A tolerance names the estimate it comes from: «reference» is what the closed form's own "
-        "table asks of a sound implementation, «exact» means equal. The order of convergence is observed under "
-        "refinement of the step; a row holds only if it falls short of the expected one by at most 0.3. The last "
-        "digits of errors at rounding level belong to the machine.\n\n",
-        command, checked.size(), held, failed, unoffered);
+        "# Verification\n\nMade by `{}`; the same rows are tests (`ctest -R ClaimTest`). {} claims; {} rows hold, {} "
+        "fail, {} are only shown, {} are of options that the engine does not offer.\n\n"
+        "Errors are absolute unless marked «rel.»: over the expected value, as their tolerances then are. A tolerance "
+        "names the estimate it comes from: «reference» is what the table of closed forms asks of a sound "
+        "implementation, «exact» means equal. The order of convergence is observed under refinement of the step; a row "
+        "holds only if it falls short of the expected one by at most {}. The last digits of errors at rounding level "
+        "belong to the machine.\n\n",
+        command, checked.size(), held, failed, shown, unoffered, order_slack);
     text += overview(checked);
     std::string group;
     for (const CheckedClaim& one : checked) {

@@ -20,7 +20,9 @@ Rows& Rows::add(ClaimRow row) {
 Rows& Rows::relative(const std::string& label, double got, double expected, double tolerance,
                      const std::string& estimate) {
     const double error = std::abs(got - expected) / std::abs(expected);
-    return add({label, Relation::equal, expected, got, error, tolerance, estimate, {}, {}, error <= tolerance});
+    add({label, Relation::equal, expected, got, error, tolerance, estimate, {}, {}, error <= tolerance});
+    rows_.back().relative_error = true;
+    return *this;
 }
 
 Rows& Rows::absolute(const std::string& label, double got, double expected, double tolerance,
@@ -44,7 +46,7 @@ Rows& Rows::exactly(const std::string& label, double got, double expected) {
 
 Rows& Rows::shown(const std::string& label, double got) {
     ClaimRow row;
-    row.label = label, row.got = got, row.holds = true;
+    row.label = label, row.got = got, row.holds = row.shown_only = true;
     return add(std::move(row));
 }
 

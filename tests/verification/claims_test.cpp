@@ -5,14 +5,17 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <ostream>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include "specimens/verification/claim.hpp"
+#include "specimens/verification/rows.hpp"
 
 namespace crackle::verification {
 
@@ -26,7 +29,7 @@ class ClaimTest : public ::testing::TestWithParam<Claim> {};
 TEST_P(ClaimTest, Holds) {
     const Claim& claim = GetParam();
     fmt::print("  {}\n", claim.statement);
-    const std::vector<ClaimRow> rows = claim.check();
+    const std::vector<ClaimRow> rows = check_claim(claim);
     ASSERT_FALSE(rows.empty());
     for (const ClaimRow& row : rows) {
         const char* relation = row.relation == Relation::equal ? "" : row.relation == Relation::at_most ? "<= " : ">= ";
@@ -63,6 +66,32 @@ TEST(Claims, HaveNamesOfTheirOwnAndSayWhatTheyClaim) {
         EXPECT_FALSE(claim.group.empty() || claim.statement.empty() || claim.check == nullptr) << claim.name;
         EXPECT_TRUE(claim.offered || !claim.note.empty()) << claim.name << ": not offered, but why?";
     }
+}
+
+TEST(Claims, ThatEndInAnExceptionFailAndNameIt) {
+    Claim claim;
+    claim.check = []() -> std::vector<ClaimRow> { throw std::runtime_error("runaway energy"); };
+    const std::vector<ClaimRow> rows = check_claim(claim);
+    ASSERT_EQ(rows.size(), 1u);
+    EXPECT_FALSE(rows[0].holds);
+    EXPECT_EQ(rows[0].label, "ended by: runaway energy");
+    EXPECT_STREQ(verdict_of(claim, rows[0]), "FAILS");
+}
+
+// What judges the rows: a tolerance that is met, one that is not, not a number, and an order that falls short.
+TEST(Rows, AreJudgedAsTheyAreAdded) {
+    Rows rows;
+    rows.relative("inside", 101.0, 100.0, 0.011, "test").relative("outside", 101.0, 100.0, 0.009, "test");
+    rows.absolute("no number", std::nan(""), 0.0, 1.0, "test").at_most("no number", std::nan(""), 1.0, "test");
+    rows.at_most("above", 1.1, 1.0, "test").at_least("below", 0.9, 1.0, "test").exactly("other", 1.0, 2.0);
+    rows.absolute("second order", 0.0, 0.0, 1.0, "test").converging({16.0, 1.0, 4.0, 2.0});
+    rows.absolute("first order", 0.0, 0.0, 1.0, "test").converging({4.0, 1.0, 4.0, 2.0});
+    rows.shown("figure", 7.0);
+    const std::vector<bool> expected{true, false, false, false, false, false, false, true, false, true};
+    const std::vector<ClaimRow> got = rows.take();
+    ASSERT_EQ(got.size(), expected.size());
+    for (std::size_t k = 0; k < got.size(); ++k) EXPECT_EQ(got[k].holds, expected[k]) << got[k].label;
+    EXPECT_DOUBLE_EQ(got[7].order.value_or(0.0), 2.0);
 }
 
 TEST(Claims, StandOnTheShippedPage) {
