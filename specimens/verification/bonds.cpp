@@ -99,6 +99,7 @@ std::vector<Pair> bonded_pairs(const World& world) {
 }
 std::vector<Pair> broken_pairs(const std::vector<BreakEvent>& events) {
     std::vector<Pair> pairs;
+    pairs.reserve(events.size());
     for (const BreakEvent& event : events) pairs.emplace_back(std::minmax(event.body_i, event.body_j));
     std::sort(pairs.begin(), pairs.end());
     return pairs;

@@ -69,6 +69,7 @@ Story story_of(Scene scene, double time_step, double bond_thick) {
     World world = build_world(std::move(scene));
     bond_all(world, bond_thick);
     std::vector<double> angles;
+    angles.reserve(world.bodies.size());
     for (const BodyState& body : world.bodies) angles.push_back(body.angle);
     for (int n = 0; n < story_steps; ++n) step(world);
     compute_forces(world);

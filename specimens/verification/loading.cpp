@@ -99,7 +99,7 @@ std::vector<ClaimRow> energy_of_a_run_to_failure_closes() {
             } else {
                 rows.shown(name + ": the worst of them", worst);
             }
-            rows.at_least(name + ": packings that failed", failed, packings / 2, "most");
+            rows.at_least(name + ": packings that failed", failed, 0.5 * packings, "most");
         }
         // A break or a slip is found within a step after it happened: first order, a quarter, scattered by where they
         // fall, a fifth for each root mean square of twelve.

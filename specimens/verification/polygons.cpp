@@ -23,6 +23,7 @@ constexpr double degree = std::numbers::pi / 180.0;
 
 std::vector<Vec2> placed(const std::vector<Vec2>& outline, double turn, Vec2 shift) {
     std::vector<Vec2> result;
+    result.reserve(outline.size());
     const double c = std::cos(turn), s = std::sin(turn);
     for (const Vec2 p : outline) result.push_back(Vec2{c * p.x - s * p.y, s * p.x + c * p.y} + shift);
     return result;
@@ -218,6 +219,7 @@ std::vector<ClaimRow> mass_centroid_and_moment_are_exact() {
               rho * 0.02 * (3.0 * (9.0 / 12.0 + dot(d, d)) + 4.0 * (16.0 / 12.0 + dot(e, e))));
     }
     std::vector<Vec2> hexagon;
+    hexagon.reserve(6);
     for (int k = 0; k < 6; ++k) hexagon.push_back({std::cos(60.0 * degree * k), std::sin(60.0 * degree * k)});
     scene.add_chain_body(1, 0, hexagon, true);
     const double area = 1.5 * std::sqrt(3.0);
