@@ -23,11 +23,13 @@ int run_deck(const Arguments& arguments);
 int test(const Arguments& arguments);
 int elastic(const Arguments& arguments);
 int report(const Arguments& arguments);
+int bench(const Arguments& arguments);
 int doctor(const Arguments& arguments);
 int version(const Arguments& arguments);  // crackle --version
 
 // Exit codes of the program.
 inline constexpr int exit_done = 0;
+inline constexpr int exit_claim_fails = 1;    // crackle bench verify: a row does not hold
 inline constexpr int exit_bad_input = 2;      // InputError, wrong options
 inline constexpr int exit_unstable = 3;       // UnstableRun; outputs up to there are kept
 inline constexpr int exit_interrupted = 130;  // Ctrl-C; outputs up to there are kept

@@ -25,6 +25,7 @@ const std::vector<Command>& commands() {
         {"test", "one virtual test: specimen, bonding, platens, loading; curve, events, summary, frames", test},
         {"elastic", "the same specimen by a sparse solve: moduli, first break and slip, stable time step", elastic},
         {"report", "one self-contained HTML page from the results of tests", report},
+        {"bench", "studies of the engine itself: verification against closed forms", bench},
         {"doctor", "what this build is made of and what it can do", doctor},
     };
     return all;
@@ -37,7 +38,8 @@ void print_help(std::ostream& out) {
         out << "  " << command.name << std::string(12 - std::string(command.name).size(), ' ') << command.summary
             << '\n';
     }
-    out << "\nexit codes: 0 done, 2 bad input, 3 the run became unstable, 130 interrupted\n";
+    out << "\nexit codes: 0 done, 1 a verification row fails, 2 bad input, 3 the run became unstable, 130 "
+           "interrupted\n";
 }
 
 int run(const std::vector<std::string>& words) {

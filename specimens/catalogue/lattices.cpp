@@ -30,6 +30,17 @@ Scene triangular_lattice(int columns, int rows, double radius, double overlap, c
     return scene;
 }
 
+Scene square_lattice(int columns, int rows, double radius, double overlap, const Material& material) {
+    Scene scene = open_scene(material);
+    const double spacing = 2.0 * radius - overlap;
+    int id = 0;
+    for (int row = 0; row < rows; ++row) {
+        for (int column = 0; column < columns; ++column)
+            scene.add_circle_body(++id, 0, {{spacing * column, spacing * row}, radius, 0.0});
+    }
+    return scene;
+}
+
 Scene disc_chain(int count, double radius, double spacing, const Material& material) {
     Scene scene = open_scene(material);
     for (int k = 0; k < count; ++k) scene.add_circle_body(k + 1, 0, {{spacing * k, 0.0}, radius, 0.0});

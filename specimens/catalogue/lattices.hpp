@@ -11,6 +11,10 @@ namespace crackle {
 /// @return scene without walls; ids 1, 2, … row by row from the lower left
 Scene triangular_lattice(int columns, int rows, double radius, double overlap, const Material& material);
 
+/// Equal discs of radius R at spacing 2R - overlap on a square lattice, ids row by row from the lower left, without
+/// walls.
+Scene square_lattice(int columns, int rows, double radius, double overlap, const Material& material);
+
 /// Equal discs of radius R in a row along x at the given spacing, ids 1 … count, without walls.
 Scene disc_chain(int count, double radius, double spacing, const Material& material);
 
