@@ -51,7 +51,7 @@ void record_breaks(World& world) {
         event.body_j = world.info[point.body_j].id;
         event.position = view.position;
         event.orientation = orientation_of(view.normal);
-        event.energy = strain_energy(law, view.overlap, point.bond_overlap, point.shear_force);
+        event.energy = stored_energy(world, k);
         event.strength = law.normal_stiffness * point.bond_overlap;
         event.normal_force = history.normal_force;
         event.shear_force = history.shear_force;
@@ -60,6 +60,7 @@ void record_breaks(World& world) {
         point.shear_force = 0.0;
         point.bond_overlap = 0.0;
         point.flags = 0;
+        if (!world.spring_work.empty()) world.spring_work[k] = {};
         event.last_of_interface = !interface_holds(world, point.body_i, point.body_j);
         world.fracture_loss += event.energy;
         world.bonds_broken += 1;

@@ -9,6 +9,12 @@
 // of M^-½ K_b M^-½ and M^-½ C_b M^-½, body b is stable below (sqrt(γ² + 4κ) - γ)/κ; the bound is the least of these.
 // One spring and dashpot against a wall gives the guide's 2 sqrt(m/k)(sqrt(h²+1) - h) exactly. All listed points count
 // as if they carried load, so it holds until the list is rebuilt; a body without points counts one against a wall.
+//
+// Under the guide's law a point pushes along b (its resultant at its place) while its overlap answers to g = ∇δ, so its
+// stiffness is k b gᵀ: unsymmetric, and up to four times k. Every eigenvalue λ of such a sum obeys
+// |λ| <= max |u*Ku| <= that of Σ ½k(s bbᵀ + ggᵀ/s), any s > 0, taken as |g|/|b| in the scaled norm. That sum enters the
+// bound, and every listed disc not yet in contact as a spring of its own. So the bound holds for all real eigenvalues;
+// a complex pair would be flutter, energy that the law itself makes, which no step is short enough for.
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +23,7 @@
 
 #include "solver/contact_geometry.hpp"
 #include "solver/contact_law.hpp"
+#include "solver/overlap_gradient.hpp"
 #include "solver/world.hpp"
 
 namespace crackle {
@@ -89,8 +96,9 @@ Side side_of(const Roots& roots, Vec2 n, Vec2 arm) {
             roots.x * t.x, roots.y * t.y, roots.r * cross(arm, t)};
 }
 
-void add_stiffness(Block& block, const Side& side, const ContactLaw& law, double share) {
-    block.add(share * law.normal_stiffness, side.nx, side.ny, side.nr);
+/// @param normal false where the normal stiffness comes by rows (the guide's law)
+void add_stiffness(Block& block, const Side& side, const ContactLaw& law, double share, bool normal) {
+    if (normal) block.add(share * law.normal_stiffness, side.nx, side.ny, side.nr);
     if (law.friction > 0.0) block.add(share * law.shear_stiffness, side.tx, side.ty, side.tr);
 }
 
@@ -99,8 +107,9 @@ void add_damping(Block& block, const Side& side, const ContactLaw& law, double r
     if (law.friction > 0.0) block.add(share * shear_damping(law, root_mass), side.tx, side.ty, side.tr);
 }
 
-void add_side(BodyBlocks& blocks, const Side& side, const ContactLaw& law, double root_mass, double share) {
-    add_stiffness(blocks.stiffness, side, law, share);
+void add_side(BodyBlocks& blocks, const Side& side, const ContactLaw& law, double root_mass, double share,
+              bool normal = true) {
+    add_stiffness(blocks.stiffness, side, law, share, normal);
     add_damping(blocks.damping, side, law, root_mass, share);
 }
 
@@ -146,18 +155,70 @@ bool with_wall(const World& world, PointIndex k) {
     return k >= world.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
 }
 
+/// Normal stiffness of a point under the guide's law: ½stiffness·(row·u)² of energy at most.
+struct NormalRow {
+    BodyIndex i, j;
+    double stiffness;  // N/m
+    OverlapGradient row;
+};
+
+double scaled_square(const OverlapGradient& row, const Roots& i, const Roots& j) {
+    const double scaled[6] = {row[0] * i.x, row[1] * i.y, row[2] * i.r, row[3] * j.x, row[4] * j.y, row[5] * j.r};
+    double sum = 0.0;
+    for (const double s : scaled) sum += s * s;
+    return sum;
+}
+
+std::vector<NormalRow> normal_rows(const World& world, const std::vector<Roots>& roots) {
+    std::vector<NormalRow> rows;
+    const auto begin = world.kind_begin[static_cast<std::size_t>(PointKind::disc_segment)],
+               end = world.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
+    for (PointIndex k = begin; k < end; ++k) {
+        const PointView view = view_point(world, k);
+        const BodyIndex i = view.body_i, j = view.body_j;
+        const double stiffness = view.normal_stiffness;
+        if (view.touching) {
+            const OverlapGradient push = approach(view.normal, view.arm_i, view.arm_j);
+            const double squared_push = scaled_square(push, roots[i], roots[j]),
+                         squared_gradient = scaled_square(view.overlap_gradient, roots[i], roots[j]);
+            if (squared_push > 0.0 && squared_gradient > 0.0) {
+                const double s = std::sqrt(squared_gradient / squared_push);
+                rows.push_back({i, j, 0.5 * stiffness * s, push});
+                rows.push_back({i, j, 0.5 * stiffness / s, view.overlap_gradient});
+            }
+        }
+        for (const OverlapGradient& row : idle_discs(world, view.kind, world.points[k]))
+            rows.push_back({i, j, stiffness, row});
+    }
+    return rows;
+}
+
+void add_row(Block& block, const Roots& roots, const NormalRow& row, bool second, double share) {
+    const std::size_t d = second ? 3 : 0;
+    block.add(share * row.stiffness, roots.x * row.row[d], roots.y * row.row[d + 1], roots.r * row.row[d + 2]);
+}
+
+bool has_rows(const World& world, PointIndex k) {
+    return k >= world.kind_begin[static_cast<std::size_t>(PointKind::disc_segment)] && !with_wall(world, k);
+}
+
 /// Largest scaled stiffness of every body's own points, held bodies 0.
 std::vector<double> own_stiffness(const World& world, const std::vector<PointArms>& arms,
-                                  const std::vector<Roots>& roots) {
+                                  const std::vector<NormalRow>& rows, const std::vector<Roots>& roots) {
     std::vector<Block> blocks(world.bodies.size());
     for (PointIndex k = 0; k < world.points.size(); ++k) {
         const ContactPoint& point = world.points[k];
         const ContactLaw& law = world.laws[point.law];
         const auto add = [&](BodyIndex b, Vec2 arm) {
-            if (!held(world.inertia[b])) add_stiffness(blocks[b], side_of(roots[b], arms[k].normal, arm), law, 1.0);
+            if (!held(world.inertia[b]))
+                add_stiffness(blocks[b], side_of(roots[b], arms[k].normal, arm), law, 1.0, !has_rows(world, k));
         };
         add(point.body_i, arms[k].arm_i);
         if (!with_wall(world, k)) add(point.body_j, arms[k].arm_j);
+    }
+    for (const NormalRow& row : rows) {
+        if (!held(world.inertia[row.i])) add_row(blocks[row.i], roots[row.i], row, false, 1.0);
+        if (!held(world.inertia[row.j])) add_row(blocks[row.j], roots[row.j], row, true, 1.0);
     }
     std::vector<double> stiffness;
     stiffness.reserve(blocks.size());
@@ -177,7 +238,8 @@ double stable_step_bound(const World& world, BodyIndex* limiting) {
     std::vector<Roots> roots;
     roots.reserve(world.bodies.size());
     for (const BodyInertia& inertia : world.inertia) roots.push_back(roots_of(inertia));
-    const std::vector<double> own = own_stiffness(world, arms, roots);
+    const std::vector<NormalRow> rows = normal_rows(world, roots);
+    const std::vector<double> own = own_stiffness(world, arms, rows, roots);
     std::vector<BodyBlocks> blocks(world.bodies.size());
     for (PointIndex k = 0; k < world.points.size(); ++k) {
         const ContactPoint& point = world.points[k];
@@ -188,8 +250,18 @@ double stable_step_bound(const World& world, BodyIndex* limiting) {
         const double share_i = share_of(own[i], j_held ? 0.0 : own[j]),
                      share_j = share_of(j_held ? 0.0 : own[j], i_held ? 0.0 : own[i]);
         const double root_mass = point.root_effective_mass;
-        if (!i_held) add_side(blocks[i], side_of(roots[i], arms[k].normal, arms[k].arm_i), law, root_mass, share_i);
-        if (!j_held) add_side(blocks[j], side_of(roots[j], arms[k].normal, arms[k].arm_j), law, root_mass, share_j);
+        const bool normal = !has_rows(world, k);
+        if (!i_held)
+            add_side(blocks[i], side_of(roots[i], arms[k].normal, arms[k].arm_i), law, root_mass, share_i, normal);
+        if (!j_held)
+            add_side(blocks[j], side_of(roots[j], arms[k].normal, arms[k].arm_j), law, root_mass, share_j, normal);
+    }
+    for (const NormalRow& row : rows) {
+        const bool i_held = held(world.inertia[row.i]), j_held = held(world.inertia[row.j]);
+        if (!i_held)
+            add_row(blocks[row.i].stiffness, roots[row.i], row, false, share_of(own[row.i], j_held ? 0.0 : own[row.j]));
+        if (!j_held)
+            add_row(blocks[row.j].stiffness, roots[row.j], row, true, share_of(own[row.j], i_held ? 0.0 : own[row.i]));
     }
     Least least;
     const std::size_t wall_laws = world.materials.size() * world.materials.size();

@@ -95,6 +95,7 @@ void sum_losses(World& world) {
     for (const World::LossBlock& block : world.loss_blocks) {
         world.dashpot_loss += block.dashpot;
         world.friction_loss += block.friction;
+        world.law_loss += block.law;
         broken += block.broken;
     }
     if (broken > 0) record_breaks(world);

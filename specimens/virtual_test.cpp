@@ -60,6 +60,7 @@ World build(Scene scene, const TestCase& test) {
 Bonded bond_specimen(const Specimen& specimen, const TestCase& test, const TestCase::Loading& loading) {
     Scene scene = specimen.scene;
     scene.thick = test.bond.thick ? *test.bond.thick : circle_thick_share * specimen.mean_radius;
+    scene.segment_law = segment_law_named("numerics.contact_law", test.numerics.contact_law);
     scene.time_step = test.numerics.time_step.value_or(0.0);
     scene.safety_factor = test.numerics.safety_factor;
     scene.allow_unstable = test.numerics.allow_unstable;
