@@ -117,8 +117,8 @@ TEST(ContactFiles, SegmentsUnderTheGuidesLawComeBackByTheirNumbers) {
     scene.gravity = {3.0, -10.0};
     World world = build_world(scene);
     const std::int64_t bonds = bond_all(world, scene.thick);
-    // The single circle stands over a corner, the end of two segments. Bodies 3 and 4 face each other with edges 2 and 4,
-    // whose ends lie opposite each other and are ends of edges 1 and 3 as well: three more pairs at either end.
+    // The single circle stands over a corner, the end of two segments. Bodies 3 and 4 face each other with edges 2 and
+    // 4, whose ends lie opposite each other and are ends of edges 1 and 3 as well: three more pairs at either end.
     EXPECT_EQ(bonds, 5 + 1 + 6) << "circles, the facing pair, pairs at its ends";
     std::ostringstream tensions, again;
     write_back_tensions(tensions, scene, world);
