@@ -201,11 +201,12 @@ inline ContactGeometry contact_geometry(const World& world, const ContactPoint& 
         return g;
     } else if constexpr (by_guide(K)) {
         DiscResultant resultant;
-        visit_discs<K>(world, point, [&](const Bar& bar, Vec2 centre, double radius, double sense) {
+        const auto visit = [&](auto&& add) { visit_discs<K>(world, point, add); };
+        visit([&](const Bar& bar, Vec2 centre, double radius, double sense) {
             resultant.add(bar, centre, radius, sense);
         });
         const BodyState& j = world.bodies[point.body_j];
-        const DiscResultant::Contact contact = resultant.contact(world.segment_law == SegmentLaw::demseg_mean);
+        const DiscResultant::Contact contact = resultant.contact(world.segment_law == SegmentLaw::demseg_mean, visit);
         return {contact.overlap, contact.normal.x,           contact.normal.y,          contact.at.x,
                 contact.at.y,    contact.at.x - (j.x - i.x), contact.at.y - (j.y - i.y)};
     } else {

@@ -100,13 +100,11 @@ class DiscResultant {
     /// @param sense +1 where the disc is i's, -1 where it is j's: normals point from i to j
     void add(const Bar& bar, Vec2 centre, double radius, double sense) {
         const DiscCase c = disc_case(bar, centre, radius);
-        if (c.squared_distance < nearest_.squared_distance) {
-            nearest_ = c;
-            nearest_bar_ = bar;
-            nearest_centre_ = centre;
-            nearest_radius_ = radius;
-            nearest_sense_ = sense;
+        if (c.squared_distance < least_squared_distance_) {
+            least_squared_distance_ = c.squared_distance;
+            nearest_ = added_;
         }
+        ++added_;
         if (c.rule == DiscRule::none) return;
         sum_ = sum_ + (sense * c.overlap) * c.normal;
         position_ = position_ + c.overlap * c.at;
@@ -119,34 +117,30 @@ class DiscResultant {
         Vec2 normal, at;  // unit, from i to j; m
     };
 
-    Contact contact(bool mean) const {
+    /// @param visit calls what it is given once more with the arguments of every add(), for a pair out of contact
+    template <typename Visit>
+    Contact contact(bool mean, Visit&& visit) const {
         const double size = norm(sum_);
         if (size > 0.0) {
             const double overlap = mean ? size / static_cast<double>(cases_) : size;
             return {overlap, (1.0 / size) * sum_, (1.0 / weight_) * position_};
         }
-        DiscCase c = nearest_;
-        place(c, nearest_bar_, nearest_centre_);
-        const double overlap = std::min(0.0, nearest_radius_ - std::sqrt(c.squared_distance));
-        return {overlap, nearest_sense_ * c.normal, weight_ > 0.0 ? (1.0 / weight_) * position_ : c.at};
+        Contact apart{};
+        int number = 0;
+        visit([&](const Bar& bar, Vec2 centre, double radius, double sense) {
+            if (number++ != nearest_) return;
+            DiscCase c = disc_case(bar, centre, radius);
+            place(c, bar, centre);
+            apart = {std::min(0.0, radius - std::sqrt(c.squared_distance)), sense * c.normal, c.at};
+        });
+        if (weight_ > 0.0) apart.at = (1.0 / weight_) * position_;
+        return apart;
     }
-
-    int cases() const { return cases_; }
 
   private:
     Vec2 sum_, position_;
-    double weight_ = 0.0;
-    int cases_ = 0;
-    DiscCase nearest_{.inside = 0.0,
-                      .height = 0.0,
-                      .side = 1.0,
-                      .squared_distance = std::numeric_limits<double>::infinity(),
-                      .end = {},
-                      .normal = {},
-                      .at = {}};
-    Bar nearest_bar_{};
-    Vec2 nearest_centre_;
-    double nearest_radius_ = 0.0, nearest_sense_ = 1.0;
+    double weight_ = 0.0, least_squared_distance_ = std::numeric_limits<double>::infinity();
+    int cases_ = 0, added_ = 0, nearest_ = 0;
 };
 
 }  // namespace crackle

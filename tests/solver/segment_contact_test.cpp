@@ -92,27 +92,37 @@ TEST(DiscAgainstSegment, JumpsAtAFreeEndButNotAtAStraightJoint) {
     EXPECT_TRUE(within("at the joint itself", push(joined, 0.0), 2.0, 1e-12));
 }
 
+struct Disc {
+    Bar bar;
+    Vec2 centre;
+    double radius, sense;
+};
+
+DiscResultant::Contact resultant_of(const std::vector<Disc>& discs, bool mean) {
+    const auto visit = [&](auto&& add) {
+        for (const Disc& d : discs) add(d.bar, d.centre, d.radius, d.sense);
+    };
+    DiscResultant resultant;
+    visit([&](const Bar& b, Vec2 centre, double r, double sense) { resultant.add(b, centre, r, sense); });
+    return resultant.contact(mean, visit);
+}
+
 TEST(DiscResultant, AddsVectorsAtTheWeightedMeanPlaceAndCancels) {
     const Bar upright{{30.0, -10.0}, {0.0, 1.0}, 20.0};
-    DiscResultant two;
-    two.add(bar, {10.0, 3.0}, radius, 1.0);      // 2 downwards at (10, 0)
-    two.add(upright, {26.0, 0.0}, radius, 1.0);  // 1 to the right at (30, 0)
-    const DiscResultant::Contact sum = two.contact(false), mean = two.contact(true);
+    // 2 downwards at (10, 0) and 1 to the right at (30, 0).
+    const std::vector<Disc> two{{bar, {10.0, 3.0}, radius, 1.0}, {upright, {26.0, 0.0}, radius, 1.0}};
+    const DiscResultant::Contact sum = resultant_of(two, false), mean = resultant_of(two, true);
     EXPECT_TRUE(agrees("overlap of the sum", sum.overlap, std::sqrt(5.0), 1e-14));
     EXPECT_TRUE(agrees("overlap of the mean", mean.overlap, 0.5 * std::sqrt(5.0), 1e-14));
     EXPECT_TRUE(within("direction", norm(sum.normal - (1.0 / std::sqrt(5.0)) * Vec2{1.0, -2.0}), 0.0, 1e-14));
     EXPECT_TRUE(within("place", norm(sum.at - Vec2{50.0 / 3.0, 0.0}), 0.0, 1e-13));
 
-    DiscResultant opposite;
-    opposite.add(bar, {10.0, 3.0}, radius, 1.0);
-    opposite.add(bar, {10.0, -3.0}, radius, 1.0);
-    EXPECT_TRUE(within("opposite cases cancel: overlap", opposite.contact(false).overlap, 0.0, 0.0));
+    const auto opposite = resultant_of({{bar, {10.0, 3.0}, radius, 1.0}, {bar, {10.0, -3.0}, radius, 1.0}}, false);
+    EXPECT_TRUE(within("opposite cases cancel: overlap", opposite.overlap, 0.0, 0.0));
 
-    DiscResultant apart;
-    apart.add(bar, {-3.0, 4.0}, 2.0, -1.0);
-    EXPECT_TRUE(within("apart: overlap is minus the distance", apart.contact(false).overlap, -3.0, 1e-14));
-    EXPECT_TRUE(
-        within("apart: normal of a disc of j", norm(apart.contact(false).normal - Vec2{-0.6, 0.8}), 0.0, 1e-14));
+    const auto apart = resultant_of({{bar, {-30.0, 40.0}, 2.0, 1.0}, {bar, {-3.0, 4.0}, 2.0, -1.0}}, false);
+    EXPECT_TRUE(within("apart: overlap is minus the nearest disc's distance", apart.overlap, -3.0, 1e-14));
+    EXPECT_TRUE(within("apart: normal of a disc of j", norm(apart.normal - Vec2{-0.6, 0.8}), 0.0, 1e-14));
 }
 
 // ---- pairs of bodies
