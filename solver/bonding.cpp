@@ -72,9 +72,11 @@ void finish_bonding(World& world) {
     world.interfaces_lost = 0;
     world.bond_history.assign(world.points.size(), BondHistory{0.0, 0.0});
     world.dissipation.assign(world.ledger_on ? world.points.size() : 0, PointDissipation{0.0, 0.0});
+    world.spring_work.assign(keeps_spring_work(world) ? world.points.size() : 0, SpringWork{});
     world.events.clear();
     world.events.reserve(static_cast<std::size_t>(world.bonds_initial));
-    world.dashpot_loss = world.friction_loss = world.fracture_loss = world.displacement_work = world.force_work = 0.0;
+    world.dashpot_loss = world.friction_loss = world.fracture_loss = world.law_loss = 0.0;
+    world.displacement_work = world.force_work = 0.0;
     world.initial_energy_taken = false;
     world.largest_supply = 0.0;
     world.drift = 0.0;  // nothing has moved since

@@ -26,15 +26,18 @@ double orientation_of(Vec2 normal) {
     return angle;
 }
 
-/// Energy that a break takes, J (see above).
-double fracture_energy(const World& world, const ContactPoint& point, const PointView& view) {
+/// Energy that a break takes, J (see above). Under the guide's law the normal spring's work has been added up just so.
+double fracture_energy(const World& world, PointIndex k, const PointView& view) {
+    const ContactPoint& point = world.points[k];
     const ContactLaw& law = world.laws[point.law];
     const BodyState &i = world.bodies[point.body_i], &j = world.bodies[point.body_j];
     const Vec2 speed{i.vx - i.omega * view.arm_i.y - (j.vx - j.omega * view.arm_j.y),
                      i.vy + i.omega * view.arm_i.x - (j.vy + j.omega * view.arm_j.x)};
     const double opening = view.overlap - point.bond_overlap;
     const double before = opening - world.drift * dot(speed, view.normal);
-    const double normal = 0.5 * law.normal_stiffness * before * opening;
+    const double normal = by_guide(view.kind) && !world.spring_work.empty()
+                              ? world.spring_work[k].stored
+                              : 0.5 * law.normal_stiffness * before * opening;
     if (law.shear_stiffness == 0.0) return normal;
     const double shear = point.shear_force - law.shear_stiffness * world.drift * dot(speed, perpendicular(view.normal));
     return normal + 0.5 * point.shear_force * shear / law.shear_stiffness;
@@ -67,7 +70,7 @@ void record_breaks(World& world) {
         event.body_j = world.info[point.body_j].id;
         event.position = view.position;
         event.orientation = orientation_of(view.normal);
-        event.energy = fracture_energy(world, point, view);
+        event.energy = fracture_energy(world, k, view);
         event.strength = law.normal_stiffness * point.bond_overlap;
         event.normal_force = history.normal_force;
         event.shear_force = history.shear_force;
@@ -76,6 +79,7 @@ void record_breaks(World& world) {
         point.shear_force = 0.0;
         point.bond_overlap = 0.0;
         point.flags = static_cast<std::uint16_t>(point.flags & point_counted);  // until the bound is found anew
+        if (!world.spring_work.empty()) world.spring_work[k] = {};
         event.last_of_interface = !interface_holds(world, point.body_i, point.body_j);
         world.fracture_loss += event.energy;
         world.bonds_broken += 1;

@@ -101,6 +101,20 @@ void add_elements(World& world, const Scene& scene, const Body& body, const Mass
     add_pieces(world, info, frame);
 }
 
+/// The guide's law goes by the segments of the outline itself, whatever convex pieces it falls into.
+void add_segments(World& world, const BodyInfo& info) {
+    for (std::uint32_t e = 0; e < info.element_count; ++e) {
+        const Element& a = world.elements[info.first_element + e];
+        const bool last = e + 1 == info.element_count;
+        if (info.piece_count == 0 || (last && !info.closed)) {
+            world.segments.push_back({a.x, a.y, 1.0, 0.0, 0.0});
+            continue;
+        }
+        const Element& b = world.elements[info.first_element + (last ? 0 : e + 1)];
+        world.segments.push_back(edge_between({a.x, a.y}, {b.x, b.y}));
+    }
+}
+
 void add_body(World& world, const Scene& scene, const Body& body, const MassProperties& properties) {
     BodyInfo info{};
     info.id = body.id;
@@ -111,6 +125,7 @@ void add_body(World& world, const Scene& scene, const Body& body, const MassProp
     BodyState state{
         properties.centroid.x, properties.centroid.y, body.velocity.x, body.velocity.y, body.spin, 0.0, {1.0, 0.0}};
     add_elements(world, scene, body, properties, info, state);
+    if (world.segment_law != SegmentLaw::rounded) add_segments(world, info);
     if (info.single_circle) {
         state.x = scene.circles[body.first_circle].centre.x;
         state.y = scene.circles[body.first_circle].centre.y;
@@ -206,6 +221,7 @@ World build_world(Scene scene) {
     world.materials = scene.materials;
     world.domain = scene.domain;
     world.thick = scene.thick;
+    world.segment_law = scene.segment_law;
     world.gravity = scene.gravity;
     world.safety_factor = scene.safety_factor;
     world.allow_unstable = scene.allow_unstable;

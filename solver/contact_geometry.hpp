@@ -5,13 +5,14 @@
 // centre from the partner (signed, negative inside a closed outline), the overlap is
 //     δ = r_a + r_b - d         circle-circle: both radii; circle-outline: r and thick; vertex-outline: thick/2 twice
 // the normal n = -∇d points from i to j, and the force acts midway between the two surfaces, at x + n(r_a - δ/2).
-// This is the «rounded» law: d is C¹ outside a convex outline, so the force derives from ½k_n δ². Source:
-// reference/model.md 2.
+// This is the «rounded» law: d is C¹ outside a convex outline, so the force derives from ½k_n δ². The guide's law has
+// kinds of its own, by segment_contact.hpp. Source: reference/model.md 2.
 #pragma once
 
 #include <cmath>
 #include <cstdint>
 
+#include "solver/segment_contact.hpp"
 #include "solver/world.hpp"
 
 namespace crackle {
@@ -139,6 +140,34 @@ inline ContactGeometry circles_geometry(const BodyState& i, const BodyState& j, 
 
 }  // namespace detail
 
+/// The segment that begins at an element, as it lies now. @param centre of its body, m, in the frame wanted
+inline Bar bar_of(const World& world, const BodyState& body, std::uint32_t element, Vec2 centre) {
+    const Edge& edge = world.segments[element];
+    const double c = body.shape[0], s = body.shape[1];
+    return {centre + Vec2{c * edge.x - s * edge.y, s * edge.x + c * edge.y},
+            {c * edge.tx - s * edge.ty, s * edge.tx + c * edge.ty},
+            edge.length};
+}
+
+/// Calls visit(bar, disc's centre, radius, sense) for every disc of a point under the guide's law; positions count from
+/// i's centroid, sense is +1 for a disc of i.
+template <PointKind K, typename Visit>
+inline void visit_discs(const World& world, const ContactPoint& point, Visit&& visit) {
+    const BodyState& i = world.bodies[point.body_i];
+    const BodyState& j = world.bodies[point.body_j];
+    const Bar b = bar_of(world, j, point.feature_j, {j.x - i.x, j.y - i.y});
+    if constexpr (K == PointKind::disc_segment) {
+        const Element& circle = world.elements[point.element_i];
+        visit(b, turned(i, circle), circle.radius + world.thick, 1.0);
+    } else {
+        const Bar a = bar_of(world, i, point.element_i, {});
+        visit(b, a.start, world.thick, 1.0);
+        visit(b, a.start + a.length * a.along, world.thick, 1.0);
+        visit(a, b.start, world.thick, -1.0);
+        visit(a, b.start + b.length * b.along, world.thick, -1.0);
+    }
+}
+
 /// Geometry of a point of kind K; `feature` comes back as the edge faced.
 template <PointKind K>
 inline ContactGeometry contact_geometry(const World& world, const ContactPoint& point, std::uint32_t& feature) {
@@ -170,6 +199,16 @@ inline ContactGeometry contact_geometry(const World& world, const ContactPoint& 
         g.ajx = wx + lift * g.nx;
         g.ajy = wy + lift * g.ny;
         return g;
+    } else if constexpr (by_guide(K)) {
+        DiscResultant resultant;
+        const auto visit = [&](auto&& add) { visit_discs<K>(world, point, add); };
+        visit([&](const Bar& bar, Vec2 centre, double radius, double sense) {
+            resultant.add(bar, centre, radius, sense);
+        });
+        const BodyState& j = world.bodies[point.body_j];
+        const DiscResultant::Contact contact = resultant.contact(world.segment_law == SegmentLaw::demseg_mean, visit);
+        return {contact.overlap, contact.normal.x,           contact.normal.y,          contact.at.x,
+                contact.at.y,    contact.at.x - (j.x - i.x), contact.at.y - (j.y - i.y)};
     } else {
         const Element& a = world.elements[point.element_i];
         const Vec2 oi = turned(i, a);

@@ -20,6 +20,14 @@ struct PassRange {
     std::size_t block;  // into World::loss_blocks
 };
 
+/// Work of the drift that ended here, by the spring's force before it and after it (`now` along the normal, N).
+inline void store_work(SpringWork& work, const World& world, const ContactPoint& point, double now, double closing) {
+    const BodyState &i = world.bodies[point.body_i], &j = world.bodies[point.body_j];
+    const double given_back = work.last.fx * (i.vx - j.vx) + work.last.fy * (i.vy - j.vy) +
+                              work.last.torque_i * i.omega + work.last.torque_j * j.omega;
+    work.stored += 0.5 * world.drift * (now * closing - given_back);
+}
+
 /// Out of contact: no force; what the shear spring still held is lost to the slider.
 template <bool Friction, bool Ledger>
 inline void release(const World& world, ContactPoint& point, World::LossBlock& loss, double shear_move) {
@@ -75,6 +83,15 @@ void force_block(World& world, const PassRange& range) {
                 loss.dashpot += 0.5 * dt * (last.normal * closing + last.shear * slipping);
                 last = {0.0, 0.0};
             }
+            if constexpr (Ledger && by_guide(K)) {
+                SpringWork& work = world.spring_work[k];
+                store_work(work, world, point, 0.0, closing);
+                work.last = {0.0, 0.0, 0.0, 0.0};
+                if (!bonded) {
+                    loss.law += work.stored;
+                    work.stored = 0.0;
+                }
+            }
             if (bonded) {
                 point.flags = static_cast<std::uint16_t>((point.flags & ~point_bonded) | point_just_broken);
                 ++loss.broken;
@@ -88,6 +105,16 @@ void force_block(World& world, const PassRange& range) {
 
         double normal = law.normal_stiffness * g.overlap;
         if constexpr (Bonds) normal -= law.normal_stiffness * point.bond_overlap;
+        if constexpr (Ledger && by_guide(K)) {
+            SpringWork& work = world.spring_work[k];
+            if (world.initial_energy_taken) {
+                store_work(work, world, point, normal, closing);
+            } else {
+                work.stored = 0.5 * normal * normal / law.normal_stiffness;  // the account begins
+            }
+            const double fx = -normal * g.nx, fy = -normal * g.ny;
+            work.last = {fx, fy, g.aix * fy - g.aiy * fx, g.ajy * fx - g.ajx * fy};
+        }
         double tangential = 0.0;
         std::uint16_t flags = static_cast<std::uint16_t>((point.flags | point_touching) & ~point_sliding);
         bool sliding = !Friction;
@@ -142,6 +169,8 @@ constexpr std::array<std::array<BlockKernel, 16>, point_kinds> kernels{
     kernels_of<PointKind::circle_circle>(std::make_index_sequence<16>{}),
     kernels_of<PointKind::element_element>(std::make_index_sequence<16>{}),
     kernels_of<PointKind::element_outline>(std::make_index_sequence<16>{}),
+    kernels_of<PointKind::disc_segment>(std::make_index_sequence<16>{}),
+    kernels_of<PointKind::segment_segment>(std::make_index_sequence<16>{}),
     kernels_of<PointKind::element_wall>(std::make_index_sequence<16>{}),
 };
 

@@ -5,6 +5,8 @@
 
 #include <Eigen/SparseCholesky>
 #include <Eigen/SparseCore>
+#include <Eigen/SparseLU>
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -53,35 +55,31 @@ class ScaledSystem {
         assemble(springs, rows);
     }
 
-    int number(const Spring& s, int a) const {
-        return number_[3 * std::size_t{a < 3 ? s.i : s.j} + static_cast<std::size_t>(a % 3)];
-    }
+    int number(const Spring& s, std::size_t a) const { return number_[3 * std::size_t{a < 3 ? s.i : s.j} + a % 3]; }
     int number(std::size_t body, int dof) const { return number_[3 * body + static_cast<std::size_t>(dof)]; }
     double scale(int row) const { return scale_[row]; }
-    const Matrix& stiffness() const { return stiffness_; }  // lower triangle
-
-    /// K + by·I, factorised.
-    void factorise(Factor& factor, double by) const {
+    bool symmetric() const { return symmetric_; }
+    const Matrix& stiffness() const { return stiffness_; }  // lower triangle where it is symmetric
+    Matrix shifted(double by) const {
         Matrix identity(stiffness_.rows(), stiffness_.rows());
         identity.setIdentity();
-        factor.compute(stiffness_ + by * identity);
-        if (factor.info() != Eigen::Success)
-            throw InputError("elastic solve: the stiffness matrix could not be factorised; is any body bonded?");
+        return stiffness_ + by * identity;
     }
 
   private:
     void assemble(const std::vector<Spring>& springs, int rows) {
+        symmetric_ = std::ranges::all_of(springs, &Spring::symmetric);
         std::vector<Eigen::Triplet<double>> entries;
-        entries.reserve(springs.size() * 21);
+        entries.reserve(springs.size() * (symmetric_ ? 21 : 36));
         for (const Spring& s : springs) {
-            for (int a = 0; a < 6; ++a) {
+            for (std::size_t a = 0; a < 6; ++a) {
                 const int row = number(s, a);
                 if (row < 0) continue;
-                for (int b = 0; b < 6; ++b) {
+                for (std::size_t b = 0; b < 6; ++b) {
                     const int column = number(s, b);
-                    if (column < 0 || column > row) continue;
-                    entries.emplace_back(
-                        row, column, s.stiffness * s.coefficient[a] * scale_[row] * s.coefficient[b] * scale_[column]);
+                    if (column < 0 || (symmetric_ && column > row)) continue;
+                    entries.emplace_back(row, column,
+                                         s.stiffness * s.push[a] * scale_[row] * s.gradient[b] * scale_[column]);
                 }
             }
         }
@@ -92,12 +90,19 @@ class ScaledSystem {
     std::vector<int> number_;  // per body and degree of freedom: row, -1 where held
     Vector scale_;             // per row: displacement for a unit of the scaled unknown
     Matrix stiffness_;
+    bool symmetric_ = true;
 };
 
-Vector solve(const ScaledSystem& system, const Vector& load, double& residual) {
-    Factor factor;
-    system.factorise(factor, shift);
-    const auto full = system.stiffness().selfadjointView<Eigen::Lower>();
+template <class Solver>
+void require_factor(const Solver& factor) {
+    if (factor.info() != Eigen::Success)
+        throw InputError("elastic solve: the stiffness matrix could not be factorised; is any body bonded?");
+}
+
+/// @param full K as it acts on a vector
+template <class Solver, class Full>
+Vector refine(const Solver& factor, const Full& full, const Vector& load, double& residual) {
+    require_factor(factor);
     const double size = load.norm();
     Vector u = factor.solve(load);
     Vector rest = load - full * u;
@@ -118,6 +123,17 @@ Vector solve(const ScaledSystem& system, const Vector& load, double& residual) {
     return u;
 }
 
+Vector solve(const ScaledSystem& system, const Vector& load, double& residual) {
+    const Matrix& stiffness = system.stiffness();
+    if (system.symmetric()) {
+        const Factor factor(system.shifted(shift));
+        return refine(factor, stiffness.selfadjointView<Eigen::Lower>(), load, residual);
+    }
+    Eigen::SparseLU<Matrix> factor;
+    factor.compute(system.shifted(shift));
+    return refine(factor, stiffness, load, residual);
+}
+
 }  // namespace
 
 ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>& prescribed) {
@@ -135,10 +151,10 @@ ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>&
     if (solution.unknowns > 0) {
         Vector load = Vector::Zero(system.stiffness().rows());
         for (const Spring& s : springs) {
-            const double imposed = stretch(s, solution.displacement);
-            for (int a = 0; a < 6; ++a) {
+            const double imposed = times(s, s.gradient, solution.displacement);
+            for (std::size_t a = 0; a < 6; ++a) {
                 const int row = system.number(s, a);
-                if (row >= 0) load[row] -= s.stiffness * imposed * s.coefficient[a] * system.scale(row);
+                if (row >= 0) load[row] -= s.stiffness * imposed * s.push[a] * system.scale(row);
             }
         }
         const Vector u = solve(system, load, solution.residual);
@@ -151,11 +167,12 @@ ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>&
     }
     std::vector<Motion> force(world.bodies.size());
     for (const Spring& s : springs) {
-        const double a = stretch(s, solution.displacement);
-        solution.energy += 0.5 * s.stiffness * a * a;
+        const double a = times(s, s.gradient, solution.displacement);
+        solution.energy += 0.5 * s.stiffness * a * times(s, s.push, solution.displacement);
         for (int d = 0; d < 3; ++d) {
-            component(force[s.i], d) += s.stiffness * a * s.coefficient[d];
-            component(force[s.j], d) += s.stiffness * a * s.coefficient[d + 3];
+            const auto k = static_cast<std::size_t>(d);
+            component(force[s.i], d) += s.stiffness * a * s.push[k];
+            component(force[s.j], d) += s.stiffness * a * s.push[k + 3];
         }
     }
     for (const Prescribed& p : prescribed) solution.reaction.push_back(force[p.body]);
@@ -165,14 +182,15 @@ ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>&
 FreeMotions find_free_motions(const World& world, const std::vector<BodyIndex>& held_bodies) {
     std::vector<bool> held(world.bodies.size(), false);
     for (const BodyIndex b : held_bodies) held[b] = true;
-    const ScaledSystem system(world, springs_of(world, ClosedPoints::bonded), held);
+    const ScaledSystem system(world, symmetric_majorant(world, springs_of(world, ClosedPoints::bonded)), held);
     FreeMotions free;
     if (system.stiffness().rows() == 0) return free;
-    Factor factor;
-    system.factorise(factor, -free_energy);
+    Factor factor(system.shifted(-free_energy));
+    require_factor(factor);
     free.count = (factor.vectorD().array() < 0.0).count();
     if (free.count == 0) return free;
-    system.factorise(factor, shift);
+    factor.compute(system.shifted(shift));
+    require_factor(factor);
     std::vector<bool> takes_part(world.bodies.size(), false);
     std::minstd_rand random(1);
     for (int n = 0; n < probes; ++n) {

@@ -10,6 +10,9 @@
 // and a shift of 1e-12 keeps the factorisation (LDLᵀ) going; iterative refinement removes it again from all that
 // carries load, and what does not stays where it is. Motions of an energy below 1e-9 of the scaled stiffness count as
 // free: the softest mode that carries load has about 1/N, N the particles.
+//
+// Under the guide's law K is unsymmetric (springs.hpp): solved by LU, as exact; the energy is then the work done along
+// a straight way to the solution, and free motions are those of its symmetric part's majorant.
 #pragma once
 
 #include <cstdint>

@@ -52,33 +52,43 @@ double potential_energy(const World& world) {
     return sum;
 }
 
-double stored_energy(const World& world) {
+double strain_of_points(const World& world) {
     double sum = 0.0;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
         const ContactPoint& point = world.points[k];
         if ((point.flags & point_touching) == 0) continue;
-        const PointView view = view_point(world, k);
-        if (!view.touching) continue;
-        sum += strain_energy(world.laws[point.law], view.overlap, point.bond_overlap, point.shear_force);
+        if (view_point(world, k).touching) sum += stored_energy(world, k);
     }
     return sum;
 }
 
 }  // namespace
 
+double stored_energy(const World& world, PointIndex k) {
+    const ContactPoint& point = world.points[k];
+    const ContactLaw& law = world.laws[point.law];
+    const PointView view = view_point(world, k);
+    if (!by_guide(view.kind) || world.spring_work.empty())
+        return strain_energy(law, view.overlap, point.bond_overlap, point.shear_force);
+    const double shear =
+        law.shear_stiffness > 0.0 ? 0.5 * point.shear_force * point.shear_force / law.shear_stiffness : 0.0;
+    return world.spring_work[k].stored + shear;
+}
+
 Ledger measure_ledger(const World& world) {
     Ledger ledger;
     ledger.potential = potential_energy(world);
     ledger.kinetic = kinetic_energy(world);
-    ledger.strain = stored_energy(world);
+    ledger.strain = strain_of_points(world);
     ledger.dashpot_loss = world.dashpot_loss;
     ledger.friction_loss = world.friction_loss;
     ledger.fracture_loss = world.fracture_loss;
+    ledger.law_loss = world.law_loss;
     ledger.displacement_work = world.displacement_work;
     ledger.force_work = world.force_work;
     ledger.closing_error = ledger.potential + ledger.kinetic + ledger.strain + ledger.dashpot_loss +
-                           ledger.friction_loss + ledger.fracture_loss - ledger.displacement_work - ledger.force_work -
-                           world.initial_energy;
+                           ledger.friction_loss + ledger.fracture_loss + ledger.law_loss - ledger.displacement_work -
+                           ledger.force_work - world.initial_energy;
     return ledger;
 }
 

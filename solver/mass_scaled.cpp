@@ -6,7 +6,8 @@
 
 namespace crackle {
 
-MassScaled::MassScaled(const World& world, ClosedPoints which) : springs_(springs_of(world, which)) {
+MassScaled::MassScaled(const World& world, ClosedPoints which)
+    : springs_(symmetric_majorant(world, springs_of(world, which))) {
     number_.resize(3 * world.bodies.size(), -1);
     const auto take = [&](std::size_t dof, double inverse) {
         if (inverse == 0.0) return;
@@ -29,7 +30,8 @@ MassScaled::Row MassScaled::row_of(const Spring& s) const {
     for (int a = 0; a < 6; ++a) {
         const BodyIndex body = a < 3 ? s.i : s.j;
         row.number[a] = body == no_body ? -1 : number_[3 * std::size_t{body} + static_cast<std::size_t>(a % 3)];
-        if (row.number[a] >= 0) row.value[a] = s.coefficient[a] * root_[static_cast<std::size_t>(row.number[a])];
+        if (row.number[a] >= 0)
+            row.value[a] = s.push[static_cast<std::size_t>(a)] * root_[static_cast<std::size_t>(row.number[a])];
     }
     return row;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Springs and dashpots of a world in mass-scaled coordinates x = M^½ u: M^-½ K M^-½ and M^-½ C M^-½, held degrees of
-// freedom left out. What the exact stable step and the vibration modes are found from.
+// freedom left out (under the guide's law K by its symmetric majorant). What the exact stable step and the vibration
+// modes are found from.
 #pragma once
 
 #include <Eigen/SparseCore>

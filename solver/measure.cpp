@@ -5,6 +5,7 @@
 
 #include "solver/contact_geometry.hpp"
 #include "solver/errors.hpp"
+#include "solver/overlap_gradient.hpp"
 #include "solver/world.hpp"
 
 namespace crackle {
@@ -25,6 +26,10 @@ ContactGeometry geometry_of(const World& world, PointKind kind, const ContactPoi
             return contact_geometry<PointKind::element_element>(world, point, feature);
         case PointKind::element_outline:
             return contact_geometry<PointKind::element_outline>(world, point, feature);
+        case PointKind::disc_segment:
+            return contact_geometry<PointKind::disc_segment>(world, point, feature);
+        case PointKind::segment_segment:
+            return contact_geometry<PointKind::segment_segment>(world, point, feature);
         case PointKind::element_wall:
             break;
     }
@@ -46,6 +51,8 @@ PointView view_point(const World& world, PointIndex k) {
     view.normal = {g.nx, g.ny};
     view.arm_i = {g.aix, g.aiy};
     view.arm_j = {g.ajx, g.ajy};
+    view.overlap_gradient =
+        by_guide(view.kind) ? guide_gradient(world, view.kind, point) : approach(view.normal, view.arm_i, view.arm_j);
     view.position = {body.x + g.aix, body.y + g.aiy};
     view.bonded = (point.flags & point_bonded) != 0;
     view.touching = view.bonded || g.overlap > 0.0;

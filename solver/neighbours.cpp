@@ -183,6 +183,58 @@ void add_outline_points(const World& world, BodyIndex i, BodyIndex j, PointLists
     }
 }
 
+/// Circles of i against the segments of j, by the guide's law.
+void add_circle_segment_points(const World& world, BodyIndex i, BodyIndex j, PointLists& lists) {
+    const BodyInfo &a = world.info[i], &b = world.info[j];
+    const BodyState& own = world.bodies[i];
+    const Vec2 to_j = centre_of(world.bodies[j]) - centre_of(own);
+    for (std::uint32_t p = a.first_element; p < a.first_element + a.element_count; ++p) {
+        const Vec2 centre = turned(own, world.elements[p]);
+        const double limit = world.elements[p].radius + world.thick + world.skin;
+        if (norm(centre - to_j) > b.reach + limit) continue;
+        for (std::uint32_t q = b.first_element; q < b.first_element + b.element_count; ++q) {
+            if (world.segments[q].length == 0.0) continue;
+            const DiscCase found = disc_case(bar_of(world, world.bodies[j], q, to_j), centre, limit);
+            if (found.rule == DiscRule::none) continue;
+            lists[static_cast<std::size_t>(PointKind::disc_segment)].push_back(new_point(world, i, j, p, q));
+        }
+    }
+}
+
+/// Segments of i against those of j, by the guide's law: where an end of one comes near the other.
+void add_segment_pairs(const World& world, BodyIndex i, BodyIndex j, PointLists& lists) {
+    const BodyInfo &a = world.info[i], &b = world.info[j];
+    const Vec2 to_j = centre_of(world.bodies[j]) - centre_of(world.bodies[i]);
+    const double limit = world.thick + world.skin;
+    for (std::uint32_t p = a.first_element; p < a.first_element + a.element_count; ++p) {
+        if (world.segments[p].length == 0.0) continue;
+        const Bar own = bar_of(world, world.bodies[i], p, {});
+        if (std::sqrt(disc_case(own, to_j, 0.0).squared_distance) > b.reach + limit) continue;
+        for (std::uint32_t q = b.first_element; q < b.first_element + b.element_count; ++q) {
+            if (world.segments[q].length == 0.0) continue;
+            const Bar other = bar_of(world, world.bodies[j], q, to_j);
+            const auto near = [&](const Bar& bar, Vec2 end) {
+                return disc_case(bar, end, 0.0).squared_distance < limit * limit;
+            };
+            if (near(other, own.start) || near(other, own.start + own.length * own.along) || near(own, other.start) ||
+                near(own, other.start + other.length * other.along))
+                lists[static_cast<std::size_t>(PointKind::segment_segment)].push_back(new_point(world, i, j, p, q));
+        }
+    }
+}
+
+/// @param i, j two bodies at least one of which is a chain
+void add_guide_points(const World& world, BodyIndex i, BodyIndex j, PointLists& lists) {
+    const bool chain_i = world.info[i].piece_count > 0, chain_j = world.info[j].piece_count > 0;
+    if (chain_i && chain_j) {
+        add_segment_pairs(world, i, j, lists);
+    } else if (chain_j) {
+        add_circle_segment_points(world, i, j, lists);
+    } else {
+        add_circle_segment_points(world, j, i, lists);
+    }
+}
+
 void add_wall_points(const World& world, BodyIndex i, PointLists& lists) {
     const BodyInfo& info = world.info[i];
     const BodyState& body = world.bodies[i];
@@ -228,6 +280,10 @@ PointLists emit_points(const World& world) {
         if (both_held(world, i, j)) continue;
         const bool chain_i = world.info[i].piece_count > 0, chain_j = world.info[j].piece_count > 0;
         if (!chain_i && !chain_j) add_circle_pairs(world, i, j, lists);
+        if (world.segment_law != SegmentLaw::rounded) {
+            if (chain_i || chain_j) add_guide_points(world, i, j, lists);
+            continue;
+        }
         if (chain_j) add_outline_points(world, i, j, lists);
         if (chain_i) add_outline_points(world, j, i, lists);
     }
@@ -235,7 +291,7 @@ PointLists emit_points(const World& world) {
     return lists;
 }
 
-/// Order of emission: pair, which of the two owns the element, element, partner's circle.
+/// Order of emission: pair, which of the two owns the element, element, partner's circle or segment.
 struct PointKey {
     std::uint32_t low, high, owner_is_high, element, partner;
     auto operator<=>(const PointKey&) const = default;
@@ -245,7 +301,7 @@ PointKey key_of(PointKind kind, const ContactPoint& p) {
     if (kind == PointKind::element_wall) return {p.body_i, p.body_j, 0, p.element_i, 0};
     const bool swapped = p.body_i > p.body_j;
     return {swapped ? p.body_j : p.body_i, swapped ? p.body_i : p.body_j, swapped ? 1u : 0u, p.element_i,
-            kind == PointKind::element_element ? p.feature_j : 0u};
+            kind == PointKind::element_element || by_guide(kind) ? p.feature_j : 0u};
 }
 
 /// Replaces the points of the world, carrying over what the old ones remember. A bond is carried over whether its point
@@ -253,17 +309,20 @@ PointKey key_of(PointKind kind, const ContactPoint& p) {
 void exchange_points(World& world, PointLists& lists) {
     std::vector<ContactPoint> points;
     std::vector<PointDissipation> dissipation;
+    std::vector<SpringWork> spring_work;
     std::vector<BondHistory> history;
     std::array<PointIndex, point_kinds + 1> begin{};
     std::size_t total = 0;
     for (const auto& list : lists) total += list.size();
     points.reserve(total);
     if (world.ledger_on) dissipation.reserve(total);
+    if (keeps_spring_work(world)) spring_work.reserve(total);
     if (world.has_bonds) history.reserve(total);
     constexpr PointIndex none = std::numeric_limits<PointIndex>::max();
     const auto add = [&](const ContactPoint& point, PointIndex old) {
         points.push_back(point);
         if (world.ledger_on) dissipation.push_back(old != none ? world.dissipation[old] : PointDissipation{0.0, 0.0});
+        if (keeps_spring_work(world)) spring_work.push_back(old != none ? world.spring_work[old] : SpringWork{});
         if (world.has_bonds)
             history.push_back(old != none && !world.bond_history.empty() ? world.bond_history[old]
                                                                          : BondHistory{0.0, 0.0});
@@ -299,6 +358,7 @@ void exchange_points(World& world, PointLists& lists) {
     begin[point_kinds] = static_cast<PointIndex>(points.size());
     world.points = std::move(points);
     world.dissipation = std::move(dissipation);
+    world.spring_work = std::move(spring_work);
     world.bond_history = std::move(history);
     world.kind_begin = begin;
     world.point_forces.assign(world.points.size(), PointForce{});

@@ -201,6 +201,13 @@ void validate_body(Scene& scene, const Body& body) {
 
 }  // namespace
 
+SegmentLaw segment_law_named(const std::string& where, const std::string& word) {
+    if (word == "rounded") return SegmentLaw::rounded;
+    if (word == "demseg") return SegmentLaw::demseg;
+    if (word == "demseg_mean") return SegmentLaw::demseg_mean;
+    throw InputError(fmt::format("{}: found \"{}\", expected \"rounded\", \"demseg\" or \"demseg_mean\"", where, word));
+}
+
 std::uint32_t Scene::add_circle_body(int id, int material, const CircleElement& circle) {
     Body body;
     body.id = id;

@@ -85,6 +85,16 @@ struct Domain {
     std::array<bool, 4> wall_present{true, true, true, true};  ///< by Wall
 };
 
+/// Contact law of segments and polygons; circles among themselves and walls are the same in all.
+enum class SegmentLaw : std::uint8_t {
+    rounded,     ///< vertex against the other's outline as a whole (contact_geometry.hpp)
+    demseg,      ///< the guide's: element by element, the disc cases of a pair added up (segment_contact.hpp)
+    demseg_mean  ///< the same with the mean of the cases in contact
+};
+
+/// "rounded", "demseg" or "demseg_mean". @throws InputError on another word, naming `where`.
+SegmentLaw segment_law_named(const std::string& where, const std::string& word);
+
 /// First kick of leapfrog: decks start with a full one (the guide's n(n+1)/2), everything else with a half one.
 enum class FirstKick : std::uint8_t { half, full };
 
@@ -105,7 +115,8 @@ struct Scene {
     std::vector<Control> controls;
     Domain domain;
     double thick =
-        0.0;       ///< segment thickness t, m, >= 0: a disc of radius t at each vertex against the other's bare outline
+        0.0;  ///< segment thickness t, m, >= 0: a disc of radius t at each vertex against the other's bare outline
+    SegmentLaw segment_law = SegmentLaw::rounded;
     Vec2 gravity;  ///< m/s2
 
     double time_step = 0.0;       ///< s; 0: derived from the stiffness bound times safety_factor

@@ -10,10 +10,18 @@
 // M^-½ K_b M^-½ and M^-½ C_b M^-½, body b is stable below (sqrt(γ² + 4κ) - γ)/κ; the bound is the least of these. One
 // spring and dashpot against a wall gives the guide's 2 sqrt(m/k)(sqrt(h²+1) - h) exactly.
 //
+// Under the guide's law a point pushes along b (its resultant at its place) while its overlap answers to g = ∇δ, so its
+// stiffness is k b gᵀ: unsymmetric, and up to four times k. Every eigenvalue λ of such a sum obeys |λ| <= max |u*Ku| <=
+// that of Σ ½k(s bbᵀ + ggᵀ/s), any s > 0, taken as |g|/|b| in the scaled norm. That sum enters the bound, and every
+// listed disc not yet in contact as a spring of its own. So the bound holds for all real eigenvalues; a complex pair
+// would be flutter, energy that the law itself makes, which no step is short enough for (on the guide's rock such pairs
+// grow by at most 40 a second, dashpots of ratio 0.2 take 9000). Slopes are those of the present: deep on (iii),
+// |α| < t/4, a disc's may grow to 1.5 times what an idle one counts, against the share a derived step leaves.
+//
 // In a bonded world those points count that carry load; one that comes to carry load later is found by the contact
-// pass, and only its two bodies are looked at again. In a world without bonds all listed points count, and a body
-// without points counts one against a wall. Geometry is that of the last evaluation, at the latest when the list was
-// built: since then nothing has moved by more than half the skin.
+// pass, and only its two bodies are looked at again. In a world without bonds, or under the guide's law, all listed
+// points count, and a body without points counts one against a wall. Geometry is that of the last evaluation, at the
+// latest when the list was built: since then nothing has moved by more than half the skin.
 
 #include <fmt/format.h>
 
@@ -23,7 +31,9 @@
 #include <numbers>
 
 #include "solver/contact_law.hpp"
+#include "solver/critical_step.hpp"
 #include "solver/errors.hpp"
+#include "solver/springs.hpp"
 #include "solver/world.hpp"
 
 namespace crackle {
@@ -96,8 +106,9 @@ Side side_of(const Roots& roots, Vec2 n, Vec2 arm) {
             roots.x * t.x, roots.y * t.y, roots.r * cross(arm, t)};
 }
 
-void add_stiffness(Block& block, const Side& side, const ContactLaw& law, double share) {
-    block.add(share * law.normal_stiffness, side.nx, side.ny, side.nr);
+/// @param normal false where the normal stiffness comes by rows (the guide's law)
+void add_stiffness(Block& block, const Side& side, const ContactLaw& law, double share, bool normal) {
+    if (normal) block.add(share * law.normal_stiffness, side.nx, side.ny, side.nr);
     if (law.friction > 0.0) block.add(share * law.shear_stiffness, side.tx, side.ty, side.tr);
 }
 
@@ -106,8 +117,9 @@ void add_damping(Block& block, const Side& side, const ContactLaw& law, double r
     if (law.friction > 0.0) block.add(share * shear_damping(law, root_mass), side.tx, side.ty, side.tr);
 }
 
-void add_side(BodyBlocks& blocks, const Side& side, const ContactLaw& law, double root_mass, double share) {
-    add_stiffness(blocks.stiffness, side, law, share);
+void add_side(BodyBlocks& blocks, const Side& side, const ContactLaw& law, double root_mass, double share,
+              bool normal = true) {
+    add_stiffness(blocks.stiffness, side, law, share, normal);
     add_damping(blocks.damping, side, law, root_mass, share);
 }
 
@@ -163,6 +175,33 @@ std::vector<Roots> all_roots(const World& world) {
     return roots;
 }
 
+bool has_rows(const World& world, PointIndex k) {
+    return k >= world.kind_begin[static_cast<std::size_t>(PointKind::disc_segment)] && !with_wall(world, k);
+}
+
+/// Normal stiffness of points under the guide's law.
+std::vector<Spring> guide_rows(const World& world) {
+    std::vector<Spring> touching;
+    std::vector<Spring> rows;
+    const PointIndex walls = world.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
+    for (PointIndex k = world.kind_begin[static_cast<std::size_t>(PointKind::disc_segment)]; k < walls; ++k) {
+        const PointView v = view_point(world, k);
+        if (v.touching) {
+            touching.push_back({v.body_i, v.body_j, k, false, v.normal_stiffness, 0.0,
+                                approach(v.normal, v.arm_i, v.arm_j), v.overlap_gradient});
+        }
+        for (const OverlapGradient& row : idle_discs(world, v.kind, world.points[k]))
+            rows.push_back({v.body_i, v.body_j, k, false, v.normal_stiffness, 0.0, row, row});
+    }
+    for (const Spring& row : symmetric_majorant(world, touching)) rows.push_back(row);
+    return rows;
+}
+
+void add_row(Block& block, const Roots& roots, const Spring& row, bool second, double share) {
+    const std::size_t d = second ? 3 : 0;
+    block.add(share * row.stiffness, roots.x * row.push[d], roots.y * row.push[d + 1], roots.r * row.push[d + 2]);
+}
+
 /// Adds a point's share to body b, one of its two.
 void add_point(BodyBlocks& blocks, const World& world, const std::vector<double>& weights, PointIndex k, BodyIndex b,
                const Roots& roots, const PointArms& arms) {
@@ -170,7 +209,7 @@ void add_point(BodyBlocks& blocks, const World& world, const std::vector<double>
     const bool first = b == point.body_i;
     const double partner = first && with_wall(world, k) ? 0.0 : weights[first ? point.body_j : point.body_i];
     add_side(blocks, side_of(roots, arms.normal, first ? arms.arm_i : arms.arm_j), world.laws[point.law],
-             point.root_effective_mass, share_of(weights[b], partner));
+             point.root_effective_mass, share_of(weights[b], partner), !has_rows(world, k));
 }
 
 /// What a body without points is stable with: the first thing it meets, a circle head-on or a corner at the longest
@@ -191,10 +230,20 @@ void lower_to_first_meeting(Least& least, const World& world, BodyIndex b) {
     least.lower_to(corner, b);
 }
 
+/// What does not change from round to round.
+struct Geometry {
+    std::vector<Roots> roots;
+    std::vector<PointArms> arms;
+    std::vector<Spring> rows;
+};
+
+Geometry geometry_of(const World& world) { return {all_roots(world), all_arms(world), guide_rows(world)}; }
+
 /// Blocks of all bodies from the points that count.
 template <class Counts>
-std::vector<BodyBlocks> blocks_of(const World& world, const std::vector<double>& weights,
-                                  const std::vector<Roots>& roots, const std::vector<PointArms>& arms, Counts counts) {
+std::vector<BodyBlocks> blocks_of(const World& world, const std::vector<double>& weights, const Geometry& geometry,
+                                  Counts counts) {
+    const auto& [roots, arms, rows] = geometry;
     std::vector<BodyBlocks> blocks(world.bodies.size());
     for (PointIndex k = 0; k < world.points.size(); ++k) {
         if (!counts(k)) continue;
@@ -203,14 +252,21 @@ std::vector<BodyBlocks> blocks_of(const World& world, const std::vector<double>&
         if (!with_wall(world, k) && !held(world.inertia[j]))
             add_point(blocks[j], world, weights, k, j, roots[j], arms[k]);
     }
+    for (const Spring& row : rows) {
+        const auto add = [&](BodyIndex b, BodyIndex partner, bool second) {
+            if (held(world.inertia[b])) return;
+            add_row(blocks[b].stiffness, roots[b], row, second, share_of(weights[b], weights[partner]));
+        };
+        add(row.i, row.j, false);
+        add(row.j, row.i, true);
+    }
     return blocks;
 }
 
 /// Every free body's own scaled stiffness over all listed points, held bodies 0.
-std::vector<double> first_weights(const World& world, const std::vector<Roots>& roots,
-                                  const std::vector<PointArms>& arms) {
+std::vector<double> first_weights(const World& world, const Geometry& geometry) {
     const std::vector<double> alone(world.bodies.size(), 0.0);  // every share 1
-    const auto blocks = blocks_of(world, alone, roots, arms, [](PointIndex) { return true; });
+    const auto blocks = blocks_of(world, alone, geometry, [](PointIndex) { return true; });
     std::vector<double> weights;
     weights.reserve(blocks.size());
     for (const BodyBlocks& block : blocks) weights.push_back(largest_eigenvalue(block.stiffness));
@@ -236,14 +292,13 @@ constexpr double lowest_weight_share = 0.125;
 /// Raises the weight of the bodies that limit against those that do not, until the bound is `enough`; keeps the best
 /// round.
 template <class Counts>
-Least raised(const World& world, std::vector<double>& weights, const std::vector<Roots>& roots,
-             const std::vector<PointArms>& arms, Counts counts, double enough) {
+Least raised(const World& world, std::vector<double>& weights, const Geometry& geometry, Counts counts, double enough) {
     const std::vector<double> first = weights;
     std::vector<double> trial = weights;
     Least best;
     best.bound = 0.0;
     for (int round = 0; round < weight_rounds; ++round) {
-        const std::vector<BodyBlocks> blocks = blocks_of(world, trial, roots, arms, counts);
+        const std::vector<BodyBlocks> blocks = blocks_of(world, trial, geometry, counts);
         const Least least = least_of(world, blocks);
         if (least.bound > best.bound) {
             best = least;
@@ -267,27 +322,26 @@ double derived_step_share(const World& world) {
 }
 
 double stable_step_bound(const World& world, BodyIndex* limiting) {
-    const std::vector<PointArms> arms = all_arms(world);
-    const std::vector<Roots> roots = all_roots(world);
-    const std::vector<double> weights = first_weights(world, roots, arms);
-    const Least least = least_of(world, blocks_of(world, weights, roots, arms, [](PointIndex) { return true; }));
+    const Geometry geometry = geometry_of(world);
+    const std::vector<double> weights = first_weights(world, geometry);
+    const Least least = least_of(world, blocks_of(world, weights, geometry, [](PointIndex) { return true; }));
     if (limiting != nullptr && std::isfinite(least.bound)) *limiting = least.body;
     return least.bound;
 }
 
 void evaluate_step_bound(World& world) {
-    const std::vector<PointArms> arms = all_arms(world);
-    const std::vector<Roots> roots = all_roots(world);
+    const Geometry geometry = geometry_of(world);
+    const bool all_count = !world.has_bonds || world.segment_law != SegmentLaw::rounded;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
         ContactPoint& point = world.points[k];
-        const bool counts = !world.has_bonds || (point.flags & point_bonded) != 0 || view_point(world, k).overlap > 0.0;
+        const bool counts = all_count || (point.flags & point_bonded) != 0 || view_point(world, k).overlap > 0.0;
         point.flags = static_cast<std::uint16_t>(counts ? point.flags | point_counted : point.flags & ~point_counted);
     }
-    world.step_weights = first_weights(world, roots, arms);
+    world.step_weights = first_weights(world, geometry);
     const auto counted = [&](PointIndex k) { return (world.points[k].flags & point_counted) != 0; };
     // Loose bodies take a small share of the bound anyway.
     const double enough = !world.has_bonds ? 0.0 : world.automatic_step ? world.step_goal : world.time_step;
-    const Least least = raised(world, world.step_weights, roots, arms, counted, enough);
+    const Least least = raised(world, world.step_weights, geometry, counted, enough);
     world.step_bound = least.bound;
     world.limiting_body = least.body;
     keep_step_below_bound(world);
@@ -343,12 +397,32 @@ void keep_step_below_bound(World& world) {
         return;
     }
     if (world.allow_unstable || world.time_step <= world.step_bound) return;
+    // Among bonds a given step may lie between the bound and the exact limit: of all listed points if that reaches, so
+    // that nothing more is asked until the list is rebuilt, or of those that touch. Loose bodies in collision would not
+    // bear it.
+    for (const ClosedPoints which : {ClosedPoints::listed, ClosedPoints::touching}) {
+        if (!world.has_bonds) break;
+        world.step_bound = std::max(world.step_bound, critical_step(world, which).step);
+        if (world.time_step > world.step_bound) continue;
+        if (which == ClosedPoints::listed) {
+            for (ContactPoint& point : world.points)
+                point.flags = static_cast<std::uint16_t>(point.flags | point_counted);
+        }
+        return;
+    }
     throw UnstableRun(
         world.step, world.info[world.limiting_body].id,
         fmt::format("the time step, {:.6g} s, is above the stable bound, which fell to {:.6g} s as contacts came "
                     "about at this body; give a smaller one, leave it out (0 in a deck) to have it chosen, or run "
                     "with --allow-unstable",
                     world.time_step, world.step_bound));
+}
+
+void set_time_step(World& world, double time_step) {
+    world.automatic_step = false;
+    world.step_goal = 0.0;
+    world.time_step = time_step;
+    keep_step_below_bound(world);
 }
 
 }  // namespace crackle

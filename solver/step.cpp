@@ -96,6 +96,7 @@ void sum_blocks(World& world) {
     for (const World::LossBlock& block : world.loss_blocks) {
         world.dashpot_loss += block.dashpot;
         world.friction_loss += block.friction;
+        world.law_loss += block.law;
         broken += block.broken;
         gained += block.gained;
     }

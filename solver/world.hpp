@@ -80,9 +80,17 @@ enum class PointKind : std::uint8_t {
     circle_circle = 0,    // two single circles
     element_element = 1,  // circles of which at least one belongs to a clump
     element_outline = 2,  // circle or vertex of body_i against the outline of body_j
-    element_wall = 3,  // circle or vertex of body_i against a domain wall (body_j = Wall); feature_j = 1: a bare vertex
+    // The guide's law only (segment_contact.hpp); a segment goes by the element it begins at.
+    disc_segment = 3,     // circle of body_i against segment feature_j of body_j
+    segment_segment = 4,  // segments element_i of body_i and feature_j of body_j
+    element_wall = 5,  // circle or vertex of body_i against a domain wall (body_j = Wall); feature_j = 1: a bare vertex
 };
-inline constexpr int point_kinds = 4;
+inline constexpr int point_kinds = 6;
+
+/// Points whose force does not derive from a potential of the overlap.
+constexpr bool by_guide(PointKind kind) {
+    return kind == PointKind::disc_segment || kind == PointKind::segment_segment;
+}
 
 enum PointFlag : std::uint16_t {
     point_touching = 1,  // overlap > 0 or bonded, in the last force pass
@@ -99,7 +107,7 @@ struct ContactPoint {
     BodyIndex body_j;         // Wall number for element_wall
     std::uint32_t element_i;  // into World::elements
     std::uint32_t
-        feature_j;        // circle kinds: element of j; outline: edge last faced (a hint, never part of the physics)
+        feature_j;        // circle and segment kinds: element of j; outline: edge last faced (a hint, never physics)
     double shear_force;   // elastic part, N on body_i along the normal (i to j) turned by +90 degrees
     double bond_overlap;  // m
     double root_effective_mass;  // sqrt(m_eff), sqrt(kg)
@@ -119,6 +127,14 @@ static_assert(sizeof(PointForce) == 32);
 /// Dashpot forces of the last force pass, kept only with the ledger: their work is taken by the trapezoidal rule.
 struct PointDissipation {
     double normal, shear;
+};
+
+/// What the normal spring of a point under the guide's law has taken up. Its force is k_n(δ - δ0) at the resultant's
+/// place, but δ does not change by the way of that place alone: there is no potential, so the work itself is added up,
+/// by the trapezoidal rule over the drifts, which is leapfrog's own account of it.
+struct SpringWork {
+    PointForce last;  // N, N m, of the spring at the last force pass
+    double stored;    // J
 };
 
 /// Forces of a bonded point in the last step in which it carried at least half its strength.
@@ -155,12 +171,13 @@ struct BreakEvent {
 
 /// Energies at x_n, and what has gone since the start. All in J; signs as in DEMseg's energy.dat.
 struct Ledger {
-    double potential = 0.0;          // enrg: -Σ m g·x
-    double kinetic = 0.0;            // enva: with the mean of v at n ± ½
-    double strain = 0.0;             // enka: bonded points count from their bonded state
-    double dashpot_loss = 0.0;       // enca
-    double friction_loss = 0.0;      // enfr
-    double fracture_loss = 0.0;      // ours; 0 in unbonded scenes
+    double potential = 0.0;      // enrg: -Σ m g·x
+    double kinetic = 0.0;        // enva: with the mean of v at n ± ½
+    double strain = 0.0;         // enka: bonded points count from their bonded state
+    double dashpot_loss = 0.0;   // enca
+    double friction_loss = 0.0;  // enfr
+    double fracture_loss = 0.0;  // ours; 0 in unbonded scenes
+    double law_loss = 0.0;  // ours; left in springs of the guide's law when contacts ended; < 0: the law made energy
     double displacement_work = 0.0;  // enxd: done on the system by displacement- and velocity-driven bodies
     double force_work = 0.0;         // enxf
     /// (potential + kinetic + strain + losses - works) - the same at the start.
@@ -201,6 +218,8 @@ struct World {
     std::vector<Element> elements;
     std::vector<Piece> pieces;
     std::vector<Edge> edges;
+    std::vector<Edge>
+        segments;  // by element: the segment that begins there (length 0: none); empty without guide's law
     std::vector<ControlState> controls;
     std::vector<ContactLaw> laws;  // material pairs, row-major: law = a * materials + b; then materials against walls
     std::vector<Material> materials;
@@ -210,6 +229,7 @@ struct World {
     std::array<PointIndex, point_kinds + 1> kind_begin{};
     std::vector<PointForce> point_forces;
     std::vector<PointDissipation> dissipation;  // empty without the ledger
+    std::vector<SpringWork> spring_work;        // empty without the ledger or the guide's law
     std::vector<BondHistory> bond_history;      // empty without bonds
     std::vector<std::uint32_t> body_begin;      // per body: range in body_slots
     std::vector<std::uint32_t> body_slots;      // 2 * point + side (0: the body is i, 1: it is j)
@@ -229,6 +249,7 @@ struct World {
     // ---- scene-wide
     Domain domain;
     double thick = 0.0;
+    SegmentLaw segment_law = SegmentLaw::rounded;
     Vec2 gravity;
     double time_step = 0.0;       // s
     double drift = 0.0;           // s, length of the drift that led to the present positions (0 before the first)
@@ -257,12 +278,13 @@ struct World {
 
     // ---- ledger accumulators, one a block of points, added up in block order
     struct LossBlock {
-        double dashpot = 0.0, friction = 0.0;
+        double dashpot = 0.0, friction = 0.0, law = 0.0;
         std::uint32_t broken = 0;
         std::uint32_t gained = 0;  // points that carry load and are not counted in step_bound yet
     };
     std::vector<LossBlock> loss_blocks;
-    double dashpot_loss = 0.0, friction_loss = 0.0, fracture_loss = 0.0, displacement_work = 0.0, force_work = 0.0;
+    double dashpot_loss = 0.0, friction_loss = 0.0, fracture_loss = 0.0, law_loss = 0.0;
+    double displacement_work = 0.0, force_work = 0.0;
     std::vector<std::int64_t> thread_blocks;  // blocks of points each thread has done (never saved)
     double initial_energy = 0.0;
     bool initial_energy_taken = false;
@@ -288,8 +310,16 @@ struct PointView {
     double shear_force;   // elastic, N on i along the normal turned by +90 degrees
     double normal_stiffness, shear_stiffness, friction;
     double bond_overlap;
+    /// Of δ by the motions of i (x, y in m, rotation in rad) and of j. Under the rounded law (n, arm × n) and its
+    /// opposite, the directions in which the force works; under the guide's it differs from them.
+    std::array<double, 6> overlap_gradient;
     bool bonded, touching, sliding, slid;
 };
+
+/// Whether springs of the guide's law have their work added up.
+inline bool keeps_spring_work(const World& world) {
+    return world.ledger_on && world.segment_law != SegmentLaw::rounded;
+}
 
 // ---- building and stepping (solver/build_world.cpp, solver/step.cpp)
 
@@ -322,6 +352,9 @@ void set_thickness(World& world, double thick);
 PointView view_point(const World& world, PointIndex point);
 /// Number of the internal index of an input id; throws InputError if there is none.
 BodyIndex body_of_id(const World& world, int id);
+/// Strain energy of a point, J, from its bonded state: ½k_n(δ-δ0)² + ½f_t²/k_s, under the guide's law the work its
+/// normal spring has taken up in place of the first (without the ledger that first term, an estimate there).
+double stored_energy(const World& world, PointIndex point);
 /// Energies at x_n; call between compute_forces() and advance().
 Ledger measure_ledger(const World& world);
 /// Force of the bodies on each wall at the last force pass, N.
@@ -343,6 +376,9 @@ void evaluate_step_bound(World& world);
 void count_new_points(World& world);
 /// A derived step is lowered to what step_bound allows (up to step_goal again when it rises). @throws UnstableRun
 void keep_step_below_bound(World& world);
+/// Takes a given step in place of a derived one, up to the exact limit of the points that carry load now.
+/// @throws UnstableRun if it lies above (not with allow_unstable)
+void set_time_step(World& world, double time_step);
 /// Share of the bound that a derived step takes: safety_factor, without bonds at most loose_step_share.
 double derived_step_share(const World& world);
 

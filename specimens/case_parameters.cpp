@@ -156,8 +156,10 @@ std::vector<Parameter> all_parameters() {
             .at_least(1)
             .at_most(1024)
             .otherwise(whole(1)),
-        CRACKLE_KEY(numerics, contact_law, "", "Contact law of polygons.")
-            .one_of({"rounded"})
+        CRACKLE_KEY(numerics, contact_law, "",
+                    "Contact law of polygons: corner against outline, or the guide's segment against segment (with the "
+                    "sum or the mean of its disc cases).")
+            .one_of({"rounded", "demseg", "demseg_mean"})
             .otherwise(Text("rounded")),
         CRACKLE_KEY(numerics, intact, "",
                     "Nothing breaks, slides or comes into contact: for comparing a run with the linear solve.")

@@ -24,7 +24,7 @@ std::vector<PointRates> rates_of(const World& world, const std::vector<Motion>& 
     std::vector<PointRates> rates(world.points.size());
     for (const Spring& spring : springs_of(world, ClosedPoints::bonded)) {
         PointRates& rate = rates[spring.point];
-        (spring.shear ? rate.slipping : rate.closing) = stretch(spring, displacement);
+        (spring.shear ? rate.slipping : rate.closing) = times(spring, spring.gradient, displacement);
     }
     return rates;
 }

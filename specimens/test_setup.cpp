@@ -40,7 +40,11 @@ void record_bonds(TestSetup& setup, const World& world) {
         BondAnchor anchor = anchor_of(world, k);
         const PointView view = view_point(world, k);
         const bool outline = view.kind == PointKind::element_outline && setup.polygons;
-        const Vec2 half_gap = (outline ? 0.5 * (setup.bond_thick - view.overlap) : 0.0) * view.normal;
+        // A pair of segments sums up several overlaps: there the gap is that of the mesh.
+        const double gap = outline                                   ? setup.bond_thick - view.overlap
+                           : view.kind == PointKind::segment_segment ? setup.mesh_thick
+                                                                     : 0.0;
+        const Vec2 half_gap = 0.5 * gap * view.normal;
         anchor.on_i = view.position - half_gap;
         anchor.on_j = view.position + half_gap;
         setup.bonds.push_back(anchor);
@@ -67,7 +71,8 @@ BondAnchor anchor_of(const World& world, PointIndex k) {
     anchor.body_i = point.body_i;
     anchor.body_j = point.body_j;
     anchor.element_i = point.element_i;
-    anchor.feature_j = anchor.kind == PointKind::element_element ? point.feature_j : 0;
+    const bool named = anchor.kind == PointKind::element_element || by_guide(anchor.kind);
+    anchor.feature_j = named ? point.feature_j : 0;
     return anchor;
 }
 

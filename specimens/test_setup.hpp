@@ -23,7 +23,8 @@ struct BondAnchor {
     PointKind kind = PointKind::circle_circle;
     BodyIndex body_i = 0, body_j = 0;
     std::uint32_t element_i = 0;
-    std::uint32_t feature_j = 0;  ///< of clumps; 0 elsewhere, where the solver's value is a hint
+    std::uint32_t feature_j =
+        0;  ///< of clumps and the guide's segments; 0 elsewhere, where the solver's value is a hint
     Vec2 on_i, on_j;
 
     /// What tells bonds apart, whatever the order of the points.

@@ -45,14 +45,16 @@ struct Bonded {
     Platens platens;
 };
 
-/// A time step above the bound is the case's: the error shall lead there.
-World build(Scene scene, const TestCase& test) {
+/// The case's step, known to be stable only now that there are bonds.
+void take_given_step(World& world, const TestCase& test) {
+    if (!test.numerics.time_step) return;
     try {
-        return build_world(std::move(scene));
-    } catch (const InputError& error) {
-        const std::string text = error.what();
-        if (!text.starts_with("time step:")) throw;
-        throw InputError(test.at("numerics.time_step") + text.substr(text.find(':')));
+        set_time_step(world, *test.numerics.time_step);
+    } catch (const UnstableRun&) {
+        throw InputError(fmt::format(
+            "{}: found {} s, expected at most the exact stable step of this specimen, {:.6g} s; give a smaller one, "
+            "leave it out to have it derived, or run with --allow-unstable to see the limit",
+            test.at("numerics.time_step"), *test.numerics.time_step, world.exact_step));
     }
 }
 
@@ -60,7 +62,8 @@ World build(Scene scene, const TestCase& test) {
 Bonded bond_specimen(const Specimen& specimen, const TestCase& test, const TestCase::Loading& loading) {
     Scene scene = specimen.scene;
     scene.thick = test.bond.thick ? *test.bond.thick : circle_thick_share * specimen.mean_radius;
-    scene.time_step = test.numerics.time_step.value_or(0.0);
+    scene.segment_law = segment_law_named("numerics.contact_law", test.numerics.contact_law);
+    scene.time_step = 0.0;  // a particle file's own is of its packing
     scene.safety_factor = test.numerics.safety_factor;
     scene.allow_unstable = test.numerics.allow_unstable;
     scene.first_kick = FirstKick::half;
@@ -69,8 +72,9 @@ Bonded bond_specimen(const Specimen& specimen, const TestCase& test, const TestC
     Bonded bonded;
     bonded.platens = add_platens(scene, specimen, loading, scene.thick);
     const double thick = scene.thick;
-    bonded.world = build(std::move(scene), test);
+    bonded.world = build_world(std::move(scene));
     bond_all(bonded.world, thick);
+    take_given_step(bonded.world, test);
     place_platens(bonded.world, bonded.platens);
     compute_forces(bonded.world);
     return bonded;

@@ -135,7 +135,7 @@ def main(arguments):
     print(f"{'':{first}}  {'the guide':{second}}  measured")
     for what, guide, measured in rows:
         print(what if guide is None else f"{what:{first}}  {guide:{second}}  {measured}")
-    print("Contact points are those of the rounded law, the guide counts element pairs; ratios vary with the packing.")
+    print("Contact points are those of the rounded law, the guide counts element pairs (numerics.contact_law = \"demseg\"); ratios vary with the packing.")
 
     intact = [f"{specimen}_{loading}" for (specimen, loading), test in tests.items() if not test.failed]
     if intact:

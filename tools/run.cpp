@@ -35,6 +35,7 @@ constexpr const char* examples =
     "\nexamples:\n"
     "  crackle run specimens/demseg/circle -o out/circle                the guide's bouncing circle\n"
     "  crackle run specimens/demseg/circle -o out/half --steps 10000    half of it\n"
+    "  crackle run specimens/demseg/triangle -o out/t --law demseg      a polygon under the guide's own contact law\n"
     "  crackle run out/half --continue                                  the rest, outputs appended\n"
     "  crackle run out/half --continue --steps 5000 -o out/more         5000 steps more, outputs of their own\n";
 
@@ -80,8 +81,11 @@ po::options_description visible_options() {
         ("steps", po::value<std::int64_t>(), "do so many steps instead of nstep; displacements still take nstep")  //
         ("force", "replace the outputs of an earlier run")                                                         //
         ("seed", po::value<std::uint64_t>(), "of the random circles of mode 0 (default: 1)")                       //
-        ("allow-unstable", "accept a time step above the stable bound, and runaway energy")                        //
-        ("threads", po::value<int>()->default_value(1), "threads; the results do not depend on them")              //
+        ("law", po::value<std::string>(),
+         "contact law of segments: rounded, or the guide's demseg (demseg_mean: mean of its disc cases); default: "
+         "rounded, or that of the run that goes on")                                                   //
+        ("allow-unstable", "accept a time step above the stable bound, and runaway energy")            //
+        ("threads", po::value<int>()->default_value(1), "threads; the results do not depend on them")  //
         ("quiet,q", "no progress, no notices");
     return options;
 }
@@ -94,6 +98,7 @@ DeckOptions deck_options(const po::variables_map& values) {
     options.overwrite = values.contains("force");
     if (values.contains("steps")) options.steps = values["steps"].as<std::int64_t>();
     if (values.contains("seed")) options.seed = values["seed"].as<std::uint64_t>();
+    if (values.contains("law")) options.law = segment_law_named("--law", values["law"].as<std::string>());
     options.allow_unstable = values.contains("allow-unstable");
     options.threads = values["threads"].as<int>();
     return options;

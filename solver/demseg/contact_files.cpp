@@ -24,7 +24,7 @@ namespace {
 /// A point as the files name it, seen from one of its bodies.
 struct PointName {
     int body, other;       // input ids; walls negative
-    int element, partner;  // from 1; 0: outline or wall
+    int element, partner;  // from 1; 0: outline or wall; segments under the guide's law by their number
     auto operator<=>(const PointName&) const = default;
 
     PointName seen_from_other() const { return {other, body, partner, element}; }
@@ -34,15 +34,16 @@ int number_of(const BodyInfo& info, std::uint32_t element) {
     return static_cast<int>(element - info.first_element) + 1;
 }
 
-/// One of the two names of a point, always the same one: whoever owns the element, and of two circles the lower id.
+/// One of the two names of a point, always the same one: whoever owns the element, of two circles or segments the lower
+/// id, of a circle and a segment the circle's.
 PointName name_of(const World& world, PointIndex k) {
     const PointKind kind = view_point(world, k).kind;
     const ContactPoint& point = world.points[k];
     const BodyInfo& owner = world.info[point.body_i];
     PointName name{owner.id, partner_id(world, kind, point), number_of(owner, point.element_i), 0};
-    if (kind == PointKind::circle_circle || kind == PointKind::element_element) {
+    if (kind != PointKind::element_outline && kind != PointKind::element_wall) {
         name.partner = number_of(world.info[point.body_j], point.feature_j);
-        if (name.other < name.body) name = name.seen_from_other();
+        if (kind != PointKind::disc_segment && name.other < name.body) name = name.seen_from_other();
     }
     return name;
 }

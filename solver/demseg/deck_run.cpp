@@ -95,6 +95,7 @@ void DeckRun::start_new(const Texts& texts) {
     boundary_ = asked_;
     Scene scene = base_.scene;
     apply_controls(boundary_, scene);
+    scene.segment_law = options_.law.value_or(SegmentLaw::rounded);
     scene.allow_unstable = options_.allow_unstable;
     scene.threads = options_.threads;
     world_ = build_world(std::move(scene));
@@ -123,6 +124,7 @@ void DeckRun::start_from_contacts(const Texts& texts) {
     boundary_ = asked_;
     Scene scene = base_.scene;
     apply_controls(boundary_, scene);
+    scene.segment_law = options_.law.value_or(SegmentLaw::rounded);
     scene.allow_unstable = options_.allow_unstable;
     scene.threads = options_.threads;
     world_ = build_world(std::move(scene));
@@ -149,6 +151,11 @@ bool DeckRun::start_from_state(const Texts& texts) {
         base_ = read_deck_geometry(geometry);
         boundary_ = read_boundary(boundary);
         world_ = std::move(state->world);
+        if (options_.law && *options_.law != world_.segment_law)
+            throw InputError(
+                fmt::format("law: found another contact law than that of {}, expected the same or none; "
+                            "remove it to go on from the text files",
+                            path.string()));
         world_.allow_unstable = options_.allow_unstable;
         set_threads(world_, options_.threads);
         return true;

@@ -28,6 +28,7 @@ struct DeckOptions {
     bool overwrite = false;  ///< existing outputs may be replaced
     std::optional<std::int64_t> steps;  ///< do so many instead of nstep; ramps keep the length nstep
     std::optional<std::uint64_t> seed;  ///< of mode 0; 1 if not given
+    std::optional<SegmentLaw> law;      ///< rounded if not given; a run that goes on from its state keeps its own
     bool allow_unstable = false;
     int threads = 1;
 };

@@ -181,9 +181,9 @@ void DeckOutputs::write_frame(const World& world, std::span<const BodyIndex> ord
 
 void DeckOutputs::write_energy_row(const World& world, std::span<const BodyIndex> bodies) {
     const Ledger e = measure_ledger(world);
-    write(energies,
-          fmt::format("{} {} {} {} {} {} {} {} {} {}\n", world.step, e.potential, e.kinetic, e.strain, e.dashpot_loss,
-                      e.friction_loss, e.displacement_work, e.force_work, e.closing_error, e.fracture_loss));
+    write(energies, fmt::format("{} {} {} {} {} {} {} {} {} {}\n", world.step, e.potential, e.kinetic, e.strain,
+                                e.dashpot_loss, e.friction_loss, e.displacement_work, e.force_work,
+                                e.closing_error - e.law_loss, e.fracture_loss));
     for (const BodyIndex b : bodies)
         write(velocities, fmt::format("{} {} {}\n", world.step, world.info[b].id, world.bodies[b].vy));
 }

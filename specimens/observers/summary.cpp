@@ -98,6 +98,11 @@ void numerics(Writer& w, const TestCase& test, const TestSetup& setup, const Tes
     w.put("axial_strain_end", last.axial_strain, "-, positive in the sense of the test");
     w.put("energy_closing_error", number(last.energy_error / last.platen_work),
           "-, over the platens' work, at the end");
+    if (world.segment_law != SegmentLaw::rounded) {
+        w.put(
+            "energy_lost_to_contact_law", number(world.law_loss / last.platen_work),
+            "-, over the platens' work: left in springs of the guide's law when contacts ended (negative: made by it)");
+    }
     w.put("platen_out_of_balance", number(platen_out_of_balance(state.rows, state.failure.peak_row)),
           "-, largest difference of the platens' stresses up to the peak, over the peak");
     w.put("time_step", world.time_step, "s");

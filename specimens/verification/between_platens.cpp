@@ -35,11 +35,11 @@ LoadedSpecimen between_platens(Kind kind, double speed, const IntactOptions& int
     scene.controls.push_back({count - 1, held, {Drive::velocity, speed}, held, 0});
     scene.intact = intact;
     scene.materials[0].damping_ratio = damping_ratio;
-    scene.time_step = time_step;
     LoadedSpecimen loaded;
     loaded.world = build_world(std::move(scene));
     World& world = loaded.world;
     bond_all(world, bond_thick);
+    if (time_step > 0.0) set_time_step(world, time_step);
     loaded.low = body_of_id(world, lower), loaded.high = body_of_id(world, upper);
     loaded.height = top - bottom;
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {

@@ -44,6 +44,38 @@ TEST_F(RunCommand, WritesEveryOutputOfTheGuide) {
     EXPECT_EQ(said().find('\r'), std::string::npos) << "no progress line where there is no terminal";
 }
 
+TEST_F(RunCommand, TheGuidesLawIsAnOptionThatARunKeeps) {
+    const std::string deck = quoted(shipped_deck("triangle"));
+    const auto energy = [&](const char* folder) { return read_text_file(scratch_ / folder / "energy.dat"); };
+    const auto run = [&](const std::string& what, const char* folder) {
+        return crackle(fmt::format("run -q {} -o {}", what, quoted(scratch_ / folder)));
+    };
+    ASSERT_EQ(run(deck, "plain"), 0) << said();
+    ASSERT_EQ(run(deck + " --law rounded", "rounded"), 0) << said();
+    ASSERT_EQ(run(deck + " --law demseg", "demseg"), 0) << said();
+    EXPECT_EQ(energy("plain"), energy("rounded"));
+    EXPECT_EQ(energy("plain"), energy("demseg")) << "a body among walls alone: walls are the same in both";
+    EXPECT_EQ(run(deck + " --law square", "out"), 2);
+    EXPECT_NE(said().find("--law: found \"square\", expected \"rounded\", \"demseg\" or \"demseg_mean\""),
+              std::string::npos)
+        << said();
+
+    // Two segments, one thrown onto the other's end: there the laws differ.
+    const auto two = scratch_ / "two";
+    std::filesystem::create_directories(two);
+    std::ofstream(two / "in_gm.dat") << "1 0 0\n1e-5 0 0\n1\n2.5 1e8 0 0 0 0\n-10 10 -10 10 0.1\n0 2 0\n"
+                                        "1 1 1\n0 0 0\n1 0 0\n5 0\n2 1 1\n0 -50 0\n1 4.95 0.11\n8 0.5\n";
+    std::ofstream(two / "in_bc.dat") << "0 0 400 100 10\n0\n0\n";
+    ASSERT_EQ(run(quoted(two), "a"), 0) << said();
+    ASSERT_EQ(run(quoted(two) + " --law demseg", "b"), 0) << said();
+    EXPECT_NE(energy("a"), energy("b"));
+    ASSERT_EQ(run(quoted(two) + " --law demseg --steps 133", "part"), 0) << said();
+    ASSERT_EQ(run(quoted(scratch_ / "part") + " --continue", "rest"), 0) << said();
+    EXPECT_EQ(energy("part") + energy("rest"), energy("b")) << "it goes on under the law it began with";
+    EXPECT_EQ(run(quoted(scratch_ / "part") + " --continue --law rounded", "other"), 2);
+    EXPECT_NE(said().find("law: found another contact law"), std::string::npos) << said();
+}
+
 TEST_F(RunCommand, BadInputEndsInOneMessageAndCode2) {
     const auto deck = scratch_ / "deck";
     std::filesystem::create_directories(deck);

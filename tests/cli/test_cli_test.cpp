@@ -48,6 +48,35 @@ TEST_F(CrackleTest, HelpShowsExamplesAndKeysShowUnits) {
         << call("--keys").out;
 }
 
+TEST_F(CrackleTest, RunsPolygonsUnderTheGuidesLawToFailure) {
+    SmallCase wanted;
+    wanted.mesh = "delaunay";
+    std::map<std::string, double> bonds;
+    for (const std::string law : {"rounded", "demseg", "demseg_mean"}) {
+        wanted.numerics = fmt::format("contact_law = \"{}\"", law);
+        write_small_case(folder_, wanted);
+        const Answer answer = call("case.toml -o " + law);
+        EXPECT_EQ(answer.code, 0) << answer.err;
+        EXPECT_NE(answer.out.find("delaunay, tension: failed"), std::string::npos) << answer.out;
+        std::ifstream in(folder_ / law / "summary.json");
+        const auto summary = nlohmann::json::parse(in);
+        fmt::print(
+            "  {}: {} bonds, mean back-tension {:.4g} N, E {:.4g} N/m, strength {:.4g} N/m, closing error {:.2g}\n",
+            law, summary["bonds_initial"].get<int>(), summary["mean_back_tension"].get<double>(),
+            summary["youngs_modulus"].get<double>(), summary["peak_stress"].get<double>(),
+            summary["energy_closing_error"].get<double>());
+        bonds[law] = summary["bonds_initial"].get<double>();
+        EXPECT_EQ(summary.contains("energy_lost_to_contact_law"), law != "rounded");
+        EXPECT_LT(std::abs(summary["energy_closing_error"].get<double>()), 0.02) << law;
+        EXPECT_EQ(summary["particles"].get<std::size_t>() > 50, true);
+    }
+    EXPECT_EQ(bonds["demseg"], bonds["demseg_mean"]);
+    EXPECT_GT(bonds["demseg"], 1.2 * bonds["rounded"]);
+    wanted.numerics = "contact_law = \"round\"";
+    write_small_case(folder_, wanted);
+    expect_refused("case.toml -o out", "expected \"rounded\" or \"demseg\" or \"demseg_mean\"");
+}
+
 TEST_F(CrackleTest, MissingCase) { expect_refused("nowhere.toml -o out", "nowhere.toml: found no such file"); }
 
 TEST_F(CrackleTest, MissingParticleFile) {

@@ -111,6 +111,42 @@ TEST(ContactFiles, BackTensionsOfEveryKindOfPointComeBack) {
     }
 }
 
+TEST(ContactFiles, SegmentsUnderTheGuidesLawComeBackByTheirNumbers) {
+    Scene scene = mixed_scene();
+    scene.segment_law = SegmentLaw::demseg;
+    scene.gravity = {3.0, -10.0};
+    World world = build_world(scene);
+    const std::int64_t bonds = bond_all(world, scene.thick);
+    // The single circle stands over a corner, the end of two segments. Bodies 3 and 4 face each other with edges 2 and
+    // 4, whose ends lie opposite each other and are ends of edges 1 and 3 as well: three more pairs at either end.
+    EXPECT_EQ(bonds, 5 + 1 + 6) << "circles, the facing pair, pairs at its ends";
+    std::ostringstream tensions, again;
+    write_back_tensions(tensions, scene, world);
+    EXPECT_NE(tensions.str().find(" 2 4\n"), std::string::npos) << tensions.str();
+    EXPECT_NE(tensions.str().find(" 4 2\n"), std::string::npos) << tensions.str();
+    World copy = build_world(scene);
+    DeckReader reader("in_cf0.dat", tensions.str());
+    read_back_tensions(reader, scene, copy);
+    EXPECT_EQ(copy.bonds_initial, bonds);
+    write_back_tensions(again, scene, copy);
+    EXPECT_EQ(again.str(), tensions.str());
+
+    for (int n = 0; n < 50; ++n) step(world);
+    std::ostringstream contacts, contacts_again;
+    write_contacts(contacts, scene, world);
+    DeckReader contact_reader("in_cf.dat", contacts.str());
+    World other = build_world(scene);
+    read_contacts(contact_reader, scene, other);
+    write_contacts(contacts_again, scene, other);
+    EXPECT_EQ(contacts_again.str(), contacts.str());
+
+    scene.segment_law = SegmentLaw::rounded;
+    World rounded = build_world(scene);
+    DeckReader foreign("in_cf0.dat", tensions.str());
+    EXPECT_NE(refusal([&] { read_back_tensions(foreign, scene, rounded); }).find("found no contact there"),
+              std::string::npos);
+}
+
 TEST(ContactFiles, GuidesChainListsBothDirections) {
     const Scene scene = read_geometry(shipped_deck("chain_pulled") / "in_gm.dat");
     World world = build_world(scene);

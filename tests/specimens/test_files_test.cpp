@@ -156,10 +156,11 @@ TEST_F(TestFolder, HasTheSameBytesForAnyNumberOfThreads) {
 }
 
 TEST_F(TestFolder, ResumedEndsWithTheBytesOfAnUninterruptedTest) {
-    for (const char* mesh : {"", "voronoi"}) {
+    for (const char* mesh : {"", "voronoi", "voronoi demseg"}) {
         SmallCase wanted;
         wanted.kind = *mesh == '\0' ? "compression" : "tension";
-        wanted.mesh = mesh;
+        wanted.mesh = *mesh == '\0' ? "" : "voronoi";
+        if (std::string(mesh).ends_with("demseg")) wanted.numerics = "contact_law = \"demseg\"";
         wanted.max_strain = 7e-3;
         const TestCase test = small_case(wanted);
         TestOptions straight = options("straight"), broken = options("broken");

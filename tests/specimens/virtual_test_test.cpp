@@ -184,7 +184,7 @@ TEST_F(VirtualRock, HalfTheStepGivesThePeakWithinFivePercent) {
 }
 
 TEST_F(VirtualRock, EnergyOfARunToFailureClosesBetterWithTheStep) {
-    // What a break stores is found within a step after it broke: an error of first order in the step.
+    // A break takes what its forces still do over the drift in which it is found into account: second order.
     std::vector<double> errors;
     for (const char* share : {"0.8", "0.4", "0.2"}) {
         SmallCase wanted;
@@ -196,8 +196,8 @@ TEST_F(VirtualRock, EnergyOfARunToFailureClosesBetterWithTheStep) {
         errors.push_back(end.energy_error / end.platen_work);
         fmt::print("  {} of the bound: {:.3g} of the work\n", share, errors.back());
     }
-    EXPECT_LT(std::abs(errors[2]), 1e-3);
-    EXPECT_LT(std::abs(errors[2]), 0.5 * std::abs(errors[0])) << "a quarter, but for where single breaks fall";
+    EXPECT_LT(std::abs(errors[0]), 1e-4);
+    EXPECT_LT(std::abs(errors[2]), 0.3 * std::abs(errors[0])) << "a sixteenth, but for where single breaks fall";
 }
 
 TEST_F(VirtualRock, TooLargeATimeStepIsRefusedWithTheBound) {
@@ -296,6 +296,49 @@ TEST_F(VirtualRock, NothingToBondWithAPlatenIsRefused) {
     write_geometry(out, scene);
     out.close();
     EXPECT_NE(refusal_of(path).find("upper platen"), std::string::npos);
+}
+
+TEST_F(VirtualRock, UnderTheGuidesLawIntactRunOfCirclesHasTheModulusOfTheSolve) {
+    // Polygons as well only as long as no disc passes the end of a segment, where the overlap jumps: at once in a mesh
+    // of thousands of pairs. So here the platens alone are segments; the verification claims have the polygons.
+    for (const char* law : {"demseg", "demseg_mean"}) {
+        SmallCase wanted;
+        wanted.rate = 0.002;
+        wanted.max_strain = 1e-4;
+        wanted.numerics = fmt::format("intact = true\ncontact_law = \"{}\"", law);
+        const VirtualTest test = tested(wanted);
+        const auto& rows = test.state.rows;
+        const CurveRow &half = rows[rows.size() / 2], &last = rows.back();
+        EXPECT_TRUE(agrees(fmt::format("E of circles, {}", law),
+                           (last.axial_stress - half.axial_stress) / (last.axial_strain - half.axial_strain),
+                           test.state.youngs_modulus, 5e-3));
+    }
+}
+
+TEST_F(VirtualRock, UnderTheGuidesLawPolygonsHoldOnToTheirPlatensBySegmentPairs) {
+    SmallCase wanted;
+    wanted.mesh = "voronoi";
+    wanted.numerics = "contact_law = \"demseg\"";
+    const VirtualTest test = prepare(wanted);
+    int facing = 0;
+    double worst = 0.0;
+    for (PointIndex k = 0; k < test.world.points.size(); ++k) {
+        const PointView view = view_point(test.world, k);
+        if (!view.bonded) continue;
+        EXPECT_EQ(view.kind, PointKind::segment_segment);
+        if (!test.setup.is_platen(view.body_i) && !test.setup.is_platen(view.body_j)) continue;
+        // Both ends of an edge in front of the platen's face: twice the excess of bond.thick over the gap. Edges that
+        // end there have one, and a platen's own corners are too far.
+        const double ends = view.overlap > 1.2e-4 ? 2.0 : 1.0;
+        facing += ends > 1.5 ? 1 : 0;
+        worst = std::max(worst, std::abs(view.overlap - ends * 8e-5));
+    }
+    EXPECT_EQ(facing, 6 + 5) << "one edge of every cell in the end rows";
+    EXPECT_TRUE(within("overlaps with the platens, m", worst, 0.0, 1e-12));
+    const TestSetup& setup = test.setup;
+    fmt::print("  {} bonds, mean back-tension {:.4g} N a pair of elements\n", setup.bonds.size(),
+               setup.mean_back_tension);
+    EXPECT_EQ(static_cast<std::int64_t>(setup.bonds.size()), test.world.bonds_initial);
 }
 
 }  // namespace

@@ -40,12 +40,14 @@ inline World bursting_discs(int columns, int rows, double rate, double noise) {
     return world;
 }
 
-inline World bursting_cells(int columns, int rows, double rate, double noise) {
+inline World bursting_cells(int columns, int rows, double rate, double noise, SegmentLaw law = SegmentLaw::rounded) {
     ShakenCells request;
     request.columns = columns, request.rows = rows;
     Material material = rock();
     material.damping_ratio = 0.05;
-    World world = build_world(shaken_cells(request, material));
+    Scene scene = shaken_cells(request, material);
+    scene.segment_law = law;
+    World world = build_world(std::move(scene));
     bond_all(world, 1.08e-3);
     burst(world, rate, noise, 4);
     return world;

@@ -19,6 +19,15 @@ TEST(Determinism, ThreadsDoNotChangeABitForBurstingPolygons) {
     check_threads(bursting_cells(14, 14, 3.0, 0.2), 600, 3, 20);
 }
 
+TEST(Determinism, ThreadsDoNotChangeABitUnderTheGuidesLaw) {
+    check_threads(bursting_cells(14, 14, 3.0, 0.2, SegmentLaw::demseg), 600, 3, 20);
+}
+
+TEST(Determinism, StoppingAndTakingUpAgainDoesNotChangeABitUnderTheGuidesLaw) {
+    check_restarts(bursting_cells(7, 7, 1.0, 0.2, SegmentLaw::demseg), 500, 23);
+    check_restarts(bursting_cells(7, 7, 1.0, 0.2, SegmentLaw::demseg_mean), 500, 24);
+}
+
 TEST(Determinism, StoppingAndTakingUpAgainDoesNotChangeABitForDiscs) {
     check_restarts(bursting_discs(14, 14, 1.0, 0.2), 500, 21);
 }
@@ -28,7 +37,8 @@ TEST(Determinism, StoppingAndTakingUpAgainDoesNotChangeABitForPolygons) {
 }
 
 TEST(Events, AreTheDifferenceOfTheBondSets) {
-    for (World world : {bursting_discs(14, 14, 1.0, 0.2), bursting_cells(10, 10, 2.0, 0.2)}) {
+    for (World world : {bursting_discs(14, 14, 1.0, 0.2), bursting_cells(10, 10, 2.0, 0.2),
+                        bursting_cells(10, 10, 5.0, 0.2, SegmentLaw::demseg)}) {
         const auto bonds = [](const World& w) {
             std::map<std::pair<int, int>, int> count;
             for (const ContactPoint& p : w.points) {
