@@ -75,6 +75,14 @@ void set_control(World& world, BodyIndex body, const DofControl (&dof)[3], std::
     enter(world, *place);
 }
 
+void change_velocity(World& world, BodyIndex body, int dof, double velocity) {
+    for (ControlState& control : world.controls) {
+        if (control.body != body) continue;
+        control.dof[dof].value = velocity;
+        set_velocity(world, body, dof, velocity);
+    }
+}
+
 void account_controls(World& world) {
     for (ControlState& control : world.controls) {
         const BodyForce& contact = world.forces[control.body];

@@ -294,9 +294,7 @@ class Judge {
         for (const char* key : {"density", "normal_stiffness", "shear_stiffness", "friction_angle"}) {
             need(std::string("material.") + key, "a packing has no file to take it from");
         }
-        if (m.damping_ratio) return;
-        if (!m.normal_damping && !m.shear_damping)
-            need("material.damping_ratio", "or write normal_damping and shear_damping");
+        if (!m.normal_damping && !m.shear_damping) return;  // a ratio, or the default one
         need("material.normal_damping", "dashpots come in pairs");
         need("material.shear_damping", "dashpots come in pairs");
     }
@@ -316,6 +314,11 @@ class Judge {
     }
 
     void loading() const {
+        if (test_.loading.axial_strain_rate && test_.loading.rate_tolerance) {
+            refuse("loading.rate_tolerance", "a tolerance besides axial_strain_rate", "one of them",
+                   "remove axial_strain_rate to have the rate chosen, or rate_tolerance");
+        }
+        if (!test_.loading.rate_tolerance) need("loading.axial_strain_rate", "or write rate_tolerance");
         if (test_.loading.platens == "frictional") {
             if (test_.loading.kind == "tension") {
                 refuse("loading.platens", "\"frictional\"", "\"bonded\" in tension",

@@ -19,6 +19,10 @@
 
 namespace crackle {
 
+/// Of a packing whose case says nothing of damping: a particle ringing on its contacts loses 95 % of its energy a
+/// period, exp(-4πh) = 1/20; it shortens the stable step by a fifth.
+inline constexpr double default_damping_ratio = 0.2383941;  // ln(20)/(4π)
+
 /// One virtual test as the user wrote it, defaults filled in. Units and ranges: case_parameters.cpp.
 struct TestCase {
     std::string title;
@@ -63,8 +67,9 @@ struct TestCase {
     } bond;
 
     struct Loading {
-        std::string kind;  // "compression" or "tension"
-        double axial_strain_rate = 0.0;
+        std::string kind;                         // "compression" or "tension"
+        std::optional<double> axial_strain_rate;  // 1/s; or:
+        std::optional<double> rate_tolerance;
         double max_axial_strain = 0.0;
         double stop_at_share_of_peak = 0.0;
         std::string platens;                          // "bonded" or "frictional"

@@ -120,7 +120,10 @@ std::vector<Parameter> all_parameters() {
         CRACKLE_KEY(material, normal_stiffness, "N/m", "Normal stiffness k_n of a contact point.").above(0),
         CRACKLE_KEY(material, shear_stiffness, "N/m", "Shear stiffness k_s of a contact point.").at_least(0),
         CRACKLE_KEY(material, friction_angle, "deg", "Friction angle; mu = tan(angle).").at_least(0).below(90),
-        CRACKLE_KEY(material, damping_ratio, "", "Damping ratio h of every contact point.").at_least(0),
+        CRACKLE_KEY(material, damping_ratio, "",
+                    "Damping ratio h of every contact point; of a packing without any damping key 0.2384, with which a "
+                    "particle ringing on its contacts loses 95 % of its energy a period.")
+            .at_least(0),
         CRACKLE_KEY(material, normal_damping, "N s/m", "Normal dashpot, in place of damping_ratio.").at_least(0),
         CRACKLE_KEY(material, shear_damping, "N s/m", "Shear dashpot, in place of damping_ratio.").at_least(0),
 
@@ -131,7 +134,14 @@ std::vector<Parameter> all_parameters() {
             .above(0),
 
         CRACKLE_KEY(loading, kind, "", "What the platens do.").one_of({"compression", "tension"}),
-        CRACKLE_KEY(loading, axial_strain_rate, "1/s", "Platen speed over the specimen's height.").above(0).below(1e6),
+        CRACKLE_KEY(loading, axial_strain_rate, "1/s", "Platen speed over the specimen's height; or rate_tolerance.")
+            .above(0)
+            .below(1e6),
+        CRACKLE_KEY(loading, rate_tolerance, "",
+                    "In place of a rate: the platen's speed is chosen so that the inertia error (out-of-balance of the "
+                    "platens, kinetic over strain energy) stays below this.")
+            .above(0)
+            .at_most(1),
         CRACKLE_KEY(loading, max_axial_strain, "", "The test ends here if the specimen has not failed before.")
             .above(0)
             .below(1),

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "specimens/elastic_analysis.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "solver/vibration.hpp"
-#include "specimens/moduli.hpp"
 
 namespace crackle {
 namespace {
@@ -57,7 +57,26 @@ std::optional<FirstEvent> first_of(const std::vector<LinearBond>& bonds, double 
     return first;
 }
 
+std::vector<LinearBond> linear_bonds(const World& world, const TestSetup& setup, const Moduli& moduli, double strain) {
+    // The solution is for unit strain in tension.
+    const double sense = setup.compression ? -1.0 : 1.0;
+    const std::vector<PointRates> rates = rates_of(world, moduli.solution.displacement);
+    std::vector<LinearBond> bonds;
+    for (PointIndex k = 0; k < world.points.size(); ++k) {
+        if ((world.points[k].flags & point_bonded) == 0) continue;
+        bonds.push_back(linear_bond(world, k, {sense * rates[k].closing, rates[k].slipping}, strain));
+    }
+    return bonds;
+}
+
 }  // namespace
+
+double first_slip_strain(const World& world, const TestSetup& setup, const Moduli& moduli) {
+    double first = infinite;
+    for (const LinearBond& bond : linear_bonds(world, setup, moduli, 0.0))
+        first = std::min({first, bond.slip_strain, bond.break_strain});
+    return first;
+}
 
 ElasticAnalysis analyse_elastic(const VirtualTest& test, double strain, int modes) {
     const World& world = test.world;
@@ -69,13 +88,7 @@ ElasticAnalysis analyse_elastic(const VirtualTest& test, double strain, int mode
     result.residual = moduli.solution.residual;
     result.unknowns = moduli.solution.unknowns;
     result.strain = strain;
-    // The solution is for unit strain in tension.
-    const double sense = setup.compression ? -1.0 : 1.0;
-    std::vector<PointRates> rates = rates_of(world, moduli.solution.displacement);
-    for (PointIndex k = 0; k < world.points.size(); ++k) {
-        if ((world.points[k].flags & point_bonded) == 0) continue;
-        result.bonds.push_back(linear_bond(world, k, {sense * rates[k].closing, rates[k].slipping}, strain));
-    }
+    result.bonds = linear_bonds(world, setup, moduli, strain);
     result.first_break = first_of<&LinearBond::break_strain>(result.bonds, result.youngs_modulus);
     result.first_slip = first_of<&LinearBond::slip_strain>(result.bonds, result.youngs_modulus);
     result.stable_time_step = setup.stable_time_step;

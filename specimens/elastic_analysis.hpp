@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "solver/elastic.hpp"
+#include "specimens/moduli.hpp"
 #include "specimens/virtual_test.hpp"
 
 namespace crackle {
@@ -49,6 +50,10 @@ struct ElasticAnalysis {
     std::vector<double> frequencies;  // rad/s, lowest modes that store energy
     std::int64_t unknowns = 0;
 };
+
+/// Axial strain at which the first point slides, or the first bond breaks where nothing slides; infinite where neither
+/// happens. @param moduli of a world with bonded platens, `world` itself or its twin with the same bodies
+double first_slip_strain(const World& world, const TestSetup& setup, const Moduli& moduli);
 
 /// @param test prepared, not yet loaded; its platens bonded
 /// @param strain at which bond forces are given (sense of the test)

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "solver/controls.hpp"
 #include "specimens/observers/test_files.hpp"
 #include "specimens/virtual_test.hpp"
 
@@ -92,6 +93,7 @@ class LoadingLoop {
             // An end that instability brought about is none.
             if (ended || world_.step % steps_between_health_checks == 0) check_health(world_);
             if (ended) break;
+            if (setup_.rate_rule.tolerance > 0.0) follow_tolerance(strain);
             advance(world_);
         }
         peak_.draw(world_, setup_, state_);
@@ -102,6 +104,18 @@ class LoadingLoop {
     double step_seconds() const { return step_seconds_before_ + seconds(begun_, Clock::now()); }
     static double seconds(Clock::time_point from, Clock::time_point to) {
         return std::chrono::duration<double>(to - from).count();
+    }
+
+    /// The platen's speed by the inertia error.
+    void follow_tolerance(double strain) {
+        const RateRule& rule = setup_.rate_rule;
+        const double top = world_.forces[setup_.top].fy, bottom = world_.forces[setup_.bottom].fy;
+        watch_balance(state_.rate, rule, (top + bottom) / setup_.width, state_.failure.peak_stress, world_.drift);
+        if (world_.time < state_.rate.next_look) return;
+        const Ledger ledger = measure_ledger(world_);
+        choose_rate(state_.rate, rule, strain, ledger.kinetic, ledger.strain, world_.time);
+        const double speed = state_.rate.rate * setup_.height;
+        change_velocity(world_, setup_.top, 1, setup_.compression ? -speed : speed);
     }
 
     void record_breaks() {

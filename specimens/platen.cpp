@@ -79,7 +79,7 @@ Platens add_platens(Scene& scene, const Specimen& specimen, const TestCase::Load
         platens.bottom_y = extent.low - thick;
         platens.top_y = extent.high + thick;
     }
-    const double speed = loading.axial_strain_rate * specimen.height;
+    const double speed = loading.axial_strain_rate.value_or(0.0) * specimen.height;  // by tolerance: set later
     platens.velocity = loading.kind == "compression" ? -speed : speed;
     spread_velocity(scene, platens);
 

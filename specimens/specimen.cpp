@@ -63,6 +63,7 @@ Scene packed_scene(const TestCase& test, const TestHooks& hooks, Specimen& speci
     request.void_ratio = keys.void_ratio;
     request.seed = static_cast<std::uint64_t>(keys.seed);
     request.threads = static_cast<int>(test.numerics.threads);
+    request.material.damping_ratio = default_damping_ratio;
     apply_material(test.material, request.material);
     Packing packing;
     try {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "solver/world.hpp"
+#include "specimens/loading_rate.hpp"
 #include "specimens/platen.hpp"
 #include "specimens/specimen.hpp"
 
@@ -52,6 +53,8 @@ struct TestSetup {
     double stable_time_step = 0.0;             // s, exact, when bonds were made
     bool stable_time_step_proved = false;      ///< by factorisation; else it is the bound
     double time_step_bound = 0.0;              // s, kept up during the run; when loading began
+
+    RateRule rate_rule;
 
     std::vector<StartPlace> start;  ///< by body
     std::vector<BondAnchor> bonds;  ///< sorted by key

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "specimens/failure.hpp"
+#include "specimens/loading_rate.hpp"
 #include "specimens/observers/curve.hpp"
 #include "specimens/observers/frames.hpp"
 
@@ -33,12 +34,14 @@ struct TestState {
     Frame peak_frame;                ///< waits in memory until the peak is known
     std::vector<FrameEntry> frames;  ///< written so far
     std::int64_t next_frame = 0;     ///< due at this multiple of the strain between frames
+    RateState rate;                  ///< loading by tolerance
     std::int64_t breaks_in_shear = 0, breaks_in_tension = 0;
     std::string ended_by;  ///< empty while the test runs
 
     // Of the specimen with all bonds intact and sticking (sparse solve); not a number where there is no solution.
     double youngs_modulus = std::numeric_limits<double>::quiet_NaN();  // N/m
     double poissons_ratio = std::numeric_limits<double>::quiet_NaN();
+    double modulus_residual = std::numeric_limits<double>::quiet_NaN();  ///< of the solve, its relative error
 
     std::uint64_t curve_bytes = 0, events_bytes = 0;  ///< lengths of the files at the checkpoint
     double wall_seconds = 0.0, step_seconds = 0.0;    ///< spent before this process

@@ -9,10 +9,14 @@
 #include <cmath>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <sstream>
 
+#include "solver/controls.hpp"
 #include "solver/errors.hpp"
 #include "specimens/checkpointing/test_checkpoint.hpp"
+#include "specimens/companions.hpp"
+#include "specimens/elastic_analysis.hpp"
 #include "specimens/moduli.hpp"
 #include "specimens/observers/test_files.hpp"
 #include "specimens/output_folder.hpp"
@@ -80,15 +84,77 @@ Bonded bond_specimen(const Specimen& specimen, const TestCase& test, const TestC
     return bonded;
 }
 
-/// Small-strain moduli, or a notice why there are none.
-void take_moduli(TestState& state, TestSetup& setup, const World& world, const TestSetup& own) {
+struct SmallStrain {
+    Moduli moduli;
+    double first_slip;  ///< axial strain
+};
+
+/// Small-strain solution of a world with bonded platens, or a notice why there is none.
+std::optional<SmallStrain> take_moduli(TestState& state, TestSetup& setup, const World& world, const TestSetup& own) {
     try {
-        const Moduli moduli = solve_moduli(world, own);
-        state.youngs_modulus = moduli.youngs_modulus;
-        state.poissons_ratio = moduli.poissons_ratio;
+        SmallStrain solved{solve_moduli(world, own), 0.0};
+        solved.first_slip = first_slip_strain(world, own, solved.moduli);
+        state.youngs_modulus = solved.moduli.youngs_modulus;
+        state.poissons_ratio = solved.moduli.poissons_ratio;
+        state.modulus_residual = solved.moduli.solution.residual;
+        return solved;
     } catch (const InputError& error) {
         setup.notices.push_back(fmt::format("no small-strain modulus: {}", error.what()));
+        return std::nullopt;
     }
+}
+
+/// Sets the specimen moving as its elastic solution does at the first rate of loading by tolerance; what carries no
+/// load, and everything where the platens are not bonded, moves in proportion to its height.
+/// @throws InputError where there is no elastic solution to take the rate from
+void start_by_tolerance(VirtualTest& test, const std::optional<SmallStrain>& solved) {
+    if (!solved || !(solved->moduli.youngs_modulus > 0.0)) {
+        throw InputError(
+            fmt::format("{}: found a specimen without elastic solution, expected one to derive the rate "
+                        "from; write axial_strain_rate in its place",
+                        test.description.at("loading.rate_tolerance")));
+    }
+    World& world = test.world;
+    TestSetup& setup = test.setup;
+    const bool bonded = test.description.loading.platens == "bonded";
+    const double sense = setup.compression ? -1.0 : 1.0;
+    const double bottom = world.bodies[setup.bottom].y, height = world.bodies[setup.top].y - bottom;
+    std::vector<bool> elastic(world.bodies.size(), bonded);
+    if (bonded) {
+        for (const BodyIndex b : find_free_motions(world, {setup.bottom, setup.top}).bodies) elastic[b] = false;
+    }
+    double mass = 0.0;
+    RateRule& rule = setup.rate_rule;
+    for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+        BodyState& body = world.bodies[b];
+        Motion way{0.0, setup.height * (body.y - bottom) / height, 0.0};  // for a strain of 1 in tension
+        if (elastic[b]) way = solved->moduli.solution.displacement[b];
+        if (b == setup.bottom) way = {};
+        if (b == setup.top) way = {0.0, setup.height, 0.0};
+        body.vx = sense * way.x;
+        body.vy = sense * way.y;
+        body.omega = sense * way.rotation;
+        rule.kinetic_per_rate += 0.5 * (world.inertia[b].mass * (way.x * way.x + way.y * way.y) +
+                                        world.info[b].moment * way.rotation * way.rotation);
+        if (!setup.is_platen(static_cast<BodyIndex>(b))) mass += world.inertia[b].mass;
+    }
+    const double modulus = solved->moduli.youngs_modulus, area = setup.width * setup.height;
+    rule.tolerance = *test.description.loading.rate_tolerance;
+    rule.transit_time = setup.height / std::sqrt(modulus / (mass / area));
+    rule.first_strain = std::min(solved->first_slip, test.description.loading.max_axial_strain);
+    rule.stress_floor = modulus * rule.first_strain;
+    rule.energy_floor = 0.5 * rule.stress_floor * rule.first_strain * area;
+    RateState& rate = test.state.rate;
+    rate.rate = rate.slowest = rate.fastest = first_rate(rule);
+    for (BodyState& body : world.bodies) {
+        body.vx *= rate.rate;
+        body.vy *= rate.rate;
+        body.omega *= rate.rate;
+    }
+    change_velocity(world, setup.top, 1, sense * rate.rate * setup.height);
+    world.initial_energy_taken = false;  // the account begins with this motion
+    world.forces_current = false;
+    compute_forces(world);
 }
 
 std::string resolved_case(const TestCase& test, const fs::path& folder) {
@@ -110,8 +176,10 @@ TestTiming timing_of(const VirtualTest& test, const TestOptions& options) {
 TestOutcome run_with_files(VirtualTest& test, const TestOptions& options, const TestHooks& hooks, OutputFolder& folder,
                            TestFiles& files) {
     TestOutcome outcome;
+    std::optional<NumericalErrors> errors;
     const auto write_summary = [&] {
-        outcome.summary = make_summary(test.description, test.setup, test.state, test.world, timing_of(test, options));
+        outcome.summary = make_summary(test.description, test.setup, test.state, test.world, timing_of(test, options),
+                                       errors ? &*errors : nullptr);
         files.write_summary(outcome.summary);
     };
     const auto write_peak = [&] {
@@ -144,6 +212,7 @@ TestOutcome run_with_files(VirtualTest& test, const TestOptions& options, const 
         kept.wall_seconds = kept.step_seconds =
             0.0;  // nothing is left to add them to: the same run gives the same bytes
         files.write_checkpoint(test.setup, kept, test.world);
+        if (options.verify) errors = run_companions(test, hooks);
         write_summary();
         folder.finish();
     }
@@ -156,6 +225,12 @@ TestOutcome run_with_files(VirtualTest& test, const TestOptions& options, const 
 VirtualTest prepare_test(const TestCase& description, const TestHooks& hooks) {
     VirtualTest test;
     test.description = description;
+    const TestCase::MaterialKeys& material = description.material;
+    if (description.has_table("packing") && !material.damping_ratio && !material.normal_damping) {
+        say(hooks, fmt::format("damping ratio {:.4g} by default: a particle ringing on its contacts loses 95 % of its "
+                               "energy a period",
+                               default_damping_ratio));
+    }
     const Specimen specimen = make_specimen(description, hooks);
     Bonded bonded = bond_specimen(specimen, description, description.loading);
     test.world = std::move(bonded.world);
@@ -163,9 +238,10 @@ VirtualTest prepare_test(const TestCase& description, const TestHooks& hooks) {
     test.state.failure.share_of_peak = description.loading.stop_at_share_of_peak;
     say(hooks, fmt::format("bonded {} points of {} interfaces, time step {:.3g} s", test.world.bonds_initial,
                            test.world.interfaces_initial, test.world.time_step));
+    std::optional<SmallStrain> solved;
     if (bonded.platens.bonded) {
         check_platen_hold(test.world, test.setup, bonded.platens, description);
-        take_moduli(test.state, test.setup, test.world, test.setup);
+        solved = take_moduli(test.state, test.setup, test.world, test.setup);
     } else {
         TestCase::Loading held = description.loading;
         held.platens = "bonded";
@@ -173,7 +249,7 @@ VirtualTest prepare_test(const TestCase& description, const TestHooks& hooks) {
         try {
             const TestSetup own = record_setup(twin.world, specimen, twin.platens, test.setup.compression);
             check_platen_hold(twin.world, own, twin.platens, description);
-            take_moduli(test.state, test.setup, twin.world, own);
+            solved = take_moduli(test.state, test.setup, twin.world, own);
         } catch (const InputError& error) {
             test.setup.notices.push_back(fmt::format("no small-strain modulus: {}", error.what()));
         }
@@ -181,6 +257,12 @@ VirtualTest prepare_test(const TestCase& description, const TestHooks& hooks) {
     if (std::isfinite(test.state.youngs_modulus)) {
         say(hooks, fmt::format("small strain: E = {:.4g} N/m, nu = {:.3g}", test.state.youngs_modulus,
                                test.state.poissons_ratio));
+    }
+    if (description.loading.rate_tolerance) {
+        start_by_tolerance(test, solved);
+        say(hooks,
+            fmt::format("loading by tolerance {}: first rate {:.3g} 1/s, a wave's transit {:.3g} s",
+                        *description.loading.rate_tolerance, test.state.rate.rate, test.setup.rate_rule.transit_time));
     }
     for (const std::string& notice : test.setup.notices) say(hooks, "notice: " + notice);
     return test;

@@ -35,6 +35,7 @@ struct VirtualTest {
 struct TestOptions {
     std::filesystem::path folder;  ///< OUT
     bool force = false;
+    bool verify = false;  ///< run the companions, specimens/companions.hpp
     int threads = 0;      ///< 0: the case's
     std::string command;  ///< for the summary
     std::chrono::steady_clock::time_point process_start = std::chrono::steady_clock::now();

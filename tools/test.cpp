@@ -36,18 +36,20 @@ constexpr const char* examples =
     "\nexamples:\n"
     "  crackle test specimens/guide_rock/circles_tension.toml -o out/circles-tension\n"
     "  crackle test case.toml -o out/case --threads 2 -q\n"
+    "  crackle test case.toml -o out/case --verify\n"
     "  crackle test --resume out/case           goes on after an interrupt, to the bytes of an uninterrupted test\n"
     "  crackle test --keys                      all keys of a case, with units, defaults and ranges\n";
 
 po::options_description visible_options() {
     po::options_description options("options");
-    options.add_options()("help,h", "this text")                                                             //
-        ("output,o", po::value<std::string>(), "folder for the results")                                     //
-        ("force", "replace the results in OUT once the new ones are complete")                               //
-        ("resume", po::value<std::string>(), "go on with the test in this folder from its last checkpoint")  //
-        ("threads", po::value<int>(), "threads (default: the case's); results do not depend on them")        //
-        ("allow-unstable", "accept a time step above the stable bound, and runaway energy")                  //
-        ("keys", "list all keys of a case")                                                                  //
+    options.add_options()("help,h", "this text")                                                                 //
+        ("output,o", po::value<std::string>(), "folder for the results")                                         //
+        ("force", "replace the results in OUT once the new ones are complete")                                   //
+        ("resume", po::value<std::string>(), "go on with the test in this folder from its last checkpoint")      //
+        ("verify", "run the test's companions too (half step, half rate, half and double damping): error bars")  //
+        ("threads", po::value<int>(), "threads (default: the case's); results do not depend on them")            //
+        ("allow-unstable", "accept a time step above the stable bound, and runaway energy")                      //
+        ("keys", "list all keys of a case")                                                                      //
         ("quiet,q", "no progress, no notices, no figures");
     return options;
 }
@@ -99,6 +101,13 @@ void print_figures(const TestOutcome& outcome) {
                              shown(s, "bonds_initial"), shown(s, "interfaces_lost"), shown(s, "interfaces_initial"));
     std::cout << fmt::format("  errors: energy balance {} of the work, platens out of balance by {} of the peak\n",
                              shown(s, "energy_closing_error"), shown(s, "platen_out_of_balance"));
+    if (s.contains("peak_converged") && s["peak_converged"].is_boolean()) {
+        const auto& e = s["numerical_errors"];
+        std::cout << fmt::format(
+            "  stated errors: strength {:.2g} %, its strain {:.2g} %; {}\n",
+            100.0 * e["peak_stress"]["stated"].get<double>(), 100.0 * e["peak_strain"]["stated"].get<double>(),
+            s["peak_converged"].get<bool>() ? "the peak is converged" : "the peak jumps between branches");
+    }
     std::cout << fmt::format("  {} steps in {} s: {} particle-steps/s\n", shown(s, "steps"), shown(s, "step_seconds"),
                              shown(s, "particle_steps_per_second"));
     for (const auto& notice : s.value("notices", nlohmann::ordered_json::array())) {
@@ -166,6 +175,7 @@ int test(const Arguments& arguments) {
 
     options.folder = values[resume ? "resume" : "output"].as<std::string>();
     options.force = values.contains("force");
+    options.verify = values.contains("verify");
     options.threads = values.contains("threads") ? values["threads"].as<int>() : 0;
     options.command = "crackle test";
     for (const std::string& word : arguments) options.command += ' ' + word;

@@ -16,7 +16,7 @@ namespace crackle {
 
 // Names the layout; the number is raised whenever a field below changes.
 constexpr const char* checkpoint_title = "crackle test checkpoint ";
-constexpr const char* checkpoint_version = "4";
+constexpr const char* checkpoint_version = "5";
 constexpr std::size_t hash_digits = 64;
 
 // The archive is given one member after the other: structs have padding, whose bytes are nobody's.
@@ -63,16 +63,24 @@ void serialize(Archive& a, BondAnchor& b) {
     a(b.kind, b.body_i, b.body_j, b.element_i, b.feature_j, b.on_i, b.on_j);
 }
 template <class Archive>
+void serialize(Archive& a, RateRule& r) {
+    a(r.tolerance, r.transit_time, r.first_strain, r.stress_floor, r.energy_floor, r.kinetic_per_rate);
+}
+template <class Archive>
+void serialize(Archive& a, RateState& r) {
+    a(r.rate, r.out_of_balance, r.kinetic_share, r.next_look, r.slowest, r.fastest, r.strain_above);
+}
+template <class Archive>
 void serialize(Archive& a, TestSetup& s) {
     a(s.compression, s.specimen, s.polygons, s.width, s.height, s.bond_thick, s.mesh_thick, s.bottom_id, s.top_id,
       s.bottom, s.top, s.top_start, s.left, s.right, s.gauge_length, s.particles, s.segments, s.seeds,
       s.contacts_initial, s.mean_bond_overlap, s.mean_back_tension, s.mean_back_tension_interface, s.stable_time_step,
-      s.stable_time_step_proved, s.time_step_bound, s.start, s.bonds, s.notices, s.packing);
+      s.stable_time_step_proved, s.time_step_bound, s.rate_rule, s.start, s.bonds, s.notices, s.packing);
 }
 template <class Archive>
 void serialize(Archive& a, TestState& s) {
-    a(s.rows, s.failure, s.peak_frame, s.frames, s.next_frame, s.breaks_in_shear, s.breaks_in_tension, s.ended_by,
-      s.youngs_modulus, s.poissons_ratio, s.curve_bytes, s.events_bytes, s.wall_seconds, s.step_seconds, s.command);
+    a(s.rows, s.failure, s.peak_frame, s.frames, s.next_frame, s.rate, s.breaks_in_shear, s.breaks_in_tension, s.ended_by,
+      s.youngs_modulus, s.poissons_ratio, s.modulus_residual, s.curve_bytes, s.events_bytes, s.wall_seconds, s.step_seconds, s.command);
 }
 
 std::string save_test(const std::string& case_hash, const TestSetup& setup, const TestState& state,

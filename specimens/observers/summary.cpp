@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "specimens/companions.hpp"
 #include "specimens/curve_analysis.hpp"
 
 namespace crackle {
@@ -94,7 +95,17 @@ void counts(Writer& w, const TestSetup& setup, const TestState& state, const Wor
 
 void numerics(Writer& w, const TestCase& test, const TestSetup& setup, const TestState& state, const World& world) {
     const CurveRow last = state.rows.empty() ? CurveRow{} : state.rows.back();
-    w.put("axial_strain_rate", test.loading.axial_strain_rate, "1/s");
+    if (test.loading.rate_tolerance) {
+        const RateState& rate = state.rate;
+        w.put("rate_tolerance", *test.loading.rate_tolerance, "-, of out-of-balance and kinetic over strain energy");
+        w.put("axial_strain_rate", last.axial_strain / last.time, "1/s, mean of the test");
+        w.put("axial_strain_rate_range", {rate.slowest, rate.fastest}, "1/s, slowest and fastest");
+        w.put("strain_share_above_tolerance", rate.strain_above / last.axial_strain,
+              "-, share of the strain gone through while the inertia error was above the tolerance");
+        w.put("wave_transit_time", setup.rate_rule.transit_time, "s, height/sqrt(E/density)");
+    } else {
+        w.put("axial_strain_rate", *test.loading.axial_strain_rate, "1/s");
+    }
     w.put("axial_strain_end", last.axial_strain, "-, positive in the sense of the test");
     w.put("energy_closing_error", number(last.energy_error / last.platen_work),
           "-, over the platens' work, at the end");
@@ -128,6 +139,44 @@ void packing(Writer& w, const TestSetup& setup) {
           "before bonding: mean_overlap in m over circles, bottom and top wall; stress_x, stress_y in N/m; anisotropy "
           "|sx - sy|/(sx + sy); unbalanced: largest force on a circle over the mean contact force; the rest counts and "
           "ratios");
+}
+
+Json error_of(const NumberError* measured, double closing) {
+    const auto value = [&](double NumberError::*part) {
+        return measured != nullptr ? Json(measured->*part) : Json(nullptr);
+    };
+    return {{"time_step", value(&NumberError::time_step)},
+            {"rate", value(&NumberError::rate)},
+            {"energy_closing", number(closing)},
+            {"damping", value(&NumberError::damping)},
+            {"stated", value(&NumberError::stated)}};
+}
+
+void numerical_errors(Writer& w, const TestState& state, const NumericalErrors* errors) {
+    const CurveRow last = state.rows.empty() ? CurveRow{} : state.rows.back();
+    const double closing = std::abs(last.energy_error / last.platen_work);
+    // A solve, not a run: neither step nor rate enters.
+    const NumberError solved{};
+    Json all{{"youngs_modulus", error_of(&solved, state.modulus_residual)},
+             {"peak_stress", error_of(errors != nullptr ? &errors->peak_stress : nullptr, closing)},
+             {"peak_strain", error_of(errors != nullptr ? &errors->peak_strain : nullptr, closing)}};
+    all["youngs_modulus"]["stated"] = number(state.modulus_residual);
+    if (errors != nullptr) {
+        for (const Companion& c : errors->companions) {
+            all["companions"][c.name] = {{"peak_stress", c.peak_stress},
+                                         {"peak_strain", c.peak_strain},
+                                         {"failed", c.failed},
+                                         {"steps", c.steps},
+                                         {"post_peak_difference", c.post_peak_difference}};
+        }
+    }
+    w.put("numerical_errors", all,
+          "-, relative. time_step, rate, damping: change at half the step, half the rate, half or double the damping "
+          "(crackle test --verify; null: not run); energy_closing: over the platens' work; stated: covers nine of ten "
+          "runs however slow; youngs_modulus: a sparse solve, its residual. post_peak_difference: mean difference of "
+          "stress from the peak on, over the peak; breaks there are chaotic, so it is no error of step or rate");
+    w.put("peak_converged", errors != nullptr ? Json(errors->peak_converged) : Json(nullptr),
+          "whether the peak at half the step and half the rate lies on the same branch; null: not run");
 }
 
 /// Those of the start, and what the curve turned out to resolve badly.
@@ -174,18 +223,24 @@ void frames(Writer& w, const TestState& state) {
 }  // namespace
 
 nlohmann::ordered_json make_summary(const TestCase& test, const TestSetup& setup, const TestState& state,
-                                    const World& world, const TestTiming& timing) {
+                                    const World& world, const TestTiming& timing, const NumericalErrors* errors) {
     Json json, units;
     Writer w{json, units, test.output.out_of_plane_thickness};
     describe(w, test, setup, state);
     strength(w, setup, state);
     counts(w, setup, state, world);
     numerics(w, test, setup, state, world);
+    numerical_errors(w, state, errors);
     packing(w, setup);
     frames(w, state);
     w.put("out_of_plane_thickness", test.output.out_of_plane_thickness,
           "m, converts what is reported and nothing else");
     json["notices"] = notices_of(test, setup, state, world);
+    if (errors != nullptr && !errors->peak_converged) {
+        json["notices"].push_back(
+            "the peak jumps between branches: at half the step or half the rate it differs by more than 3 %, or its "
+            "strain by more than 10 %; report the stated error with it, or the mean of several packings");
+    }
     json["version"] = CRACKLE_VERSION;
     json["compiler"] = __VERSION__;
     json["command"] = state.command;

@@ -12,6 +12,8 @@
 
 namespace crackle {
 
+struct NumericalErrors;
+
 /// Wall-clock figures of the whole test, resumed parts included, s. The only keys that differ between two runs of one
 /// case.
 struct TestTiming {
@@ -20,7 +22,9 @@ struct TestTiming {
     int threads = 1;
 };
 
+/// @param errors from the test's companions, if they were run
 nlohmann::ordered_json make_summary(const TestCase& test, const TestSetup& setup, const TestState& state,
-                                    const World& world, const TestTiming& timing);
+                                    const World& world, const TestTiming& timing,
+                                    const NumericalErrors* errors = nullptr);
 
 }  // namespace crackle

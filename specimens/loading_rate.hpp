@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Quasi-static loading by tolerance: the platen's speed follows the inertia error.
+//
+// A platen that is speeded up from transit to transit, T = height/sqrt(E/ρ), by a factor e^s sends waves of a stress of
+// about ½s² of what the specimen bears: strain so far ε growing as exp(s t/T) is out of balance by that. So the rate is
+// at most sqrt(tolerance)·ε/T, half the tolerance by this estimate. Below that it follows two measured errors, smoothed
+// over a transit:
+//     out-of-balance   |σ_top - σ_bottom| over the largest stress so far
+//     kinetic share    kinetic energy beyond that of the loading itself, over the strain energy
+// The larger of the two over the tolerance drives ln(rate): slow through bursts of breaks, faster where nothing
+// happens. Loading starts in motion, with the velocities of the elastic solution, so that it sends no shock.
+#pragma once
+
+#include <algorithm>
+
+namespace crackle {
+
+/// What does not change while a specimen is loaded.
+struct RateRule {
+    double tolerance = 0.0;         ///< 0: the rate is given, and the rest unused
+    double transit_time = 0.0;      // s
+    double first_strain = 0.0;      ///< axial, at the first slip of the elastic solution
+    double stress_floor = 0.0;      // N/m, at that strain
+    double energy_floor = 0.0;      // J, stored at that strain
+    double kinetic_per_rate = 0.0;  // J s2, of the elastic motion at a rate of 1/s
+};
+
+struct RateState {
+    double rate = 0.0;                    // 1/s, axial, >= 0
+    double out_of_balance = 0.0;          ///< smoothed, signed
+    double kinetic_share = 0.0;           ///< smoothed
+    double next_look = 0.0;               // s
+    double slowest = 0.0, fastest = 0.0;  // 1/s
+    double strain_above = 0.0;            ///< strain gone through while the error lay above the tolerance
+};
+
+/// Looks a transit: the rate changes little from one to the next, so that changing it sends no shock.
+inline constexpr double looks_per_transit = 20.0;
+
+/// The rate to begin with.
+double first_rate(const RateRule& rule);
+
+/// Smooths the out-of-balance of one step. @param difference σ_top - σ_bottom, N/m; @param scale largest stress so far
+inline void watch_balance(RateState& state, const RateRule& rule, double difference, double scale, double dt) {
+    const double share = std::min(1.0, dt / rule.transit_time);
+    state.out_of_balance += share * (difference / std::max(scale, rule.stress_floor) - state.out_of_balance);
+}
+
+/// The coming rate, taken into the state. @param strain axial, >= 0
+/// @param kinetic, stored energies of the specimen, J
+void choose_rate(RateState& state, const RateRule& rule, double strain, double kinetic, double stored, double time);
+
+}  // namespace crackle
