@@ -58,11 +58,19 @@ Edge edge_between(Vec2 a, Vec2 b) {
     return {a.x, a.y, (b.x - a.x) / length, (b.y - a.y) / length, length};
 }
 
+std::vector<std::vector<std::uint32_t>> pieces_of(int id, std::span<const Vec2> frame) {
+    try {
+        return convex_pieces(frame);
+    } catch (const InputError& error) {
+        throw InputError(fmt::format("body {}: {}", id, error.what()));
+    }
+}
+
 void add_pieces(World& world, BodyInfo& info, std::span<const Vec2> frame) {
     info.first_piece = static_cast<std::uint32_t>(world.pieces.size());
     const auto next_edge = [&] { return static_cast<std::uint32_t>(world.edges.size()); };
     if (info.closed) {
-        for (const std::vector<std::uint32_t>& ring : convex_pieces(frame)) {
+        for (const std::vector<std::uint32_t>& ring : pieces_of(info.id, frame)) {
             world.pieces.push_back({next_edge(), static_cast<std::uint32_t>(ring.size()), true});
             for (std::size_t k = 0; k < ring.size(); ++k) {
                 world.edges.push_back(edge_between(frame[ring[k]], frame[ring[(k + 1) % ring.size()]]));

@@ -42,6 +42,7 @@ class Multiply {
 /// time.
 Vector extreme_vector(const Matrix& lower) {
     const Eigen::Index n = lower.rows();
+    if (lower.squaredNorm() == 0.0) return Vector::Unit(n, 0);  // nothing is closed, and Lanczos has nothing to go by
     if (n <= lanczos_vectors) {
         const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> dense{Eigen::MatrixXd(lower)};  // reads the lower triangle
         return dense.eigenvectors().col(n - 1);

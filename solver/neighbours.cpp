@@ -18,6 +18,7 @@
 #include "solver/contact_geometry.hpp"
 #include "solver/contact_pass.hpp"
 #include "solver/errors.hpp"
+#include "solver/pierced.hpp"
 #include "solver/world.hpp"
 
 namespace crackle {
@@ -418,6 +419,7 @@ void refresh_neighbours(World& world) {
         // The bound is used up: look how far bodies really went, and rebuild if little is left of the skin.
         world.travelled = longest_way(world);
         if (world.travelled <= 0.8 * half_skin) return;
+        refuse_piercing(world);
     }
     rebuild(world);
 }

@@ -4,11 +4,12 @@
 // Leapfrog with the lagged dashpot is stable while 4M - 2Δt·C - Δt²·K is positive definite. Every point contributes
 // ½k(a_i - a_j)² to the energy, a the displacement of each body's material at the point, and for any α > 0
 // (a_i - a_j)² <= (1 + α)a_i² + (1 + 1/α)a_j² (<= a_i² where the partner is held), so K and C are bounded by
-// block-diagonal matrices K_b and C_b. α = w_j/w_i, the ratio of two weights: with the bodies' own scaled stiffnesses a
-// light sliver pays hardly anything for its heavy neighbours and equal bodies share by halves; a few rounds that raise
-// the weight of the bodies that limit bring the bound nearer to the exact step. With κ and γ the largest eigenvalues of
-// M^-½ K_b M^-½ and M^-½ C_b M^-½, body b is stable below (sqrt(γ² + 4κ) - γ)/κ; the bound is the least of these. One
-// spring and dashpot against a wall gives the guide's 2 sqrt(m/k)(sqrt(h²+1) - h) exactly.
+// block-diagonal matrices K_b and C_b. For K, α = w_j/w_i, the ratio of two weights; for C its root, as dashpots go by
+// the root of stiffness. With the bodies' own scaled stiffnesses for weights a light sliver pays hardly anything for
+// its heavy neighbours and equal bodies share by halves; a few rounds that raise the weight of the bodies that limit
+// bring the bound nearer to the exact step. With κ and γ the largest eigenvalues of M^-½ K_b M^-½ and M^-½ C_b M^-½,
+// body b is stable below (sqrt(γ² + 4κ) - γ)/κ; the bound is the least of these. One spring and dashpot against a wall
+// gives the guide's 2 sqrt(m/k)(sqrt(h²+1) - h) exactly.
 //
 // Under the guide's law a point pushes along b (its resultant at its place) while its overlap answers to g = ∇δ, so its
 // stiffness is k b gᵀ: unsymmetric, and up to four times k. Every eigenvalue λ of such a sum obeys |λ| <= max |u*Ku| <=
@@ -120,7 +121,7 @@ void add_damping(Block& block, const Side& side, const ContactLaw& law, double r
 void add_side(BodyBlocks& blocks, const Side& side, const ContactLaw& law, double root_mass, double share,
               bool normal = true) {
     add_stiffness(blocks.stiffness, side, law, share, normal);
-    add_damping(blocks.damping, side, law, root_mass, share);
+    add_damping(blocks.damping, side, law, root_mass, 1.0 + std::sqrt(share - 1.0));
 }
 
 bool held(const BodyInertia& inertia) {

@@ -7,5 +7,6 @@
 namespace crackle::tools {
 
 int bench_verify(const Arguments& arguments);
+int bench_stress(const Arguments& arguments);
 
 }  // namespace crackle::tools

@@ -25,12 +25,14 @@ const std::vector<Claim>& claims() {
                  lattice_strength_claims(),
                  lattice_wave_claims(),
                  critical_step_claims(),
+                 exact_step_claims(),
                  stiffness_claims(),
                  loading_claims(),
                  conservation_claims(),
                  invariance_claims(),
                  bond_claims(),
                  mesh_claims(),
+                 stress_claims(),
              }) {
             std::move(part.begin(), part.end(), std::back_inserter(list));
         }

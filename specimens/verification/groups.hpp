@@ -12,6 +12,7 @@ std::vector<Claim> one_body_claims();
 std::vector<Claim> friction_claims();
 std::vector<Claim> block_on_slope_claims();
 std::vector<Claim> critical_step_claims();
+std::vector<Claim> exact_step_claims();
 std::vector<Claim> polygon_claims();
 std::vector<Claim> chain_claims();
 std::vector<Claim> triangular_lattice_claims();
@@ -23,5 +24,6 @@ std::vector<Claim> conservation_claims();
 std::vector<Claim> invariance_claims();
 std::vector<Claim> bond_claims();
 std::vector<Claim> mesh_claims();
+std::vector<Claim> stress_claims();
 
 }  // namespace crackle::verification

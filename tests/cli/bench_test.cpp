@@ -16,8 +16,8 @@ class BenchCommand : public testing::ProgramCall {
 };
 
 TEST_F(BenchCommand, RefusesStudiesAndClaimsItDoesNotKnow) {
-    expect_refused("", "found no study, expected one of verify");
-    expect_refused("verfy", "found study 'verfy', expected one of verify");
+    expect_refused("", "found no study, expected one of verify, stress");
+    expect_refused("verfy", "found study 'verfy', expected one of verify, stress");
     expect_refused("verify --only no_such_claim", "found no claim 'no_such_claim'");
     expect_refused("verify --only two_discs_stacked_between_walls -o nowhere/page.md", "nowhere/page.md");
     expect_refused("verify --no-such-option", "no-such-option");
@@ -63,6 +63,15 @@ TEST_F(BenchCommand, WritesAPageThatNamesItsCommandAndIsTheSameAgain) {
     std::filesystem::create_directory(folder_ / "again");
     ASSERT_EQ(call(words + "again/page.md").code, 0);
     EXPECT_EQ(read("again/page.md"), page);
+}
+
+TEST_F(BenchCommand, StressShowsEveryScene) {
+    expect_refused("stress --steps 0", "--steps: found 0, expected at least 1");
+    EXPECT_EQ(call("stress --help").code, 0);
+    const testing::Answer answer = call("stress --steps 20");
+    EXPECT_EQ(answer.code, 0) << answer.out << answer.err;
+    EXPECT_NE(answer.out.find("| needles of 1 to 1000 | 36 | 20 |"), std::string::npos) << answer.out;
+    EXPECT_EQ(answer.out.find("FAILS"), std::string::npos) << answer.out;
 }
 
 TEST_F(BenchCommand, PrintsThePageWhereNoFileIsGiven) {

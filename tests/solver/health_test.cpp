@@ -96,6 +96,57 @@ TEST(Health, ABodyTooFastForTheListStopsTheRunAtOnce) {
     }
 }
 
+/// What stops a body that is shot at a held one, slow enough to be noticed by the list; 0.2 m behind it at the latest.
+std::string stopped_by(Scene scene, bool allow_unstable) {
+    const DofControl held{Drive::velocity, 0.0};
+    scene.controls.push_back({1, held, held, held, 0});
+    scene.materials = {rock(0.0)};
+    scene.domain.wall_present = {false, false, false, false};
+    scene.thick = 1e-3;
+    World world = build_world(std::move(scene));
+    world.allow_unstable = allow_unstable;
+    const BodyIndex b = body_of_id(world, 1);
+    try {
+        while (world.bodies[b].x < 0.2 && world.bodies[b].vx > 0.0) step(world);
+    } catch (const UnstableRun& error) {
+        EXPECT_EQ(error.body, 1);
+        EXPECT_GT(error.step, 1);
+        fmt::print("  {}\n", error.what());
+        return error.what();
+    }
+    return world.bodies[b].vx > 0.0 ? "nothing" : "rebound";
+}
+
+TEST(Health, ACircleThroughASegmentStopsTheRun) {
+    const auto shot = [](double speed) {
+        Scene scene;
+        scene.add_circle_body(1, 0, {{-0.05, 0.0}, 0.02, 0.0});
+        scene.add_chain_body(2, 0, {{-0.01, -0.5}, {0.0, -0.1}, {0.0, 0.5}}, false);
+        scene.bodies[0].velocity = {speed, 0.0};
+        return scene;
+    };
+    EXPECT_EQ(stopped_by(shot(10.0), false), "rebound");
+    EXPECT_NE(stopped_by(shot(60.0), false).find("it went through segment 2 of body 2"), std::string::npos);
+    EXPECT_EQ(stopped_by(shot(60.0), true), "nothing") << "asked for with --allow-unstable";
+}
+
+TEST(Health, APolygonThroughAPolygonStopsTheRun) {
+    const auto shot = [](double speed) {
+        Scene scene;
+        const auto square = [&](int id, Vec2 c) {
+            scene.add_chain_body(
+                id, 0, {c + Vec2{-0.02, -0.02}, c + Vec2{0.02, -0.02}, c + Vec2{0.02, 0.02}, c + Vec2{-0.02, 0.02}},
+                true);
+        };
+        square(1, {-0.05, 0.003});
+        square(2, {0.0, 0.0});
+        scene.bodies[0].velocity = {speed, 0.0};
+        return scene;
+    };
+    EXPECT_EQ(stopped_by(shot(1.0), false), "rebound");
+    EXPECT_NE(stopped_by(shot(60.0), false).find("its centroid has got inside body 2"), std::string::npos);
+}
+
 TEST(Health, RunawayEnergyStopsTheRun) {
     World world = build_world(heap());
     bond_all(world, 0.0);
