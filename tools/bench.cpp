@@ -17,6 +17,7 @@ namespace {
 
 const std::vector<Command>& studies() {
     static const std::vector<Command> all{
+        {"guide", "the rock of DEMseg's guide on many packings: each of its numbers beside ours", bench_guide},
         {"verify", "every closed form and law that the engine has to meet, against what it does", bench_verify},
     };
     return all;
@@ -31,7 +32,7 @@ std::string names() {
 void print_help(std::ostream& out) {
     out << "usage: crackle bench STUDY [OPTIONS]   (crackle bench STUDY --help shows examples)\n\nstudies:\n";
     for (const Command& study : studies()) out << fmt::format("  {:<12}{}\n", study.name, study.summary);
-    out << "\nexample:\n  crackle bench verify -o verification.md\n";
+    out << "\nexample:\n  crackle bench guide --quick\n  crackle bench verify -o verification.md\n";
 }
 
 }  // namespace
