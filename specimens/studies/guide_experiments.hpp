@@ -22,6 +22,7 @@ struct GuideExperiment {
     std::string sentence;
     Reach reach;
     void (*change)(TestCase& test);
+    bool without_platens = false;  ///< no platen holds such a specimen: its tests only count
 };
 
 /// All, the shipped case first.

@@ -99,6 +99,21 @@ TEST(GuideEnsemble, CirclesAreNearlyTheSameUnderEveryLaw) {
     EXPECT_NEAR(rounded.at("mean_back_tension"), 774.0, 0.5) << "N, what the packing is compressed to";
 }
 
+TEST(GuideEnsemble, TrianglesBetweenTheCentresAloneAreCountedWithoutPlatens) {
+    const EnsembleOptions options = shipped_options();
+    const auto counted = [&](const char* specimen) {
+        const GuideTest test = guide_test("seeds_boundary", "demseg", specimen, elastic_test, 1);
+        return measure_guide_test(guide_case(test, options), test, {});
+    };
+    const GuideResult triangles = counted("delaunay"), circles = counted("circles");
+    EXPECT_EQ(triangles.error, "");
+    EXPECT_EQ(circles.quantities.at("particles"), 304.0);
+    // 2n - 2 - h of n centres, h on the outline; the guide has 537.
+    EXPECT_GT(triangles.quantities.at("particles"), 500.0);
+    EXPECT_LT(triangles.quantities.at("particles"), 2.0 * 304.0 - 2.0 - 30.0);
+    EXPECT_NEAR(circles.quantities.at("mean_back_tension"), 774.0, 15.0) << "without the platens' bonds";
+}
+
 TEST(GuideEnsemble, RowsOutsideNameTheExperimentThatReachesTheGuide) {
     GuideResults results;
     for (std::int64_t seed = 1; seed <= 3; ++seed) {
