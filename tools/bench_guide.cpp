@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <boost/program_options.hpp>
 #include <chrono>
@@ -53,7 +52,8 @@ struct Plan {
     std::int64_t packings = 20;
     Words laws{"rounded", "demseg", "demseg_mean"};
     std::vector<std::int64_t> strength_packings{5, 0, 0};    // by law
-    std::vector<std::int64_t> experiment_packings{3, 2, 0};  // elastic, loaded circles, loaded polygons
+    std::vector<std::int64_t> experiment_packings{3, 2, 0};  // elastic, loaded circles, loaded triangles
+    Words experiments;                                       // empty: all
 };
 
 void check_counts(const char* option, const std::vector<std::int64_t>& counts, std::int64_t most) {
@@ -98,6 +98,16 @@ Plan plan_of(const po::variables_map& given) {
         if (otherwise.size() > places && !given.contains(option)) otherwise.resize(places);
         return spread_counts(std::move(otherwise), places, name.c_str());
     };
+    if (given.contains("experiments")) plan.experiments = given["experiments"].as<Words>();
+    for (const std::string& name : plan.experiments) {
+        const auto& all = studies::guide_experiments();
+        if (std::none_of(all.begin(), all.end(), [&](const auto& one) { return one.name == name; })) {
+            Words known;
+            for (const auto& one : all) known.push_back(one.name);
+            throw InputError(fmt::format("bench guide: --experiments: found '{}', expected some of {}", name,
+                                         fmt::join(known, ", ")));
+        }
+    }
     plan.strength_packings = counts("strength-packings", plan.strength_packings, plan.laws.size());
     plan.experiment_packings = counts("experiment-packings", plan.experiment_packings, 3);
     return plan;
@@ -122,11 +132,19 @@ const std::vector<std::pair<const char*, const char*>> loaded_tests{{"circles", 
                                                                     {"delaunay", "compression"},
                                                                     {"voronoi", "compression"}};
 
+std::vector<studies::GuideExperiment> experiments_of(const Plan& plan) {
+    std::vector<studies::GuideExperiment> chosen = studies::guide_experiments();
+    std::erase_if(chosen, [&](const studies::GuideExperiment& one) {
+        return !plan.experiments.empty() &&
+               std::find(plan.experiments.begin(), plan.experiments.end(), one.name) == plan.experiments.end();
+    });
+    return chosen;
+}
+
 void add_experiments(TestList& list, const Plan& plan) {
-    const auto [elastic, circles, polygons] =
-        std::array{plan.experiment_packings[0], plan.experiment_packings[1], plan.experiment_packings[2]};
-    for (std::int64_t seed = 1; seed <= elastic; ++seed) {
-        for (const auto& experiment : studies::guide_experiments()) {
+    const std::vector<studies::GuideExperiment> experiments = experiments_of(plan);
+    for (std::int64_t seed = 1; seed <= plan.experiment_packings[0]; ++seed) {
+        for (const auto& experiment : experiments) {
             for (const std::string& law : plan.laws) {
                 for (const char* specimen : {"circles", "delaunay", "voronoi"}) {
                     if (experiment.reach.holds(specimen, elastic_test))
@@ -135,11 +153,12 @@ void add_experiments(TestList& list, const Plan& plan) {
             }
         }
     }
-    for (const bool of_circles : {true, false}) {
-        for (std::int64_t seed = 1; seed <= (of_circles ? circles : polygons); ++seed) {
-            for (const auto& experiment : studies::guide_experiments()) {
+    // Voronoi polygons have one loaded row, and take the longest.
+    for (const std::string of : {"circles", "delaunay"}) {
+        for (std::int64_t seed = 1; seed <= plan.experiment_packings[of == "circles" ? 1 : 2]; ++seed) {
+            for (const auto& experiment : experiments) {
                 for (const auto& [specimen, loading] : loaded_tests) {
-                    if ((std::string(specimen) == "circles") == of_circles && experiment.reach.holds(specimen, loading))
+                    if (of == specimen && experiment.reach.holds(specimen, loading))
                         list.add(studies::guide_test(experiment.name, plan.laws[0], specimen, loading, seed));
                 }
             }
@@ -187,6 +206,7 @@ std::string command_of(const po::variables_map& given, const Plan& plan) {
     if (!given.contains("quick")) {
         text += fmt::format(" --strength-packings {} --experiment-packings {}", fmt::join(plan.strength_packings, " "),
                             fmt::join(plan.experiment_packings, " "));
+        if (!plan.experiments.empty()) text += fmt::format(" --experiments {}", fmt::join(plan.experiments, " "));
     }
     if (const double factor = given["rate-factor"].as<double>(); factor != 1.0)
         text += fmt::format(" --rate-factor {:g}", factor);
@@ -203,7 +223,8 @@ po::options_description options_described() {
          "packings that are also loaded until they fail, a number a law (default 5 0 0: the guide's law takes small "
          "steps)")  //
         ("experiment-packings", numbers(),
-         "packings of the experiments: elastic, loaded circles, loaded polygons (default 3 2 0)")                  //
+         "packings of the experiments: elastic, loaded circles, loaded triangles (default 3 2 0)")                 //
+        ("experiments", po::value<Words>()->multitoken(), "only these (default all)")                              //
         ("rate-factor", po::value<double>()->default_value(1.0, "1"), "over the shipped loading rates")            //
         ("minutes", po::value<double>(), "give up tests not done by then; the page shows what is there")           //
         ("jobs", po::value<int>()->default_value(2), "tests at a time, each on one thread")                        //

@@ -80,7 +80,7 @@ std::vector<Effect> effects_on(const GuideRow& row, const GuidePage& page, const
     for (const std::string& other : page.laws) {
         if (other == law || !takes_polygons(row)) continue;
         if (auto effect = effect_of(row, page, results, law, other, as_shipped, shipped)) {
-            effect->experiment = "law";
+            effect->experiment = "law " + other;
             effect->sentence = fmt::format("contact law {} in place of {}", other, law);
             effects.push_back(*effect);
         }
@@ -111,16 +111,32 @@ std::string finding(const GuideRow& row, const std::vector<Effect>& effects) {
     return "None moves it towards the guide's value.";
 }
 
+/// Laws under which a row comes out the same, together; rows of circles and of the mesh are so under all.
+std::vector<std::vector<std::string>> laws_alike(const GuideRow& row, const GuidePage& page,
+                                                 const GuideResults& results) {
+    std::vector<std::vector<std::string>> groups;
+    for (const std::string& law : page.laws) {
+        const double mean = row_spread(row, page, results, law).mean;
+        const auto same = std::find_if(groups.begin(), groups.end(), [&](const auto& group) {
+            return row_spread(row, page, results, group.front()).mean == mean;
+        });
+        if (same == groups.end()) {
+            groups.push_back({law});
+        } else {
+            same->push_back(law);
+        }
+    }
+    return groups;
+}
+
 std::string experiments_of(const GuideRow& row, const GuidePage& page, const GuideResults& results) {
     std::string text;
-    // A row of circles alone is the same under every law.
-    const std::size_t laws = takes_polygons(row) ? page.laws.size() : 1;
-    for (std::size_t k = 0; k < laws; ++k) {
-        const std::string& law = page.laws[k];
+    for (const std::vector<std::string>& laws : laws_alike(row, page, results)) {
+        const std::string& law = laws.front();
         const Spread shipped = row_spread(row, page, results, law);
         if (judge(row, shipped) != GuideVerdict::outside) continue;
         text += fmt::format("\n### {}: the guide {}, ours {}{}\n\n", row.words, row.guide_text, ours(shipped),
-                            takes_polygons(row) ? ", law " + law : "");
+                            takes_polygons(row) ? fmt::format(", {}", fmt::join(laws, " and ")) : "");
         const std::vector<Effect> effects = effects_on(row, page, results, law);
         if (effects.empty()) {
             text += "No experiment has been run on it.\n";
@@ -206,7 +222,7 @@ std::string guide_page(const GuidePage& page, const GuideResults& results) {
     if (!experiments.empty()) {
         text +=
             "\n## What moves the rows outside\n\nEach experiment changes one thing of the shipped cases, on the same "
-            "packings; its mean is judged with the spread of the shipped case.\n" +
+            "packings; its mean is judged with the relative spread of the shipped case.\n" +
             experiments;
     }
     return text + notices(page, results);

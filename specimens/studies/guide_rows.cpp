@@ -150,9 +150,10 @@ Spread spread_of(const std::vector<double>& values) {
     return spread;
 }
 
-bool reaches_guide(const GuideRow& row, double mean, const Spread& ours) {
+bool reaches_guide(const GuideRow& row, double mean, const Spread& shipped) {
     if (row.at_least) return mean > row.guide;
-    return std::abs(row.guide - mean) <= deviations_allowed * ours.deviation + row.rounding;
+    const double deviation = shipped.deviation * std::abs(mean / shipped.mean);
+    return std::abs(row.guide - mean) <= deviations_allowed * deviation + row.rounding;
 }
 
 GuideVerdict judge(const GuideRow& row, const Spread& ours) {

@@ -55,7 +55,7 @@ enum class GuideVerdict { inside, outside, open };
 /// «larger», our mean is.
 /// Open: less than two packings.
 GuideVerdict judge(const GuideRow& row, const Spread& ours);
-/// Whether a mean would be inside, with the spread of the shipped case.
-bool reaches_guide(const GuideRow& row, double mean, const Spread& ours);
+/// Whether the mean of a few packings would be inside, with the relative spread of the shipped case.
+bool reaches_guide(const GuideRow& row, double mean, const Spread& shipped);
 
 }  // namespace crackle::studies

@@ -79,6 +79,7 @@ TEST_F(BenchCommand, RefusesEnsemblesOfTheGuideThatMakeNoSense) {
     expect_refused("guide --packings 0", "--packings: found 0");
     expect_refused("guide --packings 2 --strength-packings 3", "--strength-packings: found 3, expected 0 to 2");
     expect_refused("guide --strength-packings 1 1 1 1", "found 4 numbers, expected at most 3");
+    expect_refused("guide --experiments nonsense", "--experiments: found 'nonsense', expected some of shipped, ");
     expect_refused("guide --rate-factor 0", "--rate-factor: found 0");
     expect_refused("guide --jobs 0", "--jobs: found 0");
     expect_refused("guide --quick --cases nowhere", "circles_tension.toml");
