@@ -55,6 +55,8 @@ const std::vector<GuideExperiment>& guide_experiments() {
          [](TestCase& test) { set_radii(test, 1.8e-2, 2.2e-2); }},
         {"wide_radii", "radii from 0.8 to 3.2 cm in place of 1.333 to 2.667", everything,
          [](TestCase& test) { set_radii(test, 0.8e-2, 3.2e-2); }},
+        {"square", "as high as wide in place of twice as high", everything,
+         [](TestCase& test) { test.packing.height_to_width = 1.0; }},
         {"double_overlap", "twice the overlap at bonding", everything,
          [](TestCase& test) { scale_overlap(test, 2.0); }},
         {"equal_springs", "k_s = k_n in place of k_n/4", everything,
