@@ -60,8 +60,13 @@ std::optional<Effect> effect_of(const GuideRow& row, const GuidePage& page, cons
     }
     if (before.empty()) return std::nullopt;
     const Spread a = spread_of(before), b = spread_of(after);
-    return Effect{law,    experiment, guide_experiment(experiment).sentence, a.packings,
-                  a.mean, b.mean,     reaches_guide(row, b.mean, shipped)};
+    return Effect{law,
+                  experiment,
+                  guide_experiment(experiment).sentence,
+                  a.packings,
+                  a.mean,
+                  b.mean,  // A change within the scatter explains nothing, even where it crosses the limit.
+                  reaches_guide(row, b.mean, shipped) && std::abs(b.mean - a.mean) >= shipped.deviation};
 }
 
 bool touches(const GuideExperiment& experiment, const GuideRow& row) {
@@ -222,7 +227,8 @@ std::string guide_page(const GuidePage& page, const GuideResults& results) {
     if (!experiments.empty()) {
         text +=
             "\n## What moves the rows outside\n\nEach experiment changes one thing of the shipped cases, on the same "
-            "packings; its mean is judged with the relative spread of the shipped case.\n" +
+            "packings; its mean is judged with the relative spread of the shipped case, and counts from a change of "
+            "one standard deviation.\n" +
             experiments;
     }
     return text + notices(page, results);
