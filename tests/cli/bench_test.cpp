@@ -16,8 +16,8 @@ class BenchCommand : public testing::ProgramCall {
 };
 
 TEST_F(BenchCommand, RefusesStudiesAndClaimsItDoesNotKnow) {
-    expect_refused("", "found no study, expected one of verify, stress");
-    expect_refused("verfy", "found study 'verfy', expected one of verify, stress");
+    expect_refused("", "found no study, expected one of guide, stress, verify");
+    expect_refused("verfy", "found study 'verfy', expected one of guide, stress, verify");
     expect_refused("verify --only no_such_claim", "found no claim 'no_such_claim'");
     expect_refused("verify --only two_discs_stacked_between_walls -o nowhere/page.md", "nowhere/page.md");
     expect_refused("verify --no-such-option", "no-such-option");
@@ -29,6 +29,7 @@ TEST_F(BenchCommand, ListsItsClaims) {
     EXPECT_NE(answer.out.find("two_discs_stacked_between_walls\n"), std::string::npos) << answer.out;
     EXPECT_EQ(call("--help").code, 0);
     EXPECT_EQ(call("verify --help").code, 0);
+    EXPECT_EQ(call("guide --help").code, 0);
 }
 
 TEST_F(BenchCommand, WritesAPageThatNamesItsCommandAndIsTheSameAgain) {
@@ -79,6 +80,50 @@ TEST_F(BenchCommand, PrintsThePageWhereNoFileIsGiven) {
     EXPECT_EQ(answer.code, 0) << answer.err;
     EXPECT_TRUE(answer.out.starts_with("# Verification\n")) << answer.out;
     EXPECT_NE(answer.out.find("2.00 (2)"), std::string::npos) << "order of convergence\n" << answer.out;
+}
+
+TEST_F(BenchCommand, RefusesEnsemblesOfTheGuideThatMakeNoSense) {
+    expect_refused("guide --laws rounded hertz", "--laws: found 'hertz'");
+    expect_refused("guide --laws rounded rounded", "found 'rounded' twice");
+    expect_refused("guide --packings 0", "--packings: found 0");
+    expect_refused("guide --packings 2 --strength-packings 3", "--strength-packings: found 3, expected 0 to 2");
+    expect_refused("guide --strength-packings 1 1 1 1", "found 4 numbers, expected at most 3");
+    expect_refused("guide --experiments nonsense", "--experiments: found 'nonsense', expected some of shipped, ");
+    expect_refused("guide --rate-factor 0", "--rate-factor: found 0");
+    expect_refused("guide --jobs 0", "--jobs: found 0");
+    expect_refused("guide --quick --cases nowhere", "circles_tension.toml");
+}
+
+TEST_F(BenchCommand, QuickEnsembleOfTheGuideHasItsElasticRowsAndGoesOnFromItsCache) {
+    const std::string words =
+        std::string("guide --quick --cases '") + CRACKLE_SOURCE_DIR + "/specimens/guide_rock' -o ";
+    const testing::Answer answer = call(words + "guide");
+    ASSERT_EQ(answer.code, 0) << answer.err;
+    EXPECT_TRUE(answer.err.empty()) << "no progress beside a terminal\n" << answer.err;
+    const std::string page = read("guide/guide.md");
+    EXPECT_EQ(answer.out, page);
+    EXPECT_TRUE(page.starts_with("# The guide's rock, as an ensemble\n\nMade by `crackle bench guide --quick")) << page;
+    for (const char* part :
+         {"| what | the guide | rounded: ours | verdict | demseg: ours | verdict | demseg_mean: ours | verdict |",
+          // The packing is compressed to this very mean overlap.
+          "| mean back-tension, circles, kN | 0.774 | 0.774 ±", "| triangles | 537 |", "| about √10 |",
+          "| circles' tensile strength over 19.4 kN/m | about 1/4 | – | – |", "(2) | inside |",
+          "(2) | **outside**, +27 % |", "No experiment has been run on it."})
+        EXPECT_NE(page.find(part), std::string::npos) << part << '\n' << page;
+    EXPECT_EQ(page.find("no result"), std::string::npos) << page;
+
+    const std::string csv = read("guide/guide.csv");
+    for (const char* part :
+         {"seed,experiment,law,quantity,unit,value\n", "\n2,shipped,demseg_mean,delaunay_contacts,-,",
+          "\n1,shipped,rounded,circles.elastic.youngs_modulus,N/m,"})
+        EXPECT_NE(csv.find(part), std::string::npos) << part;
+
+    // Run times are measured anew where a test is run anew: equal bytes come from the cache alone.
+    ASSERT_EQ(call(words + "guide --jobs 1").code, 0);
+    EXPECT_EQ(read("guide/guide.csv"), csv);
+    std::filesystem::remove(folder_ / "guide/cache/shipped_demseg_voronoi_elastic_2.json");
+    ASSERT_EQ(call(words + "guide --minutes 0").code, 0);
+    EXPECT_NE(read("guide/guide.md").find("1 tests of this plan have not been run yet"), std::string::npos);
 }
 
 }  // namespace
