@@ -17,6 +17,8 @@ namespace {
 
 const std::vector<Command>& studies() {
     static const std::vector<Command> all{
+        {"accuracy", "what an error costs in processor time: contact laws, integrators, time steps, rates",
+         bench_accuracy},
         {"verify", "every closed form and law that the engine has to meet, against what it does", bench_verify},
     };
     return all;
@@ -31,7 +33,7 @@ std::string names() {
 void print_help(std::ostream& out) {
     out << "usage: crackle bench STUDY [OPTIONS]   (crackle bench STUDY --help shows examples)\n\nstudies:\n";
     for (const Command& study : studies()) out << fmt::format("  {:<12}{}\n", study.name, study.summary);
-    out << "\nexample:\n  crackle bench verify -o verification.md\n";
+    out << "\nexample:\n  crackle bench verify -o verification.md\n  crackle bench accuracy -o accuracy --quick\n";
 }
 
 }  // namespace
