@@ -73,6 +73,8 @@ void finish_bonding(World& world) {
     world.bond_history.assign(world.points.size(), BondHistory{0.0, 0.0});
     world.dissipation.assign(world.ledger_on ? world.points.size() : 0, PointDissipation{0.0, 0.0});
     world.spring_work.assign(keeps_spring_work(world) ? world.points.size() : 0, SpringWork{});
+    world.openings.assign(world.integrator == Integrator::consistent ? world.points.size() : 0, OpeningMemory{});
+    std::fill(world.owed.begin(), world.owed.end(), 0.0);
     world.events.clear();
     world.events.reserve(static_cast<std::size_t>(world.bonds_initial));
     world.dashpot_loss = world.friction_loss = world.fracture_loss = world.law_loss = 0.0;

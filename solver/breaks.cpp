@@ -80,6 +80,7 @@ void record_breaks(World& world) {
         point.bond_overlap = 0.0;
         point.flags = static_cast<std::uint16_t>(point.flags & point_counted);  // until the bound is found anew
         if (!world.spring_work.empty()) world.spring_work[k] = {};
+        if (!world.openings.empty()) world.openings[k] = {};
         event.last_of_interface = !interface_holds(world, point.body_i, point.body_j);
         world.fracture_loss += event.energy;
         world.bonds_broken += 1;

@@ -230,6 +230,7 @@ World build_world(Scene scene) {
     world.domain = scene.domain;
     world.thick = scene.thick;
     world.segment_law = scene.segment_law;
+    world.integrator = scene.integrator;
     world.gravity = scene.gravity;
     world.safety_factor = scene.safety_factor;
     world.allow_unstable = scene.allow_unstable;
@@ -249,6 +250,7 @@ World build_world(Scene scene) {
         internal_of[order[k]] = static_cast<BodyIndex>(k);
         add_body(world, scene, scene.bodies[order[k]], properties[order[k]]);
     }
+    if (world.integrator == Integrator::consistent) world.owed.assign(world.bodies.size(), 0.0);
     world.forces.assign(world.bodies.size(), BodyForce{});
     build_laws(world);
     rank_by_size(world);

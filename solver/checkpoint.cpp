@@ -18,7 +18,7 @@
 namespace crackle {
 
 // Raise when the fields below change.
-constexpr std::uint32_t checkpoint_version = 4;
+constexpr std::uint32_t checkpoint_version = 5;
 constexpr std::uint64_t checkpoint_magic = 0x454c4b4341524321ULL;  // "!CRACKLE"
 
 // NOLINTBEGIN(bugprone-macro-parentheses)
@@ -99,6 +99,10 @@ void serialize(Archive& a, SpringWork& w) {
     a(w.last, w.stored);
 }
 template <class Archive>
+void serialize(Archive& a, OpeningMemory& m) {
+    a(m.defect, m.extra_force, m.overlap, m.force);
+}
+template <class Archive>
 void serialize(Archive& a, BondHistory& h) {
     a(h.normal_force, h.shear_force);
 }
@@ -119,12 +123,13 @@ template <class Archive>
 void serialize(Archive& a, World& w) {
     a(w.bodies, w.inertia, w.forces, w.info, w.elements, w.pieces, w.edges, w.segments, w.controls, w.laws,
       w.materials);
-    a(w.points, w.kind_begin, w.point_forces, w.dissipation, w.spring_work, w.bond_history, w.body_begin, w.body_slots);
+    a(w.points, w.kind_begin, w.point_forces, w.dissipation, w.spring_work, w.openings, w.owed, w.bond_history,
+      w.body_begin, w.body_slots);
     a(w.skin, w.list_reference, w.turning_reach, w.size_rank, w.largest_smaller, w.travelled, w.fastest,
       w.fastest_allowed_move, w.list_valid, w.list_builds);
-    a(w.domain, w.thick, w.segment_law, w.gravity, w.time_step, w.drift, w.automatic_step, w.safety_factor,
-      w.step_bound, w.limiting_body, w.step_weights, w.exact_step, w.exact_step_proved, w.step_goal, w.allow_unstable,
-      w.has_bonds, w.ledger_on, w.intact);
+    a(w.domain, w.thick, w.segment_law, w.integrator, w.gravity, w.time_step, w.drift, w.automatic_step,
+      w.safety_factor, w.step_bound, w.limiting_body, w.step_weights, w.exact_step, w.exact_step_proved, w.step_goal,
+      w.allow_unstable, w.has_bonds, w.ledger_on, w.intact);
     a(w.step, w.time, w.forces_current, w.kick_share, w.events, w.bonds_initial, w.bonds_broken, w.interfaces_initial,
       w.interfaces_lost);
     a(w.loss_blocks, w.dashpot_loss, w.friction_loss, w.fracture_loss, w.law_loss, w.displacement_work, w.force_work,

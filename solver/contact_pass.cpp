@@ -11,6 +11,7 @@
 
 #include "solver/contact_geometry.hpp"
 #include "solver/contact_law.hpp"
+#include "solver/contact_opening.hpp"
 
 namespace crackle {
 namespace {
@@ -39,10 +40,29 @@ inline void release(const World& world, ContactPoint& point, World::LossBlock& l
     point.flags = static_cast<std::uint16_t>(point.flags & ~(point_touching | point_sliding | point_slid));
 }
 
-template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Ledger>
+/// Inverse mass along the normal at the contact position, 1/kg, and the acceleration there in the last kick (closing,
+/// m/s2). A driving force is no part of it: what that costs is in the point's defect.
+template <PointKind K>
+inline void feel_bodies(const World& world, const ContactPoint& point, const ContactGeometry& g, Approach& approach) {
+    const auto add = [&](BodyIndex b, double arm_x, double arm_y, double sense) {
+        const BodyInertia& inertia = world.inertia[b];
+        const BodyForce& force = world.forces[b];
+        const double turn = arm_x * g.ny - arm_y * g.nx;
+        approach.inverse_mass += inertia.inverse_mass_x * g.nx * g.nx + inertia.inverse_mass_y * g.ny * g.ny +
+                                 inertia.inverse_moment * turn * turn;
+        approach.acceleration += sense * ((force.fx + inertia.mass * world.gravity.x) * inertia.inverse_mass_x * g.nx +
+                                          (force.fy + inertia.mass * world.gravity.y) * inertia.inverse_mass_y * g.ny +
+                                          force.torque * inertia.inverse_moment * turn);
+    };
+    add(point.body_i, g.aix, g.aiy, 1.0);
+    if constexpr (K != PointKind::element_wall) add(point.body_j, g.ajx, g.ajy, -1.0);
+}
+
+template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Ledger, bool Consistent>
 void force_block(World& world, const PassRange& range) {
     World::LossBlock loss;
     const double dt = world.drift;
+    [[maybe_unused]] const double kick = kick_before(world) + 0.5 * world.time_step;
     for (PointIndex k = range.begin; k < range.end; ++k) {
         ContactPoint& point = world.points[k];
         PointForce& out = world.point_forces[k];
@@ -53,6 +73,7 @@ void force_block(World& world, const PassRange& range) {
 
         const bool holds = bonded ? g.overlap > law.break_overlap : g.overlap > 0.0;
         if (!holds && !bonded && (point.flags & point_touching) == 0) {
+            if constexpr (Consistent) world.openings[k].overlap = g.overlap;
             out = {0.0, 0.0, 0.0, 0.0};
             continue;
         }
@@ -77,7 +98,17 @@ void force_block(World& world, const PassRange& range) {
             }
         }
 
+        [[maybe_unused]] Approach approach{};
+        [[maybe_unused]] double before = 0.0;
+        // A point that overlaps before anything has moved has not been seen to close.
+        [[maybe_unused]] const bool touched = (point.flags & point_touching) != 0 || dt == 0.0;
+        if constexpr (Consistent) {
+            approach = {g.overlap, closing, 0.0, 0.0, law.normal_stiffness, 0.0, dt, kick, world.time_step};
+            if (!bonded) before = settle_opening(world.openings[k], touched, approach);
+        }
+
         if (!holds) {
+            if constexpr (Consistent) rest_opening(world.openings[k]);
             if constexpr (Ledger && Damping) {
                 PointDissipation& last = world.dissipation[k];
                 loss.dashpot += 0.5 * dt * (last.normal * closing + last.shear * slipping);
@@ -104,6 +135,15 @@ void force_block(World& world, const PassRange& range) {
         }
 
         double normal = law.normal_stiffness * g.overlap;
+        double compression = g.overlap;  // m, what Coulomb's limit goes by
+        if constexpr (Consistent) {
+            if (!bonded) {
+                feel_bodies<K>(world, point, g, approach);
+                if constexpr (Damping) approach.dashpot = normal_damping(law, point.root_effective_mass) * closing;
+                normal = opening_force(world.openings[k], touched, before, approach);
+                compression = normal / law.normal_stiffness;
+            }
+        }
         if constexpr (Bonds) normal -= law.normal_stiffness * point.bond_overlap;
         if constexpr (Ledger && by_guide(K)) {
             SpringWork& work = world.spring_work[k];
@@ -119,7 +159,7 @@ void force_block(World& world, const PassRange& range) {
         std::uint16_t flags = static_cast<std::uint16_t>((point.flags | point_touching) & ~point_sliding);
         bool sliding = !Friction;
         if constexpr (Friction) {
-            const ShearUpdate shear = shear_force(law, point.shear_force, slipping * dt, g.overlap);
+            const ShearUpdate shear = shear_force(law, point.shear_force, slipping * dt, compression);
             sliding = shear.sliding;
             if (sliding) flags |= point_sliding | point_slid;
             if constexpr (Ledger) loss.friction += shear.friction;
@@ -139,7 +179,7 @@ void force_block(World& world, const PassRange& range) {
         if constexpr (Damping) {
             const double normal_dashpot = normal_damping(law, point.root_effective_mass) * closing;
             const double shear_damper =
-                sliding ? 0.0 : shear_dashpot(law, point.root_effective_mass, slipping, g.overlap);
+                sliding ? 0.0 : shear_dashpot(law, point.root_effective_mass, slipping, compression);
             if constexpr (Ledger) {
                 PointDissipation& last = world.dissipation[k];
                 loss.dashpot +=
@@ -161,17 +201,18 @@ void force_block(World& world, const PassRange& range) {
 using BlockKernel = void (*)(World&, const PassRange&);
 
 template <PointKind K, std::size_t... Index>
-constexpr std::array<BlockKernel, 16> kernels_of(std::index_sequence<Index...>) {
-    return {&force_block<K, (Index & 1) != 0, (Index & 2) != 0, (Index & 4) != 0, (Index & 8) != 0>...};
+constexpr std::array<BlockKernel, 32> kernels_of(std::index_sequence<Index...>) {
+    return {&force_block < K, (Index & 1) != 0, (Index & 2) != 0,
+            (Index & 4) != 0, (Index & 8) != 0, (Index & 16) != 0 && !by_guide(K) > ...};
 }
 
-constexpr std::array<std::array<BlockKernel, 16>, point_kinds> kernels{
-    kernels_of<PointKind::circle_circle>(std::make_index_sequence<16>{}),
-    kernels_of<PointKind::element_element>(std::make_index_sequence<16>{}),
-    kernels_of<PointKind::element_outline>(std::make_index_sequence<16>{}),
-    kernels_of<PointKind::disc_segment>(std::make_index_sequence<16>{}),
-    kernels_of<PointKind::segment_segment>(std::make_index_sequence<16>{}),
-    kernels_of<PointKind::element_wall>(std::make_index_sequence<16>{}),
+constexpr std::array<std::array<BlockKernel, 32>, point_kinds> kernels{
+    kernels_of<PointKind::circle_circle>(std::make_index_sequence<32>{}),
+    kernels_of<PointKind::element_element>(std::make_index_sequence<32>{}),
+    kernels_of<PointKind::element_outline>(std::make_index_sequence<32>{}),
+    kernels_of<PointKind::disc_segment>(std::make_index_sequence<32>{}),
+    kernels_of<PointKind::segment_segment>(std::make_index_sequence<32>{}),
+    kernels_of<PointKind::element_wall>(std::make_index_sequence<32>{}),
 };
 
 PointIndex blocks_of_kind(const World& world, std::size_t kind) {
@@ -181,7 +222,7 @@ PointIndex blocks_of_kind(const World& world, std::size_t kind) {
 }  // namespace
 
 ContactFeatures features_of(const World& world) {
-    ContactFeatures features{false, false, world.has_bonds, world.ledger_on};
+    ContactFeatures features{false, false, world.has_bonds, world.ledger_on, !world.openings.empty()};
     for (const ContactLaw& law : world.laws) {
         features.friction = features.friction || law.friction > 0.0;
         features.damping = features.damping || law.normal_damping > 0.0 || law.shear_damping > 0.0 ||
@@ -198,7 +239,8 @@ PointIndex block_count(const World& world) {
 
 void contact_pass(World& world, const ContactFeatures& features) {
     const std::size_t choice = (features.friction ? 1u : 0u) + (features.damping ? 2u : 0u) +
-                               (features.bonds ? 4u : 0u) + (features.ledger ? 8u : 0u);
+                               (features.bonds ? 4u : 0u) + (features.ledger ? 8u : 0u) +
+                               (features.consistent ? 16u : 0u);
     std::size_t first_block = 0;
     std::int64_t done = 0;
     for (std::size_t kind = 0; kind < point_kinds; ++kind) {

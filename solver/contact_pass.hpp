@@ -12,6 +12,7 @@ struct ContactFeatures {
     bool damping;   // any law with a dashpot
     bool bonds;
     bool ledger;
+    bool consistent;  // first and last steps of contacts by contact_opening.hpp
 };
 
 ContactFeatures features_of(const World& world);

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The account of energy. Between force pass and kick everything is known at time n: positions x(n), the mean velocity
 // v(n) = v(n-½) + ½a(n)Δt, forces, and the losses and works up to x(n), each taken by the trapezoidal rule over the
-// drifts. Leapfrog then closes the account to second order in the step; what is left is the closing error.
+// drifts. Leapfrog then closes the account to second order in the step; what is left is the closing error. Under the
+// consistent integrator the strain energy contains what its points owe.
 
 #include <cmath>
 
 #include "solver/contact_law.hpp"
+#include "solver/contact_opening.hpp"
 #include "solver/world.hpp"
 
 namespace crackle {
@@ -59,6 +61,8 @@ double strain_of_points(const World& world) {
         if ((point.flags & point_touching) == 0) continue;
         if (view_point(world, k).touching) sum += stored_energy(world, k);
     }
+    for (const OpeningMemory& memory : world.openings) sum += opening_energy(memory);
+    for (const double energy : world.owed) sum += energy;
     return sum;
 }
 

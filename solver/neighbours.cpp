@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
 
 #include "solver/contact_geometry.hpp"
 #include "solver/contact_pass.hpp"
@@ -305,12 +306,28 @@ PointKey key_of(PointKind kind, const ContactPoint& p) {
             kind == PointKind::element_element || by_guide(kind) ? p.feature_j : 0u};
 }
 
+/// What points that left the list still owed goes to another of their bodies' points: written off, it would pile up,
+/// for such points owe more often than they are owed.
+void hand_on(const std::vector<ContactPoint>& points, const std::array<PointIndex, point_kinds + 1>& begin,
+             std::vector<OpeningMemory>& openings, std::vector<double>& owed) {
+    for (std::size_t kind = 0; kind < point_kinds; ++kind) {
+        if (by_guide(static_cast<PointKind>(kind))) continue;
+        for (PointIndex k = begin[kind]; k < begin[kind + 1]; ++k) {
+            if ((points[k].flags & point_bonded) != 0) continue;
+            const auto take = [&](BodyIndex b) { openings[k].defect += std::exchange(owed[b], 0.0); };
+            take(points[k].body_i);
+            if (static_cast<PointKind>(kind) != PointKind::element_wall) take(points[k].body_j);
+        }
+    }
+}
+
 /// Replaces the points of the world, carrying over what the old ones remember. A bond is carried over whether its point
 /// is listed or not: it lasts until the force pass finds it broken, and intact ones hold at any opening.
 void exchange_points(World& world, PointLists& lists) {
     std::vector<ContactPoint> points;
     std::vector<PointDissipation> dissipation;
     std::vector<SpringWork> spring_work;
+    std::vector<OpeningMemory> openings;
     std::vector<BondHistory> history;
     std::array<PointIndex, point_kinds + 1> begin{};
     std::size_t total = 0;
@@ -318,25 +335,37 @@ void exchange_points(World& world, PointLists& lists) {
     points.reserve(total);
     if (world.ledger_on) dissipation.reserve(total);
     if (keeps_spring_work(world)) spring_work.reserve(total);
+    const bool consistent = world.integrator == Integrator::consistent;
+    if (consistent) openings.reserve(total);
     if (world.has_bonds) history.reserve(total);
     constexpr PointIndex none = std::numeric_limits<PointIndex>::max();
     const auto add = [&](const ContactPoint& point, PointIndex old) {
         points.push_back(point);
         if (world.ledger_on) dissipation.push_back(old != none ? world.dissipation[old] : PointDissipation{0.0, 0.0});
         if (keeps_spring_work(world)) spring_work.push_back(old != none ? world.spring_work[old] : SpringWork{});
+        if (consistent) openings.push_back(old != none ? world.openings[old] : OpeningMemory{});
         if (world.has_bonds)
             history.push_back(old != none && !world.bond_history.empty() ? world.bond_history[old]
                                                                          : BondHistory{0.0, 0.0});
     };
     const auto bonded = [&](PointIndex old) { return (world.points[old].flags & point_bonded) != 0; };
+    PointKind kind_here{};
+    const auto leave_out = [&](PointIndex old) {
+        if (consistent) world.owed[world.points[old].body_i] += world.openings[old].defect;
+    };
     const auto add_unlisted = [&](PointIndex old) {
-        if (!bonded(old)) return;
+        // One that touched a step ago has its last force to settle, however far it has gone.
+        const bool settles = consistent && !by_guide(kind_here) && (world.points[old].flags & point_touching) != 0 &&
+                             !(world.has_bonds && world.intact.no_new_contacts);
+        if (!bonded(old) && !settles) return leave_out(old);
         ContactPoint point = world.points[old];
-        point.root_effective_mass = root_effective_mass(world, point.body_i, point.body_j);
+        if (kind_here != PointKind::element_wall)
+            point.root_effective_mass = root_effective_mass(world, point.body_i, point.body_j);
         add(point, old);
     };
     for (std::size_t kind = 0; kind < point_kinds; ++kind) {
         begin[kind] = static_cast<PointIndex>(points.size());
+        kind_here = static_cast<PointKind>(kind);
         PointIndex old = world.kind_begin[kind];
         const PointIndex old_end = world.kind_begin[kind + 1];
         const auto old_key = [&] { return key_of(static_cast<PointKind>(kind), world.points[old]); };
@@ -351,15 +380,19 @@ void exchange_points(World& world, PointLists& lists) {
             }
             if (!(world.has_bonds && world.intact.no_new_contacts) || (known && bonded(old)))
                 add(point, known ? old : none);
+            else if (known)
+                leave_out(old);
             if (known) ++old;
         }
         for (; old < old_end; ++old) add_unlisted(old);
         std::vector<ContactPoint>().swap(lists[kind]);
     }
     begin[point_kinds] = static_cast<PointIndex>(points.size());
+    if (consistent) hand_on(points, begin, openings, world.owed);
     world.points = std::move(points);
     world.dissipation = std::move(dissipation);
     world.spring_work = std::move(spring_work);
+    world.openings = std::move(openings);
     world.bond_history = std::move(history);
     world.kind_begin = begin;
     world.point_forces.assign(world.points.size(), PointForce{});

@@ -208,6 +208,12 @@ SegmentLaw segment_law_named(const std::string& where, const std::string& word) 
     throw InputError(fmt::format("{}: found \"{}\", expected \"rounded\", \"demseg\" or \"demseg_mean\"", where, word));
 }
 
+Integrator integrator_named(const std::string& where, const std::string& word) {
+    if (word == "leapfrog") return Integrator::leapfrog;
+    if (word == "consistent") return Integrator::consistent;
+    throw InputError(fmt::format("{}: found \"{}\", expected \"leapfrog\" or \"consistent\"", where, word));
+}
+
 std::uint32_t Scene::add_circle_body(int id, int material, const CircleElement& circle) {
     Body body;
     body.id = id;

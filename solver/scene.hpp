@@ -95,6 +95,16 @@ enum class SegmentLaw : std::uint8_t {
 /// "rounded", "demseg" or "demseg_mean". @throws InputError on another word, naming `where`.
 SegmentLaw segment_law_named(const std::string& where, const std::string& word);
 
+/// How the contacts' first and last steps are taken.
+enum class Integrator : std::uint8_t {
+    leapfrog,   ///< like all others, as the guide does
+    consistent  ///< so that opening and closing conserve energy (contact_opening.hpp); unbonded points, but not the
+                ///< segment kinds of the guide's law, which have no energy to conserve
+};
+
+/// "leapfrog" or "consistent". @throws InputError on another word, naming `where`.
+Integrator integrator_named(const std::string& where, const std::string& word);
+
 /// First kick of leapfrog: decks start with a full one (the guide's n(n+1)/2), everything else with a half one.
 enum class FirstKick : std::uint8_t { half, full };
 
@@ -117,6 +127,7 @@ struct Scene {
     double thick =
         0.0;  ///< segment thickness t, m, >= 0: a disc of radius t at each vertex against the other's bare outline
     SegmentLaw segment_law = SegmentLaw::rounded;
+    Integrator integrator = Integrator::leapfrog;
     Vec2 gravity;  ///< m/s2
 
     double time_step = 0.0;       ///< s; 0: derived from the stiffness bound times safety_factor

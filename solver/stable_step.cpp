@@ -317,9 +317,14 @@ Least raised(const World& world, std::vector<double>& weights, const Geometry& g
 
 }  // namespace
 
+/// As loose_step_share, of the consistent integrator: ten discs among walls have a largest closing error of 1.9 %, most
+/// of it what the ledger's mean velocities miss in closed contacts and give back. It is stable up to the bound.
+constexpr double consistent_step_share = 0.2;
+
 double derived_step_share(const World& world) {
     const bool bonded = world.has_bonds && world.bonds_initial > 0;
-    return bonded ? world.safety_factor : std::min(world.safety_factor, loose_step_share);
+    const double loose = world.integrator == Integrator::consistent ? consistent_step_share : loose_step_share;
+    return bonded ? world.safety_factor : std::min(world.safety_factor, loose);
 }
 
 double stable_step_bound(const World& world, BodyIndex* limiting) {

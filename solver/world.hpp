@@ -137,6 +137,14 @@ struct SpringWork {
     double stored;    // J
 };
 
+/// What an unbonded point remembers under the consistent integrator (contact_opening.hpp).
+struct OpeningMemory {
+    double defect = 0.0;       // J: stored beyond ½kδ(n)δ(n+1)
+    double extra_force = 0.0;  // N, beyond kδ in the last force pass
+    double overlap = unset;    // m, in the last force pass; unset in a new point
+    double force = 0.0;        // N, spring and dashpot in the last force pass
+};
+
 /// Forces of a bonded point in the last step in which it carried at least half its strength.
 struct BondHistory {
     double normal_force;  // elastic, bonded: k_n(δ - δ0), N, compression positive
@@ -230,6 +238,8 @@ struct World {
     std::vector<PointForce> point_forces;
     std::vector<PointDissipation> dissipation;  // empty without the ledger
     std::vector<SpringWork> spring_work;        // empty without the ledger or the guide's law
+    std::vector<OpeningMemory> openings;        // empty without the consistent integrator
+    std::vector<double> owed;                   // J per body: defects of points that have left the list; empty likewise
     std::vector<BondHistory> bond_history;      // empty without bonds
     std::vector<std::uint32_t> body_begin;      // per body: range in body_slots
     std::vector<std::uint32_t> body_slots;      // 2 * point + side (0: the body is i, 1: it is j)
@@ -250,6 +260,7 @@ struct World {
     Domain domain;
     double thick = 0.0;
     SegmentLaw segment_law = SegmentLaw::rounded;
+    Integrator integrator = Integrator::leapfrog;
     Vec2 gravity;
     double time_step = 0.0;       // s
     double drift = 0.0;           // s, length of the drift that led to the present positions (0 before the first)

@@ -81,6 +81,7 @@ struct TestCase {
         double safety_factor = 0.0;
         std::int64_t threads = 1;
         std::string contact_law;
+        std::string integrator;
         bool intact = false;
         bool allow_unstable = false;
     } numerics;

@@ -171,6 +171,10 @@ std::vector<Parameter> all_parameters() {
                     "sum or the mean of its disc cases).")
             .one_of({"rounded", "demseg", "demseg_mean"})
             .otherwise(Text("rounded")),
+        CRACKLE_KEY(numerics, integrator, "",
+                    "How unbonded contacts open and close: leapfrog, as the guide does, or consistent with the energy.")
+            .one_of({"leapfrog", "consistent"})
+            .otherwise(Text("leapfrog")),
         CRACKLE_KEY(numerics, intact, "",
                     "Nothing breaks, slides or comes into contact: for comparing a run with the linear solve.")
             .otherwise(false),

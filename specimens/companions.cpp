@@ -12,7 +12,7 @@
 namespace crackle {
 namespace {
 
-constexpr double student_two = 2.920;  // 95 % point, two degrees of freedom
+constexpr double student_two = 4.303;  // 97.5 % point, two degrees of freedom
 
 struct Plan {
     std::string name;

@@ -4,10 +4,10 @@
 //
 // A specimen that breaks follows one of many branches, and which one a rounding decides; so the peaks of companions
 // differ by chance as well as by the error of step and rate. With s the sample standard deviation of the three values x
-// (as asked), x at half the step and x at half the rate, the stated error is t·sqrt(2)·s, t = 2.920 the 95 % point of
-// Student's distribution with two degrees of freedom: nine of ten further runs, at a rate as slow as one likes, lie
-// within. Where nothing branches and the error is linear in the rate, x differs from its limit by e and from its
-// companion by e/2, and the stated error is 1.2 e. What the damping changes is physics as much as error and stands
+// (as asked), x at half the step and x at half the rate, the stated error is t·sqrt(2)·s, t = 4.303 the 97.5 % point of
+// Student's distribution with two degrees of freedom: by chance 95 of 100 further runs, at a rate as slow as one likes,
+// lie within. Where nothing branches and the error is linear in the rate, x differs from its limit by e and from its
+// companion by e/2, and the stated error is 1.8 e. What the damping changes is physics as much as error and stands
 // apart.
 #pragma once
 

@@ -67,6 +67,7 @@ Bonded bond_specimen(const Specimen& specimen, const TestCase& test, const TestC
     Scene scene = specimen.scene;
     scene.thick = test.bond.thick ? *test.bond.thick : circle_thick_share * specimen.mean_radius;
     scene.segment_law = segment_law_named("numerics.contact_law", test.numerics.contact_law);
+    scene.integrator = integrator_named("numerics.integrator", test.numerics.integrator);
     scene.time_step = 0.0;  // a particle file's own is of its packing
     scene.safety_factor = test.numerics.safety_factor;
     scene.allow_unstable = test.numerics.allow_unstable;

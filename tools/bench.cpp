@@ -17,6 +17,8 @@ namespace {
 
 const std::vector<Command>& studies() {
     static const std::vector<Command> all{
+        {"accuracy", "what an error costs in processor time: contact laws, integrators, time steps, rates",
+         bench_accuracy},
         {"guide", "the rock of DEMseg's guide on many packings: each of its numbers beside ours", bench_guide},
         {"stress", "scenes that are hard on the engine, for a million steps", bench_stress},
         {"verify", "every closed form and law that the engine has to meet, against what it does", bench_verify},
@@ -33,7 +35,7 @@ std::string names() {
 void print_help(std::ostream& out) {
     out << "usage: crackle bench STUDY [OPTIONS]   (crackle bench STUDY --help shows examples)\n\nstudies:\n";
     for (const Command& study : studies()) out << fmt::format("  {:<12}{}\n", study.name, study.summary);
-    out << "\nexample:\n  crackle bench verify -o verification.md\n  crackle bench guide --quick\n  crackle bench stress --steps 10000\n";
+    out << "\nexample:\n  crackle bench verify -o verification.md\n  crackle bench guide --quick\n  crackle bench accuracy -o accuracy --quick\n  crackle bench stress --steps 10000\n";
 }
 
 }  // namespace

@@ -83,7 +83,10 @@ po::options_description visible_options() {
         ("seed", po::value<std::uint64_t>(), "of the random circles of mode 0 (default: 1)")                       //
         ("law", po::value<std::string>(),
          "contact law of segments: rounded, or the guide's demseg (demseg_mean: mean of its disc cases); default: "
-         "rounded, or that of the run that goes on")                                                   //
+         "rounded, or that of the run that goes on")  //
+        ("integrator", po::value<std::string>(),
+         "how contacts open and close: leapfrog, the guide's, or consistent with the energy; default: leapfrog, or "
+         "that of the run that goes on")                                                               //
         ("allow-unstable", "accept a time step above the stable bound, and runaway energy")            //
         ("threads", po::value<int>()->default_value(1), "threads; the results do not depend on them")  //
         ("quiet,q", "no progress, no notices");
@@ -99,6 +102,8 @@ DeckOptions deck_options(const po::variables_map& values) {
     if (values.contains("steps")) options.steps = values["steps"].as<std::int64_t>();
     if (values.contains("seed")) options.seed = values["seed"].as<std::uint64_t>();
     if (values.contains("law")) options.law = segment_law_named("--law", values["law"].as<std::string>());
+    if (values.contains("integrator"))
+        options.integrator = integrator_named("--integrator", values["integrator"].as<std::string>());
     options.allow_unstable = values.contains("allow-unstable");
     options.threads = values["threads"].as<int>();
     return options;

@@ -96,6 +96,7 @@ void DeckRun::start_new(const Texts& texts) {
     Scene scene = base_.scene;
     apply_controls(boundary_, scene);
     scene.segment_law = options_.law.value_or(SegmentLaw::rounded);
+    scene.integrator = options_.integrator.value_or(Integrator::leapfrog);
     scene.allow_unstable = options_.allow_unstable;
     scene.threads = options_.threads;
     world_ = build_world(std::move(scene));
@@ -125,6 +126,7 @@ void DeckRun::start_from_contacts(const Texts& texts) {
     Scene scene = base_.scene;
     apply_controls(boundary_, scene);
     scene.segment_law = options_.law.value_or(SegmentLaw::rounded);
+    scene.integrator = options_.integrator.value_or(Integrator::leapfrog);
     scene.allow_unstable = options_.allow_unstable;
     scene.threads = options_.threads;
     world_ = build_world(std::move(scene));
@@ -155,6 +157,11 @@ bool DeckRun::start_from_state(const Texts& texts) {
             throw InputError(
                 fmt::format("law: found another contact law than that of {}, expected the same or none; "
                             "remove it to go on from the text files",
+                            path.string()));
+        if (options_.integrator && *options_.integrator != world_.integrator)
+            throw InputError(
+                fmt::format("integrator: found another than that of {}, expected the same or none; remove it to go on "
+                            "from the text files",
                             path.string()));
         world_.allow_unstable = options_.allow_unstable;
         set_threads(world_, options_.threads);

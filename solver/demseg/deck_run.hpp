@@ -26,9 +26,10 @@ struct DeckOptions {
     std::filesystem::path output;  ///< empty: the same folder
     bool goes_on = false;    ///< start from new_in_gm.dat and its fellows; in the same folder, outputs are appended
     bool overwrite = false;  ///< existing outputs may be replaced
-    std::optional<std::int64_t> steps;  ///< do so many instead of nstep; ramps keep the length nstep
-    std::optional<std::uint64_t> seed;  ///< of mode 0; 1 if not given
-    std::optional<SegmentLaw> law;      ///< rounded if not given; a run that goes on from its state keeps its own
+    std::optional<std::int64_t> steps;     ///< do so many instead of nstep; ramps keep the length nstep
+    std::optional<std::uint64_t> seed;     ///< of mode 0; 1 if not given
+    std::optional<SegmentLaw> law;         ///< rounded if not given; a run that goes on from its state keeps its own
+    std::optional<Integrator> integrator;  ///< leapfrog if not given; likewise
     bool allow_unstable = false;
     int threads = 1;
 };

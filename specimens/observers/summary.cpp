@@ -172,7 +172,7 @@ void numerical_errors(Writer& w, const TestState& state, const NumericalErrors* 
     }
     w.put("numerical_errors", all,
           "-, relative. time_step, rate, damping: change at half the step, half the rate, half or double the damping "
-          "(crackle test --verify; null: not run); energy_closing: over the platens' work; stated: covers nine of ten "
+          "(crackle test --verify; null: not run); energy_closing: over the platens' work; stated: covers 95 of 100 "
           "runs however slow; youngs_modulus: a sparse solve, its residual. post_peak_difference: mean difference of "
           "stress from the peak on, over the peak; breaks there are chaotic, so it is no error of step or rate");
     w.put("peak_converged", errors != nullptr ? Json(errors->peak_converged) : Json(nullptr),

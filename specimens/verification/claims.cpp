@@ -19,6 +19,7 @@ const std::vector<Claim>& claims() {
                  one_body_claims(),
                  friction_claims(),
                  block_on_slope_claims(),
+                 contact_opening_claims(),
                  polygon_claims(),
                  chain_claims(),
                  triangular_lattice_claims(),

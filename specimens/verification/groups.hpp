@@ -12,6 +12,7 @@ std::vector<Claim> one_body_claims();
 std::vector<Claim> friction_claims();
 std::vector<Claim> block_on_slope_claims();
 std::vector<Claim> critical_step_claims();
+std::vector<Claim> contact_opening_claims();
 std::vector<Claim> exact_step_claims();
 std::vector<Claim> polygon_claims();
 std::vector<Claim> chain_claims();

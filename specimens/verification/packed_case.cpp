@@ -26,6 +26,7 @@ TestCase packed_case(std::int64_t seed, const char* kind, double rate, double ma
     test.loading.platens = "bonded";
     test.numerics.safety_factor = 0.8;
     test.numerics.contact_law = "rounded";
+    test.numerics.integrator = "leapfrog";
     test.output.curve_rows = 2000;
     test.output.frames = 1;
     test.output.checkpoint_interval = 1e9;

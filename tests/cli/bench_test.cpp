@@ -2,8 +2,10 @@
 // `crackle bench` as a user calls it: refusals, one quick claim, and the page's format.
 
 #include <algorithm>
+#include <map>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "tests/support/program_call.hpp"
 
@@ -16,8 +18,8 @@ class BenchCommand : public testing::ProgramCall {
 };
 
 TEST_F(BenchCommand, RefusesStudiesAndClaimsItDoesNotKnow) {
-    expect_refused("", "found no study, expected one of guide, stress, verify");
-    expect_refused("verfy", "found study 'verfy', expected one of guide, stress, verify");
+    expect_refused("", "found no study, expected one of accuracy, guide, stress, verify");
+    expect_refused("verfy", "found study 'verfy', expected one of accuracy, guide, stress, verify");
     expect_refused("verify --only no_such_claim", "found no claim 'no_such_claim'");
     expect_refused("verify --only two_discs_stacked_between_walls -o nowhere/page.md", "nowhere/page.md");
     expect_refused("verify --no-such-option", "no-such-option");
@@ -30,6 +32,39 @@ TEST_F(BenchCommand, ListsItsClaims) {
     EXPECT_EQ(call("--help").code, 0);
     EXPECT_EQ(call("verify --help").code, 0);
     EXPECT_EQ(call("guide --help").code, 0);
+}
+
+TEST_F(BenchCommand, AccuracyWritesATableAndItsPicture) {
+    expect_refused("accuracy --only no_such_study", "found no study 'no_such_study', expected one of bounce_energy");
+    const testing::Answer answer =
+        call("accuracy --quick -o curves --only bounce_energy --only chain_wave --only peak_circles");
+    ASSERT_EQ(answer.code, 0) << answer.err;
+    std::istringstream lines(read("curves/accuracy.csv"));
+    std::map<std::string, double> error;  // by study, integrator, parameter, value
+    std::string line;
+    std::getline(lines, line);
+    EXPECT_TRUE(line.starts_with("# Made by `crackle bench accuracy --quick --only bounce_energy")) << line;
+    while (std::getline(lines, line)) {
+        if (line.starts_with('#') || line.starts_with("study,")) continue;
+        std::vector<std::string> words;
+        std::istringstream cells(line);
+        for (std::string word; std::getline(cells, word, ',');) words.push_back(word);
+        ASSERT_EQ(words.size(), 7u) << line;
+        EXPECT_GT(std::stod(words[5]), 0.0) << line;
+        error[words[0] + ' ' + words[2] + ' ' + words[3] + ' ' + words[4]] = std::stod(words[6]);
+    }
+    EXPECT_EQ(error.size(), 20u);
+    EXPECT_LT(error.at("bounce_energy consistent time_step 0.2"), 1e-9);
+    EXPECT_GT(error.at("bounce_energy leapfrog time_step 0.2"), 1e-4);
+    // Second order in the step.
+    EXPECT_NEAR(error.at("chain_wave leapfrog time_step 0.4") / error.at("chain_wave leapfrog time_step 0.2"), 4.0,
+                0.5);
+    EXPECT_LT(error.at("peak_circles leapfrog time_step 0.4"), 0.5);
+    EXPECT_NE(read("curves/accuracy.gp").find("plot $bounce_energy_0"), std::string::npos);
+    // Where there is no gnuplot, the message says so and the table is there all the same.
+    if (answer.err.find("found no gnuplot") == std::string::npos) {
+        EXPECT_NE(read("curves/accuracy.svg").find("<svg"), std::string::npos) << answer.err;
+    }
 }
 
 TEST_F(BenchCommand, WritesAPageThatNamesItsCommandAndIsTheSameAgain) {

@@ -76,6 +76,27 @@ TEST_F(RunCommand, TheGuidesLawIsAnOptionThatARunKeeps) {
     EXPECT_NE(said().find("law: found another contact law"), std::string::npos) << said();
 }
 
+TEST_F(RunCommand, TheIntegratorIsAnOptionThatARunKeeps) {
+    const std::string deck = quoted(shipped_deck("circle"));
+    const auto energy = [&](const char* folder) { return read_text_file(scratch_ / folder / "energy.dat"); };
+    const auto run = [&](const std::string& what, const char* folder) {
+        return crackle(fmt::format("run -q {} -o {}", what, quoted(scratch_ / folder)));
+    };
+    ASSERT_EQ(run(deck, "plain"), 0) << said();
+    ASSERT_EQ(run(deck + " --integrator leapfrog", "leapfrog"), 0) << said();
+    ASSERT_EQ(run(deck + " --integrator consistent", "consistent"), 0) << said();
+    EXPECT_EQ(energy("plain"), energy("leapfrog"));
+    EXPECT_NE(energy("plain"), energy("consistent"));
+    ASSERT_EQ(run(deck + " --integrator consistent --steps 7777", "part"), 0) << said();
+    ASSERT_EQ(run(quoted(scratch_ / "part") + " --continue", "rest"), 0) << said();
+    EXPECT_TRUE(energy("consistent").ends_with(energy("rest"))) << "it goes on with the integrator it began with";
+    EXPECT_EQ(run(quoted(scratch_ / "part") + " --continue --integrator leapfrog", "other"), 2);
+    EXPECT_NE(said().find("integrator: found another than that of"), std::string::npos) << said();
+    EXPECT_EQ(run(deck + " --integrator euler", "out"), 2);
+    EXPECT_NE(said().find("--integrator: found \"euler\", expected \"leapfrog\" or \"consistent\""), std::string::npos)
+        << said();
+}
+
 TEST_F(RunCommand, BadInputEndsInOneMessageAndCode2) {
     const auto deck = scratch_ / "deck";
     std::filesystem::create_directories(deck);

@@ -86,6 +86,20 @@ TEST(Step, AllocatesNothingInTenThousandStepsOfDiscs) {
     }
 }
 
+TEST(Step, AllocatesNothingUnderTheConsistentIntegrator) {
+    DisorderedDiscs request;
+    request.columns = 12, request.rows = 12;
+    Scene scene = disordered_discs(request, damped_rock());
+    scene.domain = {-0.021, 10.0, -0.021, 10.0, {true, true, true, true}};
+    scene.skin = 0.6;
+    scene.integrator = Integrator::consistent;
+    World world = build_world(scene);
+    bond_all(world, 0.0);
+    testing::shake(world, 1.0 * testing::breaking_energy(world), 3);
+    EXPECT_EQ(requests_in(world, 5000), 0);
+    EXPECT_FALSE(world.openings.empty());
+}
+
 TEST(Step, AllocatesNothingInTenThousandStepsOfPolygonsAndDrivenBodies) {
     ShakenCells request;
     request.columns = 6, request.rows = 6;
@@ -108,6 +122,7 @@ TEST(Records, HaveTheSizesTheyAreLaidOutFor) {
     EXPECT_EQ(sizeof(BodyForce), 24u);
     EXPECT_EQ(sizeof(PointDissipation), 16u);
     EXPECT_EQ(sizeof(BondHistory), 16u);
+    EXPECT_EQ(sizeof(OpeningMemory), 32u);
 }
 
 }  // namespace

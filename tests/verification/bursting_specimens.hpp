@@ -26,7 +26,8 @@ inline void burst(World& world, double rate, double noise, std::uint64_t seed) {
     }
 }
 
-inline World bursting_discs(int columns, int rows, double rate, double noise) {
+inline World bursting_discs(int columns, int rows, double rate, double noise,
+                            Integrator integrator = Integrator::leapfrog) {
     DisorderedDiscs request;
     request.columns = columns, request.rows = rows, request.shake = 5e-5;
     Material material = rock();
@@ -34,19 +35,22 @@ inline World bursting_discs(int columns, int rows, double rate, double noise) {
     Scene scene = disordered_discs(request, material);
     scene.domain = {-0.1, 0.04 * columns + 0.1, -0.05, 0.0, {true, true, true, false}};
     scene.gravity = {0.0, -9.81};
+    scene.integrator = integrator;
     World world = build_world(std::move(scene));
     bond_all(world, 0.0);
     burst(world, rate, noise, 3);
     return world;
 }
 
-inline World bursting_cells(int columns, int rows, double rate, double noise, SegmentLaw law = SegmentLaw::rounded) {
+inline World bursting_cells(int columns, int rows, double rate, double noise, SegmentLaw law = SegmentLaw::rounded,
+                            Integrator integrator = Integrator::leapfrog) {
     ShakenCells request;
     request.columns = columns, request.rows = rows;
     Material material = rock();
     material.damping_ratio = 0.05;
     Scene scene = shaken_cells(request, material);
     scene.segment_law = law;
+    scene.integrator = integrator;
     World world = build_world(std::move(scene));
     bond_all(world, 1.08e-3);
     burst(world, rate, noise, 4);

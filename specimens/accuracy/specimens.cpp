@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Work-precision of a strength: small packed specimens in compression, over time step and loading rate, against the run
+// at the smallest step and the slowest rate. Single peaks scatter with the order in which bonds happen to break.
+
+#include <cmath>
+#include <cstring>
+#include <map>
+#include <utility>
+
+#include "specimens/accuracy/accuracy.hpp"
+#include "specimens/verification/packed_case.hpp"
+#include "specimens/virtual_test.hpp"
+
+namespace crackle::accuracy {
+namespace {
+
+struct Setting {
+    const char* kind;  // circles, delaunay, voronoi
+    SegmentLaw law;
+    Integrator integrator;
+    double step_share, rate;  // -, 1/s
+};
+
+VirtualTest prepared(const Setting& s, std::int64_t seed, bool quick) {
+    TestCase test = verification::packed_case(seed, "compression", s.rate, 0.03);
+    test.packing.count = quick ? 30 : 40;  // small: what counts is the curve, not the strength
+    if (std::strcmp(s.kind, "circles") != 0) {
+        verification::mesh_voronoi(test);
+        test.mesh.kind = s.kind;
+    }
+    test.numerics.contact_law = name_of(s.law);
+    test.numerics.integrator = name_of(s.integrator);
+    test.numerics.safety_factor = s.step_share;
+    return prepare_test(test);
+}
+
+struct Peaks {
+    std::vector<double> stress;  // N/m, by packing
+    double cpu_seconds = 0.0;
+};
+
+Peaks measure(const Setting& setting, bool quick) {
+    Peaks peaks;
+    for (std::int64_t seed = 1; seed <= (quick ? 1 : 2); ++seed) {
+        const VirtualTest start = prepared(setting, seed, quick);
+        double peak = 0.0;
+        peaks.cpu_seconds += median_cpu_seconds([&] {
+            VirtualTest test = start;
+            load_specimen(test);
+            peak = test.state.failure.peak_stress;
+        });
+        peaks.stress.push_back(peak);
+    }
+    return peaks;
+}
+
+double distance(const Peaks& got, const Peaks& best) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < best.stress.size(); ++k) sum += std::abs(got.stress[k] / best.stress[k] - 1.0);
+    return sum / static_cast<double>(best.stress.size());
+}
+
+std::vector<AccuracyRow> peak_stress(const char* study, const char* kind, bool quick) {
+    const std::vector<double> steps = quick ? std::vector{0.8, 0.4} : std::vector{0.8, 0.4, 0.2};
+    const std::vector<double> rates = quick ? std::vector{0.4, 0.2} : std::vector{0.8, 0.4, 0.2};
+    const double best_step = 0.5 * steps.back(), slowest = 0.5 * rates.back();
+    std::vector<AccuracyRow> rows;
+    for (const SegmentLaw law : {SegmentLaw::rounded, SegmentLaw::demseg}) {
+        if (law != SegmentLaw::rounded && std::strcmp(kind, "circles") == 0) continue;  // the same for circles
+        const Peaks best = measure({kind, law, Integrator::leapfrog, best_step, slowest}, quick);
+        for (const Integrator integrator : {Integrator::leapfrog, Integrator::consistent}) {
+            if (law != SegmentLaw::rounded && integrator == Integrator::consistent) continue;
+            const auto add = [&](const char* parameter, double value, double share, double rate) {
+                const Peaks got = measure({kind, law, integrator, share, rate}, quick);
+                rows.push_back(
+                    {study, name_of(law), name_of(integrator), parameter, value, got.cpu_seconds, distance(got, best)});
+            };
+            for (const double share : steps) add("time_step", share, share, slowest);
+            for (const double rate : rates) add("axial_strain_rate", rate, steps.back(), rate);
+        }
+    }
+    return rows;
+}
+
+}  // namespace
+
+std::vector<AccuracyStudy> specimen_studies() {
+    const char* error = "error of the peak stress";
+    return {
+        {"peak_circles", "Compression: circles", error,
+         [](bool quick) { return peak_stress("peak_circles", "circles", quick); }},
+        {"peak_delaunay", "Compression: Delaunay triangles", error,
+         [](bool quick) { return peak_stress("peak_delaunay", "delaunay", quick); }},
+        {"peak_voronoi", "Compression: Voronoi cells", error,
+         [](bool quick) { return peak_stress("peak_voronoi", "voronoi", quick); }},
+    };
+}
+
+}  // namespace crackle::accuracy
