@@ -244,7 +244,8 @@ Geometry geometry_of(const World& world) { return {all_roots(world), all_arms(wo
 template <class Counts>
 std::vector<BodyBlocks> blocks_of(const World& world, const std::vector<double>& weights, const Geometry& geometry,
                                   Counts counts) {
-    const auto& [roots, arms, rows] = geometry;
+    const std::vector<Roots>& roots = geometry.roots;  // no structured binding: the lambda below uses it
+    const std::vector<PointArms>& arms = geometry.arms;
     std::vector<BodyBlocks> blocks(world.bodies.size());
     for (PointIndex k = 0; k < world.points.size(); ++k) {
         if (!counts(k)) continue;
@@ -253,7 +254,7 @@ std::vector<BodyBlocks> blocks_of(const World& world, const std::vector<double>&
         if (!with_wall(world, k) && !held(world.inertia[j]))
             add_point(blocks[j], world, weights, k, j, roots[j], arms[k]);
     }
-    for (const Spring& row : rows) {
+    for (const Spring& row : geometry.rows) {
         const auto add = [&](BodyIndex b, BodyIndex partner, bool second) {
             if (held(world.inertia[b])) return;
             add_row(blocks[b].stiffness, roots[b], row, second, share_of(weights[b], weights[partner]));

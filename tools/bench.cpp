@@ -35,7 +35,8 @@ std::string names() {
 void print_help(std::ostream& out) {
     out << "usage: crackle bench STUDY [OPTIONS]   (crackle bench STUDY --help shows examples)\n\nstudies:\n";
     for (const Command& study : studies()) out << fmt::format("  {:<12}{}\n", study.name, study.summary);
-    out << "\nexample:\n  crackle bench verify -o verification.md\n  crackle bench guide --quick\n  crackle bench accuracy -o accuracy --quick\n  crackle bench stress --steps 10000\n";
+    out << "\nexample:\n  crackle bench verify -o verification.md\n  crackle bench guide --quick\n  crackle bench "
+           "accuracy -o accuracy --quick\n  crackle bench stress --steps 10000\n";
 }
 
 }  // namespace
