@@ -77,6 +77,7 @@ CriticalStep critical_step(const World& world, ClosedPoints which) {
     const double guaranteed = stable_step_bound(world);  // over all listed points: never above the limit sought
     CriticalStep result{guaranteed, infinite, false, std::vector<Motion>(world.bodies.size())};
     if (pencil.size() == 0 || !std::isfinite(guaranteed)) return {infinite, infinite, true, result.mode};
+    if (pencil.size() > most_exact_unknowns) return result;
     const bool damped = pencil.damped();
     double dt = guaranteed;
     for (int n = 0; n < newton_steps; ++n) {

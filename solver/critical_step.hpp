@@ -10,6 +10,7 @@
 // Cholesky factorisation just below the result then proves that nothing was missed.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "solver/elastic.hpp"
@@ -23,6 +24,10 @@ struct CriticalStep {
     bool proved;               ///< Cholesky: 4M - 2Δt·C - Δt²·K is positive definite at `step`
     std::vector<Motion> mode;  ///< per body, the motion that grows first; largest component of M^½ times it 1
 };
+
+/// Beyond so many degrees of freedom (100,000 free bodies) the guaranteed bound of all listed points takes its place:
+/// factors of millions of rows need minutes and gigabytes.
+inline constexpr std::int64_t most_exact_unknowns = 300'000;
 
 /// Relative distance kept from the root, far above the rounding of the factorisation.
 inline constexpr double critical_step_margin = 1e-6;
