@@ -200,10 +200,17 @@ void force_block(World& world, const PassRange& range) {
 
 using BlockKernel = void (*)(World&, const PassRange&);
 
-template <PointKind K, std::size_t... Index>
-constexpr std::array<BlockKernel, 32> kernels_of(std::index_sequence<Index...>) {
-    return {&force_block < K, (Index & 1) != 0, (Index & 2) != 0,
-            (Index & 4) != 0, (Index & 8) != 0, (Index & 16) != 0 && !by_guide(K) > ...};
+/// The kernel of a set of features, numbered by their bits as contact_pass() does.
+template <PointKind K, std::size_t Features>
+constexpr BlockKernel kernel_of() {
+    constexpr bool friction = (Features & 1) != 0, damping = (Features & 2) != 0, bonds = (Features & 4) != 0;
+    constexpr bool ledger = (Features & 8) != 0, consistent = (Features & 16) != 0 && !by_guide(K);
+    return &force_block<K, friction, damping, bonds, ledger, consistent>;
+}
+
+template <PointKind K, std::size_t... Features>
+constexpr std::array<BlockKernel, 32> kernels_of(std::index_sequence<Features...>) {
+    return {kernel_of<K, Features>()...};
 }
 
 constexpr std::array<std::array<BlockKernel, 32>, point_kinds> kernels{

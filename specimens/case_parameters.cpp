@@ -68,8 +68,10 @@ struct With {
     operator Parameter() && { return std::move(p); }
 };
 
+using CaseReference = TestCase&;
+
 // NOLINTBEGIN(bugprone-macro-parentheses): names of members and lists of calls
-#define CRACKLE_MEMBER(path) [](TestCase& c) -> auto& { return c.path; }
+#define CRACKLE_MEMBER(path) [](CaseReference c) -> auto& { return c.path; }
 #define CRACKLE_KEY(table, key, unit, sentence) \
     With { declare(#table, #key, unit, CRACKLE_MEMBER(table.key), sentence) }
 // NOLINTEND(bugprone-macro-parentheses)

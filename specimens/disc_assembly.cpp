@@ -85,9 +85,9 @@ bool DiscAssembly::list_outdated() const {
     if (listed_at_.size() != discs.size()) return true;
     // In shares of the box a uniform strain moves nothing; what it does to a pair is bounded by their listed distance.
     const std::size_t count = discs.size();
+    const bool many = count >= assembly_parallel_from;
     double largest_square = 0.0;
-#pragma omp parallel for schedule(static) num_threads(threads) \
-    reduction(max : largest_square) if (count >= assembly_parallel_from)
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(max : largest_square) if (many)
     for (std::size_t i = 0; i < count; ++i) {
         const double dx = discs[i].x - listed_at_[i].x * width, dy = discs[i].y - listed_at_[i].y * height;
         largest_square = std::max(largest_square, dx * dx + dy * dy);
