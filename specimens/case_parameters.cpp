@@ -69,7 +69,8 @@ struct With {
 };
 
 // NOLINTBEGIN(bugprone-macro-parentheses): names of members and lists of calls
-// clang-format off: its versions differ on a lambda in a macro
+// Its versions differ on a lambda in a macro.
+// clang-format off
 #define CRACKLE_MEMBER(path) [](TestCase& c) -> auto& { return c.path; }
 // clang-format on
 #define CRACKLE_KEY(table, key, unit, sentence) \
