@@ -190,7 +190,7 @@ void rank_by_size(World& world) {
         world.size_rank[order[r]] = static_cast<std::uint32_t>(r);
         world.largest_smaller[order[r]] = r + 1 < n ? world.info[order[r + 1]].reach : 0.0;
     }
-    if (world.skin == 0.0) world.skin = skin_share * world.info[order[n / 2]].reach;
+    if (world.skin == 0.0) world.skin = world.widest_skin = skin_share * world.info[order[n / 2]].reach;
     world.fastest_allowed_move = 0.5 * world.info[order[n - 1]].reach;
 }
 

@@ -18,7 +18,7 @@
 namespace crackle {
 
 // Raise when the fields below change.
-constexpr std::uint32_t checkpoint_version = 5;
+constexpr std::uint32_t checkpoint_version = 6;
 constexpr std::uint64_t checkpoint_magic = 0x454c4b4341524321ULL;  // "!CRACKLE"
 
 // NOLINTBEGIN(bugprone-macro-parentheses)
@@ -125,8 +125,8 @@ void serialize(Archive& a, World& w) {
       w.materials);
     a(w.points, w.kind_begin, w.point_forces, w.dissipation, w.spring_work, w.openings, w.owed, w.bond_history,
       w.body_begin, w.body_slots);
-    a(w.skin, w.list_reference, w.turning_reach, w.size_rank, w.largest_smaller, w.travelled, w.fastest,
-      w.fastest_allowed_move, w.list_valid, w.list_builds);
+    a(w.skin, w.widest_skin, w.list_reference, w.turning_reach, w.size_rank, w.largest_smaller, w.travelled, w.fastest,
+      w.fastest_allowed_move, w.list_valid, w.list_step, w.list_builds);
     a(w.domain, w.thick, w.segment_law, w.integrator, w.gravity, w.time_step, w.drift, w.automatic_step,
       w.safety_factor, w.step_bound, w.limiting_body, w.step_weights, w.exact_step, w.exact_step_proved, w.step_goal,
       w.allow_unstable, w.has_bonds, w.ledger_on, w.intact);

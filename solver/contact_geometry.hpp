@@ -51,16 +51,26 @@ inline OutlineFacing face_segment(const Edge& edge, std::uint32_t index, double 
                          : OutlineFacing{-across, -edge.ty, edge.tx, index};
 }
 
-/// Signed distance to a convex closed piece by looking at every edge.
+/// Signed distance to a convex closed piece by looking at every edge. Corners are where the edge that begins there
+/// says, as in face_convex(): which of the two was asked leaves no trace in the result.
 inline OutlineFacing face_every_edge(const Edge* edges, const Piece& piece, double px, double py) {
     OutlineFacing inside{-std::numeric_limits<double>::infinity(), 0.0, 0.0, 0};
     OutlineFacing outside{std::numeric_limits<double>::infinity(), 0.0, 0.0, 0};
-    for (std::uint32_t e = piece.first_edge; e < piece.first_edge + piece.edge_count; ++e) {
+    const std::uint32_t end = piece.first_edge + piece.edge_count;
+    for (std::uint32_t e = piece.first_edge; e < end; ++e) {
         const Edge& edge = edges[e];
-        const double across = (px - edge.x) * edge.ty - (py - edge.y) * edge.tx;
+        const double dx = px - edge.x, dy = py - edge.y;
+        const double across = dx * edge.ty - dy * edge.tx;
         if (across > inside.distance) inside = {across, edge.ty, -edge.tx, e};
         if (across <= 0.0) continue;  // the closest edge of an outside point is one that sees it
-        const OutlineFacing candidate = face_segment(edge, e, px, py);
+        const double along = dx * edge.tx + dy * edge.ty;
+        OutlineFacing candidate{across, edge.ty, -edge.tx, e};
+        if (along < 0.0) {
+            candidate = face_vertex(dx, dy, edge, e);
+        } else if (along > edge.length) {
+            const std::uint32_t next = e + 1 == end ? piece.first_edge : e + 1;
+            candidate = face_vertex(px - edges[next].x, py - edges[next].y, edges[next], next);
+        }
         if (candidate.distance < outside.distance) outside = candidate;
     }
     return inside.distance <= 0.0 ? inside : outside;

@@ -3,9 +3,10 @@
 //
 // Bodies lie in a uniform grid by their centroids. A pair is found by its larger body, which searches its own bounding
 // box widened by the reach of the next smaller body: any mixture of sizes, platens and containers included, needs no
-// user hint. Pairs are sorted, their points emitted in that order, and what a point remembers (shear spring, bond,
-// flags) is carried over by one linear merge of the old list with the new one. Everything depends on positions alone,
-// never on the number of threads.
+// user hint. In a bonded world the skin is as narrow as the motion allows, so that points which nothing brings together
+// cost nothing: a mesh has many corners that face each other over a gap. Pairs are sorted, their points emitted in that
+// order, and what a point remembers (shear spring, bond, flags) is carried over by one linear merge of the old list
+// with the new one. Everything depends on positions alone, never on the number of threads.
 
 #include <fmt/format.h>
 
@@ -24,6 +25,12 @@
 
 namespace crackle {
 namespace {
+
+/// Steps that a list of a bonded world is to last. Building it costs what a few steps do.
+constexpr double list_lasts = 200.0;
+/// Steps between two looks whether a narrower skin would do.
+constexpr std::int64_t look_interval = 64;
+constexpr double narrowest_share = 0.01;  // of the widest skin
 
 struct Box {
     Vec2 low{1e300, 1e300}, high{-1e300, -1e300};
@@ -429,6 +436,14 @@ double longest_way(const World& world) {
     return longest;
 }
 
+bool skin_follows(const World& world) { return world.has_bonds && world.widest_skin > 0.0; }
+
+/// The skin that lasts for list_lasts steps like those since the list was built. @param way longest_way(), m
+double skin_for(const World& world, double way) {
+    const double pace = way / static_cast<double>(std::max<std::int64_t>(1, world.step - world.list_step));
+    return std::clamp(2.0 * list_lasts * pace, narrowest_share * world.widest_skin, world.widest_skin);
+}
+
 void rebuild(World& world) {
     PointLists lists = emit_points(world);
     exchange_points(world, lists);
@@ -439,6 +454,7 @@ void rebuild(World& world) {
     }
     world.travelled = 0.0;
     world.list_valid = true;
+    world.list_step = world.step;
     world.list_builds += 1;
     evaluate_step_bound(world);
 }
@@ -448,11 +464,15 @@ void rebuild(World& world) {
 void refresh_neighbours(World& world) {
     if (world.list_valid) {
         const double half_skin = 0.5 * world.skin;
-        if (world.travelled <= half_skin) return;
+        const std::int64_t age = world.step - world.list_step;
+        const bool look = skin_follows(world) && age > 0 && age % look_interval == 0;
+        if (!look && world.travelled <= half_skin) return;
         // The bound is used up: look how far bodies really went, and rebuild if little is left of the skin.
         world.travelled = longest_way(world);
-        if (world.travelled <= 0.8 * half_skin) return;
+        const bool used_up = world.travelled > 0.8 * half_skin;
+        if (!used_up && !(look && skin_for(world, world.travelled) < 0.25 * world.skin)) return;
         refuse_piercing(world);
+        if (skin_follows(world)) world.skin = skin_for(world, world.travelled);
     }
     rebuild(world);
 }

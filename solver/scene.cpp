@@ -201,16 +201,31 @@ void validate_body(Scene& scene, const Body& body) {
 
 }  // namespace
 
+const char* name_of(SegmentLaw law) {
+    switch (law) {
+        case SegmentLaw::rounded:
+            return "rounded";
+        case SegmentLaw::demseg:
+            return "demseg";
+        case SegmentLaw::demseg_mean:
+            break;
+    }
+    return "demseg_mean";
+}
+
 SegmentLaw segment_law_named(const std::string& where, const std::string& word) {
-    if (word == "rounded") return SegmentLaw::rounded;
-    if (word == "demseg") return SegmentLaw::demseg;
-    if (word == "demseg_mean") return SegmentLaw::demseg_mean;
+    for (const SegmentLaw law : {SegmentLaw::rounded, SegmentLaw::demseg, SegmentLaw::demseg_mean}) {
+        if (word == name_of(law)) return law;
+    }
     throw InputError(fmt::format("{}: found \"{}\", expected \"rounded\", \"demseg\" or \"demseg_mean\"", where, word));
 }
 
+const char* name_of(Integrator integrator) { return integrator == Integrator::consistent ? "consistent" : "leapfrog"; }
+
 Integrator integrator_named(const std::string& where, const std::string& word) {
-    if (word == "leapfrog") return Integrator::leapfrog;
-    if (word == "consistent") return Integrator::consistent;
+    for (const Integrator integrator : {Integrator::leapfrog, Integrator::consistent}) {
+        if (word == name_of(integrator)) return integrator;
+    }
     throw InputError(fmt::format("{}: found \"{}\", expected \"leapfrog\" or \"consistent\"", where, word));
 }
 

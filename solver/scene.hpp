@@ -94,6 +94,7 @@ enum class SegmentLaw : std::uint8_t {
 
 /// "rounded", "demseg" or "demseg_mean". @throws InputError on another word, naming `where`.
 SegmentLaw segment_law_named(const std::string& where, const std::string& word);
+const char* name_of(SegmentLaw law);
 
 /// How the contacts' first and last steps are taken.
 enum class Integrator : std::uint8_t {
@@ -104,6 +105,7 @@ enum class Integrator : std::uint8_t {
 
 /// "leapfrog" or "consistent". @throws InputError on another word, naming `where`.
 Integrator integrator_named(const std::string& where, const std::string& word);
+const char* name_of(Integrator integrator);
 
 /// First kick of leapfrog: decks start with a full one (the guide's n(n+1)/2), everything else with a half one.
 enum class FirstKick : std::uint8_t { half, full };

@@ -245,7 +245,8 @@ struct World {
     std::vector<std::uint32_t> body_slots;      // 2 * point + side (0: the body is i, 1: it is j)
 
     // ---- neighbour list
-    double skin = 0.0;  // m
+    double skin = 0.0;         // m
+    double widest_skin = 0.0;  // m; in a bonded world the skin follows the motion up to this; 0: it stays as given
     std::vector<ListReference> list_reference;
     std::vector<double> turning_reach;     // m per body: how far turning moves its surface (0: single circles)
     std::vector<std::uint32_t> size_rank;  // bodies by bounding radius, largest 0; a pair is found by its larger body
@@ -254,6 +255,7 @@ struct World {
     double fastest = 0.0;                  // m/s, largest surface speed in the last step
     double fastest_allowed_move = 0.0;     // m a step: half the smallest body, beyond which contacts would be missed
     bool list_valid = false;
+    std::int64_t list_step = 0;  // step at which the list was built
     std::int64_t list_builds = 0;
 
     // ---- scene-wide

@@ -135,8 +135,27 @@ void take_value(TestCase& test, const fs::path& file, const std::string& table, 
     test.position[p->full_key()] = where;
 }
 
+/// Of ways of saying the same thing, the one that a file takes stands over those that came before it.
+void forget_other_ways(TestCase& test, const toml::table& content) {
+    const auto writes = [&](const std::string& key) { return static_cast<bool>(content.at_path(key)); };
+    for (const Alternatives& ways : case_alternatives()) {
+        for (const auto& taken : ways) {
+            if (std::none_of(taken.begin(), taken.end(), writes)) continue;
+            for (const auto& other : ways) {
+                if (&other == &taken) continue;
+                for (const std::string& full_key : other) {
+                    const std::size_t dot = full_key.find('.');
+                    find_parameter(full_key.substr(0, dot), full_key.substr(dot + 1))->forget(test);
+                    test.position.erase(full_key);
+                }
+            }
+        }
+    }
+}
+
 /// Puts what the file says into the case, over what is there.
 void take_file(TestCase& test, const fs::path& file, const toml::table& content) {
+    forget_other_ways(test, content);
     for (const auto& [name, node] : content) {
         const std::string key(name.str());
         if (key == "include") continue;
@@ -187,11 +206,25 @@ void take_with_includes(TestCase& test, const fs::path& path, std::vector<fs::pa
     take_file(test, path, content);
 }
 
+/// Whether the case takes another way of saying what this key says.
+bool said_otherwise(const TestCase& test, const std::string& full_key) {
+    const auto is_written = [&](const std::string& key) { return test.position.contains(key); };
+    for (const Alternatives& ways : case_alternatives()) {
+        const auto has_key = [&](const auto& way) { return std::find(way.begin(), way.end(), full_key) != way.end(); };
+        if (std::none_of(ways.begin(), ways.end(), has_key)) continue;
+        return std::any_of(ways.begin(), ways.end(), [&](const auto& way) {
+            return !has_key(way) && std::any_of(way.begin(), way.end(), is_written);
+        });
+    }
+    return false;
+}
+
 void fill_defaults(TestCase& test) {
     for (const Parameter& p : case_parameters()) {
         const bool written = test.position.contains(p.full_key());
         if (written) continue;
         if (p.presence == Presence::defaulted) {
+            if (said_otherwise(test, p.full_key())) continue;
             p.set(test, *p.default_value);
         } else if (p.presence == Presence::required ||
                    (p.presence == Presence::required_with_table && test.has_table(p.table))) {
@@ -318,7 +351,6 @@ class Judge {
             refuse("loading.rate_tolerance", "a tolerance besides axial_strain_rate", "one of them",
                    "remove axial_strain_rate to have the rate chosen, or rate_tolerance");
         }
-        if (!test_.loading.rate_tolerance) need("loading.axial_strain_rate", "or write rate_tolerance");
         if (test_.loading.platens == "frictional") {
             if (test_.loading.kind == "tension") {
                 refuse("loading.platens", "\"frictional\"", "\"bonded\" in tension",

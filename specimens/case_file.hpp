@@ -74,6 +74,12 @@ struct TestCase {
         double stop_at_share_of_peak = 0.0;
         std::string platens;                          // "bonded" or "frictional"
         std::optional<double> platen_friction_angle;  // degrees
+
+        /// So many times as fast: a tolerance goes by the square of the rate it allows.
+        void scale_rate(double by) {
+            if (axial_strain_rate) *axial_strain_rate *= by;
+            if (rate_tolerance) *rate_tolerance *= by * by;
+        }
     } loading;
 
     struct Numerics {

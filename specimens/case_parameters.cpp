@@ -49,6 +49,7 @@ Parameter declare(std::string table, std::string key, std::string unit, Member m
             return CaseValue(held);
         }
     };
+    if constexpr (Unwrap<Held>::optional) p.forget = [member](TestCase& c) { member(c).reset(); };
     return p;
 }
 
@@ -137,12 +138,15 @@ std::vector<Parameter> all_parameters() {
             .above(0),
 
         CRACKLE_KEY(loading, kind, "", "What the platens do.").one_of({"compression", "tension"}),
-        CRACKLE_KEY(loading, axial_strain_rate, "1/s", "Platen speed over the specimen's height; or rate_tolerance.")
+        CRACKLE_KEY(loading, axial_strain_rate, "1/s",
+                    "Platen speed over the specimen's height, in place of rate_tolerance.")
             .above(0)
             .below(1e6),
-        CRACKLE_KEY(loading, rate_tolerance, "",
-                    "In place of a rate: the platen's speed is chosen so that the inertia error (out-of-balance of the "
-                    "platens, kinetic over strain energy) stays below this.")
+        CRACKLE_KEY(
+            loading, rate_tolerance, "",
+            "The platen's speed is chosen so that the inertia error (out-of-balance of the platens, kinetic over "
+            "strain energy) stays below this.")
+            .otherwise(0.01)
             .above(0)
             .at_most(1),
         CRACKLE_KEY(loading, max_axial_strain, "", "The test ends here if the specimen has not failed before.")
@@ -206,6 +210,16 @@ std::vector<Parameter> all_parameters() {
 
 const std::vector<Parameter>& case_parameters() {
     static const std::vector<Parameter> all = all_parameters();
+    return all;
+}
+
+const std::vector<Alternatives>& case_alternatives() {
+    static const std::vector<Alternatives> all{
+        {{"packing.count", "packing.height_to_width"}, {"packing.width", "packing.height"}},
+        {{"packing.mean_overlap"}, {"packing.void_ratio"}},
+        {{"material.damping_ratio"}, {"material.normal_damping", "material.shear_damping"}},
+        {{"loading.axial_strain_rate"}, {"loading.rate_tolerance"}},
+    };
     return all;
 }
 

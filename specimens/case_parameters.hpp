@@ -45,6 +45,7 @@ struct Parameter {
 
     std::function<void(TestCase&, const CaseValue&)> set;
     std::function<std::optional<CaseValue>(const TestCase&)> get;
+    std::function<void(TestCase&)> forget;  ///< makes an optional one absent; empty of the others
 
     std::string full_key() const { return table.empty() ? key : table + "." + key; }
     /// What is accepted, in words: "a number > 0 in m".
@@ -55,6 +56,11 @@ struct Parameter {
 
 /// All parameters, in the order in which a case is written.
 const std::vector<Parameter>& case_parameters();
+
+/// Ways of saying the same thing, each by its full keys. Where a file takes one, the others of the files it includes
+/// go.
+using Alternatives = std::vector<std::vector<std::string>>;
+const std::vector<Alternatives>& case_alternatives();
 
 /// A sentence about each table; the order of tables in a written case.
 struct TableDescription {

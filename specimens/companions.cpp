@@ -39,8 +39,7 @@ std::vector<Plan> plans_for(const TestCase& asked) {
     if (step.numerics.time_step) *step.numerics.time_step *= 0.5;
     step.numerics.safety_factor *= 0.5;
     TestCase& rate = plan("half_rate");
-    if (rate.loading.axial_strain_rate) *rate.loading.axial_strain_rate *= 0.5;
-    if (rate.loading.rate_tolerance) *rate.loading.rate_tolerance *= 0.25;  // the rate goes by its root
+    rate.loading.scale_rate(0.5);
     // A particle file's own damping is not ours to scale.
     if (asked.has_table("packing") || asked.material.damping_ratio || asked.material.normal_damping) {
         scale_damping(plan("half_damping"), 0.5);

@@ -39,11 +39,12 @@ LinearBond linear_bond(const World& world, PointIndex k, const PointRates& rate,
     bond.normal_force = view.normal_stiffness * rate.closing * strain;
     bond.shear_force = view.shear_stiffness * std::abs(rate.slipping) * strain;
     bond.break_strain = strain_of_loss(bond.strength, view.normal_stiffness * rate.closing);
-    // Limit less shear force; without a shear spring nothing ever slides.
+    // Limit less shear force; without a shear spring or a limit nothing ever slides.
     const double shear = view.shear_stiffness * std::abs(rate.slipping);
-    bond.slip_strain = shear > 0.0 ? strain_of_loss(view.friction * bond.strength,
-                                                    view.friction * view.normal_stiffness * rate.closing - shear)
-                                   : infinite;
+    bond.slip_strain = shear > 0.0 && std::isfinite(view.friction)
+                           ? strain_of_loss(view.friction * bond.strength,
+                                            view.friction * view.normal_stiffness * rate.closing - shear)
+                           : infinite;
     return bond;
 }
 
@@ -71,11 +72,14 @@ std::vector<LinearBond> linear_bonds(const World& world, const TestSetup& setup,
 
 }  // namespace
 
-double first_slip_strain(const World& world, const TestSetup& setup, const Moduli& moduli) {
-    double first = infinite;
+double yield_strain(const World& world, const TestSetup& setup, const Moduli& moduli, double share) {
+    std::vector<double> strains;
     for (const LinearBond& bond : linear_bonds(world, setup, moduli, 0.0))
-        first = std::min({first, bond.slip_strain, bond.break_strain});
-    return first;
+        strains.push_back(std::min(bond.slip_strain, bond.break_strain));
+    if (strains.empty()) return infinite;
+    const auto nth = strains.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(strains.size()));
+    std::nth_element(strains.begin(), nth, strains.end());
+    return *nth;
 }
 
 ElasticAnalysis analyse_elastic(const VirtualTest& test, double strain, int modes) {

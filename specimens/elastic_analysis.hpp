@@ -51,9 +51,10 @@ struct ElasticAnalysis {
     std::int64_t unknowns = 0;
 };
 
-/// Axial strain at which the first point slides, or the first bond breaks where nothing slides; infinite where neither
-/// happens. @param moduli of a world with bonded platens, `world` itself or its twin with the same bodies
-double first_slip_strain(const World& world, const TestSetup& setup, const Moduli& moduli);
+/// Axial strain at which a share of the bonded points (at least one) slide or, where they do not slide, break by the
+/// linear solution; infinite where they never do. @param moduli of a world with bonded platens, `world` itself or its
+/// twin with the same bodies
+double yield_strain(const World& world, const TestSetup& setup, const Moduli& moduli, double share);
 
 /// @param test prepared, not yet loaded; its platens bonded
 /// @param strain at which bond forces are given (sense of the test)

@@ -110,7 +110,7 @@ class LoadingLoop {
     void follow_tolerance(double strain) {
         const RateRule& rule = setup_.rate_rule;
         const double top = world_.forces[setup_.top].fy, bottom = world_.forces[setup_.bottom].fy;
-        watch_balance(state_.rate, rule, (top + bottom) / setup_.width, state_.failure.peak_stress, world_.drift);
+        watch_balance(state_.rate, rule, top / setup_.width, -bottom / setup_.width, world_.drift);
         if (world_.time < state_.rate.next_look) return;
         const Ledger ledger = measure_ledger(world_);
         choose_rate(state_.rate, rule, strain, ledger.kinetic, ledger.strain, world_.time);

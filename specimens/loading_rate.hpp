@@ -12,6 +12,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 namespace crackle {
 
@@ -19,7 +20,7 @@ namespace crackle {
 struct RateRule {
     double tolerance = 0.0;         ///< 0: the rate is given, and the rest unused
     double transit_time = 0.0;      // s
-    double first_strain = 0.0;      ///< axial, at the first slip of the elastic solution
+    double first_strain = 0.0;      ///< axial, where the elastic solution has its first points slide or break
     double stress_floor = 0.0;      // N/m, at that strain
     double energy_floor = 0.0;      // J, stored at that strain
     double kinetic_per_rate = 0.0;  // J s2, of the elastic motion at a rate of 1/s
@@ -28,6 +29,7 @@ struct RateRule {
 struct RateState {
     double rate = 0.0;                    // 1/s, axial, >= 0
     double out_of_balance = 0.0;          ///< smoothed, signed
+    double largest_stress = 0.0;          // N/m, so far, whatever its sign
     double kinetic_share = 0.0;           ///< smoothed
     double next_look = 0.0;               // s
     double slowest = 0.0, fastest = 0.0;  // 1/s
@@ -40,10 +42,13 @@ inline constexpr double looks_per_transit = 20.0;
 /// The rate to begin with.
 double first_rate(const RateRule& rule);
 
-/// Smooths the out-of-balance of one step. @param difference σ_top - σ_bottom, N/m; @param scale largest stress so far
-inline void watch_balance(RateState& state, const RateRule& rule, double difference, double scale, double dt) {
+/// Smooths the out-of-balance of one step, at every step, so that nothing depends on the rows of the curve.
+/// @param top, bottom axial stress of the specimen at its platens, N/m, of the same sign
+inline void watch_balance(RateState& state, const RateRule& rule, double top, double bottom, double dt) {
+    state.largest_stress = std::max(state.largest_stress, 0.5 * std::abs(top + bottom));
     const double share = std::min(1.0, dt / rule.transit_time);
-    state.out_of_balance += share * (difference / std::max(scale, rule.stress_floor) - state.out_of_balance);
+    const double scale = std::max(state.largest_stress, rule.stress_floor);
+    state.out_of_balance += share * ((top - bottom) / scale - state.out_of_balance);
 }
 
 /// The coming rate, taken into the state. @param strain axial, >= 0

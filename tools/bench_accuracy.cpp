@@ -43,7 +43,7 @@ void write(const fs::path& path, const std::string& text) {
 std::string table_of(const std::vector<AccuracyRow>& rows, const std::string& command) {
     std::string text = fmt::format(
         "# Made by `{}`. cpu_seconds: processor time, median of 3 (over 0.5 s: of 1).\n"
-        "# parameter time_step: value over the stable step [-]; axial_strain_rate: value in 1/s.\n"
+        "# parameter time_step: value over the stable step [-]; axial_strain_rate: value in 1/s; rate_tolerance [-].\n"
         "study,law,integrator,parameter,value,cpu_seconds [s],error [-]\n",
         command);
     for (const AccuracyRow& r : rows) {
@@ -64,6 +64,8 @@ constexpr Curve curves[] = {
     {"rounded", "leapfrog", "axial_strain_rate", "rounded, leapfrog: loading rate", "lc rgb '#0072b2' pt 6 dt 2"},
     {"rounded", "consistent", "axial_strain_rate", "rounded, consistent: loading rate", "lc rgb '#d55e00' pt 4 dt 2"},
     {"demseg", "leapfrog", "axial_strain_rate", "demseg, leapfrog: loading rate", "lc rgb '#009e73' pt 8 dt 2"},
+    {"rounded", "leapfrog", "rate_tolerance", "rounded, leapfrog: rate tolerance", "lc rgb '#000000' pt 11 dt 3"},
+    {"demseg", "leapfrog", "rate_tolerance", "demseg, leapfrog: rate tolerance", "lc rgb '#999999' pt 11 dt 3"},
 };
 
 // An error of 0 has no place on a logarithmic axis; it is drawn at the rounding of a double.

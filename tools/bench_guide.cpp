@@ -225,7 +225,7 @@ po::options_description options_described() {
         ("experiment-packings", numbers(),
          "packings of the experiments: elastic, loaded circles, loaded triangles (default 3 2 0)")                 //
         ("experiments", po::value<Words>()->multitoken(), "only these (default all)")                              //
-        ("rate-factor", po::value<double>()->default_value(1.0, "1"), "over the shipped loading rates")            //
+        ("rate-factor", po::value<double>()->default_value(1.0, "1"), "times as fast as shipped")                  //
         ("minutes", po::value<double>(), "give up tests not done by then; the page shows what is there")           //
         ("jobs", po::value<int>()->default_value(2), "tests at a time, each on one thread")                        //
         ("cases", po::value<std::string>()->default_value("specimens/guide_rock"), "folder of the shipped cases")  //

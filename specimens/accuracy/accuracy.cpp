@@ -24,20 +24,6 @@ const std::vector<AccuracyStudy>& accuracy_studies() {
     return all;
 }
 
-const char* name_of(SegmentLaw law) {
-    switch (law) {
-        case SegmentLaw::rounded:
-            return "rounded";
-        case SegmentLaw::demseg:
-            return "demseg";
-        case SegmentLaw::demseg_mean:
-            break;
-    }
-    return "demseg_mean";
-}
-
-const char* name_of(Integrator integrator) { return integrator == Integrator::consistent ? "consistent" : "leapfrog"; }
-
 double median_cpu_seconds(const std::function<void()>& work) {
     std::array<double, 3> seconds{};
     for (double& s : seconds) {

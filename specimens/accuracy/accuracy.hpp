@@ -15,7 +15,7 @@ struct AccuracyRow {
     std::string study;       ///< snake_case, a panel of the picture
     std::string law;         ///< of polygons; circles are the same in all and say rounded
     std::string integrator;  ///< leapfrog or consistent
-    std::string parameter;   ///< what varies: time_step (over the stable one) or axial_strain_rate (1/s)
+    std::string parameter;  ///< what varies: time_step (over the stable one), axial_strain_rate (1/s) or rate_tolerance
     double value = 0.0;
     double cpu_seconds = 0.0;  ///< processor time, median_cpu_seconds()
     double error = 0.0;        ///< -, see the study
@@ -30,10 +30,6 @@ struct AccuracyStudy {
 
 /// In the order of the panels.
 const std::vector<AccuracyStudy>& accuracy_studies();
-
-/// Words of the columns law and integrator.
-const char* name_of(SegmentLaw law);
-const char* name_of(Integrator integrator);
 
 /// Processor time of three calls, their median, s; of one where it takes over half a second.
 double median_cpu_seconds(const std::function<void()>& work);

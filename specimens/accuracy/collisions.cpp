@@ -10,6 +10,7 @@
 #include "solver/world.hpp"
 #include "specimens/accuracy/accuracy.hpp"
 #include "specimens/catalogue/lattices.hpp"
+#include "specimens/catalogue/materials.hpp"
 
 namespace crackle::accuracy {
 namespace {
@@ -17,15 +18,6 @@ namespace {
 constexpr double radius = 0.02, density = 2500.0, gravity = 9.81;
 constexpr double disc_mass = density * std::numbers::pi * radius * radius;
 constexpr Integrator both[] = {Integrator::leapfrog, Integrator::consistent};
-
-Material material_of(double stiffness, double friction_angle) {
-    Material material;
-    material.density = density;
-    material.normal_stiffness = stiffness;
-    material.shear_stiffness = 0.25 * stiffness;
-    material.friction_angle = friction_angle;
-    return material;
-}
 
 /// Steps over the stable one, halved from the largest on.
 std::vector<double> shares(double largest, int count, bool quick) {
@@ -59,7 +51,7 @@ constexpr int starts = 8, bounces = 20;
 
 Scene above_floor(Integrator integrator, double share, double height, double friction_angle) {
     Scene scene;
-    scene.materials = {material_of(floor_stiffness, friction_angle)};
+    scene.materials = {undamped_rock(floor_stiffness, friction_angle)};
     scene.domain = {-1e3, 1e3, 0.0, 1e3, {false, false, true, false}};
     scene.add_circle_body(1, 0, {{0.0, radius + height}, radius, 0.0});
     scene.integrator = integrator;
@@ -145,7 +137,7 @@ struct Squares {
 Squares collide(SegmentLaw law, Integrator integrator, double share, int start) {
     constexpr double half = 0.02, stiffness = 1e7, speed = 0.3;
     Scene scene;
-    scene.materials = {material_of(stiffness, 0.0)};
+    scene.materials = {undamped_rock(stiffness, 0.0)};
     scene.domain = {-1.0, 1.0, -1.0, 1.0, {false, false, false, false}};
     scene.thick = 1e-3;
     scene.segment_law = law;
@@ -205,7 +197,7 @@ double wave_error(SegmentLaw, Integrator integrator, double share) {
     constexpr int count = 33, mode = 5;
     constexpr double stiffness = 1e7, spacing = 2.0 * radius - 8e-5, amplitude = 1e-7;
     constexpr DofControl held{Drive::velocity, 0.0};
-    Scene scene = disc_chain(count, radius, spacing, material_of(stiffness, 27.0));
+    Scene scene = disc_chain(count, radius, spacing, undamped_rock(stiffness, 27.0));
     scene.controls.push_back({0, held, held, held, 0});
     scene.controls.push_back({count - 1, held, held, held, 0});
     const double q = std::numbers::pi * mode / (count - 1);

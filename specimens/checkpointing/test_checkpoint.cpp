@@ -16,7 +16,7 @@ namespace crackle {
 
 // Names the layout; the number is raised whenever a field below changes.
 constexpr const char* checkpoint_title = "crackle test checkpoint ";
-constexpr const char* checkpoint_version = "5";
+constexpr const char* checkpoint_version = "6";
 constexpr std::size_t hash_digits = 64;
 
 // The archive is given one member after the other: structs have padding, whose bytes are nobody's.
@@ -68,7 +68,7 @@ void serialize(Archive& a, RateRule& r) {
 }
 template <class Archive>
 void serialize(Archive& a, RateState& r) {
-    a(r.rate, r.out_of_balance, r.kinetic_share, r.next_look, r.slowest, r.fastest, r.strain_above);
+    a(r.rate, r.out_of_balance, r.largest_stress, r.kinetic_share, r.next_look, r.slowest, r.fastest, r.strain_above);
 }
 template <class Archive>
 void serialize(Archive& a, TestSetup& s) {

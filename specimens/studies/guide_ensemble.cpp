@@ -101,7 +101,7 @@ void take_loaded(GuideResult& result, const VirtualTest& test, double seconds) {
     q["bonds_broken_share"] =
         static_cast<double>(test.world.bonds_broken) / static_cast<double>(test.world.bonds_initial);
     q["platen_out_of_balance"] = platen_out_of_balance(test.state.rows, failure.peak_row);
-    q["axial_strain_rate"] = *test.description.loading.axial_strain_rate;
+    q["axial_strain_rate"] = test.state.rows.back().axial_strain / test.state.rows.back().time;
     q["steps"] = static_cast<double>(test.world.step);
     q["processor_seconds"] = seconds;
 }
@@ -178,7 +178,7 @@ TestCase guide_case(const GuideTest& test, const EnsembleOptions& options) {
     description.packing.seed = test.seed;
     description.numerics.contact_law = test.law;
     description.numerics.threads = 1;
-    *description.loading.axial_strain_rate *= options.rate_factor;
+    description.loading.scale_rate(options.rate_factor);
     guide_experiment(test.experiment).change(description);
     return description;
 }

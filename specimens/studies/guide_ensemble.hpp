@@ -48,7 +48,7 @@ std::string unit_of_quantity(const std::string& quantity);
 struct EnsembleOptions {
     std::filesystem::path cases = "specimens/guide_rock";  ///< folder of the shipped cases
     std::filesystem::path cache;                           ///< folder, made if absent
-    double rate_factor = 1.0;                              ///< over the shipped loading rates
+    double rate_factor = 1.0;                              ///< times as fast as shipped
     int jobs = 1;                                          ///< tests at a time, each on one thread
 };
 

@@ -217,8 +217,8 @@ std::string guide_page(const GuidePage& page, const GuideResults& results) {
         "touches the end of a platen). Run times are processor seconds of a "
         "simulated second, on one thread.\n\n",
         page.command, page.packings,
-        page.rate_factor == 1.0 ? std::string(" (at the shipped loading rates)")
-                                : fmt::format(" (at {:g} times the shipped loading rates)", page.rate_factor));
+        page.rate_factor == 1.0 ? std::string(" (loaded as shipped)")
+                                : fmt::format(" (loaded {:g} times as fast as shipped)", page.rate_factor));
     text += table(page, results);
     std::string experiments;
     for (const GuideRow& row : guide_rows()) {

@@ -21,17 +21,6 @@ constexpr const char* group = "Contacts that open and close";
 constexpr double radius = 0.02, density = 2500.0, kn = 1e5, gravity = 9.81;
 constexpr double mass = density * std::numbers::pi * radius * radius;
 
-Material smooth(double friction_angle = 0.0) {
-    Material material;
-    material.density = density;
-    material.normal_stiffness = kn;
-    material.shear_stiffness = 0.25 * kn;
-    material.friction_angle = friction_angle;
-    return material;
-}
-
-const char* name_of(Integrator integrator) { return integrator == Integrator::consistent ? "consistent" : "leapfrog"; }
-
 /// Energy of all in flight or in contact, J, with the account's sign of the gravity potential.
 double energy_now(World& world) {
     compute_forces(world);
@@ -48,7 +37,7 @@ struct Bouncing {
 /// Drops a disc on a floor. Ends where the energy has grown or fallen beyond measure.
 Bouncing bounce(Integrator integrator, double step_share, double drop, int bounces) {
     Scene scene;
-    scene.materials = {smooth()};
+    scene.materials = {undamped_rock(kn, 0.0)};
     scene.domain = {-1e3, 1e3, 0.0, 1e3, {false, false, true, false}};
     scene.add_circle_body(1, 0, {{0.0, radius + drop}, radius, 0.0});
     scene.gravity = {0.0, -gravity};
@@ -87,7 +76,7 @@ std::pair<double, double> leapfrog_bounce(double step_share, double phase) {
     constexpr double speed = 0.1;
     const double dt = step_share * 2.0 * std::sqrt(mass / kn);
     Scene scene;
-    scene.materials = {smooth()};
+    scene.materials = {undamped_rock(kn, 0.0)};
     scene.domain = {-1e3, 1e3, 0.0, 1e3, {false, false, true, false}};
     scene.add_circle_body(1, 0, {{0.0, radius + (1.0 + phase) * speed * dt}, radius, 0.0});
     scene.bodies[0].velocity = {0.0, -speed};
@@ -177,7 +166,7 @@ double chain_error(Integrator integrator, double step_share, std::uint64_t seed)
     constexpr int count = 10;
     std::mt19937_64 generator(seed);
     Scene scene;
-    scene.materials = {smooth()};
+    scene.materials = {undamped_rock(kn, 0.0)};
     const double gap = 2e-3;
     double x = 0.0;
     for (int k = 0; k < count; ++k) {
@@ -222,7 +211,7 @@ double square_error(Integrator integrator, double step_share, std::uint64_t seed
     std::mt19937_64 generator(seed);
     Scene scene;
     constexpr double stiff = 1e7;
-    scene.materials = {smooth()};
+    scene.materials = {undamped_rock(kn, 0.0)};
     scene.materials[0].normal_stiffness = stiff;
     scene.add_chain_body(1, 0, {{-half, -half}, {half, -half}, {half, half}, {-half, half}}, true);
     scene.domain = {-room, room, -room, room, {true, true, true, true}};
@@ -233,8 +222,8 @@ double square_error(Integrator integrator, double step_share, std::uint64_t seed
     scene.allow_unstable = true;
     const MassProperties own = mass_properties(scene, scene.bodies[0]);
     scene.time_step = step_share * std::sqrt(own.mass / stiff);  // two corners on a wall, or 2/√(k/m·(1 + 3)) of one
-    World world = build_world(std::move(scene));
     const double energy = 0.5 * own.mass * dot(body.velocity, body.velocity) + 0.5 * own.moment * body.spin * body.spin;
+    World world = build_world(std::move(scene));
     double last = 0.0;
     for (int n = 0; n < static_cast<int>(10000.0 / step_share); ++n) {
         const double error = energy_now(world) / energy;
@@ -276,7 +265,7 @@ constexpr double down = 0.1, along = 0.3, angle = 15.0;  // m/s, degrees
 Oblique oblique(Integrator integrator, double step_share, double phase) {
     const double mu = std::tan(angle * std::numbers::pi / 180.0), dt = step_share * 2.0 * std::sqrt(mass / kn);
     Scene scene;
-    scene.materials = {smooth(angle)};
+    scene.materials = {undamped_rock(kn, angle)};
     scene.domain = {-1e3, 1e3, 0.0, 1e3, {false, false, true, false}};
     scene.add_circle_body(1, 0, {{0.0, radius + (1.0 + phase) * down * dt}, radius, 0.0});
     scene.bodies[0].velocity = {along, -down};

@@ -9,18 +9,14 @@
 #include <string>
 
 #include "solver/world.hpp"
+#include "specimens/catalogue/materials.hpp"
 #include "specimens/random_numbers.hpp"
 
 namespace crackle::verification {
 
 /// The shipped rock's stiffness: k_n 1e7 N/m, k_s = k_n/4, density 2500 kg/m2; frictional, undamped.
 inline Material rock(double friction_angle = 27.0, double shear_share = 0.25) {
-    Material material;
-    material.density = 2500.0;
-    material.normal_stiffness = 1e7;
-    material.shear_stiffness = shear_share * 1e7;
-    material.friction_angle = friction_angle;
-    return material;
+    return undamped_rock(1e7, friction_angle, shear_share);
 }
 
 struct Momentum {

@@ -53,13 +53,14 @@ TEST_F(BenchCommand, AccuracyWritesATableAndItsPicture) {
         EXPECT_GT(std::stod(words[5]), 0.0) << line;
         error[words[0] + ' ' + words[2] + ' ' + words[3] + ' ' + words[4]] = std::stod(words[6]);
     }
-    EXPECT_EQ(error.size(), 20u);
+    EXPECT_EQ(error.size(), 21u);
     EXPECT_LT(error.at("bounce_energy consistent time_step 0.2"), 1e-9);
     EXPECT_GT(error.at("bounce_energy leapfrog time_step 0.2"), 1e-4);
     // Second order in the step.
     EXPECT_NEAR(error.at("chain_wave leapfrog time_step 0.4") / error.at("chain_wave leapfrog time_step 0.2"), 4.0,
                 0.5);
     EXPECT_LT(error.at("peak_circles leapfrog time_step 0.4"), 0.5);
+    EXPECT_LT(error.at("peak_circles leapfrog rate_tolerance 0.05"), 0.5);
     EXPECT_NE(read("curves/accuracy.gp").find("plot $bounce_energy_0"), std::string::npos);
     // Where there is no gnuplot, the message says so and the table is there all the same.
     if (answer.err.find("found no gnuplot") == std::string::npos) {

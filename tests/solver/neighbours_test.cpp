@@ -172,6 +172,50 @@ TEST(NeighbourList, MissesNoTouchingPointInMotionBetweenRebuilds) {
     }
 }
 
+TEST(NeighbourList, SkinOfABondedWorldFollowsTheMotionMissesNothingAndChangesNothing) {
+    ShakenCells request;
+    request.columns = 8, request.rows = 8;
+    Scene scene = shaken_cells(request, rock());
+    scene.domain.wall_present = {false, false, false, false};
+    scene.time_step = 2e-5;
+    World follows = build_world(scene);
+    const double widest = follows.skin;
+    scene.skin = widest;
+    World stays = build_world(scene);
+    for (World* world : {&follows, &stays}) bond_all(*world, 1.08e-3);
+    std::size_t fewest = follows.points.size();
+    double narrowest = widest, widest_again = 0.0;
+    const auto run = [&](int steps) {
+        for (int n = 0; n < steps; ++n) {
+            for (World* world : {&follows, &stays}) compute_forces(*world);
+            fewest = std::min(fewest, follows.points.size());
+            narrowest = std::min(narrowest, follows.skin);
+            if (n % 37 == 0) {
+                EXPECT_EQ(missed(follows), 0u) << "step " << follows.step;
+            }
+            for (World* world : {&follows, &stays}) advance(*world);
+        }
+        widest_again = follows.skin;
+    };
+    run(200);  // at rest
+    fmt::print("  at rest: skin {:.3g} of {:.3g} m, {} points of {}\n", narrowest, widest, fewest, stays.points.size());
+    EXPECT_LT(narrowest, 0.02 * widest);
+    EXPECT_LT(fewest, stays.points.size());
+    for (World* world : {&follows, &stays}) testing::shake(*world, 20.0 * testing::breaking_energy(*world), 5);
+    run(1500);
+    EXPECT_GT(follows.bonds_broken, 50);
+    EXPECT_GT(widest_again, 0.2 * widest);
+    EXPECT_EQ(stays.skin, widest);
+    EXPECT_GT(follows.list_builds, stays.list_builds);
+    fmt::print("  flying apart: skin {:.3g} m, {} bonds broken, {} rebuilds against {}\n", widest_again,
+               follows.bonds_broken, follows.list_builds, stays.list_builds);
+    ASSERT_EQ(follows.bonds_broken, stays.bonds_broken);
+    for (std::size_t b = 0; b < follows.bodies.size(); ++b) {
+        ASSERT_EQ(follows.bodies[b].x, stays.bodies[b].x) << "body " << b;
+        ASSERT_EQ(follows.bodies[b].omega, stays.bodies[b].omega) << "body " << b;
+    }
+}
+
 TEST(NeighbourList, RebuildKeepsSpringsBondsAndFlags) {
     DisorderedDiscs request;
     request.columns = 8, request.rows = 8, request.shake = 5e-5;

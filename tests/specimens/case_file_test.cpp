@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
@@ -110,6 +111,32 @@ TEST_F(CaseFile, IncludesNestButNotInARing) {
     EXPECT_EQ(test.inputs.size(), 3u);
     std::ofstream(scratch_ / "rock.toml") << "include = \"faster.toml\"\n";
     EXPECT_NE(refusal("include = \"faster.toml\"\n").find("expected no ring"), std::string::npos);
+}
+
+TEST_F(CaseFile, OwnWayOfSayingItStandsOverTheIncludedFiles) {
+    std::ofstream(scratch_ / "rock.toml") << good_case;
+    const TestCase test = read("include = \"rock.toml\"\n[loading]\nrate_tolerance = 0.01\n");
+    EXPECT_EQ(test.loading.rate_tolerance, 0.01);
+    EXPECT_FALSE(test.loading.axial_strain_rate.has_value()) << "the included file's";
+    EXPECT_FALSE(test.position.contains("loading.axial_strain_rate"));
+    EXPECT_NE(refusal("include = \"rock.toml\"\n[loading]\nrate_tolerance = 0.01\naxial_strain_rate = 1\n")
+                  .find("expected one of them"),
+              std::string::npos)
+        << "both in one file";
+}
+
+TEST_F(CaseFile, EveryOtherWayIsAKeyThatCanBeAbsent) {
+    for (const Alternatives& ways : case_alternatives()) {
+        for (const auto& way : ways) {
+            for (const std::string& full_key : way) {
+                const auto& all = case_parameters();
+                const auto p =
+                    std::find_if(all.begin(), all.end(), [&](const auto& q) { return q.full_key() == full_key; });
+                ASSERT_NE(p, all.end()) << full_key;
+                EXPECT_TRUE(p->forget) << full_key;
+            }
+        }
+    }
 }
 
 TEST_F(CaseFile, PathsAreRelativeToTheFileThatWritesThem) {

@@ -104,6 +104,20 @@ TEST_F(ByTolerance, GivesThePeakOfASlowRunInFewerSteps) {
     EXPECT_TRUE(within("energy closing error over the work", end.energy_error / end.platen_work, 0.0, 1e-3));
 }
 
+TEST_F(ByTolerance, TakesTheSameStepsHoweverFarApartTheRowsOfTheCurveAre) {
+    TestCase description = small_case({});
+    description.loading.axial_strain_rate.reset();
+    description.loading.rate_tolerance = 0.02;
+    const VirtualTest close = tested(description);
+    description.loading.max_axial_strain *= 7.0;  // rows share it out
+    const VirtualTest apart = tested(description);
+    EXPECT_GT(close.state.rows[1].axial_strain * 6.0, apart.state.rows[1].axial_strain);
+    EXPECT_GT(apart.state.rows[1].axial_strain, 2.0 * close.state.rows[1].axial_strain);
+    EXPECT_EQ(close.state.rate.largest_stress, apart.state.rate.largest_stress);
+    EXPECT_TRUE(
+        agrees("peak of the curve, N/m", apart.state.failure.peak_stress, close.state.failure.peak_stress, 0.01));
+}
+
 TEST_F(ByTolerance, StatedErrorCoversAFiveTimesSlowerRun) {
     SmallCase wanted;
     wanted.mesh = "voronoi";
@@ -122,23 +136,25 @@ TEST_F(ByTolerance, StatedErrorCoversAFiveTimesSlowerRun) {
     EXPECT_LE(errors->peak_stress.stated, 0.05);
 }
 
-TEST_F(ByTolerance, RateAndToleranceTogetherOrNeitherAreRefused) {
-    const auto refusal = [&](const std::string& from, const std::string& to) {
+TEST_F(ByTolerance, HoldsWhereNoRateIsGivenAndRefusesARateBesideIt) {
+    const auto answer = [&](const std::string& from, const std::string& to) {
         const auto path = testing::write_small_case(scratch_ / "", {});
         std::string text = read_text_file(path);
         text.replace(text.find(from), from.size(), to);
         std::ofstream(path) << text;
         try {
-            read_case(path);
+            const TestCase test = read_case(path);
+            if (test.loading.rate_tolerance == 0.01 && !test.loading.axial_strain_rate) return std::string("tolerance");
         } catch (const InputError& error) {
             return std::string(error.what());
         }
-        return std::string("accepted");
+        return std::string("rate");
     };
-    EXPECT_NE(refusal("max_axial_strain", "rate_tolerance = 0.01\nmax_axial_strain").find("expected one of them"),
+    EXPECT_NE(answer("max_axial_strain", "rate_tolerance = 0.01\nmax_axial_strain").find("expected one of them"),
               std::string::npos);
-    EXPECT_NE(refusal("axial_strain_rate = 0.02\n", "").find("or write rate_tolerance"), std::string::npos);
-    EXPECT_EQ(refusal("axial_strain_rate = 0.02", "rate_tolerance = 0.01"), "accepted");
+    EXPECT_EQ(answer("axial_strain_rate = 0.02\n", ""), "tolerance");
+    EXPECT_EQ(answer("axial_strain_rate = 0.02", "rate_tolerance = 0.01"), "tolerance");
+    EXPECT_EQ(answer("max_axial_strain", "max_axial_strain"), "rate");
 }
 
 }  // namespace

@@ -31,6 +31,7 @@ constexpr int steps_between_questions = 64;  // of the loading loop, whether to 
 TestCase fast_case() {
     TestCase test =
         read_case(std::filesystem::path(CRACKLE_SOURCE_DIR) / "specimens/guide_rock/voronoi_compression.toml");
+    test.loading.rate_tolerance.reset();
     test.loading.axial_strain_rate = 0.05;
     return test;
 }
