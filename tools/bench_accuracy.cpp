@@ -65,7 +65,6 @@ constexpr Curve curves[] = {
     {"rounded", "consistent", "axial_strain_rate", "rounded, consistent: loading rate", "lc rgb '#d55e00' pt 4 dt 2"},
     {"demseg", "leapfrog", "axial_strain_rate", "demseg, leapfrog: loading rate", "lc rgb '#009e73' pt 8 dt 2"},
     {"rounded", "leapfrog", "rate_tolerance", "rounded, leapfrog: rate tolerance", "lc rgb '#000000' pt 11 dt 3"},
-    {"demseg", "leapfrog", "rate_tolerance", "demseg, leapfrog: rate tolerance", "lc rgb '#999999' pt 11 dt 3"},
 };
 
 // An error of 0 has no place on a logarithmic axis; it is drawn at the rounding of a double.

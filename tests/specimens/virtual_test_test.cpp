@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "solver/errors.hpp"
 #include "tests/support/claim.hpp"
@@ -198,6 +199,32 @@ TEST_F(VirtualRock, EnergyOfARunToFailureClosesBetterWithTheStep) {
     }
     EXPECT_LT(std::abs(errors[0]), 1e-4);
     EXPECT_LT(std::abs(errors[2]), 0.3 * std::abs(errors[0])) << "a sixteenth, but for where single breaks fall";
+}
+
+TEST_F(VirtualRock, NoTermOfTheAccountOfEnergyCouldBeMissing) {
+    // Each loss alone is far more than what the account leaves open, of the dashpots each direction by itself.
+    for (const bool shear : {false, true}) {
+        SmallCase wanted;
+        wanted.mesh = "voronoi";
+        TestCase description = read_case(write_small_case(scratch_ / "", wanted));
+        description.material.damping_ratio.reset();
+        description.material.normal_damping = shear ? 0.0 : 2000.0;  // N s/m, about 0.2 of critical
+        description.material.shear_damping = shear ? 1000.0 : 0.0;
+        VirtualTest test = prepare_test(description);
+        load_specimen(test);
+        ASSERT_GT(test.world.bonds_broken, 0);
+        const CurveRow& end = test.state.rows.back();
+        const double open = std::abs(end.energy_error / end.platen_work);
+        const std::map<std::string, double> terms{{shear ? "shear dashpots" : "normal dashpots", end.dashpot_loss},
+                                                  {"friction", end.friction_loss},
+                                                  {"fracture", end.fracture_loss},
+                                                  {"strain", end.strain_energy},
+                                                  {"kinetic", end.kinetic_energy}};
+        for (const auto& [name, joules] : terms) {
+            fmt::print("  {}: {:.3g} of the work, {:.2g} left open\n", name, joules / end.platen_work, open);
+            EXPECT_GT(joules / end.platen_work, 5.0 * open) << name;
+        }
+    }
 }
 
 TEST_F(VirtualRock, TooLargeATimeStepIsRefusedWithTheBound) {
