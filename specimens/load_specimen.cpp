@@ -93,7 +93,7 @@ class LoadingLoop {
             // An end that instability brought about is none.
             if (ended || world_.step % steps_between_health_checks == 0) check_health(world_);
             if (ended) break;
-            if (setup_.rate_rule.tolerance > 0.0) follow_tolerance(strain);
+            if (setup_.rate_rule.tolerance > 0.0) follow_tolerance();
             advance(world_);
         }
         peak_.draw(world_, setup_, state_);
@@ -107,13 +107,13 @@ class LoadingLoop {
     }
 
     /// The platen's speed by the inertia error.
-    void follow_tolerance(double strain) {
+    void follow_tolerance() {
         const RateRule& rule = setup_.rate_rule;
         const double top = world_.forces[setup_.top].fy, bottom = world_.forces[setup_.bottom].fy;
         watch_balance(state_.rate, rule, top / setup_.width, -bottom / setup_.width, world_.drift);
         if (world_.time < state_.rate.next_look) return;
         const Ledger ledger = measure_ledger(world_);
-        choose_rate(state_.rate, rule, strain, ledger.kinetic, ledger.strain, world_.time);
+        choose_rate(state_.rate, rule, ledger.kinetic, ledger.strain, world_.time);
         const double speed = state_.rate.rate * setup_.height;
         change_velocity(world_, setup_.top, 1, setup_.compression ? -speed : speed);
     }

@@ -9,19 +9,15 @@ namespace {
 // Changes of ln(rate) a transit, over sqrt(tolerance): for an error of e times the tolerance, and at most.
 constexpr double gain = 1.0, fastest_rise = 1.0, fastest_fall = 4.0;
 // The rate never falls below this share of its limit: after a break a specimen rings on for a while at any rate.
-constexpr double slowest_share = 0.05;
+constexpr double slowest_share = 0.15;
 // Errors far below the tolerance say nothing more.
 constexpr double least_error_share = 1e-6;
 
-double rate_limit(const RateRule& rule, double strain) {
-    return std::sqrt(rule.tolerance) * std::max(strain, rule.first_strain) / rule.transit_time;
-}
-
 }  // namespace
 
-double first_rate(const RateRule& rule) { return rate_limit(rule, 0.0); }
+double largest_rate(const RateRule& rule) { return std::sqrt(rule.tolerance) * rule.first_strain / rule.transit_time; }
 
-void choose_rate(RateState& state, const RateRule& rule, double strain, double kinetic, double stored, double time) {
+void choose_rate(RateState& state, const RateRule& rule, double kinetic, double stored, double time) {
     const double loading = state.rate * state.rate * rule.kinetic_per_rate;
     const double share = std::max(0.0, kinetic - loading) / std::max(stored, rule.energy_floor);
     state.kinetic_share += (share - state.kinetic_share) / looks_per_transit;
@@ -30,7 +26,7 @@ void choose_rate(RateState& state, const RateRule& rule, double strain, double k
     const double push = -std::log(std::max(error / rule.tolerance, least_error_share));
     const double root = std::sqrt(rule.tolerance);
     const double change = std::clamp(gain * root * push, -fastest_fall * root, fastest_rise * root) / looks_per_transit;
-    const double limit = rate_limit(rule, strain);
+    const double limit = largest_rate(rule);
     const double before = state.rate;
     state.rate = std::clamp(before * std::exp(change), slowest_share * limit, limit);
     state.slowest = std::min(state.slowest, state.rate);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Quasi-static loading by tolerance: the platen's speed follows the inertia error.
 //
-// A platen that is speeded up from transit to transit, T = height/sqrt(E/ρ), by a factor e^s sends waves of a stress of
-// about ½s² of what the specimen bears: strain so far ε growing as exp(s t/T) is out of balance by that. So the rate is
-// at most sqrt(tolerance)·ε/T, half the tolerance by this estimate. Below that it follows two measured errors, smoothed
+// Loading starts in motion, with the velocities of the elastic solution, so that it sends no shock: while the specimen is
+// elastic, any constant rate is as good as rest. What a rate costs comes when the specimen changes: in a transit
+// T = height/sqrt(E/ρ) of a wave the strain grows by rate·T, so the rate is at most sqrt(tolerance)·ε1/T, ε1 the strain
+// at which the linear solution has its first points slide or break. Below that it follows two measured errors, smoothed
 // over a transit:
 //     out-of-balance   |σ_top - σ_bottom| over the largest stress so far
 //     kinetic share    kinetic energy beyond that of the loading itself, over the strain energy
-// The larger of the two over the tolerance drives ln(rate): slow through bursts of breaks, faster where nothing
-// happens. Loading starts in motion, with the velocities of the elastic solution, so that it sends no shock.
+// The larger of the two over the tolerance drives ln(rate): slow through bursts of breaks, faster where nothing happens.
 #pragma once
 
 #include <algorithm>
@@ -39,8 +39,8 @@ struct RateState {
 /// Looks a transit: the rate changes little from one to the next, so that changing it sends no shock.
 inline constexpr double looks_per_transit = 20.0;
 
-/// The rate to begin with.
-double first_rate(const RateRule& rule);
+/// The rate to begin with, never exceeded.
+double largest_rate(const RateRule& rule);
 
 /// Smooths the out-of-balance of one step, at every step, so that nothing depends on the rows of the curve.
 /// @param top, bottom axial stress of the specimen at its platens, N/m, of the same sign
@@ -53,6 +53,6 @@ inline void watch_balance(RateState& state, const RateRule& rule, double top, do
 
 /// The coming rate, taken into the state. @param strain axial, >= 0
 /// @param kinetic, stored energies of the specimen, J
-void choose_rate(RateState& state, const RateRule& rule, double strain, double kinetic, double stored, double time);
+void choose_rate(RateState& state, const RateRule& rule, double kinetic, double stored, double time);
 
 }  // namespace crackle

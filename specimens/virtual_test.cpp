@@ -150,7 +150,7 @@ void start_by_tolerance(VirtualTest& test, const std::optional<SmallStrain>& sol
     rule.stress_floor = modulus * rule.first_strain;
     rule.energy_floor = 0.5 * rule.stress_floor * rule.first_strain * area;
     RateState& rate = test.state.rate;
-    rate.rate = rate.slowest = rate.fastest = first_rate(rule);
+    rate.rate = rate.slowest = rate.fastest = largest_rate(rule);
     for (BodyState& body : world.bodies) {
         body.vx *= rate.rate;
         body.vy *= rate.rate;

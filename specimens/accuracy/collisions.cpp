@@ -21,8 +21,8 @@ constexpr Integrator both[] = {Integrator::leapfrog, Integrator::consistent};
 
 /// Steps over the stable one, halved from the largest on.
 std::vector<double> shares(double largest, int count, bool quick) {
-    std::vector<double> list;
-    for (int k = 0; k < (quick ? 3 : count); ++k) list.push_back(largest * std::ldexp(1.0, -k));
+    std::vector<double> list(quick ? 3U : static_cast<std::size_t>(count), largest);
+    for (std::size_t k = 1; k < list.size(); ++k) list[k] = 0.5 * list[k - 1];
     return list;
 }
 
@@ -175,6 +175,7 @@ std::vector<AccuracyRow> polygon_collision(bool quick) {
     const std::vector<double> steps = shares(0.4, 8, quick);
     for (const SegmentLaw law : {SegmentLaw::rounded, SegmentLaw::demseg}) {
         std::vector<Squares> exact;
+        exact.reserve(starts);
         for (int k = 0; k < starts; ++k) exact.push_back(collide(law, Integrator::leapfrog, steps.back() / 16.0, k));
         for (const Integrator integrator : both) {
             if (law != SegmentLaw::rounded && integrator == Integrator::consistent) continue;  // leapfrog there

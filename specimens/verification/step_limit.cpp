@@ -90,10 +90,11 @@ Growth measured_growth(World world, const std::vector<Motion>& mode, double time
         world.bodies[b].omega += speed * mode[b].rotation;
     }
     const int steps = std::clamp(static_cast<int>(std::log(1e6) / std::log(predicted)), 2, 100000);
-    for (int n = 0; n < steps / 2; ++n) step(world);
+    const int first = steps / 2, rest = steps - first;
+    for (int n = 0; n < first; ++n) step(world);
     const double half = projection.of(world);
-    for (int n = steps / 2; n < steps; ++n) step(world);
-    return {std::pow(std::abs(projection.of(world) / half), 1.0 / (steps - steps / 2)), world.bonds_broken};
+    for (int n = 0; n < rest; ++n) step(world);
+    return {std::pow(std::abs(projection.of(world) / half), 1.0 / rest), world.bonds_broken};
 }
 
 }  // namespace

@@ -161,6 +161,7 @@ Rest stand(Scene scene, double time) {
     World world = build_world(std::move(scene));
     const auto positions = [&] {
         std::vector<Vec2> all;
+        all.reserve(world.bodies.size());
         for (const BodyState& body : world.bodies) all.push_back({body.x, body.y});
         return all;
     };
@@ -284,7 +285,9 @@ std::vector<ClaimRow> degenerate_shapes_are_refused_or_handled() {
         handled("corner exactly on corner" + by, std::move(corners));
         Scene four = open_scene();
         four.segment_law = law;
-        for (int k = 0; k < 4; ++k) add_brick(four, k + 1, {0.04 * (k % 2), 0.04 * (k / 2)}, 0.04, 0.04);
+        int id = 0;
+        for (const double y : {0.0, 0.04})
+            for (const double x : {0.0, 0.04}) add_brick(four, ++id, {x, y}, 0.04, 0.04);
         handled("four corners in one place" + by, std::move(four));
         Scene faces = open_scene();
         faces.segment_law = law;

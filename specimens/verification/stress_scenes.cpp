@@ -68,7 +68,8 @@ World build(const Box& box) {
     scene.domain = {0.0, spacing * box.columns, 0.0, 2.0 * spacing * box.rows, {true, true, true, true}};
     scene.gravity = {0.0, -9.81};
     for (int k = 0; k < box.columns * box.rows; ++k) {
-        const Vec2 centre{spacing * (k % box.columns + 0.5), spacing * (k / box.columns + 0.5)};
+        const int row = k / box.columns, column = k % box.columns;
+        const Vec2 centre{spacing * (column + 0.5), spacing * (row + 0.5)};
         // Sizes even in their logarithm, so that all decades are there.
         const double reach = 0.5 * size * std::pow(box.smallest, uniform_number(generator));
         const int material = k % static_cast<int>(box.materials.size());

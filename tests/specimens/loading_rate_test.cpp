@@ -28,23 +28,23 @@ RateRule rule_of(double tolerance) {
     return rule;
 }
 
-/// Rate after 200 looks, ten transits, at a steady error.
+/// Rate after 400 looks, twenty transits, at a steady error.
 double rate_after(double error, double tolerance) {
     const RateRule rule = rule_of(tolerance);
     RateState state;
-    state.rate = first_rate(rule);
+    state.rate = largest_rate(rule);
     state.out_of_balance = error;
-    for (int n = 0; n < 200; ++n) choose_rate(state, rule, 1e-3, 0.0, 1.0, n * 5e-4);
+    for (int n = 0; n < 400; ++n) choose_rate(state, rule, 0.0, 1.0, n * 5e-4);
     return state.rate;
 }
 
 TEST(LoadingRate, StaysAtItsLimitWhereNothingHappensAndFallsWithTheError) {
-    const double limit = std::sqrt(0.01) * 1e-3 / 0.01;
-    EXPECT_TRUE(agrees("first rate, 1/s", first_rate(rule_of(0.01)), 0.1 * limit, 1e-12));
+    const double limit = std::sqrt(0.01) * 1e-4 / 0.01;
+    EXPECT_TRUE(agrees("first rate, 1/s", largest_rate(rule_of(0.01)), limit, 1e-12));
     EXPECT_LT(rate_after(0.03, 0.01), rate_after(0.005, 0.01));
     EXPECT_LE(rate_after(0.0, 0.01), limit * (1.0 + 1e-12));
-    EXPECT_TRUE(agrees("rate at an error of the tolerance itself", rate_after(0.01, 0.01), 0.1 * limit, 1e-12));
-    EXPECT_GE(rate_after(1e3, 0.01), 0.05 * limit * (1.0 - 1e-12))
+    EXPECT_TRUE(agrees("rate at an error of the tolerance itself", rate_after(0.01, 0.01), limit, 1e-12));
+    EXPECT_TRUE(agrees("rate at any error, 1/s", rate_after(1e3, 0.01), 0.15 * limit, 1e-9))
         << "a specimen that rings is not waited for for ever";
 }
 
