@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Quasi-static loading by tolerance: the platen's speed follows the inertia error.
 //
-// Loading starts in motion, with the velocities of the elastic solution, so that it sends no shock: while the specimen is
-// elastic, any constant rate is as good as rest. What a rate costs comes when the specimen changes: in a transit
-// T = height/sqrt(E/ρ) of a wave the strain grows by rate·T, so the rate is at most sqrt(tolerance)·ε1/T, ε1 the strain
-// at which the linear solution has its first points slide or break. Below that it follows two measured errors, smoothed
+// Loading starts in motion, with the velocities of the elastic solution, so that it sends no shock: while the specimen
+// is elastic, any constant rate is as good as rest. What a rate costs comes when the specimen changes: in a transit T =
+// height/sqrt(E/ρ) of a wave the strain grows by rate·T, so the rate is at most sqrt(tolerance)·ε1/T, ε1 the strain at
+// which the linear solution has its first points slide or break. Below that it follows two measured errors, smoothed
 // over a transit:
 //     out-of-balance   |σ_top - σ_bottom| over the largest stress so far
 //     kinetic share    kinetic energy beyond that of the loading itself, over the strain energy
-// The larger of the two over the tolerance drives ln(rate): slow through bursts of breaks, faster where nothing happens.
+// The larger of the two over the tolerance drives ln(rate): slow through bursts of breaks, faster where nothing
+// happens.
 #pragma once
 
 #include <algorithm>
