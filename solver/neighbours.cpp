@@ -6,7 +6,7 @@
 // user hint. In a bonded world the skin is as narrow as the motion allows, so that points which nothing brings together
 // cost nothing: a mesh has many corners that face each other over a gap. Pairs are sorted, their points emitted in that
 // order, and what a point remembers (shear spring, bond, flags) is carried over by one linear merge of the old list
-// with the new one. Everything depends on positions alone, never on the number of threads.
+// with the new one. Everything depends on positions and steps alone, never on the number of threads.
 
 #include <fmt/format.h>
 

@@ -206,6 +206,7 @@ TEST_F(VirtualRock, NoTermOfTheAccountOfEnergyCouldBeMissing) {
     for (const bool shear : {false, true}) {
         SmallCase wanted;
         wanted.mesh = "voronoi";
+        wanted.numerics = "safety_factor = 0.4";
         TestCase description = read_case(write_small_case(scratch_ / "", wanted));
         description.material.damping_ratio.reset();
         description.material.normal_damping = shear ? 0.0 : 2000.0;  // N s/m, about 0.2 of critical
@@ -222,7 +223,7 @@ TEST_F(VirtualRock, NoTermOfTheAccountOfEnergyCouldBeMissing) {
                                                   {"kinetic", end.kinetic_energy}};
         for (const auto& [name, joules] : terms) {
             fmt::print("  {}: {:.3g} of the work, {:.2g} left open\n", name, joules / end.platen_work, open);
-            EXPECT_GT(joules / end.platen_work, 5.0 * open) << name;
+            EXPECT_GT(joules / end.platen_work, 10.0 * open) << name;
         }
     }
 }
