@@ -136,7 +136,8 @@ Vector solve(const ScaledSystem& system, const Vector& load, double& residual) {
 
 }  // namespace
 
-ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>& prescribed) {
+ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>& prescribed,
+                              const std::vector<Motion>& loads) {
     if (prescribed.empty()) throw InputError("elastic solve: found no prescribed body, expected at least one platen");
     ElasticSolution solution;
     solution.displacement.assign(world.bodies.size(), Motion{});
@@ -155,6 +156,13 @@ ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>&
             for (std::size_t a = 0; a < 6; ++a) {
                 const int row = system.number(s, a);
                 if (row >= 0) load[row] -= s.stiffness * imposed * s.push[a] * system.scale(row);
+            }
+        }
+        for (std::size_t b = 0; b < loads.size(); ++b) {
+            const double force[3] = {loads[b].x, loads[b].y, loads[b].rotation};
+            for (int d = 0; d < 3; ++d) {
+                const int row = system.number(b, d);
+                if (row >= 0) load[row] += force[d] * system.scale(row);
             }
         }
         const Vector u = solve(system, load, solution.residual);

@@ -36,8 +36,11 @@ struct ElasticSolution {
     std::int64_t unknowns = 0;         ///< free degrees of freedom
 };
 
-/// @throws InputError if nothing is prescribed, or the refinement does not reach a residual of 1e-9.
-ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>& prescribed);
+/// @param loads forces (N) and torque (N m) on every body, besides what is prescribed; empty: none
+/// @throws InputError if nothing is prescribed, or the refinement does not reach a residual of 1e-9: loads on bodies that
+/// nothing holds have no solution.
+ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>& prescribed,
+                              const std::vector<Motion>& loads = {});
 
 /// Motions without energy of a world whose `held` bodies stay in place.
 struct FreeMotions {

@@ -99,6 +99,9 @@ struct TestCase {
         double out_of_plane_thickness = 0.0;  // m
     } output;
 
+    /// No key: the companions of a test are made with it. Times the damping of every material, after packing.
+    double damping_scale = 1.0;
+
     std::filesystem::path source;                 ///< the case file
     std::map<std::string, std::string> position;  ///< "table.key" → "file:line", for keys that somebody wrote
     std::map<std::string, bool> table_present;    ///< "packing", "mesh", …

@@ -144,8 +144,8 @@ std::vector<Parameter> all_parameters() {
             .below(1e6),
         CRACKLE_KEY(
             loading, rate_tolerance, "",
-            "The platen's speed is chosen so that the inertia error (out-of-balance of the platens, kinetic over "
-            "strain energy) stays below this.")
+            "Sets the platen's largest speed, by sqrt(rate_tolerance), and slows it down to 0.15 of that while the "
+            "inertia error (out-of-balance of the platens, kinetic over strain energy) is above this.")
             .otherwise(0.01)
             .above(0)
             .at_most(1),

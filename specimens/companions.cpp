@@ -6,33 +6,29 @@
 #include <algorithm>
 #include <cmath>
 #include <future>
+#include <limits>
 #include <thread>
 #include <utility>
+
+#include "solver/errors.hpp"
 
 namespace crackle {
 namespace {
 
-constexpr double student_two = 4.303;  // 97.5 % point, two degrees of freedom
+constexpr double student_two = 2.920;      // 95 % point, two degrees of freedom
+constexpr double convergence_index = 3.0;  // two grids, first order
+constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
 struct Plan {
     std::string name;
     TestCase description;
 };
 
-void scale_damping(TestCase& test, double by) {
-    TestCase::MaterialKeys& m = test.material;
-    if (m.normal_damping) {
-        *m.normal_damping *= by;
-        *m.shear_damping *= by;
-    } else {
-        m.damping_ratio = by * m.damping_ratio.value_or(default_damping_ratio);
-    }
-}
-
-std::vector<Plan> plans_for(const TestCase& asked) {
+std::vector<Plan> plans_for(const TestCase& asked, int threads) {
     std::vector<Plan> plans;
     const auto plan = [&](const char* name) -> TestCase& {
         plans.push_back({name, asked});
+        plans.back().description.numerics.threads = threads;
         return plans.back().description;
     };
     TestCase& step = plan("half_time_step");
@@ -40,13 +36,10 @@ std::vector<Plan> plans_for(const TestCase& asked) {
     step.numerics.safety_factor *= 0.5;
     TestCase& rate = plan("half_rate");
     rate.loading.scale_rate(0.5);
-    // A particle file's own damping is not ours to scale.
-    if (asked.has_table("packing") || asked.material.damping_ratio || asked.material.normal_damping) {
-        scale_damping(plan("half_damping"), 0.5);
-        TestCase& doubled = plan("double_damping");
-        scale_damping(doubled, 2.0);
-        doubled.numerics.time_step.reset();  // more damping needs a smaller step
-    }
+    plan("half_damping").damping_scale = 0.5;
+    TestCase& doubled = plan("double_damping");
+    doubled.damping_scale = 2.0;
+    doubled.numerics.time_step.reset();  // more damping needs a smaller step
     return plans;
 }
 
@@ -73,45 +66,78 @@ double post_peak_difference(const VirtualTest& test, const VirtualTest& other) {
     return count > 0 ? sum / static_cast<double>(count) / test.state.failure.peak_stress : 0.0;
 }
 
-/// @return nothing if interrupted or without a peak
+/// @return nothing if interrupted
 std::optional<Companion> run_one(const Plan& plan, const VirtualTest& test, const TestHooks& hooks) {
     TestHooks quiet;
     quiet.interrupted = hooks.interrupted;
-    VirtualTest other = prepare_test(plan.description, quiet);
-    load_specimen(other, quiet);
-    if (other.state.ended_by.empty() || other.state.failure.peak_row < 0) return std::nullopt;
+    VirtualTest other;
+    try {
+        other = prepare_test(plan.description, quiet);
+        load_specimen(other, quiet);
+    } catch (const TestInterrupted&) {
+        return std::nullopt;
+    } catch (const UnstableRun&) {
+        return Companion{plan.name, undefined, undefined, ended_by_instability, other.world.step, undefined};
+    }
+    if (other.state.ended_by.empty()) return std::nullopt;
     const FailureTracker& f = other.state.failure;
-    return Companion{plan.name, f.peak_stress,    f.peak_strain,
-                     f.failed,  other.world.step, post_peak_difference(test, other)};
+    return Companion{plan.name,  f.peak_stress,    f.peak_strain, other.state.ended_by,
+                     other.world.step, post_peak_difference(test, other)};
 }
 
-NumberError error_of(double asked, const std::vector<Companion>& companions, double Companion::*value) {
+NumberError error_of(double asked, double resolution, const std::vector<Companion>& companions,
+                     double Companion::*value) {
     NumberError error;
+    error.resolution = resolution;
     std::vector<double> draws{asked};
     for (const Companion& c : companions) {
         const double change = std::abs(c.*value - asked) / std::abs(asked);
         if (c.name == "half_time_step") error.time_step = change;
         if (c.name == "half_rate") error.rate = change;
         if (c.name.ends_with("damping"))
-            error.damping = std::max(error.damping, change);
+            error.damping = std::isnan(change) ? change : std::max(error.damping, change);
         else
             draws.push_back(c.*value);
     }
     double mean = 0.0, square = 0.0;
     for (const double x : draws) mean += x / static_cast<double>(draws.size());
     for (const double x : draws) square += (x - mean) * (x - mean) / static_cast<double>(draws.size() - 1);
-    error.stated = student_two * std::sqrt(2.0 * square) / std::abs(asked);
+    const double chance = student_two * std::sqrt(2.0 * square) / std::abs(asked);
+    error.stated = resolution + std::max(chance, convergence_index * error.rate);  // not a number if one is
+    if (std::isnan(chance)) error.stated = undefined;
     return error;
+}
+
+/// How far the largest of the rows may lie from the peak between them: a spacing in strain, and in stress what the last
+/// row before it rose by.
+double resolved_stress(const VirtualTest& test) {
+    const FailureTracker& f = test.state.failure;
+    if (f.peak_row < 1) return 0.0;
+    const CurveRow& before = test.state.rows[static_cast<std::size_t>(f.peak_row - 1)];
+    return std::abs(f.peak_stress - before.axial_stress) / f.peak_stress;
+}
+double resolved_strain(const VirtualTest& test) {
+    const FailureTracker& f = test.state.failure;
+    if (f.peak_row < 1) return 0.0;
+    const CurveRow& before = test.state.rows[static_cast<std::size_t>(f.peak_row - 1)];
+    return (f.peak_strain - before.axial_strain) / f.peak_strain;
+}
+
+/// Whether companions by step and rate keep the peak. Comparisons with a value that is not a number are false.
+bool on_one_branch(const NumberError& stress, const NumberError& strain) {
+    return stress.time_step <= branch_stress_change && stress.rate <= branch_stress_change &&
+           strain.time_step <= branch_strain_change && strain.rate <= branch_strain_change;
 }
 
 }  // namespace
 
 std::optional<NumericalErrors> run_companions(const VirtualTest& test, const TestHooks& hooks) {
     if (test.state.failure.peak_row < 0) return std::nullopt;
-    const std::vector<Plan> plans = plans_for(test.description);
+    const std::vector<Plan> plans = plans_for(test.description, test.world.threads);
     if (hooks.stage) hooks.stage(fmt::format("verifying: {} companions of the test", plans.size()));
     std::vector<std::optional<Companion>> done(plans.size());
-    const std::size_t at_once = std::max(1U, std::thread::hardware_concurrency());
+    const std::size_t at_once = std::max(1U, std::thread::hardware_concurrency() /
+                                                 static_cast<unsigned>(std::max(1, test.world.threads)));
     for (std::size_t first = 0; first < plans.size(); first += at_once) {
         std::vector<std::future<std::optional<Companion>>> running;
         for (std::size_t k = first; k < std::min(plans.size(), first + at_once); ++k)
@@ -124,11 +150,9 @@ std::optional<NumericalErrors> run_companions(const VirtualTest& test, const Tes
         errors.companions.push_back(*companion);
     }
     const FailureTracker& f = test.state.failure;
-    errors.peak_stress = error_of(f.peak_stress, errors.companions, &Companion::peak_stress);
-    errors.peak_strain = error_of(f.peak_strain, errors.companions, &Companion::peak_strain);
-    errors.peak_converged = f.failed &&
-                            std::max(errors.peak_stress.time_step, errors.peak_stress.rate) <= branch_stress_change &&
-                            std::max(errors.peak_strain.time_step, errors.peak_strain.rate) <= branch_strain_change;
+    errors.peak_stress = error_of(f.peak_stress, resolved_stress(test), errors.companions, &Companion::peak_stress);
+    errors.peak_strain = error_of(f.peak_strain, resolved_strain(test), errors.companions, &Companion::peak_strain);
+    if (f.failed) errors.peak_converged = on_one_branch(errors.peak_stress, errors.peak_strain);
     return errors;
 }
 

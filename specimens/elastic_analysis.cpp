@@ -85,7 +85,7 @@ double yield_strain(const World& world, const TestSetup& setup, const Moduli& mo
 ElasticAnalysis analyse_elastic(const VirtualTest& test, double strain, int modes) {
     const World& world = test.world;
     const TestSetup& setup = test.setup;
-    const Moduli moduli = solve_moduli(world, setup);
+    const Moduli moduli = test.small_strain ? test.small_strain->moduli : solve_moduli(world, setup);
     ElasticAnalysis result;
     result.youngs_modulus = moduli.youngs_modulus;
     result.poissons_ratio = moduli.poissons_ratio;

@@ -124,6 +124,7 @@ class LoadingLoop {
         for (std::size_t k = events_counted_; k < world_.events.size(); ++k) {
             const BreakEvent& event = world_.events[k];
             ++(event.shear_mode ? state_.breaks_in_shear : state_.breaks_in_tension);
+            state_.breaks_after_sliding += event.slid ? 1 : 0;
             if (files_ != nullptr) files_->add_event(event, strain);
         }
         if (files_ != nullptr) world_.events.clear();

@@ -13,6 +13,11 @@ struct Moduli {
     ElasticSolution solution;  ///< for an axial strain of 1 in tension, the lower platen in place
 };
 
+struct SmallStrain {
+    Moduli moduli;
+    double yield_strain;  ///< axial, where the first points have given way by the linear solution; infinite: never
+};
+
 /// @param world bonded, with the platens and side particles of `setup`
 /// @throws InputError where there is no linear solution
 Moduli solve_moduli(const World& world, const TestSetup& setup);

@@ -34,6 +34,12 @@ void apply_material(const TestCase::MaterialKeys& keys, Material& material) {
     if (keys.shear_damping) material.shear_damping = *keys.shear_damping;
 }
 
+void scale_damping(Material& material, double by) {
+    if (material.damping_ratio) *material.damping_ratio *= by;
+    material.normal_damping *= by;
+    material.shear_damping *= by;
+}
+
 SizeDistribution sizes_of(const TestCase& test) {
     const auto& keys = test.packing;
     if (keys.sizes == "sieve") return read_sieve_curve(test.resolve_path("packing.sieve", *keys.sieve));
@@ -267,6 +273,7 @@ Specimen make_specimen(const TestCase& test, const TestHooks& hooks) {
     } else if (specimen.polygons) {
         measure_polygons(specimen, test);
     }
+    for (Material& material : specimen.scene.materials) scale_damping(material, test.damping_scale);
     specimen.width = specimen.scene.domain.x2 - specimen.scene.domain.x1;
     specimen.height = specimen.scene.domain.y2 - specimen.scene.domain.y1;
     return specimen;

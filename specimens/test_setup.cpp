@@ -104,7 +104,7 @@ TestSetup record_setup(const World& world, const Specimen& specimen, const Plate
     setup.segments = specimen.segments;
     setup.seeds = specimen.seeds;
     setup.stable_time_step = world.exact_step;
-    setup.stable_time_step_proved = world.exact_step_proved;
+    setup.stable_time_step_proved = world.exact_step_proved && world.segment_law == SegmentLaw::rounded;
     setup.time_step_bound = world.step_bound;
     setup.notices = specimen.notices;
     setup.packing = specimen.packing;

@@ -51,7 +51,7 @@ struct TestSetup {
     double mean_back_tension = 0.0;            // N, over bonded points
     double mean_back_tension_interface = 0.0;  // N, over pairs of bodies
     double stable_time_step = 0.0;             // s, exact, when bonds were made
-    bool stable_time_step_proved = false;      ///< by factorisation; else it is the bound
+    bool stable_time_step_proved = false;      ///< by factorisation; else it is a bound
     double time_step_bound = 0.0;              // s, kept up during the run; when loading began
 
     RateRule rate_rule;

@@ -35,7 +35,7 @@ struct TestState {
     std::vector<FrameEntry> frames;  ///< written so far
     std::int64_t next_frame = 0;     ///< due at this multiple of the strain between frames
     RateState rate;                  ///< loading by tolerance
-    std::int64_t breaks_in_shear = 0, breaks_in_tension = 0;
+    std::int64_t breaks_in_shear = 0, breaks_in_tension = 0, breaks_after_sliding = 0;
     std::string ended_by;  ///< empty while the test runs
 
     // Of the specimen with all bonds intact and sticking (sparse solve); not a number where there is no solution.

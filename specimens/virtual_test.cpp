@@ -21,6 +21,7 @@
 #include "specimens/observers/test_files.hpp"
 #include "specimens/output_folder.hpp"
 #include "specimens/platen_hold.hpp"
+#include "specimens/quasi_static_start.hpp"
 #include "specimens/sha256.hpp"
 
 namespace crackle {
@@ -28,6 +29,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
+using namespace nlohmann::literals;
 
 // Circles bond at the overlaps they have whatever the thickness; this one keeps platens thin beside the particles.
 constexpr double circle_thick_share = 0.1;  // of the mean radius
@@ -89,77 +91,47 @@ Bonded bond_specimen(const Specimen& specimen, const TestCase& test, const TestC
 // 0.1 to 1.3 of the strain at peak of the guide's six tests; single slivers give way at a thousandth of it.
 constexpr double first_yield_share = 0.02;
 
-struct SmallStrain {
-    Moduli moduli;
-    double yield_strain;  ///< axial, where the first points have given way
-};
-
-/// Small-strain solution of a world with bonded platens, or a notice why there is none.
-std::optional<SmallStrain> take_moduli(TestState& state, TestSetup& setup, const World& world, const TestSetup& own) {
+/// Linear solution of a world with bonded platens, or a notice why there is none.
+void take_small_strain(VirtualTest& test, const World& world, const TestSetup& own) {
     try {
         SmallStrain solved{solve_moduli(world, own), 0.0};
         solved.yield_strain = yield_strain(world, own, solved.moduli, first_yield_share);
-        state.youngs_modulus = solved.moduli.youngs_modulus;
-        state.poissons_ratio = solved.moduli.poissons_ratio;
-        state.modulus_residual = solved.moduli.solution.residual;
-        return solved;
+        test.state.youngs_modulus = solved.moduli.youngs_modulus;
+        test.state.poissons_ratio = solved.moduli.poissons_ratio;
+        test.state.modulus_residual = solved.moduli.solution.residual;
+        test.small_strain = std::move(solved);
     } catch (const InputError& error) {
-        setup.notices.push_back(fmt::format("no small-strain modulus: {}", error.what()));
-        return std::nullopt;
+        test.setup.notices.push_back(fmt::format("no small-strain modulus: {}", error.what()));
     }
 }
 
-/// Sets the specimen moving as its elastic solution does at the first rate of loading by tolerance; what carries no
-/// load, and everything where the platens are not bonded, moves in proportion to its height.
-/// @throws InputError where there is no elastic solution to take the rate from
-void start_by_tolerance(VirtualTest& test, const std::optional<SmallStrain>& solved) {
-    if (!solved || !(solved->moduli.youngs_modulus > 0.0)) {
-        throw InputError(
-            fmt::format("{}: found a specimen without elastic solution, expected one to derive the rate "
-                        "from; write axial_strain_rate in its place",
-                        test.description.at("loading.rate_tolerance")));
-    }
-    World& world = test.world;
-    TestSetup& setup = test.setup;
-    const bool bonded = test.description.loading.platens == "bonded";
-    const double sense = setup.compression ? -1.0 : 1.0;
-    const double bottom = world.bodies[setup.bottom].y, height = world.bodies[setup.top].y - bottom;
-    std::vector<bool> elastic(world.bodies.size(), bonded);
-    if (bonded) {
-        for (const BodyIndex b : find_free_motions(world, {setup.bottom, setup.top}).bodies) elastic[b] = false;
-    }
-    double mass = 0.0;
-    RateRule& rule = setup.rate_rule;
-    for (std::size_t b = 0; b < world.bodies.size(); ++b) {
-        BodyState& body = world.bodies[b];
-        Motion way{0.0, setup.height * (body.y - bottom) / height, 0.0};  // for a strain of 1 in tension
-        if (elastic[b]) way = solved->moduli.solution.displacement[b];
-        if (b == setup.bottom) way = {};
-        if (b == setup.top) way = {0.0, setup.height, 0.0};
-        body.vx = sense * way.x;
-        body.vy = sense * way.y;
-        body.omega = sense * way.rotation;
-        rule.kinetic_per_rate += 0.5 * (world.inertia[b].mass * (way.x * way.x + way.y * way.y) +
-                                        world.info[b].moment * way.rotation * way.rotation);
-        if (!setup.is_platen(static_cast<BodyIndex>(b))) mass += world.inertia[b].mass;
-    }
-    const double modulus = solved->moduli.youngs_modulus, area = setup.width * setup.height;
-    rule.tolerance = *test.description.loading.rate_tolerance;
-    rule.transit_time = setup.height / std::sqrt(modulus / (mass / area));
-    rule.first_strain = std::min(solved->yield_strain, test.description.loading.max_axial_strain);
-    rule.stress_floor = modulus * rule.first_strain;
-    rule.energy_floor = 0.5 * rule.stress_floor * rule.first_strain * area;
-    RateState& rate = test.state.rate;
-    rate.rate = rate.slowest = rate.fastest = largest_rate(rule);
-    for (BodyState& body : world.bodies) {
-        body.vx *= rate.rate;
-        body.vy *= rate.rate;
-        body.omega *= rate.rate;
-    }
-    change_velocity(world, setup.top, 1, sense * rate.rate * setup.height);
-    world.initial_energy_taken = false;  // the account begins with this motion
-    world.forces_current = false;
-    compute_forces(world);
+/// Bonds as deep as this share of a particle's size reach beyond the faces that lie against each other.
+constexpr double deep_bond_share = 0.1;
+
+void notice_deep_bonds(VirtualTest& test) {
+    const TestSetup& setup = test.setup;
+    if (!setup.polygons) return;
+    const double size = std::sqrt(setup.width * setup.height / static_cast<double>(setup.particles));
+    const double excess = setup.bond_thick - setup.mesh_thick;
+    if (excess <= deep_bond_share * size) return;
+    test.setup.notices.push_back(fmt::format(
+        "bond.thick = {:.4g} m exceeds the gap of {:.4g} m by {:.2g} of the mean particle size: polygons that share no "
+        "face bond too; the excess is the overlap that bonds them, and wants to be small",
+        setup.bond_thick, setup.mesh_thick, excess / size));
+}
+
+// Times the rate that loading by this tolerance would begin with.
+constexpr double noticed_tolerance = 0.01, noticed_rate = 3.0;
+
+void notice_fast_loading(VirtualTest& test) {
+    if (!test.small_strain || !(test.small_strain->moduli.youngs_modulus > 0.0)) return;
+    const double derived = largest_rate(rate_rule_of(test, noticed_tolerance));
+    const double given = *test.description.loading.axial_strain_rate;
+    if (given <= noticed_rate * derived) return;
+    test.setup.notices.push_back(
+        fmt::format("{} = {:.3g} 1/s is {:.2g} times the rate that rate_tolerance = {} would begin with: inertia and "
+                    "dashpots bear part of the stress; leave the rate out, or see with --verify what it changes",
+                    test.description.at("loading.axial_strain_rate"), given, given / derived, noticed_tolerance));
 }
 
 std::string resolved_case(const TestCase& test, const fs::path& folder) {
@@ -217,17 +189,53 @@ TestOutcome run_with_files(VirtualTest& test, const TestOptions& options, const 
         kept.wall_seconds = kept.step_seconds =
             0.0;  // nothing is left to add them to: the same run gives the same bytes
         files.write_checkpoint(test.setup, kept, test.world);
-        if (options.verify) errors = run_companions(test, hooks);
-        write_summary();
+        write_summary();  // complete before the companions begin, whatever becomes of them
+        if (options.verify) {
+            errors = run_companions(test, hooks);
+            outcome.unverified = !errors && test.state.failure.peak_row >= 0;
+            write_summary();
+        }
         folder.finish();
     }
     outcome.folder = folder.path();
     return outcome;
 }
 
+/// A test that has nothing left to be loaded: verified now, if that is asked and has not been done.
+TestOutcome finished_test(VirtualTest& test, const TestOptions& options, const TestHooks& hooks,
+                          const OutputFolder& folder) {
+    TestOutcome outcome;
+    outcome.folder = folder.path();
+    const fs::path name = folder.path() / "summary.json";
+    // Without one the process was stopped in between: what only the clock knew is lost.
+    std::error_code error;
+    const bool exists = fs::is_regular_file(name, error);
+    if (exists) outcome.summary = nlohmann::ordered_json::parse(read_bytes(name), nullptr, false);
+    const auto& old = outcome.summary;
+    const bool readable = exists && old.is_object() && old.value("ended_by", "") == test.state.ended_by;
+    const bool verified = readable && old.contains("/numerical_errors/companions"_json_pointer);
+    outcome.was_finished = readable && (verified || !options.verify);
+    if (outcome.was_finished) return outcome;
+    TestTiming timing{0.0, 0.0, test.world.threads};
+    if (readable) timing = {old.value("wall_seconds", 0.0), old.value("step_seconds", 0.0), old.value("threads", 1)};
+    std::optional<NumericalErrors> errors;
+    const auto write_summary = [&] {
+        outcome.summary = make_summary(test.description, test.setup, test.state, test.world, timing,
+                                       errors ? &*errors : nullptr);
+        folder.write("summary.json", outcome.summary.dump(2) + '\n');
+    };
+    write_summary();
+    if (options.verify) {
+        errors = run_companions(test, hooks);
+        outcome.unverified = !errors && test.state.failure.peak_row >= 0;
+        write_summary();
+    }
+    return outcome;
+}
+
 }  // namespace
 
-VirtualTest prepare_test(const TestCase& description, const TestHooks& hooks) {
+VirtualTest bond_test(const TestCase& description, const TestHooks& hooks) {
     VirtualTest test;
     test.description = description;
     const TestCase::MaterialKeys& material = description.material;
@@ -236,17 +244,19 @@ VirtualTest prepare_test(const TestCase& description, const TestHooks& hooks) {
                                "energy a period",
                                default_damping_ratio));
     }
+    const Clock::time_point begun = Clock::now();
     const Specimen specimen = make_specimen(description, hooks);
+    test.specimen_seconds = seconds_since(begun);
     Bonded bonded = bond_specimen(specimen, description, description.loading);
     test.world = std::move(bonded.world);
     test.setup = record_setup(test.world, specimen, bonded.platens, description.loading.kind == "compression");
     test.state.failure.share_of_peak = description.loading.stop_at_share_of_peak;
     say(hooks, fmt::format("bonded {} points of {} interfaces, time step {:.3g} s", test.world.bonds_initial,
                            test.world.interfaces_initial, test.world.time_step));
-    std::optional<SmallStrain> solved;
+    notice_deep_bonds(test);
     if (bonded.platens.bonded) {
         check_platen_hold(test.world, test.setup, bonded.platens, description);
-        solved = take_moduli(test.state, test.setup, test.world, test.setup);
+        take_small_strain(test, test.world, test.setup);
     } else {
         TestCase::Loading held = description.loading;
         held.platens = "bonded";
@@ -254,7 +264,7 @@ VirtualTest prepare_test(const TestCase& description, const TestHooks& hooks) {
         try {
             const TestSetup own = record_setup(twin.world, specimen, twin.platens, test.setup.compression);
             check_platen_hold(twin.world, own, twin.platens, description);
-            solved = take_moduli(test.state, test.setup, twin.world, own);
+            take_small_strain(test, twin.world, own);
         } catch (const InputError& error) {
             test.setup.notices.push_back(fmt::format("no small-strain modulus: {}", error.what()));
         }
@@ -263,11 +273,18 @@ VirtualTest prepare_test(const TestCase& description, const TestHooks& hooks) {
         say(hooks, fmt::format("small strain: E = {:.4g} N/m, nu = {:.3g}", test.state.youngs_modulus,
                                test.state.poissons_ratio));
     }
+    return test;
+}
+
+VirtualTest prepare_test(const TestCase& description, const TestHooks& hooks) {
+    VirtualTest test = bond_test(description, hooks);
     if (description.loading.rate_tolerance) {
-        start_by_tolerance(test, solved);
+        start_by_tolerance(test);
         say(hooks,
             fmt::format("loading by tolerance {}: first rate {:.3g} 1/s, a wave's transit {:.3g} s",
                         *description.loading.rate_tolerance, test.state.rate.rate, test.setup.rate_rule.transit_time));
+    } else {
+        notice_fast_loading(test);
     }
     for (const std::string& notice : test.setup.notices) say(hooks, "notice: " + notice);
     return test;
@@ -313,13 +330,7 @@ TestOutcome resume_test(const TestOptions& options, const TestHooks& hooks) {
     test.world = std::move(checkpoint.world);
     set_threads(test.world,
                 options.threads > 0 ? options.threads : static_cast<int>(test.description.numerics.threads));
-    if (!test.state.ended_by.empty()) {
-        TestOutcome outcome;
-        outcome.summary = nlohmann::ordered_json::parse(read_bytes(folder.path() / "summary.json"), nullptr, false);
-        outcome.folder = folder.path();
-        outcome.was_finished = true;
-        return outcome;
-    }
+    if (!test.state.ended_by.empty()) return finished_test(test, options, hooks, folder);
     TestFiles files(folder, checkpoint.case_hash, test.state);
     say(hooks,
         fmt::format("resumed at step {}, axial strain {:.4g}", test.world.step, test.setup.axial_strain(test.world)));

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One virtual test from its case to its results.
 //
-//   prepare_test()  case → specimen → platens → world → bonds → elastic solution: ready to be loaded, nothing written
+//   bond_test()     case → specimen → platens → world → bonds → linear solution, at rest
+//   prepare_test()  and the start of loading: ready to be loaded, nothing written
 //   load_specimen() steps the world until it fails, reaches its largest strain or is interrupted; files are optional
 //   run_test(), resume_test()  the same with the folder OUT
 //
@@ -13,9 +14,11 @@
 #include <filesystem>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "specimens/case_file.hpp"
+#include "specimens/moduli.hpp"
 #include "specimens/specimen.hpp"
 #include "specimens/test_hooks.hpp"
 #include "specimens/test_setup.hpp"
@@ -30,6 +33,8 @@ struct VirtualTest {
     TestSetup setup;
     TestState state;
     World world;
+    std::optional<SmallStrain> small_strain;  ///< linear solution with bonded platens; none: a notice says why
+    double specimen_seconds = 0.0;            ///< wall clock that making the specimen took
 };
 
 struct TestOptions {
@@ -45,10 +50,14 @@ struct TestOutcome {
     nlohmann::ordered_json summary;
     std::filesystem::path folder;  ///< where the results are: OUT, or OUT.new if earlier results are still in OUT
     bool interrupted = false;
+    bool unverified = false;    ///< the companions were interrupted: the test is complete, but states no error
     bool was_finished = false;  ///< resume_test() found nothing to do
 };
 
 /// @throws InputError for everything that makes the case impossible; TestInterrupted.
+VirtualTest bond_test(const TestCase& description, const TestHooks& hooks = {});
+
+/// @throws as bond_test()
 VirtualTest prepare_test(const TestCase& description, const TestHooks& hooks = {});
 
 /// Loads to the end. @param files where to write; nullptr: rows and events stay in memory (state.rows, world.events)

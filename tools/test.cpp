@@ -104,8 +104,8 @@ void print_figures(const TestOutcome& outcome) {
     if (s.contains("peak_converged") && s["peak_converged"].is_boolean()) {
         const auto& e = s["numerical_errors"];
         std::cout << fmt::format(
-            "  stated errors: strength {:.2g} %, its strain {:.2g} %; {}\n",
-            100.0 * e["peak_stress"]["stated"].get<double>(), 100.0 * e["peak_strain"]["stated"].get<double>(),
+            "  stated errors: strength {}, its strain {} of their values; {}\n", shown(e["peak_stress"], "stated"),
+            shown(e["peak_strain"], "stated"),
             s["peak_converged"].get<bool>() ? "the peak is converged" : "the peak jumps between branches");
     }
     std::cout << fmt::format("  {} steps in {} s: {} particle-steps/s\n", shown(s, "steps"), shown(s, "step_seconds"),
@@ -130,6 +130,13 @@ int finish(const TestOutcome& outcome, const std::string& wanted, bool quiet) {
         return exit_done;
     }
     if (!quiet) print_figures(outcome);
+    if (outcome.unverified) {
+        std::cerr << fmt::format(
+            "crackle: the test is complete, its companions were interrupted and no error is stated; `crackle test "
+            "--resume {} --verify` runs them again\n",
+            outcome.folder.string());
+        return exit_interrupted;
+    }
     if (!outcome.interrupted) return exit_done;
     if (outcome.folder != std::filesystem::path(wanted) && !quiet) {
         std::cerr << fmt::format("crackle: earlier results in {} are as they were\n", wanted);

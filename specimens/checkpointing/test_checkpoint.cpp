@@ -16,7 +16,7 @@ namespace crackle {
 
 // Names the layout; the number is raised whenever a field below changes.
 constexpr const char* checkpoint_title = "crackle test checkpoint ";
-constexpr const char* checkpoint_version = "6";
+constexpr const char* checkpoint_version = "7";
 constexpr std::size_t hash_digits = 64;
 
 // The archive is given one member after the other: structs have padding, whose bytes are nobody's.
@@ -79,7 +79,7 @@ void serialize(Archive& a, TestSetup& s) {
 }
 template <class Archive>
 void serialize(Archive& a, TestState& s) {
-    a(s.rows, s.failure, s.peak_frame, s.frames, s.next_frame, s.rate, s.breaks_in_shear, s.breaks_in_tension,
+    a(s.rows, s.failure, s.peak_frame, s.frames, s.next_frame, s.rate, s.breaks_in_shear, s.breaks_in_tension, s.breaks_after_sliding,
       s.ended_by, s.youngs_modulus, s.poissons_ratio, s.modulus_residual, s.curve_bytes, s.events_bytes, s.wall_seconds,
       s.step_seconds, s.command);
 }

@@ -104,7 +104,7 @@ std::vector<ClaimRow> energy_of_a_run_to_failure_closes() {
         // A break or a slip is found within a step after it happened: first order, a quarter, scattered by where they
         // fall, a fifth for each root mean square of twelve.
         rows.at_most(fmt::format("{}: root mean square at 0.2 of the bound over that at 0.8", kind),
-                     scatter.back() / scatter.front(), 0.5, "first order");
+                     scatter.back() / scatter.front(), 1.0 / (1.8 * 1.8), "1.8 a halving");
     }
     return rows.take();
 }

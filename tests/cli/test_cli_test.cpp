@@ -163,6 +163,99 @@ TEST_F(CrackleTest, WrongWords) {
     expect_refused("case.toml -o out --frobnicate", "frobnicate");
 }
 
+nlohmann::json read_json(const fs::path& file) { return nlohmann::json::parse(read_text_file(file)); }
+
+TEST_F(CrackleTest, VerifyStatesTheErrorOfTheStrength) {
+    EXPECT_EQ(call("case.toml -o out --verify").code, 0);
+    const auto summary = read_json(folder_ / "out/summary.json");
+    const auto& stress = summary["numerical_errors"]["peak_stress"];
+    for (const char* part : {"time_step", "rate", "damping", "resolution", "stated"})
+        EXPECT_TRUE(stress[part].is_number()) << part;
+    EXPECT_GE(stress["stated"].get<double>(), 3.0 * stress["rate"].get<double>());
+    const double spacing = 0.005 / 2000 / summary["peak_strain"].get<double>();  // of the rows; a step may be longer
+    const double resolution = summary["numerical_errors"]["peak_strain"]["resolution"].get<double>();
+    EXPECT_GE(resolution, 0.99 * spacing);
+    EXPECT_LE(resolution, 2.0 * spacing);
+    EXPECT_TRUE(summary["peak_converged"].is_boolean());
+    EXPECT_EQ(summary["numerical_errors"]["companions"].size(), 4U);
+    for (const auto& [name, companion] : summary["numerical_errors"]["companions"].items())
+        EXPECT_EQ(companion["ended_by"], "failure") << name;
+}
+
+TEST_F(CrackleTest, VerifyOfATestThatHasNotFailedJudgesNoPeak) {
+    write_small_case(folder_, {.max_strain = 1e-4});
+    const Answer answer = call("case.toml -o out --verify");
+    EXPECT_EQ(answer.code, 0) << answer.err;
+    EXPECT_TRUE(read_json(folder_ / "out/summary.json")["peak_converged"].is_null());
+    EXPECT_NE(answer.out.find("has not failed: the errors are those of the largest stress"), std::string::npos);
+    EXPECT_EQ(answer.out.find("branches"), std::string::npos) << answer.out;
+}
+
+TEST_F(CrackleTest, VerifyOfAFinishedTestAddsTheErrorsAndTouchesNothingElse) {
+    ASSERT_EQ(call("case.toml -o out -q").code, 0);
+    const auto before = read_json(folder_ / "out/summary.json");
+    const std::string curve = read_text_file(folder_ / "out/curve.csv");
+    EXPECT_NE(call("--resume out").out.find("nothing is left to do"), std::string::npos);
+    EXPECT_EQ(call("--resume out --verify -q").code, 0);
+    auto after = read_json(folder_ / "out/summary.json");
+    EXPECT_EQ(after["numerical_errors"]["companions"].size(), 4U);
+    EXPECT_EQ(read_text_file(folder_ / "out/curve.csv"), curve);
+    for (const char* key : {"peak_stress", "steps", "wall_seconds", "step_seconds", "particle_steps_per_second",
+                            "frame_peak", "command", "youngs_modulus"})
+        EXPECT_EQ(after[key], before[key]) << key;
+    EXPECT_NE(call("--resume out --verify").out.find("nothing is left to do"), std::string::npos);
+    fs::remove(folder_ / "out/summary.json");
+    EXPECT_EQ(call("--resume out -q").code, 0) << "a lost summary is written anew";
+    EXPECT_EQ(read_json(folder_ / "out/summary.json")["peak_stress"], before["peak_stress"]);
+}
+
+TEST_F(CrackleTest, CtrlCAmongTheCompanionsKeepsTheFinishedTest) {
+    write_small_case(folder_, {.rate = 1e-3, .max_strain = 0.005});
+    int errors[2];
+    ASSERT_EQ(pipe(errors), 0);
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+        ASSERT_EQ(chdir(folder_.c_str()), 0);
+        dup2(errors[1], STDERR_FILENO);
+        execl(CRACKLE_PROGRAM, CRACKLE_PROGRAM, "test", "case.toml", "-o", "out", "--verify",
+              static_cast<char*>(nullptr));
+        _exit(127);
+    }
+    close(errors[1]);
+    std::string said;
+    char letter = 0;
+    while (said.find("verifying") == std::string::npos && ::read(errors[0], &letter, 1) == 1) said += letter;
+    kill(child, SIGINT);
+    while (::read(errors[0], &letter, 1) == 1) said += letter;
+    close(errors[0]);
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFEXITED(status)) << said;
+    EXPECT_EQ(WEXITSTATUS(status), 130);
+    EXPECT_NE(said.find("the test is complete"), std::string::npos) << said;
+    const auto summary = read_json(folder_ / "out/summary.json");
+    EXPECT_TRUE(summary["failed"].get<bool>());
+    EXPECT_FALSE(summary["interrupted"].get<bool>());
+    EXPECT_TRUE(summary["peak_converged"].is_null());
+}
+
+TEST_F(CrackleTest, LoadingFarFasterThanTheRuleIsSaid) {
+    write_small_case(folder_, {.rate = 1.0});
+    const Answer fast = call("case.toml -o fast");
+    EXPECT_NE(fast.out.find("times the rate that rate_tolerance = 0.01 would begin with"), std::string::npos)
+        << fast.out;
+    write_small_case(folder_, {.rate = 1e-3});
+    EXPECT_EQ(call("case.toml -o slow").out.find("would begin with"), std::string::npos);
+}
+
+TEST_F(CrackleTest, BondsDeeperThanTheirFacesAreSaid) {
+    write_small_case(folder_, {.mesh = "voronoi"});
+    EXPECT_EQ(call("case.toml -o right").out.find("share no face"), std::string::npos);
+    replace("case.toml", "thick = 1.08e-3", "thick = 1.08e-2");
+    EXPECT_NE(call("case.toml -o wrong").out.find("share no face"), std::string::npos);
+}
+
 TEST_F(CrackleTest, CtrlCEndsCleanlyAndResumeEndsWithTheSameCurve) {
     // Slow enough that the signal meets it while it loads, whatever the machine.
     write_small_case(folder_, {.rate = 2e-4, .max_strain = 0.005});
