@@ -37,8 +37,8 @@ struct ElasticSolution {
 };
 
 /// @param loads forces (N) and torque (N m) on every body, besides what is prescribed; empty: none
-/// @throws InputError if nothing is prescribed, or the refinement does not reach a residual of 1e-9: loads on bodies that
-/// nothing holds have no solution.
+/// @throws InputError if nothing is prescribed, or the refinement does not reach a residual of 1e-9: loads on bodies
+/// that nothing holds have no solution.
 ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>& prescribed,
                               const std::vector<Motion>& loads = {});
 

@@ -81,7 +81,8 @@ std::optional<Companion> run_one(const Plan& plan, const VirtualTest& test, cons
     }
     if (other.state.ended_by.empty()) return std::nullopt;
     const FailureTracker& f = other.state.failure;
-    return Companion{plan.name,  f.peak_stress,    f.peak_strain, other.state.ended_by,
+    return Companion{plan.name,        f.peak_stress,
+                     f.peak_strain,    other.state.ended_by,
                      other.world.step, post_peak_difference(test, other)};
 }
 
@@ -103,7 +104,7 @@ NumberError error_of(double asked, double resolution, const std::vector<Companio
     for (const double x : draws) mean += x / static_cast<double>(draws.size());
     for (const double x : draws) square += (x - mean) * (x - mean) / static_cast<double>(draws.size() - 1);
     const double chance = student_two * std::sqrt(2.0 * square) / std::abs(asked);
-    error.stated = resolution + std::max(chance, convergence_index * error.rate);  // not a number if one is
+    error.stated = std::hypot(resolution, std::max(chance, convergence_index * error.rate));
     if (std::isnan(chance)) error.stated = undefined;
     return error;
 }
@@ -136,8 +137,8 @@ std::optional<NumericalErrors> run_companions(const VirtualTest& test, const Tes
     const std::vector<Plan> plans = plans_for(test.description, test.world.threads);
     if (hooks.stage) hooks.stage(fmt::format("verifying: {} companions of the test", plans.size()));
     std::vector<std::optional<Companion>> done(plans.size());
-    const std::size_t at_once = std::max(1U, std::thread::hardware_concurrency() /
-                                                 static_cast<unsigned>(std::max(1, test.world.threads)));
+    const std::size_t at_once =
+        std::max(1U, std::thread::hardware_concurrency() / static_cast<unsigned>(std::max(1, test.world.threads)));
     for (std::size_t first = 0; first < plans.size(); first += at_once) {
         std::vector<std::future<std::optional<Companion>>> running;
         for (std::size_t k = first; k < std::min(plans.size(), first + at_once); ++k)

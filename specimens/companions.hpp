@@ -4,13 +4,15 @@
 //
 // A specimen that breaks follows one of many branches, and which one a rounding decides; so the peaks of companions
 // differ by chance as well as by the error of step and rate. The stated error is the larger of
-//     chance  t·sqrt(2)·s, s the sample standard deviation of the three values x (as asked), x at half the step and x at
+//     chance  t·sqrt(2)·s, s the sample standard deviation of the three values x (as asked), x at half the step and x
+//     at
 //             half the rate, t = 2.920 the 95 % point of Student's distribution with two degrees of freedom: were they
 //             independent draws, 90 of 100 further runs would lie within
-//     rate    3 |x - x at half the rate|, the grid convergence index of two grids at first order (Roache, J. Fluids Eng.
+//     rate    3 |x - x at half the rate|, the grid convergence index of two grids at first order (Roache, J. Fluids
+//     Eng.
 //             116, 1994): inertia and dashpots act in proportion to the rate, the step's error is of second order
-// and, beside it, what the rows of the curve resolve. What the damping changes is physics as much as error and stands
-// apart.
+// and what the rows of the curve resolve, added as independent errors are: the root of the sum of squares. What the
+// damping changes is physics as much as error and stands apart.
 #pragma once
 
 #include <optional>
@@ -45,8 +47,8 @@ struct NumericalErrors {
 /// A companion whose peak moved by more than this is on another branch.
 inline constexpr double branch_stress_change = 0.03, branch_strain_change = 0.1;
 
-/// Runs the companions of a finished test in memory, as many at a time as there are processors for its threads. One that
-/// becomes unstable is reported as such.
+/// Runs the companions of a finished test in memory, as many at a time as there are processors for its threads. One
+/// that becomes unstable is reported as such.
 /// @return nothing if interrupted, or the test has no peak
 std::optional<NumericalErrors> run_companions(const VirtualTest& test, const TestHooks& hooks);
 

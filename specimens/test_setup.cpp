@@ -77,8 +77,8 @@ BondAnchor anchor_of(const World& world, PointIndex k) {
 }
 
 double TestSetup::axial_strain(const World& world) const {
-    const double rise = world.bodies[top].y - top_start;
-    return (compression ? -rise : rise) / height;
+    const double now = world.bodies[top].y;
+    return (compression ? top_start - now : now - top_start) / height;  // not -0 at the start
 }
 
 double TestSetup::lateral_strain(const World& world) const {

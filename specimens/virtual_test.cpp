@@ -220,8 +220,8 @@ TestOutcome finished_test(VirtualTest& test, const TestOptions& options, const T
     if (readable) timing = {old.value("wall_seconds", 0.0), old.value("step_seconds", 0.0), old.value("threads", 1)};
     std::optional<NumericalErrors> errors;
     const auto write_summary = [&] {
-        outcome.summary = make_summary(test.description, test.setup, test.state, test.world, timing,
-                                       errors ? &*errors : nullptr);
+        outcome.summary =
+            make_summary(test.description, test.setup, test.state, test.world, timing, errors ? &*errors : nullptr);
         folder.write("summary.json", outcome.summary.dump(2) + '\n');
     };
     write_summary();

@@ -79,9 +79,9 @@ void serialize(Archive& a, TestSetup& s) {
 }
 template <class Archive>
 void serialize(Archive& a, TestState& s) {
-    a(s.rows, s.failure, s.peak_frame, s.frames, s.next_frame, s.rate, s.breaks_in_shear, s.breaks_in_tension, s.breaks_after_sliding,
-      s.ended_by, s.youngs_modulus, s.poissons_ratio, s.modulus_residual, s.curve_bytes, s.events_bytes, s.wall_seconds,
-      s.step_seconds, s.command);
+    a(s.rows, s.failure, s.peak_frame, s.frames, s.next_frame, s.rate, s.breaks_in_shear, s.breaks_in_tension,
+      s.breaks_after_sliding, s.ended_by, s.youngs_modulus, s.poissons_ratio, s.modulus_residual, s.curve_bytes,
+      s.events_bytes, s.wall_seconds, s.step_seconds, s.command);
 }
 
 std::string save_test(const std::string& case_hash, const TestSetup& setup, const TestState& state,

@@ -137,8 +137,9 @@ void numerics(Writer& w, const TestCase& test, const TestSetup& setup, const Tes
           : setup.stable_time_step_proved
               ? "s, exact limit when bonds were made: 4M - 2dt C - dt^2 K positive definite, by Cholesky"
               : "s, when bonds were made; a bound, too large a specimen for the exact limit");
-    w.put("time_step_over_stable", number(world.time_step / setup.stable_time_step),
-          "-, share of it taken at the end; at most numerics.safety_factor, less where the guaranteed bound is smaller");
+    w.put(
+        "time_step_over_stable", number(world.time_step / setup.stable_time_step),
+        "-, share of it taken at the end; at most numerics.safety_factor, less where the guaranteed bound is smaller");
     w.put("time_step_bound", setup.time_step_bound,
           "s, guaranteed stable below without an eigenvalue solve, kept up as contacts open and close; when loading "
           "began");
@@ -191,8 +192,9 @@ void numerical_errors(Writer& w, const TestState& state, const NumericalErrors* 
     w.put("numerical_errors", all,
           "-, relative. time_step, rate, damping: change at half the step, half the rate, half or double the damping "
           "(crackle test --verify; null: not run, or unstable); energy_closing: over the platens' work; resolution: by "
-          "the spacing of the rows; stated: resolution and the larger of 3 rate and 2.92 sqrt(2) standard deviations "
-          "of the test, its half step and its half rate (90 of 100, were they independent); youngs_modulus: a sparse "
+          "the spacing of the rows; stated: of resolution and the larger of 3 rate and 2.92 sqrt(2) standard "
+          "deviations of the test, its half step and its half rate, the root of the sum of squares (90 of 100, were "
+          "they independent); youngs_modulus: a sparse "
           "solve, its residual. post_peak_difference: mean difference of stress from the peak on, over the peak; "
           "breaks there are chaotic, so it is no error of step or rate");
     const bool judged = errors != nullptr && errors->peak_converged.has_value();
@@ -239,9 +241,10 @@ std::vector<std::string> notices_of(const TestCase& test, const TestSetup& setup
                         *test.loading.rate_tolerance, 100.0 * above));
     }
     if (viscous_share(test, state) > *test.loading.rate_tolerance) {
-        notices.push_back(fmt::format("the dashpots bear {:.2g} of the largest stress when loading begins, more than "
-                                      "rate_tolerance = {}: lower it, or the damping",
-                                      viscous_share(test, state), *test.loading.rate_tolerance));
+        notices.push_back(
+            fmt::format("the dashpots bear {:.2g} of the largest stress when loading begins, more than "
+                        "rate_tolerance = {}: lower it, or the damping",
+                        viscous_share(test, state), *test.loading.rate_tolerance));
     }
     return notices;
 }
@@ -258,9 +261,10 @@ std::string notice_of(const FailureTracker& failure, const NumericalErrors& erro
         return fmt::format("{:.2g} % at half the step and {:.2g} % at half the rate", 100.0 * e.time_step,
                            100.0 * e.rate);
     };
-    return fmt::format("the peak jumps between branches: it moves by {}, its strain by {}; report the stated error with "
-                       "it, or the mean of several packings",
-                       changes(errors.peak_stress), changes(errors.peak_strain));
+    return fmt::format(
+        "the peak jumps between branches: it moves by {}, its strain by {}; report the stated error with "
+        "it, or the mean of several packings",
+        changes(errors.peak_stress), changes(errors.peak_strain));
 }
 
 void frames(Writer& w, const TestState& state) {

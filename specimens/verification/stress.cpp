@@ -375,8 +375,9 @@ std::vector<Claim> stress_claims() {
          .slow = true},
         {.name = "given_steps_up_to_the_bound_are_bounded_or_named",
          .group = group,
-         .statement = "at 0.3 of the bound the same scenes keep their account, first order in the step; at 0.9 they do, or "
-                      "end with an error that says that new contacts took the bound below the step, and where",
+         .statement =
+             "at 0.3 of the bound the same scenes keep their account, first order in the step; at 0.9 they do, or "
+             "end with an error that says that new contacts took the bound below the step, and where",
          .check = given_steps_up_to_the_bound_are_bounded_or_named},
         {.name = "bound_stays_near_the_exact_step_at_extreme_ratios",
          .group = group,

@@ -104,7 +104,8 @@ TEST_F(ByTolerance, FirstRowsRiseByTheSolvedModulusAtTheRateOfAWholeTest) {
         EXPECT_TRUE(agrees(fmt::format("{}: slope of the first 2e-5 of strain, N/m", mesh), slope,
                            test.state.youngs_modulus, 2e-3));
         const double widening = (last.lateral_strain - first.lateral_strain) / (last.axial_strain - first.axial_strain);
-        EXPECT_TRUE(agrees(fmt::format("{}: Poisson's ratio over them", mesh), -widening, test.state.poissons_ratio, 5e-3));
+        EXPECT_TRUE(
+            agrees(fmt::format("{}: Poisson's ratio over them", mesh), -widening, test.state.poissons_ratio, 5e-3));
     }
 }
 
