@@ -113,12 +113,12 @@ void numerics(Writer& w, const TestCase& test, const TestSetup& setup, const Tes
         w.put("axial_strain_rate_range", {rate.slowest, rate.fastest}, "1/s, slowest and fastest");
         w.put("strain_share_above_tolerance", rate.strain_above / last.axial_strain,
               "-, share of the strain gone through while the inertia error was above the tolerance");
-        w.put("viscous_stress_share", number(viscous_share(test, state)),
-              "-, stress of the dashpots when loading begins, over the largest stress");
         w.put("wave_transit_time", setup.rate_rule.transit_time, "s, height/sqrt(E/density)");
     } else {
         w.put("axial_strain_rate", *test.loading.axial_strain_rate, "1/s");
     }
+    w.put("viscous_stress_share", number(viscous_share(test, state)),
+          "-, stress of the dashpots when loading by tolerance begins, over the largest stress");
     w.put("axial_strain_end", last.axial_strain, "-, positive in the sense of the test");
     w.put("energy_closing_error", number(last.energy_error / last.platen_work),
           "-, over the platens' work, at the end");
