@@ -55,7 +55,7 @@ std::vector<std::uint32_t> spatial_order(const std::vector<MassProperties>& prop
 
 Edge edge_between(Vec2 a, Vec2 b) {
     const double length = norm(b - a);
-    return {a.x, a.y, (b.x - a.x) / length, (b.y - a.y) / length, length};
+    return {a.x, a.y, (b.x - a.x) / length, (b.y - a.y) / length, length, no_body};
 }
 
 std::vector<std::vector<std::uint32_t>> pieces_of(int id, std::span<const Vec2> frame) {
@@ -83,6 +83,17 @@ void add_pieces(World& world, BodyInfo& info, std::span<const Vec2> frame) {
         }
     }
     info.piece_count = static_cast<std::uint32_t>(world.pieces.size()) - info.first_piece;
+}
+
+/// Kernels look at edges of one-piece outlines without a search where the edge faced last still is the one.
+void mark_outlines(World& world) {
+    for (std::size_t b = 0; b < world.info.size(); ++b) {
+        const BodyInfo& info = world.info[b];
+        if (info.piece_count != 1 || !world.pieces[info.first_piece].closed) continue;
+        const Piece& piece = world.pieces[info.first_piece];
+        for (std::uint32_t e = 0; e < piece.edge_count; ++e)
+            world.edges[piece.first_edge + e].outline_of = static_cast<BodyIndex>(b);
+    }
 }
 
 /// Elements of a chain are its vertices, of a circle body its circles; radii of vertices follow the thickness.
@@ -250,6 +261,7 @@ World build_world(Scene scene) {
         internal_of[order[k]] = static_cast<BodyIndex>(k);
         add_body(world, scene, scene.bodies[order[k]], properties[order[k]]);
     }
+    mark_outlines(world);
     if (world.integrator == Integrator::consistent) world.owed.assign(world.bodies.size(), 0.0);
     world.forces.assign(world.bodies.size(), BodyForce{});
     build_laws(world);

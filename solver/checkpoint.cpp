@@ -18,7 +18,7 @@
 namespace crackle {
 
 // Raise when the fields below change.
-constexpr std::uint32_t checkpoint_version = 6;
+constexpr std::uint32_t checkpoint_version = 7;
 constexpr std::uint64_t checkpoint_magic = 0x454c4b4341524321ULL;  // "!CRACKLE"
 
 // NOLINTBEGIN(bugprone-macro-parentheses)
@@ -70,7 +70,7 @@ void serialize(Archive& a, Piece& p) {
 }
 template <class Archive>
 void serialize(Archive& a, Edge& e) {
-    a(e.x, e.y, e.tx, e.ty, e.length);
+    a(e.x, e.y, e.tx, e.ty, e.length, e.outline_of);
 }
 template <class Archive>
 void serialize(Archive& a, ControlState& c) {

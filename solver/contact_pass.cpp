@@ -12,6 +12,7 @@
 #include "solver/contact_geometry.hpp"
 #include "solver/contact_law.hpp"
 #include "solver/contact_opening.hpp"
+#include "solver/point_batch.hpp"
 
 namespace crackle {
 namespace {
@@ -58,143 +59,159 @@ inline void feel_bodies(const World& world, const ContactPoint& point, const Con
     if constexpr (K != PointKind::element_wall) add(point.body_j, g.ajx, g.ajy, -1.0);
 }
 
+/// Force of one point, with all that can happen to it.
+template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Ledger, bool Consistent>
+inline void force_point(World& world, PointIndex k, World::LossBlock& loss) {
+    const double dt = world.drift;
+    [[maybe_unused]] const double kick = kick_before(world) + 0.5 * world.time_step;
+    ContactPoint& point = world.points[k];
+    PointForce& out = world.point_forces[k];
+    const ContactGeometry g = contact_geometry<K>(world, point, point.feature_j);
+    const ContactLaw& law = world.laws[point.law];
+    bool bonded = false;
+    if constexpr (Bonds) bonded = (point.flags & point_bonded) != 0;
+
+    const bool holds = bonded ? g.overlap > law.break_overlap : g.overlap > 0.0;
+    if (!holds && !bonded && (point.flags & point_touching) == 0) {
+        if constexpr (Consistent) world.openings[k].overlap = g.overlap;
+        out = {0.0, 0.0, 0.0, 0.0};
+        return;
+    }
+
+    // Velocity of i against j at the contact position, along the normal (closing) and the tangent.
+    const BodyState& i = world.bodies[point.body_i];
+    double rx = i.vx - i.omega * g.aiy, ry = i.vy + i.omega * g.aix;
+    if constexpr (K != PointKind::element_wall) {
+        const BodyState& j = world.bodies[point.body_j];
+        rx -= j.vx - j.omega * g.ajy;
+        ry -= j.vy + j.omega * g.ajx;
+    }
+    const double closing = rx * g.nx + ry * g.ny;
+    double slipping = ry * g.nx - rx * g.ny;
+    if constexpr (K != PointKind::circle_circle) {
+        // Where the arms are not along the normal, ω × a at the end of the drift misses the chord of the arm's turn
+        // by ½ω²Δt·a; left out, a bonded specimen that turns as a whole would collect shear, first order in Δt.
+        slipping += 0.5 * dt * i.omega * i.omega * (g.aiy * g.nx - g.aix * g.ny);
+        if constexpr (K != PointKind::element_wall) {
+            const double spin = world.bodies[point.body_j].omega;
+            slipping -= 0.5 * dt * spin * spin * (g.ajy * g.nx - g.ajx * g.ny);
+        }
+    }
+
+    [[maybe_unused]] Approach approach{};
+    [[maybe_unused]] double before = 0.0;
+    // A point that overlaps before anything has moved has not been seen to close.
+    [[maybe_unused]] const bool touched = (point.flags & point_touching) != 0 || dt == 0.0;
+    if constexpr (Consistent) {
+        approach = {g.overlap, closing, 0.0, 0.0, law.normal_stiffness, 0.0, dt, kick, world.time_step};
+        if (!bonded) before = settle_opening(world.openings[k], touched, approach);
+    }
+
+    if (!holds) {
+        if constexpr (Consistent) rest_opening(world.openings[k]);
+        if constexpr (Ledger && Damping) {
+            PointDissipation& last = world.dissipation[k];
+            loss.dashpot += 0.5 * dt * (last.normal * closing + last.shear * slipping);
+            last = {0.0, 0.0};
+        }
+        if constexpr (Ledger && by_guide(K)) {
+            SpringWork& work = world.spring_work[k];
+            store_work(work, world, point, 0.0, closing);
+            work.last = {0.0, 0.0, 0.0, 0.0};
+            if (!bonded) {
+                loss.law += work.stored;
+                work.stored = 0.0;
+            }
+        }
+        if (bonded) {
+            point.flags = static_cast<std::uint16_t>((point.flags & ~point_bonded) | point_just_broken);
+            ++loss.broken;
+            // The event needs the springs as they were; record_breaks() releases the point.
+        } else {
+            release<Friction, Ledger>(world, point, loss, slipping * dt);
+        }
+        out = {0.0, 0.0, 0.0, 0.0};
+        return;
+    }
+
+    double normal = law.normal_stiffness * g.overlap;
+    double compression = g.overlap;  // m, what Coulomb's limit goes by
+    if constexpr (Consistent) {
+        if (!bonded) {
+            feel_bodies<K>(world, point, g, approach);
+            if constexpr (Damping) approach.dashpot = normal_damping(law, point.root_effective_mass) * closing;
+            normal = opening_force(world.openings[k], touched, before, approach);
+            compression = normal / law.normal_stiffness;
+        }
+    }
+    if constexpr (Bonds) normal -= law.normal_stiffness * point.bond_overlap;
+    if constexpr (Ledger && by_guide(K)) {
+        SpringWork& work = world.spring_work[k];
+        if (world.initial_energy_taken) {
+            store_work(work, world, point, normal, closing);
+        } else {
+            work.stored = 0.5 * normal * normal / law.normal_stiffness;  // the account begins
+        }
+        const double fx = -normal * g.nx, fy = -normal * g.ny;
+        work.last = {fx, fy, g.aix * fy - g.aiy * fx, g.ajy * fx - g.ajx * fy};
+    }
+    double tangential = 0.0;
+    std::uint16_t flags = static_cast<std::uint16_t>((point.flags | point_touching) & ~point_sliding);
+    bool sliding = !Friction;
+    if constexpr (Friction) {
+        const ShearUpdate shear = shear_force(law, point.shear_force, slipping * dt, compression);
+        sliding = shear.sliding;
+        if (sliding) flags |= point_sliding | point_slid;
+        if constexpr (Ledger) loss.friction += shear.friction;
+        point.shear_force = shear.force;
+        tangential = shear.force;
+    }
+    point.flags = flags;
+    if constexpr (Bonds) {
+        loss.gained += (flags & point_counted) == 0 ? 1u : 0u;
+        if (bonded) {
+            const double half_strength = 0.5 * law.normal_stiffness * point.bond_overlap;
+            if (normal * normal + tangential * tangential >= half_strength * half_strength) {
+                world.bond_history[k] = {normal, tangential};
+            }
+        }
+    }
+    if constexpr (Damping) {
+        const double normal_dashpot = normal_damping(law, point.root_effective_mass) * closing;
+        const double shear_damper =
+            sliding ? 0.0 : shear_dashpot(law, point.root_effective_mass, slipping, compression);
+        if constexpr (Ledger) {
+            PointDissipation& last = world.dissipation[k];
+            loss.dashpot +=
+                0.5 * dt * ((last.normal + normal_dashpot) * closing + (last.shear + shear_damper) * slipping);
+            last = {normal_dashpot, shear_damper};
+        }
+        normal += normal_dashpot;
+        tangential -= shear_damper;
+    }
+
+    // Force on i: -f_n along the normal (pushed away from j), f_t along the tangent.
+    const double fx = -normal * g.nx - tangential * g.ny;
+    const double fy = -normal * g.ny + tangential * g.nx;
+    out = {fx, fy, g.aix * fy - g.aiy * fx, g.ajy * fx - g.ajx * fy};
+}
+
+/// Whether points of a kind are looked at eight at a time.
+template <PointKind K, bool Consistent>
+inline constexpr bool in_batches = (K == PointKind::circle_circle || K == PointKind::element_outline) && !Consistent;
+
 template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Ledger, bool Consistent>
 void force_block(World& world, const PassRange& range) {
     World::LossBlock loss;
-    const double dt = world.drift;
-    [[maybe_unused]] const double kick = kick_before(world) + 0.5 * world.time_step;
-    for (PointIndex k = range.begin; k < range.end; ++k) {
-        ContactPoint& point = world.points[k];
-        PointForce& out = world.point_forces[k];
-        const ContactGeometry g = contact_geometry<K>(world, point, point.feature_j);
-        const ContactLaw& law = world.laws[point.law];
-        bool bonded = false;
-        if constexpr (Bonds) bonded = (point.flags & point_bonded) != 0;
-
-        const bool holds = bonded ? g.overlap > law.break_overlap : g.overlap > 0.0;
-        if (!holds && !bonded && (point.flags & point_touching) == 0) {
-            if constexpr (Consistent) world.openings[k].overlap = g.overlap;
-            out = {0.0, 0.0, 0.0, 0.0};
-            continue;
+    PointIndex k = range.begin;
+    if constexpr (in_batches<K, Consistent>) {
+        for (; k + lane_count <= range.end; k += lane_count) {
+            if (force_batch<K, Friction, Damping, Bonds, Ledger>(world, k, loss)) continue;
+            for (PointIndex one = k; one < k + lane_count; ++one)
+                force_point<K, Friction, Damping, Bonds, Ledger, Consistent>(world, one, loss);
         }
-
-        // Velocity of i against j at the contact position, along the normal (closing) and the tangent.
-        const BodyState& i = world.bodies[point.body_i];
-        double rx = i.vx - i.omega * g.aiy, ry = i.vy + i.omega * g.aix;
-        if constexpr (K != PointKind::element_wall) {
-            const BodyState& j = world.bodies[point.body_j];
-            rx -= j.vx - j.omega * g.ajy;
-            ry -= j.vy + j.omega * g.ajx;
-        }
-        const double closing = rx * g.nx + ry * g.ny;
-        double slipping = ry * g.nx - rx * g.ny;
-        if constexpr (K != PointKind::circle_circle) {
-            // Where the arms are not along the normal, ω × a at the end of the drift misses the chord of the arm's turn
-            // by ½ω²Δt·a; left out, a bonded specimen that turns as a whole would collect shear, first order in Δt.
-            slipping += 0.5 * dt * i.omega * i.omega * (g.aiy * g.nx - g.aix * g.ny);
-            if constexpr (K != PointKind::element_wall) {
-                const double spin = world.bodies[point.body_j].omega;
-                slipping -= 0.5 * dt * spin * spin * (g.ajy * g.nx - g.ajx * g.ny);
-            }
-        }
-
-        [[maybe_unused]] Approach approach{};
-        [[maybe_unused]] double before = 0.0;
-        // A point that overlaps before anything has moved has not been seen to close.
-        [[maybe_unused]] const bool touched = (point.flags & point_touching) != 0 || dt == 0.0;
-        if constexpr (Consistent) {
-            approach = {g.overlap, closing, 0.0, 0.0, law.normal_stiffness, 0.0, dt, kick, world.time_step};
-            if (!bonded) before = settle_opening(world.openings[k], touched, approach);
-        }
-
-        if (!holds) {
-            if constexpr (Consistent) rest_opening(world.openings[k]);
-            if constexpr (Ledger && Damping) {
-                PointDissipation& last = world.dissipation[k];
-                loss.dashpot += 0.5 * dt * (last.normal * closing + last.shear * slipping);
-                last = {0.0, 0.0};
-            }
-            if constexpr (Ledger && by_guide(K)) {
-                SpringWork& work = world.spring_work[k];
-                store_work(work, world, point, 0.0, closing);
-                work.last = {0.0, 0.0, 0.0, 0.0};
-                if (!bonded) {
-                    loss.law += work.stored;
-                    work.stored = 0.0;
-                }
-            }
-            if (bonded) {
-                point.flags = static_cast<std::uint16_t>((point.flags & ~point_bonded) | point_just_broken);
-                ++loss.broken;
-                // The event needs the springs as they were; record_breaks() releases the point.
-            } else {
-                release<Friction, Ledger>(world, point, loss, slipping * dt);
-            }
-            out = {0.0, 0.0, 0.0, 0.0};
-            continue;
-        }
-
-        double normal = law.normal_stiffness * g.overlap;
-        double compression = g.overlap;  // m, what Coulomb's limit goes by
-        if constexpr (Consistent) {
-            if (!bonded) {
-                feel_bodies<K>(world, point, g, approach);
-                if constexpr (Damping) approach.dashpot = normal_damping(law, point.root_effective_mass) * closing;
-                normal = opening_force(world.openings[k], touched, before, approach);
-                compression = normal / law.normal_stiffness;
-            }
-        }
-        if constexpr (Bonds) normal -= law.normal_stiffness * point.bond_overlap;
-        if constexpr (Ledger && by_guide(K)) {
-            SpringWork& work = world.spring_work[k];
-            if (world.initial_energy_taken) {
-                store_work(work, world, point, normal, closing);
-            } else {
-                work.stored = 0.5 * normal * normal / law.normal_stiffness;  // the account begins
-            }
-            const double fx = -normal * g.nx, fy = -normal * g.ny;
-            work.last = {fx, fy, g.aix * fy - g.aiy * fx, g.ajy * fx - g.ajx * fy};
-        }
-        double tangential = 0.0;
-        std::uint16_t flags = static_cast<std::uint16_t>((point.flags | point_touching) & ~point_sliding);
-        bool sliding = !Friction;
-        if constexpr (Friction) {
-            const ShearUpdate shear = shear_force(law, point.shear_force, slipping * dt, compression);
-            sliding = shear.sliding;
-            if (sliding) flags |= point_sliding | point_slid;
-            if constexpr (Ledger) loss.friction += shear.friction;
-            point.shear_force = shear.force;
-            tangential = shear.force;
-        }
-        point.flags = flags;
-        if constexpr (Bonds) {
-            loss.gained += (flags & point_counted) == 0 ? 1u : 0u;
-            if (bonded) {
-                const double half_strength = 0.5 * law.normal_stiffness * point.bond_overlap;
-                if (normal * normal + tangential * tangential >= half_strength * half_strength) {
-                    world.bond_history[k] = {normal, tangential};
-                }
-            }
-        }
-        if constexpr (Damping) {
-            const double normal_dashpot = normal_damping(law, point.root_effective_mass) * closing;
-            const double shear_damper =
-                sliding ? 0.0 : shear_dashpot(law, point.root_effective_mass, slipping, compression);
-            if constexpr (Ledger) {
-                PointDissipation& last = world.dissipation[k];
-                loss.dashpot +=
-                    0.5 * dt * ((last.normal + normal_dashpot) * closing + (last.shear + shear_damper) * slipping);
-                last = {normal_dashpot, shear_damper};
-            }
-            normal += normal_dashpot;
-            tangential -= shear_damper;
-        }
-
-        // Force on i: -f_n along the normal (pushed away from j), f_t along the tangent.
-        const double fx = -normal * g.nx - tangential * g.ny;
-        const double fy = -normal * g.ny + tangential * g.nx;
-        out = {fx, fy, g.aix * fy - g.aiy * fx, g.ajy * fx - g.ajx * fy};
     }
+    for (; k < range.end; ++k) force_point<K, Friction, Damping, Bonds, Ledger, Consistent>(world, k, loss);
     world.loss_blocks[range.block] = loss;
 }
 

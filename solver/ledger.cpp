@@ -13,6 +13,11 @@
 namespace crackle {
 namespace {
 
+// The guide's kinds lie side by side.
+constexpr auto first_guide_kind = static_cast<std::size_t>(PointKind::disc_segment);
+constexpr std::size_t guide_kinds = 2;
+static_assert(by_guide(PointKind::disc_segment) && by_guide(PointKind::segment_segment));
+
 double kinetic_energy(const World& world) {
     const double share = kick_before(world);
     double sum = 0.0;
@@ -54,12 +59,24 @@ double potential_energy(const World& world) {
     return sum;
 }
 
+double energy_at(const World& world, PointIndex k, double overlap) {
+    const ContactPoint& point = world.points[k];
+    const ContactLaw& law = world.laws[point.law];
+    const bool guide = !world.spring_work.empty() && k >= world.kind_begin[first_guide_kind] &&
+                       k < world.kind_begin[first_guide_kind + guide_kinds];
+    if (!guide) return strain_energy(law, overlap, point.bond_overlap, point.shear_force);
+    const double shear =
+        law.shear_stiffness > 0.0 ? 0.5 * point.shear_force * point.shear_force / law.shear_stiffness : 0.0;
+    return world.spring_work[k].stored + shear;
+}
+
 double strain_of_points(const World& world) {
     double sum = 0.0;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
         const ContactPoint& point = world.points[k];
         if ((point.flags & point_touching) == 0) continue;
-        if (view_point(world, k).touching) sum += stored_energy(world, k);
+        const double overlap = overlap_of(world, k);
+        if ((point.flags & point_bonded) != 0 || overlap > 0.0) sum += energy_at(world, k, overlap);
     }
     for (const OpeningMemory& memory : world.openings) sum += opening_energy(memory);
     for (const double energy : world.owed) sum += energy;
@@ -68,16 +85,7 @@ double strain_of_points(const World& world) {
 
 }  // namespace
 
-double stored_energy(const World& world, PointIndex k) {
-    const ContactPoint& point = world.points[k];
-    const ContactLaw& law = world.laws[point.law];
-    const PointView view = view_point(world, k);
-    if (!by_guide(view.kind) || world.spring_work.empty())
-        return strain_energy(law, view.overlap, point.bond_overlap, point.shear_force);
-    const double shear =
-        law.shear_stiffness > 0.0 ? 0.5 * point.shear_force * point.shear_force / law.shear_stiffness : 0.0;
-    return world.spring_work[k].stored + shear;
-}
+double stored_energy(const World& world, PointIndex k) { return energy_at(world, k, overlap_of(world, k)); }
 
 Ledger measure_ledger(const World& world) {
     Ledger ledger;

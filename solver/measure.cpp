@@ -38,6 +38,10 @@ ContactGeometry geometry_of(const World& world, PointKind kind, const ContactPoi
 
 }  // namespace
 
+double overlap_of(const World& world, PointIndex k) {
+    return geometry_of(world, kind_of(world, k), world.points[k]).overlap;
+}
+
 PointView view_point(const World& world, PointIndex k) {
     const ContactPoint& point = world.points[k];
     const ContactLaw& law = world.laws[point.law];

@@ -15,8 +15,6 @@
 
 namespace crackle {
 
-inline constexpr BodyIndex no_body = static_cast<BodyIndex>(-1);
-
 /// Displacement and rotation of a body, m and rad; or force and moment on it, N and N m.
 struct Motion {
     double x = 0.0, y = 0.0, rotation = 0.0;

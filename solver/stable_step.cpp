@@ -341,7 +341,7 @@ void evaluate_step_bound(World& world) {
     const bool all_count = !world.has_bonds || world.segment_law != SegmentLaw::rounded;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
         ContactPoint& point = world.points[k];
-        const bool counts = all_count || (point.flags & point_bonded) != 0 || view_point(world, k).overlap > 0.0;
+        const bool counts = all_count || (point.flags & point_bonded) != 0 || overlap_of(world, k) > 0.0;
         point.flags = static_cast<std::uint16_t>(counts ? point.flags | point_counted : point.flags & ~point_counted);
     }
     world.step_weights = first_weights(world, geometry);

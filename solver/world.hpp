@@ -19,6 +19,7 @@ namespace crackle {
 
 using BodyIndex = std::uint32_t;   // into World::bodies (internal numbering)
 using PointIndex = std::uint32_t;  // into World::points
+inline constexpr BodyIndex no_body = 0xffffffff;
 
 /// What a step reads and writes of one body.
 struct alignas(64) BodyState {
@@ -73,6 +74,7 @@ struct Edge {
     double x, y;
     double tx, ty;
     double length;
+    BodyIndex outline_of = no_body;  // the body whose outline is the one convex piece that this edge is of
 };
 
 /// How a point's two sides look; points of one kind lie together and have a kernel of their own.
@@ -362,6 +364,8 @@ void finish_bonding(World& world);
 void set_thickness(World& world, double thick);
 
 // ---- measuring (solver/measure.cpp, solver/ledger.cpp)
+/// Only the overlap of it, m.
+double overlap_of(const World& world, PointIndex point);
 PointView view_point(const World& world, PointIndex point);
 /// Number of the internal index of an input id; throws InputError if there is none.
 BodyIndex body_of_id(const World& world, int id);

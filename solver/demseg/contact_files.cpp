@@ -206,7 +206,7 @@ void write_back_tensions(std::ostream& out, const Scene& scene, const World& wor
     for (PointIndex k = 0; k < world.points.size() && !is_wall(k, world); ++k) {
         double tension = back_tension(world, k);
         if (!world.has_bonds)
-            tension = -world.laws[world.points[k].law].normal_stiffness * std::max(0.0, view_point(world, k).overlap);
+            tension = -world.laws[world.points[k].law].normal_stiffness * std::max(0.0, overlap_of(world, k));
         if (!(tension < 0.0)) continue;
         const PointName name = name_of(world, k);
         const bool plain = plain_pair(*names.find(name.body), *names.find(name.other));

@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Numbers side by side, one a contact point, and the turning of records into such lanes and back.
+//
+// Kernels load whole records and transpose them in registers: hardware gathers are slower than that on the machines we
+// know (reference/limits.md). Eight lanes where the target has AVX-512, else four, which the compiler splits where even
+// those are too many. All is IEEE arithmetic in the order of the source, so that any number of lanes gives the bytes of
+// the scalar code.
+#pragma once
+
+#include <immintrin.h>
+
+#include <cstdint>
+#include <cstring>
+
+// Lanes are passed between inlined functions alone.
+#pragma GCC diagnostic ignored "-Wpsabi"
+
+#define CRACKLE_INLINE inline __attribute__((always_inline))
+
+namespace crackle {
+
+#if defined(__AVX512F__)
+inline constexpr int lane_count = 8;
+#else
+inline constexpr int lane_count = 4;
+#endif
+using Lanes = double __attribute__((vector_size(8 * lane_count)));
+using LaneBits = std::int64_t __attribute__((vector_size(8 * lane_count)));  // of a condition: 0 or -1 each
+using Quad = double __attribute__((vector_size(32)));
+
+template <class V>
+CRACKLE_INLINE V load_as(const void* from) {
+    V v;
+    std::memcpy(&v, from, sizeof v);
+    return v;
+}
+template <class V>
+CRACKLE_INLINE void store_as(void* to, const V& v) {
+    std::memcpy(to, &v, sizeof v);
+}
+
+CRACKLE_INLINE Lanes all_lanes(double value) { return value - Lanes{}; }
+
+CRACKLE_INLINE Lanes root(const Lanes& v) {
+#if defined(__AVX512F__)
+    const __m512d result = _mm512_sqrt_pd(load_as<__m512d>(&v));
+    return load_as<Lanes>(&result);
+#elif defined(__AVX__)
+    const __m256d result = _mm256_sqrt_pd(load_as<__m256d>(&v));
+    return load_as<Lanes>(&result);
+#else
+    const char* from = reinterpret_cast<const char*>(&v);
+    const __m128d result[2] = {_mm_sqrt_pd(load_as<__m128d>(from)), _mm_sqrt_pd(load_as<__m128d>(from + 16))};
+    return load_as<Lanes>(&result);
+#endif
+}
+
+CRACKLE_INLINE LaneBits bits_of(const Lanes& v) { return load_as<LaneBits>(&v); }
+CRACKLE_INLINE Lanes lanes_of(const LaneBits& v) { return load_as<Lanes>(&v); }
+
+inline constexpr std::int64_t sign_bit = std::int64_t{1} << 63;
+CRACKLE_INLINE Lanes magnitude(const Lanes& v) { return lanes_of(bits_of(v) & ~sign_bit); }
+CRACKLE_INLINE Lanes with_sign(const Lanes& size, const Lanes& sign) {
+    return lanes_of((bits_of(size) & ~sign_bit) | (bits_of(sign) & sign_bit));
+}
+
+/// One bit a lane of a condition.
+CRACKLE_INLINE unsigned mask_of(const LaneBits& v) {
+#if defined(__AVX512F__)
+    return _mm512_cmp_epi64_mask(load_as<__m512i>(&v), _mm512_setzero_si512(), _MM_CMPINT_LT);
+#elif defined(__AVX__)
+    return static_cast<unsigned>(_mm256_movemask_pd(load_as<__m256d>(&v)));
+#else
+    const char* from = reinterpret_cast<const char*>(&v);
+    return static_cast<unsigned>(_mm_movemask_pd(load_as<__m128d>(from)) |
+                                 (_mm_movemask_pd(load_as<__m128d>(from + 16)) << 2));
+#endif
+}
+
+#if defined(__AVX512F__)
+
+/// Eight records of four numbers, anywhere: column[c] holds number c of every record.
+CRACKLE_INLINE void transpose_quads(const Quad (&q)[lane_count], Lanes (&column)[4]) {
+    Lanes p[4], t[4];
+    for (int k = 0; k < 4; ++k) p[k] = __builtin_shufflevector(q[k], q[k + 4], 0, 1, 2, 3, 4, 5, 6, 7);
+    for (int k = 0; k < 4; k += 2) {
+        t[k] = __builtin_shufflevector(p[k], p[k + 1], 0, 8, 2, 10, 4, 12, 6, 14);
+        t[k + 1] = __builtin_shufflevector(p[k], p[k + 1], 1, 9, 3, 11, 5, 13, 7, 15);
+    }
+    for (int odd = 0; odd < 2; ++odd) {
+        column[odd] = __builtin_shufflevector(t[odd], t[2 + odd], 0, 1, 8, 9, 4, 5, 12, 13);
+        column[2 + odd] = __builtin_shufflevector(t[odd], t[2 + odd], 2, 3, 10, 11, 6, 7, 14, 15);
+    }
+}
+
+/// The other way, into records that lie one behind the other.
+CRACKLE_INLINE void store_quads(void* to, const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d) {
+    const Lanes ab0 = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);  // records 0, 2, 4, 6
+    const Lanes ab1 = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
+    const Lanes cd0 = __builtin_shufflevector(c, d, 0, 8, 2, 10, 4, 12, 6, 14);
+    const Lanes cd1 = __builtin_shufflevector(c, d, 1, 9, 3, 11, 5, 13, 7, 15);
+    const Lanes even04 = __builtin_shufflevector(ab0, cd0, 0, 1, 8, 9, 4, 5, 12, 13);  // records 0 and 4
+    const Lanes even26 = __builtin_shufflevector(ab0, cd0, 2, 3, 10, 11, 6, 7, 14, 15);
+    const Lanes odd15 = __builtin_shufflevector(ab1, cd1, 0, 1, 8, 9, 4, 5, 12, 13);
+    const Lanes odd37 = __builtin_shufflevector(ab1, cd1, 2, 3, 10, 11, 6, 7, 14, 15);
+    char* out = static_cast<char*>(to);
+    store_as(out, __builtin_shufflevector(even04, odd15, 0, 1, 2, 3, 8, 9, 10, 11));
+    store_as(out + 64, __builtin_shufflevector(even26, odd37, 0, 1, 2, 3, 8, 9, 10, 11));
+    store_as(out + 128, __builtin_shufflevector(even04, odd15, 4, 5, 6, 7, 12, 13, 14, 15));
+    store_as(out + 192, __builtin_shufflevector(even26, odd37, 4, 5, 6, 7, 12, 13, 14, 15));
+}
+
+/// Records of two numbers that lie one behind the other.
+CRACKLE_INLINE void load_pairs(const void* from, Lanes& a, Lanes& b) {
+    const Lanes low = load_as<Lanes>(from), high = load_as<Lanes>(static_cast<const char*>(from) + 64);
+    a = __builtin_shufflevector(low, high, 0, 2, 4, 6, 8, 10, 12, 14);
+    b = __builtin_shufflevector(low, high, 1, 3, 5, 7, 9, 11, 13, 15);
+}
+CRACKLE_INLINE void store_pairs(void* to, const Lanes& a, const Lanes& b) {
+    store_as(to, __builtin_shufflevector(a, b, 0, 8, 1, 9, 2, 10, 3, 11));
+    store_as(static_cast<char*>(to) + 64, __builtin_shufflevector(a, b, 4, 12, 5, 13, 6, 14, 7, 15));
+}
+
+#else
+
+/// Four records of four numbers, anywhere: column[c] holds number c of every record.
+CRACKLE_INLINE void transpose_quads(const Quad (&q)[lane_count], Lanes (&column)[4]) {
+    const Lanes t0 = __builtin_shufflevector(q[0], q[1], 0, 4, 2, 6),
+                t1 = __builtin_shufflevector(q[0], q[1], 1, 5, 3, 7);
+    const Lanes t2 = __builtin_shufflevector(q[2], q[3], 0, 4, 2, 6),
+                t3 = __builtin_shufflevector(q[2], q[3], 1, 5, 3, 7);
+    column[0] = __builtin_shufflevector(t0, t2, 0, 1, 4, 5);
+    column[1] = __builtin_shufflevector(t1, t3, 0, 1, 4, 5);
+    column[2] = __builtin_shufflevector(t0, t2, 2, 3, 6, 7);
+    column[3] = __builtin_shufflevector(t1, t3, 2, 3, 6, 7);
+}
+
+/// The other way, into records that lie one behind the other.
+CRACKLE_INLINE void store_quads(void* to, const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d) {
+    const Quad columns[4] = {a, b, c, d};
+    Lanes record[4];
+    transpose_quads(columns, record);
+    for (int l = 0; l < 4; ++l) store_as(static_cast<char*>(to) + 32 * l, record[l]);
+}
+
+/// Records of two numbers that lie one behind the other.
+CRACKLE_INLINE void load_pairs(const void* from, Lanes& a, Lanes& b) {
+    const Lanes low = load_as<Lanes>(from), high = load_as<Lanes>(static_cast<const char*>(from) + 32);
+    a = __builtin_shufflevector(low, high, 0, 2, 4, 6);
+    b = __builtin_shufflevector(low, high, 1, 3, 5, 7);
+}
+CRACKLE_INLINE void store_pairs(void* to, const Lanes& a, const Lanes& b) {
+    store_as(to, __builtin_shufflevector(a, b, 0, 4, 1, 5));
+    store_as(static_cast<char*>(to) + 32, __builtin_shufflevector(a, b, 2, 6, 3, 7));
+}
+
+#endif
+
+}  // namespace crackle

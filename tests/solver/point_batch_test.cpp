@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Points side by side give the bytes of points one by one. A batch of points of different laws goes the scalar way, so
+// a scene of one material is run against the same scene with two that are alike.
+
+#include "solver/point_batch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <random>
+
+#include "solver/world.hpp"
+#include "specimens/catalogue/lattices.hpp"
+
+namespace crackle {
+namespace {
+
+Material rock() {
+    Material material;
+    material.density = 2500.0;
+    material.normal_stiffness = 1e7;
+    material.shear_stiffness = 2.5e6;
+    material.damping_ratio = 0.2;
+    material.friction_angle = 27.0;
+    return material;
+}
+
+struct Trial {
+    Scene scene;
+    double thick = 0.0;  // m, bonds at this; 0: no bonds
+    double speed = 0.0;  // m/s, of the bodies to begin with, at random
+};
+
+World made(Trial trial, bool two_materials) {
+    std::mt19937_64 random(7);
+    const auto any = [&] { return static_cast<double>(random() >> 11) * 0x1p-52 - 1.0; };
+    for (Body& body : trial.scene.bodies) {
+        body.velocity = {trial.speed * any(), trial.speed * any()};
+        body.spin = 10.0 * trial.speed * any();
+    }
+    if (two_materials) {
+        trial.scene.materials.push_back(trial.scene.materials[0]);
+        for (std::size_t b = 0; b < trial.scene.bodies.size(); b += 2) trial.scene.bodies[b].material = 1;
+    }
+    World world = build_world(trial.scene);
+    if (trial.thick > 0.0) bond_all(world, trial.thick);
+    return world;
+}
+
+template <class T>
+bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0;
+}
+
+void expect_the_same(const Trial& trial, int steps, bool breaks) {
+    World together = made(trial, false), apart = made(trial, true);
+    for (int n = 0; n < steps; ++n) {
+        step(together);
+        step(apart);
+    }
+    compute_forces(together);
+    compute_forces(apart);
+    EXPECT_TRUE(same_bytes(together.bodies, apart.bodies));
+    EXPECT_TRUE(same_bytes(together.point_forces, apart.point_forces));
+    EXPECT_TRUE(same_bytes(together.dissipation, apart.dissipation));
+    EXPECT_TRUE(same_bytes(together.bond_history, apart.bond_history));
+    EXPECT_EQ(together.bonds_broken, apart.bonds_broken);
+    EXPECT_EQ(together.dashpot_loss, apart.dashpot_loss);
+    EXPECT_EQ(together.friction_loss, apart.friction_loss);
+    EXPECT_EQ(together.fracture_loss, apart.fracture_loss);
+    EXPECT_GT(together.friction_loss, 0.0) << "points slide";
+    EXPECT_EQ(together.bonds_broken > 0, breaks);
+    EXPECT_LE(together.bonds_broken, together.bonds_initial * 9 / 10) << "some hold";
+}
+
+TEST(PointBatch, BondedDiscsThatBreak) {
+    expect_the_same({triangular_lattice(9, 9, 0.02, 8e-5, rock()), 0.01, 0.3}, 400, true);
+}
+
+TEST(PointBatch, BondedPolygonsThatBreak) {
+    expect_the_same({honeycomb(7, 7, 0.02, 1e-3, rock()), 1.08e-3, 2.0}, 400, true);
+}
+
+TEST(PointBatch, LooseDiscs) { expect_the_same({triangular_lattice(9, 9, 0.02, 0.0, rock()), 0.0, 1.0}, 2000, false); }
+
+TEST(PointBatch, LoosePolygons) { expect_the_same({honeycomb(7, 7, 0.02, 1e-3, rock()), 0.0, 1.0}, 2000, false); }
+
+TEST(PointBatch, WithoutDampingOrAccount) {
+    Material plain = rock();
+    plain.damping_ratio = 0.0;
+    Trial trial{honeycomb(7, 7, 0.02, 1e-3, plain), 1.08e-3, 0.3};
+    trial.scene.ledger = false;
+    World together = made(trial, false), apart = made(trial, true);
+    for (int n = 0; n < 300; ++n) {
+        step(together);
+        step(apart);
+    }
+    EXPECT_TRUE(same_bytes(together.bodies, apart.bodies));
+    EXPECT_GT(together.bonds_broken, 0);
+}
+
+TEST(Lanes, TurnRecordsIntoColumnsAndBack) {
+    double numbers[lane_count][4], back[lane_count][4], pairs[lane_count][2];
+    Quad records[lane_count];
+    for (int l = 0; l < lane_count; ++l) {
+        for (int c = 0; c < 4; ++c) numbers[l][c] = 10.0 * l + c;
+        records[l] = load_as<Quad>(numbers[l]);
+    }
+    Lanes column[4];
+    transpose_quads(records, column);
+    for (int l = 0; l < lane_count; ++l)
+        for (int c = 0; c < 4; ++c) EXPECT_EQ(column[c][l], 10.0 * l + c);
+    store_quads(back, column[0], column[1], column[2], column[3]);
+    EXPECT_EQ(std::memcmp(numbers, back, sizeof back), 0);
+    store_pairs(pairs, column[1], column[2]);
+    for (int l = 0; l < lane_count; ++l) EXPECT_EQ(pairs[l][0] + 1.0, pairs[l][1]);
+    Lanes first, second;
+    load_pairs(pairs, first, second);
+    EXPECT_EQ(mask_of(first == column[1]), (1u << lane_count) - 1u);
+    EXPECT_EQ(mask_of(second == column[2]), (1u << lane_count) - 1u);
+}
+
+TEST(Lanes, SignsAndRoots) {
+    const Lanes v = with_sign(all_lanes(2.25), all_lanes(-0.0));
+    EXPECT_EQ(v[0], -2.25);
+    EXPECT_EQ(magnitude(v)[lane_count - 1], 2.25);
+    EXPECT_EQ(root(magnitude(v))[lane_count - 1], 1.5);
+    Lanes mixed = all_lanes(1.0);
+    mixed[1] = -1.0;
+    EXPECT_EQ(mask_of(mixed < 0.0), 2u);
+}
+
+}  // namespace
+}  // namespace crackle
