@@ -9,6 +9,7 @@
 
 #include <immintrin.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 
@@ -19,7 +20,8 @@
 
 namespace crackle {
 
-#if defined(__AVX512F__)
+// CRACKLE_EIGHT_LANES is for tests of that form where the machine has no AVX-512.
+#if defined(__AVX512F__) || defined(CRACKLE_EIGHT_LANES)
 inline constexpr int lane_count = 8;
 #else
 inline constexpr int lane_count = 4;
@@ -42,17 +44,18 @@ CRACKLE_INLINE void store_as(void* to, const V& v) {
 CRACKLE_INLINE Lanes all_lanes(double value) { return value - Lanes{}; }
 
 CRACKLE_INLINE Lanes root(const Lanes& v) {
-#if defined(__AVX512F__)
-    const __m512d result = _mm512_sqrt_pd(load_as<__m512d>(&v));
-    return load_as<Lanes>(&result);
-#elif defined(__AVX__)
-    const __m256d result = _mm256_sqrt_pd(load_as<__m256d>(&v));
-    return load_as<Lanes>(&result);
-#else
+    Lanes result;
     const char* from = reinterpret_cast<const char*>(&v);
-    const __m128d result[2] = {_mm_sqrt_pd(load_as<__m128d>(from)), _mm_sqrt_pd(load_as<__m128d>(from + 16))};
-    return load_as<Lanes>(&result);
+    char* to = reinterpret_cast<char*>(&result);
+#if defined(__AVX512F__)
+    // Not _mm512_sqrt_pd(): g++ 12 warns of an uninitialised value within it.
+    store_as(to, _mm512_maskz_sqrt_pd(0xff, load_as<__m512d>(from)));
+#elif defined(__AVX__)
+    for (std::size_t k = 0; k < sizeof v; k += 32) store_as(to + k, _mm256_sqrt_pd(load_as<__m256d>(from + k)));
+#else
+    for (std::size_t k = 0; k < sizeof v; k += 16) store_as(to + k, _mm_sqrt_pd(load_as<__m128d>(from + k)));
 #endif
+    return result;
 }
 
 CRACKLE_INLINE LaneBits bits_of(const Lanes& v) { return load_as<LaneBits>(&v); }
@@ -66,18 +69,23 @@ CRACKLE_INLINE Lanes with_sign(const Lanes& size, const Lanes& sign) {
 
 /// One bit a lane of a condition.
 CRACKLE_INLINE unsigned mask_of(const LaneBits& v) {
-#if defined(__AVX512F__)
-    return _mm512_cmp_epi64_mask(load_as<__m512i>(&v), _mm512_setzero_si512(), _MM_CMPINT_LT);
-#elif defined(__AVX__)
-    return static_cast<unsigned>(_mm256_movemask_pd(load_as<__m256d>(&v)));
-#else
     const char* from = reinterpret_cast<const char*>(&v);
-    return static_cast<unsigned>(_mm_movemask_pd(load_as<__m128d>(from)) |
-                                 (_mm_movemask_pd(load_as<__m128d>(from + 16)) << 2));
+#if defined(__AVX512F__)
+    return _mm512_cmp_epi64_mask(load_as<__m512i>(from), _mm512_setzero_si512(), _MM_CMPINT_LT);
+#else
+    unsigned mask = 0;
+#if defined(__AVX__)
+    for (unsigned k = 0; k < lane_count; k += 4)
+        mask |= static_cast<unsigned>(_mm256_movemask_pd(load_as<__m256d>(from + 8 * k))) << k;
+#else
+    for (unsigned k = 0; k < lane_count; k += 2)
+        mask |= static_cast<unsigned>(_mm_movemask_pd(load_as<__m128d>(from + 8 * k))) << k;
+#endif
+    return mask;
 #endif
 }
 
-#if defined(__AVX512F__)
+#if defined(__AVX512F__) || defined(CRACKLE_EIGHT_LANES)
 
 /// Eight records of four numbers, anywhere: column[c] holds number c of every record.
 CRACKLE_INLINE void transpose_quads(const Quad (&q)[lane_count], Lanes (&column)[4]) {

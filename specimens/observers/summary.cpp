@@ -207,7 +207,7 @@ std::vector<std::string> notices_of(const TestCase& test, const TestSetup& setup
                                     const World& world) {
     constexpr std::int64_t rows_that_resolve = 100;
     constexpr double closing_error_to_mention = 2e-3;  // twice the most that the guide's rock leaves by default
-    constexpr double share_above_to_mention = 0.1;
+    constexpr double share_above_to_mention = 0.25;
     std::vector<std::string> notices = setup.notices;
     const FailureTracker& f = state.failure;
     if (f.failed && f.peak_row < rows_that_resolve) {

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Lanes by themselves; built with four of them and with eight, whatever the machine.
+
+#include "solver/lanes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+namespace crackle {
+namespace {
+
+TEST(LANES_SUITE, TurnRecordsIntoColumnsAndBack) {
+    double numbers[lane_count][4], back[lane_count][4], pairs[lane_count][2];
+    Quad records[lane_count];
+    for (int l = 0; l < lane_count; ++l) {
+        for (int c = 0; c < 4; ++c) numbers[l][c] = 10.0 * l + c;
+        records[l] = load_as<Quad>(numbers[l]);
+    }
+    Lanes column[4];
+    transpose_quads(records, column);
+    for (int l = 0; l < lane_count; ++l)
+        for (int c = 0; c < 4; ++c) EXPECT_EQ(column[c][l], 10.0 * l + c);
+    store_quads(back, column[0], column[1], column[2], column[3]);
+    EXPECT_EQ(std::memcmp(numbers, back, sizeof back), 0);
+    store_pairs(pairs, column[1], column[2]);
+    for (int l = 0; l < lane_count; ++l) EXPECT_EQ(pairs[l][0] + 1.0, pairs[l][1]);
+    Lanes first, second;
+    load_pairs(pairs, first, second);
+    EXPECT_EQ(mask_of(first == column[1]), (1u << lane_count) - 1u);
+    EXPECT_EQ(mask_of(second == column[2]), (1u << lane_count) - 1u);
+}
+
+TEST(LANES_SUITE, SignsAndRoots) {
+    const Lanes v = with_sign(all_lanes(2.25), all_lanes(-0.0));
+    EXPECT_EQ(v[0], -2.25);
+    EXPECT_EQ(magnitude(v)[lane_count - 1], 2.25);
+    EXPECT_EQ(root(magnitude(v))[lane_count - 1], 1.5);
+    Lanes mixed = all_lanes(1.0);
+    mixed[1] = -1.0;
+    EXPECT_EQ(mask_of(mixed < 0.0), 2u);
+}
+
+}  // namespace
+}  // namespace crackle
