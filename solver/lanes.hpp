@@ -10,8 +10,9 @@
 #include <immintrin.h>
 
 #include <cstddef>
-#include <cstdint>
 #include <cstring>
+#include <limits>
+#include <type_traits>
 
 // Lanes are passed between inlined functions alone.
 #pragma GCC diagnostic ignored "-Wpsabi"
@@ -27,7 +28,8 @@ inline constexpr int lane_count = 8;
 inline constexpr int lane_count = 4;
 #endif
 using Lanes = double __attribute__((vector_size(8 * lane_count)));
-using LaneBits = std::int64_t __attribute__((vector_size(8 * lane_count)));  // of a condition: 0 or -1 each
+using LaneBits = decltype(Lanes{} < Lanes{});  // of a condition: 0 or -1 each
+using LaneBit = std::remove_cvref_t<decltype(LaneBits{}[0])>;
 using Quad = double __attribute__((vector_size(32)));
 
 template <class V>
@@ -61,7 +63,7 @@ CRACKLE_INLINE Lanes root(const Lanes& v) {
 CRACKLE_INLINE LaneBits bits_of(const Lanes& v) { return load_as<LaneBits>(&v); }
 CRACKLE_INLINE Lanes lanes_of(const LaneBits& v) { return load_as<Lanes>(&v); }
 
-inline constexpr std::int64_t sign_bit = std::int64_t{1} << 63;
+inline constexpr LaneBit sign_bit = std::numeric_limits<LaneBit>::min();
 CRACKLE_INLINE Lanes magnitude(const Lanes& v) { return lanes_of(bits_of(v) & ~sign_bit); }
 CRACKLE_INLINE Lanes with_sign(const Lanes& size, const Lanes& sign) {
     return lanes_of((bits_of(size) & ~sign_bit) | (bits_of(sign) & sign_bit));
@@ -75,10 +77,10 @@ CRACKLE_INLINE unsigned mask_of(const LaneBits& v) {
 #else
     unsigned mask = 0;
 #if defined(__AVX__)
-    for (unsigned k = 0; k < lane_count; k += 4)
+    for (std::size_t k = 0; k < lane_count; k += 4)
         mask |= static_cast<unsigned>(_mm256_movemask_pd(load_as<__m256d>(from + 8 * k))) << k;
 #else
-    for (unsigned k = 0; k < lane_count; k += 2)
+    for (std::size_t k = 0; k < lane_count; k += 2)
         mask |= static_cast<unsigned>(_mm_movemask_pd(load_as<__m128d>(from + 8 * k))) << k;
 #endif
     return mask;
@@ -148,7 +150,7 @@ CRACKLE_INLINE void store_quads(void* to, const Lanes& a, const Lanes& b, const 
     const Quad columns[4] = {a, b, c, d};
     Lanes record[4];
     transpose_quads(columns, record);
-    for (int l = 0; l < 4; ++l) store_as(static_cast<char*>(to) + 32 * l, record[l]);
+    for (std::size_t l = 0; l < 4; ++l) store_as(static_cast<char*>(to) + 32 * l, record[l]);
 }
 
 /// Records of two numbers that lie one behind the other.

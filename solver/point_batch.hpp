@@ -108,7 +108,7 @@ CRACKLE_INLINE bool force_batch(World& world, PointIndex k, World::LossBlock& lo
     if (mask_of(((law_and_flags ^ law_and_flags[0]) & 0xffff) != 0) != 0) return false;
     const ContactLaw& law = world.laws[points[0].law];
     if (Friction && !(law.shear_stiffness > 0.0)) return false;
-    const auto flagged = [&](PointFlag flag) { return (law_and_flags & (std::int64_t{flag} << 16)) != 0; };
+    const auto flagged = [&](PointFlag flag) { return (law_and_flags & (static_cast<LaneBit>(flag) << 16)) != 0; };
 
     BodyLanes i, j;
     load_bodies(world.bodies.data(), body_i, i);
@@ -156,10 +156,9 @@ CRACKLE_INLINE bool force_batch(World& world, PointIndex k, World::LossBlock& lo
         const Lanes kept = holds ? tangential : before;
         for (int l = 0; l < lane_count; ++l) points[l].shear_force = kept[l];
     }
-    constexpr std::int64_t touching_bit = std::int64_t{point_touching} << 16;
-    constexpr std::int64_t sliding_bit = std::int64_t{point_sliding} << 16, slid_bit = std::int64_t{point_slid} << 16;
-    LaneBits now = (law_and_flags | touching_bit) & ~sliding_bit;
-    if constexpr (Friction) now |= sliding & (sliding_bit | slid_bit);
+    constexpr auto bit_of = [](PointFlag flag) { return static_cast<LaneBit>(flag) << 16; };
+    LaneBits now = (law_and_flags | bit_of(point_touching)) & ~bit_of(point_sliding);
+    if constexpr (Friction) now |= sliding & (bit_of(point_sliding) | bit_of(point_slid));
     if (const unsigned changed = mask_of(holds & ((now ^ law_and_flags) != 0)); changed != 0) {
         for (int l = 0; l < lane_count; ++l)
             if ((changed >> l & 1) != 0) points[l].flags = static_cast<std::uint16_t>(now[l] >> 16);

@@ -143,7 +143,15 @@ std::optional<NumericalErrors> run_companions(const VirtualTest& test, const Tes
         std::vector<std::future<std::optional<Companion>>> running;
         for (std::size_t k = first; k < std::min(plans.size(), first + at_once); ++k)
             running.push_back(std::async(std::launch::async, [&, k] { return run_one(plans[k], test, hooks); }));
-        for (std::size_t k = 0; k < running.size(); ++k) done[first + k] = running[k].get();
+        for (std::size_t k = 0; k < running.size(); ++k) {
+            std::optional<Companion>& companion = done[first + k];
+            companion = running[k].get();
+            if (companion && hooks.stage) {
+                hooks.stage(fmt::format("  {}: {:.4g} N/m at strain {:.4g}, {} steps ({} of {})", companion->name,
+                                        companion->peak_stress, companion->peak_strain, companion->steps, first + k + 1,
+                                        plans.size()));
+            }
+        }
     }
     NumericalErrors errors;
     for (const auto& companion : done) {
