@@ -38,7 +38,6 @@ Tangent tangent(std::span<const CurveRow> rows, bool compression) {
     t.modulus = slope(rows, &CurveRow::axial_strain, &CurveRow::axial_stress);
     const double widening = slope(rows, &CurveRow::axial_strain, &CurveRow::lateral_strain);
     t.poissons_ratio = compression ? widening : -widening;
-    t.strain_from = first.axial_strain;
     t.strain_to = last.axial_strain;
     t.bonds_broken = last.bonds_broken - first.bonds_broken;
     t.points_sliding = last.points_sliding;

@@ -14,7 +14,7 @@ struct Tangent {
     double modulus;         // N/m
     double poissons_ratio;  ///< -(lateral strain)/(axial strain), tension positive in both
     std::int64_t rows = 0;
-    double strain_from = 0.0, strain_to = 0.0;
+    double strain_to = 0.0;
     std::int64_t bonds_broken = 0;     ///< within the window
     std::int64_t points_sliding = 0;   ///< at its end
     std::int64_t contacts_gained = 0;  ///< touching without a bond, more than at its beginning

@@ -138,12 +138,13 @@ void write_bonds(const std::string& path, const ElasticAnalysis& a) {
 
 int elastic(const Arguments& arguments) {
     po::options_description visible("options");
-    visible.add_options()("help,h", "this text")                                                             //
-        ("json", "print one JSON object")                                                                    //
-        ("strain", po::value<double>()->default_value(1e-4), "axial strain at which --bonds gives forces")   //
-        ("bonds", po::value<std::string>(), "CSV file to write: forces in all bonds, compression positive")  //
-        ("force", "replace that file")                                                                       //
-        ("modes", po::value<int>()->default_value(0), "lowest vibration modes to find")                      //
+    visible.add_options()("help,h", "this text")                                                            //
+        ("json", "print one JSON object")                                                                   //
+        ("strain", po::value<double>()->default_value(1e-4), "axial strain at which --bonds gives forces")  //
+        ("bonds", po::value<std::string>(),
+         "CSV file to write: forces in all bonds, compression positive; strains of break and slip, inf: never")  //
+        ("force", "replace that file")                                                                           //
+        ("modes", po::value<int>()->default_value(0), "lowest vibration modes to find")                          //
         ("quiet,q", "no stages");
     po::options_description all = visible;
     all.add_options()("case", po::value<std::string>(), "");
