@@ -4,13 +4,11 @@
 //
 // A specimen that breaks follows one of many branches, and which one a rounding decides; so the peaks of companions
 // differ by chance as well as by the error of step and rate. The stated error is the larger of
-//     chance  t·sqrt(2)·s, s the sample standard deviation of the three values x (as asked), x at half the step and x
-//     at
-//             half the rate, t = 2.920 the 95 % point of Student's distribution with two degrees of freedom: were they
-//             independent draws, 90 of 100 further runs would lie within
-//     rate    3 |x - x at half the rate|, the grid convergence index of two grids at first order (Roache, J. Fluids
-//     Eng.
-//             116, 1994): inertia and dashpots act in proportion to the rate, the step's error is of second order
+//   - chance, t·sqrt(2)·s, s the sample standard deviation of x (as asked), x at half the step and x at half the
+//     rate, t = 2.920 the 95 % point of Student's distribution with two degrees of freedom: were they
+//     independent draws, 90 of 100 further runs would lie within;
+//   - rate, 3 |x - x at half the rate|, the grid convergence index of two grids at first order (Roache, J. Fluids Eng.
+//     116, 1994): inertia and dashpots act in proportion to the rate, the step's error is of second order;
 // and what the rows of the curve resolve, added as independent errors are: the root of the sum of squares. What the
 // damping changes is physics as much as error and stands apart.
 #pragma once

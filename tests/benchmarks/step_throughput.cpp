@@ -8,17 +8,14 @@
 
 #include "solver/world.hpp"
 #include "specimens/catalogue/lattices.hpp"
+#include "specimens/catalogue/materials.hpp"
 
 namespace crackle {
 namespace {
 
 Material rock() {
-    Material material;
-    material.density = 2500.0;
-    material.normal_stiffness = 1e7;
-    material.shear_stiffness = 2.5e6;
+    Material material = undamped_rock(1e7, 27.0);
     material.damping_ratio = 0.2;
-    material.friction_angle = 27.0;
     return material;
 }
 
