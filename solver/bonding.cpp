@@ -71,7 +71,8 @@ void finish_bonding(World& world) {
     world.bonds_broken = 0;
     world.interfaces_lost = 0;
     world.bond_history.assign(world.points.size(), BondHistory{0.0, 0.0});
-    world.dissipation.assign(world.ledger_on ? world.points.size() : 0, PointDissipation{0.0, 0.0});
+    world.normal_dashpot.assign(world.ledger_on ? world.points.size() : 0, 0.0);
+    world.shear_dashpot = world.normal_dashpot;
     world.spring_work.assign(keeps_spring_work(world) ? world.points.size() : 0, SpringWork{});
     world.openings.assign(world.integrator == Integrator::consistent ? world.points.size() : 0, OpeningMemory{});
     std::fill(world.owed.begin(), world.owed.end(), 0.0);

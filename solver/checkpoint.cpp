@@ -18,7 +18,7 @@
 namespace crackle {
 
 // Raise when the fields below change.
-constexpr std::uint32_t checkpoint_version = 7;
+constexpr std::uint32_t checkpoint_version = 8;
 constexpr std::uint64_t checkpoint_magic = 0x454c4b4341524321ULL;  // "!CRACKLE"
 
 // NOLINTBEGIN(bugprone-macro-parentheses)
@@ -91,10 +91,6 @@ void serialize(Archive& a, PointForce& f) {
     a(f.fx, f.fy, f.torque_i, f.torque_j);
 }
 template <class Archive>
-void serialize(Archive& a, PointDissipation& d) {
-    a(d.normal, d.shear);
-}
-template <class Archive>
 void serialize(Archive& a, SpringWork& w) {
     a(w.last, w.stored);
 }
@@ -123,8 +119,8 @@ template <class Archive>
 void serialize(Archive& a, World& w) {
     a(w.bodies, w.inertia, w.forces, w.info, w.elements, w.pieces, w.edges, w.segments, w.controls, w.laws,
       w.materials);
-    a(w.points, w.kind_begin, w.point_forces, w.dissipation, w.spring_work, w.openings, w.owed, w.bond_history,
-      w.body_begin, w.body_slots);
+    a(w.points, w.kind_begin, w.point_forces, w.normal_dashpot, w.shear_dashpot, w.spring_work, w.openings, w.owed,
+      w.bond_history, w.body_begin, w.body_slots);
     a(w.skin, w.widest_skin, w.list_reference, w.turning_reach, w.size_rank, w.largest_smaller, w.travelled, w.fastest,
       w.fastest_allowed_move, w.list_valid, w.list_step, w.list_builds);
     a(w.domain, w.thick, w.segment_law, w.integrator, w.gravity, w.time_step, w.drift, w.automatic_step,

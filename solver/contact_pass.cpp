@@ -110,9 +110,8 @@ inline void force_point(World& world, PointIndex k, World::LossBlock& loss) {
     if (!holds) {
         if constexpr (Consistent) rest_opening(world.openings[k]);
         if constexpr (Ledger && Damping) {
-            PointDissipation& last = world.dissipation[k];
-            loss.dashpot += 0.5 * dt * (last.normal * closing + last.shear * slipping);
-            last = {0.0, 0.0};
+            loss.dashpot += 0.5 * dt * (world.normal_dashpot[k] * closing + world.shear_dashpot[k] * slipping);
+            world.normal_dashpot[k] = world.shear_dashpot[k] = 0.0;
         }
         if constexpr (Ledger && by_guide(K)) {
             SpringWork& work = world.spring_work[k];
@@ -181,10 +180,11 @@ inline void force_point(World& world, PointIndex k, World::LossBlock& loss) {
         const double shear_damper =
             sliding ? 0.0 : shear_dashpot(law, point.root_effective_mass, slipping, compression);
         if constexpr (Ledger) {
-            PointDissipation& last = world.dissipation[k];
-            loss.dashpot +=
-                0.5 * dt * ((last.normal + normal_dashpot) * closing + (last.shear + shear_damper) * slipping);
-            last = {normal_dashpot, shear_damper};
+            loss.dashpot += 0.5 * dt *
+                            ((world.normal_dashpot[k] + normal_dashpot) * closing +
+                             (world.shear_dashpot[k] + shear_damper) * slipping);
+            world.normal_dashpot[k] = normal_dashpot;
+            world.shear_dashpot[k] = shear_damper;
         }
         normal += normal_dashpot;
         tangential -= shear_damper;
@@ -205,10 +205,17 @@ void force_block(World& world, const PassRange& range) {
     World::LossBlock loss;
     PointIndex k = range.begin;
     if constexpr (in_batches<K, Consistent>) {
-        for (; k + lane_count <= range.end; k += lane_count) {
-            if (force_batch<K, Friction, Damping, Bonds, Ledger>(world, k, loss)) continue;
-            for (PointIndex one = k; one < k + lane_count; ++one)
-                force_point<K, Friction, Damping, Bonds, Ledger, Consistent>(world, one, loss);
+        // Geometry first: its roots and divisions then overlap those of the next batches.
+        constexpr PointIndex ahead = 64 / lane_count;
+        BatchGeometry geometry[ahead];
+        while (k + lane_count <= range.end) {
+            const PointIndex batches = std::min<PointIndex>(ahead, (range.end - k) / lane_count);
+            for (PointIndex b = 0; b < batches; ++b) geometry_batch<K>(world, k + b * lane_count, geometry[b]);
+            for (PointIndex b = 0; b < batches; ++b, k += lane_count) {
+                if (force_batch<K, Friction, Damping, Bonds, Ledger>(world, k, geometry[b], loss)) continue;
+                for (PointIndex one = k; one < k + lane_count; ++one)
+                    force_point<K, Friction, Damping, Bonds, Ledger, Consistent>(world, one, loss);
+            }
         }
     }
     for (; k < range.end; ++k) force_point<K, Friction, Damping, Bonds, Ledger, Consistent>(world, k, loss);

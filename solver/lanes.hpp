@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Numbers side by side, one a contact point, and the turning of records into such lanes and back.
 //
-// Kernels load whole records and transpose them in registers: hardware gathers are slower than that on the machines we
-// know (reference/limits.md). Eight lanes where the target has AVX-512, else four, which the compiler splits where even
-// those are too many. All is IEEE arithmetic in the order of the source, so that any number of lanes gives the bytes of
-// the scalar code.
+// Kernels load records two numbers at a time and turn them in registers: hardware gathers are slower than that on the
+// machines we know (reference/limits.md). Eight lanes where the target has AVX-512, else four, which the compiler
+// splits where even those are too many. All is IEEE arithmetic in the order of the source, so that any number of lanes
+// gives the bytes of the scalar code.
 #pragma once
 
 #include <immintrin.h>
 
 #include <cstddef>
-#include <cstring>
 #include <limits>
 #include <type_traits>
 
@@ -31,16 +30,18 @@ using Lanes = double __attribute__((vector_size(8 * lane_count)));
 using LaneBits = decltype(Lanes{} < Lanes{});  // of a condition: 0 or -1 each
 using LaneBit = std::remove_cvref_t<decltype(LaneBits{}[0])>;
 using Quad = double __attribute__((vector_size(32)));
+using Pair = double __attribute__((vector_size(16)));
 
+/// Eight-byte numbers wherever they lie, whatever their type. Not memcpy(): g++ does not fold its loads into shuffles.
 template <class V>
 CRACKLE_INLINE V load_as(const void* from) {
-    V v;
-    std::memcpy(&v, from, sizeof v);
-    return v;
+    typedef V Loose __attribute__((aligned(8), may_alias));
+    return *static_cast<const Loose*>(from);
 }
 template <class V>
 CRACKLE_INLINE void store_as(void* to, const V& v) {
-    std::memcpy(to, &v, sizeof v);
+    typedef V Loose __attribute__((aligned(8), may_alias));
+    *static_cast<Loose*>(to) = v;
 }
 
 CRACKLE_INLINE Lanes all_lanes(double value) { return value - Lanes{}; }
@@ -87,23 +88,30 @@ CRACKLE_INLINE unsigned mask_of(const LaneBits& v) {
 #endif
 }
 
-#if defined(__AVX512F__) || defined(CRACKLE_EIGHT_LANES)
-
-/// Eight records of four numbers, anywhere: column[c] holds number c of every record.
-CRACKLE_INLINE void transpose_quads(const Quad (&q)[lane_count], Lanes (&column)[4]) {
-    Lanes p[4], t[4];
-    for (int k = 0; k < 4; ++k) p[k] = __builtin_shufflevector(q[k], q[k + 4], 0, 1, 2, 3, 4, 5, 6, 7);
-    for (int k = 0; k < 4; k += 2) {
-        t[k] = __builtin_shufflevector(p[k], p[k + 1], 0, 8, 2, 10, 4, 12, 6, 14);
-        t[k + 1] = __builtin_shufflevector(p[k], p[k + 1], 1, 9, 3, 11, 5, 13, 7, 15);
-    }
-    for (int odd = 0; odd < 2; ++odd) {
-        column[odd] = __builtin_shufflevector(t[odd], t[2 + odd], 0, 1, 8, 9, 4, 5, 12, 13);
-        column[2 + odd] = __builtin_shufflevector(t[odd], t[2 + odd], 2, 3, 10, 11, 6, 7, 14, 15);
-    }
+/// Two pairs, anywhere.
+CRACKLE_INLINE Quad join(const double* a, const double* b) {
+#if defined(__AVX__)
+    // g++ does not fold the load of the second half into a shuffle of its own.
+    return (Quad)_mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(a)), _mm_loadu_pd(b), 1);
+#else
+    return __builtin_shufflevector(load_as<Pair>(a), load_as<Pair>(b), 0, 1, 2, 3);
+#endif
 }
 
-/// The other way, into records that lie one behind the other.
+#if defined(__AVX512F__) || defined(CRACKLE_EIGHT_LANES)
+
+CRACKLE_INLINE Lanes join(const double* a, const double* b, const double* c, const double* d) {
+    return __builtin_shufflevector(join(a, b), join(c, d), 0, 1, 2, 3, 4, 5, 6, 7);
+}
+
+/// The two numbers at each of the addresses. Pairs meet on their way from memory, which spares shuffles.
+CRACKLE_INLINE void gather_pairs(const double* const (&at)[lane_count], Lanes& first, Lanes& second) {
+    const Lanes even = join(at[0], at[2], at[4], at[6]), odd = join(at[1], at[3], at[5], at[7]);
+    first = __builtin_shufflevector(even, odd, 0, 8, 2, 10, 4, 12, 6, 14);
+    second = __builtin_shufflevector(even, odd, 1, 9, 3, 11, 5, 13, 7, 15);
+}
+
+/// Records of four numbers that lie one behind the other.
 CRACKLE_INLINE void store_quads(void* to, const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d) {
     const Lanes ab0 = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);  // records 0, 2, 4, 6
     const Lanes ab1 = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
@@ -120,48 +128,24 @@ CRACKLE_INLINE void store_quads(void* to, const Lanes& a, const Lanes& b, const 
     store_as(out + 192, __builtin_shufflevector(even26, odd37, 4, 5, 6, 7, 12, 13, 14, 15));
 }
 
-/// Records of two numbers that lie one behind the other.
-CRACKLE_INLINE void load_pairs(const void* from, Lanes& a, Lanes& b) {
-    const Lanes low = load_as<Lanes>(from), high = load_as<Lanes>(static_cast<const char*>(from) + 64);
-    a = __builtin_shufflevector(low, high, 0, 2, 4, 6, 8, 10, 12, 14);
-    b = __builtin_shufflevector(low, high, 1, 3, 5, 7, 9, 11, 13, 15);
-}
-CRACKLE_INLINE void store_pairs(void* to, const Lanes& a, const Lanes& b) {
-    store_as(to, __builtin_shufflevector(a, b, 0, 8, 1, 9, 2, 10, 3, 11));
-    store_as(static_cast<char*>(to) + 64, __builtin_shufflevector(a, b, 4, 12, 5, 13, 6, 14, 7, 15));
-}
-
 #else
 
-/// Four records of four numbers, anywhere: column[c] holds number c of every record.
-CRACKLE_INLINE void transpose_quads(const Quad (&q)[lane_count], Lanes (&column)[4]) {
-    const Lanes t0 = __builtin_shufflevector(q[0], q[1], 0, 4, 2, 6),
-                t1 = __builtin_shufflevector(q[0], q[1], 1, 5, 3, 7);
-    const Lanes t2 = __builtin_shufflevector(q[2], q[3], 0, 4, 2, 6),
-                t3 = __builtin_shufflevector(q[2], q[3], 1, 5, 3, 7);
-    column[0] = __builtin_shufflevector(t0, t2, 0, 1, 4, 5);
-    column[1] = __builtin_shufflevector(t1, t3, 0, 1, 4, 5);
-    column[2] = __builtin_shufflevector(t0, t2, 2, 3, 6, 7);
-    column[3] = __builtin_shufflevector(t1, t3, 2, 3, 6, 7);
+/// The two numbers at each of the addresses. Pairs meet on their way from memory, which spares shuffles.
+CRACKLE_INLINE void gather_pairs(const double* const (&at)[lane_count], Lanes& first, Lanes& second) {
+    const Lanes even = join(at[0], at[2]), odd = join(at[1], at[3]);
+    first = __builtin_shufflevector(even, odd, 0, 4, 2, 6);
+    second = __builtin_shufflevector(even, odd, 1, 5, 3, 7);
 }
 
-/// The other way, into records that lie one behind the other.
+/// Records of four numbers that lie one behind the other.
 CRACKLE_INLINE void store_quads(void* to, const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d) {
-    const Quad columns[4] = {a, b, c, d};
-    Lanes record[4];
-    transpose_quads(columns, record);
-    for (std::size_t l = 0; l < 4; ++l) store_as(static_cast<char*>(to) + 32 * l, record[l]);
-}
-
-/// Records of two numbers that lie one behind the other.
-CRACKLE_INLINE void load_pairs(const void* from, Lanes& a, Lanes& b) {
-    const Lanes low = load_as<Lanes>(from), high = load_as<Lanes>(static_cast<const char*>(from) + 32);
-    a = __builtin_shufflevector(low, high, 0, 2, 4, 6);
-    b = __builtin_shufflevector(low, high, 1, 3, 5, 7);
-}
-CRACKLE_INLINE void store_pairs(void* to, const Lanes& a, const Lanes& b) {
-    store_as(to, __builtin_shufflevector(a, b, 0, 4, 1, 5));
-    store_as(static_cast<char*>(to) + 32, __builtin_shufflevector(a, b, 2, 6, 3, 7));
+    const Lanes ab02 = __builtin_shufflevector(a, b, 0, 4, 2, 6), ab13 = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+    const Lanes cd02 = __builtin_shufflevector(c, d, 0, 4, 2, 6), cd13 = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+    char* out = static_cast<char*>(to);
+    store_as(out, __builtin_shufflevector(ab02, cd02, 0, 1, 4, 5));
+    store_as(out + 32, __builtin_shufflevector(ab13, cd13, 0, 1, 4, 5));
+    store_as(out + 64, __builtin_shufflevector(ab02, cd02, 2, 3, 6, 7));
+    store_as(out + 96, __builtin_shufflevector(ab13, cd13, 2, 3, 6, 7));
 }
 
 #endif

@@ -332,7 +332,7 @@ void hand_on(const std::vector<ContactPoint>& points, const std::array<PointInde
 /// is listed or not: it lasts until the force pass finds it broken, and intact ones hold at any opening.
 void exchange_points(World& world, PointLists& lists) {
     std::vector<ContactPoint> points;
-    std::vector<PointDissipation> dissipation;
+    std::vector<double> normal_dashpot, shear_dashpot;
     std::vector<SpringWork> spring_work;
     std::vector<OpeningMemory> openings;
     std::vector<BondHistory> history;
@@ -340,7 +340,10 @@ void exchange_points(World& world, PointLists& lists) {
     std::size_t total = 0;
     for (const auto& list : lists) total += list.size();
     points.reserve(total);
-    if (world.ledger_on) dissipation.reserve(total);
+    if (world.ledger_on) {
+        normal_dashpot.reserve(total);
+        shear_dashpot.reserve(total);
+    }
     if (keeps_spring_work(world)) spring_work.reserve(total);
     const bool consistent = world.integrator == Integrator::consistent;
     if (consistent) openings.reserve(total);
@@ -348,7 +351,10 @@ void exchange_points(World& world, PointLists& lists) {
     constexpr PointIndex none = std::numeric_limits<PointIndex>::max();
     const auto add = [&](const ContactPoint& point, PointIndex old) {
         points.push_back(point);
-        if (world.ledger_on) dissipation.push_back(old != none ? world.dissipation[old] : PointDissipation{0.0, 0.0});
+        if (world.ledger_on) {
+            normal_dashpot.push_back(old != none ? world.normal_dashpot[old] : 0.0);
+            shear_dashpot.push_back(old != none ? world.shear_dashpot[old] : 0.0);
+        }
         if (keeps_spring_work(world)) spring_work.push_back(old != none ? world.spring_work[old] : SpringWork{});
         if (consistent) openings.push_back(old != none ? world.openings[old] : OpeningMemory{});
         if (world.has_bonds)
@@ -397,7 +403,8 @@ void exchange_points(World& world, PointLists& lists) {
     begin[point_kinds] = static_cast<PointIndex>(points.size());
     if (consistent) hand_on(points, begin, openings, world.owed);
     world.points = std::move(points);
-    world.dissipation = std::move(dissipation);
+    world.normal_dashpot = std::move(normal_dashpot);
+    world.shear_dashpot = std::move(shear_dashpot);
     world.spring_work = std::move(spring_work);
     world.openings = std::move(openings);
     world.bond_history = std::move(history);

@@ -11,26 +11,43 @@
 
 namespace crackle {
 
-/// Arms, normal and overlap of the points, and the two bodies of each.
+/// Arms, normal and overlap of the points.
 struct BatchGeometry {
     Lanes overlap, nx, ny, aix, aiy, ajx, ajy;
 };
-struct BodyLanes {
-    Lanes x, y, vx, vy, omega, shape0, shape1;
+/// One body of each point.
+struct PlaceLanes {
+    Lanes x, y, shape0, shape1;
+};
+struct MotionLanes {
+    Lanes vx, vy, omega;
 };
 
-CRACKLE_INLINE void load_bodies(const BodyState* bodies, const BodyIndex (&b)[lane_count], BodyLanes& lanes) {
-    Quad record[lane_count];
-    Lanes first[4], second[4];
-    for (int l = 0; l < lane_count; ++l) record[l] = load_as<Quad>(&bodies[b[l]].x);
-    transpose_quads(record, first);
-    for (int l = 0; l < lane_count; ++l) record[l] = load_as<Quad>(&bodies[b[l]].omega);
-    transpose_quads(record, second);
-    lanes = {first[0], first[1], first[2], first[3], second[0], second[2], second[3]};
+using BatchBodies = const BodyState* [lane_count];
+
+CRACKLE_INLINE PlaceLanes load_places(const BatchBodies& bodies) {
+    const double* at[lane_count];
+    PlaceLanes lanes;
+    for (int l = 0; l < lane_count; ++l) at[l] = &bodies[l]->x;
+    gather_pairs(at, lanes.x, lanes.y);
+    for (int l = 0; l < lane_count; ++l) at[l] = bodies[l]->shape;
+    gather_pairs(at, lanes.shape0, lanes.shape1);
+    return lanes;
+}
+
+CRACKLE_INLINE MotionLanes load_motions(const BatchBodies& bodies) {
+    const double* at[lane_count];
+    MotionLanes lanes;
+    Lanes angle;
+    for (int l = 0; l < lane_count; ++l) at[l] = &bodies[l]->vx;
+    gather_pairs(at, lanes.vx, lanes.vy);
+    for (int l = 0; l < lane_count; ++l) at[l] = &bodies[l]->omega;
+    gather_pairs(at, lanes.omega, angle);
+    return lanes;
 }
 
 /// As detail::circles_geometry() of two single circles.
-CRACKLE_INLINE void circles_batch(const BodyLanes& i, const BodyLanes& j, BatchGeometry& g) {
+CRACKLE_INLINE void circles_batch(const PlaceLanes& i, const PlaceLanes& j, BatchGeometry& g) {
     const Lanes dx = (j.x - i.x) + 0.0, dy = (j.y - i.y) + 0.0;
     const Lanes distance = root(dx * dx + dy * dy);
     g.overlap = i.shape0 + j.shape0 - distance;
@@ -45,28 +62,33 @@ CRACKLE_INLINE void circles_batch(const BodyLanes& i, const BodyLanes& j, BatchG
 
 /// As contact_geometry() of elements against outlines: the edge faced last is tried for all, the search is left to
 /// contact_geometry.hpp where a point has got beyond it or the outline is not one convex piece.
-CRACKLE_INLINE void outline_batch(const World& world, ContactPoint* points, const BodyLanes& i, const BodyLanes& j,
+CRACKLE_INLINE void outline_batch(const World& world, ContactPoint* points, const PlaceLanes& i, const PlaceLanes& j,
                                   BatchGeometry& g) {
-    Quad record[lane_count];
-    Lanes element[4], edge[4];  // x, y, radius, target_reach; x, y, tx, ty
+    const double *elements[lane_count], *element_reaches[lane_count], *edges[lane_count], *edge_directions[lane_count];
+    Lanes element_x, element_y, radius, target_reach, edge_x, edge_y, tx, ty;
     Lanes length{};
     LaneBits known{};
-    for (int l = 0; l < lane_count; ++l) record[l] = load_as<Quad>(&world.elements[points[l].element_i]);
-    transpose_quads(record, element);
     for (int l = 0; l < lane_count; ++l) {
+        const Element& element = world.elements[points[l].element_i];
         const Edge& faced = world.edges[points[l].feature_j];
-        record[l] = load_as<Quad>(&faced);
+        elements[l] = &element.x;
+        element_reaches[l] = &element.radius;
+        edges[l] = &faced.x;
+        edge_directions[l] = &faced.tx;
         length[l] = faced.length;
         known[l] = faced.outline_of == points[l].body_j ? -1 : 0;
     }
-    transpose_quads(record, edge);
-    const Lanes ox = i.shape0 * element[0] - i.shape1 * element[1], oy = i.shape1 * element[0] + i.shape0 * element[1];
+    gather_pairs(elements, element_x, element_y);
+    gather_pairs(element_reaches, radius, target_reach);
+    gather_pairs(edges, edge_x, edge_y);
+    gather_pairs(edge_directions, tx, ty);
+    const Lanes ox = i.shape0 * element_x - i.shape1 * element_y, oy = i.shape1 * element_x + i.shape0 * element_y;
     const Lanes wx = (i.x - j.x) + ox, wy = (i.y - j.y) + oy;
     const Lanes px = j.shape0 * wx + j.shape1 * wy, py = j.shape0 * wy - j.shape1 * wx;
-    const Lanes dx = px - edge[0], dy = py - edge[1];
-    Lanes distance = dx * edge[3] - dy * edge[2];
-    Lanes gx = edge[3], gy = -edge[2];
-    const Lanes along = dx * edge[2] + dy * edge[3];
+    const Lanes dx = px - edge_x, dy = py - edge_y;
+    Lanes distance = dx * ty - dy * tx;
+    Lanes gx = ty, gy = -tx;
+    const Lanes along = dx * tx + dy * ty;
     const unsigned search = mask_of(~(known & (distance >= 0.0) & (along >= 0.0) & (along <= length)));
     if (search != 0) {
         for (int l = 0; l < lane_count; ++l) {
@@ -79,45 +101,54 @@ CRACKLE_INLINE void outline_batch(const World& world, ContactPoint* points, cons
             gy[l] = facing.gy;
         }
     }
-    g.overlap = element[2] + element[3] - distance;
+    g.overlap = radius + target_reach - distance;
     g.nx = -(j.shape0 * gx - j.shape1 * gy);
     g.ny = -(j.shape1 * gx + j.shape0 * gy);
-    const Lanes lift = element[2] - 0.5 * g.overlap;
+    const Lanes lift = radius - 0.5 * g.overlap;
     g.aix = ox + lift * g.nx;
     g.aiy = oy + lift * g.ny;
     g.ajx = wx + lift * g.nx;
     g.ajy = wy + lift * g.ny;
 }
 
+template <PointKind K>
+CRACKLE_INLINE void geometry_batch(World& world, PointIndex k, BatchGeometry& g) {
+    static_assert(K == PointKind::circle_circle || K == PointKind::element_outline);
+    ContactPoint* const points = world.points.data() + k;
+    const BodyState* const bodies = world.bodies.data();
+    BatchBodies i, j;
+    for (int l = 0; l < lane_count; ++l) {
+        i[l] = &bodies[points[l].body_i];
+        j[l] = &bodies[points[l].body_j];
+    }
+    if constexpr (K == PointKind::circle_circle)
+        circles_batch(load_places(i), load_places(j), g);
+    else
+        outline_batch(world, points, load_places(i), load_places(j), g);
+}
+
 /// Forces of points k to k + lane_count - 1. @return false, with no force or loss changed, where the scalar code must
 /// look
 template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Ledger>
-CRACKLE_INLINE bool force_batch(World& world, PointIndex k, World::LossBlock& loss) {
-    static_assert(K == PointKind::circle_circle || K == PointKind::element_outline);
+CRACKLE_INLINE bool force_batch(World& world, PointIndex k, const BatchGeometry& g, World::LossBlock& loss) {
     ContactPoint* const points = world.points.data() + k;
-    BodyIndex body_i[lane_count], body_j[lane_count];
-    Quad record[lane_count];
+    const BodyState* const bodies = world.bodies.data();
+    BatchBodies bodies_i, bodies_j;
+    const double *springs[lane_count], *laws[lane_count];
     for (int l = 0; l < lane_count; ++l) {
-        body_i[l] = points[l].body_i;
-        body_j[l] = points[l].body_j;
-        record[l] = load_as<Quad>(&points[l].shear_force);
+        bodies_i[l] = &bodies[points[l].body_i];
+        bodies_j[l] = &bodies[points[l].body_j];
+        springs[l] = &points[l].shear_force;
+        laws[l] = &points[l].root_effective_mass;
     }
-    Lanes column[4];  // shear_force, bond_overlap, root_effective_mass, law with flags
-    transpose_quads(record, column);
-    const LaneBits law_and_flags = bits_of(column[3]);
+    Lanes before, bond_overlap, root_mass, law_lanes;
+    gather_pairs(springs, before, bond_overlap);
+    gather_pairs(laws, root_mass, law_lanes);
+    const LaneBits law_and_flags = bits_of(law_lanes);
     if (mask_of(((law_and_flags ^ law_and_flags[0]) & 0xffff) != 0) != 0) return false;
     const ContactLaw& law = world.laws[points[0].law];
     if (Friction && !(law.shear_stiffness > 0.0)) return false;
     const auto flagged = [&](PointFlag flag) { return (law_and_flags & (static_cast<LaneBit>(flag) << 16)) != 0; };
-
-    BodyLanes i, j;
-    load_bodies(world.bodies.data(), body_i, i);
-    load_bodies(world.bodies.data(), body_j, j);
-    BatchGeometry g;
-    if constexpr (K == PointKind::circle_circle)
-        circles_batch(i, j, g);
-    else
-        outline_batch(world, points, i, j, g);
 
     LaneBits bonded{}, holds = g.overlap > 0.0;
     if constexpr (Bonds) {
@@ -126,6 +157,7 @@ CRACKLE_INLINE bool force_batch(World& world, PointIndex k, World::LossBlock& lo
     }
     if (mask_of(~holds & (bonded | flagged(point_touching))) != 0) return false;  // breaks or parts
 
+    const MotionLanes i = load_motions(bodies_i), j = load_motions(bodies_j);
     const double dt = world.drift;
     const Lanes zero{};
     const Lanes rx = (i.vx - i.omega * g.aiy) - (j.vx - j.omega * g.ajy);
@@ -138,11 +170,11 @@ CRACKLE_INLINE bool force_batch(World& world, PointIndex k, World::LossBlock& lo
     }
 
     Lanes normal = law.normal_stiffness * g.overlap;
-    if constexpr (Bonds) normal -= law.normal_stiffness * column[1];
+    if constexpr (Bonds) normal -= law.normal_stiffness * bond_overlap;
     Lanes tangential = zero;
     LaneBits sliding = holds;
     if constexpr (Friction) {
-        const Lanes before = column[0], trial = before - law.shear_stiffness * (slipping * dt);
+        const Lanes trial = before - law.shear_stiffness * (slipping * dt);
         const Lanes squeezed = g.overlap < 0.0 ? zero : g.overlap;
         const Lanes limit = law.friction * law.normal_stiffness * squeezed;
         sliding = (magnitude(trial) > limit) | (limit <= 0.0);
@@ -166,7 +198,7 @@ CRACKLE_INLINE bool force_batch(World& world, PointIndex k, World::LossBlock& lo
     if constexpr (Bonds) {
         const unsigned uncounted = mask_of(holds & ~flagged(point_counted));
         loss.gained += static_cast<std::uint32_t>(__builtin_popcount(uncounted));
-        const Lanes half = 0.5 * law.normal_stiffness * column[1];
+        const Lanes half = 0.5 * law.normal_stiffness * bond_overlap;
         const unsigned strong = mask_of(bonded & (normal * normal + tangential * tangential >= half * half));
         if (strong != 0) {
             for (int l = 0; l < lane_count; ++l)
@@ -175,18 +207,18 @@ CRACKLE_INLINE bool force_batch(World& world, PointIndex k, World::LossBlock& lo
         }
     }
     if constexpr (Damping) {
-        const Lanes normal_dashpot = (law.normal_damping + law.normal_damping_ratio_term * column[2]) * closing;
+        const Lanes normal_dashpot = (law.normal_damping + law.normal_damping_ratio_term * root_mass) * closing;
         const Lanes shear_damper =
-            sliding ? zero : (law.shear_damping + law.shear_damping_ratio_term * column[2]) * slipping;
+            sliding ? zero : (law.shear_damping + law.shear_damping_ratio_term * root_mass) * slipping;
         if constexpr (Ledger) {
-            PointDissipation* const last = world.dissipation.data() + k;
-            Lanes last_normal, last_shear;
-            load_pairs(last, last_normal, last_shear);
+            double *const normal_memory = &world.normal_dashpot[k], *const shear_memory = &world.shear_dashpot[k];
+            const Lanes last_normal = load_as<Lanes>(normal_memory), last_shear = load_as<Lanes>(shear_memory);
             const Lanes lost =
                 0.5 * dt * ((last_normal + normal_dashpot) * closing + (last_shear + shear_damper) * slipping);
             const Lanes counted = holds ? lost : zero;
             for (int l = 0; l < lane_count; ++l) loss.dashpot += counted[l];
-            store_pairs(last, holds ? normal_dashpot : last_normal, holds ? shear_damper : last_shear);
+            store_as(normal_memory, holds ? normal_dashpot : last_normal);
+            store_as(shear_memory, holds ? shear_damper : last_shear);
         }
         normal += normal_dashpot;
         tangential -= shear_damper;

@@ -14,27 +14,30 @@
 #include "solver/breaks.hpp"
 #include "solver/contact_pass.hpp"
 #include "solver/controls.hpp"
+#include "solver/lanes.hpp"
 #include "solver/world.hpp"
 
 namespace crackle {
 namespace {
 
-/// Second pass: every body adds up its own slots, always in the same order.
+/// Second pass: every body adds up its own slots, always in the same order; both components of a force at once.
 void gather_forces(World& world) {
+    static constexpr Pair senses[2] = {{1.0, 1.0}, {-1.0, -1.0}};  // on i, on j
     const auto count = static_cast<std::int64_t>(world.bodies.size());
+    const PointForce* const forces = world.point_forces.data();
+    const std::uint32_t *const slots = world.body_slots.data(), *const begin = world.body_begin.data();
+    BodyForce* const sums = world.forces.data();
 #pragma omp for schedule(static)
     for (std::int64_t b = 0; b < count; ++b) {
-        const auto body = static_cast<std::size_t>(b);
-        BodyForce sum{0.0, 0.0, 0.0};
-        for (std::uint32_t s = world.body_begin[body]; s < world.body_begin[body + 1]; ++s) {
-            const std::uint32_t slot = world.body_slots[s];
-            const PointForce& force = world.point_forces[slot >> 1];
-            const bool second = (slot & 1) != 0;
-            sum.fx += second ? -force.fx : force.fx;
-            sum.fy += second ? -force.fy : force.fy;
-            sum.torque += second ? force.torque_j : force.torque_i;
+        Pair sum{};
+        double torque = 0.0;
+        for (std::uint32_t s = begin[b]; s < begin[b + 1]; ++s) {
+            const std::uint32_t side = slots[s] & 1;
+            const double* const force = &forces[slots[s] >> 1].fx;
+            sum += senses[side] * load_as<Pair>(force);
+            torque += force[2 + side];
         }
-        world.forces[body] = sum;
+        sums[b] = {sum[0], sum[1], torque};
     }
 }
 
@@ -110,11 +113,17 @@ void compute_forces(World& world) {
     if (world.forces_current) return;
     refresh_neighbours(world);
     const ContactFeatures features = features_of(world);
-#pragma omp parallel num_threads(world.threads) if (world.threads > 1)
-    {
+    const auto passes = [&] {
         contact_pass(world, features);
 #pragma omp barrier
         gather_forces(world);
+    };
+    // One thread needs no team: its barriers would cost a tenth of a small scene's step.
+    if (world.threads == 1) {
+        passes();
+    } else {
+#pragma omp parallel num_threads(world.threads)
+        passes();
     }
     sum_blocks(world);
     account_controls(world);

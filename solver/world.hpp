@@ -126,11 +126,6 @@ struct PointForce {
 };
 static_assert(sizeof(PointForce) == 32);
 
-/// Dashpot forces of the last force pass, kept only with the ledger: their work is taken by the trapezoidal rule.
-struct PointDissipation {
-    double normal, shear;
-};
-
 /// What the normal spring of a point under the guide's law has taken up. Its force is k_n(δ - δ0) at the resultant's
 /// place, but δ does not change by the way of that place alone: there is no potential, so the work itself is added up,
 /// by the trapezoidal rule over the drifts, which is leapfrog's own account of it.
@@ -238,13 +233,14 @@ struct World {
     std::vector<ContactPoint> points;  // grouped by kind, ordered by (i, j, element) within
     std::array<PointIndex, point_kinds + 1> kind_begin{};
     std::vector<PointForce> point_forces;
-    std::vector<PointDissipation> dissipation;  // empty without the ledger
-    std::vector<SpringWork> spring_work;        // empty without the ledger or the guide's law
-    std::vector<OpeningMemory> openings;        // empty without the consistent integrator
-    std::vector<double> owed;                   // J per body: defects of points that have left the list; empty likewise
-    std::vector<BondHistory> bond_history;      // empty without bonds
-    std::vector<std::uint32_t> body_begin;      // per body: range in body_slots
-    std::vector<std::uint32_t> body_slots;      // 2 * point + side (0: the body is i, 1: it is j)
+    // Dashpot forces of the last force pass, N: their work is taken by the trapezoidal rule. Empty without the ledger.
+    std::vector<double> normal_dashpot, shear_dashpot;
+    std::vector<SpringWork> spring_work;    // empty without the ledger or the guide's law
+    std::vector<OpeningMemory> openings;    // empty without the consistent integrator
+    std::vector<double> owed;               // J per body: defects of points that have left the list; empty likewise
+    std::vector<BondHistory> bond_history;  // empty without bonds
+    std::vector<std::uint32_t> body_begin;  // per body: range in body_slots
+    std::vector<std::uint32_t> body_slots;  // 2 * point + side (0: the body is i, 1: it is j)
 
     // ---- neighbour list
     double skin = 0.0;         // m
