@@ -91,8 +91,14 @@ void mark_outlines(World& world) {
         const BodyInfo& info = world.info[b];
         if (info.piece_count != 1 || !world.pieces[info.first_piece].closed) continue;
         const Piece& piece = world.pieces[info.first_piece];
-        for (std::uint32_t e = 0; e < piece.edge_count; ++e)
-            world.edges[piece.first_edge + e].outline_of = static_cast<BodyIndex>(b);
+        if (piece.edge_count > std::numeric_limits<std::int16_t>::max()) continue;
+        const auto around = static_cast<std::int16_t>(piece.edge_count - 1);
+        for (std::uint32_t e = 0; e < piece.edge_count; ++e) {
+            Edge& edge = world.edges[piece.first_edge + e];
+            edge.outline_of = static_cast<BodyIndex>(b);
+            edge.to_previous = e == 0 ? around : std::int16_t{-1};
+            edge.to_next = e + 1 == piece.edge_count ? static_cast<std::int16_t>(-around) : std::int16_t{1};
+        }
     }
 }
 

@@ -70,7 +70,7 @@ void serialize(Archive& a, Piece& p) {
 }
 template <class Archive>
 void serialize(Archive& a, Edge& e) {
-    a(e.x, e.y, e.tx, e.ty, e.length, e.outline_of);
+    a(e.x, e.y, e.tx, e.ty, e.length, e.outline_of, e.to_previous, e.to_next);
 }
 template <class Archive>
 void serialize(Archive& a, ControlState& c) {

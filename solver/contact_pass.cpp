@@ -222,6 +222,24 @@ void force_block(World& world, const PassRange& range) {
     world.loss_blocks[range.block] = loss;
 }
 
+/// Geometry alone, for profiles.
+template <PointKind K>
+void geometry_block(World& world, const PassRange& range) {
+    PointIndex k = range.begin;
+    if constexpr (in_batches<K, false>) {
+        for (; k + lane_count <= range.end; k += lane_count) {
+            BatchGeometry g;
+            geometry_batch<K>(world, k, g);
+            asm volatile("" : : "m"(g));
+        }
+    }
+    for (; k < range.end; ++k) {
+        ContactPoint& point = world.points[k];
+        const ContactGeometry g = contact_geometry<K>(world, point, point.feature_j);
+        asm volatile("" : : "m"(g));
+    }
+}
+
 using BlockKernel = void (*)(World&, const PassRange&);
 
 /// The kernel of a set of features, numbered by their bits as contact_pass() does.
@@ -246,6 +264,12 @@ constexpr std::array<std::array<BlockKernel, 32>, point_kinds> kernels{
     kernels_of<PointKind::element_wall>(std::make_index_sequence<32>{}),
 };
 
+constexpr std::array<BlockKernel, point_kinds> geometry_kernels{
+    &geometry_block<PointKind::circle_circle>,   &geometry_block<PointKind::element_element>,
+    &geometry_block<PointKind::element_outline>, &geometry_block<PointKind::disc_segment>,
+    &geometry_block<PointKind::segment_segment>, &geometry_block<PointKind::element_wall>,
+};
+
 PointIndex blocks_of_kind(const World& world, std::size_t kind) {
     return (world.kind_begin[kind + 1] - world.kind_begin[kind] + block_points - 1) / block_points;
 }
@@ -268,15 +292,16 @@ PointIndex block_count(const World& world) {
     return total;
 }
 
-void contact_pass(World& world, const ContactFeatures& features) {
-    const std::size_t choice = (features.friction ? 1u : 0u) + (features.damping ? 2u : 0u) +
-                               (features.bonds ? 4u : 0u) + (features.ledger ? 8u : 0u) +
-                               (features.consistent ? 16u : 0u);
+namespace {
+
+/// Every block of points once, by the kernel of its kind. @return blocks done by this thread
+template <class KernelOf>
+std::int64_t for_all_blocks(World& world, KernelOf kernel_of_kind) {
     std::size_t first_block = 0;
     std::int64_t done = 0;
     for (std::size_t kind = 0; kind < point_kinds; ++kind) {
         const PointIndex blocks = blocks_of_kind(world, kind);
-        const BlockKernel kernel = kernels[kind][choice];
+        const BlockKernel kernel = kernel_of_kind(kind);
 #pragma omp for schedule(static) nowait
         for (PointIndex b = 0; b < blocks; ++b) {
             const PointIndex begin = world.kind_begin[kind] + b * block_points;
@@ -285,7 +310,21 @@ void contact_pass(World& world, const ContactFeatures& features) {
         }
         first_block += blocks;
     }
-    world.thread_blocks[static_cast<std::size_t>(omp_get_thread_num())] += done;
+    return done;
+}
+
+}  // namespace
+
+void contact_pass(World& world, const ContactFeatures& features) {
+    const std::size_t choice = (features.friction ? 1u : 0u) + (features.damping ? 2u : 0u) +
+                               (features.bonds ? 4u : 0u) + (features.ledger ? 8u : 0u) +
+                               (features.consistent ? 16u : 0u);
+    world.thread_blocks[static_cast<std::size_t>(omp_get_thread_num())] +=
+        for_all_blocks(world, [choice](std::size_t kind) { return kernels[kind][choice]; });
+}
+
+void geometry_pass(World& world) {
+    for_all_blocks(world, [](std::size_t kind) { return geometry_kernels[kind]; });
 }
 
 }  // namespace crackle

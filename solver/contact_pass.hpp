@@ -21,6 +21,10 @@ ContactFeatures features_of(const World& world);
 /// Must be called by all threads of a parallel region (or by one thread alone); ends without a barrier.
 void contact_pass(World& world, const ContactFeatures& features);
 
+/// Only the geometry of all points at the present positions, as contact_pass() takes it and called like it: what the
+/// narrow phase costs. Changes nothing but the edges that points remember.
+void geometry_pass(World& world);
+
 /// Blocks of points of one kind, for sizing World::loss_blocks.
 PointIndex block_count(const World& world);
 

@@ -109,6 +109,7 @@ class Grid {
 
 /// Pairs of bodies whose bounding boxes and circles come within thick + skin, as i << 32 | j with i < j, sorted.
 std::vector<std::uint64_t> near_pairs(const World& world) {
+    const PhaseTimer timer(world.profile, Phase::broad_phase);
     const Grid grid(world);
     const double gap = world.thick + world.skin;
     std::vector<std::uint64_t> pairs;
@@ -282,9 +283,9 @@ bool both_held(const World& world, BodyIndex i, BodyIndex j) {
     return held(i) && held(j);
 }
 
-PointLists emit_points(const World& world) {
+PointLists emit_points(const World& world, const std::vector<std::uint64_t>& pairs) {
     PointLists lists;
-    for (const std::uint64_t pair : near_pairs(world)) {
+    for (const std::uint64_t pair : pairs) {
         const auto i = static_cast<BodyIndex>(pair >> 32), j = static_cast<BodyIndex>(pair & 0xffffffffu);
         if (both_held(world, i, j)) continue;
         const bool chain_i = world.info[i].piece_count > 0, chain_j = world.info[j].piece_count > 0;
@@ -452,9 +453,13 @@ double skin_for(const World& world, double way) {
 }
 
 void rebuild(World& world) {
-    PointLists lists = emit_points(world);
-    exchange_points(world, lists);
-    index_slots(world);
+    const std::vector<std::uint64_t> pairs = near_pairs(world);
+    {
+        const PhaseTimer timer(world.profile, Phase::listing);
+        PointLists lists = emit_points(world, pairs);
+        exchange_points(world, lists);
+        index_slots(world);
+    }
     world.list_reference.resize(world.bodies.size());
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
         world.list_reference[b] = {world.bodies[b].x, world.bodies[b].y, world.bodies[b].angle};

@@ -60,14 +60,44 @@ CRACKLE_INLINE void circles_batch(const PlaceLanes& i, const PlaceLanes& j, Batc
     g.ajy = 0.0 - lj * g.ny;
 }
 
-/// As contact_geometry() of elements against outlines: the edge faced last is tried for all, the search is left to
-/// contact_geometry.hpp where a point has got beyond it or the outline is not one convex piece.
+/// Points beyond an end of their edge: those in the cone of the corner there, as detail::face_convex() finds them.
+/// @param lanes asked for @return lanes found; only their distance and gradient are changed
+CRACKLE_INLINE LaneBits corners_batch(const World& world, const ContactPoint* points, const LaneBits& asked,
+                                      const LaneBits& before, const Lanes& px, const Lanes& py, const Lanes& dx,
+                                      const Lanes& dy, Lanes& distance, Lanes& gx, Lanes& gy) {
+    const unsigned to_previous = mask_of(before);
+    const double *starts[lane_count], *directions[lane_count], *lengths[lane_count];
+    for (int l = 0; l < lane_count; ++l) {
+        const Edge* const faced = &world.edges[points[l].feature_j];
+        const Edge* const other = faced + ((to_previous >> l & 1) != 0 ? faced->to_previous : faced->to_next);
+        starts[l] = &other->x;
+        directions[l] = &other->tx;
+        lengths[l] = &other->length;
+    }
+    Lanes x, y, tx, ty, length, rest;
+    gather_pairs(starts, x, y);
+    gather_pairs(directions, tx, ty);
+    gather_pairs(lengths, length, rest);
+    const Lanes ex = px - x, ey = py - y;
+    const Lanes along = ex * tx + ey * ty;
+    const LaneBits found = asked & (before ? along >= length : along <= 0.0);
+    const Lanes cx = before ? dx : ex, cy = before ? dy : ey;
+    const Lanes to_corner = root(cx * cx + cy * cy);
+    const LaneBits apart = to_corner > 0.0;
+    // On the corner itself the normal of the edge that begins there.
+    gx = found ? (apart ? cx / to_corner : (before ? gx : ty)) : gx;
+    gy = found ? (apart ? cy / to_corner : (before ? gy : -tx)) : gy;
+    distance = found ? to_corner : distance;
+    return found;
+}
+
+/// As contact_geometry() of elements against outlines: the edge faced last and its corners are tried for all, the
+/// search is left to contact_geometry.hpp where a point has got beyond them or the outline is not one convex piece.
 CRACKLE_INLINE void outline_batch(const World& world, ContactPoint* points, const PlaceLanes& i, const PlaceLanes& j,
                                   BatchGeometry& g) {
-    const double *elements[lane_count], *element_reaches[lane_count], *edges[lane_count], *edge_directions[lane_count];
-    Lanes element_x, element_y, radius, target_reach, edge_x, edge_y, tx, ty;
-    Lanes length{};
-    LaneBits known{};
+    const double *elements[lane_count], *element_reaches[lane_count], *edges[lane_count], *edge_directions[lane_count],
+        *edge_lengths[lane_count], *bodies[lane_count];
+    Lanes element_x, element_y, radius, target_reach, edge_x, edge_y, tx, ty, length, owner, i_and_j, unused;
     for (int l = 0; l < lane_count; ++l) {
         const Element& element = world.elements[points[l].element_i];
         const Edge& faced = world.edges[points[l].feature_j];
@@ -75,13 +105,17 @@ CRACKLE_INLINE void outline_batch(const World& world, ContactPoint* points, cons
         element_reaches[l] = &element.radius;
         edges[l] = &faced.x;
         edge_directions[l] = &faced.tx;
-        length[l] = faced.length;
-        known[l] = faced.outline_of == points[l].body_j ? -1 : 0;
+        edge_lengths[l] = &faced.length;
+        bodies[l] = reinterpret_cast<const double*>(&points[l]);
     }
     gather_pairs(elements, element_x, element_y);
     gather_pairs(element_reaches, radius, target_reach);
     gather_pairs(edges, edge_x, edge_y);
     gather_pairs(edge_directions, tx, ty);
+    gather_pairs(edge_lengths, length, owner);
+    gather_pairs(bodies, i_and_j, unused);
+    // Edge::outline_of against ContactPoint::body_j, the low and the high half of what was read.
+    const LaneBits known = ((bits_of(owner) ^ (bits_of(i_and_j) >> 32)) & 0xffffffff) == 0;
     const Lanes ox = i.shape0 * element_x - i.shape1 * element_y, oy = i.shape1 * element_x + i.shape0 * element_y;
     const Lanes wx = (i.x - j.x) + ox, wy = (i.y - j.y) + oy;
     const Lanes px = j.shape0 * wx + j.shape1 * wy, py = j.shape0 * wy - j.shape1 * wx;
@@ -89,8 +123,11 @@ CRACKLE_INLINE void outline_batch(const World& world, ContactPoint* points, cons
     Lanes distance = dx * ty - dy * tx;
     Lanes gx = ty, gy = -tx;
     const Lanes along = dx * tx + dy * ty;
-    const unsigned search = mask_of(~(known & (distance >= 0.0) & (along >= 0.0) & (along <= length)));
-    if (search != 0) {
+    const LaneBits outside = known & (distance >= 0.0), before = along<0.0, beyond = along> length;
+    LaneBits settled = outside & ~(before | beyond);
+    if (const LaneBits asked = outside & (before | beyond); mask_of(asked) != 0)
+        settled |= corners_batch(world, points, asked, before, px, py, dx, dy, distance, gx, gy);
+    if (const unsigned search = mask_of(~settled); search != 0) {
         for (int l = 0; l < lane_count; ++l) {
             if ((search >> l & 1) == 0) continue;
             ContactPoint& point = points[l];

@@ -337,6 +337,7 @@ double stable_step_bound(const World& world, BodyIndex* limiting) {
 }
 
 void evaluate_step_bound(World& world) {
+    const PhaseTimer timer(world.profile, Phase::step_bound);
     const Geometry geometry = geometry_of(world);
     const bool all_count = !world.has_bonds || world.segment_law != SegmentLaw::rounded;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
@@ -378,6 +379,7 @@ void count_new_points(World& world) {
     const auto look_at = [&](BodyIndex b) {
         if (!held(world.inertia[b])) least.lower_to(blocks_of_body(world, b), b);
     };
+    const PhaseTimer timer(world.profile, Phase::step_bound);
     for (PointIndex k = 0; k < world.points.size(); ++k) {
         if (!is_new(k)) continue;
         ContactPoint& point = world.points[k];

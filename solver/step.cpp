@@ -107,6 +107,22 @@ void sum_blocks(World& world) {
     if (gained > 0) count_new_points(world);
 }
 
+/// Calls `work` on every thread of the world. One thread needs no team: its barriers would cost a tenth of a small
+/// scene's step.
+template <class Work>
+void as_team(const World& world, Work work) {
+    if (world.threads == 1) return work();
+#pragma omp parallel num_threads(world.threads)
+    work();
+}
+
+void sample_geometry(World& world) {
+    world.profile->point_steps += static_cast<std::int64_t>(world.points.size());
+    if (world.step % geometry_interval != 0) return;
+    const PhaseTimer timer(world.profile, &world.profile->geometry_sampled);
+    as_team(world, [&] { geometry_pass(world); });
+}
+
 }  // namespace
 
 void compute_forces(World& world) {
@@ -114,17 +130,18 @@ void compute_forces(World& world) {
     refresh_neighbours(world);
     const ContactFeatures features = features_of(world);
     const auto passes = [&] {
-        contact_pass(world, features);
+        Profile* const profile = omp_get_thread_num() == 0 ? world.profile : nullptr;
+        {
+            const PhaseTimer timer(profile, Phase::force);
+            contact_pass(world, features);
 #pragma omp barrier
+        }
+        const PhaseTimer timer(profile, Phase::gather);
         gather_forces(world);
     };
-    // One thread needs no team: its barriers would cost a tenth of a small scene's step.
-    if (world.threads == 1) {
-        passes();
-    } else {
-#pragma omp parallel num_threads(world.threads)
-        passes();
-    }
+    if (world.profile != nullptr) sample_geometry(world);
+    as_team(world, passes);
+    const PhaseTimer timer(world.profile, Phase::bookkeeping);
     sum_blocks(world);
     account_controls(world);
     world.forces_current = true;
@@ -136,6 +153,7 @@ void compute_forces(World& world) {
 }
 
 void advance(World& world) {
+    const PhaseTimer timer(world.profile, Phase::integrate);
     world.fastest = std::sqrt(move_bodies(world, kick_before(world) + 0.5 * world.time_step));
     world.drift = world.time_step;
     world.step += 1;

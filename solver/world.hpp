@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/profile.hpp"
 #include "solver/scene.hpp"
 
 namespace crackle {
@@ -74,8 +75,10 @@ struct Edge {
     double x, y;
     double tx, ty;
     double length;
-    BodyIndex outline_of = no_body;  // the body whose outline is the one convex piece that this edge is of
+    BodyIndex outline_of = no_body;             // the body whose outline is the one convex piece that this edge is of
+    std::int16_t to_previous = 0, to_next = 0;  // from there: to the edges before and after, in World::edges
 };
+static_assert(sizeof(Edge) == 48);
 
 /// How a point's two sides look; points of one kind lie together and have a kernel of their own.
 enum class PointKind : std::uint8_t {
@@ -297,6 +300,7 @@ struct World {
     double dashpot_loss = 0.0, friction_loss = 0.0, fracture_loss = 0.0, law_loss = 0.0;
     double displacement_work = 0.0, force_work = 0.0;
     std::vector<std::int64_t> thread_blocks;  // blocks of points each thread has done (never saved)
+    Profile* profile = nullptr;               // times the phases where set (never saved)
     double initial_energy = 0.0;
     bool initial_energy_taken = false;
     double largest_supply = 0.0;  // J, for the runaway check

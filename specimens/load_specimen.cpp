@@ -91,7 +91,7 @@ class LoadingLoop {
             if (at_end || strain >= row_spacing_ * static_cast<double>(state_.rows.size())) record_row(at_end);
             const bool ended = !state_.ended_by.empty();
             // An end that instability brought about is none.
-            if (ended || world_.step % steps_between_health_checks == 0) check_health(world_);
+            if (ended || world_.step % steps_between_health_checks == 0) check();
             if (ended) break;
             if (setup_.rate_rule.tolerance > 0.0) follow_tolerance();
             advance(world_);
@@ -106,8 +106,14 @@ class LoadingLoop {
         return std::chrono::duration<double>(to - from).count();
     }
 
+    void check() {
+        const PhaseTimer timer(world_.profile, Phase::check);
+        check_health(world_);
+    }
+
     /// The platen's speed by the inertia error.
     void follow_tolerance() {
+        const PhaseTimer timer(world_.profile, Phase::set_the_rate);
         const RateRule& rule = setup_.rate_rule;
         const double top = world_.forces[setup_.top].fy, bottom = world_.forces[setup_.bottom].fy;
         watch_balance(state_.rate, rule, top / setup_.width, -bottom / setup_.width, world_.drift);
@@ -120,6 +126,7 @@ class LoadingLoop {
 
     void record_breaks() {
         if (world_.events.size() == events_counted_) return;
+        const PhaseTimer timer(world_.profile, Phase::observe);
         const double strain = setup_.axial_strain(world_);
         for (std::size_t k = events_counted_; k < world_.events.size(); ++k) {
             const BreakEvent& event = world_.events[k];
@@ -132,6 +139,7 @@ class LoadingLoop {
     }
 
     void record_row(bool at_end) {
+        const PhaseTimer timer(world_.profile, Phase::observe);
         const auto index = static_cast<std::int64_t>(state_.rows.size());
         const CurveRow row = observe_row(world_, setup_);
         state_.rows.push_back(row);
@@ -142,6 +150,7 @@ class LoadingLoop {
             state_.ended_by = ended_by_strain;
         }
         if (files_ == nullptr) return;
+        const PhaseTimer writing(world_.profile, Phase::write);
         if (index % judged_per_written_ == 0 || !state_.ended_by.empty()) files_->add_row(row);
         const bool frame_due = row.axial_strain >= frame_spacing_ * static_cast<double>(state_.next_frame);
         while (row.axial_strain >= frame_spacing_ * static_cast<double>(state_.next_frame)) ++state_.next_frame;
@@ -159,6 +168,7 @@ class LoadingLoop {
             report_progress(seconds(begun_, now));
         }
         if (files_ != nullptr && seconds(last_checkpoint_, now) >= checkpoint_interval_) {
+            const PhaseTimer timer(world_.profile, Phase::write);
             peak_.draw(world_, setup_, state_);
             state_.step_seconds = step_seconds();
             files_->write_checkpoint(setup_, state_, world_);

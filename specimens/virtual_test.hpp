@@ -40,9 +40,10 @@ struct VirtualTest {
 struct TestOptions {
     std::filesystem::path folder;  ///< OUT
     bool force = false;
-    bool verify = false;  ///< run the companions, specimens/companions.hpp
-    int threads = 0;      ///< 0: the case's
-    std::string command;  ///< for the summary
+    bool verify = false;   ///< run the companions, specimens/companions.hpp
+    bool profile = false;  ///< time the phases of a step, for the summary
+    int threads = 0;       ///< 0: the case's
+    std::string command;   ///< for the summary
     std::chrono::steady_clock::time_point process_start = std::chrono::steady_clock::now();
 };
 

@@ -21,6 +21,7 @@ const std::vector<Command>& studies() {
          bench_accuracy},
         {"guide", "the rock of DEMseg's guide on many packings: each of its numbers beside ours", bench_guide},
         {"stress", "scenes that are hard on the engine, for a million steps", bench_stress},
+        {"throughput", "particle-steps a second beside what the machine can do", bench_throughput},
         {"verify", "every closed form and law that the engine has to meet, against what it does", bench_verify},
     };
     return all;
@@ -36,7 +37,7 @@ void print_help(std::ostream& out) {
     out << "usage: crackle bench STUDY [OPTIONS]   (crackle bench STUDY --help shows examples)\n\nstudies:\n";
     for (const Command& study : studies()) out << fmt::format("  {:<12}{}\n", study.name, study.summary);
     out << "\nexample:\n  crackle bench verify -o verification.md\n  crackle bench guide --quick\n  crackle bench "
-           "accuracy -o accuracy --quick\n  crackle bench stress --steps 10000\n";
+           "accuracy -o accuracy --quick\n  crackle bench stress --steps 10000\n  crackle bench throughput --quick\n";
 }
 
 }  // namespace

@@ -10,5 +10,6 @@ int bench_accuracy(const Arguments& arguments);
 int bench_guide(const Arguments& arguments);
 int bench_verify(const Arguments& arguments);
 int bench_stress(const Arguments& arguments);
+int bench_throughput(const Arguments& arguments);
 
 }  // namespace crackle::tools

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "solver/errors.hpp"
+#include "specimens/observers/profile_report.hpp"
 #include "specimens/virtual_test.hpp"
 #include "tools/commands.hpp"
 
@@ -37,6 +38,7 @@ constexpr const char* examples =
     "  crackle test specimens/guide_rock/circles_tension.toml -o out/circles-tension\n"
     "  crackle test case.toml -o out/case --threads 2 -q\n"
     "  crackle test case.toml -o out/case --verify\n"
+    "  crackle test case.toml -o out/case --profile\n"
     "  crackle test --resume out/case           goes on after an interrupt, to the bytes of an uninterrupted test\n"
     "  crackle test --keys                      all keys of a case, with units, defaults and ranges\n";
 
@@ -47,6 +49,7 @@ po::options_description visible_options() {
         ("force", "replace the results in OUT once the new ones are complete")                                   //
         ("resume", po::value<std::string>(), "go on with the test in this folder from its last checkpoint")      //
         ("verify", "run the test's companions too (half step, half rate, half and double damping): error bars")  //
+        ("profile", "time the phases of a step: a table, and `profile` in summary.json")                         //
         ("threads", po::value<int>(), "threads (default: the case's); results do not depend on them")            //
         ("allow-unstable", "accept a time step above the stable bound, and runaway energy")                      //
         ("keys", "list all keys of a case")                                                                      //
@@ -110,6 +113,7 @@ void print_figures(const TestOutcome& outcome) {
     }
     std::cout << fmt::format("  {} steps in {} s: {} particle-steps/s\n", shown(s, "steps"), shown(s, "step_seconds"),
                              shown(s, "particle_steps_per_second"));
+    if (s.contains("profile")) std::cout << profile_table(s["profile"]);
     for (const auto& notice : s.value("notices", nlohmann::ordered_json::array())) {
         std::cout << "  notice: " << notice.get<std::string>() << '\n';
     }
@@ -175,6 +179,8 @@ int test(const Arguments& arguments) {
         throw InputError("crackle test: found no -o OUT, expected a folder for the results");
     if (resume && values.contains("output"))
         throw InputError("crackle test: found -o with --resume, expected OUT behind --resume alone");
+    if (resume && values.contains("profile"))
+        throw InputError("crackle test: found --profile with --resume, expected it with a whole test");
     if (values.contains("threads") && values["threads"].as<int>() < 1) {
         throw InputError(fmt::format("crackle test: --threads: found {}, expected a whole number >= 1",
                                      values["threads"].as<int>()));
@@ -183,6 +189,7 @@ int test(const Arguments& arguments) {
     options.folder = values[resume ? "resume" : "output"].as<std::string>();
     options.force = values.contains("force");
     options.verify = values.contains("verify");
+    options.profile = values.contains("profile");
     options.threads = values.contains("threads") ? values["threads"].as<int>() : 0;
     options.command = "crackle test";
     for (const std::string& word : arguments) options.command += ' ' + word;

@@ -7,6 +7,7 @@
 
 #include "specimens/companions.hpp"
 #include "specimens/curve_analysis.hpp"
+#include "specimens/observers/profile_report.hpp"
 
 namespace crackle {
 namespace {
@@ -305,6 +306,10 @@ nlohmann::ordered_json make_summary(const TestCase& test, const TestSetup& setup
     w.put("particle_steps_per_second",
           number(static_cast<double>(setup.particles) * static_cast<double>(world.step) / timing.step_seconds),
           "1/s, particles times steps over step_seconds");
+    if (world.profile != nullptr) {
+        w.put("profile", profile_report(*world.profile, setup.particles, world.step, timing.step_seconds),
+              "where the stepping loop's time went, s of wall clock; force_ns_per_point over listed points");
+    }
     for (const CurveColumn& column : curve_columns()) json["columns"][column.name] = column.unit_and_sign;
     json["units"] = units;
     return json;

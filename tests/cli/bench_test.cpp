@@ -18,8 +18,8 @@ class BenchCommand : public testing::ProgramCall {
 };
 
 TEST_F(BenchCommand, RefusesStudiesAndClaimsItDoesNotKnow) {
-    expect_refused("", "found no study, expected one of accuracy, guide, stress, verify");
-    expect_refused("verfy", "found study 'verfy', expected one of accuracy, guide, stress, verify");
+    expect_refused("", "found no study, expected one of accuracy, guide, stress, throughput, verify");
+    expect_refused("verfy", "found study 'verfy', expected one of accuracy, guide, stress, throughput, verify");
     expect_refused("verify --only no_such_claim", "found no claim 'no_such_claim'");
     expect_refused("verify --only two_discs_stacked_between_walls -o nowhere/page.md", "nowhere/page.md");
     expect_refused("verify --no-such-option", "no-such-option");
@@ -32,6 +32,19 @@ TEST_F(BenchCommand, ListsItsClaims) {
     EXPECT_EQ(call("--help").code, 0);
     EXPECT_EQ(call("verify --help").code, 0);
     EXPECT_EQ(call("guide --help").code, 0);
+}
+
+TEST_F(BenchCommand, ThroughputWritesATableOfEveryKindOfScene) {
+    expect_refused("throughput --counts 3", "--counts: found 3, expected 100 to 4000000");
+    expect_refused("throughput --repeats 0", "--repeats: found 0");
+    expect_refused("throughput --seconds -1", "--seconds: found -1");
+    const testing::Answer answer = call("throughput --quick --counts 300 --seconds 0.02 -o rates");
+    ASSERT_EQ(answer.code, 0) << answer.err;
+    EXPECT_EQ(answer.out, read("rates/throughput.md"));
+    EXPECT_TRUE(exists("rates/throughput.csv"));
+    EXPECT_FALSE(exists("rates/scratch"));
+    for (const char* row : {"| circles | 305 | 1 |", "| voronoi | 305 | 1 |", "| delaunay | 671 | 1 |"})
+        EXPECT_NE(answer.out.find(row), std::string::npos) << row << '\n' << answer.out;
 }
 
 TEST_F(BenchCommand, AccuracyWritesATableAndItsPicture) {

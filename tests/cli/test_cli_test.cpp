@@ -165,6 +165,33 @@ TEST_F(CrackleTest, WrongWords) {
 
 nlohmann::json read_json(const fs::path& file) { return nlohmann::json::parse(read_text_file(file)); }
 
+TEST_F(CrackleTest, ProfileAccountsForTheLoopAndChangesNoNumber) {
+    expect_refused("--resume out --profile", "found --profile with --resume");
+    const Answer answer = call("case.toml -o profiled --profile");
+    ASSERT_EQ(answer.code, 0) << answer.err;
+    EXPECT_NE(answer.out.find("where the time went"), std::string::npos) << answer.out;
+    const auto summary = nlohmann::json::parse(read("profiled/summary.json"));
+    const auto& profile = summary["profile"];
+    double shares = 0.0;
+    std::map<std::string, double> calls;
+    for (const auto& row : profile["phases"]) {
+        const std::string phase = row["phase"];
+        calls[phase] = row["calls"];
+        EXPECT_GE(row["seconds"].get<double>(), 0.0) << phase;
+        if (phase != "  narrow_phase") shares += row["share"].get<double>();
+    }
+    EXPECT_NEAR(shares, 1.0, 1e-9);
+    const double steps = summary["steps"];
+    EXPECT_EQ(calls["force"], steps);  // the first pass is made at bonding, the last one is followed by no drift
+    EXPECT_EQ(calls["integrate"], steps);
+    EXPECT_GT(calls["observe"], 100.0);
+    EXPECT_LT(calls["broad_phase"], 0.1 * steps);
+    ASSERT_EQ(call("case.toml -o plain -q").code, 0);
+    EXPECT_FALSE(nlohmann::json::parse(read("plain/summary.json")).contains("profile"));
+    for (const char* file : {"curve.csv", "events.csv"})
+        EXPECT_TRUE(read(std::string("profiled/") + file) == read(std::string("plain/") + file)) << file;
+}
+
 TEST_F(CrackleTest, VerifyStatesTheErrorOfTheStrength) {
     EXPECT_EQ(call("case.toml -o out --verify").code, 0);
     const auto summary = read_json(folder_ / "out/summary.json");
