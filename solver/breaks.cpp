@@ -62,7 +62,6 @@ void record_breaks(World& world) {
         if ((point.flags & point_just_broken) == 0) continue;
         const PointView view = view_point(world, k);
         const ContactLaw& law = world.laws[point.law];
-        const BondHistory& history = world.bond_history[k];
         BreakEvent event{};
         event.step = world.step;
         event.time = world.time;
@@ -72,10 +71,10 @@ void record_breaks(World& world) {
         event.orientation = orientation_of(view.normal);
         event.energy = fracture_energy(world, k, view);
         event.strength = law.normal_stiffness * point.bond_overlap;
-        event.normal_force = history.normal_force;
-        event.shear_force = history.shear_force;
+        event.normal_force = world.strong_normal[k];
+        event.shear_force = world.strong_shear[k];
         event.slid = (point.flags & point_slid) != 0;
-        event.shear_mode = event.slid && std::abs(history.shear_force) > std::abs(history.normal_force);
+        event.shear_mode = event.slid && std::abs(event.shear_force) > std::abs(event.normal_force);
         point.shear_force = 0.0;
         point.bond_overlap = 0.0;
         point.flags = static_cast<std::uint16_t>(point.flags & point_counted);  // until the bound is found anew

@@ -99,10 +99,6 @@ void serialize(Archive& a, OpeningMemory& m) {
     a(m.defect, m.extra_force, m.overlap, m.force);
 }
 template <class Archive>
-void serialize(Archive& a, BondHistory& h) {
-    a(h.normal_force, h.shear_force);
-}
-template <class Archive>
 void serialize(Archive& a, ListReference& r) {
     a(r.x, r.y, r.angle);
 }
@@ -120,7 +116,7 @@ void serialize(Archive& a, World& w) {
     a(w.bodies, w.inertia, w.forces, w.info, w.elements, w.pieces, w.edges, w.segments, w.controls, w.laws,
       w.materials);
     a(w.points, w.kind_begin, w.point_forces, w.normal_dashpot, w.shear_dashpot, w.spring_work, w.openings, w.owed,
-      w.bond_history, w.body_begin, w.body_slots);
+      w.strong_normal, w.strong_shear, w.body_begin, w.body_slots);
     a(w.skin, w.widest_skin, w.list_reference, w.turning_reach, w.size_rank, w.largest_smaller, w.travelled, w.fastest,
       w.fastest_allowed_move, w.list_valid, w.list_step, w.list_builds);
     a(w.domain, w.thick, w.segment_law, w.integrator, w.gravity, w.time_step, w.drift, w.automatic_step,

@@ -171,7 +171,8 @@ inline void force_point(World& world, PointIndex k, World::LossBlock& loss) {
         if (bonded) {
             const double half_strength = 0.5 * law.normal_stiffness * point.bond_overlap;
             if (normal * normal + tangential * tangential >= half_strength * half_strength) {
-                world.bond_history[k] = {normal, tangential};
+                world.strong_normal[k] = normal;
+                world.strong_shear[k] = tangential;
             }
         }
     }

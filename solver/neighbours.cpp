@@ -336,7 +336,7 @@ void exchange_points(World& world, PointLists& lists) {
     std::vector<double> normal_dashpot, shear_dashpot;
     std::vector<SpringWork> spring_work;
     std::vector<OpeningMemory> openings;
-    std::vector<BondHistory> history;
+    std::vector<double> strong_normal, strong_shear;
     std::array<PointIndex, point_kinds + 1> begin{};
     std::size_t total = 0;
     for (const auto& list : lists) total += list.size();
@@ -348,7 +348,10 @@ void exchange_points(World& world, PointLists& lists) {
     if (keeps_spring_work(world)) spring_work.reserve(total);
     const bool consistent = world.integrator == Integrator::consistent;
     if (consistent) openings.reserve(total);
-    if (world.has_bonds) history.reserve(total);
+    if (world.has_bonds) {
+        strong_normal.reserve(total);
+        strong_shear.reserve(total);
+    }
     constexpr PointIndex none = std::numeric_limits<PointIndex>::max();
     const auto add = [&](const ContactPoint& point, PointIndex old) {
         points.push_back(point);
@@ -358,9 +361,11 @@ void exchange_points(World& world, PointLists& lists) {
         }
         if (keeps_spring_work(world)) spring_work.push_back(old != none ? world.spring_work[old] : SpringWork{});
         if (consistent) openings.push_back(old != none ? world.openings[old] : OpeningMemory{});
-        if (world.has_bonds)
-            history.push_back(old != none && !world.bond_history.empty() ? world.bond_history[old]
-                                                                         : BondHistory{0.0, 0.0});
+        if (world.has_bonds) {
+            const bool known = old != none && !world.strong_normal.empty();
+            strong_normal.push_back(known ? world.strong_normal[old] : 0.0);
+            strong_shear.push_back(known ? world.strong_shear[old] : 0.0);
+        }
     };
     const auto bonded = [&](PointIndex old) { return (world.points[old].flags & point_bonded) != 0; };
     PointKind kind_here{};
@@ -408,7 +413,8 @@ void exchange_points(World& world, PointLists& lists) {
     world.shear_dashpot = std::move(shear_dashpot);
     world.spring_work = std::move(spring_work);
     world.openings = std::move(openings);
-    world.bond_history = std::move(history);
+    world.strong_normal = std::move(strong_normal);
+    world.strong_shear = std::move(strong_shear);
     world.kind_begin = begin;
     world.point_forces.assign(world.points.size(), PointForce{});
     world.loss_blocks.assign(block_count(world), World::LossBlock{});

@@ -236,12 +236,10 @@ CRACKLE_INLINE bool force_batch(World& world, PointIndex k, const BatchGeometry&
         const unsigned uncounted = mask_of(holds & ~flagged(point_counted));
         loss.gained += static_cast<std::uint32_t>(__builtin_popcount(uncounted));
         const Lanes half = 0.5 * law.normal_stiffness * bond_overlap;
-        const unsigned strong = mask_of(bonded & (normal * normal + tangential * tangential >= half * half));
-        if (strong != 0) {
-            for (int l = 0; l < lane_count; ++l)
-                if ((strong >> l & 1) != 0)
-                    world.bond_history[k + static_cast<PointIndex>(l)] = {normal[l], tangential[l]};
-        }
+        const LaneBits strong = bonded & (normal * normal + tangential * tangential >= half * half);
+        double *const strong_normal = &world.strong_normal[k], *const strong_shear = &world.strong_shear[k];
+        store_as(strong_normal, strong ? normal : load_as<Lanes>(strong_normal));
+        store_as(strong_shear, strong ? tangential : load_as<Lanes>(strong_shear));
     }
     if constexpr (Damping) {
         const Lanes normal_dashpot = (law.normal_damping + law.normal_damping_ratio_term * root_mass) * closing;

@@ -59,21 +59,30 @@ void turn_frame(BodyState& body, double turn) {
     body.shape[1] = scale * s;
 }
 
-/// Kick and drift of all bodies. @return largest squared surface speed, m2/s2 (not a number if any velocity is not)
-double move_bodies(World& world, double kick) {
-    const double dt = world.time_step;
-    const Vec2 g = world.gravity;
+/// Largest squared surface speed, m2/s2; not a number if any velocity is not.
+struct Speeds {
     double fastest = 0.0;
     bool finite = true;
-    const auto count = static_cast<std::int64_t>(world.bodies.size());
-    kick_controls(world, kick);
-#pragma omp parallel for num_threads(world.threads) if (world.threads > 1) schedule(static) reduction(max : fastest) \
-    reduction(&& : finite)
-    for (std::int64_t b = 0; b < count; ++b) {
-        const auto n = static_cast<std::size_t>(b);
-        BodyState& body = world.bodies[n];
-        const BodyInertia& inertia = world.inertia[n];
-        const BodyForce& force = world.forces[n];
+
+    void add(double squared) {
+        finite = finite && squared < std::numeric_limits<double>::infinity();
+        fastest = std::max(fastest, squared);
+    }
+};
+
+/// Kick and drift.
+Speeds move_range(World& world, double kick, std::int64_t begin, std::int64_t end) {
+    const double dt = world.time_step;
+    const Vec2 g = world.gravity;
+    BodyState* const bodies = world.bodies.data();
+    const BodyInertia* const inertias = world.inertia.data();
+    const BodyForce* const forces = world.forces.data();
+    const double* const reaches = world.turning_reach.data();
+    Speeds speeds;
+    for (std::int64_t n = begin; n < end; ++n) {
+        BodyState& body = bodies[n];
+        const BodyInertia& inertia = inertias[n];
+        const BodyForce& force = forces[n];
         body.vx += kick * (force.fx + inertia.mass * g.x) * inertia.inverse_mass_x;
         body.vy += kick * (force.fy + inertia.mass * g.y) * inertia.inverse_mass_y;
         body.omega += kick * force.torque * inertia.inverse_moment;
@@ -82,15 +91,36 @@ double move_bodies(World& world, double kick) {
         const double turn = dt * body.omega;
         body.angle += turn;
         double speed = body.vx * body.vx + body.vy * body.vy;
-        const double reach = world.turning_reach[n];
+        const double reach = reaches[n];
         if (reach > 0.0) {
             turn_frame(body, turn);
             speed = 2.0 * (speed + reach * reach * body.omega * body.omega);  // (a+b)² <= 2(a²+b²)
         }
-        finite = finite && speed < std::numeric_limits<double>::infinity();
-        fastest = std::max(fastest, speed);
+        speeds.add(speed);
     }
-    return finite ? fastest : std::numeric_limits<double>::quiet_NaN();
+    return speeds;
+}
+
+/// Kick and drift of all bodies. @return largest squared surface speed, m2/s2 (not a number if any velocity is not)
+double move_bodies(World& world, double kick) {
+    kick_controls(world, kick);
+    const auto count = static_cast<std::int64_t>(world.bodies.size());
+    Speeds speeds;
+    if (world.threads == 1) {
+        speeds = move_range(world, kick, 0, count);
+    } else {
+        constexpr std::int64_t block = 512;
+        double fastest = 0.0;
+        bool finite = true;
+#pragma omp parallel for num_threads(world.threads) schedule(static) reduction(max : fastest) reduction(&& : finite)
+        for (std::int64_t begin = 0; begin < count; begin += block) {
+            const Speeds here = move_range(world, kick, begin, std::min(begin + block, count));
+            finite = finite && here.finite;
+            fastest = std::max(fastest, here.fastest);
+        }
+        speeds = {fastest, finite};
+    }
+    return speeds.finite ? speeds.fastest : std::numeric_limits<double>::quiet_NaN();
 }
 
 /// Adds up what the blocks of the force pass report, in their order.

@@ -145,12 +145,6 @@ struct OpeningMemory {
     double force = 0.0;        // N, spring and dashpot in the last force pass
 };
 
-/// Forces of a bonded point in the last step in which it carried at least half its strength.
-struct BondHistory {
-    double normal_force;  // elastic, bonded: k_n(δ - δ0), N, compression positive
-    double shear_force;   // N
-};
-
 /// What a pair of materials does at a contact point; the one place where joints or weak interfaces would come in.
 struct ContactLaw {
     double normal_stiffness, shear_stiffness;  // N/m
@@ -170,7 +164,7 @@ struct BreakEvent {
     double orientation;   // rad, direction of the contact normal, in (-π/2, π/2]
     double energy;        // J: taken by the break, breaks.cpp
     double strength;      // N: k_n δ0
-    double normal_force;  // N, of BondHistory
+    double normal_force;  // N, of World::strong_normal
     double shear_force;   // N
     bool slid;
     bool shear_mode;         // slid and |f_t| > |f_n|; else tension
@@ -238,10 +232,12 @@ struct World {
     std::vector<PointForce> point_forces;
     // Dashpot forces of the last force pass, N: their work is taken by the trapezoidal rule. Empty without the ledger.
     std::vector<double> normal_dashpot, shear_dashpot;
-    std::vector<SpringWork> spring_work;    // empty without the ledger or the guide's law
-    std::vector<OpeningMemory> openings;    // empty without the consistent integrator
-    std::vector<double> owed;               // J per body: defects of points that have left the list; empty likewise
-    std::vector<BondHistory> bond_history;  // empty without bonds
+    std::vector<SpringWork> spring_work;  // empty without the ledger or the guide's law
+    std::vector<OpeningMemory> openings;  // empty without the consistent integrator
+    std::vector<double> owed;             // J per body: defects of points that have left the list; empty likewise
+    // Elastic forces of a bonded point in the last step in which it carried at least half its strength, N: normal,
+    // compression positive, and shear. Empty without bonds.
+    std::vector<double> strong_normal, strong_shear;
     std::vector<std::uint32_t> body_begin;  // per body: range in body_slots
     std::vector<std::uint32_t> body_slots;  // 2 * point + side (0: the body is i, 1: it is j)
 

@@ -17,11 +17,18 @@ namespace {
 constexpr int circle_corners = 24;
 
 std::vector<Vec2> circle_outline(Vec2 centre, double radius, double angle) {
+    static const std::vector<Vec2> unit = [] {
+        std::vector<Vec2> corners;
+        for (int k = 0; k < circle_corners; ++k) {
+            const double a = 2.0 * std::numbers::pi * k / circle_corners;
+            corners.push_back({std::cos(a), std::sin(a)});
+        }
+        return corners;
+    }();
+    const double c = radius * std::cos(angle), s = radius * std::sin(angle);
     std::vector<Vec2> corners;
-    for (int k = 0; k < circle_corners; ++k) {
-        const double a = angle + 2.0 * std::numbers::pi * k / circle_corners;
-        corners.push_back(centre + radius * Vec2{std::cos(a), std::sin(a)});
-    }
+    corners.reserve(unit.size());
+    for (const Vec2 u : unit) corners.push_back(centre + Vec2{c * u.x - s * u.y, s * u.x + c * u.y});
     return corners;
 }
 

@@ -2,10 +2,12 @@
 #include "specimens/observers/vtk_polydata.hpp"
 
 #include <fmt/format.h>
-#include <zlib.h>
+#include <libdeflate.h>
 
 #include <bit>
 #include <cstring>
+#include <memory>
+#include <new>
 #include <pugixml.hpp>
 #include <sstream>
 #include <stdexcept>
@@ -29,34 +31,42 @@ std::string encoded(const std::string& bytes) {
     return encode_base64({reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size()});
 }
 
-/// Header (number of blocks, block size, size of a partial last block, compressed size of each block) and data, each
-/// base64.
-std::string compressed(const std::string& bytes) {
-    constexpr std::uint64_t empty_block = 32768;  // what VTK writes for arrays without values
-    if (bytes.empty()) return encoded(bytes_of(std::vector<std::uint64_t>{0, empty_block, 0}));
-    uLongf size = compressBound(static_cast<uLong>(bytes.size()));
-    std::string packed(size, '\0');
-    const int code =
-        compress2(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(bytes.data()),
-                  static_cast<uLong>(bytes.size()), Z_BEST_SPEED);
-    if (code != Z_OK) throw std::runtime_error(fmt::format("zlib: compress2 returned {}", code));
-    packed.resize(size);
-    return encoded(bytes_of(std::vector<std::uint64_t>{1, bytes.size(), 0, packed.size()})) + encoded(packed);
-}
+/// zlib's format by libdeflate, which takes a third of zlib's time.
+class Packer {
+  public:
+    Packer() : compressor_(libdeflate_alloc_compressor(fastest), &libdeflate_free_compressor) {
+        if (!compressor_) throw std::bad_alloc();
+    }
 
-void add_array(pugi::xml_node parent, const std::string& name, const char* type, int components,
+    /// Header (number of blocks, block size, size of a partial last block, compressed size of each block) and data,
+    /// each base64.
+    std::string pack(const std::string& bytes) const {
+        constexpr std::uint64_t empty_block = 32768;  // what VTK writes for arrays without values
+        if (bytes.empty()) return encoded(bytes_of(std::vector<std::uint64_t>{0, empty_block, 0}));
+        std::string packed(libdeflate_zlib_compress_bound(compressor_.get(), bytes.size()), '\0');
+        packed.resize(
+            libdeflate_zlib_compress(compressor_.get(), bytes.data(), bytes.size(), packed.data(), packed.size()));
+        return encoded(bytes_of(std::vector<std::uint64_t>{1, bytes.size(), 0, packed.size()})) + encoded(packed);
+    }
+
+  private:
+    static constexpr int fastest = 1;
+    std::unique_ptr<libdeflate_compressor, decltype(&libdeflate_free_compressor)> compressor_;
+};
+
+void add_array(const Packer& packer, pugi::xml_node parent, const std::string& name, const char* type, int components,
                const std::string& bytes) {
     pugi::xml_node array = parent.append_child("DataArray");
     array.append_attribute("type") = type;
     array.append_attribute("Name") = name.c_str();
     if (components > 1) array.append_attribute("NumberOfComponents") = components;
     array.append_attribute("format") = "binary";
-    array.text() = compressed(bytes).c_str();
+    array.text() = packer.pack(bytes).c_str();
 }
 
-void add_cells(pugi::xml_node parent, const CellList& cells) {
-    add_array(parent, "connectivity", "Int64", 1, bytes_of(cells.connectivity));
-    add_array(parent, "offsets", "Int64", 1, bytes_of(cells.offsets));
+void add_cells(const Packer& packer, pugi::xml_node parent, const CellList& cells) {
+    add_array(packer, parent, "connectivity", "Int64", 1, bytes_of(cells.connectivity));
+    add_array(packer, parent, "offsets", "Int64", 1, bytes_of(cells.offsets));
 }
 
 pugi::xml_node add_root(pugi::xml_document& document, const char* type) {
@@ -88,6 +98,7 @@ void VtpData::add(CellList& list, const std::vector<Vec2>& corners) {
 }
 
 std::string vtp_text(const VtpData& data) {
+    const Packer packer;
     pugi::xml_document document;
     pugi::xml_node poly = add_root(document, "PolyData").append_child("PolyData");
     pugi::xml_node fields = poly.append_child("FieldData");
@@ -97,7 +108,7 @@ std::string vtp_text(const VtpData& data) {
         array.append_attribute("Name") = name.c_str();
         array.append_attribute("NumberOfTuples") = 1;
         array.append_attribute("format") = "binary";
-        array.text() = compressed(bytes_of(std::vector<double>{value})).c_str();
+        array.text() = packer.pack(bytes_of(std::vector<double>{value})).c_str();
     }
     pugi::xml_node piece = poly.append_child("Piece");
     piece.append_attribute("NumberOfPoints") = data.points.size();
@@ -109,13 +120,13 @@ std::string vtp_text(const VtpData& data) {
     std::vector<double> coordinates;
     coordinates.reserve(3 * data.points.size());
     for (const Vec2 p : data.points) coordinates.insert(coordinates.end(), {p.x, p.y, 0.0});
-    add_array(piece.append_child("Points"), "points", "Float64", 3, bytes_of(coordinates));
-    add_cells(piece.append_child("Lines"), data.lines);
-    add_cells(piece.append_child("Polys"), data.polygons);
+    add_array(packer, piece.append_child("Points"), "points", "Float64", 3, bytes_of(coordinates));
+    add_cells(packer, piece.append_child("Lines"), data.lines);
+    add_cells(packer, piece.append_child("Polys"), data.polygons);
     pugi::xml_node cell_data = piece.append_child("CellData");
     for (const CellArray& array : data.cell_arrays) {
         const bool whole = !array.integer.empty();
-        add_array(cell_data, array.name, whole ? "Int64" : "Float64", array.components,
+        add_array(packer, cell_data, array.name, whole ? "Int64" : "Float64", array.components,
                   whole ? bytes_of(array.integer) : bytes_of(array.real));
     }
     return text_of(document);

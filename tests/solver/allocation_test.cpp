@@ -120,7 +120,6 @@ TEST(Records, HaveTheSizesTheyAreLaidOutFor) {
     EXPECT_EQ(sizeof(ContactPoint), 48u);
     EXPECT_EQ(sizeof(PointForce), 32u);
     EXPECT_EQ(sizeof(BodyForce), 24u);
-    EXPECT_EQ(sizeof(BondHistory), 16u);
     EXPECT_EQ(sizeof(OpeningMemory), 32u);
 }
 

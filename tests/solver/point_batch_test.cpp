@@ -61,7 +61,8 @@ void expect_the_same(const Trial& trial, int steps, bool breaks) {
     EXPECT_TRUE(same_bytes(together.point_forces, apart.point_forces));
     EXPECT_TRUE(same_bytes(together.normal_dashpot, apart.normal_dashpot));
     EXPECT_TRUE(same_bytes(together.shear_dashpot, apart.shear_dashpot));
-    EXPECT_TRUE(same_bytes(together.bond_history, apart.bond_history));
+    EXPECT_TRUE(same_bytes(together.strong_normal, apart.strong_normal));
+    EXPECT_TRUE(same_bytes(together.strong_shear, apart.strong_shear));
     EXPECT_EQ(together.bonds_broken, apart.bonds_broken);
     EXPECT_EQ(together.dashpot_loss, apart.dashpot_loss);
     EXPECT_EQ(together.friction_loss, apart.friction_loss);
