@@ -104,6 +104,15 @@ std::vector<int> apart(const VoronoiCells& voronoi, const std::vector<VoronoiCel
     return chosen;
 }
 
+// A loop of its own: the memory that it jumps to is waited for once, not cell by cell between insets.
+// @param cells  one a seed that is left  @param seed_of  by number among those left
+std::vector<Cell> in_order_of_seeds(const std::vector<Cell>& cells, const std::vector<int>& seed_of) {
+    std::vector<Cell> ordered(cells.size());
+    for (const Cell& cell : cells) ordered[static_cast<std::size_t>(cell.seed)] = cell;
+    for (std::size_t k = 0; k < ordered.size(); ++k) ordered[k].seed = seed_of[k];
+    return ordered;
+}
+
 Mesh mesh_voronoi(std::span<const Seed> seeds, const Rectangle& domain, const MeshRequest& request, double depth) {
     const double scale = coordinate_scale(domain);
     Inset inset(depth, scale);
@@ -113,8 +122,7 @@ Mesh mesh_voronoi(std::span<const Seed> seeds, const Rectangle& domain, const Me
     std::int64_t merged = 0;
     while (true) {
         const VoronoiCells voronoi = voronoi_cells(left, domain);
-        MeshBuilder builder(domain, voronoi.corners.size());
-        std::vector<Cell> cells(voronoi.cells.size());
+        MeshBuilder builder(domain, voronoi.cells.size(), voronoi.corners.size());
         std::vector<VoronoiCells::Range> destroyed;
         for (const VoronoiCells::Range& range : voronoi.cells) {
             const auto before = voronoi.outline(range), after = inset.of(before);
@@ -122,12 +130,11 @@ Mesh mesh_voronoi(std::span<const Seed> seeds, const Rectangle& domain, const Me
                 destroyed.push_back(range);
                 continue;
             }
-            const auto number = static_cast<std::size_t>(range.seed);
-            cells[number] = builder.add(before, after);
-            cells[number].seed = seed_of[number];
+            builder.add(before, after).seed = range.seed;
         }
         if (destroyed.empty()) {
-            Mesh mesh = builder.with_cells(std::move(cells));
+            Mesh mesh = builder.finish();
+            mesh.cells = in_order_of_seeds(mesh.cells, seed_of);
             mesh.report.cells_destroyed = merged;
             return mesh;
         }
@@ -176,9 +183,7 @@ Mesh mesh_delaunay(std::span<const Seed> seeds, const Rectangle& domain, const M
             numbers[k] = triangles.seed_of[static_cast<std::size_t>(triangles.corners[t][k])];
         return numbers;
     };
-    MeshBuilder builder(domain, 3 * triangles.corners.size());
-    std::vector<Cell> cells;
-    cells.reserve(triangles.corners.size());
+    MeshBuilder builder(domain, triangles.corners.size(), 3 * triangles.corners.size());
     std::vector<int> destroyed;
     for (std::size_t t = 0; t < triangles.corners.size(); ++t) {
         const auto before = outline(t);
@@ -187,10 +192,9 @@ Mesh mesh_delaunay(std::span<const Seed> seeds, const Rectangle& domain, const M
             destroyed.push_back(static_cast<int>(t));
             continue;
         }
-        cells.push_back(builder.add(before, after));
-        cells.back().seeds = seeds_of(t);
+        builder.add(before, after).seeds = seeds_of(t);
     }
-    Mesh survivors = builder.with_cells(std::move(cells));
+    Mesh survivors = builder.finish();
     if (destroyed.empty()) return survivors;
     if (!request.merge_destroyed) {
         const int worst = *std::min_element(destroyed.begin(), destroyed.end(), [&](int a, int b) {
@@ -209,9 +213,7 @@ Mesh mesh_delaunay(std::span<const Seed> seeds, const Rectangle& domain, const M
                          corners, depth, scale, destroyed.size(), std::move(named));
     }
     const JoinedTriangles joined = join_destroyed(triangles, destroyed, depth, scale);
-    MeshBuilder joint(domain, survivors.corners.size());
-    cells.clear();
-    cells.reserve(survivors.cells.size());
+    MeshBuilder joint(domain, survivors.cells.size(), survivors.corners.size());
     auto survivor = survivors.cells.begin();
     auto lost = destroyed.begin();
     auto next = joined.outlines.begin();
@@ -219,13 +221,11 @@ Mesh mesh_delaunay(std::span<const Seed> seeds, const Rectangle& domain, const M
     for (std::size_t t = 0; t < triangles.corners.size(); ++t) {
         const bool survives = lost == destroyed.end() || static_cast<std::size_t>(*lost) != t;
         if (!joined.joined[t]) {
-            cells.push_back(joint.add(outline(t), survivors.outline(*survivor)));
-            cells.back().seeds = survivor->seeds;
+            joint.add(outline(t), survivors.outline(*survivor)).seeds = survivor->seeds;
         } else if (next != joined.outlines.end() && static_cast<std::size_t>(next->triangle) == t) {
             before.clear();
             for (const int corner : next->corners) before.push_back(point(corner));
-            cells.push_back(joint.add(before, inset.of(before)));
-            cells.back().seeds = seeds_of(t);
+            joint.add(before, inset.of(before)).seeds = seeds_of(t);
             ++next;
         }
         if (survives) {
@@ -234,7 +234,7 @@ Mesh mesh_delaunay(std::span<const Seed> seeds, const Rectangle& domain, const M
             ++lost;
         }
     }
-    Mesh mesh = joint.with_cells(std::move(cells));
+    Mesh mesh = joint.finish();
     mesh.report.cells_destroyed = static_cast<std::int64_t>(destroyed.size());
     return mesh;
 }

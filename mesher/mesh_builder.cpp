@@ -18,12 +18,13 @@ void MeshBuilder::Sum::add(double value) {
     total_ = next;
 }
 
-MeshBuilder::MeshBuilder(const Rectangle& domain, std::size_t corners) : domain_(domain) {
+MeshBuilder::MeshBuilder(const Rectangle& domain, std::size_t cells, std::size_t corners) : domain_(domain) {
+    mesh_.cells.reserve(cells);
     mesh_.corners.reserve(corners);
 }
 
-Cell MeshBuilder::add(std::span<const Point> before, std::span<const Point> after) {
-    Cell cell;
+Cell& MeshBuilder::add(std::span<const Point> before, std::span<const Point> after) {
+    Cell& cell = mesh_.cells.emplace_back();
     cell.first_corner = static_cast<std::uint32_t>(mesh_.corners.size());
     cell.corner_count = static_cast<std::uint32_t>(after.size());
     cell.sides = sides_of(before, domain_);
@@ -52,8 +53,7 @@ void MeshBuilder::measure_edges(std::span<const Point> outline) {
     }
 }
 
-Mesh MeshBuilder::with_cells(std::vector<Cell> cells) {
-    mesh_.cells = std::move(cells);
+Mesh MeshBuilder::finish() {
     MeshReport& report = mesh_.report;
     report.cells = static_cast<std::int64_t>(mesh_.cells.size());
     report.segments = static_cast<std::int64_t>(mesh_.corners.size());

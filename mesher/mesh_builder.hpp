@@ -13,15 +13,15 @@ namespace crackle {
 
 class MeshBuilder {
   public:
-    /// @param corners  about as many as will come, all cells together: memory for them is set aside
-    MeshBuilder(const Rectangle& domain, std::size_t corners);
+    /// @param cells, corners  about as many as will come: memory for them is set aside
+    MeshBuilder(const Rectangle& domain, std::size_t cells, std::size_t corners);
 
     /// Takes the next cell along space. @param before, after  its outline without and with the inset, counter-clockwise
-    /// @return the cell, of no seed yet
-    Cell add(std::span<const Point> before, std::span<const Point> after);
+    /// @return the cell, of no seed yet; valid until the next call
+    Cell& add(std::span<const Point> before, std::span<const Point> after);
 
-    /// The corners of all cells and the report on them, with these cells.
-    Mesh with_cells(std::vector<Cell> cells);
+    /// The cells in the order in which they came, and the report on them. The builder is empty afterwards.
+    Mesh finish();
 
   private:
     // Neumaier's compensated sum: a million equal areas would lose the last five digits otherwise.
