@@ -1,19 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// make_mesh(): judges the input, partitions the domain, insets the cells, deals with those that the inset destroys, and
-// measures what came out.
+// make_mesh(): judges the input, partitions the domain, insets the cells, and deals with those that the inset destroys.
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <numeric>
 #include <set>
 #include <utility>
 
 #include "mesher/inset.hpp"
 #include "mesher/merge.hpp"
+#include "mesher/mesh_builder.hpp"
 #include "mesher/mesher.hpp"
 #include "mesher/partition.hpp"
 
@@ -91,67 +90,27 @@ double slenderness(std::span<const Point> outline) {
     return 2.0 * polygon_area(outline) / perimeter;
 }
 
-// Neumaier's compensated sum: a million equal areas would lose the last five digits otherwise.
-class Sum {
-  public:
-    void add(double value) {
-        const double next = total_ + value;
-        lost_ += std::abs(total_) >= std::abs(value) ? (total_ - next) + value : (value - next) + total_;
-        total_ = next;
-    }
-    double value() const { return total_ + lost_; }
-
-  private:
-    double total_ = 0.0, lost_ = 0.0;
-};
-
-void add_cell(Mesh& mesh, Sum& area, Cell cell, std::span<const Point> before, std::span<const Point> after,
-              const Rectangle& domain) {
-    cell.first_corner = static_cast<std::uint32_t>(mesh.corners.size());
-    cell.corner_count = static_cast<std::uint32_t>(after.size());
-    cell.sides = sides_of(before, domain);
-    mesh.corners.insert(mesh.corners.end(), after.begin(), after.end());
-    mesh.cells.push_back(cell);
-    area.add(polygon_area(before));
-}
-
-// One inset pass over the cells. @return seeds whose cells are destroyed.
-std::vector<int> inset_voronoi(const VoronoiCells& voronoi, const std::vector<int>& seed_of, const Rectangle& domain,
-                               Inset& inset, Mesh& mesh) {
-    const std::size_t count = voronoi.cells.size();
-    mesh = {};
-    mesh.corners.reserve(voronoi.corners.size());
-    mesh.cells.reserve(count);
-    Sum area;
-    std::vector<int> destroyed;
-    for (std::size_t k = 0; k < count; ++k) {
-        const auto& range = voronoi.cells[k];
-        const auto before = std::span(voronoi.corners).subspan(range.first, range.count);
-        const auto after = inset.of(before);
-        if (after.empty()) {
-            destroyed.push_back(static_cast<int>(k));
-            continue;
-        }
-        Cell cell;
-        cell.seed = seed_of[k];
-        add_cell(mesh, area, cell, before, after, domain);
-    }
-    mesh.report.area_before_inset = area.value();
-    return destroyed;
-}
-
 // Of the destroyed cells, some that do not touch each other: where two do, leaving out one may be enough.
-std::vector<int> apart(const VoronoiCells& voronoi, const std::vector<int>& destroyed) {
+// @param destroyed  in the order of their seeds  @return seeds
+std::vector<int> apart(const VoronoiCells& voronoi, const std::vector<VoronoiCells::Range>& destroyed) {
     std::set<std::pair<double, double>> taken;
     std::vector<int> chosen;
-    for (const int k : destroyed) {
-        const auto& range = voronoi.cells[static_cast<std::size_t>(k)];
-        const auto outline = std::span(voronoi.corners).subspan(range.first, range.count);
+    for (const VoronoiCells::Range& cell : destroyed) {
+        const auto outline = voronoi.outline(cell);
         if (std::any_of(outline.begin(), outline.end(), [&](Point p) { return taken.contains({p.x, p.y}); })) continue;
         for (const Point& p : outline) taken.insert({p.x, p.y});
-        chosen.push_back(k);
+        chosen.push_back(cell.seed);
     }
     return chosen;
+}
+
+// A loop of its own: the memory that it jumps to is waited for once, not cell by cell between insets.
+// @param cells  one a seed that is left  @param seed_of  by number among those left
+std::vector<Cell> in_order_of_seeds(const std::vector<Cell>& cells, const std::vector<int>& seed_of) {
+    std::vector<Cell> ordered(cells.size());
+    for (const Cell& cell : cells) ordered[static_cast<std::size_t>(cell.seed)] = cell;
+    for (std::size_t k = 0; k < ordered.size(); ++k) ordered[k].seed = seed_of[k];
+    return ordered;
 }
 
 Mesh mesh_voronoi(std::span<const Seed> seeds, const Rectangle& domain, const MeshRequest& request, double depth) {
@@ -163,24 +122,29 @@ Mesh mesh_voronoi(std::span<const Seed> seeds, const Rectangle& domain, const Me
     std::int64_t merged = 0;
     while (true) {
         const VoronoiCells voronoi = voronoi_cells(left, domain);
-        Mesh mesh;
-        const std::vector<int> destroyed = inset_voronoi(voronoi, seed_of, domain, inset, mesh);
+        MeshBuilder builder(domain, voronoi.cells.size(), voronoi.corners.size());
+        std::vector<VoronoiCells::Range> destroyed;
+        for (const VoronoiCells::Range& range : voronoi.cells) {
+            const auto before = voronoi.outline(range), after = inset.of(before);
+            if (after.empty()) {
+                destroyed.push_back(range);
+                continue;
+            }
+            builder.add(before, after).seed = range.seed;
+        }
         if (destroyed.empty()) {
+            Mesh mesh = builder.finish();
+            mesh.cells = in_order_of_seeds(mesh.cells, seed_of);
             mesh.report.cells_destroyed = merged;
             return mesh;
         }
-        const auto outline = [&](int k) {
-            const auto& range = voronoi.cells[static_cast<std::size_t>(k)];
-            return std::span(voronoi.corners).subspan(range.first, range.count);
-        };
+        std::ranges::sort(destroyed, {}, &VoronoiCells::Range::seed);
         if (!request.merge_destroyed || left.size() == 1) {
-            const int worst = *std::min_element(destroyed.begin(), destroyed.end(), [&](int a, int b) {
-                return slenderness(outline(a)) < slenderness(outline(b));
-            });
-            const int seed = seed_of[static_cast<std::size_t>(worst)];
-            refuse_destroyed(
-                fmt::format("the cell of seed {} at {}", seed, place(left[static_cast<std::size_t>(worst)])),
-                outline(worst), depth, scale, destroyed.size(), {seed});
+            const auto worst = std::ranges::min_element(
+                destroyed, {}, [&](const VoronoiCells::Range& cell) { return slenderness(voronoi.outline(cell)); });
+            const auto number = static_cast<std::size_t>(worst->seed);
+            refuse_destroyed(fmt::format("the cell of seed {} at {}", seed_of[number], place(left[number])),
+                             voronoi.outline(*worst), depth, scale, destroyed.size(), {seed_of[number]});
         }
         const std::vector<int> dropped = apart(voronoi, destroyed);
         merged += static_cast<std::int64_t>(dropped.size());
@@ -208,23 +172,18 @@ Mesh mesh_delaunay(std::span<const Seed> seeds, const Rectangle& domain, const M
             seeds.size(), seeds.size() == 1 ? "" : "s"));
     }
     Inset inset(depth, scale);
-    Mesh mesh;
-    mesh.corners.reserve(3 * triangles.corners.size());
-    mesh.cells.reserve(triangles.corners.size());
     const auto point = [&](int k) { return triangles.points[static_cast<std::size_t>(k)]; };
     const auto outline = [&](std::size_t t) {
         const auto& c = triangles.corners[t];
         return std::array<Point, 3>{point(c[0]), point(c[1]), point(c[2])};
     };
-    const auto cell_of = [&](std::size_t t) {
-        Cell cell;
-        for (std::size_t k = 0; k < 3; ++k) {
-            const int corner = triangles.corners[t][k];
-            cell.seeds[k] = static_cast<std::size_t>(corner) < seeds.size() ? corner : -1;
-        }
-        return cell;
+    const auto seeds_of = [&](std::size_t t) {
+        std::array<int, 3> numbers{};
+        for (std::size_t k = 0; k < 3; ++k)
+            numbers[k] = triangles.seed_of[static_cast<std::size_t>(triangles.corners[t][k])];
+        return numbers;
     };
-    Sum area;
+    MeshBuilder builder(domain, triangles.corners.size(), 3 * triangles.corners.size());
     std::vector<int> destroyed;
     for (std::size_t t = 0; t < triangles.corners.size(); ++t) {
         const auto before = outline(t);
@@ -233,10 +192,10 @@ Mesh mesh_delaunay(std::span<const Seed> seeds, const Rectangle& domain, const M
             destroyed.push_back(static_cast<int>(t));
             continue;
         }
-        add_cell(mesh, area, cell_of(t), before, after, domain);
+        builder.add(before, after).seeds = seeds_of(t);
     }
-    mesh.report.area_before_inset = area.value();
-    if (destroyed.empty()) return mesh;
+    Mesh survivors = builder.finish();
+    if (destroyed.empty()) return survivors;
     if (!request.merge_destroyed) {
         const int worst = *std::min_element(destroyed.begin(), destroyed.end(), [&](int a, int b) {
             return slenderness(outline(static_cast<std::size_t>(a))) <
@@ -245,7 +204,7 @@ Mesh mesh_delaunay(std::span<const Seed> seeds, const Rectangle& domain, const M
         const auto corners = outline(static_cast<std::size_t>(worst));
         std::vector<int> named;
         std::string numbers;
-        for (const int seed : cell_of(static_cast<std::size_t>(worst)).seeds) {
+        for (const int seed : seeds_of(static_cast<std::size_t>(worst))) {
             numbers += (numbers.empty() ? "" : ", ") + (seed < 0 ? std::string("wall") : std::to_string(seed));
             if (seed >= 0) named.push_back(seed);
         }
@@ -254,57 +213,30 @@ Mesh mesh_delaunay(std::span<const Seed> seeds, const Rectangle& domain, const M
                          corners, depth, scale, destroyed.size(), std::move(named));
     }
     const JoinedTriangles joined = join_destroyed(triangles, destroyed, depth, scale);
-    mesh = {};
-    area = {};
+    MeshBuilder joint(domain, survivors.cells.size(), survivors.corners.size());
+    auto survivor = survivors.cells.begin();
+    auto lost = destroyed.begin();
     auto next = joined.outlines.begin();
     std::vector<Point> before;
     for (std::size_t t = 0; t < triangles.corners.size(); ++t) {
-        before.clear();
+        const bool survives = lost == destroyed.end() || static_cast<std::size_t>(*lost) != t;
         if (!joined.joined[t]) {
-            for (const Point& p : outline(t)) before.push_back(p);
+            joint.add(outline(t), survivors.outline(*survivor)).seeds = survivor->seeds;
         } else if (next != joined.outlines.end() && static_cast<std::size_t>(next->triangle) == t) {
+            before.clear();
             for (const int corner : next->corners) before.push_back(point(corner));
+            joint.add(before, inset.of(before)).seeds = seeds_of(t);
             ++next;
-        } else {
-            continue;
         }
-        add_cell(mesh, area, cell_of(t), before, inset.of(before), domain);
+        if (survives) {
+            ++survivor;
+        } else {
+            ++lost;
+        }
     }
-    mesh.report.area_before_inset = area.value();
+    Mesh mesh = joint.finish();
     mesh.report.cells_destroyed = static_cast<std::int64_t>(destroyed.size());
     return mesh;
-}
-
-void measure(Mesh& mesh) {
-    MeshReport& report = mesh.report;
-    report.cells = static_cast<std::int64_t>(mesh.cells.size());
-    report.segments = static_cast<std::int64_t>(mesh.corners.size());
-    Sum area;
-    double shortest = std::numeric_limits<double>::infinity();
-    // Angles are compared by a measure that grows with them and needs no arc function: sin up to 90 degrees, 2 - sin
-    // beyond.
-    double smallest = 2.0;
-    for (const Cell& cell : mesh.cells) {
-        const auto corners = mesh.outline(cell);
-        Point before = corners.back();
-        Point in{corners.front().x - before.x, corners.front().y - before.y};
-        double in_length = std::sqrt(in.x * in.x + in.y * in.y);
-        for (std::size_t k = 0; k < corners.size(); ++k) {
-            const Point here = corners[k], after = corners[k + 1 == corners.size() ? 0 : k + 1];
-            const Point out{after.x - here.x, after.y - here.y};
-            const double out_length = std::sqrt(out.x * out.x + out.y * out.y);
-            const double sine = (in.x * out.y - in.y * out.x) / (in_length * out_length);
-            smallest = std::min(smallest, in.x * out.x + in.y * out.y < 0.0 ? sine : 2.0 - sine);
-            shortest = std::min(shortest, out_length);
-            in = out;
-            in_length = out_length;
-        }
-        area.add(polygon_area(corners));
-    }
-    const double quarter = std::asin(std::clamp(smallest <= 1.0 ? smallest : 2.0 - smallest, -1.0, 1.0));
-    report.smallest_angle = (smallest <= 1.0 ? quarter : std::numbers::pi - quarter) * 180.0 / std::numbers::pi;
-    report.shortest_edge = shortest;
-    report.area_after_inset = area.value();
 }
 
 }  // namespace
@@ -313,10 +245,8 @@ Mesh make_mesh(std::span<const Seed> seeds, const Rectangle& domain, const MeshR
     check_request(domain, request);
     check_seeds(seeds, domain);
     const double depth = request.inset.value_or(0.5 * request.thick);
-    Mesh mesh = request.kind == MeshKind::voronoi ? mesh_voronoi(seeds, domain, request, depth)
-                                                  : mesh_delaunay(seeds, domain, request, depth);
-    measure(mesh);
-    return mesh;
+    return request.kind == MeshKind::voronoi ? mesh_voronoi(seeds, domain, request, depth)
+                                             : mesh_delaunay(seeds, domain, request, depth);
 }
 
 }  // namespace crackle

@@ -32,10 +32,14 @@ namespace {
 
 enum class Origin : std::uint8_t { seed, image, guard, added };
 
+// All that is known of a seed is kept here, not in arrays by seed: neighbours in space are neighbours in memory.
 struct VertexInfo {
-    int index = -1;  // seed (also an image's), or number of the added point
+    int index = -1;  // seed (also an image's); once triangles are numbered, the point
     Origin origin = Origin::guard;
-    std::uint8_t wall = 0;  // SideBit an image was mirrored across
+    // Sets of SideBit.
+    std::uint8_t walls = 0;    // a seed: those it lies on; an image: the one it was mirrored across
+    std::uint8_t settled = 0;  // a seed: those it is mirrored across or lies on
+    std::uint8_t wanted = 0;   // a seed: those to be mirrored across in the present round
 };
 
 struct FaceInfo {
@@ -77,6 +81,24 @@ Point circumcentre(FaceHandle face) {
     return {a.x + (cy * b2 - by * c2) / twice, a.y + (bx * c2 - cx * b2) / twice};
 }
 
+// What the corners of a face have to do with walls: sets of SideBit.
+struct WallsOfFace {
+    unsigned images = 0;    // those across which a corner is an image
+    unsigned on_all = ~0U;  // those on which all corners lie that are seeds
+    bool any_seed = false;
+};
+
+WallsOfFace walls_of(FaceHandle face) {
+    WallsOfFace walls;
+    for (int k = 0; k < 3; ++k) {
+        const VertexInfo& info = face->vertex(k)->info();
+        if (info.origin == Origin::image) walls.images |= info.walls;
+        if (info.origin == Origin::seed) walls.on_all &= info.walls;
+        walls.any_seed = walls.any_seed || info.origin == Origin::seed;
+    }
+    return walls;
+}
+
 class Partition {
   public:
     Partition(std::span<const Seed> seeds, const Rectangle& domain)
@@ -91,8 +113,7 @@ class Partition {
 
   private:
     struct Image {
-        VertexHandle vertex;
-        int seed;
+        VertexHandle vertex, seed;
         std::uint8_t wall;
     };
 
@@ -100,30 +121,25 @@ class Partition {
     void insert_seeds();
     void refuse_coincident(int a, int b) const;
     void mirror_where_needed();
-    void note_needs(FaceHandle face, std::vector<int>& wanting);
-    void mirror(int seed, std::uint8_t walls, std::vector<int>& touched);
+    void refuse_near_coincident(FaceHandle face, double too_close) const;
+    void place_dual(FaceHandle face, std::vector<VertexHandle>& wanting);
+    void mirror(VertexHandle seed, std::uint8_t walls, std::vector<VertexHandle>& touched);
 
     bool is_seed(VertexHandle v) const { return v->info().origin == Origin::seed; }
     unsigned walls_beyond(Point p) const;
-    unsigned snapped_walls(FaceHandle face) const;
-    Point dual(FaceHandle face, unsigned snapped) const;
+    Point dual(FaceHandle face, const WallsOfFace& walls) const;
     Point on_wall(FaceHandle face, std::uint8_t wall) const;
-    void place_duals();
     bool collect_cells(VoronoiCells& out, bool allow_zero_edges) const;
     void contract_zero_edges();
     void cut_at_walls(std::vector<Point>& polygon, std::vector<Point>& scratch) const;
     double zero_edge(Point dual_point, Point seed) const;
     bool meets_wall(const Image& image) const;
-    void close_with_flat_faces(std::vector<Point>& points);
+    void close_with_flat_faces();
 
     std::span<const Seed> seeds_;
     Rectangle domain_;
     double scale_;
     Triangulation triangulation_;
-    std::vector<VertexHandle> vertex_of_;
-    std::vector<std::uint8_t> settled_;  // by seed: walls it is mirrored across or lies on
-    std::vector<std::uint8_t> lies_on_;  // by seed: walls it lies on
-    std::vector<std::uint8_t> wanted_;   // by seed: walls to be mirrored across in the present round
     std::vector<Image> images_;
     std::vector<VertexHandle> guards_;
 };
@@ -138,27 +154,21 @@ void Partition::insert_guards() {
 
 // Along a space-filling curve, each located from the one before; the seed's number travels in the vertex.
 void Partition::insert_seeds() {
-    const std::size_t count = seeds_.size();
     using Placed = std::pair<CgalPoint, int>;  // sorted itself: sorting numbers of places would wait for memory
     std::vector<Placed> order;
-    order.reserve(count);
+    order.reserve(seeds_.size());
     for (const Seed& seed : seeds_) order.emplace_back(CgalPoint(seed.x, seed.y), static_cast<int>(order.size()));
     using PlaceOf = CGAL::First_of_pair_property_map<Placed>;
     CGAL::spatial_sort(order.begin(), order.end(), CGAL::Spatial_sort_traits_adapter_2<Kernel, PlaceOf>());
-    vertex_of_.resize(count);
     FaceHandle hint = guards_.back()->face();
     for (const auto& [place, number] : order) {
         const std::size_t before = triangulation_.number_of_vertices();
         const VertexHandle v = triangulation_.insert(place, hint);
         if (triangulation_.number_of_vertices() == before) refuse_coincident(v->info().index, number);
-        v->info() = {number, Origin::seed, 0};
-        vertex_of_[static_cast<std::size_t>(number)] = v;
+        const auto lies_on = static_cast<std::uint8_t>(sides_at({place.x(), place.y()}, domain_));
+        v->info() = {number, Origin::seed, lies_on, lies_on, 0};
         hint = v->face();
     }
-    settled_.resize(count);
-    wanted_.assign(count, 0);
-    for (std::size_t k = 0; k < count; ++k) settled_[k] = static_cast<std::uint8_t>(sides_at(seeds_[k], domain_));
-    lies_on_ = settled_;
 }
 
 void Partition::refuse_coincident(int a, int b) const {
@@ -176,18 +186,6 @@ unsigned Partition::walls_beyond(Point p) const {
            bit(p.y > domain_.y2, side_top);
 }
 
-// Walls on which the face's circumcentre is known to lie: it has an image across the wall, and a seed that is not on
-// it.
-unsigned Partition::snapped_walls(FaceHandle face) const {
-    unsigned images = 0, on_all = ~0U;
-    for (int k = 0; k < 3; ++k) {
-        const VertexInfo& info = face->vertex(k)->info();
-        if (info.origin == Origin::image) images |= info.wall;
-        if (info.origin == Origin::seed) on_all &= lies_on_[static_cast<std::size_t>(info.index)];
-    }
-    return images & ~on_all;
-}
-
 // Where the bisector of the face's corners meets the wall: (p - wall)² + (y - s)² equal for two of them, an image
 // standing for its seed. The pair that is furthest apart along the wall is taken; no difference of nearly equal squares
 // enters.
@@ -200,7 +198,7 @@ Point Partition::on_wall(FaceHandle face, std::uint8_t wall) const {
     std::array<double, 3> along{}, off{};
     for (int k = 0; k < 3; ++k) {
         const VertexInfo& info = face->vertex(k)->info();
-        const bool mirrored = info.origin == Origin::image && info.wall == wall;
+        const bool mirrored = info.origin == Origin::image && info.walls == wall;
         const Point p = mirrored ? seeds_[static_cast<std::size_t>(info.index)] : position(face->vertex(k));
         along[static_cast<std::size_t>(k)] = upright ? p.y : p.x;
         off[static_cast<std::size_t>(k)] = (upright ? p.x : p.y) - level;
@@ -214,7 +212,10 @@ Point Partition::on_wall(FaceHandle face, std::uint8_t wall) const {
     return upright ? Point{level, place} : Point{place, level};
 }
 
-Point Partition::dual(FaceHandle face, unsigned snapped) const {
+// The face's circumcentre. It is known to lie on the walls across which the face has an image, but for those on which
+// all of its seeds lie.
+Point Partition::dual(FaceHandle face, const WallsOfFace& walls) const {
+    const unsigned snapped = walls.images & ~walls.on_all;
     switch (snapped) {
         case side_left:
         case side_right:
@@ -234,102 +235,85 @@ Point Partition::dual(FaceHandle face, unsigned snapped) const {
     }
 }
 
-// Adds to wanted_ the walls across which the face's seeds must still be mirrored.
-void Partition::note_needs(FaceHandle face, std::vector<int>& wanting) {
-    unsigned images = 0;
-    bool any_seed = false;
-    for (int k = 0; k < 3; ++k) {
-        const VertexInfo& info = face->vertex(k)->info();
-        if (info.origin == Origin::image) images |= info.wall;
-        any_seed = any_seed || info.origin == Origin::seed;
+// Puts the face's dual in its place, and notes the walls across which its seeds must still be mirrored.
+void Partition::place_dual(FaceHandle face, std::vector<VertexHandle>& wanting) {
+    const WallsOfFace walls = walls_of(face);
+    if (!walls.any_seed) return;
+    const Point p = dual(face, walls);
+    const unsigned beyond = walls_beyond(p);
+    FaceInfo& placed = face->info();
+    placed.dual = p;
+    placed.outside = (beyond & walls.on_all) != 0;
+    if (beyond != 0 && !placed.outside) {  // by rounding, if the face is still there once its seeds are mirrored
+        placed.dual = {std::clamp(p.x, domain_.x1, domain_.x2), std::clamp(p.y, domain_.y1, domain_.y2)};
     }
-    if (!any_seed) return;
-    const unsigned needs = images | walls_beyond(dual(face, snapped_walls(face)));
+    const unsigned needs = walls.images | beyond;
     if (needs == 0) return;
     for (int k = 0; k < 3; ++k) {
-        const VertexInfo& info = face->vertex(k)->info();
-        if (info.origin != Origin::seed) continue;
-        const auto seed = static_cast<std::size_t>(info.index);
-        const unsigned missing = needs & ~unsigned{settled_[seed]};
+        const VertexHandle v = face->vertex(k);
+        if (!is_seed(v)) continue;
+        const unsigned missing = needs & ~unsigned{v->info().settled};
         if (missing == 0) continue;
-        if (wanted_[seed] == 0) wanting.push_back(info.index);
-        wanted_[seed] = static_cast<std::uint8_t>(wanted_[seed] | missing);
+        if (v->info().wanted == 0) wanting.push_back(v);
+        v->info().wanted = static_cast<std::uint8_t>(v->info().wanted | missing);
     }
 }
 
-void Partition::mirror(int seed, std::uint8_t walls, std::vector<int>& touched) {
-    const auto number = static_cast<std::size_t>(seed);
-    const Seed s = seeds_[number];
+void Partition::mirror(VertexHandle seed, std::uint8_t walls, std::vector<VertexHandle>& touched) {
+    const Point s = position(seed);
     for (const std::uint8_t wall : all_sides) {
         if ((walls & wall) == 0) continue;
         const Point place = wall == side_left     ? Point{2.0 * domain_.x1 - s.x, s.y}
                             : wall == side_right  ? Point{2.0 * domain_.x2 - s.x, s.y}
                             : wall == side_bottom ? Point{s.x, 2.0 * domain_.y1 - s.y}
                                                   : Point{s.x, 2.0 * domain_.y2 - s.y};
-        const VertexHandle v = triangulation_.insert(CgalPoint(place.x, place.y), vertex_of_[number]->face());
-        v->info() = {seed, Origin::image, wall};
+        const VertexHandle v = triangulation_.insert(CgalPoint(place.x, place.y), seed->face());
+        v->info() = {seed->info().index, Origin::image, wall};
         images_.push_back({v, seed, wall});
         auto neighbour = triangulation_.incident_vertices(v);
         const auto end = neighbour;
         do {
-            if (!triangulation_.is_infinite(neighbour) && is_seed(neighbour))
-                touched.push_back(neighbour->info().index);
+            if (!triangulation_.is_infinite(neighbour) && is_seed(neighbour)) touched.push_back(neighbour);
         } while (++neighbour != end);
     }
-    settled_[number] = static_cast<std::uint8_t>(settled_[number] | walls);
+    seed->info().settled = static_cast<std::uint8_t>(seed->info().settled | walls);
     touched.push_back(seed);
+}
+
+void Partition::refuse_near_coincident(FaceHandle face, double too_close) const {
+    for (int k = 0; k < 3; ++k) {
+        const VertexHandle a = face->vertex(k), b = face->vertex(Triangulation::ccw(k));
+        if (is_seed(a) && is_seed(b) && squared_distance(position(a), position(b)) < too_close * too_close) {
+            refuse_coincident(a->info().index, b->info().index);
+        }
+    }
 }
 
 void Partition::mirror_where_needed() {
     const double spacing =
         std::sqrt((domain_.x2 - domain_.x1) * (domain_.y2 - domain_.y1) / static_cast<double>(seeds_.size()));
     const double too_close = std::max(64.0 * eps * scale_, coincidence_share * spacing);
-    std::vector<int> wanting, touched;
+    std::vector<VertexHandle> wanting, touched;
     for (const FaceHandle face : triangulation_.finite_face_handles()) {
-        for (int k = 0; k < 3; ++k) {
-            const VertexHandle a = face->vertex(k), b = face->vertex(Triangulation::ccw(k));
-            if (is_seed(a) && is_seed(b) && squared_distance(position(a), position(b)) < too_close * too_close) {
-                refuse_coincident(a->info().index, b->info().index);
-            }
-        }
-        note_needs(face, wanting);
+        refuse_near_coincident(face, too_close);
+        place_dual(face, wanting);
     }
     // A cell that crosses a wall has a corner beyond it, so one round is all but for rounding. Only faces around new
     // images and their seeds can have changed.
+    const auto number = [](VertexHandle v) { return v->info().index; };
     while (!wanting.empty()) {
         touched.clear();
-        for (const int seed : wanting)
-            mirror(seed, std::exchange(wanted_[static_cast<std::size_t>(seed)], std::uint8_t{0}), touched);
+        for (const VertexHandle seed : wanting)
+            mirror(seed, std::exchange(seed->info().wanted, std::uint8_t{0}), touched);
         wanting.clear();
-        std::sort(touched.begin(), touched.end());
+        std::ranges::sort(touched, {}, number);
         touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-        for (const int seed : touched) {
-            auto face = triangulation_.incident_faces(vertex_of_[static_cast<std::size_t>(seed)]);
+        for (const VertexHandle seed : touched) {
+            auto face = triangulation_.incident_faces(seed);
             const auto end = face;
-            do note_needs(face, wanting);
+            do place_dual(face, wanting);
             while (++face != end);
         }
-    }
-}
-
-void Partition::place_duals() {
-    for (const FaceHandle face : triangulation_.finite_face_handles()) {
-        unsigned on_all = ~0U;
-        bool any_seed = false;
-        for (int k = 0; k < 3; ++k) {
-            const VertexInfo& info = face->vertex(k)->info();
-            if (info.origin != Origin::seed) continue;
-            any_seed = true;
-            on_all &= lies_on_[static_cast<std::size_t>(info.index)];
-        }
-        if (!any_seed) continue;
-        Point p = dual(face, snapped_walls(face));
-        const unsigned beyond = walls_beyond(p);
-        face->info().outside = (beyond & on_all) != 0;
-        if (beyond != 0 && !face->info().outside) {  // by rounding: all its seeds are mirrored there
-            p = {std::clamp(p.x, domain_.x1, domain_.x2), std::clamp(p.y, domain_.y1, domain_.y2)};
-        }
-        face->info().dual = p;
     }
 }
 
@@ -342,7 +326,8 @@ double Partition::zero_edge(Point dual_point, Point seed) const {
 bool Partition::collect_cells(VoronoiCells& out, bool allow_zero_edges) const {
     out.corners.clear();
     out.corners.reserve(6 * seeds_.size() + 16);
-    out.cells.assign(seeds_.size(), {});
+    out.cells.clear();
+    out.cells.reserve(seeds_.size());
     std::vector<Point> polygon, scratch;
     for (const VertexHandle v : triangulation_.finite_vertex_handles()) {
         if (!is_seed(v)) continue;
@@ -361,8 +346,8 @@ bool Partition::collect_cells(VoronoiCells& out, bool allow_zero_edges) const {
             const Point p = polygon[k], q = polygon[k + 1 == polygon.size() ? 0 : k + 1];
             if (squared_distance(p, q) < zero_edge(p, position(v))) return false;
         }
-        out.cells[static_cast<std::size_t>(v->info().index)] = {static_cast<std::uint32_t>(out.corners.size()),
-                                                                static_cast<std::uint32_t>(polygon.size())};
+        out.cells.push_back({static_cast<std::uint32_t>(out.corners.size()), static_cast<std::uint32_t>(polygon.size()),
+                             v->info().index});
         out.corners.insert(out.corners.end(), polygon.begin(), polygon.end());
     }
     return true;
@@ -431,7 +416,6 @@ void Partition::contract_zero_edges() {
 }
 
 VoronoiCells Partition::cells() {
-    place_duals();
     VoronoiCells out;
     if (!collect_cells(out, false)) {
         contract_zero_edges();
@@ -444,14 +428,13 @@ VoronoiCells Partition::cells() {
 bool Partition::meets_wall(const Image& image) const {
     FaceHandle face;
     int k = 0;
-    const VertexHandle v = vertex_of_[static_cast<std::size_t>(image.seed)];
-    if (!triangulation_.is_edge(v, image.vertex, face, k)) return false;
+    if (!triangulation_.is_edge(image.seed, image.vertex, face, k)) return false;
     const FaceHandle other = face->neighbor(k);
-    const Point p = dual(face, snapped_walls(face)), q = dual(other, snapped_walls(other));
-    return squared_distance(p, q) > zero_edge(p, position(v));
+    const Point p = dual(face, walls_of(face)), q = dual(other, walls_of(other));
+    return squared_distance(p, q) > zero_edge(p, position(image.seed));
 }
 
-void Partition::close_with_flat_faces(std::vector<Point>& points) {
+void Partition::close_with_flat_faces() {
     struct Foot {
         Point place;
         VertexHandle beside;
@@ -459,20 +442,19 @@ void Partition::close_with_flat_faces(std::vector<Point>& points) {
     std::vector<Foot> feet;
     for (const Image& image : images_) {
         if (!meets_wall(image)) continue;
-        Point foot = seeds_[static_cast<std::size_t>(image.seed)];
+        Point foot = position(image.seed);
         if (image.wall == side_left) foot.x = domain_.x1;
         if (image.wall == side_right) foot.x = domain_.x2;
         if (image.wall == side_bottom) foot.y = domain_.y1;
         if (image.wall == side_top) foot.y = domain_.y2;
-        feet.push_back({foot, vertex_of_[static_cast<std::size_t>(image.seed)]});
+        feet.push_back({foot, image.seed});
     }
     for (const Image& image : images_) triangulation_.remove(image.vertex);
     images_.clear();
     const auto add = [&](Point p, FaceHandle hint) {
         const VertexHandle v = triangulation_.insert(CgalPoint(p.x, p.y), hint);
         if (v->info().origin != Origin::guard) return;  // a seed, or another foot, is there already
-        v->info() = {static_cast<int>(points.size()), Origin::added, 0};
-        points.push_back(p);
+        v->info() = {-1, Origin::added};
     };
     for (const double x : {domain_.x1, domain_.x2}) {
         for (const double y : {domain_.y1, domain_.y2}) add({x, y}, guards_.front()->face());
@@ -483,11 +465,18 @@ void Partition::close_with_flat_faces(std::vector<Point>& points) {
 
 Triangles Partition::triangles(Boundary boundary) {
     Triangles out;
-    out.points.assign(seeds_.begin(), seeds_.end());
-    if (boundary == Boundary::domain) close_with_flat_faces(out.points);
+    if (boundary == Boundary::domain) close_with_flat_faces();
     const auto kept = [](VertexHandle v) {
         return v->info().origin == Origin::seed || v->info().origin == Origin::added;
     };
+    out.points.reserve(triangulation_.number_of_vertices());
+    out.seed_of.reserve(triangulation_.number_of_vertices());
+    for (const VertexHandle v : triangulation_.finite_vertex_handles()) {
+        if (!kept(v)) continue;
+        out.seed_of.push_back(v->info().index);
+        v->info().index = static_cast<int>(out.points.size());
+        out.points.push_back(position(v));
+    }
     std::vector<FaceHandle> faces;
     faces.reserve(2 * out.points.size());
     for (const FaceHandle face : triangulation_.finite_face_handles()) {

@@ -15,14 +15,20 @@ namespace crackle {
 struct VoronoiCells {
     struct Range {
         std::uint32_t first = 0, count = 0;  // into corners, counter-clockwise
+        int seed = -1;
     };
     std::vector<Point> corners;
-    std::vector<Range> cells;  // by seed
+    std::vector<Range> cells;  // along space, as are their corners: whoever walks them does not wait for memory
+
+    std::span<const Point> outline(const Range& cell) const {
+        return std::span(corners).subspan(cell.first, cell.count);
+    }
 };
 
 /// Delaunay triangles, counter-clockwise.
 struct Triangles {
-    std::vector<Point> points;                   // the seeds, then the points added on the domain's faces
+    std::vector<Point> points;                   // seeds, and points added on the domain's faces; along space
+    std::vector<int> seed_of;                    // by point; -1: added
     std::vector<std::array<int, 3>> corners;     // into points
     std::vector<std::array<int, 3>> neighbours;  // across the edge opposite to corner k; -1: none
 };
@@ -40,7 +46,10 @@ void clip(std::vector<Point>& polygon, double nx, double ny, double offset, std:
 inline unsigned bit(bool set, SideBit side) { return set ? unsigned{side} : 0U; }
 
 /// Bits of the sides on which a point lies.
-unsigned sides_at(Point p, const Rectangle& domain);
+inline unsigned sides_at(Point p, const Rectangle& domain) {
+    return bit(p.x == domain.x1, side_left) | bit(p.x == domain.x2, side_right) | bit(p.y == domain.y1, side_bottom) |
+           bit(p.y == domain.y2, side_top);
+}
 
 /// Bits of the sides on which the polygon has an edge.
 std::uint8_t sides_of(std::span<const Point> polygon, const Rectangle& domain);

@@ -33,11 +33,6 @@ void clip(std::vector<Point>& polygon, double nx, double ny, double offset, std:
     polygon.swap(scratch);
 }
 
-unsigned sides_at(Point p, const Rectangle& domain) {
-    return bit(p.x == domain.x1, side_left) | bit(p.x == domain.x2, side_right) | bit(p.y == domain.y1, side_bottom) |
-           bit(p.y == domain.y2, side_top);
-}
-
 std::uint8_t sides_of(std::span<const Point> polygon, const Rectangle& domain) {
     unsigned sides = 0;
     unsigned before = sides_at(polygon.back(), domain);

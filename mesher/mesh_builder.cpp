@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include "mesher/mesh_builder.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "mesher/inset.hpp"
+#include "mesher/partition.hpp"
+
+namespace crackle {
+
+void MeshBuilder::Sum::add(double value) {
+    const double next = total_ + value;
+    lost_ += std::abs(total_) >= std::abs(value) ? (total_ - next) + value : (value - next) + total_;
+    total_ = next;
+}
+
+MeshBuilder::MeshBuilder(const Rectangle& domain, std::size_t cells, std::size_t corners) : domain_(domain) {
+    mesh_.cells.reserve(cells);
+    mesh_.corners.reserve(corners);
+}
+
+Cell& MeshBuilder::add(std::span<const Point> before, std::span<const Point> after) {
+    Cell& cell = mesh_.cells.emplace_back();
+    cell.first_corner = static_cast<std::uint32_t>(mesh_.corners.size());
+    cell.corner_count = static_cast<std::uint32_t>(after.size());
+    cell.sides = sides_of(before, domain_);
+    mesh_.corners.insert(mesh_.corners.end(), after.begin(), after.end());
+    area_before_.add(polygon_area(before));
+    area_after_.add(polygon_area(after));
+    measure_edges(after);
+    return cell;
+}
+
+// Angles are compared by a measure that grows with them and needs no arc function: sin up to 90 degrees, 2 - sin
+// beyond.
+void MeshBuilder::measure_edges(std::span<const Point> outline) {
+    const Point last = outline.back();
+    Point in{outline.front().x - last.x, outline.front().y - last.y};
+    double in_length = std::sqrt(in.x * in.x + in.y * in.y);
+    for (std::size_t k = 0; k < outline.size(); ++k) {
+        const Point here = outline[k], after = outline[k + 1 == outline.size() ? 0 : k + 1];
+        const Point out{after.x - here.x, after.y - here.y};
+        const double out_length = std::sqrt(out.x * out.x + out.y * out.y);
+        const double sine = (in.x * out.y - in.y * out.x) / (in_length * out_length);
+        smallest_corner_ = std::min(smallest_corner_, in.x * out.x + in.y * out.y < 0.0 ? sine : 2.0 - sine);
+        shortest_edge_ = std::min(shortest_edge_, out_length);
+        in = out;
+        in_length = out_length;
+    }
+}
+
+Mesh MeshBuilder::finish() {
+    MeshReport& report = mesh_.report;
+    report.cells = static_cast<std::int64_t>(mesh_.cells.size());
+    report.segments = static_cast<std::int64_t>(mesh_.corners.size());
+    report.area_before_inset = area_before_.value();
+    report.area_after_inset = area_after_.value();
+    report.shortest_edge = shortest_edge_;
+    const bool acute = smallest_corner_ <= 1.0;
+    const double quarter = std::asin(std::clamp(acute ? smallest_corner_ : 2.0 - smallest_corner_, -1.0, 1.0));
+    report.smallest_angle = (acute ? quarter : std::numbers::pi - quarter) * 180.0 / std::numbers::pi;
+    return std::move(mesh_);
+}
+
+}  // namespace crackle

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Takes cells one by one into a mesh and measures them while they are at hand.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include "mesher/mesher.hpp"
+
+namespace crackle {
+
+class MeshBuilder {
+  public:
+    /// @param cells, corners  about as many as will come: memory for them is set aside
+    MeshBuilder(const Rectangle& domain, std::size_t cells, std::size_t corners);
+
+    /// Takes the next cell along space. @param before, after  its outline without and with the inset, counter-clockwise
+    /// @return the cell, of no seed yet; valid until the next call
+    Cell& add(std::span<const Point> before, std::span<const Point> after);
+
+    /// The cells in the order in which they came, and the report on them. The builder is empty afterwards.
+    Mesh finish();
+
+  private:
+    // Neumaier's compensated sum: a million equal areas would lose the last five digits otherwise.
+    class Sum {
+      public:
+        void add(double value);
+        double value() const { return total_ + lost_; }
+
+      private:
+        double total_ = 0.0, lost_ = 0.0;
+    };
+
+    void measure_edges(std::span<const Point> outline);
+
+    Rectangle domain_;
+    Mesh mesh_;
+    Sum area_before_, area_after_;
+    double shortest_edge_ = std::numeric_limits<double>::infinity();
+    double smallest_corner_ = 2.0;  // a measure of the angle, see measure_edges()
+};
+
+}  // namespace crackle
