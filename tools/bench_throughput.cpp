@@ -105,6 +105,7 @@ Row measure_test(const Settings& settings, const std::string& kind, std::int64_t
 
 Row measure_flow(const Settings& settings, bool polygons, std::int64_t count) {
     std::vector<double> rates;
+    rates.reserve(static_cast<std::size_t>(settings.repeats));
     Row row{polygons ? "flowing hexagons" : "flowing circles", count, 1, 0.0, 0.0, 0.0, 0.0};
     World world = build_world(flowing_column(count, polygons));
     row.particles = static_cast<std::int64_t>(world.bodies.size());
