@@ -213,6 +213,7 @@ Mesh mesh_delaunay(std::span<const Seed> seeds, const Rectangle& domain, const M
                          corners, depth, scale, destroyed.size(), std::move(named));
     }
     const JoinedTriangles joined = join_destroyed(triangles, destroyed, depth, scale);
+    // Few join, as a rule: what survived alone keeps the outline it has.
     MeshBuilder joint(domain, survivors.cells.size(), survivors.corners.size());
     auto survivor = survivors.cells.begin();
     auto lost = destroyed.begin();
