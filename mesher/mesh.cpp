@@ -183,20 +183,12 @@ Mesh mesh_delaunay(std::span<const Seed> seeds, const Rectangle& domain, const M
             numbers[k] = triangles.seed_of[static_cast<std::size_t>(triangles.corners[t][k])];
         return numbers;
     };
-    MeshBuilder builder(domain, triangles.corners.size(), 3 * triangles.corners.size());
+    // Insetting twice, to find the destroyed and to keep the rest, is cheaper than keeping outlines until all are known.
     std::vector<int> destroyed;
     for (std::size_t t = 0; t < triangles.corners.size(); ++t) {
-        const auto before = outline(t);
-        const auto after = inset.of(before);
-        if (after.empty()) {
-            destroyed.push_back(static_cast<int>(t));
-            continue;
-        }
-        builder.add(before, after).seeds = seeds_of(t);
+        if (inset.of(outline(t)).empty()) destroyed.push_back(static_cast<int>(t));
     }
-    Mesh survivors = builder.finish();
-    if (destroyed.empty()) return survivors;
-    if (!request.merge_destroyed) {
+    if (!destroyed.empty() && !request.merge_destroyed) {
         const int worst = *std::min_element(destroyed.begin(), destroyed.end(), [&](int a, int b) {
             return slenderness(outline(static_cast<std::size_t>(a))) <
                    slenderness(outline(static_cast<std::size_t>(b)));
@@ -213,29 +205,21 @@ Mesh mesh_delaunay(std::span<const Seed> seeds, const Rectangle& domain, const M
                          corners, depth, scale, destroyed.size(), std::move(named));
     }
     const JoinedTriangles joined = join_destroyed(triangles, destroyed, depth, scale);
-    // Few join, as a rule: what survived alone keeps the outline it has.
-    MeshBuilder joint(domain, survivors.cells.size(), survivors.corners.size());
-    auto survivor = survivors.cells.begin();
-    auto lost = destroyed.begin();
+    MeshBuilder builder(domain, triangles.corners.size(), 3 * triangles.corners.size());
     auto next = joined.outlines.begin();
     std::vector<Point> before;
     for (std::size_t t = 0; t < triangles.corners.size(); ++t) {
-        const bool survives = lost == destroyed.end() || static_cast<std::size_t>(*lost) != t;
         if (!joined.joined[t]) {
-            joint.add(outline(t), survivors.outline(*survivor)).seeds = survivor->seeds;
+            const auto alone = outline(t);
+            builder.add(alone, inset.of(alone)).seeds = seeds_of(t);
         } else if (next != joined.outlines.end() && static_cast<std::size_t>(next->triangle) == t) {
             before.clear();
             for (const int corner : next->corners) before.push_back(point(corner));
-            joint.add(before, inset.of(before)).seeds = seeds_of(t);
+            builder.add(before, inset.of(before)).seeds = seeds_of(t);
             ++next;
         }
-        if (survives) {
-            ++survivor;
-        } else {
-            ++lost;
-        }
     }
-    Mesh mesh = joint.finish();
+    Mesh mesh = builder.finish();
     mesh.report.cells_destroyed = static_cast<std::int64_t>(destroyed.size());
     return mesh;
 }
