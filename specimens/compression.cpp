@@ -42,6 +42,9 @@ constexpr int exchange_rounds = 12;
 // Gap in mean overlaps between a floating disc and what it leant on.
 constexpr double floating_gap = 1e-3;
 constexpr int floating_sweeps = 2000;
+// One floating disc in about 20,000 has no room for that gap. Below so many discs the draw is given up then, as it was
+// in published packings; of larger ones hardly any draw would pass.
+constexpr std::size_t put_back_from = drag_from;
 
 class Compressor {
   public:
@@ -178,17 +181,45 @@ class Compressor {
     /// Moves discs that carry nothing out of touch with those that do: what is left of a contact there is not load but
     /// the tolerance of the equilibrium, and would be bonded later.
     bool settle_floating() {
-        const std::vector<bool> floating = find_floating(assembly_, sums_);
+        const std::vector<Disc> in_equilibrium = assembly_.discs;
+        std::vector<bool> floating = find_floating(assembly_, sums_);
         const double gap = floating_gap * sums_.mean_overlap();
-        for (int sweep = 0; sweep < floating_sweeps; ++sweep) {
-            bool moved = false;
-            for (std::uint32_t i = 0; i < floating.size(); ++i) {
-                if (floating[i]) moved |= push_away(i, gap);
+        for (;;) {
+            for (int sweep = 0; sweep < floating_sweeps; ++sweep) {
+                bool moved = false;
+                for (std::uint32_t i = 0; i < floating.size(); ++i) {
+                    if (floating[i]) moved |= push_away(i, gap);
+                }
+                if (!moved) break;
             }
-            if (!moved) break;
+            sums_ = assembly_.compute_forces();
+            if (sums_.residual() <= 10.0 * final_imbalance) return std::abs(target_error()) <= accepted_target_error;
+            if (assembly_.discs.size() < put_back_from || !put_back_caged(floating, in_equilibrium)) return false;
         }
-        sums_ = assembly_.compute_forces();
-        return sums_.residual() <= 10.0 * final_imbalance && std::abs(target_error()) <= accepted_target_error;
+    }
+
+    /// Floating discs that still touch have no room to be moved to: they go back to their equilibrium, where they carry
+    /// what little they do, and count as floating no more. @return whether there were any.
+    bool put_back_caged(std::vector<bool>& floating, const std::vector<Disc>& in_equilibrium) {
+        std::vector<std::uint32_t> caged;
+        for (std::uint32_t i = 0; i < floating.size(); ++i) {
+            if (floating[i] && touches(i)) caged.push_back(i);
+        }
+        for (const std::uint32_t i : caged) {
+            assembly_.discs[i] = in_equilibrium[i];
+            floating[i] = false;
+        }
+        return !caged.empty();
+    }
+
+    bool touches(std::uint32_t i) const {
+        const Disc& disc = assembly_.discs[i];
+        const double to_wall = std::min({disc.x, assembly_.width - disc.x, disc.y, assembly_.height - disc.y});
+        return to_wall < disc.radius ||
+               std::any_of(assembly_.neighbours_begin(i), assembly_.neighbours_end(i), [&](std::uint32_t j) {
+                   const Disc& other = assembly_.discs[j];
+                   return norm({disc.x - other.x, disc.y - other.y}) < disc.radius + other.radius;
+               });
     }
 
     bool push_away(std::uint32_t i, double gap) {

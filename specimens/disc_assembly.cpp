@@ -4,10 +4,15 @@
 #include "specimens/disc_assembly.hpp"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <utility>
+
+#include "solver/lanes.hpp"
 
 namespace crackle {
 namespace {
@@ -46,7 +51,25 @@ struct Grid {
     }
 };
 
+/// Discs whose pairs are measured before their forces are summed: what is kept of them, some 10 kB, stays in the L1
+/// cache. Divides assembly_block.
+constexpr std::size_t chunk = 64;
+
+/// From entry lane_count - n on: a mask of the first n lanes.
+constexpr auto first_lanes = [] {
+    std::array<LaneBit, 2 * lane_count> bits{};
+    std::fill_n(bits.begin(), lane_count, LaneBit{-1});
+    return bits;
+}();
+
 }  // namespace
+
+/// Over pairs as listed, so over each from both sides.
+struct DiscAssembly::PairSums {
+    Pair virial{};
+    double overlap = 0.0;
+    std::size_t contacts = 0;
+};
 
 DiscAssembly::DiscAssembly(double box_width, double box_height, std::vector<Disc> all, int thread_count)
     : width(box_width),
@@ -81,78 +104,137 @@ void DiscAssembly::sort_spatially() {
     listed_at_.clear();
 }
 
-bool DiscAssembly::list_outdated() const {
-    if (listed_at_.size() != discs.size()) return true;
-    // In shares of the box a uniform strain moves nothing; what it does to a pair is bounded by their listed distance.
-    const std::size_t count = discs.size();
-    const bool many = count >= assembly_parallel_from;
-    double largest_square = 0.0;
-#pragma omp parallel for schedule(static) num_threads(threads) reduction(max : largest_square) if (many)
-    for (std::size_t i = 0; i < count; ++i) {
-        const double dx = discs[i].x - listed_at_[i].x * width, dy = discs[i].y - listed_at_[i].y * height;
-        largest_square = std::max(largest_square, dx * dx + dy * dy);
+double DiscAssembly::move(const std::function<void(std::size_t begin, std::size_t end)>& place) {
+    const std::size_t count = discs.size(), blocks = (count + assembly_block - 1) / assembly_block;
+    const bool listed = listed_at_.size() == count;
+    double largest_square = listed ? 0.0 : std::numeric_limits<double>::infinity();
+#pragma omp parallel for schedule(static) num_threads(threads) \
+    reduction(max : largest_square) if (count >= assembly_parallel_from)
+    for (std::size_t block = 0; block < blocks; ++block) {
+        const std::size_t begin = block * assembly_block, end = std::min(count, begin + assembly_block);
+        place(begin, end);
+        for (std::size_t i = begin; listed && i < end; ++i) {
+            const double dx = discs[i].x - listed_at_[i].x * width, dy = discs[i].y - listed_at_[i].y * height;
+            largest_square = std::max(largest_square, dx * dx + dy * dy);
+        }
     }
+    return largest_square;
+}
+
+bool DiscAssembly::list_outdated(double largest_moved_square) const {
+    // In shares of the box a uniform strain moves nothing; what it does to a pair is bounded by their listed distance.
     const double squeeze = std::max({0.0, 1.0 - width / listed_width_, 1.0 - height / listed_height_});
     const double reach = 2.0 * largest_radius_ + skin;
-    return 2.0 * std::sqrt(largest_square) + squeeze * reach >= skin;
+    return 2.0 * std::sqrt(largest_moved_square) + squeeze * reach >= skin;
 }
 
 void DiscAssembly::build_list() {
     const Grid grid(width, height, 2.0 * largest_radius_ + skin, discs);
-    listed_at_.resize(discs.size());
+    const std::size_t count = discs.size();
+    listed_at_.resize(count);
     listed_width_ = width;
     listed_height_ = height;
-    list_begin_.assign(discs.size() + 1, 0);
-    neighbours_.clear();
-    for (std::size_t i = 0; i < discs.size(); ++i) {
-        const Disc& disc = discs[i];
-        listed_at_[i] = {disc.x / width, disc.y / height};
-        const std::size_t column = grid.column(disc.x), row = grid.row(disc.y);
-        for (std::size_t r = row == 0 ? 0 : row - 1; r <= std::min(row + 1, grid.rows - 1); ++r) {
-            const std::size_t first = r * grid.columns + (column == 0 ? 0 : column - 1);
-            const std::size_t last = r * grid.columns + std::min(column + 1, grid.columns - 1);
-            for (std::uint32_t k = grid.begin[first]; k < grid.begin[last + 1]; ++k) {
-                const std::uint32_t j = grid.members[k];
-                const double dx = discs[j].x - disc.x, dy = discs[j].y - disc.y;
-                const double reach = disc.radius + discs[j].radius + skin;
-                if (j != i && dx * dx + dy * dy < reach * reach) neighbours_.push_back(j);
+    // Each block of discs finds its own neighbours; then the lists are laid end to end.
+    list_begin_.resize(count + 1);
+    const std::size_t blocks = (count + assembly_block - 1) / assembly_block;
+    found_.resize(blocks);
+#pragma omp parallel for schedule(static) num_threads(threads) if (count >= assembly_parallel_from)
+    for (std::size_t block = 0; block < blocks; ++block) {
+        std::vector<std::uint32_t>& found = found_[block];
+        found.clear();
+        for (std::size_t i = block * assembly_block; i < std::min(count, (block + 1) * assembly_block); ++i) {
+            const Disc& disc = discs[i];
+            listed_at_[i] = {disc.x / width, disc.y / height};
+            const std::size_t column = grid.column(disc.x), row = grid.row(disc.y);
+            for (std::size_t r = row == 0 ? 0 : row - 1; r <= std::min(row + 1, grid.rows - 1); ++r) {
+                const std::size_t first = r * grid.columns + (column == 0 ? 0 : column - 1);
+                const std::size_t last = r * grid.columns + std::min(column + 1, grid.columns - 1);
+                for (std::uint32_t k = grid.begin[first]; k < grid.begin[last + 1]; ++k) {
+                    const std::uint32_t j = grid.members[k];
+                    const double dx = discs[j].x - disc.x, dy = discs[j].y - disc.y;
+                    const double reach = disc.radius + discs[j].radius + skin;
+                    if (j != i && dx * dx + dy * dy < reach * reach) found.push_back(j);
+                }
             }
+            list_begin_[i + 1] = static_cast<std::uint32_t>(found.size());
         }
-        list_begin_[i + 1] = static_cast<std::uint32_t>(neighbours_.size());
+    }
+    std::vector<std::uint32_t> block_begin(blocks + 1, 0);
+    for (std::size_t block = 0; block < blocks; ++block)
+        block_begin[block + 1] = block_begin[block] + static_cast<std::uint32_t>(found_[block].size());
+    // Whole lanes are read.
+    neighbours_.resize(block_begin.back() + lane_count - 1);
+    owners_.resize(neighbours_.size());
+    list_begin_[0] = 0;
+#pragma omp parallel for schedule(static) num_threads(threads) if (count >= assembly_parallel_from)
+    for (std::size_t block = 0; block < blocks; ++block) {
+        std::ranges::copy(found_[block], neighbours_.begin() + block_begin[block]);
+        std::uint32_t next = block_begin[block];
+        for (std::size_t i = block * assembly_block; i < std::min(count, (block + 1) * assembly_block); ++i) {
+            list_begin_[i + 1] += block_begin[block];
+            for (; next < list_begin_[i + 1]; ++next) owners_[next] = static_cast<std::uint32_t>(i);
+        }
+    }
+    largest_chunk_ = 0;
+    for (std::size_t i = 0; i < count; i += chunk)
+        largest_chunk_ =
+            std::max<std::size_t>(largest_chunk_, list_begin_[std::min(count, i + chunk)] - list_begin_[i]);
+}
+
+void DiscAssembly::measure_pairs(std::size_t begin, std::size_t end, PairPush* pushes, PairSums& sums) const {
+    for (std::size_t first = begin; first < end; first += lane_count) {
+        const double *own_place[lane_count], *own_size[lane_count], *place[lane_count], *size[lane_count];
+        for (std::size_t l = 0; l < lane_count; ++l) {
+            const Disc &own = discs[owners_[first + l]], &other = discs[neighbours_[first + l]];
+            own_place[l] = &own.x;
+            own_size[l] = &own.radius;
+            place[l] = &other.x;
+            size[l] = &other.radius;
+        }
+        Lanes own_x, own_y, own_radius, x, y, radius, unused;
+        gather_pairs(own_place, own_x, own_y);
+        gather_pairs(own_size, own_radius, unused);
+        gather_pairs(place, x, y);
+        gather_pairs(size, radius, unused);
+        const Lanes dx = x - own_x, dy = y - own_y, reach = own_radius + radius;
+        const Lanes square = dx * dx + dy * dy, distance = root(square);
+        const LaneBits here =
+            load_as<LaneBits>(first_lanes.data() + lane_count - std::min<std::size_t>(end - first, lane_count));
+        const LaneBits touching = (square < reach * reach) & here;
+        const Lanes overlap = lanes_of(bits_of(reach - distance) & touching);
+        // Coincident centres have no direction: no force, the neighbours part them.
+        const Lanes pull = lanes_of(bits_of(overlap / distance) & (distance > 0.0));
+        const Lanes pull_x = pull * dx, pull_y = pull * dy;
+        PairPush* const push = pushes + (first - begin);
+        store_quads(push, pull_x, pull_y, pull_x * dx, pull_y * dy);
+        for (std::size_t l = 0; l < lane_count; ++l) {
+            sums.virial += load_as<Pair>(&push[l].virial_x);
+            sums.overlap += overlap[l];
+        }
+        sums.contacts += static_cast<std::size_t>(std::popcount(mask_of(touching)));
     }
 }
 
-AssemblySums DiscAssembly::compute_block(std::size_t begin, std::size_t end, const DiscMotion* motion) {
+AssemblySums DiscAssembly::compute_block(std::size_t begin, std::size_t end, const DiscMotion* motion,
+                                         PairPush* pushes) {
     AssemblySums sums;
-    double pair_energy = 0.0, pair_virial_x = 0.0, pair_virial_y = 0.0,
-           pair_overlap = 0.0;  // each pair from both sides
-    std::size_t pair_contacts = 0;
+    PairSums pairs;
+    std::size_t measured_from = 0;
+    double power = 0.0, speed_square = 0.0, pull_square = 0.0, speed_pull = 0.0, largest_force = 0.0;
     for (std::size_t i = begin; i < end; ++i) {
-        const Disc disc = discs[i];
-        Vec2 force;
-        const std::uint32_t* const last = neighbours_end(i);
-        for (const std::uint32_t* j = neighbours_begin(i); j != last; ++j) {
-            const Disc& other = discs[*j];
-            const double dx = other.x - disc.x, dy = other.y - disc.y, reach = disc.radius + other.radius;
-            const double square = dx * dx + dy * dy;
-            if (square >= reach * reach) continue;
-            const double distance = std::sqrt(square), overlap = reach - distance;
-            // Coincident centres have no direction: no force, the neighbours part them.
-            const double pull = distance > 0.0 ? overlap / distance : 0.0;
-            const double pull_x = pull * dx, pull_y = pull * dy;
-            force.x -= pull_x;
-            force.y -= pull_y;
-            pair_energy += overlap * overlap;
-            pair_virial_x += pull_x * dx;
-            pair_virial_y += pull_y * dy;
-            pair_overlap += overlap;
-            ++pair_contacts;
+        if ((i - begin) % chunk == 0) {
+            measured_from = list_begin_[i];
+            measure_pairs(list_begin_[i], list_begin_[std::min(end, i + chunk)], pushes, pairs);
         }
+        const Disc disc = discs[i];
+        Pair pushed{};
+        for (std::size_t k = list_begin_[i]; k < list_begin_[i + 1]; ++k)
+            pushed -= load_as<Pair>(&pushes[k - measured_from].x);
+        Vec2 force{pushed[0], pushed[1]};
         const auto touch_wall = [&](double distance, double& component, double sign, double& virial, bool platen) {
             const double overlap = disc.radius - distance;
             if (overlap <= 0.0) return;
             component += sign * overlap;
-            sums.energy += 0.5 * overlap * overlap;
             virial += overlap * distance;
             (platen ? sums.platen_overlap : sums.overlap) += overlap;
             (platen ? sums.platen_contacts : sums.contacts) += 1.0;
@@ -162,33 +244,42 @@ AssemblySums DiscAssembly::compute_block(std::size_t begin, std::size_t end, con
         touch_wall(disc.y, force.y, 1.0, sums.virial_y, true);
         touch_wall(height - disc.y, force.y, -1.0, sums.virial_y, true);
         forces[i] = force;
-        sums.largest_force = std::max(sums.largest_force, dot(force, force));
+        largest_force = std::max(largest_force, dot(force, force));
         if (motion == nullptr) continue;
         const Vec2 velocity = motion->velocity[i], pull = motion->inverse_mass[i] * force;
-        sums.power += dot(force, velocity);
-        sums.speed_square += dot(velocity, velocity);
-        sums.pull_square += dot(pull, pull);
-        sums.speed_pull += dot(velocity, pull);
+        power += dot(force, velocity);
+        speed_square += dot(velocity, velocity);
+        pull_square += dot(pull, pull);
+        speed_pull += dot(velocity, pull);
     }
-    sums.energy += 0.25 * pair_energy;
-    sums.virial_x += 0.5 * pair_virial_x;
-    sums.virial_y += 0.5 * pair_virial_y;
-    sums.platen_overlap += 0.5 * pair_overlap;
-    sums.platen_contacts += 0.5 * static_cast<double>(pair_contacts);
+    sums.virial_x += 0.5 * pairs.virial[0];
+    sums.virial_y += 0.5 * pairs.virial[1];
+    sums.platen_overlap += 0.5 * pairs.overlap;
+    sums.platen_contacts += 0.5 * static_cast<double>(pairs.contacts);
+    sums.largest_force = largest_force;
+    sums.power = power;
+    sums.speed_square = speed_square;
+    sums.pull_square = pull_square;
+    sums.speed_pull = speed_pull;
     return sums;
 }
 
-AssemblySums DiscAssembly::compute_forces(const DiscMotion* motion) {
-    if (list_outdated()) build_list();
+AssemblySums DiscAssembly::compute_forces(const DiscMotion* motion, std::optional<double> moved) {
+    if (!moved) moved = move([](std::size_t, std::size_t) {});
+    if (list_outdated(*moved)) build_list();
     const std::size_t count = discs.size(), blocks = (count + assembly_block - 1) / assembly_block;
     partial_.resize(blocks);
-#pragma omp parallel for schedule(static) num_threads(threads) if (count >= assembly_parallel_from)
-    for (std::size_t block = 0; block < blocks; ++block) {
-        partial_[block] = compute_block(block * assembly_block, std::min(count, (block + 1) * assembly_block), motion);
+#pragma omp parallel num_threads(threads) if (count >= assembly_parallel_from)
+    {
+        std::vector<PairPush> pushes(largest_chunk_ + lane_count - 1);
+#pragma omp for schedule(static)
+        for (std::size_t block = 0; block < blocks; ++block) {
+            partial_[block] = compute_block(block * assembly_block, std::min(count, (block + 1) * assembly_block),
+                                            motion, pushes.data());
+        }
     }
     AssemblySums total;
     for (const AssemblySums& sums : partial_) {
-        total.energy += sums.energy;
         total.virial_x += sums.virial_x;
         total.virial_y += sums.virial_y;
         total.platen_overlap += sums.platen_overlap;

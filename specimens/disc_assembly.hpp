@@ -5,10 +5,13 @@
 //
 // The box spans 0..width × 0..height. Each disc adds up its own forces over a full neighbour list (every pair is seen
 // from both sides): twice the arithmetic of a half list, but no scatter, so the result is the same bytes for any number
-// of threads.
+// of threads. A disc's neighbours are measured side by side (solver/lanes.hpp) and added one by one, in their order:
+// the same bytes for any number of lanes, too.
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <vector>
 
 #include "solver/vec2.hpp"
@@ -28,7 +31,6 @@ struct DiscMotion {
 
 /// Sums over all contacts at the present positions. Forces in units of length (stiffness 1).
 struct AssemblySums {
-    double energy = 0.0;                                        // Σ δ²/2
     double virial_x = 0.0, virial_y = 0.0;                      // -dU/dε: Σ f·|n_x|·|branch_x|, walls included
     double overlap = 0.0;                                       // m, Σ δ over all contacts
     double contacts = 0.0;                                      // number of contacts, walls included
@@ -59,7 +61,14 @@ class DiscAssembly {
     double area() const { return width * height; }
 
     /// Refreshes the neighbour list where needed, fills `forces`.
-    AssemblySums compute_forces(const DiscMotion* motion = nullptr);
+    /// @param moved_square  m², what move() returned, if nothing has moved since; spares a pass over the discs.
+    AssemblySums compute_forces(const DiscMotion* motion = nullptr, std::optional<double> moved_square = {});
+
+    /// Places the discs anew, in a box that has its new size already.
+    /// @param place  places discs begin..end, a block at a time; called from several threads.
+    /// @return square of the largest displacement since the list was built, m² (without what a strain of the box
+    /// explains); infinite without a list.
+    double move(const std::function<void(std::size_t begin, std::size_t end)>& place);
 
     /// Scales the box, the discs' centres with it.
     void strain(double factor_x, double factor_y);
@@ -75,14 +84,25 @@ class DiscAssembly {
     double skin;
 
   private:
-    bool list_outdated() const;
+    /// What a neighbour does to a disc.
+    struct PairPush {
+        double x, y;                // m, towards the neighbour
+        double virial_x, virial_y;  // m2
+    };
+    struct PairSums;
+
+    bool list_outdated(double moved_square) const;
     void build_list();
-    AssemblySums compute_block(std::size_t begin, std::size_t end, const DiscMotion* motion);
+    /// Pushes and sums of the listed pairs begin..end; pushes[0] is that of pair `begin`.
+    void measure_pairs(std::size_t begin, std::size_t end, PairPush* pushes, PairSums& sums) const;
+    AssemblySums compute_block(std::size_t begin, std::size_t end, const DiscMotion* motion, PairPush* pushes);
 
     double mean_radius_ = 0.0, largest_radius_ = 0.0, disc_area_ = 0.0;
-    std::vector<std::uint32_t> list_begin_, neighbours_;
-    std::vector<AssemblySums> partial_;  // a block's sums
-    std::vector<Vec2> listed_at_;        // positions when the list was built, as shares of the box
+    std::vector<std::uint32_t> list_begin_, neighbours_, owners_;  // owners_: the disc whose neighbour it is
+    std::size_t largest_chunk_ = 0;                                // of listed pairs measured at a time
+    std::vector<std::vector<std::uint32_t>> found_;                // scratch of build_list()
+    std::vector<AssemblySums> partial_;                            // a block's sums
+    std::vector<Vec2> listed_at_;  // positions when the list was built, as shares of the box
     double listed_width_ = 0.0, listed_height_ = 0.0;
 };
 

@@ -18,6 +18,7 @@
 #include "solver/errors.hpp"
 #include "solver/world.hpp"
 #include "specimens/random_numbers.hpp"
+#include "specimens/relaxation.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/deck_files.hpp"
 
@@ -270,6 +271,21 @@ TEST(Packing, SameSeedGivesTheSameBytesForAnyNumberOfThreads) {
     EXPECT_EQ(bytes_of(make_packing(small).scene), first);
     small.seed = 12;
     EXPECT_NE(bytes_of(make_packing(small).scene), first);
+}
+
+TEST(Packing, LargeOnesMoveAgainstADragToTheSameEquilibriumAndBytesForAnyNumberOfThreads) {
+    PackingRequest request = guide_rock(1);
+    request.count = static_cast<std::int64_t>(drag_from);
+    request.mean_overlap = 2e-4;
+    const Packing packing = make_packing(request);
+    const PlainFigures f = measure_plainly(packing.scene);
+    EXPECT_TRUE(within("largest unbalanced / mean contact force", f.largest_unbalanced / f.mean_force, 0.0, 2e-6));
+    EXPECT_TRUE(within("mean overlap / target - 1", f.mean_overlap / 2e-4 - 1.0, 0.0, 5e-4));
+    EXPECT_TRUE(within("anisotropy", f.anisotropy(packing.scene.domain), 0.0, 0.01));
+    EXPECT_TRUE(packing.report.box_met);
+    EXPECT_EQ(packing.report.attempts, 1);  // though one floating circle of this seed has no room to be moved off
+    request.threads = 3;
+    EXPECT_TRUE(bytes_of(make_packing(request).scene) == bytes_of(packing.scene));
 }
 
 TEST(Packing, DeckHoldsTheCirclesNumberedFromOneAtRest) {
