@@ -57,7 +57,7 @@ constexpr std::size_t chunk = 64;
 
 /// From entry lane_count - n on: a mask of the first n lanes.
 constexpr auto first_lanes = [] {
-    std::array<LaneBit, 2 * lane_count> bits{};
+    std::array<LaneBit, std::size_t{2} * lane_count> bits{};
     std::fill_n(bits.begin(), lane_count, LaneBit{-1});
     return bits;
 }();
