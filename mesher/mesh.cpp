@@ -183,8 +183,7 @@ Mesh mesh_delaunay(std::span<const Seed> seeds, const Rectangle& domain, const M
             numbers[k] = triangles.seed_of[static_cast<std::size_t>(triangles.corners[t][k])];
         return numbers;
     };
-    // Insetting twice, to find the destroyed and to keep the rest, is cheaper than keeping outlines until all are
-    // known.
+    // Inset twice, to find the destroyed and to keep the rest: keeping outlines until all are known costs more.
     std::vector<int> destroyed;
     for (std::size_t t = 0; t < triangles.corners.size(); ++t) {
         if (inset.of(outline(t)).empty()) destroyed.push_back(static_cast<int>(t));

@@ -103,7 +103,8 @@ class MeshError : public std::runtime_error {
 /// Partitions `domain` and insets every cell. Same input, same bytes.
 /// @param seeds  inside the domain or on its boundary, no two coincident
 /// @throws MeshError no, coincident, outside or NaN seeds; no area; bad thick or inset; no triangle; a destroyed cell
-/// Cost: close to the bare Delaunay triangulation of the seeds; see tests/benchmarks for the share.
+/// Cost: two to three times CGAL's bare insertion of the seeds (tests/benchmarks/meshing.cpp); as much again for each
+/// round in which Voronoi cells are merged.
 Mesh make_mesh(std::span<const Seed> seeds, const Rectangle& domain, const MeshRequest& request);
 
 }  // namespace crackle

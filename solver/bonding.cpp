@@ -14,8 +14,9 @@ namespace {
 
 std::int64_t count_interfaces(const World& world) {
     std::vector<std::uint64_t> pairs;
-    for (const ContactPoint& point : world.points) {
-        if ((point.flags & point_bonded) == 0) continue;
+    for (PointIndex k = 0; k < world.points.size(); ++k) {
+        if ((world.point_states[k].flags & point_bonded) == 0) continue;
+        const ContactPoint& point = world.points[k];
         const std::uint64_t low = std::min(point.body_i, point.body_j), high = std::max(point.body_i, point.body_j);
         pairs.push_back((low << 32) | high);
     }
@@ -43,15 +44,14 @@ std::int64_t bond_all(World& world, double thick) {
     refresh_neighbours(world);
     std::int64_t bonds = 0;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
-        ContactPoint& point = world.points[k];
-        point.shear_force = 0.0;
-        point.flags = 0;
-        point.bond_overlap = 0.0;
+        world.shear_forces[k] = 0.0;
+        world.point_states[k].flags = 0;
+        world.bond_overlaps[k] = 0.0;
         if (k >= world.kind_begin[static_cast<std::size_t>(PointKind::element_wall)]) continue;
         const PointView view = view_point(world, k);
         if (view.overlap <= 0.0) continue;
-        point.bond_overlap = view.overlap;
-        point.flags = point_bonded | point_touching;
+        world.bond_overlaps[k] = view.overlap;
+        world.point_states[k].flags = point_bonded | point_touching;
         ++bonds;
     }
     finish_bonding(world);
@@ -60,8 +60,8 @@ std::int64_t bond_all(World& world, double thick) {
 
 void finish_bonding(World& world) {
     world.has_bonds = true;
-    world.bonds_initial = std::count_if(world.points.begin(), world.points.end(),
-                                        [](const ContactPoint& p) { return (p.flags & point_bonded) != 0; });
+    world.bonds_initial = std::count_if(world.point_states.begin(), world.point_states.end(),
+                                        [](const PointState& p) { return (p.flags & point_bonded) != 0; });
     world.interfaces_initial = count_interfaces(world);
     const CriticalStep exact = critical_step(world, ClosedPoints::touching);
     world.exact_step = exact.step;

@@ -29,26 +29,28 @@ double orientation_of(Vec2 normal) {
 /// Energy that a break takes, J (see above). Under the guide's law the normal spring's work has been added up just so.
 double fracture_energy(const World& world, PointIndex k, const PointView& view) {
     const ContactPoint& point = world.points[k];
-    const ContactLaw& law = world.laws[point.law];
+    const ContactLaw& law = world.laws[world.point_states[k].law];
     const BodyState &i = world.bodies[point.body_i], &j = world.bodies[point.body_j];
     const Vec2 speed{i.vx - i.omega * view.arm_i.y - (j.vx - j.omega * view.arm_j.y),
                      i.vy + i.omega * view.arm_i.x - (j.vy + j.omega * view.arm_j.x)};
-    const double opening = view.overlap - point.bond_overlap;
+    const double opening = view.overlap - world.bond_overlaps[k];
     const double before = opening - world.drift * dot(speed, view.normal);
     const double normal = by_guide(view.kind) && !world.spring_work.empty()
                               ? world.spring_work[k].stored
                               : 0.5 * law.normal_stiffness * before * opening;
     if (law.shear_stiffness == 0.0) return normal;
-    const double shear = point.shear_force - law.shear_stiffness * world.drift * dot(speed, perpendicular(view.normal));
-    return normal + 0.5 * point.shear_force * shear / law.shear_stiffness;
+    const double shear =
+        world.shear_forces[k] - law.shear_stiffness * world.drift * dot(speed, perpendicular(view.normal));
+    return normal + 0.5 * world.shear_forces[k] * shear / law.shear_stiffness;
 }
 
 /// Whether a bond is left between the two; one found broken in the same pass but not yet recorded still counts, so that
 /// an interface that loses several at once is lost once.
 bool interface_holds(const World& world, BodyIndex a, BodyIndex b) {
     for (std::uint32_t s = world.body_begin[a]; s < world.body_begin[a + 1]; ++s) {
-        const ContactPoint& point = world.points[world.body_slots[s] >> 1];
-        if ((point.flags & (point_bonded | point_just_broken)) == 0) continue;
+        const PointIndex k = point_of_slot(world.body_slots[s]);
+        if ((world.point_states[k].flags & (point_bonded | point_just_broken)) == 0) continue;
+        const ContactPoint& point = world.points[k];
         if ((point.body_i == a && point.body_j == b) || (point.body_i == b && point.body_j == a)) return true;
     }
     return false;
@@ -59,9 +61,9 @@ bool interface_holds(const World& world, BodyIndex a, BodyIndex b) {
 void record_breaks(World& world) {
     for (PointIndex k = 0; k < world.kind_begin[static_cast<std::size_t>(PointKind::element_wall)]; ++k) {
         ContactPoint& point = world.points[k];
-        if ((point.flags & point_just_broken) == 0) continue;
+        if ((world.point_states[k].flags & point_just_broken) == 0) continue;
         const PointView view = view_point(world, k);
-        const ContactLaw& law = world.laws[point.law];
+        const ContactLaw& law = world.laws[world.point_states[k].law];
         BreakEvent event{};
         event.step = world.step;
         event.time = world.time;
@@ -70,14 +72,15 @@ void record_breaks(World& world) {
         event.position = view.position;
         event.orientation = orientation_of(view.normal);
         event.energy = fracture_energy(world, k, view);
-        event.strength = law.normal_stiffness * point.bond_overlap;
+        event.strength = law.normal_stiffness * world.bond_overlaps[k];
         event.normal_force = world.strong_normal[k];
         event.shear_force = world.strong_shear[k];
-        event.slid = (point.flags & point_slid) != 0;
+        event.slid = (world.point_states[k].flags & point_slid) != 0;
         event.shear_mode = event.slid && std::abs(event.shear_force) > std::abs(event.normal_force);
-        point.shear_force = 0.0;
-        point.bond_overlap = 0.0;
-        point.flags = static_cast<std::uint16_t>(point.flags & point_counted);  // until the bound is found anew
+        world.shear_forces[k] = 0.0;
+        world.bond_overlaps[k] = 0.0;
+        world.point_states[k].flags =
+            static_cast<std::uint16_t>(world.point_states[k].flags & point_counted);  // until the bound is found anew
         if (!world.spring_work.empty()) world.spring_work[k] = {};
         if (!world.openings.empty()) world.openings[k] = {};
         event.last_of_interface = !interface_holds(world, point.body_i, point.body_j);

@@ -96,10 +96,12 @@ void mark_outlines(World& world) {
         for (std::uint32_t e = 0; e < piece.edge_count; ++e) {
             Edge& edge = world.edges[piece.first_edge + e];
             edge.outline_of = static_cast<BodyIndex>(b);
-            edge.to_previous = e == 0 ? around : std::int16_t{-1};
-            edge.to_next = e + 1 == piece.edge_count ? static_cast<std::int16_t>(-around) : std::int16_t{1};
+            edge.to_neighbour[1] = e == 0 ? around : std::int16_t{-1};
+            edge.to_neighbour[0] = e + 1 == piece.edge_count ? static_cast<std::int16_t>(-around) : std::int16_t{1};
         }
     }
+    world.convex_outlines = std::all_of(world.edges.begin(), world.edges.end(),
+                                        [](const Edge& edge) { return edge.outline_of != no_body; });
 }
 
 /// Elements of a chain are its vertices, of a circle body its circles; radii of vertices follow the thickness.
@@ -160,6 +162,7 @@ void add_body(World& world, const Scene& scene, const Body& body, const MassProp
     world.inertia.push_back({1.0 / properties.mass, 1.0 / properties.mass, 1.0 / properties.moment, properties.mass});
     world.info.push_back(info);
     world.turning_reach.push_back(info.single_circle ? 0.0 : info.reach);
+    world.some_turn = world.some_turn || !info.single_circle;
 }
 
 /// Springs in series, k = 2k₁k₂/(k₁+k₂), so that equal materials give their own; 0 with 0 gives 0.

@@ -18,7 +18,7 @@
 namespace crackle {
 
 // Raise when the fields below change.
-constexpr std::uint32_t checkpoint_version = 8;
+constexpr std::uint32_t checkpoint_version = 9;
 constexpr std::uint64_t checkpoint_magic = 0x454c4b4341524321ULL;  // "!CRACKLE"
 
 // NOLINTBEGIN(bugprone-macro-parentheses)
@@ -70,7 +70,7 @@ void serialize(Archive& a, Piece& p) {
 }
 template <class Archive>
 void serialize(Archive& a, Edge& e) {
-    a(e.x, e.y, e.tx, e.ty, e.length, e.outline_of, e.to_previous, e.to_next);
+    a(e.x, e.y, e.tx, e.ty, e.length, e.outline_of, e.to_neighbour);
 }
 template <class Archive>
 void serialize(Archive& a, ControlState& c) {
@@ -83,8 +83,11 @@ void serialize(Archive& a, ContactLaw& l) {
 }
 template <class Archive>
 void serialize(Archive& a, ContactPoint& p) {
-    a(p.body_i, p.body_j, p.element_i, p.feature_j, p.shear_force, p.bond_overlap, p.root_effective_mass, p.law,
-      p.flags, p.padding);
+    a(p.body_i, p.body_j, p.element_i, p.feature_j);
+}
+template <class Archive>
+void serialize(Archive& a, PointState& s) {
+    a(s.law, s.flags);
 }
 template <class Archive>
 void serialize(Archive& a, PointForce& f) {
@@ -113,12 +116,13 @@ void serialize(Archive& a, BreakEvent& e) {
 }
 template <class Archive>
 void serialize(Archive& a, World& w) {
-    a(w.bodies, w.inertia, w.forces, w.info, w.elements, w.pieces, w.edges, w.segments, w.controls, w.laws,
-      w.materials);
-    a(w.points, w.kind_begin, w.point_forces, w.normal_dashpot, w.shear_dashpot, w.spring_work, w.openings, w.owed,
-      w.strong_normal, w.strong_shear, w.body_begin, w.body_slots);
-    a(w.skin, w.widest_skin, w.list_reference, w.turning_reach, w.size_rank, w.largest_smaller, w.travelled, w.fastest,
-      w.fastest_allowed_move, w.list_valid, w.list_step, w.list_builds);
+    a(w.bodies, w.inertia, w.forces, w.info, w.elements, w.pieces, w.edges, w.convex_outlines, w.segments, w.controls,
+      w.laws, w.materials);
+    a(w.points, w.point_states, w.shear_forces, w.bond_overlaps, w.root_masses, w.kind_begin, w.point_forces,
+      w.normal_dashpot, w.shear_dashpot, w.spring_work, w.openings, w.owed, w.strong_normal, w.strong_shear,
+      w.body_begin, w.body_slots, w.gather_order);
+    a(w.skin, w.widest_skin, w.list_reference, w.turning_reach, w.some_turn, w.size_rank, w.largest_smaller,
+      w.travelled, w.fastest, w.fastest_allowed_move, w.list_valid, w.list_step, w.list_builds);
     a(w.domain, w.thick, w.segment_law, w.integrator, w.gravity, w.time_step, w.drift, w.automatic_step,
       w.safety_factor, w.step_bound, w.limiting_body, w.step_weights, w.exact_step, w.exact_step_proved, w.step_goal,
       w.allow_unstable, w.has_bonds, w.ledger_on, w.intact);

@@ -37,7 +37,8 @@ inline OutlineFacing face_vertex(double dx, double dy, const Edge& edge, std::ui
     const double distance = std::sqrt(dx * dx + dy * dy);
     // On the corner itself any direction of its normal cone will do; the edge's normal is one.
     if (distance == 0.0) return {0.0, edge.ty, -edge.tx, index};
-    return {distance, dx / distance, dy / distance, index};
+    const double inverse = 1.0 / distance;
+    return {distance, inverse * dx, inverse * dy, index};
 }
 
 /// Unsigned distance to one open segment.
@@ -136,10 +137,11 @@ inline ContactGeometry circles_geometry(const BodyState& i, const BodyState& j, 
                                         double rj) {
     const double dx = (j.x - i.x) + (oj.x - oi.x), dy = (j.y - i.y) + (oj.y - oi.y);
     const double distance = std::sqrt(dx * dx + dy * dy);
+    const double inverse = 1.0 / distance;
     ContactGeometry g;
     g.overlap = ri + rj - distance;
-    g.nx = distance > 0.0 ? dx / distance : 1.0;  // coincident centres have no normal: take the x axis
-    g.ny = distance > 0.0 ? dy / distance : 0.0;
+    g.nx = distance > 0.0 ? dx * inverse : 1.0;  // coincident centres have no normal: take the x axis
+    g.ny = distance > 0.0 ? dy * inverse : 0.0;
     const double li = ri - 0.5 * g.overlap, lj = rj - 0.5 * g.overlap;
     g.aix = oi.x + li * g.nx;
     g.aiy = oi.y + li * g.ny;
@@ -257,5 +259,8 @@ inline ContactGeometry contact_geometry(const World& world, const ContactPoint& 
         return g;
     }
 }
+
+/// The same of any point, whatever its kind (solver/measure.cpp).
+ContactGeometry geometry_at(const World& world, PointIndex point);
 
 }  // namespace crackle

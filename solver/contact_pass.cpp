@@ -32,13 +32,12 @@ inline void store_work(SpringWork& work, const World& world, const ContactPoint&
 
 /// Out of contact: no force; what the shear spring still held is lost to the slider.
 template <bool Friction, bool Ledger>
-inline void release(const World& world, ContactPoint& point, World::LossBlock& loss, double shear_move) {
-    if constexpr (Ledger && Friction) {
-        const ContactLaw& law = world.laws[point.law];
-        loss.friction += shear_force(law, point.shear_force, shear_move, 0.0).friction;
-    }
-    point.shear_force = 0.0;
-    point.flags = static_cast<std::uint16_t>(point.flags & ~(point_touching | point_sliding | point_slid));
+inline void release(World& world, PointIndex k, World::LossBlock& loss, double shear_move) {
+    PointState& state = world.point_states[k];
+    if constexpr (Ledger && Friction)
+        loss.friction += shear_force(world.laws[state.law], world.shear_forces[k], shear_move, 0.0).friction;
+    world.shear_forces[k] = 0.0;
+    state.flags = static_cast<std::uint16_t>(state.flags & ~(point_touching | point_sliding | point_slid));
 }
 
 /// Inverse mass along the normal at the contact position, 1/kg, and the acceleration there in the last kick (closing,
@@ -65,14 +64,15 @@ inline void force_point(World& world, PointIndex k, World::LossBlock& loss) {
     const double dt = world.drift;
     [[maybe_unused]] const double kick = kick_before(world) + 0.5 * world.time_step;
     ContactPoint& point = world.points[k];
+    PointState& state = world.point_states[k];
     PointForce& out = world.point_forces[k];
     const ContactGeometry g = contact_geometry<K>(world, point, point.feature_j);
-    const ContactLaw& law = world.laws[point.law];
+    const ContactLaw& law = world.laws[state.law];
     bool bonded = false;
-    if constexpr (Bonds) bonded = (point.flags & point_bonded) != 0;
+    if constexpr (Bonds) bonded = (state.flags & point_bonded) != 0;
 
     const bool holds = bonded ? g.overlap > law.break_overlap : g.overlap > 0.0;
-    if (!holds && !bonded && (point.flags & point_touching) == 0) {
+    if (!holds && !bonded && (state.flags & point_touching) == 0) {
         if constexpr (Consistent) world.openings[k].overlap = g.overlap;
         out = {0.0, 0.0, 0.0, 0.0};
         return;
@@ -101,7 +101,7 @@ inline void force_point(World& world, PointIndex k, World::LossBlock& loss) {
     [[maybe_unused]] Approach approach{};
     [[maybe_unused]] double before = 0.0;
     // A point that overlaps before anything has moved has not been seen to close.
-    [[maybe_unused]] const bool touched = (point.flags & point_touching) != 0 || dt == 0.0;
+    [[maybe_unused]] const bool touched = (state.flags & point_touching) != 0 || dt == 0.0;
     if constexpr (Consistent) {
         approach = {g.overlap, closing, 0.0, 0.0, law.normal_stiffness, 0.0, dt, kick, world.time_step};
         if (!bonded) before = settle_opening(world.openings[k], touched, approach);
@@ -123,11 +123,11 @@ inline void force_point(World& world, PointIndex k, World::LossBlock& loss) {
             }
         }
         if (bonded) {
-            point.flags = static_cast<std::uint16_t>((point.flags & ~point_bonded) | point_just_broken);
+            state.flags = static_cast<std::uint16_t>((state.flags & ~point_bonded) | point_just_broken);
             ++loss.broken;
             // The event needs the springs as they were; record_breaks() releases the point.
         } else {
-            release<Friction, Ledger>(world, point, loss, slipping * dt);
+            release<Friction, Ledger>(world, k, loss, slipping * dt);
         }
         out = {0.0, 0.0, 0.0, 0.0};
         return;
@@ -138,12 +138,12 @@ inline void force_point(World& world, PointIndex k, World::LossBlock& loss) {
     if constexpr (Consistent) {
         if (!bonded) {
             feel_bodies<K>(world, point, g, approach);
-            if constexpr (Damping) approach.dashpot = normal_damping(law, point.root_effective_mass) * closing;
+            if constexpr (Damping) approach.dashpot = normal_damping(law, world.root_masses[k]) * closing;
             normal = opening_force(world.openings[k], touched, before, approach);
             compression = normal / law.normal_stiffness;
         }
     }
-    if constexpr (Bonds) normal -= law.normal_stiffness * point.bond_overlap;
+    if constexpr (Bonds) normal -= law.normal_stiffness * world.bond_overlaps[k];
     if constexpr (Ledger && by_guide(K)) {
         SpringWork& work = world.spring_work[k];
         if (world.initial_energy_taken) {
@@ -155,21 +155,21 @@ inline void force_point(World& world, PointIndex k, World::LossBlock& loss) {
         work.last = {fx, fy, g.aix * fy - g.aiy * fx, g.ajy * fx - g.ajx * fy};
     }
     double tangential = 0.0;
-    std::uint16_t flags = static_cast<std::uint16_t>((point.flags | point_touching) & ~point_sliding);
+    std::uint16_t flags = static_cast<std::uint16_t>((state.flags | point_touching) & ~point_sliding);
     bool sliding = !Friction;
     if constexpr (Friction) {
-        const ShearUpdate shear = shear_force(law, point.shear_force, slipping * dt, compression);
+        const ShearUpdate shear = shear_force(law, world.shear_forces[k], slipping * dt, compression);
         sliding = shear.sliding;
         if (sliding) flags |= point_sliding | point_slid;
         if constexpr (Ledger) loss.friction += shear.friction;
-        point.shear_force = shear.force;
+        world.shear_forces[k] = shear.force;
         tangential = shear.force;
     }
-    point.flags = flags;
+    state.flags = flags;
     if constexpr (Bonds) {
         loss.gained += (flags & point_counted) == 0 ? 1u : 0u;
         if (bonded) {
-            const double half_strength = 0.5 * law.normal_stiffness * point.bond_overlap;
+            const double half_strength = 0.5 * law.normal_stiffness * world.bond_overlaps[k];
             if (normal * normal + tangential * tangential >= half_strength * half_strength) {
                 world.strong_normal[k] = normal;
                 world.strong_shear[k] = tangential;
@@ -177,9 +177,8 @@ inline void force_point(World& world, PointIndex k, World::LossBlock& loss) {
         }
     }
     if constexpr (Damping) {
-        const double normal_dashpot = normal_damping(law, point.root_effective_mass) * closing;
-        const double shear_damper =
-            sliding ? 0.0 : shear_dashpot(law, point.root_effective_mass, slipping, compression);
+        const double normal_dashpot = normal_damping(law, world.root_masses[k]) * closing;
+        const double shear_damper = sliding ? 0.0 : shear_dashpot(law, world.root_masses[k], slipping, compression);
         if constexpr (Ledger) {
             loss.dashpot += 0.5 * dt *
                             ((world.normal_dashpot[k] + normal_dashpot) * closing +

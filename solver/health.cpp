@@ -55,7 +55,7 @@ double rounding_energy(const World& world, const Ledger& ledger) {
         farthest = std::max(farthest,
                             std::max(std::abs(world.bodies[b].x), std::abs(world.bodies[b].y)) + world.info[b].reach);
     }
-    for (const ContactPoint& point : world.points) {
+    for (const PointState& point : world.point_states) {
         const ContactLaw& law = world.laws[point.law];
         stiffness += law.normal_stiffness + law.shear_stiffness;
     }

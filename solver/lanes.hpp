@@ -10,6 +10,7 @@
 #include <immintrin.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <type_traits>
 
@@ -64,6 +65,13 @@ CRACKLE_INLINE Lanes root(const Lanes& v) {
 CRACKLE_INLINE LaneBits bits_of(const Lanes& v) { return load_as<LaneBits>(&v); }
 CRACKLE_INLINE Lanes lanes_of(const LaneBits& v) { return load_as<Lanes>(&v); }
 
+/// Four-byte numbers that lie side by side, whatever their type, as eight-byte ones.
+CRACKLE_INLINE LaneBits widened(const void* from) {
+    typedef std::uint32_t Words __attribute__((vector_size(4 * lane_count)));
+    typedef Words Loose __attribute__((aligned(4), may_alias));
+    return __builtin_convertvector(*static_cast<const Loose*>(from), LaneBits);
+}
+
 inline constexpr LaneBit sign_bit = std::numeric_limits<LaneBit>::min();
 CRACKLE_INLINE Lanes magnitude(const Lanes& v) { return lanes_of(bits_of(v) & ~sign_bit); }
 CRACKLE_INLINE Lanes with_sign(const Lanes& size, const Lanes& sign) {
@@ -85,6 +93,27 @@ CRACKLE_INLINE unsigned mask_of(const LaneBits& v) {
         mask |= static_cast<unsigned>(_mm_movemask_pd(load_as<__m128d>(from + 8 * k))) << k;
 #endif
     return mask;
+#endif
+}
+
+/// Whether every bit of every lane is 0.
+CRACKLE_INLINE bool none_of(const LaneBits& v) {
+    const char* from = reinterpret_cast<const char*>(&v);
+#if defined(__AVX512F__)
+    const __m512i all = load_as<__m512i>(from);
+    return _mm512_test_epi64_mask(all, all) == 0;
+#else
+    bool none = true;
+#if defined(__AVX__)
+    for (std::size_t k = 0; k < sizeof v; k += 32) {
+        const __m256i some = load_as<__m256i>(from + k);
+        none = none && _mm256_testz_si256(some, some) != 0;
+    }
+#else
+    for (std::size_t k = 0; k < sizeof v; k += 16)
+        none = none && _mm_movemask_epi8(_mm_cmpeq_epi8(load_as<__m128i>(from + k), _mm_setzero_si128())) == 0xffff;
+#endif
+    return none;
 #endif
 }
 

@@ -60,23 +60,21 @@ double potential_energy(const World& world) {
 }
 
 double energy_at(const World& world, PointIndex k, double overlap) {
-    const ContactPoint& point = world.points[k];
-    const ContactLaw& law = world.laws[point.law];
+    const ContactLaw& law = world.laws[world.point_states[k].law];
     const bool guide = !world.spring_work.empty() && k >= world.kind_begin[first_guide_kind] &&
                        k < world.kind_begin[first_guide_kind + guide_kinds];
-    if (!guide) return strain_energy(law, overlap, point.bond_overlap, point.shear_force);
+    if (!guide) return strain_energy(law, overlap, world.bond_overlaps[k], world.shear_forces[k]);
     const double shear =
-        law.shear_stiffness > 0.0 ? 0.5 * point.shear_force * point.shear_force / law.shear_stiffness : 0.0;
+        law.shear_stiffness > 0.0 ? 0.5 * world.shear_forces[k] * world.shear_forces[k] / law.shear_stiffness : 0.0;
     return world.spring_work[k].stored + shear;
 }
 
 double strain_of_points(const World& world) {
     double sum = 0.0;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
-        const ContactPoint& point = world.points[k];
-        if ((point.flags & point_touching) == 0) continue;
+        if ((world.point_states[k].flags & point_touching) == 0) continue;
         const double overlap = overlap_of(world, k);
-        if ((point.flags & point_bonded) != 0 || overlap > 0.0) sum += energy_at(world, k, overlap);
+        if ((world.point_states[k].flags & point_bonded) != 0 || overlap > 0.0) sum += energy_at(world, k, overlap);
     }
     for (const OpeningMemory& memory : world.openings) sum += opening_energy(memory);
     for (const double energy : world.owed) sum += energy;

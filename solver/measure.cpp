@@ -38,13 +38,15 @@ ContactGeometry geometry_of(const World& world, PointKind kind, const ContactPoi
 
 }  // namespace
 
-double overlap_of(const World& world, PointIndex k) {
-    return geometry_of(world, kind_of(world, k), world.points[k]).overlap;
+ContactGeometry geometry_at(const World& world, PointIndex k) {
+    return geometry_of(world, kind_of(world, k), world.points[k]);
 }
+
+double overlap_of(const World& world, PointIndex k) { return geometry_at(world, k).overlap; }
 
 PointView view_point(const World& world, PointIndex k) {
     const ContactPoint& point = world.points[k];
-    const ContactLaw& law = world.laws[point.law];
+    const ContactLaw& law = world.laws[world.point_states[k].law];
     PointView view{};
     view.kind = kind_of(world, k);
     const ContactGeometry g = geometry_of(world, view.kind, point);
@@ -58,16 +60,16 @@ PointView view_point(const World& world, PointIndex k) {
     view.overlap_gradient =
         by_guide(view.kind) ? guide_gradient(world, view.kind, point) : approach(view.normal, view.arm_i, view.arm_j);
     view.position = {body.x + g.aix, body.y + g.aiy};
-    view.bonded = (point.flags & point_bonded) != 0;
+    view.bonded = (world.point_states[k].flags & point_bonded) != 0;
     view.touching = view.bonded || g.overlap > 0.0;
-    view.sliding = (point.flags & point_sliding) != 0;
-    view.slid = (point.flags & point_slid) != 0;
+    view.sliding = (world.point_states[k].flags & point_sliding) != 0;
+    view.slid = (world.point_states[k].flags & point_slid) != 0;
     view.normal_stiffness = law.normal_stiffness;
     view.shear_stiffness = law.friction > 0.0 ? law.shear_stiffness : 0.0;
     view.friction = law.friction;
-    view.bond_overlap = point.bond_overlap;
-    view.normal_force = view.touching ? law.normal_stiffness * (g.overlap - point.bond_overlap) : 0.0;
-    view.shear_force = view.touching ? point.shear_force : 0.0;
+    view.bond_overlap = world.bond_overlaps[k];
+    view.normal_force = view.touching ? law.normal_stiffness * (g.overlap - world.bond_overlaps[k]) : 0.0;
+    view.shear_force = view.touching ? world.shear_forces[k] : 0.0;
     return view;
 }
 

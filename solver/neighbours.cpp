@@ -14,6 +14,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <span>
 #include <utility>
 
@@ -151,15 +152,12 @@ double root_effective_mass(const World& world, BodyIndex i, BodyIndex j) {
     return sum > 0.0 ? 1.0 / std::sqrt(sum) : 0.0;
 }
 
-ContactPoint new_point(const World& world, BodyIndex i, BodyIndex j, std::uint32_t element, std::uint32_t feature) {
+ContactPoint new_point(BodyIndex i, BodyIndex j, std::uint32_t element, std::uint32_t feature) {
     ContactPoint point{};
     point.body_i = i;
     point.body_j = j;
     point.element_i = element;
     point.feature_j = feature;
-    point.root_effective_mass = root_effective_mass(world, i, j);
-    point.law = static_cast<std::uint16_t>(static_cast<std::size_t>(world.info[i].material) * world.materials.size() +
-                                           static_cast<std::size_t>(world.info[j].material));
     return point;
 }
 
@@ -172,7 +170,7 @@ void add_circle_pairs(const World& world, BodyIndex i, BodyIndex j, PointLists& 
             const Vec2 other = centre_of(world.bodies[j]) + turned(world.bodies[j], world.elements[q]);
             if (norm(other - centre) > world.elements[p].radius + world.elements[q].radius + world.skin) continue;
             lists[static_cast<std::size_t>(single ? PointKind::circle_circle : PointKind::element_element)].push_back(
-                new_point(world, i, j, p, q));
+                new_point(i, j, p, q));
         }
     }
 }
@@ -189,7 +187,7 @@ void add_outline_points(const World& world, BodyIndex i, BodyIndex j, PointLists
         const double c = target.shape[0], s = target.shape[1];
         const OutlineFacing facing = face_outline(world, b, b.first_piece, c * w.x + s * w.y, c * w.y - s * w.x);
         if (facing.distance > limit) continue;
-        lists[static_cast<std::size_t>(PointKind::element_outline)].push_back(new_point(world, i, j, p, facing.edge));
+        lists[static_cast<std::size_t>(PointKind::element_outline)].push_back(new_point(i, j, p, facing.edge));
     }
 }
 
@@ -206,7 +204,7 @@ void add_circle_segment_points(const World& world, BodyIndex i, BodyIndex j, Poi
             if (world.segments[q].length == 0.0) continue;
             const DiscCase found = disc_case(bar_of(world, world.bodies[j], q, to_j), centre, limit);
             if (found.rule == DiscRule::none) continue;
-            lists[static_cast<std::size_t>(PointKind::disc_segment)].push_back(new_point(world, i, j, p, q));
+            lists[static_cast<std::size_t>(PointKind::disc_segment)].push_back(new_point(i, j, p, q));
         }
     }
 }
@@ -228,7 +226,7 @@ void add_segment_pairs(const World& world, BodyIndex i, BodyIndex j, PointLists&
             };
             if (near(other, own.start) || near(other, own.start + own.length * own.along) || near(own, other.start) ||
                 near(own, other.start + other.length * other.along))
-                lists[static_cast<std::size_t>(PointKind::segment_segment)].push_back(new_point(world, i, j, p, q));
+                lists[static_cast<std::size_t>(PointKind::segment_segment)].push_back(new_point(i, j, p, q));
         }
     }
 }
@@ -266,9 +264,6 @@ void add_wall_points(const World& world, BodyIndex i, PointLists& lists) {
             point.body_j = wall;
             point.element_i = p;
             point.feature_j = chain ? 1 : 0;
-            point.root_effective_mass = std::sqrt(world.inertia[i].mass);
-            point.law = static_cast<std::uint16_t>(world.materials.size() * world.materials.size() +
-                                                   static_cast<std::size_t>(info.material));
             lists[static_cast<std::size_t>(PointKind::element_wall)].push_back(point);
         }
     }
@@ -314,114 +309,128 @@ PointKey key_of(PointKind kind, const ContactPoint& p) {
             kind == PointKind::element_element || by_guide(kind) ? p.feature_j : 0u};
 }
 
-/// What points that left the list still owed goes to another of their bodies' points: written off, it would pile up,
-/// for such points owe more often than they are owed.
-void hand_on(const std::vector<ContactPoint>& points, const std::array<PointIndex, point_kinds + 1>& begin,
-             std::vector<OpeningMemory>& openings, std::vector<double>& owed) {
-    for (std::size_t kind = 0; kind < point_kinds; ++kind) {
-        if (by_guide(static_cast<PointKind>(kind))) continue;
-        for (PointIndex k = begin[kind]; k < begin[kind + 1]; ++k) {
-            if ((points[k].flags & point_bonded) != 0) continue;
-            const auto take = [&](BodyIndex b) { openings[k].defect += std::exchange(owed[b], 0.0); };
-            take(points[k].body_i);
-            if (static_cast<PointKind>(kind) != PointKind::element_wall) take(points[k].body_j);
-        }
-    }
-}
+constexpr PointIndex no_point = std::numeric_limits<PointIndex>::max();
 
-/// Replaces the points of the world, carrying over what the old ones remember. A bond is carried over whether its point
-/// is listed or not: it lasts until the force pass finds it broken, and intact ones hold at any opening.
-void exchange_points(World& world, PointLists& lists) {
+/// The points of a new list and which points of the old one they are.
+struct Succession {
     std::vector<ContactPoint> points;
-    std::vector<double> normal_dashpot, shear_dashpot;
-    std::vector<SpringWork> spring_work;
-    std::vector<OpeningMemory> openings;
-    std::vector<double> strong_normal, strong_shear;
+    std::vector<PointIndex> old;  // no_point: was not listed
     std::array<PointIndex, point_kinds + 1> begin{};
+};
+
+/// Takes the lists over one by one. A bond is carried over whether its point is listed or not: it lasts until the force
+/// pass finds it broken, and intact ones hold at any opening.
+Succession succeed(World& world, PointLists& lists) {
+    Succession next;
     std::size_t total = 0;
     for (const auto& list : lists) total += list.size();
-    points.reserve(total);
-    if (world.ledger_on) {
-        normal_dashpot.reserve(total);
-        shear_dashpot.reserve(total);
-    }
-    if (keeps_spring_work(world)) spring_work.reserve(total);
-    const bool consistent = world.integrator == Integrator::consistent;
-    if (consistent) openings.reserve(total);
-    if (world.has_bonds) {
-        strong_normal.reserve(total);
-        strong_shear.reserve(total);
-    }
-    constexpr PointIndex none = std::numeric_limits<PointIndex>::max();
+    next.points.reserve(total);
+    next.old.reserve(total);
     const auto add = [&](const ContactPoint& point, PointIndex old) {
-        points.push_back(point);
-        if (world.ledger_on) {
-            normal_dashpot.push_back(old != none ? world.normal_dashpot[old] : 0.0);
-            shear_dashpot.push_back(old != none ? world.shear_dashpot[old] : 0.0);
-        }
-        if (keeps_spring_work(world)) spring_work.push_back(old != none ? world.spring_work[old] : SpringWork{});
-        if (consistent) openings.push_back(old != none ? world.openings[old] : OpeningMemory{});
-        if (world.has_bonds) {
-            const bool known = old != none && !world.strong_normal.empty();
-            strong_normal.push_back(known ? world.strong_normal[old] : 0.0);
-            strong_shear.push_back(known ? world.strong_shear[old] : 0.0);
-        }
+        next.points.push_back(point);
+        next.old.push_back(old);
     };
-    const auto bonded = [&](PointIndex old) { return (world.points[old].flags & point_bonded) != 0; };
-    PointKind kind_here{};
+    const bool consistent = world.integrator == Integrator::consistent;
+    const bool closed = world.has_bonds && world.intact.no_new_contacts;
+    const auto flagged = [&](PointIndex old, PointFlag flag) { return (world.point_states[old].flags & flag) != 0; };
     const auto leave_out = [&](PointIndex old) {
         if (consistent) world.owed[world.points[old].body_i] += world.openings[old].defect;
     };
-    const auto add_unlisted = [&](PointIndex old) {
-        // One that touched a step ago has its last force to settle, however far it has gone.
-        const bool settles = consistent && !by_guide(kind_here) && (world.points[old].flags & point_touching) != 0 &&
-                             !(world.has_bonds && world.intact.no_new_contacts);
-        if (!bonded(old) && !settles) return leave_out(old);
-        ContactPoint point = world.points[old];
-        if (kind_here != PointKind::element_wall)
-            point.root_effective_mass = root_effective_mass(world, point.body_i, point.body_j);
-        add(point, old);
-    };
-    for (std::size_t kind = 0; kind < point_kinds; ++kind) {
-        begin[kind] = static_cast<PointIndex>(points.size());
-        kind_here = static_cast<PointKind>(kind);
-        PointIndex old = world.kind_begin[kind];
-        const PointIndex old_end = world.kind_begin[kind + 1];
-        const auto old_key = [&] { return key_of(static_cast<PointKind>(kind), world.points[old]); };
-        for (ContactPoint& point : lists[kind]) {
-            const PointKey key = key_of(static_cast<PointKind>(kind), point);
-            for (; old < old_end && old_key() < key; ++old) add_unlisted(old);
+    for (std::size_t number = 0; number < point_kinds; ++number) {
+        const auto kind = static_cast<PointKind>(number);
+        next.begin[number] = static_cast<PointIndex>(next.points.size());
+        PointIndex old = world.kind_begin[number];
+        const PointIndex old_end = world.kind_begin[number + 1];
+        const auto old_key = [&] { return key_of(kind, world.points[old]); };
+        const auto pass_unlisted = [&] {
+            // One that touched a step ago has its last force to settle, however far it has gone.
+            const bool settles = consistent && !by_guide(kind) && flagged(old, point_touching) && !closed;
+            flagged(old, point_bonded) || settles ? add(world.points[old], old) : leave_out(old);
+            ++old;
+        };
+        for (const ContactPoint& point : lists[number]) {
+            const PointKey key = key_of(kind, point);
+            while (old < old_end && old_key() < key) pass_unlisted();
             const bool known = old < old_end && old_key() == key;
-            if (known) {
-                point.shear_force = world.points[old].shear_force;
-                point.bond_overlap = world.points[old].bond_overlap;
-                point.flags = world.points[old].flags;
-            }
-            if (!(world.has_bonds && world.intact.no_new_contacts) || (known && bonded(old)))
-                add(point, known ? old : none);
+            if (!closed || (known && flagged(old, point_bonded)))
+                add(point, known ? old : no_point);
             else if (known)
                 leave_out(old);
             if (known) ++old;
         }
-        for (; old < old_end; ++old) add_unlisted(old);
-        std::vector<ContactPoint>().swap(lists[kind]);
+        while (old < old_end) pass_unlisted();
+        std::vector<ContactPoint>().swap(lists[number]);
     }
-    begin[point_kinds] = static_cast<PointIndex>(points.size());
-    if (consistent) hand_on(points, begin, openings, world.owed);
-    world.points = std::move(points);
-    world.normal_dashpot = std::move(normal_dashpot);
-    world.shear_dashpot = std::move(shear_dashpot);
-    world.spring_work = std::move(spring_work);
-    world.openings = std::move(openings);
-    world.strong_normal = std::move(strong_normal);
-    world.strong_shear = std::move(strong_shear);
-    world.kind_begin = begin;
+    next.begin[point_kinds] = static_cast<PointIndex>(next.points.size());
+    return next;
+}
+
+/// One remembered quantity in the new order; nothing in a world that does not keep it.
+template <class T>
+void carry_over(std::vector<T>& values, const std::vector<PointIndex>& old, bool kept = true) {
+    std::vector<T> now(kept ? old.size() : 0, T{});
+    if (!values.empty()) {
+        for (std::size_t k = 0; k < now.size(); ++k) {
+            if (old[k] != no_point) now[k] = values[old[k]];
+        }
+    }
+    values = std::move(now);
+}
+
+/// What points that left the list still owed goes to another of their bodies' points: written off, it would pile up,
+/// for such points owe more often than they are owed.
+void hand_on(World& world) {
+    for (std::size_t kind = 0; kind < point_kinds; ++kind) {
+        if (by_guide(static_cast<PointKind>(kind))) continue;
+        for (PointIndex k = world.kind_begin[kind]; k < world.kind_begin[kind + 1]; ++k) {
+            if ((world.point_states[k].flags & point_bonded) != 0) continue;
+            const auto take = [&](BodyIndex b) { world.openings[k].defect += std::exchange(world.owed[b], 0.0); };
+            take(world.points[k].body_i);
+            if (static_cast<PointKind>(kind) != PointKind::element_wall) take(world.points[k].body_j);
+        }
+    }
+}
+
+/// Of each point the pair of materials and the effective mass.
+void find_pairs(World& world) {
+    const PointIndex walls = world.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
+    world.root_masses.resize(world.points.size());
+    for (PointIndex k = 0; k < world.points.size(); ++k) {
+        const BodyIndex i = world.points[k].body_i, j = world.points[k].body_j;
+        const auto material = static_cast<std::size_t>(world.info[i].material), materials = world.materials.size();
+        const std::size_t law = k < walls ? material * materials + static_cast<std::size_t>(world.info[j].material)
+                                          : materials * materials + material;
+        world.point_states[k].law = static_cast<std::uint16_t>(law);
+        world.root_masses[k] = k < walls ? root_effective_mass(world, i, j) : std::sqrt(world.inertia[i].mass);
+    }
+}
+
+/// Replaces the points of the world, carrying over what the old ones remember.
+void exchange_points(World& world, PointLists& lists) {
+    Succession next = succeed(world, lists);
+    const bool consistent = world.integrator == Integrator::consistent;
+    carry_over(world.point_states, next.old);
+    carry_over(world.shear_forces, next.old);
+    carry_over(world.bond_overlaps, next.old);
+    carry_over(world.normal_dashpot, next.old, world.ledger_on);
+    carry_over(world.shear_dashpot, next.old, world.ledger_on);
+    carry_over(world.spring_work, next.old, keeps_spring_work(world));
+    carry_over(world.openings, next.old, consistent);
+    carry_over(world.strong_normal, next.old, world.has_bonds);
+    carry_over(world.strong_shear, next.old, world.has_bonds);
+    world.points = std::move(next.points);
+    world.kind_begin = next.begin;
+    find_pairs(world);
+    if (consistent) hand_on(world);
     world.point_forces.assign(world.points.size(), PointForce{});
     world.loss_blocks.assign(block_count(world), World::LossBlock{});
 }
 
 /// Per body the slots of its points, in the order of the points.
 void index_slots(World& world) {
+    if (world.points.size() > most_points)
+        throw InputError(fmt::format("found {} contact points, expected at most {}; take a smaller scene",
+                                     world.points.size(), most_points));
     world.body_begin.assign(world.bodies.size() + 1, 0);
     const PointIndex walls = world.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
     for (PointIndex k = 0; k < world.points.size(); ++k) {
@@ -432,8 +441,16 @@ void index_slots(World& world) {
     world.body_slots.resize(world.body_begin.back());
     std::vector<std::uint32_t> next(world.body_begin.begin(), world.body_begin.end() - 1);
     for (PointIndex k = 0; k < world.points.size(); ++k) {
-        world.body_slots[next[world.points[k].body_i]++] = 2 * k;
-        if (k < walls) world.body_slots[next[world.points[k].body_j]++] = 2 * k + 1;
+        world.body_slots[next[world.points[k].body_i]++] = slot_of(k, 0);
+        if (k < walls) world.body_slots[next[world.points[k].body_j]++] = slot_of(k, 1);
+    }
+    world.gather_order.resize(world.bodies.size());
+    std::iota(world.gather_order.begin(), world.gather_order.end(), BodyIndex{0});
+    const auto slots_of = [&](BodyIndex b) { return world.body_begin[b + 1] - world.body_begin[b]; };
+    for (auto first = world.gather_order.begin(); first != world.gather_order.end();) {
+        const auto last = first + std::min(gather_block, std::distance(first, world.gather_order.end()));
+        std::stable_sort(first, last, [&](BodyIndex a, BodyIndex b) { return slots_of(a) < slots_of(b); });
+        first = last;
     }
 }
 

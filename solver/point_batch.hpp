@@ -11,9 +11,10 @@
 
 namespace crackle {
 
-/// Arms, normal and overlap of the points.
+/// Arms, normal and overlap of the points, and how i moves against j at the contact position.
 struct BatchGeometry {
     Lanes overlap, nx, ny, aix, aiy, ajx, ajy;
+    Lanes closing, slipping;  // m/s, along the normal and the tangent
 };
 /// One body of each point.
 struct PlaceLanes {
@@ -51,8 +52,9 @@ CRACKLE_INLINE void circles_batch(const PlaceLanes& i, const PlaceLanes& j, Batc
     const Lanes dx = (j.x - i.x) + 0.0, dy = (j.y - i.y) + 0.0;
     const Lanes distance = root(dx * dx + dy * dy);
     g.overlap = i.shape0 + j.shape0 - distance;
-    g.nx = distance > 0.0 ? dx / distance : all_lanes(1.0);
-    g.ny = distance > 0.0 ? dy / distance : all_lanes(0.0);
+    const Lanes inverse = 1.0 / distance;
+    g.nx = distance > 0.0 ? dx * inverse : all_lanes(1.0);
+    g.ny = distance > 0.0 ? dy * inverse : all_lanes(0.0);
     const Lanes li = i.shape0 - 0.5 * g.overlap, lj = j.shape0 - 0.5 * g.overlap;
     g.aix = 0.0 + li * g.nx;
     g.aiy = 0.0 + li * g.ny;
@@ -69,7 +71,7 @@ CRACKLE_INLINE LaneBits corners_batch(const World& world, const ContactPoint* po
     const double *starts[lane_count], *directions[lane_count], *lengths[lane_count];
     for (int l = 0; l < lane_count; ++l) {
         const Edge* const faced = &world.edges[points[l].feature_j];
-        const Edge* const other = faced + ((to_previous >> l & 1) != 0 ? faced->to_previous : faced->to_next);
+        const Edge* const other = faced + faced->to_neighbour[to_previous >> l & 1];
         starts[l] = &other->x;
         directions[l] = &other->tx;
         lengths[l] = &other->length;
@@ -84,9 +86,10 @@ CRACKLE_INLINE LaneBits corners_batch(const World& world, const ContactPoint* po
     const Lanes cx = before ? dx : ex, cy = before ? dy : ey;
     const Lanes to_corner = root(cx * cx + cy * cy);
     const LaneBits apart = to_corner > 0.0;
+    const Lanes inverse = 1.0 / to_corner;
     // On the corner itself the normal of the edge that begins there.
-    gx = found ? (apart ? cx / to_corner : (before ? gx : ty)) : gx;
-    gy = found ? (apart ? cy / to_corner : (before ? gy : -tx)) : gy;
+    gx = found ? (apart ? cx * inverse : (before ? gx : ty)) : gx;
+    gy = found ? (apart ? cy * inverse : (before ? gy : -tx)) : gy;
     distance = found ? to_corner : distance;
     return found;
 }
@@ -96,8 +99,8 @@ CRACKLE_INLINE LaneBits corners_batch(const World& world, const ContactPoint* po
 CRACKLE_INLINE void outline_batch(const World& world, ContactPoint* points, const PlaceLanes& i, const PlaceLanes& j,
                                   BatchGeometry& g) {
     const double *elements[lane_count], *element_reaches[lane_count], *edges[lane_count], *edge_directions[lane_count],
-        *edge_lengths[lane_count], *bodies[lane_count];
-    Lanes element_x, element_y, radius, target_reach, edge_x, edge_y, tx, ty, length, owner, i_and_j, unused;
+        *edge_lengths[lane_count];
+    Lanes element_x, element_y, radius, target_reach, edge_x, edge_y, tx, ty, length, unused;
     for (int l = 0; l < lane_count; ++l) {
         const Element& element = world.elements[points[l].element_i];
         const Edge& faced = world.edges[points[l].feature_j];
@@ -106,16 +109,18 @@ CRACKLE_INLINE void outline_batch(const World& world, ContactPoint* points, cons
         edges[l] = &faced.x;
         edge_directions[l] = &faced.tx;
         edge_lengths[l] = &faced.length;
-        bodies[l] = reinterpret_cast<const double*>(&points[l]);
     }
     gather_pairs(elements, element_x, element_y);
     gather_pairs(element_reaches, radius, target_reach);
     gather_pairs(edges, edge_x, edge_y);
     gather_pairs(edge_directions, tx, ty);
-    gather_pairs(edge_lengths, length, owner);
-    gather_pairs(bodies, i_and_j, unused);
-    // Edge::outline_of against ContactPoint::body_j, the low and the high half of what was read.
-    const LaneBits known = ((bits_of(owner) ^ (bits_of(i_and_j) >> 32)) & 0xffffffff) == 0;
+    gather_pairs(edge_lengths, length, unused);
+    // Whether the edge faced last is of an outline whose edges are all there is to face.
+    LaneBits known = LaneBits{} == 0;
+    if (!world.convex_outlines) {
+        for (int l = 0; l < lane_count; ++l)
+            known[l] = world.edges[points[l].feature_j].outline_of == points[l].body_j ? -1 : 0;
+    }
     const Lanes ox = i.shape0 * element_x - i.shape1 * element_y, oy = i.shape1 * element_x + i.shape0 * element_y;
     const Lanes wx = (i.x - j.x) + ox, wy = (i.y - j.y) + oy;
     const Lanes px = j.shape0 * wx + j.shape1 * wy, py = j.shape0 * wy - j.shape1 * wx;
@@ -148,6 +153,20 @@ CRACKLE_INLINE void outline_batch(const World& world, ContactPoint* points, cons
     g.ajy = wy + lift * g.ny;
 }
 
+/// Velocity of i against j at the contact position, as in force_point().
+template <PointKind K>
+CRACKLE_INLINE void approach_batch(const MotionLanes& i, const MotionLanes& j, double dt, BatchGeometry& g) {
+    const Lanes rx = (i.vx - i.omega * g.aiy) - (j.vx - j.omega * g.ajy);
+    const Lanes ry = (i.vy + i.omega * g.aix) - (j.vy + j.omega * g.ajx);
+    g.closing = rx * g.nx + ry * g.ny;
+    g.slipping = ry * g.nx - rx * g.ny;
+    if constexpr (K != PointKind::circle_circle) {
+        g.slipping += 0.5 * dt * i.omega * i.omega * (g.aiy * g.nx - g.aix * g.ny);
+        g.slipping -= 0.5 * dt * j.omega * j.omega * (g.ajy * g.nx - g.ajx * g.ny);
+    }
+}
+
+/// All that the forces of points k to k + lane_count - 1 need to know of their bodies.
 template <PointKind K>
 CRACKLE_INLINE void geometry_batch(World& world, PointIndex k, BatchGeometry& g) {
     static_assert(K == PointKind::circle_circle || K == PointKind::element_outline);
@@ -162,106 +181,138 @@ CRACKLE_INLINE void geometry_batch(World& world, PointIndex k, BatchGeometry& g)
         circles_batch(load_places(i), load_places(j), g);
     else
         outline_batch(world, points, load_places(i), load_places(j), g);
+    approach_batch<K>(load_motions(i), load_motions(j), world.drift, g);
+}
+
+/// What the points of a batch have in common, and which of them carry load.
+struct BatchState {
+    const ContactLaw& law;
+    PointState* states;
+    LaneBits law_and_flags, bonded, holds;
+};
+
+/// @tparam All every point was in contact, holds, and stuck before (and is bonded, where there are bonds)
+template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Ledger, bool All>
+CRACKLE_INLINE void force_lanes(World& world, PointIndex k, const BatchGeometry& g, const BatchState& batch,
+                                World::LossBlock& loss) {
+    const ContactLaw& law = batch.law;
+    const Lanes zero{};
+    const auto where_held = [&](const Lanes& held, const Lanes& otherwise) -> Lanes {
+        if constexpr (All)
+            return held;
+        else
+            return batch.holds ? held : otherwise;
+    };
+    const double dt = world.drift;
+    Lanes normal = law.normal_stiffness * g.overlap;
+    [[maybe_unused]] Lanes bond_overlap;
+    if constexpr (Bonds) {
+        bond_overlap = load_as<Lanes>(&world.bond_overlaps[k]);
+        normal -= law.normal_stiffness * bond_overlap;
+    }
+    Lanes tangential = zero;
+    LaneBits sliding = batch.holds;
+    if constexpr (Friction) {
+        double* const spring = &world.shear_forces[k];
+        const Lanes before = load_as<Lanes>(spring);
+        const Lanes trial = before - law.shear_stiffness * (g.slipping * dt);
+        const Lanes squeezed = g.overlap < 0.0 ? zero : g.overlap;
+        const Lanes limit = law.friction * law.normal_stiffness * squeezed;
+        sliding = (magnitude(trial) > limit) | (limit <= 0.0);
+        tangential = sliding ? with_sign(limit, trial) : trial;
+        store_as(spring, where_held(tangential, before));
+        if (const LaneBits slides = sliding & batch.holds; mask_of(slides) != 0) {
+            if constexpr (Ledger) {
+                const Lanes lost = 0.5 * (before + tangential) * (trial - tangential) / law.shear_stiffness;
+                for (int l = 0; l < lane_count; ++l) loss.friction += slides[l] != 0 ? lost[l] : 0.0;
+            }
+            if constexpr (All) {
+                for (int l = 0; l < lane_count; ++l)
+                    if (slides[l] != 0) batch.states[l].flags |= point_sliding | point_slid;
+            }
+        }
+    }
+    if constexpr (!All) {
+        constexpr auto bit_of = [](PointFlag flag) { return static_cast<LaneBit>(flag) << 16; };
+        LaneBits now = (batch.law_and_flags | bit_of(point_touching)) & ~bit_of(point_sliding);
+        if constexpr (Friction) now |= sliding & (bit_of(point_sliding) | bit_of(point_slid));
+        if (const unsigned changed = mask_of(batch.holds & ((now ^ batch.law_and_flags) != 0)); changed != 0) {
+            for (int l = 0; l < lane_count; ++l)
+                if ((changed >> l & 1) != 0) batch.states[l].flags = static_cast<std::uint16_t>(now[l] >> 16);
+        }
+    }
+    if constexpr (Bonds) {
+        if constexpr (!All) {
+            constexpr LaneBit counted = static_cast<LaneBit>(point_counted) << 16;
+            const unsigned uncounted = mask_of(batch.holds & ((batch.law_and_flags & counted) == 0));
+            loss.gained += static_cast<std::uint32_t>(__builtin_popcount(uncounted));
+        }
+        const Lanes half = 0.5 * law.normal_stiffness * bond_overlap;
+        LaneBits strong = normal * normal + tangential * tangential >= half * half;
+        if constexpr (!All) strong &= batch.bonded;
+        if (mask_of(strong) != 0) {  // rare: spares the memory of the others
+            double *const strong_normal = &world.strong_normal[k], *const strong_shear = &world.strong_shear[k];
+            store_as(strong_normal, strong ? normal : load_as<Lanes>(strong_normal));
+            store_as(strong_shear, strong ? tangential : load_as<Lanes>(strong_shear));
+        }
+    }
+    if constexpr (Damping) {
+        const Lanes root_mass = load_as<Lanes>(&world.root_masses[k]);
+        const Lanes normal_dashpot = (law.normal_damping + law.normal_damping_ratio_term * root_mass) * g.closing;
+        const Lanes shear_damper =
+            sliding ? zero : (law.shear_damping + law.shear_damping_ratio_term * root_mass) * g.slipping;
+        if constexpr (Ledger) {
+            double *const normal_memory = &world.normal_dashpot[k], *const shear_memory = &world.shear_dashpot[k];
+            const Lanes last_normal = load_as<Lanes>(normal_memory), last_shear = load_as<Lanes>(shear_memory);
+            const Lanes lost =
+                0.5 * dt * ((last_normal + normal_dashpot) * g.closing + (last_shear + shear_damper) * g.slipping);
+            const Lanes counted = where_held(lost, zero);
+            for (int l = 0; l < lane_count; ++l) loss.dashpot += counted[l];
+            store_as(normal_memory, where_held(normal_dashpot, last_normal));
+            store_as(shear_memory, where_held(shear_damper, last_shear));
+        }
+        normal += normal_dashpot;
+        tangential -= shear_damper;
+    }
+    const Lanes fx = where_held(-normal * g.nx - tangential * g.ny, zero);
+    const Lanes fy = where_held(-normal * g.ny + tangential * g.nx, zero);
+    store_quads(&world.point_forces[k], fx, fy, where_held(g.aix * fy - g.aiy * fx, zero),
+                where_held(g.ajy * fx - g.ajx * fy, zero));
 }
 
 /// Forces of points k to k + lane_count - 1. @return false, with no force or loss changed, where the scalar code must
 /// look
 template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Ledger>
 CRACKLE_INLINE bool force_batch(World& world, PointIndex k, const BatchGeometry& g, World::LossBlock& loss) {
-    ContactPoint* const points = world.points.data() + k;
-    const BodyState* const bodies = world.bodies.data();
-    BatchBodies bodies_i, bodies_j;
-    const double *springs[lane_count], *laws[lane_count];
-    for (int l = 0; l < lane_count; ++l) {
-        bodies_i[l] = &bodies[points[l].body_i];
-        bodies_j[l] = &bodies[points[l].body_j];
-        springs[l] = &points[l].shear_force;
-        laws[l] = &points[l].root_effective_mass;
-    }
-    Lanes before, bond_overlap, root_mass, law_lanes;
-    gather_pairs(springs, before, bond_overlap);
-    gather_pairs(laws, root_mass, law_lanes);
-    const LaneBits law_and_flags = bits_of(law_lanes);
-    if (mask_of(((law_and_flags ^ law_and_flags[0]) & 0xffff) != 0) != 0) return false;
-    const ContactLaw& law = world.laws[points[0].law];
+    constexpr auto bit_of = [](int flags) { return static_cast<LaneBit>(flags) << 16; };
+    constexpr LaneBit of_law = 0xffff;
+    PointState* const states = world.point_states.data() + k;
+    const LaneBits law_and_flags = widened(states);
+    if (!none_of((law_and_flags ^ law_and_flags[0]) & of_law)) return false;
+    const ContactLaw& law = world.laws[states[0].law];
     if (Friction && !(law.shear_stiffness > 0.0)) return false;
-    const auto flagged = [&](PointFlag flag) { return (law_and_flags & (static_cast<LaneBit>(flag) << 16)) != 0; };
-
+    constexpr int at_rest = point_touching | (Bonds ? point_bonded | point_counted : 0);
+    const double least = Bonds ? law.break_overlap : 0.0;
+    const LaneBits over = g.overlap > least;
+    constexpr LaneBit looked_at = bit_of(at_rest | point_sliding);
+    if (none_of((law_and_flags & looked_at) ^ bit_of(at_rest)) && mask_of(~over) == 0) {
+        force_lanes<K, Friction, Damping, Bonds, Ledger, true>(world, k, g, {law, states, law_and_flags, over, over},
+                                                               loss);
+        return true;
+    }
     LaneBits bonded{}, holds = g.overlap > 0.0;
     if constexpr (Bonds) {
-        bonded = flagged(point_bonded);
-        holds = bonded ? (g.overlap > law.break_overlap) : holds;
+        bonded = (law_and_flags & bit_of(point_bonded)) != 0;
+        holds = bonded ? over : holds;
     }
-    if (mask_of(~holds & (bonded | flagged(point_touching))) != 0) return false;  // breaks or parts
-
-    const MotionLanes i = load_motions(bodies_i), j = load_motions(bodies_j);
-    const double dt = world.drift;
-    const Lanes zero{};
-    const Lanes rx = (i.vx - i.omega * g.aiy) - (j.vx - j.omega * g.ajy);
-    const Lanes ry = (i.vy + i.omega * g.aix) - (j.vy + j.omega * g.ajx);
-    const Lanes closing = rx * g.nx + ry * g.ny;
-    Lanes slipping = ry * g.nx - rx * g.ny;
-    if constexpr (K != PointKind::circle_circle) {  // as in force_point()
-        slipping += 0.5 * dt * i.omega * i.omega * (g.aiy * g.nx - g.aix * g.ny);
-        slipping -= 0.5 * dt * j.omega * j.omega * (g.ajy * g.nx - g.ajx * g.ny);
+    const LaneBits held_before = bonded | ((law_and_flags & bit_of(point_touching)) != 0);
+    if (mask_of(~holds & held_before) != 0) return false;  // breaks or parts
+    if (mask_of(holds) == 0) {
+        store_quads(&world.point_forces[k], Lanes{}, Lanes{}, Lanes{}, Lanes{});
+        return true;
     }
-
-    Lanes normal = law.normal_stiffness * g.overlap;
-    if constexpr (Bonds) normal -= law.normal_stiffness * bond_overlap;
-    Lanes tangential = zero;
-    LaneBits sliding = holds;
-    if constexpr (Friction) {
-        const Lanes trial = before - law.shear_stiffness * (slipping * dt);
-        const Lanes squeezed = g.overlap < 0.0 ? zero : g.overlap;
-        const Lanes limit = law.friction * law.normal_stiffness * squeezed;
-        sliding = (magnitude(trial) > limit) | (limit <= 0.0);
-        tangential = sliding ? with_sign(limit, trial) : trial;
-        if (mask_of(sliding & holds) != 0) {
-            if constexpr (Ledger) {
-                const Lanes lost = 0.5 * (before + tangential) * (trial - tangential) / law.shear_stiffness;
-                for (int l = 0; l < lane_count; ++l) loss.friction += (sliding & holds)[l] != 0 ? lost[l] : 0.0;
-            }
-        }
-        const Lanes kept = holds ? tangential : before;
-        for (int l = 0; l < lane_count; ++l) points[l].shear_force = kept[l];
-    }
-    constexpr auto bit_of = [](PointFlag flag) { return static_cast<LaneBit>(flag) << 16; };
-    LaneBits now = (law_and_flags | bit_of(point_touching)) & ~bit_of(point_sliding);
-    if constexpr (Friction) now |= sliding & (bit_of(point_sliding) | bit_of(point_slid));
-    if (const unsigned changed = mask_of(holds & ((now ^ law_and_flags) != 0)); changed != 0) {
-        for (int l = 0; l < lane_count; ++l)
-            if ((changed >> l & 1) != 0) points[l].flags = static_cast<std::uint16_t>(now[l] >> 16);
-    }
-    if constexpr (Bonds) {
-        const unsigned uncounted = mask_of(holds & ~flagged(point_counted));
-        loss.gained += static_cast<std::uint32_t>(__builtin_popcount(uncounted));
-        const Lanes half = 0.5 * law.normal_stiffness * bond_overlap;
-        const LaneBits strong = bonded & (normal * normal + tangential * tangential >= half * half);
-        double *const strong_normal = &world.strong_normal[k], *const strong_shear = &world.strong_shear[k];
-        store_as(strong_normal, strong ? normal : load_as<Lanes>(strong_normal));
-        store_as(strong_shear, strong ? tangential : load_as<Lanes>(strong_shear));
-    }
-    if constexpr (Damping) {
-        const Lanes normal_dashpot = (law.normal_damping + law.normal_damping_ratio_term * root_mass) * closing;
-        const Lanes shear_damper =
-            sliding ? zero : (law.shear_damping + law.shear_damping_ratio_term * root_mass) * slipping;
-        if constexpr (Ledger) {
-            double *const normal_memory = &world.normal_dashpot[k], *const shear_memory = &world.shear_dashpot[k];
-            const Lanes last_normal = load_as<Lanes>(normal_memory), last_shear = load_as<Lanes>(shear_memory);
-            const Lanes lost =
-                0.5 * dt * ((last_normal + normal_dashpot) * closing + (last_shear + shear_damper) * slipping);
-            const Lanes counted = holds ? lost : zero;
-            for (int l = 0; l < lane_count; ++l) loss.dashpot += counted[l];
-            store_as(normal_memory, holds ? normal_dashpot : last_normal);
-            store_as(shear_memory, holds ? shear_damper : last_shear);
-        }
-        normal += normal_dashpot;
-        tangential -= shear_damper;
-    }
-    const Lanes fx = holds ? -normal * g.nx - tangential * g.ny : zero;
-    const Lanes fy = holds ? -normal * g.ny + tangential * g.nx : zero;
-    store_quads(&world.point_forces[k], fx, fy, holds ? g.aix * fy - g.aiy * fx : zero,
-                holds ? g.ajy * fx - g.ajx * fy : zero);
+    force_lanes<K, Friction, Damping, Bonds, Ledger, false>(world, k, g, {law, states, law_and_flags, bonded, holds},
+                                                            loss);
     return true;
 }
 

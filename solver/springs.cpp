@@ -73,8 +73,8 @@ std::vector<Spring> springs_of(const World& world, ClosedPoints which) {
     for (PointIndex k = 0; k < count; ++k) {
         const PointView v = view_point(world, k);
         if (!closed(world, v, which)) continue;
-        const ContactLaw& law = world.laws[world.points[k].law];
-        const double root_mass = world.points[k].root_effective_mass;
+        const ContactLaw& law = world.laws[world.point_states[k].law];
+        const double root_mass = world.root_masses[k];
         const auto add = [&](bool shear, double stiffness, double damping, const OverlapGradient& push,
                              const OverlapGradient& gradient) {
             if (stiffness == 0.0 && damping == 0.0) return;

@@ -31,6 +31,7 @@
 #include <limits>
 #include <numbers>
 
+#include "solver/contact_geometry.hpp"
 #include "solver/contact_law.hpp"
 #include "solver/critical_step.hpp"
 #include "solver/errors.hpp"
@@ -94,6 +95,7 @@ Roots roots_of(const BodyInertia& inertia) {
 /// Where a point acts.
 struct PointArms {
     Vec2 normal, arm_i, arm_j;
+    double overlap;
 };
 
 /// One side of a point, scaled by the roots: rows of its normal n and of the tangent, at `arm` from the centroid.
@@ -155,8 +157,8 @@ bool with_wall(const World& world, PointIndex k) {
 }
 
 PointArms arms_of(const World& world, PointIndex k) {
-    const PointView view = view_point(world, k);
-    return {view.normal, view.arm_i, view.arm_j};
+    const ContactGeometry g = geometry_at(world, k);
+    return {{g.nx, g.ny}, {g.aix, g.aiy}, {g.ajx, g.ajy}, g.overlap};
 }
 
 /// The geometry of all points, found once.
@@ -209,8 +211,9 @@ void add_point(BodyBlocks& blocks, const World& world, const std::vector<double>
     const ContactPoint& point = world.points[k];
     const bool first = b == point.body_i;
     const double partner = first && with_wall(world, k) ? 0.0 : weights[first ? point.body_j : point.body_i];
-    add_side(blocks, side_of(roots, arms.normal, first ? arms.arm_i : arms.arm_j), world.laws[point.law],
-             point.root_effective_mass, share_of(weights[b], partner), !has_rows(world, k));
+    add_side(blocks, side_of(roots, arms.normal, first ? arms.arm_i : arms.arm_j),
+             world.laws[world.point_states[k].law], world.root_masses[k], share_of(weights[b], partner),
+             !has_rows(world, k));
 }
 
 /// What a body without points is stable with: the first thing it meets, a circle head-on or a corner at the longest
@@ -341,12 +344,13 @@ void evaluate_step_bound(World& world) {
     const Geometry geometry = geometry_of(world);
     const bool all_count = !world.has_bonds || world.segment_law != SegmentLaw::rounded;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
-        ContactPoint& point = world.points[k];
-        const bool counts = all_count || (point.flags & point_bonded) != 0 || overlap_of(world, k) > 0.0;
-        point.flags = static_cast<std::uint16_t>(counts ? point.flags | point_counted : point.flags & ~point_counted);
+        const bool counts =
+            all_count || (world.point_states[k].flags & point_bonded) != 0 || geometry.arms[k].overlap > 0.0;
+        world.point_states[k].flags = static_cast<std::uint16_t>(counts ? world.point_states[k].flags | point_counted
+                                                                        : world.point_states[k].flags & ~point_counted);
     }
     world.step_weights = first_weights(world, geometry);
-    const auto counted = [&](PointIndex k) { return (world.points[k].flags & point_counted) != 0; };
+    const auto counted = [&](PointIndex k) { return (world.point_states[k].flags & point_counted) != 0; };
     // Loose bodies take a small share of the bound anyway.
     const double enough = !world.has_bonds ? 0.0 : world.automatic_step ? world.step_goal : world.time_step;
     const Least least = raised(world, world.step_weights, geometry, counted, enough);
@@ -362,8 +366,8 @@ BodyBlocks blocks_of_body(const World& world, BodyIndex b) {
     BodyBlocks blocks;
     const Roots roots = roots_of(world.inertia[b]);
     for (std::uint32_t s = world.body_begin[b]; s < world.body_begin[b + 1]; ++s) {
-        const PointIndex k = world.body_slots[s] >> 1;
-        if ((world.points[k].flags & point_counted) == 0) continue;
+        const PointIndex k = point_of_slot(world.body_slots[s]);
+        if ((world.point_states[k].flags & point_counted) == 0) continue;
         add_point(blocks, world, world.step_weights, k, b, roots, arms_of(world, k));
     }
     return blocks;
@@ -373,7 +377,7 @@ BodyBlocks blocks_of_body(const World& world, BodyIndex b) {
 
 void count_new_points(World& world) {
     const auto is_new = [&](PointIndex k) {
-        return (world.points[k].flags & (point_touching | point_counted)) == point_touching;
+        return (world.point_states[k].flags & (point_touching | point_counted)) == point_touching;
     };
     Least least{world.step_bound, world.limiting_body};
     const auto look_at = [&](BodyIndex b) {
@@ -383,7 +387,7 @@ void count_new_points(World& world) {
     for (PointIndex k = 0; k < world.points.size(); ++k) {
         if (!is_new(k)) continue;
         ContactPoint& point = world.points[k];
-        point.flags = static_cast<std::uint16_t>(point.flags | point_counted);
+        world.point_states[k].flags = static_cast<std::uint16_t>(world.point_states[k].flags | point_counted);
         look_at(point.body_i);  // a later new point of the same body looks again
         if (!with_wall(world, k)) look_at(point.body_j);
     }
@@ -414,7 +418,7 @@ void keep_step_below_bound(World& world) {
         world.step_bound = std::max(world.step_bound, critical_step(world, which).step);
         if (world.time_step > world.step_bound) continue;
         if (which == ClosedPoints::listed) {
-            for (ContactPoint& point : world.points)
+            for (PointState& point : world.point_states)
                 point.flags = static_cast<std::uint16_t>(point.flags | point_counted);
         }
         return;

@@ -75,8 +75,8 @@ struct Edge {
     double x, y;
     double tx, ty;
     double length;
-    BodyIndex outline_of = no_body;             // the body whose outline is the one convex piece that this edge is of
-    std::int16_t to_previous = 0, to_next = 0;  // from there: to the edges before and after, in World::edges
+    BodyIndex outline_of = no_body;         // the body whose outline is the one convex piece that this edge is of
+    std::int16_t to_neighbour[2] = {0, 0};  // from there: to the edges after and before, in World::edges
 };
 static_assert(sizeof(Edge) == 48);
 
@@ -106,21 +106,21 @@ enum PointFlag : std::uint16_t {
     point_counted = 32       // counts in World::step_bound
 };
 
-/// One contact point. δ0 = bond_overlap; back-tension f_b = -k_n δ0.
+/// What meets at one contact point.
 struct ContactPoint {
     BodyIndex body_i;
     BodyIndex body_j;         // Wall number for element_wall
     std::uint32_t element_i;  // into World::elements
     std::uint32_t
-        feature_j;        // circle and segment kinds: element of j; outline: edge last faced (a hint, never physics)
-    double shear_force;   // elastic part, N on body_i along the normal (i to j) turned by +90 degrees
-    double bond_overlap;  // m
-    double root_effective_mass;  // sqrt(m_eff), sqrt(kg)
-    std::uint16_t law;           // into World::laws
-    std::uint16_t flags;         // PointFlag
-    std::uint32_t padding;       // 0
+        feature_j;  // circle and segment kinds: element of j; outline: edge last faced (a hint, never physics)
 };
-static_assert(sizeof(ContactPoint) == 48);
+static_assert(sizeof(ContactPoint) == 16);
+
+struct PointState {
+    std::uint16_t law;    // into World::laws
+    std::uint16_t flags;  // PointFlag
+};
+static_assert(sizeof(PointState) == 4);
 
 /// Force of a point on body_i (body_j gets the opposite) and its moments about both centroids.
 struct PointForce {
@@ -128,6 +128,13 @@ struct PointForce {
     double torque_i, torque_j;
 };
 static_assert(sizeof(PointForce) == 32);
+
+/// One body's side of a point (0: the body is i, 1: it is j) as the bytes from the first point's force to this one's,
+/// with 8 more for the second side: what adding up a body's forces needs, without further arithmetic.
+constexpr std::uint32_t slot_of(PointIndex point, std::uint32_t side) { return 32 * point + 8 * side; }
+constexpr PointIndex point_of_slot(std::uint32_t slot) { return slot / 32; }
+constexpr std::uint32_t side_of_slot(std::uint32_t slot) { return slot / 8 % 2; }
+inline constexpr std::size_t most_points = std::size_t{1} << 27;  // that slots can tell apart
 
 /// What the normal spring of a point under the guide's law has taken up. Its force is k_n(δ - δ0) at the resultant's
 /// place, but δ does not change by the way of that place alone: there is no potential, so the work itself is added up,
@@ -211,6 +218,8 @@ inline constexpr double loose_step_share = 0.1;
 /// Points a force pass hands to one thread at a time; fixed, so that sums over blocks do not depend on the threads.
 inline constexpr PointIndex block_points = 256;
 
+inline constexpr std::int64_t gather_block = 256;  // bodies
+
 struct World {
     // ---- bodies
     std::vector<BodyState> bodies;
@@ -220,6 +229,7 @@ struct World {
     std::vector<Element> elements;
     std::vector<Piece> pieces;
     std::vector<Edge> edges;
+    bool convex_outlines = true;  // every outline is one convex piece
     std::vector<Edge>
         segments;  // by element: the segment that begins there (length 0: none); empty without guide's law
     std::vector<ControlState> controls;
@@ -227,7 +237,13 @@ struct World {
     std::vector<Material> materials;
 
     // ---- contact points
+    // Each quantity of a point in an array of its own: the kernels take those of neighbouring points as they lie, and
+    // what a step does not change is not written back.
     std::vector<ContactPoint> points;  // grouped by kind, ordered by (i, j, element) within
+    std::vector<PointState> point_states;
+    std::vector<double> shear_forces;   // elastic, N on body_i along the normal (i to j) turned by +90 degrees
+    std::vector<double> bond_overlaps;  // δ0, m; back-tension f_b = -k_n δ0
+    std::vector<double> root_masses;    // square root of the effective mass, sqrt(kg)
     std::array<PointIndex, point_kinds + 1> kind_begin{};
     std::vector<PointForce> point_forces;
     // Dashpot forces of the last force pass, N: their work is taken by the trapezoidal rule. Empty without the ledger.
@@ -239,13 +255,15 @@ struct World {
     // compression positive, and shear. Empty without bonds.
     std::vector<double> strong_normal, strong_shear;
     std::vector<std::uint32_t> body_begin;  // per body: range in body_slots
-    std::vector<std::uint32_t> body_slots;  // 2 * point + side (0: the body is i, 1: it is j)
+    std::vector<std::uint32_t> body_slots;  // slot_of(point, side)
+    std::vector<BodyIndex> gather_order;    // in blocks of gather_block: bodies with equally many slots together
 
     // ---- neighbour list
     double skin = 0.0;         // m
     double widest_skin = 0.0;  // m; in a bonded world the skin follows the motion up to this; 0: it stays as given
     std::vector<ListReference> list_reference;
     std::vector<double> turning_reach;     // m per body: how far turning moves its surface (0: single circles)
+    bool some_turn = false;                // any of these is not 0
     std::vector<std::uint32_t> size_rank;  // bodies by bounding radius, largest 0; a pair is found by its larger body
     std::vector<double> largest_smaller;   // m per body: bounding radius of the next in that order
     double travelled = 0.0;                // m, bound on any surface point's way since the list was built

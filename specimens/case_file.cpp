@@ -248,8 +248,8 @@ class Judge {
         material();
         mesh();
         loading();
-        if (test_.output.frames > test_.output.curve_rows) {
-            refuse("output.frames", fmt::format("{}", test_.output.frames),
+        if (test_.output.frames.value_or(0) > test_.output.curve_rows) {
+            refuse("output.frames", fmt::format("{}", *test_.output.frames),
                    fmt::format("at most output.curve_rows = {}", test_.output.curve_rows),
                    "frames are taken at rows of the curve");
         }

@@ -194,10 +194,11 @@ std::vector<Parameter> all_parameters() {
             .at_least(10)
             .at_most(99998)
             .otherwise(whole(2000)),
-        CRACKLE_KEY(output, frames, "", "Frames over max_axial_strain, besides start, peak and end.")
+        CRACKLE_KEY(output, frames, "",
+                    "Frames over max_axial_strain, besides start, peak and end; if not given 100 up to 2000 bodies, "
+                    "beyond that 200,000 over their number, at least 20 (never more than curve_rows).")
             .at_least(1)
-            .at_most(99998)
-            .otherwise(whole(100)),
+            .at_most(99998),
         CRACKLE_KEY(output, checkpoint_interval, "s", "Wall-clock time between checkpoints.").above(0).otherwise(60.0),
         CRACKLE_KEY(output, out_of_plane_thickness, "m",
                     "Only converts what is reported: stresses in N/m over this give the _pa values.")

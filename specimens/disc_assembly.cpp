@@ -108,8 +108,8 @@ double DiscAssembly::move(const std::function<void(std::size_t begin, std::size_
     const std::size_t count = discs.size(), blocks = (count + assembly_block - 1) / assembly_block;
     const bool listed = listed_at_.size() == count;
     double largest_square = listed ? 0.0 : std::numeric_limits<double>::infinity();
-#pragma omp parallel for schedule(static) num_threads(threads) \
-    reduction(max : largest_square) if (count >= assembly_parallel_from)
+    const bool parallel = count >= assembly_parallel_from;
+#pragma omp parallel for schedule(static) num_threads(threads) reduction(max : largest_square) if (parallel)
     for (std::size_t block = 0; block < blocks; ++block) {
         const std::size_t begin = block * assembly_block, end = std::min(count, begin + assembly_block);
         place(begin, end);

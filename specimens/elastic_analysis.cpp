@@ -64,7 +64,7 @@ std::vector<LinearBond> linear_bonds(const World& world, const TestSetup& setup,
     const std::vector<PointRates> rates = rates_of(world, moduli.solution.displacement);
     std::vector<LinearBond> bonds;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
-        if ((world.points[k].flags & point_bonded) == 0) continue;
+        if ((world.point_states[k].flags & point_bonded) == 0) continue;
         bonds.push_back(linear_bond(world, k, {sense * rates[k].closing, rates[k].slipping}, strain));
     }
     return bonds;

@@ -2,12 +2,10 @@
 // The loading loop: forces, observers, step; until failure, the largest strain, or an interrupt.
 
 #include <algorithm>
-#include <array>
 #include <chrono>
-#include <utility>
-#include <vector>
 
 #include "solver/controls.hpp"
+#include "solver/errors.hpp"
 #include "specimens/observers/test_files.hpp"
 #include "specimens/virtual_test.hpp"
 
@@ -24,24 +22,27 @@ constexpr double seconds_between_progress = 0.2;
 // not depend on how much of it is looked at.
 constexpr std::int64_t min_judged_rows = 2000;
 
-/// The world at the largest stress so far. While the stress rises every row is a new peak, so what changes is only
-/// copied, and drawn when somebody needs the picture.
+/// The world at the largest stress so far. While the stress rises every row is a new peak, so what a picture needs is
+/// only copied, and taken when somebody wants it: for polygons that is as much work as several steps.
 class PeakMoment {
   public:
     void keep(const World& world, const CurveRow& row, std::int64_t index) {
         bodies_ = world.bodies;
         points_ = world.points;
+        states_ = world.point_states;
+        shear_forces_ = world.shear_forces;
+        bond_overlaps_ = world.bond_overlaps;
         kind_begin_ = world.kind_begin;
         row_ = row;
         index_ = index;
         waiting_ = true;
     }
 
-    /// Puts the picture into the state, if there is a new one.
-    void draw(World& world, const TestSetup& setup, TestState& state) {
+    /// Puts the picture into the frame, if there is a new one.
+    void draw(World& world, const Camera& camera, Frame& frame) {
         if (!waiting_) return;
         exchange(world);
-        state.peak_frame = capture_frame(world, setup, row_, index_);
+        camera.take(world, row_, index_, frame);
         exchange(world);
         waiting_ = false;
     }
@@ -50,11 +51,16 @@ class PeakMoment {
     void exchange(World& world) {
         std::swap(world.bodies, bodies_);
         std::swap(world.points, points_);
+        std::swap(world.point_states, states_);
+        std::swap(world.shear_forces, shear_forces_);
+        std::swap(world.bond_overlaps, bond_overlaps_);
         std::swap(world.kind_begin, kind_begin_);
     }
 
     std::vector<BodyState> bodies_;
     std::vector<ContactPoint> points_;
+    std::vector<PointState> states_;
+    std::vector<double> shear_forces_, bond_overlaps_;
     std::array<PointIndex, point_kinds + 1> kind_begin_{};
     CurveRow row_;
     std::int64_t index_ = -1;
@@ -72,15 +78,28 @@ class LoadingLoop {
           max_strain_(test.description.loading.max_axial_strain),
           judged_per_written_((min_judged_rows - 1) / test.description.output.curve_rows + 1),
           row_spacing_(max_strain_ / static_cast<double>(test.description.output.curve_rows * judged_per_written_)),
-          frame_spacing_(max_strain_ / static_cast<double>(test.description.output.frames)),
+          frame_spacing_(max_strain_ / static_cast<double>(test.description.output.frames.value())),
           checkpoint_interval_(test.description.output.checkpoint_interval),
           begun_(Clock::now()),
           last_checkpoint_(begun_),
           last_progress_(begun_),
           first_step_(test.world.step),
-          step_seconds_before_(test.state.step_seconds) {}
+          step_seconds_before_(test.state.step_seconds),
+          camera_(test.setup) {}
 
     void run() {
+        try {
+            load();
+        } catch (const UnstableRun&) {
+            draw_peak();
+            throw;
+        }
+        draw_peak();
+        state_.step_seconds = step_seconds();
+    }
+
+  private:
+    void load() {
         if (files_ != nullptr && state_.rows.empty()) files_->write_checkpoint(setup_, state_, world_);
         while (true) {
             if (world_.step % steps_between_clock_looks == 0 && look_at_clock()) break;
@@ -96,11 +115,10 @@ class LoadingLoop {
             if (setup_.rate_rule.tolerance > 0.0) follow_tolerance();
             advance(world_);
         }
-        peak_.draw(world_, setup_, state_);
-        state_.step_seconds = step_seconds();
     }
 
-  private:
+    void draw_peak() { peak_.draw(world_, camera_, state_.peak_frame); }
+
     double step_seconds() const { return step_seconds_before_ + seconds(begun_, Clock::now()); }
     static double seconds(Clock::time_point from, Clock::time_point to) {
         return std::chrono::duration<double>(to - from).count();
@@ -156,7 +174,9 @@ class LoadingLoop {
         while (row.axial_strain >= frame_spacing_ * static_cast<double>(state_.next_frame)) ++state_.next_frame;
         const bool frame_wanted = frame_due || !state_.ended_by.empty();
         if (new_peak) peak_.keep(world_, row, index);
-        if (frame_wanted) files_->add_frame(capture_frame(world_, setup_, row, index), state_);
+        if (!frame_wanted) return;
+        new_peak ? draw_peak() : camera_.take(world_, row, index, frame_);
+        files_->add_frame(new_peak ? state_.peak_frame : frame_, setup_, state_, world_);
     }
 
     /// Between steps: progress, checkpoint, interrupt. @return whether to stop
@@ -169,7 +189,7 @@ class LoadingLoop {
         }
         if (files_ != nullptr && seconds(last_checkpoint_, now) >= checkpoint_interval_) {
             const PhaseTimer timer(world_.profile, Phase::write);
-            peak_.draw(world_, setup_, state_);
+            draw_peak();
             state_.step_seconds = step_seconds();
             files_->write_checkpoint(setup_, state_, world_);
             last_checkpoint_ = Clock::now();
@@ -203,7 +223,9 @@ class LoadingLoop {
     std::int64_t first_step_;
     double step_seconds_before_;
     std::size_t events_counted_ = 0;
+    Camera camera_;
     PeakMoment peak_;
+    Frame frame_;
 };
 
 }  // namespace

@@ -200,6 +200,10 @@ OutputFolder::~OutputFolder() {
 }
 
 void OutputFolder::write(const std::string& name, const std::string& bytes) const {
+    write(name, [&](std::ostream& out) { out.write(bytes.data(), static_cast<std::streamsize>(bytes.size())); });
+}
+
+void OutputFolder::write(const std::string& name, const std::function<void(std::ostream&)>& write_to) const {
     const fs::path file = working_ / name;
     const fs::path temporary = file.string() + temporary_suffix;
     std::error_code error;
@@ -207,7 +211,7 @@ void OutputFolder::write(const std::string& name, const std::string& bytes) cons
     if (error) cannot_write(file.parent_path(), error.message());
     errno = 0;
     std::ofstream out(temporary, std::ios::binary);
-    out.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    write_to(out);
     out.close();
     if (!out) {
         const std::string why = last_error();

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <span>
 #include <string>
 #include <utility>
@@ -56,6 +57,8 @@ class OutputFolder {
 
     /// Writes a whole file, under a temporary name first. @param name relative to the folder
     void write(const std::string& name, const std::string& bytes) const;
+    /// The same, of a file that is not in memory as a whole.
+    void write(const std::string& name, const std::function<void(std::ostream&)>& write_to) const;
     /// Puts staged results in the place of the old ones; path() is target() from then on.
     void finish();
 

@@ -35,8 +35,8 @@ void record_bonds(TestSetup& setup, const World& world) {
     double overlap = 0.0, tension = 0.0;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
         const ContactPoint& point = world.points[k];
-        if ((point.flags & point_touching) != 0) ++setup.contacts_initial;
-        if ((point.flags & point_bonded) == 0) continue;
+        if ((world.point_states[k].flags & point_touching) != 0) ++setup.contacts_initial;
+        if ((world.point_states[k].flags & point_bonded) == 0) continue;
         BondAnchor anchor = anchor_of(world, k);
         const PointView view = view_point(world, k);
         const bool outline = view.kind == PointKind::element_outline && setup.polygons;
@@ -48,9 +48,9 @@ void record_bonds(TestSetup& setup, const World& world) {
         anchor.on_i = view.position - half_gap;
         anchor.on_j = view.position + half_gap;
         setup.bonds.push_back(anchor);
-        overlap += point.bond_overlap;
-        tension += view.normal_stiffness * point.bond_overlap;
-        interfaces[std::minmax(point.body_i, point.body_j)] += view.normal_stiffness * point.bond_overlap;
+        overlap += world.bond_overlaps[k];
+        tension += view.normal_stiffness * world.bond_overlaps[k];
+        interfaces[std::minmax(point.body_i, point.body_j)] += view.normal_stiffness * world.bond_overlaps[k];
     }
     std::sort(setup.bonds.begin(), setup.bonds.end(),
               [](const BondAnchor& a, const BondAnchor& b) { return a.key() < b.key(); });

@@ -169,7 +169,7 @@ TestOutcome run_with_files(VirtualTest& test, const TestOptions& options, const 
         files.write_summary(outcome.summary);
     };
     const auto write_peak = [&] {
-        if (test.state.peak_frame.row >= 0) files.add_frame(test.state.peak_frame, test.state);
+        if (test.state.peak_frame.row >= 0) files.add_frame(test.state.peak_frame, test.setup, test.state, test.world);
     };
     try {
         load_specimen(test, hooks, &files);
@@ -259,6 +259,8 @@ VirtualTest bond_test(const TestCase& description, const TestHooks& hooks) {
     Bonded bonded = bond_specimen(specimen, description, description.loading);
     test.world = std::move(bonded.world);
     test.setup = record_setup(test.world, specimen, bonded.platens, description.loading.kind == "compression");
+    if (!description.output.frames)
+        test.description.output.frames = default_frames(test.setup.particles, description.output.curve_rows);
     test.state.failure.share_of_peak = description.loading.stop_at_share_of_peak;
     say(hooks, fmt::format("bonded {} points of {} interfaces, time step {:.3g} s", test.world.bonds_initial,
                            test.world.interfaces_initial, test.world.time_step));
@@ -311,6 +313,7 @@ TestOutcome run_test(const TestCase& description, const TestOptions& options, co
     Profile profile;
     if (options.profile) test.world.profile = &profile;
     test.state.command = options.command;
+    recorded.output.frames = test.description.output.frames;  // known only now where the case is silent
     const std::string text = resolved_case(recorded, folder.target());
     folder.write("case.toml", text);
     TestFiles files(folder, sha256(text), test.state);

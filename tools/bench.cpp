@@ -19,6 +19,7 @@ const std::vector<Command>& studies() {
     static const std::vector<Command> all{
         {"accuracy", "what an error costs in processor time: contact laws, integrators, time steps, rates",
          bench_accuracy},
+        {"features", "what each feature costs a contact and step, and what is left of absent ones", bench_features},
         {"guide", "the rock of DEMseg's guide on many packings: each of its numbers beside ours", bench_guide},
         {"stress", "scenes that are hard on the engine, for a million steps", bench_stress},
         {"throughput", "particle-steps a second beside what the machine can do", bench_throughput},
@@ -37,7 +38,8 @@ void print_help(std::ostream& out) {
     out << "usage: crackle bench STUDY [OPTIONS]   (crackle bench STUDY --help shows examples)\n\nstudies:\n";
     for (const Command& study : studies()) out << fmt::format("  {:<12}{}\n", study.name, study.summary);
     out << "\nexample:\n  crackle bench verify -o verification.md\n  crackle bench guide --quick\n  crackle bench "
-           "accuracy -o accuracy --quick\n  crackle bench stress --steps 10000\n  crackle bench throughput --quick\n";
+           "features --quick\n  crackle bench accuracy -o accuracy --quick\n  crackle bench stress --steps 10000\n  "
+           "crackle bench throughput --quick\n";
 }
 
 }  // namespace

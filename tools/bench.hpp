@@ -7,6 +7,7 @@
 namespace crackle::tools {
 
 int bench_accuracy(const Arguments& arguments);
+int bench_features(const Arguments& arguments);
 int bench_guide(const Arguments& arguments);
 int bench_verify(const Arguments& arguments);
 int bench_stress(const Arguments& arguments);

@@ -19,6 +19,7 @@
 #include "specimens/throughput/bare_kernel.hpp"
 #include "specimens/throughput/flowing.hpp"
 #include "specimens/throughput/machine_limits.hpp"
+#include "specimens/throughput/median_interval.hpp"
 #include "specimens/throughput/timed_test.hpp"
 #include "tools/bench.hpp"
 #include "tools/gnuplot.hpp"
@@ -49,12 +50,6 @@ struct Row {
     double bare = 0.0;      // of the bare kernel on the same discs, 0: not measured
     double bytes = 0.0;     // a particle, 0: unknown
 };
-
-double median(std::vector<double> values) {
-    std::sort(values.begin(), values.end());
-    const std::size_t n = values.size();
-    return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
-}
 
 /// Steps until the seconds have gone. @return particle-steps a second
 template <class Step>
@@ -113,7 +108,7 @@ Row measure_flow(const Settings& settings, bool polygons, std::int64_t count) {
     for (int k = 0; k < settings.repeats; ++k)
         rates.push_back(rate_of(world.bodies.size(), settings.seconds, [&] { step(world); }));
     std::int64_t touching = 0;
-    for (const ContactPoint& point : world.points) touching += (point.flags & point_touching) != 0 ? 1 : 0;
+    for (const PointState point : world.point_states) touching += (point.flags & point_touching) != 0 ? 1 : 0;
     row.contacts = static_cast<double>(touching) / static_cast<double>(row.particles);
     row.rate = median(rates);
     return row;

@@ -92,7 +92,8 @@ void add_events(ArrayStore& store, const NumberTable& events) {
     store.add("events.last_of_interface", converted<std::uint8_t>(*events.find("last_of_interface")));
 }
 
-/// Outlines once, from the first frame (a circle's 24-gon shrinks to its centre), then the rigid motions of each frame.
+/// Outlines once, from the first frame (a circle's polygon shrinks to its centre, about which the page draws the true
+/// circle), then the rigid motions of each frame.
 /// Single precision: a hundred-millionth of the specimen, far below what a screen shows.
 Json add_frames(ArrayStore& store, const std::vector<KeyFrame>& frames) {
     std::vector<std::int32_t> id, first_point{0};

@@ -94,13 +94,14 @@ void write_lists(std::ostream& out, const Scene& scene, LinesOfBodies& lines) {
 }
 
 double back_tension(const World& world, PointIndex k) {
-    const ContactPoint& point = world.points[k];
-    return (point.flags & point_bonded) != 0 ? -world.laws[point.law].normal_stiffness * point.bond_overlap : 0.0;
+    return (world.point_states[k].flags & point_bonded) != 0
+               ? -world.laws[world.point_states[k].law].normal_stiffness * world.bond_overlaps[k]
+               : 0.0;
 }
 
 /// δ0 as back_tension() would give it back.
 double bond_overlap(const World& world, PointIndex k, double tension) {
-    return -tension / world.laws[world.points[k].law].normal_stiffness;
+    return -tension / world.laws[world.point_states[k].law].normal_stiffness;
 }
 
 /// Reads `id count` of the next list; the lists follow the bodies of the scene.
@@ -137,12 +138,11 @@ int partner_id(const World& world, PointKind kind, const ContactPoint& point) {
 void write_contacts(std::ostream& out, const Scene& scene, const World& world) {
     LinesOfBodies lines;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
-        const ContactPoint& point = world.points[k];
-        if ((point.flags & (point_touching | point_bonded)) == 0) continue;
+        if ((world.point_states[k].flags & (point_touching | point_bonded)) == 0) continue;
         const PointName name = name_of(world, k);
         lines[name.body].emplace_back(
-            name, fmt::format("{} {} {} {} {} {}\n", name.other, name.element, name.partner, point.shear_force,
-                              back_tension(world, k), (point.flags & point_slid) != 0 ? 1 : 0));
+            name, fmt::format("{} {} {} {} {} {}\n", name.other, name.element, name.partner, world.shear_forces[k],
+                              back_tension(world, k), (world.point_states[k].flags & point_slid) != 0 ? 1 : 0));
     }
     write_lists(out, scene, lines);
 }
@@ -187,13 +187,13 @@ void read_contacts(DeckReader& reader, const Scene& scene, World& world) {
             if (!entered.insert(found->second).second)
                 reader.refuse(contact, fmt::format("the contact with {} a second time", with),
                               "every contact point once");
-            ContactPoint& point = world.points[found->second];
-            point.shear_force = shear_force;
-            point.flags = static_cast<std::uint16_t>(point_touching | (slid ? point_slid : 0));
+            world.shear_forces[found->second] = shear_force;
+            world.point_states[found->second].flags =
+                static_cast<std::uint16_t>(point_touching | (slid ? point_slid : 0));
             if (tension == 0.0) continue;
             bonds = true;
-            point.flags |= point_bonded;
-            point.bond_overlap = bond_overlap(world, found->second, tension);
+            world.point_states[found->second].flags |= point_bonded;
+            world.bond_overlaps[found->second] = bond_overlap(world, found->second, tension);
         }
     }
     reader.expect_end("the last contact");
@@ -206,7 +206,7 @@ void write_back_tensions(std::ostream& out, const Scene& scene, const World& wor
     for (PointIndex k = 0; k < world.points.size() && !is_wall(k, world); ++k) {
         double tension = back_tension(world, k);
         if (!world.has_bonds)
-            tension = -world.laws[world.points[k].law].normal_stiffness * std::max(0.0, overlap_of(world, k));
+            tension = -world.laws[world.point_states[k].law].normal_stiffness * std::max(0.0, overlap_of(world, k));
         if (!(tension < 0.0)) continue;
         const PointName name = name_of(world, k);
         const bool plain = plain_pair(*names.find(name.body), *names.find(name.other));
@@ -263,9 +263,8 @@ void read_back_tensions(DeckReader& reader, const Scene& scene, World& world) {
                 where));
         }
         if (listing.tension == 0.0) continue;
-        ContactPoint& point = world.points[found->second];
-        point.bond_overlap = bond_overlap(world, found->second, listing.tension);
-        point.flags = point_bonded | point_touching;
+        world.bond_overlaps[found->second] = bond_overlap(world, found->second, listing.tension);
+        world.point_states[found->second].flags = point_bonded | point_touching;
     }
     finish_bonding(world);
 }

@@ -79,7 +79,7 @@ std::uintmax_t length_up_to(const std::filesystem::path& path, std::int64_t step
     return kept;
 }
 
-bool touching(const World& world, PointIndex k) { return (world.points[k].flags & point_touching) != 0; }
+bool touching(const World& world, PointIndex k) { return (world.point_states[k].flags & point_touching) != 0; }
 
 }  // namespace
 

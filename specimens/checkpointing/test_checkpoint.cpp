@@ -16,7 +16,7 @@ namespace crackle {
 
 // Names the layout; the number is raised whenever a field below changes.
 constexpr const char* checkpoint_title = "crackle test checkpoint ";
-constexpr const char* checkpoint_version = "7";
+constexpr const char* checkpoint_version = "8";
 constexpr std::size_t hash_digits = 64;
 
 // The archive is given one member after the other: structs have padding, whose bytes are nobody's.
@@ -35,20 +35,12 @@ void serialize(Archive& a, FailureTracker& f) {
     a(f.share_of_peak, f.peak_stress, f.peak_strain, f.peak_row, f.below_since, f.below_row, f.failed);
 }
 template <class Archive>
-void serialize(Archive& a, CellArray& c) {
-    a(c.name, c.components, c.real, c.integer);
-}
-template <class Archive>
-void serialize(Archive& a, CellList& c) {
-    a(c.connectivity, c.offsets);
-}
-template <class Archive>
-void serialize(Archive& a, VtpData& d) {
-    a(d.points, d.lines, d.polygons, d.cell_arrays, d.field_values);
+void serialize(Archive& a, Frame::Body& b) {
+    a(b.x, b.y, b.angle, b.vx, b.vy);
 }
 template <class Archive>
 void serialize(Archive& a, Frame& f) {
-    a(f.row, f.axial_strain, f.axial_stress, f.time, f.particles, f.bonds);
+    a(f.row, f.axial_strain, f.axial_stress, f.time, f.bodies, f.normal_force, f.shear_force, f.broken);
 }
 template <class Archive>
 void serialize(Archive& a, FrameEntry& f) {

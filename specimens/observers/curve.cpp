@@ -19,7 +19,7 @@ CurveRow observe_row(const World& world, const TestSetup& setup) {
     row.interfaces_lost = world.interfaces_lost;
     row.time = world.time;
     row.step = world.step;
-    for (const ContactPoint& point : world.points) {
+    for (const PointState& point : world.point_states) {
         const bool touching = (point.flags & point_touching) != 0;
         if (touching && (point.flags & point_sliding) != 0) ++row.points_sliding;
         if (touching && (point.flags & point_bonded) == 0) ++row.contacts_gained;

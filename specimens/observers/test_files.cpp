@@ -46,13 +46,15 @@ void TestFiles::add_event(const BreakEvent& event, double axial_strain) {
     events_.write(event_line(event, axial_strain));
 }
 
-void TestFiles::add_frame(const Frame& frame, TestState& state) {
+void TestFiles::add_frame(const Frame& frame, const TestSetup& setup, TestState& state, const World& world) {
     const auto later = std::lower_bound(state.frames.begin(), state.frames.end(), frame.row,
                                         [](const FrameEntry& entry, std::int64_t row) { return entry.row < row; });
     if (later != state.frames.end() && later->row == frame.row) return;
     state.frames.insert(later, {frame.row, frame.axial_strain, frame.time});
-    folder_.write("frames/" + particles_file(frame.row), vtp_text(frame.particles));
-    folder_.write("frames/" + bonds_file(frame.row), vtp_text(frame.bonds));
+    if (!painter_ || !painter_->paints(world, setup)) painter_.emplace(world, setup);
+    folder_.write("frames/" + particles_file(frame.row),
+                  [&](std::ostream& out) { painter_->write_particles(out, frame); });
+    folder_.write("frames/" + bonds_file(frame.row), [&](std::ostream& out) { painter_->write_bonds(out, frame); });
     write_collection(state);
 }
 

@@ -2,8 +2,10 @@
 // The files that grow while a test runs: curve.csv, events.csv, frames/, checkpoint, and summary.json at the end.
 #pragma once
 
+#include <optional>
 #include <string>
 
+#include "specimens/observers/frame_painter.hpp"
 #include "specimens/observers/summary.hpp"
 #include "specimens/output_folder.hpp"
 
@@ -17,7 +19,7 @@ class TestFiles {
     void add_row(const CurveRow& row);
     void add_event(const BreakEvent& event, double axial_strain);
     /// Writes both pictures of a frame and lists it in state.frames, in the order of rows.
-    void add_frame(const Frame& frame, TestState& state);
+    void add_frame(const Frame& frame, const TestSetup& setup, TestState& state, const World& world);
     /// Flushes the growing files, notes their lengths in the state, and writes the checkpoint.
     void write_checkpoint(const TestSetup& setup, TestState& state, const World& world);
     /// Without a checkpoint: for a run that has gone wrong, whose last good checkpoint stays.
@@ -30,6 +32,7 @@ class TestFiles {
     const OutputFolder& folder_;
     std::string case_hash_;
     GrowingFile curve_, events_;
+    std::optional<FramePainter> painter_;  // once there is a frame
 };
 
 }  // namespace crackle

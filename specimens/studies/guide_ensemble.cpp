@@ -59,7 +59,7 @@ void take_counts(GuideResult& result, const TestCase& description, const TestHoo
     bond_all(world, thick);
     double tension = 0.0;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
-        if ((world.points[k].flags & point_bonded) == 0) continue;
+        if ((world.point_states[k].flags & point_bonded) == 0) continue;
         const PointView view = view_point(world, k);
         tension += view.normal_stiffness * view.bond_overlap;
     }

@@ -22,11 +22,11 @@ BareKernel::BareKernel(const World& world) : time_step_(world.time_step) {
     for (std::size_t k = begin; k < end; ++k) {
         const ContactPoint& point = world.points[k];
         if (overlap_of(world, static_cast<PointIndex>(k)) > 0.0)
-            points_.push_back({own[point.body_i], own[point.body_j], point.shear_force});
+            points_.push_back({own[point.body_i], own[point.body_j], world.shear_forces[k]});
     }
     if (points_.empty()) throw InputError("bare kernel: found no touching circles, expected a packing");
-    const ContactLaw& law = world.laws[world.points[begin].law];
-    const double root_mass = world.points[begin].root_effective_mass;
+    const ContactLaw& law = world.laws[world.point_states[begin].law];
+    const double root_mass = world.root_masses[begin];
     normal_stiffness_ = law.normal_stiffness;
     shear_stiffness_ = law.shear_stiffness;
     normal_damping_ = normal_damping(law, root_mass);

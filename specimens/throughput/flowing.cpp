@@ -6,6 +6,7 @@
 
 #include "specimens/catalogue/lattices.hpp"
 #include "specimens/throughput/timed_test.hpp"
+#include "specimens/throughput/walls.hpp"
 
 namespace crackle::throughput {
 namespace {
@@ -23,16 +24,7 @@ Scene flowing_column(std::int64_t count, bool polygons) {
         const int columns = std::max(3, static_cast<int>(std::lround(std::sqrt(static_cast<double>(count) / 2.0))));
         const int rows = std::max(3, static_cast<int>(count / columns));
         scene = honeycomb(columns, rows, apothem, thick, timed_rock());
-        Domain& domain = scene.domain;
-        domain.x1 = domain.y1 = 1e300;
-        domain.x2 = domain.y2 = -1e300;
-        for (const Vec2& corner : scene.vertices) {
-            domain.x1 = std::min(domain.x1, corner.x - thick);
-            domain.x2 = std::max(domain.x2, corner.x + thick);
-            domain.y1 = std::min(domain.y1, corner.y - thick);
-            domain.y2 = std::max(domain.y2, corner.y + thick);
-        }
-        domain.wall_present = {true, true, true, true};
+        wall_in(scene, thick);
     } else {
         scene = timed_discs(count);
     }

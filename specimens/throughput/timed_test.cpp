@@ -16,6 +16,7 @@
 #include "specimens/observers/test_files.hpp"
 #include "specimens/output_folder.hpp"
 #include "specimens/throughput/machine_limits.hpp"
+#include "specimens/throughput/walls.hpp"
 #include "specimens/virtual_test.hpp"
 
 namespace crackle::throughput {
@@ -81,33 +82,28 @@ Scene timed_discs(std::int64_t count) {
     request.rows = std::max(3, static_cast<int>(std::lround(static_cast<double>(count) / (request.columns - 0.5))));
     Scene scene = disordered_discs(request, timed_rock());
     // Walls that the outermost discs overlap as their neighbours do: platens bond to them.
-    Domain& domain = scene.domain;
-    domain.x1 = domain.y1 = 1e300;
-    domain.x2 = domain.y2 = -1e300;
-    for (const CircleElement& circle : scene.circles) {
-        domain.x1 = std::min(domain.x1, circle.centre.x - circle.radius);
-        domain.x2 = std::max(domain.x2, circle.centre.x + circle.radius);
-        domain.y1 = std::min(domain.y1, circle.centre.y - circle.radius);
-        domain.y2 = std::max(domain.y2, circle.centre.y + circle.radius);
-    }
-    domain.y1 += mean_overlap;
-    domain.y2 -= mean_overlap;
-    domain.wall_present = {true, true, true, true};
+    wall_in(scene, 0.0);
+    scene.domain.y1 += mean_overlap;
+    scene.domain.y2 -= mean_overlap;
     return scene;
 }
 
-TimedTest time_test(const TimedSpecimen& specimen, const fs::path& folder, std::size_t empty_process,
-                    Profile* profile) {
+VirtualTest bond_timed_test(const TimedSpecimen& specimen, const fs::path& folder) {
     fs::create_directories(folder);
     write_particles(folder / "in_gm.dat", specimen.count);
     const fs::path case_path = folder / "case.toml";
     std::ofstream(case_path) << case_text(specimen);
     VirtualTest test = bond_test(read_case(case_path));
-    test.world.profile = profile;
     // A row every so many steps of the length that bonding has found.
     const double strain_a_step = end_strain / (rows_of(specimen) * steps_between_rows);
     change_velocity(test.world, test.setup.top, 1, -strain_a_step * test.setup.height / test.world.time_step);
+    return test;
+}
 
+TimedTest time_test(const TimedSpecimen& specimen, const fs::path& folder, std::size_t empty_process,
+                    Profile* profile) {
+    VirtualTest test = bond_timed_test(specimen, folder);
+    test.world.profile = profile;
     OutputFolder output = OutputFolder::create(folder / "out", true, {});
     TestFiles files(output, "", test.state);
     const auto load_for = [&](double seconds) {

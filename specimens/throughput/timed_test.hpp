@@ -8,6 +8,7 @@
 
 #include "solver/profile.hpp"
 #include "solver/world.hpp"
+#include "specimens/virtual_test.hpp"
 
 namespace crackle::throughput {
 
@@ -33,8 +34,11 @@ Material timed_rock();
 /// Discs on a shaken triangular lattice, about 2.2 contacts a disc, in a box that they touch; ids row by row.
 Scene timed_discs(std::int64_t count);
 
-/// Makes the specimen's particle file and case in `folder`, bonds it, and loads it there until `seconds` have gone:
-/// a curve row at least every 100 steps, and so slowly that nothing breaks.
+/// Makes the specimen's particle file and case in `folder` and bonds it. Loaded there, it has a curve row every 100
+/// steps, more than `seconds` of them on any machine, and nothing breaks.
+VirtualTest bond_timed_test(const TimedSpecimen& specimen, const std::filesystem::path& folder);
+
+/// Loads such a test until `seconds` have gone, with files.
 /// @param empty_process resident bytes of this process before anything was made
 TimedTest time_test(const TimedSpecimen& specimen, const std::filesystem::path& folder, std::size_t empty_process,
                     Profile* profile = nullptr);

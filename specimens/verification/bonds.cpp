@@ -90,8 +90,9 @@ std::vector<ClaimRow> bond_of_vanishing_strength_equals_no_bond() {
 using Pair = std::pair<int, int>;
 std::vector<Pair> bonded_pairs(const World& world) {
     std::vector<Pair> pairs;
-    for (const ContactPoint& point : world.points) {
-        if ((point.flags & point_bonded) == 0) continue;
+    for (PointIndex k = 0; k < world.points.size(); ++k) {
+        if ((world.point_states[k].flags & point_bonded) == 0) continue;
+        const ContactPoint& point = world.points[k];
         pairs.emplace_back(std::minmax(world.info[point.body_i].id, world.info[point.body_j].id));
     }
     std::sort(pairs.begin(), pairs.end());

@@ -39,7 +39,7 @@ Drift shaken_run(Kind kind, double step_share, int steps) {
         worst.momentum = std::max(worst.momentum, momentum_error(start, momentum_of(world)));
     }
     worst.broken = world.bonds_broken;
-    for (const ContactPoint& point : world.points) worst.slid = worst.slid || (point.flags & point_slid) != 0;
+    for (const PointState point : world.point_states) worst.slid = worst.slid || (point.flags & point_slid) != 0;
     return worst;
 }
 
@@ -88,7 +88,7 @@ double force_after_turn(Kind kind, int steps, std::int64_t& broken) {
         world.forces_current = false;
         compute_forces(world);
         for (PointIndex k = 0; k < world.points.size(); ++k) {
-            if ((world.points[k].flags & point_bonded) == 0) continue;
+            if ((world.point_states[k].flags & point_bonded) == 0) continue;
             const PointView view = view_point(world, k);
             worst = std::max({worst, std::abs(view.normal_force), std::abs(view.shear_force)});
         }

@@ -228,7 +228,7 @@ double square_error(Integrator integrator, double step_share, std::uint64_t seed
     for (int n = 0; n < static_cast<int>(10000.0 / step_share); ++n) {
         const double error = energy_now(world) / energy;
         bool free = true;
-        for (const ContactPoint& point : world.points) free = free && (point.flags & point_touching) == 0;
+        for (const PointState point : world.point_states) free = free && (point.flags & point_touching) == 0;
         if (free) last = std::max(last, std::abs(error));
         if (!(last < 100.0)) break;
         advance(world);

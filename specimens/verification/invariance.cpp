@@ -174,8 +174,10 @@ std::set<std::pair<int, int>> roles_of(Scene scene) {
     World world = build_world(std::move(scene));
     bond_all(world, bond_thick);
     std::set<std::pair<int, int>> roles;
-    for (const ContactPoint& point : world.points) {
-        if ((point.flags & point_bonded) != 0) roles.emplace(world.info[point.body_i].id, world.info[point.body_j].id);
+    for (PointIndex k = 0; k < world.points.size(); ++k) {
+        const ContactPoint& point = world.points[k];
+        if ((world.point_states[k].flags & point_bonded) != 0)
+            roles.emplace(world.info[point.body_i].id, world.info[point.body_j].id);
     }
     return roles;
 }

@@ -49,10 +49,10 @@ DiscStress stress_of(const World& world, BodyIndex disc) {
     const double area = 0.5 * std::sqrt(3.0) * spacing * spacing;
     for (std::uint32_t s = world.body_begin[disc]; s < world.body_begin[disc + 1]; ++s) {
         const std::uint32_t slot = world.body_slots[s];
-        const ContactPoint& point = world.points[slot >> 1];
-        const PointForce& force = world.point_forces[slot >> 1];
-        const double sign = (slot & 1) != 0 ? -1.0 : 1.0;
-        const BodyIndex other = (slot & 1) != 0 ? point.body_i : point.body_j;
+        const ContactPoint& point = world.points[point_of_slot(slot)];
+        const PointForce& force = world.point_forces[point_of_slot(slot)];
+        const double sign = side_of_slot(slot) != 0 ? -1.0 : 1.0;
+        const BodyIndex other = side_of_slot(slot) != 0 ? point.body_i : point.body_j;
         const Vec2 arm{world.bodies[other].x - world.bodies[disc].x, world.bodies[other].y - world.bodies[disc].y};
         stress.xx += 0.5 * sign * force.fx * arm.x / area;
         stress.yy += 0.5 * sign * force.fy * arm.y / area;
@@ -101,7 +101,7 @@ FirstBreak pull(const Pull& request) {
         }
         result.lateral = std::max(result.lateral, std::abs(sideways));
         result.unbalanced = std::max(result.unbalanced, norm(stress.net));
-        for (const ContactPoint& point : world.points) result.slid = result.slid || (point.flags & point_slid) != 0;
+        for (const PointState point : world.point_states) result.slid = result.slid || (point.flags & point_slid) != 0;
     }
     return result;
 }

@@ -41,7 +41,8 @@ Account account_before_breaks(Kind kind, double time_step_share) {
     }
     account.error /= work;
     account.intact = world.bonds_broken == 0;
-    for (const ContactPoint& point : world.points) account.intact = account.intact && (point.flags & point_slid) == 0;
+    for (const PointState point : world.point_states)
+        account.intact = account.intact && (point.flags & point_slid) == 0;
     return account;
 }
 

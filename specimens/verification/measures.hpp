@@ -49,9 +49,10 @@ inline double momentum_error(const Momentum& start, const Momentum& now) {
 /// Energy that breaking every bond would take, J: sum of ½ k_n δ0².
 inline double breaking_energy(const World& world) {
     double sum = 0.0;
-    for (const ContactPoint& p : world.points) {
+    for (PointIndex k = 0; k < world.points.size(); ++k) {
+        const PointState& p = world.point_states[k];
         if ((p.flags & point_bonded) != 0)
-            sum += 0.5 * world.laws[p.law].normal_stiffness * p.bond_overlap * p.bond_overlap;
+            sum += 0.5 * world.laws[p.law].normal_stiffness * world.bond_overlaps[k] * world.bond_overlaps[k];
     }
     return sum;
 }

@@ -1,14 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Steps of a small scene for instruction_counts to count. Arguments: scene, steps.
+// Steps of a small scene for instruction_counts to count. Arguments: scene, steps, and how they are done:
+//   step      by the engine, as it does them (if not given)
+//   least     discs alone: forces by the kernels compiled for what the scene has, their sums, kick and drift
+//   friction, dashpots, bonds, ledger   as least, by the kernels compiled for that too
+//   all       by the kernels compiled for all four
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
+#include <map>
 #include <string>
+#include <vector>
 
 #include "solver/world.hpp"
 #include "specimens/catalogue/lattices.hpp"
 #include "specimens/catalogue/materials.hpp"
+#include "specimens/throughput/least_step.hpp"
+#include "specimens/throughput/walls.hpp"
 
 namespace crackle {
 namespace {
@@ -27,9 +36,10 @@ void stir(Scene& scene, double speed) {
     }
 }
 
-World bonded_discs() {
+World bonded_discs(bool ledger) {
     Scene scene = triangular_lattice(18, 18, 0.02, 8e-5, rock(0.2));
     stir(scene, 1e-6);
+    scene.ledger = ledger;
     World world = build_world(scene);
     bond_all(world, 0.0);
     return world;
@@ -51,19 +61,61 @@ World loose_discs() {
     return build_world(scene);
 }
 
+/// Discs that press each other between walls, with normal springs and nothing else.
+World springs_alone() {
+    Material material = rock(0.0);
+    material.friction_angle = 0.0;
+    Scene scene = triangular_lattice(18, 18, 0.02, 8e-5, material);
+    stir(scene, 1e-3);
+    throughput::wall_in(scene, 0.0);
+    scene.ledger = false;
+    return build_world(scene);
+}
+
+const std::map<std::string, World (*)()>& scenes() {
+    static const std::map<std::string, World (*)()> all{{"discs", [] { return bonded_discs(true); }},
+                                                        {"hexagons", bonded_hexagons},
+                                                        {"loose", loose_discs},
+                                                        {"springs", springs_alone},
+                                                        {"unledgered", [] { return bonded_discs(false); }}};
+    return all;
+}
+
+const std::map<std::string, std::vector<bool ContactFeatures::*>>& kernels() {
+    using F = ContactFeatures;
+    static const std::map<std::string, std::vector<bool F::*>> all{
+        {"friction", {&F::friction}},
+        {"dashpots", {&F::damping}},
+        {"bonds", {&F::bonds}},
+        {"ledger", {&F::ledger}},
+        {"all", {&F::friction, &F::damping, &F::bonds, &F::ledger}}};
+    return all;
+}
+
 }  // namespace
 }  // namespace crackle
 
 int main(int count, char** words) {
     using namespace crackle;
-    const std::string scene = count > 1 ? words[1] : "";
+    const std::string scene = count > 1 ? words[1] : "", how = count > 3 ? words[3] : "step";
     const long steps = count > 2 ? std::atol(words[2]) : 0;
-    if (count != 3 || steps < 1 || (scene != "discs" && scene != "hexagons" && scene != "loose")) {
-        std::cerr << "usage: counted_steps discs|hexagons|loose STEPS\n";
+    const bool known = how == "step" || how == "least" || kernels().contains(how);
+    if (count < 3 || count > 4 || steps < 1 || !scenes().contains(scene) || !known) {
+        std::cerr << "usage: counted_steps discs|hexagons|loose|springs|unledgered STEPS [HOW]\n";
         return 2;
     }
-    World world = scene == "discs" ? bonded_discs() : scene == "hexagons" ? bonded_hexagons() : loose_discs();
-    for (long k = 0; k < steps; ++k) step(world);
+    World world = scenes().at(scene)();
+    if (how == "step") {
+        for (long k = 0; k < steps; ++k) step(world);
+    } else {
+        step(world);  // the least step is none to begin with
+        ContactFeatures features = features_of(world);
+        if (kernels().contains(how)) {
+            for (bool ContactFeatures::*const feature : kernels().at(how)) features.*feature = true;
+            throughput::make_room_for(world, features);
+        }
+        for (long k = 0; k < steps; ++k) throughput::least_step(world, features);
+    }
     std::cout << world.bodies.size() << '\n';
     return 0;
 }

@@ -18,8 +18,9 @@ class BenchCommand : public testing::ProgramCall {
 };
 
 TEST_F(BenchCommand, RefusesStudiesAndClaimsItDoesNotKnow) {
-    expect_refused("", "found no study, expected one of accuracy, guide, stress, throughput, verify");
-    expect_refused("verfy", "found study 'verfy', expected one of accuracy, guide, stress, throughput, verify");
+    expect_refused("", "found no study, expected one of accuracy, features, guide, stress, throughput, verify");
+    expect_refused("verfy",
+                   "found study 'verfy', expected one of accuracy, features, guide, stress, throughput, verify");
     expect_refused("verify --only no_such_claim", "found no claim 'no_such_claim'");
     expect_refused("verify --only two_discs_stacked_between_walls -o nowhere/page.md", "nowhere/page.md");
     expect_refused("verify --no-such-option", "no-such-option");
@@ -45,6 +46,36 @@ TEST_F(BenchCommand, ThroughputWritesATableOfEveryKindOfScene) {
     EXPECT_FALSE(exists("rates/scratch"));
     for (const char* row : {"| circles | 305 | 1 |", "| voronoi | 305 | 1 |", "| delaunay | 671 | 1 |"})
         EXPECT_NE(answer.out.find(row), std::string::npos) << row << '\n' << answer.out;
+}
+
+TEST_F(BenchCommand, FeaturesWritesBothTablesAndItsPicture) {
+    expect_refused("features --count 3", "--count: found 3, expected 100 to 1000000");
+    expect_refused("features --pairs 5", "--pairs: found 5, expected 6 to 1000");
+    expect_refused("features --seconds 0", "--seconds: found 0");
+    EXPECT_EQ(call("features --help").code, 0);
+    const testing::Answer answer = call("features --quick --count 100 --seconds 0.001 -o costs");
+    ASSERT_EQ(answer.code, 0) << answer.err;
+    EXPECT_EQ(answer.out, read("costs/features.md"));
+    EXPECT_FALSE(exists("costs/scratch"));
+    for (const char* part :
+         {"Made by `crackle bench features --quick --count 100", "Medians of 6 pairs",
+          "| discs | normal springs | the same again |", "| discs | clumps of two | energy ledger |",
+          "| hexagons | consistent integrator | friction |", "| voronoi | curve, events, frames of a test | its steps",
+          "| discs | bonds | dispatched | kernel compiled without it |", "| hexagons | bonds | forced |",
+          "| discs | gravity, turning, controls, profile, threads, losses, breaks, list | dispatched | least step of "
+          "springs |"})
+        EXPECT_NE(answer.out.find(part), std::string::npos) << part << '\n' << answer.out;
+    std::istringstream lines(read("costs/features.csv"));
+    std::string line;
+    int rows = 0;
+    while (std::getline(lines, line)) {
+        if (line.starts_with('#') || line.starts_with("kind,")) continue;
+        ++rows;
+    }
+    EXPECT_EQ(rows, 42);
+    if (answer.err.find("found no gnuplot") == std::string::npos) {
+        EXPECT_NE(read("costs/features.svg").find("<svg"), std::string::npos) << answer.err;
+    }
 }
 
 TEST_F(BenchCommand, AccuracyWritesATableAndItsPicture) {

@@ -117,7 +117,8 @@ TEST(Records, HaveTheSizesTheyAreLaidOutFor) {
     EXPECT_EQ(sizeof(BodyState), 64u);
     EXPECT_EQ(alignof(BodyState), 64u);
     EXPECT_EQ(sizeof(BodyInertia), 32u);
-    EXPECT_EQ(sizeof(ContactPoint), 48u);
+    EXPECT_EQ(sizeof(ContactPoint), 16u);
+    EXPECT_EQ(sizeof(PointState), 4u);
     EXPECT_EQ(sizeof(PointForce), 32u);
     EXPECT_EQ(sizeof(BodyForce), 24u);
     EXPECT_EQ(sizeof(OpeningMemory), 32u);

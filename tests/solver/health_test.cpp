@@ -153,7 +153,7 @@ TEST(Health, RunawayEnergyStopsTheRun) {
     world.automatic_step = false;
     world.time_step =
         1.3 * world.step_bound;  // past what build_world would let through, and no point left to notice it
-    for (ContactPoint& point : world.points) point.flags |= point_counted;
+    for (PointState& point : world.point_states) point.flags |= point_counted;
     testing::shake(world, 1e-4 * testing::breaking_energy(world), 2);
     std::string cause;
     for (int n = 0; n < 2000 && cause.empty(); ++n) {
@@ -331,8 +331,8 @@ TEST(Health, RoundingAtRestIsNoRunaway) {
     scene.domain.wall_present = {false, false, false, false};
     World world = build_world(scene);
     bond_all(world, 0.0);
-    for (ContactPoint& point : world.points)
-        point.bond_overlap = std::nextafter(point.bond_overlap, 1.0);  // as a text file may give it back
+    for (double& overlap : world.bond_overlaps)
+        overlap = std::nextafter(overlap, 1.0);  // as a text file may give it back
     double largest = 0.0;
     for (int n = 0; n < 20000; ++n) {
         compute_forces(world);

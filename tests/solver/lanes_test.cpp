@@ -37,5 +37,25 @@ TEST(LANES_SUITE, SignsAndRoots) {
     EXPECT_EQ(mask_of(mixed < 0.0), 2u);
 }
 
+TEST(LANES_SUITE, WordsWidenWithoutTheirNeighbours) {
+    std::uint32_t words[lane_count + 1];
+    for (int l = 0; l <= lane_count; ++l) words[l] = 0xfffffff0u + static_cast<std::uint32_t>(l);
+    const LaneBits wide = widened(words);
+    for (int l = 0; l < lane_count; ++l)
+        EXPECT_EQ(static_cast<std::uint64_t>(wide[l]), 0xfffffff0u + static_cast<unsigned>(l));
+}
+
+TEST(LANES_SUITE, OneBitOfTheLastLaneIsSomething) {
+    LaneBits v{};
+    EXPECT_TRUE(none_of(v));
+    for (const int lane : {0, lane_count - 1}) {
+        for (const LaneBit bit : {LaneBit{1}, LaneBit{1} << 40, sign_bit}) {
+            v = LaneBits{};
+            v[lane] = bit;
+            EXPECT_FALSE(none_of(v)) << "lane " << lane << ", " << bit;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace crackle

@@ -144,6 +144,35 @@ TEST(NeighbourList, MissesNoTouchingPointOfAnyMixtureOfSizes) {
     }
 }
 
+/// Bodies are taken by their number of slots, many (platens), few or none, and by several threads.
+TEST(NeighbourList, EveryBodyAddsUpItsPointsInTheirOrder) {
+    for (const int threads : {1, 3}) {
+        World world = build_world(mixture(5));
+        set_threads(world, threads);
+        for (int n = 0; n < 20; ++n) step(world);
+        compute_forces(world);
+        std::vector<BodyForce> sums(world.bodies.size(), BodyForce{0.0, 0.0, 0.0});
+        std::set<std::uint32_t> numbers_of_slots;
+        const PointIndex walls = world.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
+        for (PointIndex k = 0; k < world.points.size(); ++k) {
+            const PointForce& force = world.point_forces[k];
+            BodyForce& on_i = sums[world.points[k].body_i];
+            on_i = {on_i.fx + force.fx, on_i.fy + force.fy, on_i.torque + force.torque_i};
+            if (k >= walls) continue;
+            BodyForce& on_j = sums[world.points[k].body_j];
+            on_j = {on_j.fx - force.fx, on_j.fy - force.fy, on_j.torque + force.torque_j};
+        }
+        for (std::size_t b = 0; b < sums.size(); ++b) {
+            EXPECT_EQ(world.forces[b].fx, sums[b].fx) << b;
+            EXPECT_EQ(world.forces[b].fy, sums[b].fy) << b;
+            EXPECT_EQ(world.forces[b].torque, sums[b].torque) << b;
+            numbers_of_slots.insert(world.body_begin[b + 1] - world.body_begin[b]);
+        }
+        EXPECT_TRUE(numbers_of_slots.contains(0));
+        EXPECT_GE(numbers_of_slots.size(), 8U);
+    }
+}
+
 TEST(NeighbourList, MissesNoTouchingPointInMotionBetweenRebuilds) {
     for (const double skin : {0.02, 0.1, 0.3}) {
         Scene scene = mixture(20);
@@ -231,10 +260,12 @@ TEST(NeighbourList, RebuildKeepsSpringsBondsAndFlags) {
     using Memory = std::tuple<double, double, std::uint16_t>;
     const auto memory = [](const World& w) {
         std::map<std::pair<int, int>, Memory> result;
-        for (const ContactPoint& p : w.points) {
-            const auto flags = static_cast<std::uint16_t>(p.flags & ~point_counted);  // a rebuild counts anew
-            if (p.shear_force == 0.0 && flags == 0) continue;
-            result[{w.info[p.body_i].id, w.info[p.body_j].id}] = {p.shear_force, p.bond_overlap, flags};
+        for (PointIndex k = 0; k < w.points.size(); ++k) {
+            const ContactPoint& p = w.points[k];
+            const auto flags =
+                static_cast<std::uint16_t>(w.point_states[k].flags & ~point_counted);  // a rebuild counts anew
+            if (w.shear_forces[k] == 0.0 && flags == 0) continue;
+            result[{w.info[p.body_i].id, w.info[p.body_j].id}] = {w.shear_forces[k], w.bond_overlaps[k], flags};
         }
         return result;
     };
@@ -264,8 +295,8 @@ World bonded_pair(bool squares, const IntactOptions& intact, double speed = 0.0)
 }
 
 std::int64_t bonds_held(const World& world) {
-    return std::count_if(world.points.begin(), world.points.end(),
-                         [](const ContactPoint& p) { return (p.flags & point_bonded) != 0; });
+    return std::count_if(world.point_states.begin(), world.point_states.end(),
+                         [](const PointState& p) { return (p.flags & point_bonded) != 0; });
 }
 
 TEST(NeighbourList, IntactBondsHoldAtAnyOpening) {
@@ -299,9 +330,10 @@ TEST(NeighbourList, IntactBondsOfAWholeSpecimenKeepTheirOrderWhenItIsBlownUp) {
     ASSERT_GT(bond_all(world, 0.0), 60);
     const auto bonds = [&] {
         std::vector<std::pair<std::uint64_t, double>> all;
-        for (const ContactPoint& p : world.points) {
-            if ((p.flags & point_bonded) == 0) continue;
-            all.emplace_back((static_cast<std::uint64_t>(p.body_i) << 32) | p.body_j, p.bond_overlap);
+        for (PointIndex k = 0; k < world.points.size(); ++k) {
+            if ((world.point_states[k].flags & point_bonded) == 0) continue;
+            const ContactPoint& p = world.points[k];
+            all.emplace_back((static_cast<std::uint64_t>(p.body_i) << 32) | p.body_j, world.bond_overlaps[k]);
         }
         return all;
     };

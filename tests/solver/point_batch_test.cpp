@@ -49,6 +49,13 @@ bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
     return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
+/// Of all points, whatever their laws are numbered.
+std::vector<std::uint16_t> flags_of(const World& world) {
+    std::vector<std::uint16_t> flags;
+    for (const PointState& state : world.point_states) flags.push_back(state.flags);
+    return flags;
+}
+
 void expect_the_same(const Trial& trial, int steps, bool breaks) {
     World together = made(trial, false), apart = made(trial, true);
     for (int n = 0; n < steps; ++n) {
@@ -59,6 +66,8 @@ void expect_the_same(const Trial& trial, int steps, bool breaks) {
     compute_forces(apart);
     EXPECT_TRUE(same_bytes(together.bodies, apart.bodies));
     EXPECT_TRUE(same_bytes(together.point_forces, apart.point_forces));
+    EXPECT_TRUE(same_bytes(together.shear_forces, apart.shear_forces));
+    EXPECT_TRUE(same_bytes(flags_of(together), flags_of(apart)));
     EXPECT_TRUE(same_bytes(together.normal_dashpot, apart.normal_dashpot));
     EXPECT_TRUE(same_bytes(together.shear_dashpot, apart.shear_dashpot));
     EXPECT_TRUE(same_bytes(together.strong_normal, apart.strong_normal));

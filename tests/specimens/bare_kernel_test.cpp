@@ -36,7 +36,7 @@ double largest_difference(const World& world, const BareKernel& bare, double& sc
     for (const BareKernel::Contact& contact : bare.contacts()) {
         const PointIndex k = points.at({contact.i, contact.j});
         const PointForce& engine = world.point_forces[k];
-        sliding += (world.points[k].flags & point_sliding) != 0 ? 1 : 0;
+        sliding += (world.point_states[k].flags & point_sliding) != 0 ? 1 : 0;
         scale = std::max(scale, std::hypot(engine.fx, engine.fy));
         largest = std::max({largest, std::abs(engine.fx - contact.force.fx), std::abs(engine.fy - contact.force.fy),
                             std::abs(engine.torque_i - contact.force.torque_i) / radius,

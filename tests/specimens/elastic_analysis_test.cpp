@@ -61,7 +61,7 @@ TEST_F(ElasticAnalysisOf, FirstSlipAndBreakAreWhereARunHasThem) {
     ASSERT_TRUE(a.first_slip && a.first_break);
     EXPECT_LE(a.first_slip->strain, a.first_break->strain);
     const LinearBond& bond = a.bonds[a.first_slip->bond];
-    const auto slid = [&](PointIndex k) { return (test.world.points[k].flags & point_slid) != 0; };
+    const auto slid = [&](PointIndex k) { return (test.world.point_states[k].flags & point_slid) != 0; };
     PointIndex found = 0;
     while (test.setup.axial_strain(test.world) < 2.0 * a.first_slip->strain) {
         step(test.world);

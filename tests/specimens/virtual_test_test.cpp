@@ -43,7 +43,7 @@ TEST_F(VirtualRock, CirclesOverlapTheirPlatensByWhatTheyOverlappedTheWalls) {
     double worst = 0.0;
     for (PointIndex k = 0; k < test.world.points.size(); ++k) {
         const ContactPoint& point = test.world.points[k];
-        if ((point.flags & point_bonded) == 0) continue;
+        if ((test.world.point_states[k].flags & point_bonded) == 0) continue;
         const bool top = point.body_j == test.setup.top;
         if (!top && point.body_j != test.setup.bottom) continue;
         ++platen_bonds;
@@ -53,7 +53,7 @@ TEST_F(VirtualRock, CirclesOverlapTheirPlatensByWhatTheyOverlappedTheWalls) {
         ASSERT_NE(body, packed.bodies.end()) << id;
         const double y = packed.circles[body->first_circle].centre.y;
         const double to_wall = testing::rock_radius - (top ? packed.domain.y2 - y : y - packed.domain.y1);
-        worst = std::max(worst, std::abs(point.bond_overlap - to_wall));
+        worst = std::max(worst, std::abs(test.world.bond_overlaps[k] - to_wall));
     }
     EXPECT_EQ(platen_bonds, 6 + 5) << "the lowest row has six discs, the highest five";
     EXPECT_TRUE(within("largest difference of the overlaps, m", worst, 0.0, 1e-15));
@@ -66,13 +66,14 @@ TEST_F(VirtualRock, PolygonsStandAsFarFromTheirPlatensAsFromEachOther) {
         const VirtualTest test = prepare(wanted);
         double low = 1.0, high = 0.0;
         int platen_bonds = 0;
-        for (const ContactPoint& point : test.world.points) {
-            if ((point.flags & point_bonded) == 0 ||
+        for (PointIndex k = 0; k < test.world.points.size(); ++k) {
+            const ContactPoint& point = test.world.points[k];
+            if ((test.world.point_states[k].flags & point_bonded) == 0 ||
                 (point.body_j != test.setup.top && point.body_j != test.setup.bottom))
                 continue;
             ++platen_bonds;
-            low = std::min(low, point.bond_overlap);
-            high = std::max(high, point.bond_overlap);
+            low = std::min(low, test.world.bond_overlaps[k]);
+            high = std::max(high, test.world.bond_overlaps[k]);
         }
         fmt::print("  {}: {} platen bonds\n", kind, platen_bonds);
         EXPECT_GE(platen_bonds, 20);

@@ -7,11 +7,11 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <numbers>
 #include <random>
 
 #include "solver/vec2.hpp"
-#include "specimens/observers/vtk_polydata.hpp"
+#include "specimens/observers/frame_painter.hpp"
+#include "tests/support/vtp_data.hpp"
 
 namespace crackle::testing {
 namespace {
@@ -194,14 +194,14 @@ std::string particles_text(const SampleTest& test, const std::vector<Particle>& 
     VtpData data;
     CellArray id{"id", 1, {}, {}}, radius{"radius", 1, {}, {}}, angle{"angle", 1, {}, {}};
     const auto describe = [&](std::size_t number, double r, double turn) {
-        id.integer.push_back(static_cast<std::int64_t>(number));
+        id.integer.push_back(static_cast<std::int32_t>(number));
         radius.real.push_back(r);
         angle.real.push_back(turn);
     };
     const double sense = test.kind == "tension" ? 1.0 : -1.0;
     for (const bool top : {false, true}) {
         const double y = top ? height * (1.0 + sense * strain) : 0.0;
-        data.add_line({{-0.1 * width, y}, {1.1 * width, y}});
+        data.lines.push_back({{-0.1 * width, y}, {1.1 * width, y}});
         describe(particles.size() + (top ? 2 : 1), 0.0, 0.0);
     }
     for (std::size_t k = 0; k < particles.size(); ++k) {
@@ -210,12 +210,10 @@ std::string particles_text(const SampleTest& test, const std::vector<Particle>& 
         std::vector<Vec2> outline = particle.outline;
         if (particle.radius > 0.0) {
             outline.clear();
-            for (int c = 0; c < 24; ++c) {
-                const double a = 2.0 * std::numbers::pi * c / 24.0;
-                outline.push_back(particle.centre + particle.radius * Vec2{std::cos(a), std::sin(a)});
-            }
+            for (const Vec2 corner : unit_circle_outline(24))
+                outline.push_back(particle.centre + particle.radius * corner);
         }
-        data.add_polygon(moved(outline, particle.centre, motion, particle.radius > 0.0 ? 0.0 : 0.03));
+        data.polygons.push_back(moved(outline, particle.centre, motion, particle.radius > 0.0 ? 0.0 : 0.03));
         describe(k + 1, particle.radius, motion.turn);
     }
     data.cell_arrays = {id, radius, angle};

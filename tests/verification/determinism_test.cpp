@@ -56,8 +56,9 @@ TEST(Events, AreTheDifferenceOfTheBondSets) {
                         bursting_cells(10, 10, 5.0, 0.2, SegmentLaw::demseg)}) {
         const auto bonds = [](const World& w) {
             std::map<std::pair<int, int>, int> count;
-            for (const ContactPoint& p : w.points) {
-                if ((p.flags & point_bonded) == 0) continue;
+            for (PointIndex k = 0; k < w.points.size(); ++k) {
+                if ((w.point_states[k].flags & point_bonded) == 0) continue;
+                const ContactPoint& p = w.points[k];
                 const int a = w.info[p.body_i].id, b = w.info[p.body_j].id;
                 ++count[{std::min(a, b), std::max(a, b)}];
             }
