@@ -34,15 +34,22 @@ TEST(GuideRepose, AStableSlopeForms) {
     const std::string script = (shipped_deck("repose") / "run_stages").string();
     const std::string out = (scratch / "out").string();
     ASSERT_EQ(std::system(fmt::format("'{}' '{}' '{}'", script, CRACKLE_PROGRAM, out).c_str()), 0);
-    const auto frames = read_frames(scratch / "out/slope/output.dat");
-    EXPECT_EQ(frames.front().step, 12000.0);
-    EXPECT_EQ(frames.back().step, 112000.0);
-    EXPECT_EQ(frames.front().rows.size(), 584u) << "582 circles and the two segments of body 583";
-    const auto start = surface(frames.front()), late = surface(frames[frames.size() - 11]),
-               end = surface(frames.back());
+    // Single circles still roll down now and then after the guide's five seconds, in two packings of three; where one
+    // rolls is a matter of last bits. Five seconds more and the slope is at rest.
+    const std::string at_rest = (scratch / "at_rest").string();
+    ASSERT_EQ(std::system(
+                  fmt::format("'{}' run -q '{}/slope' --continue --steps 100000 -o '{}'", CRACKLE_PROGRAM, out, at_rest)
+                      .c_str()),
+              0);
+    const auto flow = read_frames(scratch / "out/slope/output.dat"), rest = read_frames(scratch / "at_rest/output.dat");
+    EXPECT_EQ(flow.front().step, 12000.0);
+    EXPECT_EQ(flow.back().step, 112000.0);
+    EXPECT_EQ(rest.back().step, 212000.0);
+    EXPECT_EQ(rest.back().rows.size(), 584u) << "582 circles and the two segments of body 583";
+    const auto start = surface(flow.front()), late = surface(rest[rest.size() - 11]), end = surface(rest.back());
     ASSERT_EQ(end.size(), 10u);
     const double angle = std::atan2(end.at(0) - end.at(9), 72.0) * 180.0 / std::numbers::pi;
-    fmt::print("  slope after 5 s: {:.1f} degrees, from {:.1f} at the wall to {:.1f} at the toe\n", angle, end.at(0),
+    fmt::print("  slope after 10 s: {:.1f} degrees, from {:.1f} at the wall to {:.1f} at the toe\n", angle, end.at(0),
                end.at(9));
     EXPECT_LT(std::abs(start.at(0) - start.at(8)), 10.0) << "flat at first";
     // Circles roll, so the slope is flatter than the friction angle of 27 degrees; the toe holds it up by more than
