@@ -7,14 +7,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "mesher/partition.hpp"
 
 namespace crackle {
 namespace {
 
-constexpr double eps = std::numeric_limits<double>::epsilon();
 // Edges below this share of the perimeter are dropped from an inset: they are corners to any force, and far above
 // rounding.
 constexpr double shortest_share = 1e-12;

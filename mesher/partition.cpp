@@ -58,7 +58,6 @@ using VertexHandle = Triangulation::Vertex_handle;
 using FaceHandle = Triangulation::Face_handle;
 
 constexpr std::array<std::uint8_t, 4> all_sides{side_left, side_right, side_bottom, side_top};
-constexpr double eps = std::numeric_limits<double>::epsilon();
 // Edges shorter than this share of their circumradius are taken for the zero-length edges of co-circular seeds: the
 // rounding of a circumcentre is some eps of the radius, and 1e-10 leaves room for badly shaped triangles.
 constexpr double zero_edge_share = 1e-10;

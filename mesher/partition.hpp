@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -53,6 +54,9 @@ inline unsigned sides_at(Point p, const Rectangle& domain) {
 
 /// Bits of the sides on which the polygon has an edge.
 std::uint8_t sides_of(std::span<const Point> polygon, const Rectangle& domain);
+
+/// Of one rounding, relative.
+constexpr double eps = std::numeric_limits<double>::epsilon();
 
 /// Largest coordinate of the domain: rounding errors of positions are a few eps of it.
 double coordinate_scale(const Rectangle& domain);

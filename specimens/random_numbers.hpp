@@ -13,6 +13,11 @@ namespace crackle {
 /// Uniform in [0, 1), 53 bits.
 inline double uniform_number(std::mt19937_64& generator) { return static_cast<double>(generator() >> 11) * 0x1.0p-53; }
 
+/// Uniform in [low, high).
+inline double uniform_number(std::mt19937_64& generator, double low, double high) {
+    return low + (high - low) * uniform_number(generator);
+}
+
 /// Uniform in {0, …, bound - 1}, without bias; bound > 0.
 inline std::uint64_t uniform_below(std::mt19937_64& generator, std::uint64_t bound) {
     const std::uint64_t excess = (0 - bound) % bound;  // 2^64 mod bound: values below it would favour small results

@@ -7,7 +7,6 @@
 #include <boost/program_options.hpp>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -16,6 +15,7 @@
 #include "specimens/accuracy/accuracy.hpp"
 #include "tools/bench.hpp"
 #include "tools/gnuplot.hpp"
+#include "tools/write_file.hpp"
 
 namespace crackle::tools {
 namespace {
@@ -25,20 +25,12 @@ namespace po = boost::program_options;
 using accuracy::AccuracyRow;
 using accuracy::AccuracyStudy;
 
-constexpr const char* examples = R"(
+constexpr const char* accuracy_examples = R"(
 examples:
   crackle bench accuracy -o accuracy             minutes; leaves accuracy.csv, .gp, .svg and .png there
   crackle bench accuracy -o accuracy --quick     seconds, with fewer and shorter runs
   crackle bench accuracy --only bounce_energy
 )";
-
-void write(const fs::path& path, const std::string& text) {
-    std::ofstream out(path, std::ios::binary);
-    out << text;
-    out.close();
-    if (!out)
-        throw InputError(fmt::format("{}: cannot be written, expected a path that can; check its disc", path.string()));
-}
 
 std::string table_of(const std::vector<AccuracyRow>& rows, const std::string& command) {
     std::string text = fmt::format(
@@ -149,7 +141,7 @@ int bench_accuracy(const Arguments& arguments) {
     if (given.contains("help")) {
         std::cout << "usage: crackle bench accuracy [OPTIONS]\n\nWhat an error costs in processor time, over time step "
                      "and loading rate, for each contact law and integrator.\n\n"
-                  << options << examples;
+                  << options << accuracy_examples;
         return exit_done;
     }
     const auto only =
@@ -165,15 +157,15 @@ int bench_accuracy(const Arguments& arguments) {
     std::string command = "crackle bench accuracy";
     if (quick) command += " --quick";
     for (const std::string& name : only) command += " --only " + name;
-    write(folder / "accuracy.csv", table_of({}, command));  // before minutes are spent on what cannot be written
+    write_file(folder / "accuracy.csv", table_of({}, command));  // before minutes are spent on what cannot be written
     std::vector<AccuracyRow> rows;
     for (const AccuracyStudy* study : studies) {
         const std::vector<AccuracyRow> more = study->run(quick);
         rows.insert(rows.end(), more.begin(), more.end());
         fmt::print(stderr, "{:<20} {} runs\n", study->name, more.size());
-        write(folder / "accuracy.csv", table_of(rows, command));
+        write_file(folder / "accuracy.csv", table_of(rows, command));
     }
-    write(folder / "accuracy.gp", script_of(studies, rows));
+    write_file(folder / "accuracy.gp", script_of(studies, rows));
     const std::string problem = draw_with_gnuplot(folder / "accuracy.gp");
     if (!problem.empty())
         fmt::print(stderr, "crackle: {}. accuracy.csv is complete; draw it later with gnuplot accuracy.gp\n", problem);

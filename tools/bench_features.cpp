@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -18,6 +17,7 @@
 #include "specimens/throughput/machine_limits.hpp"
 #include "tools/bench.hpp"
 #include "tools/gnuplot.hpp"
+#include "tools/write_file.hpp"
 
 namespace crackle::tools {
 namespace {
@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 namespace po = boost::program_options;
 using namespace throughput;
 
-constexpr const char* examples = R"(
+constexpr const char* features_examples = R"(
 examples:
   crackle bench features --quick                         seconds: 300 bodies, short runs
   crackle bench features -o out/features                 minutes: features.md, .csv, .svg
@@ -123,13 +123,6 @@ std::string script_of(const std::vector<FeatureRow>& rows) {
         data_of(true), data_of(false));
 }
 
-void write(const fs::path& path, const std::string& text) {
-    std::ofstream out(path, std::ios::binary);
-    out << text;
-    out.close();
-    if (!out) throw InputError(fmt::format("{}: cannot be written, expected a path that can", path.string()));
-}
-
 FeatureStudy study_of(const po::variables_map& given) {
     const bool quick = given.contains("quick");
     FeatureStudy study;
@@ -162,7 +155,7 @@ int bench_features(const Arguments& arguments) {
     if (given.contains("help")) {
         std::cout << "usage: crackle bench features [OPTIONS]\n\nNanoseconds a contact and step with one feature added "
                      "after the other, and what is left of features that a scene lacks.\n\n"
-                  << options << examples;
+                  << options << features_examples;
         return exit_done;
     }
     FeatureStudy study = study_of(given);
@@ -180,11 +173,11 @@ int bench_features(const Arguments& arguments) {
         rows.push_back(row);
         fmt::print(stderr, "{:<11}{:<9}{:<46}{:>8.2f} ns, {} times {}\n", name_of(row.kind), row.bodies, row.feature,
                    1e9 * row.contact_seconds, interval(row.ratio, 1.0, "{:.3f}"), row.beside);
-        write(folder / "features.md", page_of(command, study, rows));
-        write(folder / "features.csv", table_of(command, rows));
+        write_file(folder / "features.md", page_of(command, study, rows));
+        write_file(folder / "features.csv", table_of(command, rows));
     });
     fs::remove_all(study.scratch, failed);
-    write(folder / "features.gp", script_of(rows));
+    write_file(folder / "features.gp", script_of(rows));
     const std::string problem = draw_with_gnuplot(folder / "features.gp");
     if (!problem.empty()) fmt::print(stderr, "crackle: {}. features.csv is complete\n", problem);
     std::cout << page_of(command, study, rows);

@@ -11,7 +11,6 @@
 #include <chrono>
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -20,6 +19,7 @@
 #include "specimens/studies/guide_experiments.hpp"
 #include "specimens/studies/guide_page.hpp"
 #include "tools/bench.hpp"
+#include "tools/write_file.hpp"
 
 namespace crackle::tools {
 namespace {
@@ -36,7 +36,7 @@ static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler")
 
 extern "C" void ask_guide_to_stop(int) { stop_asked = true; }
 
-constexpr const char* examples = R"(
+constexpr const char* guide_examples = R"(
 DIR gets guide.md, guide.csv and cache/, a file a test: the same command goes on where a stopped one was, and a larger
 one takes what is there. After a change of the engine, remove cache/.
 
@@ -190,14 +190,6 @@ std::vector<GuideTest> tests_of(const Plan& plan) {
     return list.take();
 }
 
-void write_file(const fs::path& file, const std::string& text) {
-    std::ofstream out(file, std::ios::binary);
-    out << text;
-    out.close();
-    if (!out)
-        throw InputError(fmt::format("{}: cannot be written, expected a file that can; check its disc", file.string()));
-}
-
 /// The command without what does not change its numbers.
 std::string command_of(const po::variables_map& given, const Plan& plan) {
     std::string text = "crackle bench guide";
@@ -247,7 +239,7 @@ int bench_guide(const Arguments& arguments) {
             << "usage: crackle bench guide [OPTIONS]\n\nTests the guide's rock on many packings and shows each of "
                "the guide's numbers beside mean and standard deviation of ours, with a verdict and, for each row "
                "outside, the experiments that move it.\n\n"
-            << options << examples;
+            << options << guide_examples;
         return exit_done;
     }
     const Plan plan = plan_of(given);

@@ -19,7 +19,7 @@ namespace po = boost::program_options;
 using verification::Endured;
 using verification::StressScene;
 
-constexpr const char* examples = R"(
+constexpr const char* stress_examples = R"(
 examples:
   crackle bench stress
   crackle bench stress --steps 10000
@@ -40,7 +40,7 @@ int bench_stress(const Arguments& arguments) {
         std::cout
             << "usage: crackle bench stress [OPTIONS]\n\nRuns scenes that are hard on the engine and shows by how "
                "much of the energy each account stays open.\n\n"
-            << options << examples;
+            << options << stress_examples;
         return exit_done;
     }
     const auto steps = given["steps"].as<std::int64_t>();

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -23,6 +22,7 @@
 #include "specimens/throughput/timed_test.hpp"
 #include "tools/bench.hpp"
 #include "tools/gnuplot.hpp"
+#include "tools/write_file.hpp"
 
 namespace crackle::tools {
 namespace {
@@ -32,7 +32,7 @@ namespace po = boost::program_options;
 using Clock = std::chrono::steady_clock;
 using namespace throughput;
 
-constexpr const char* examples = R"(
+constexpr const char* throughput_examples = R"(
 examples:
   crackle bench throughput --quick                       seconds: small scenes, half a second each
   crackle bench throughput -o out/throughput             minutes: up to a million circles; throughput.md, .csv, .svg
@@ -192,13 +192,6 @@ std::string script_of(const std::vector<Row>& rows) {
            plots + "\n";
 }
 
-void write(const fs::path& path, const std::string& text) {
-    std::ofstream out(path, std::ios::binary);
-    out << text;
-    out.close();
-    if (!out) throw InputError(fmt::format("{}: cannot be written, expected a path that can", path.string()));
-}
-
 }  // namespace
 
 int bench_throughput(const Arguments& arguments) {
@@ -217,7 +210,7 @@ int bench_throughput(const Arguments& arguments) {
     if (given.contains("help")) {
         std::cout << "usage: crackle bench throughput [OPTIONS]\n\nThe engine's rates over size, threads and kind of "
                      "specimen, beside what a bare kernel and the memory reach in the same run.\n\n"
-                  << options << examples;
+                  << options << throughput_examples;
         return exit_done;
     }
     const bool quick = given.contains("quick");
@@ -255,8 +248,8 @@ int bench_throughput(const Arguments& arguments) {
         rows.push_back(row);
         fmt::print(stderr, "{:<18}{:>9} on {}: {:7.2f} M/s{}\n", row.scene, row.particles, row.threads, 1e-6 * row.rate,
                    row.bare > 0.0 ? fmt::format(", {:.2f} of the bare kernel", row.rate / row.bare) : "");
-        write(settings.folder / "throughput.md", page_of(command, limits, rows));
-        write(settings.folder / "throughput.csv", table_of(command, limits, rows));
+        write_file(settings.folder / "throughput.md", page_of(command, limits, rows));
+        write_file(settings.folder / "throughput.csv", table_of(command, limits, rows));
     };
     for (const std::int64_t count : counts) add(measure_test(settings, "circles", count, 1, true));
     for (const std::int64_t count : counts) {
@@ -273,7 +266,7 @@ int bench_throughput(const Arguments& arguments) {
         }
     }
     fs::remove_all(settings.folder / "scratch", failed);
-    write(settings.folder / "throughput.gp", script_of(rows));
+    write_file(settings.folder / "throughput.gp", script_of(rows));
     const std::string problem = draw_with_gnuplot(settings.folder / "throughput.gp");
     if (!problem.empty()) fmt::print(stderr, "crackle: {}. throughput.csv is complete\n", problem);
     std::cout << page_of(command, limits, rows);

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <boost/program_options.hpp>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "solver/errors.hpp"
 #include "specimens/verification/page.hpp"
 #include "tools/bench.hpp"
+#include "tools/write_file.hpp"
 
 namespace crackle::tools {
 namespace {
@@ -23,7 +23,7 @@ namespace po = boost::program_options;
 using verification::CheckedClaim;
 using verification::Claim;
 
-constexpr const char* examples = R"(
+constexpr const char* verify_examples = R"(
 examples:
   crackle bench verify -o verification.md
   crackle bench verify --only disc_on_a_slope --only catenary
@@ -32,7 +32,7 @@ examples:
 exit codes: 0 all rows hold, 1 a row fails, 2 bad input
 )";
 
-std::vector<Claim> chosen(const std::vector<std::string>& only) {
+std::vector<Claim> chosen_claims(const std::vector<std::string>& only) {
     if (only.empty()) return verification::claims();
     std::vector<Claim> some;
     for (const Claim& claim : verification::claims()) {
@@ -53,14 +53,6 @@ void check_writable(const fs::path& page) {
     if (!fs::is_directory(folder) || fs::is_directory(page)) {
         throw InputError(fmt::format("{}: cannot be written, expected a file in a folder that exists", page.string()));
     }
-}
-
-void write_page(const fs::path& page, const std::string& text) {
-    std::ofstream out(page, std::ios::binary);
-    out << text;
-    out.close();
-    if (!out)
-        throw InputError(fmt::format("{}: cannot be written, expected a path that can; check its disc", page.string()));
 }
 
 /// One line a claim, and each row that fails.
@@ -93,7 +85,7 @@ int bench_verify(const Arguments& arguments) {
     if (given.contains("help")) {
         std::cout << "usage: crackle bench verify [OPTIONS]\n\nChecks every closed form and law that the engine has to "
                      "meet and shows claim, expected, got, error, tolerance, observed order and verdict.\n\n"
-                  << options << examples;
+                  << options << verify_examples;
         return exit_done;
     }
     if (given.contains("list")) {
@@ -102,7 +94,7 @@ int bench_verify(const Arguments& arguments) {
     }
     const auto only =
         given.contains("only") ? given["only"].as<std::vector<std::string>>() : std::vector<std::string>{};
-    const std::vector<Claim> wanted = chosen(only);
+    const std::vector<Claim> wanted = chosen_claims(only);
     const fs::path page = given.contains("output") ? given["output"].as<std::string>() : "";
     if (!page.empty()) check_writable(page);
 
@@ -120,7 +112,7 @@ int bench_verify(const Arguments& arguments) {
     if (page.empty()) {
         std::cout << text;
     } else {
-        write_page(page, text);
+        write_file(page, text);
     }
     return fails ? exit_claim_fails : exit_done;
 }

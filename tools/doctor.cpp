@@ -18,7 +18,7 @@ namespace {
 
 namespace po = boost::program_options;
 
-constexpr const char* examples = R"(
+constexpr const char* doctor_examples = R"(
 examples:
   crackle doctor
 )";
@@ -59,7 +59,7 @@ int doctor(const Arguments& arguments) {
     po::notify(given);
     if (given.contains("help")) {
         std::cout << "usage: crackle doctor\n\nWhat this build is made of and what it can do.\n\n"
-                  << options << examples;
+                  << options << doctor_examples;
         return exit_done;
     }
     line("crackle", build_info::version);

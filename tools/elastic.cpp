@@ -22,7 +22,7 @@ namespace po = boost::program_options;
 using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
 
-constexpr const char* usage =
+constexpr const char* elastic_usage =
     "usage: crackle elastic CASE.toml [OPTIONS]\n\n"
     "Makes and bonds the specimen of CASE.toml with its platens, assembles its sparse stiffness and solves it: "
     "small-strain\n"
@@ -30,7 +30,7 @@ constexpr const char* usage =
     "the\n"
     "exact stable time step, motions without energy. Takes no time step; writes nothing unless asked.\n\n";
 
-constexpr const char* examples =
+constexpr const char* elastic_examples =
     "\nexamples:\n"
     "  crackle elastic specimens/guide_rock/circles_tension.toml\n"
     "  crackle elastic case.toml --json --modes 5\n"
@@ -154,7 +154,7 @@ int elastic(const Arguments& arguments) {
     po::store(po::command_line_parser(arguments).options(all).positional(positional).run(), values);
     po::notify(values);
     if (values.contains("help")) {
-        std::cout << usage << visible << examples;
+        std::cout << elastic_usage << visible << elastic_examples;
         return exit_done;
     }
     if (!values.contains("case"))

@@ -26,19 +26,19 @@ namespace {
 namespace po = boost::program_options;
 namespace fs = std::filesystem;
 
-constexpr const char* usage =
+constexpr const char* mesh_usage =
     "usage: crackle mesh IN --kind delaunay|voronoi --thick T [OPTIONS]\n\n"
     "Makes polygons of the centres of the circles in IN, an in_gm.dat, or of a list of seeds, one x y a line. Each\n"
     "polygon is inset along every edge, so that facing edges stand T apart, and T/2 from the domain's faces. Writes a\n"
     "particle file of polygons (in_gm_tri.dat or in_gm_volo.dat). Lengths in the units of IN.\n\n";
 
-constexpr const char* examples =
+constexpr const char* mesh_examples =
     "\nexamples:\n"
     "  crackle mesh in_gm.dat --kind voronoi --thick 1e-3                      the cells of a packing\n"
     "  crackle mesh in_gm.dat --kind delaunay --thick 1e-3 --boundary seeds    triangles between circles only\n"
     "  crackle mesh seeds.txt --kind voronoi --thick 0 --domain 0 1 0 2        cells of your own seeds, no gaps\n";
 
-po::options_description visible_options() {
+po::options_description mesh_options() {
     const Material usual{2500.0, 1.0e7, 2.5e6, 0.0, 0.0, {}, 27.0};
     po::options_description options("options");
     options.add_options()("help,h", "this text")                                                    //
@@ -239,7 +239,7 @@ void print_report(const Source& source, const Mesh& mesh, const MeshRequest& req
 }  // namespace
 
 int mesh(const Arguments& arguments) {
-    po::options_description all = visible_options();
+    po::options_description all = mesh_options();
     all.add_options()("input", po::value<std::string>(), "");
     po::positional_options_description positional;
     positional.add("input", 1);
@@ -247,7 +247,7 @@ int mesh(const Arguments& arguments) {
     po::store(po::command_line_parser(join_domain(arguments)).options(all).positional(positional).run(), values);
     po::notify(values);
     if (values.contains("help")) {
-        std::cout << usage << visible_options() << examples;
+        std::cout << mesh_usage << mesh_options() << mesh_examples;
         return exit_done;
     }
     if (!values.contains("input")) {

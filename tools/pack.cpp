@@ -21,11 +21,11 @@ namespace {
 
 namespace po = boost::program_options;
 
-constexpr const char* usage =
+constexpr const char* pack_usage =
     "usage: crackle pack (--count N | --width W --height H) SIZES (--mean-overlap D | --void-ratio E) [OPTIONS]\n\n"
     "Packs random circles between four smooth walls to mechanical equilibrium and writes them as an in_gm.dat.\n\n";
 
-constexpr const char* examples =
+constexpr const char* pack_examples =
     "\nexamples:\n"
     "  crackle pack --count 304 --radius-min 1.333e-2 --radius-max 2.667e-2 --mean-overlap 7.74e-5 -o in_gm.dat\n"
     "  crackle pack --width 0.5 --height 1 --radius-min 0.01 --radius-max 0.02 --void-ratio 0.19 --seed 7 -o "
@@ -35,7 +35,7 @@ constexpr const char* examples =
     "      --mean-overlap 2e-5 -o graded.dat\n"
     "  crackle pack --count 500 --sieve curve.csv --mean-overlap 2e-5 -o sieved.dat     (CSV: size,passing_by_mass)\n";
 
-po::options_description visible_options() {
+po::options_description pack_options() {
     const Material usual{2500.0, 1.0e7, 2.5e6, 0.0, 0.0, {}, 27.0};
     po::options_description options("options");
     options.add_options()("help,h", "this text")                                                         //
@@ -88,7 +88,7 @@ SizeDistribution sizes_of(const po::variables_map& values) {
     return UniformRadii{*low, *high};
 }
 
-PackingRequest request_of(const po::variables_map& values) {
+PackingRequest packing_request(const po::variables_map& values) {
     PackingRequest request;
     request.count = optional_value<std::int64_t>(values, "count");
     request.height_to_width = optional_value<double>(values, "height-to-width");
@@ -134,10 +134,10 @@ void print_report(const PackingReport& r, const std::string& output) {
 
 int pack(const Arguments& arguments) {
     po::variables_map values;
-    po::store(po::command_line_parser(arguments).options(visible_options()).positional({}).run(), values);
+    po::store(po::command_line_parser(arguments).options(pack_options()).positional({}).run(), values);
     po::notify(values);
     if (values.contains("help")) {
-        std::cout << usage << visible_options() << examples;
+        std::cout << pack_usage << pack_options() << pack_examples;
         return exit_done;
     }
     const std::string output = values["output"].as<std::string>();
@@ -146,7 +146,7 @@ int pack(const Arguments& arguments) {
         throw InputError(
             fmt::format("--output: found {} there already, expected a new file; add --force to replace it", output));
     }
-    const PackingRequest request = request_of(values);
+    const PackingRequest request = packing_request(values);
     const bool talk = !values.contains("quiet") && isatty(STDERR_FILENO) == 1;
     const Packing packing = make_packing(request, [&](const PackingProgress& p) {
         if (talk) std::cerr << fmt::format("\r{} (attempt {}): imbalance {:.2e}   ", p.stage, p.attempt, p.residual);

@@ -14,7 +14,7 @@ namespace {
 
 namespace po = boost::program_options;
 
-constexpr const char* examples = R"(
+constexpr const char* report_examples = R"(
 examples:
   crackle report out/voronoi-compression
   crackle report out/*-tension out/*-compression -o report.html --title "Six tests of one packing"
@@ -41,7 +41,7 @@ int report(const Arguments& arguments) {
                      "curves with bond\nbreaks beneath, a table of the summaries, each specimen at start, peak and "
                      "end. Opens in any browser,\nneeds no "
                      "network.\n\n"
-                  << options << examples;
+                  << options << report_examples;
         return exit_done;
     }
     if (!given.contains("folder")) {

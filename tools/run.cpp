@@ -25,13 +25,13 @@ static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler")
 
 extern "C" void note_interrupt(int) { interrupted = true; }
 
-constexpr const char* usage =
+constexpr const char* run_usage =
     "usage: crackle run DIR [OPTIONS]\n\n"
     "Runs the DEMseg deck in DIR (in_gm.dat, in_bc.dat; in_cf.dat with jclid 1, in_cf0.dat with jclid 3) and writes\n"
     "output.dat, cont.dat, cont2.dat, energy.dat, f-d_curve.dat, velocity_y.dat, and new_in_gm.dat, new_in_bc.dat,\n"
     "new_in_cf.dat, new_in_cf0.dat and new_state.bin, with which the run can be continued.\n\n";
 
-constexpr const char* examples =
+constexpr const char* run_examples =
     "\nexamples:\n"
     "  crackle run specimens/demseg/circle -o out/circle                the guide's bouncing circle\n"
     "  crackle run specimens/demseg/circle -o out/half --steps 10000    half of it\n"
@@ -73,7 +73,7 @@ class ProgressLine {
     Clock::time_point start_, drawn_;
 };
 
-po::options_description visible_options() {
+po::options_description run_options() {
     po::options_description options("options");
     options.add_options()("help,h", "this text")                                                                   //
         ("output,o", po::value<std::string>(), "folder for the outputs (default: DIR)")                            //
@@ -112,7 +112,7 @@ DeckOptions deck_options(const po::variables_map& values) {
 }  // namespace
 
 int run_deck(const Arguments& arguments) {
-    po::options_description all = visible_options();
+    po::options_description all = run_options();
     all.add_options()("dir", po::value<std::string>(), "");
     po::positional_options_description positional;
     positional.add("dir", 1);
@@ -120,7 +120,7 @@ int run_deck(const Arguments& arguments) {
     po::store(po::command_line_parser(arguments).options(all).positional(positional).run(), values);
     po::notify(values);
     if (values.contains("help")) {
-        std::cout << usage << visible_options() << examples;
+        std::cout << run_usage << run_options() << run_examples;
         return exit_done;
     }
     if (!values.contains("dir"))

@@ -25,7 +25,7 @@ static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler")
 
 extern "C" void ask_test_to_stop(int) { stop_asked = true; }
 
-constexpr const char* usage =
+constexpr const char* test_usage =
     "usage: crackle test CASE.toml -o OUT [OPTIONS]\n"
     "       crackle test --resume OUT [OPTIONS]\n\n"
     "Makes the specimen that CASE.toml describes, bonds it with its platens, loads it until it fails, and writes into "
@@ -33,7 +33,7 @@ constexpr const char* usage =
     "curve.csv, events.csv, summary.json, frames/ (ParaView), checkpoint, and case.toml with every value in the "
     "open.\n\n";
 
-constexpr const char* examples =
+constexpr const char* test_examples =
     "\nexamples:\n"
     "  crackle test specimens/guide_rock/circles_tension.toml -o out/circles-tension\n"
     "  crackle test case.toml -o out/case --threads 2 -q\n"
@@ -42,7 +42,7 @@ constexpr const char* examples =
     "  crackle test --resume out/case           goes on after an interrupt, to the bytes of an uninterrupted test\n"
     "  crackle test --keys                      all keys of a case, with units, defaults and ranges\n";
 
-po::options_description visible_options() {
+po::options_description test_options() {
     po::options_description options("options");
     options.add_options()("help,h", "this text")                                                                 //
         ("output,o", po::value<std::string>(), "folder for the results")                                         //
@@ -153,7 +153,7 @@ int finish(const TestOutcome& outcome, const std::string& wanted, bool quiet) {
 
 int test(const Arguments& arguments) {
     TestOptions options;  // takes the time
-    po::options_description all = visible_options();
+    po::options_description all = test_options();
     all.add_options()("case", po::value<std::string>(), "");
     po::positional_options_description positional;
     positional.add("case", 1);
@@ -161,7 +161,7 @@ int test(const Arguments& arguments) {
     po::store(po::command_line_parser(arguments).options(all).positional(positional).run(), values);
     po::notify(values);
     if (values.contains("help")) {
-        std::cout << usage << visible_options() << examples;
+        std::cout << test_usage << test_options() << test_examples;
         return exit_done;
     }
     if (values.contains("keys")) {

@@ -7,17 +7,11 @@
 #include <random>
 
 #include "solver/errors.hpp"
+#include "specimens/catalogue/open_scene.hpp"
 #include "specimens/random_numbers.hpp"
 
 namespace crackle {
 namespace {
-
-Scene open_scene(const Material& material) {
-    Scene scene;
-    scene.materials = {material};
-    scene.domain.wall_present = {false, false, false, false};
-    return scene;
-}
 
 /// Uniform in [-1, 1).
 double swing(std::mt19937_64& generator) { return 2.0 * uniform_number(generator) - 1.0; }

@@ -4,17 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "specimens/catalogue/open_scene.hpp"
+
 namespace crackle {
-namespace {
-
-Scene open_scene(const Material& material) {
-    Scene scene;
-    scene.materials = {material};
-    scene.domain.wall_present = {false, false, false, false};
-    return scene;
-}
-
-}  // namespace
 
 Scene triangular_lattice(int columns, int rows, double radius, double overlap, const Material& material) {
     Scene scene = open_scene(material);

@@ -11,10 +11,10 @@
 namespace crackle::throughput {
 namespace {
 
-constexpr double gravity = 9.81;  // m/s2
-constexpr double apothem = 0.02;  // m, of hexagons
-constexpr double thick = 1e-3;    // m
-constexpr double runout = 20.0;   // times the column's width: nothing reaches the far wall
+constexpr double gravity = 9.81;          // m/s2
+constexpr double hexagon_apothem = 0.02;  // m, of hexagons
+constexpr double thick = 1e-3;            // m
+constexpr double runout = 20.0;           // times the column's width: nothing reaches the far wall
 
 }  // namespace
 
@@ -23,7 +23,7 @@ Scene flowing_column(std::int64_t count, bool polygons) {
     if (polygons) {
         const int columns = std::max(3, static_cast<int>(std::lround(std::sqrt(static_cast<double>(count) / 2.0))));
         const int rows = std::max(3, static_cast<int>(count / columns));
-        scene = honeycomb(columns, rows, apothem, thick, timed_rock());
+        scene = honeycomb(columns, rows, hexagon_apothem, thick, timed_rock());
         wall_in(scene, thick);
     } else {
         scene = timed_discs(count);

@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr double mean_radius = 0.02, mean_overlap = 8e-5;  // m
-constexpr double gap = 1e-3;                               // m, between polygons
+constexpr double polygon_gap = 1e-3;                       // m, between polygons
 constexpr double height_to_width = 2.0;
 // Of the mean overlap: so much that a quarter of the lattice's bonds is lost.
 constexpr double shake_share = 1.2;
@@ -48,8 +48,8 @@ std::string case_text(const TimedSpecimen& specimen) {
         "max_axial_strain = {}\n[material]\ndamping_ratio = 0.2\n[numerics]\nthreads = {}\n[output]\ncurve_rows = {}\n",
         end_strain, specimen.threads, rows_of(specimen));
     if (specimen.kind != "circles")
-        text += fmt::format("[mesh]\nkind = \"{}\"\nthick = {}\n[bond]\nthick = {}\n", specimen.kind, gap,
-                            gap + mean_overlap);
+        text += fmt::format("[mesh]\nkind = \"{}\"\nthick = {}\n[bond]\nthick = {}\n", specimen.kind, polygon_gap,
+                            polygon_gap + mean_overlap);
     return text;
 }
 

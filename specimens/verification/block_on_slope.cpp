@@ -17,7 +17,6 @@
 namespace crackle::verification {
 namespace {
 
-constexpr const char* group = "One and two bodies";
 constexpr double gravity = 9.81;
 enum class Ground { wall, segment, polygon };
 
@@ -114,6 +113,7 @@ std::vector<ClaimRow> block_topples_past_its_edge() {
 }  // namespace
 
 std::vector<Claim> block_on_slope_claims() {
+    constexpr const char* group = "One and two bodies";
     return {
         {.name = "block_stays_on_a_slope_below_friction",
          .group = group,

@@ -21,8 +21,6 @@
 namespace crackle::verification {
 namespace {
 
-constexpr const char* group = "Bonds";
-
 std::vector<ClaimRow> bond_squeezed_to_ten_times_its_strength_holds() {
     Rows rows;
     Scene scene;
@@ -169,6 +167,7 @@ std::vector<ClaimRow> splitting_a_run_loses_no_break() {
 }  // namespace
 
 std::vector<Claim> bond_claims() {
+    constexpr const char* group = "Bonds";
     return {
         {.name = "bond_squeezed_to_ten_times_its_strength_holds",
          .group = group,

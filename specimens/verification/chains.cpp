@@ -16,7 +16,6 @@
 namespace crackle::verification {
 namespace {
 
-constexpr const char* group = "Chains and lattices";
 constexpr double radius = 0.02, overlap = 8e-5, spacing = 2.0 * radius - overlap, kn = 1e7;
 const DofControl held{Drive::velocity, 0.0};
 
@@ -209,6 +208,7 @@ std::vector<ClaimRow> bonded_chain_pulled_breaks_at_its_back_tension() {
 }  // namespace
 
 std::vector<Claim> chain_claims() {
+    constexpr const char* group = "Chains and lattices";
     return {
         {.name = "chain_waves_have_the_dispersion_of_masses_on_springs",
          .group = group,

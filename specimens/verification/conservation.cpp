@@ -17,8 +17,6 @@
 namespace crackle::verification {
 namespace {
 
-constexpr const char* group = "Conservation and symmetry";
-
 struct Drift {
     double momentum = 0.0, energy = 0.0;  // largest relative errors
     std::int64_t broken = 0;
@@ -190,6 +188,7 @@ std::vector<ClaimRow> frictionless_motion_runs_backwards() {
 }  // namespace
 
 std::vector<Claim> conservation_claims() {
+    constexpr const char* group = "Conservation and symmetry";
     return {
         {.name = "free_bonded_specimen_keeps_momentum_and_energy",
          .group = group,

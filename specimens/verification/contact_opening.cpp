@@ -17,7 +17,6 @@
 namespace crackle::verification {
 namespace {
 
-constexpr const char* group = "Contacts that open and close";
 constexpr double radius = 0.02, density = 2500.0, kn = 1e5, gravity = 9.81;
 constexpr double mass = density * std::numbers::pi * radius * radius;
 
@@ -309,6 +308,7 @@ std::vector<ClaimRow> oblique_sliding_rebound_has_the_closed_form() {
 }  // namespace
 
 std::vector<Claim> contact_opening_claims() {
+    constexpr const char* group = "Contacts that open and close";
     return {
         {.name = "bouncing_disc_keeps_its_energy",
          .group = group,

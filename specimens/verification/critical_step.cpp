@@ -21,7 +21,6 @@
 namespace crackle::verification {
 namespace {
 
-constexpr const char* group = "Critical step";
 constexpr double radius = 0.02, overlap = 8e-5, kn = 1e7;
 constexpr double lever = 1.0 - overlap / (2.0 * radius);  // of a contact's shear spring, over the radius
 
@@ -135,6 +134,7 @@ std::vector<ClaimRow> one_disc_among_held_neighbours_overestimates() {
 }  // namespace
 
 std::vector<Claim> critical_step_claims() {
+    constexpr const char* group = "Critical step";
     return {
         {.name = "critical_step_of_a_spring_and_dashpot",
          .group = group,

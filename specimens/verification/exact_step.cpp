@@ -25,8 +25,6 @@
 namespace crackle::verification {
 namespace {
 
-constexpr const char* group = "Critical step";
-
 /// Bonds hold whatever the finite differences move.
 World bonded(Scene scene, double thick) {
     scene.intact = {true, true, true};
@@ -192,6 +190,7 @@ std::vector<ClaimRow> bound_under_the_guides_law_lies_below_the_limit_of_its_uns
 }  // namespace
 
 std::vector<Claim> exact_step_claims() {
+    constexpr const char* group = "Critical step";
     return {
         {.name = "exact_step_is_that_of_a_dense_matrix",
          .group = group,

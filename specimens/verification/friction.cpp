@@ -15,7 +15,6 @@
 namespace crackle::verification {
 namespace {
 
-constexpr const char* group = "One and two bodies";
 constexpr double radius = 0.02, gravity = 9.81, kn = 1e7;
 
 double friction_of(double degrees) { return std::tan(degrees * std::numbers::pi / 180.0); }
@@ -151,6 +150,7 @@ std::vector<ClaimRow> oblique_rebound_sliding_throughout() {
 }  // namespace
 
 std::vector<Claim> friction_claims() {
+    constexpr const char* group = "One and two bodies";
     return {
         {.name = "disc_sliding_on_a_flat_ends_rolling",
          .group = group,

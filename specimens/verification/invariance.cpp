@@ -22,8 +22,6 @@
 namespace crackle::verification {
 namespace {
 
-constexpr const char* group = "Conservation and symmetry";
-
 /// A few bonded discs and a few bonded polygons, moving, near two walls, with a driven disc.
 Scene busy_scene() {
     Material material = rock();
@@ -261,6 +259,7 @@ std::vector<ClaimRow> physics_does_not_depend_on_the_units() {
 }  // namespace
 
 std::vector<Claim> invariance_claims() {
+    constexpr const char* group = "Conservation and symmetry";
     return {
         {.name = "physics_does_not_depend_on_order_and_numbers",
          .group = group,

@@ -19,7 +19,6 @@
 namespace crackle::verification {
 namespace {
 
-constexpr const char* group = "Chains and lattices";
 // So thin an overlap that the change of shape up to the break, δ0/2R = 2.5e-5, does not matter.
 constexpr double radius = 0.02, overlap = 1e-6, spacing = 2.0 * radius - overlap, kn = 1e7, strength = kn * overlap;
 constexpr int increments = 8000;  // up to about the break
@@ -154,6 +153,7 @@ std::vector<ClaimRow> first_break_pulled_across_a_bond_row() {
 }  // namespace
 
 std::vector<Claim> lattice_strength_claims() {
+    constexpr const char* group = "Chains and lattices";
     return {
         {.name = "first_break_pulled_along_a_bond_row",
          .group = group,

@@ -18,7 +18,6 @@
 namespace crackle::verification {
 namespace {
 
-constexpr const char* group = "Chains and lattices";
 constexpr double radius = 0.02, overlap = 8e-5, spacing = 2.0 * radius - overlap, kn = 1e7;
 
 /// Exact plane wave of the infinite lattice, q along x: u = (P cos qx, 0) or (0, S cos qx), turning as -turn·sin qx.
@@ -133,6 +132,7 @@ std::vector<ClaimRow> s_waves_of_the_triangular_lattice() {
 }  // namespace
 
 std::vector<Claim> lattice_wave_claims() {
+    constexpr const char* group = "Chains and lattices";
     return {
         {.name = "p_waves_of_the_triangular_lattice",
          .group = group,

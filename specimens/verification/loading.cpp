@@ -16,8 +16,6 @@
 namespace crackle::verification {
 namespace {
 
-constexpr const char* group = "Specimens";
-
 /// Closing error over the work of a specimen loaded at constant speed, and whether anything slipped or broke.
 struct Account {
     double error = 0.0;
@@ -198,6 +196,7 @@ std::vector<ClaimRow> slow_loading_is_quasi_static() {
 }  // namespace
 
 std::vector<Claim> loading_claims() {
+    constexpr const char* group = "Specimens";
     return {
         {.name = "energy_of_loading_closes_to_second_order_before_breaks",
          .group = group,

@@ -19,7 +19,6 @@
 namespace crackle::verification {
 namespace {
 
-constexpr const char* group = "Meshes";
 constexpr Rectangle domain{-0.3, 0.4, 0.1, 1.5};
 constexpr double thick = 1e-3, scale = 1.5;  // m; largest coordinate
 constexpr int columns = 14, seed_rows = 28;
@@ -193,6 +192,7 @@ std::vector<ClaimRow> voronoi_edges_are_orthogonal_to_their_duals() {
 }  // namespace
 
 std::vector<Claim> mesh_claims() {
+    constexpr const char* group = "Meshes";
     return {
         {.name = "cell_areas_sum_to_the_domains",
          .group = group,

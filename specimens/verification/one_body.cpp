@@ -16,7 +16,6 @@
 namespace crackle::verification {
 namespace {
 
-constexpr const char* group = "One and two bodies";
 constexpr double radius = 0.02, density = 2500.0;
 constexpr double mass = density * std::numbers::pi * radius * radius;
 
@@ -294,6 +293,7 @@ std::vector<ClaimRow> two_discs_stacked_between_walls() {
 }  // namespace
 
 std::vector<Claim> one_body_claims() {
+    constexpr const char* group = "One and two bodies";
     return {
         {.name = "restitution_with_a_lagged_dashpot",
          .group = group,

@@ -18,7 +18,6 @@
 namespace crackle::verification {
 namespace {
 
-constexpr const char* group = "One and two bodies";
 constexpr double degree = std::numbers::pi / 180.0;
 
 std::vector<Vec2> placed(const std::vector<Vec2>& outline, double turn, Vec2 shift) {
@@ -329,6 +328,7 @@ std::vector<ClaimRow> mass_centroid_and_moment_are_exact() {
 }  // namespace
 
 std::vector<Claim> polygon_claims() {
+    constexpr const char* group = "One and two bodies";
     return {
         {.name = "mass_centroid_and_moment_are_exact",
          .group = group,

@@ -21,8 +21,6 @@
 namespace crackle::verification {
 namespace {
 
-constexpr const char* group = "Specimens";
-
 /// Force on the platens over the displacement of the upper one, N/m.
 struct Stiffness {
     double solved, run;
@@ -261,6 +259,7 @@ std::vector<ClaimRow> modulus_lies_below_the_affine_bound() {
 }  // namespace
 
 std::vector<Claim> stiffness_claims() {
+    constexpr const char* group = "Specimens";
     return {
         {.name = "sparse_solve_is_that_of_the_force_routine",
          .group = group,

@@ -22,7 +22,6 @@
 namespace crackle::verification {
 namespace {
 
-constexpr const char* group = "Stability under stress";
 constexpr double pi = std::numbers::pi;
 
 std::vector<ClaimRow> account_of(std::int64_t steps) {
@@ -362,6 +361,7 @@ std::vector<ClaimRow> bonded_specimens_turn_round_unharmed() {
 }  // namespace
 
 std::vector<Claim> stress_claims() {
+    constexpr const char* group = "Stability under stress";
     return {
         {.name = "loose_bodies_in_a_box_keep_their_account",
          .group = group,

@@ -16,7 +16,6 @@
 namespace crackle::verification {
 namespace {
 
-constexpr const char* group = "Chains and lattices";
 constexpr double radius = 0.02, overlap = 8e-5, spacing = 2.0 * radius - overlap, kn = 1e7;
 
 World lattice(int columns, int rows, double shear_share) {
@@ -106,6 +105,7 @@ std::vector<ClaimRow> stiffness_of_the_triangular_lattice() {
 }  // namespace
 
 std::vector<Claim> triangular_lattice_claims() {
+    constexpr const char* group = "Chains and lattices";
     return {
         {.name = "stiffness_of_the_triangular_lattice",
          .group = group,

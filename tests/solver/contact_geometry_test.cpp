@@ -18,20 +18,16 @@ namespace {
 using testing::distance_to_outline;
 using testing::rock;
 
-double uniform(std::mt19937_64& generator, double low, double high) {
-    return low + (high - low) * uniform_number(generator);
-}
-
 /// Corners on an ellipse at random angles: convex, with short edges and sharp corners among them.
 std::vector<Vec2> random_convex(std::mt19937_64& generator) {
     const std::size_t n = 3 + uniform_below(generator, 8);
     std::vector<double> angles;
     while (angles.size() < n) {
-        const double angle = uniform(generator, 0.0, 2.0 * std::numbers::pi);
+        const double angle = uniform_number(generator, 0.0, 2.0 * std::numbers::pi);
         if (std::ranges::all_of(angles, [&](double a) { return std::abs(a - angle) > 1e-3; })) angles.push_back(angle);
     }
     std::ranges::sort(angles);
-    const double flat = uniform(generator, 0.1, 1.0);
+    const double flat = uniform_number(generator, 0.1, 1.0);
     std::vector<Vec2> corners;
     for (const double angle : angles) corners.push_back({std::cos(angle), flat * std::sin(angle)});
     return corners;
@@ -57,7 +53,7 @@ TEST(ConvexOutline, EdgeFacedLastIsAMereHint) {
         const Piece& piece = world.pieces[0];
         const Vec2 centroid{world.bodies[0].x, world.bodies[0].y};
         for (int k = 0; k < 200; ++k) {
-            Vec2 p{uniform(generator, -1.5, 1.5), uniform(generator, -1.5, 1.5)};
+            Vec2 p{uniform_number(generator, -1.5, 1.5), uniform_number(generator, -1.5, 1.5)};
             if (k % 10 == 0) p = corners[static_cast<std::size_t>(k) % corners.size()];  // on a corner itself
             if (k % 10 == 1) {                                                           // hardly outside an edge
                 const std::size_t e = static_cast<std::size_t>(k) % corners.size();
@@ -123,7 +119,7 @@ TEST(NonConvexOutline, DistanceOutsideIsThatOfTheWholeOutline) {
     double worst_closed = 0.0, worst_open = 0.0;
     int outside = 0;
     for (int k = 0; k < 20000; ++k) {
-        const Vec2 p{uniform(generator, -1.0, 6.0), uniform(generator, -1.0, 4.0)};
+        const Vec2 p{uniform_number(generator, -1.0, 6.0), uniform_number(generator, -1.0, 4.0)};
         const double expected = distance_to_outline(p, comb, true);
         const auto facing = [&](const World& world) {
             return face_outline(world, world.info[0], 0, p.x - world.bodies[0].x, p.y - world.bodies[0].y);
@@ -154,9 +150,9 @@ double gradient_error(Scene scene, int samples) {
     int touching = 0;
     for (int k = 0; k < samples; ++k) {
         World world = start;
-        world.bodies[0].x += uniform(generator, -3.0, 3.0);
-        world.bodies[0].y += uniform(generator, -3.0, 3.0);
-        testing::turn_body(world, 0, uniform(generator, -3.0, 3.0));
+        world.bodies[0].x += uniform_number(generator, -3.0, 3.0);
+        world.bodies[0].y += uniform_number(generator, -3.0, 3.0);
+        testing::turn_body(world, 0, uniform_number(generator, -3.0, 3.0));
         const auto energy = [](World w) {
             w.list_valid = false;
             w.forces_current = false;

@@ -20,10 +20,6 @@ namespace {
 using testing::distance_to_outline;
 using testing::rock;
 
-double uniform(std::mt19937_64& generator, double low, double high) {
-    return low + (high - low) * uniform_number(generator);
-}
-
 /// (element's body id, element within the body, partner's id, partner's circle or -1); walls have ids -1 … -4.
 using Touch = std::tuple<int, std::uint32_t, int, std::int64_t>;
 
@@ -95,31 +91,32 @@ Scene mixture(std::uint64_t seed) {
     scene.thick = 0.02;
     scene.domain = {-1.0, 11.0, -1.0, 11.0, {true, true, true, true}};
     int id = 0;
-    const auto place = [&] { return Vec2{uniform(generator, 0.0, 10.0), uniform(generator, 0.0, 10.0)}; };
+    const auto place = [&] { return Vec2{uniform_number(generator, 0.0, 10.0), uniform_number(generator, 0.0, 10.0)}; };
     const auto turned = [&](std::vector<Vec2> outline, Vec2 at, double size) {
-        const double angle = uniform(generator, 0.0, 6.3), c = std::cos(angle), s = std::sin(angle);
+        const double angle = uniform_number(generator, 0.0, 6.3), c = std::cos(angle), s = std::sin(angle);
         for (Vec2& p : outline) p = at + size * Vec2{c * p.x - s * p.y, s * p.x + c * p.y};
         return outline;
     };
-    for (int k = 0; k < 300; ++k) scene.add_circle_body(++id, 0, {place(), uniform(generator, 0.02, 0.2), 0.0});
-    for (int k = 0; k < 3; ++k) scene.add_circle_body(++id, 0, {place(), uniform(generator, 0.5, 2.0), 0.0});
+    for (int k = 0; k < 300; ++k) scene.add_circle_body(++id, 0, {place(), uniform_number(generator, 0.02, 0.2), 0.0});
+    for (int k = 0; k < 3; ++k) scene.add_circle_body(++id, 0, {place(), uniform_number(generator, 0.5, 2.0), 0.0});
     for (int k = 0; k < 20; ++k) {
         const Vec2 at = place();
-        scene.add_circle_body(++id, 0, {at, uniform(generator, 0.05, 0.2), 0.0});
+        scene.add_circle_body(++id, 0, {at, uniform_number(generator, 0.05, 0.2), 0.0});
         scene.circles.push_back({at + Vec2{0.15, 0.05}, 0.1, 0.0});
         scene.bodies.back().circle_count = 2;
     }
     for (int k = 0; k < 40; ++k)
         scene.add_chain_body(
-            ++id, 0, turned({{0, 0}, {1, 0.1}, {0.7, 0.9}, {-0.1, 0.6}}, place(), uniform(generator, 0.1, 1.0)), true);
+            ++id, 0, turned({{0, 0}, {1, 0.1}, {0.7, 0.9}, {-0.1, 0.6}}, place(), uniform_number(generator, 0.1, 1.0)),
+            true);
     for (int k = 0; k < 5; ++k)  // an L
         scene.add_chain_body(++id, 0, turned({{0, 0}, {2, 0}, {2, 1}, {1, 1}, {1, 3}, {0, 3}}, place(), 0.4), true);
     for (int k = 0; k < 10; ++k) scene.add_chain_body(++id, 0, turned({{0, 0}, {1, 0}, {1, 1}}, place(), 0.5), false);
     scene.add_chain_body(++id, 0, {{-0.9, -0.3}, {10.9, -0.2}}, false);  // platens far larger than anything else
     scene.add_chain_body(++id, 0, {{-0.9, 10.2}, {10.9, 10.3}}, false);
     for (Body& body : scene.bodies) {
-        body.velocity = {uniform(generator, -1.0, 1.0), uniform(generator, -1.0, 1.0)};
-        body.spin = uniform(generator, -1.0, 1.0);
+        body.velocity = {uniform_number(generator, -1.0, 1.0), uniform_number(generator, -1.0, 1.0)};
+        body.spin = uniform_number(generator, -1.0, 1.0);
     }
     return scene;
 }

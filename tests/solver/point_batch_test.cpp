@@ -16,7 +16,7 @@
 namespace crackle {
 namespace {
 
-Material rock() {
+Material damped_rock() {
     Material material = undamped_rock(1e7, 27.0);
     material.damping_ratio = 0.2;
     return material;
@@ -82,19 +82,23 @@ void expect_the_same(const Trial& trial, int steps, bool breaks) {
 }
 
 TEST(PointBatch, BondedDiscsThatBreak) {
-    expect_the_same({triangular_lattice(9, 9, 0.02, 8e-5, rock()), 0.01, 0.3}, 400, true);
+    expect_the_same({triangular_lattice(9, 9, 0.02, 8e-5, damped_rock()), 0.01, 0.3}, 400, true);
 }
 
 TEST(PointBatch, BondedPolygonsThatBreak) {
-    expect_the_same({honeycomb(7, 7, 0.02, 1e-3, rock()), 1.08e-3, 2.0}, 400, true);
+    expect_the_same({honeycomb(7, 7, 0.02, 1e-3, damped_rock()), 1.08e-3, 2.0}, 400, true);
 }
 
-TEST(PointBatch, LooseDiscs) { expect_the_same({triangular_lattice(9, 9, 0.02, 0.0, rock()), 0.0, 1.0}, 2000, false); }
+TEST(PointBatch, LooseDiscs) {
+    expect_the_same({triangular_lattice(9, 9, 0.02, 0.0, damped_rock()), 0.0, 1.0}, 2000, false);
+}
 
-TEST(PointBatch, LoosePolygons) { expect_the_same({honeycomb(7, 7, 0.02, 1e-3, rock()), 0.0, 1.0}, 2000, false); }
+TEST(PointBatch, LoosePolygons) {
+    expect_the_same({honeycomb(7, 7, 0.02, 1e-3, damped_rock()), 0.0, 1.0}, 2000, false);
+}
 
 TEST(PointBatch, WithoutDampingOrAccount) {
-    Material plain = rock();
+    Material plain = damped_rock();
     plain.damping_ratio = 0.0;
     Trial trial{honeycomb(7, 7, 0.02, 1e-3, plain), 1.08e-3, 0.3};
     trial.scene.ledger = false;
