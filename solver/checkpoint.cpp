@@ -18,7 +18,7 @@
 namespace crackle {
 
 // Raise when the fields below change.
-constexpr std::uint32_t checkpoint_version = 9;
+constexpr std::uint32_t checkpoint_version = 10;
 constexpr std::uint64_t checkpoint_magic = 0x454c4b4341524321ULL;  // "!CRACKLE"
 
 // NOLINTBEGIN(bugprone-macro-parentheses)
@@ -116,11 +116,11 @@ void serialize(Archive& a, BreakEvent& e) {
 }
 template <class Archive>
 void serialize(Archive& a, World& w) {
-    a(w.bodies, w.inertia, w.forces, w.info, w.elements, w.pieces, w.edges, w.convex_outlines, w.segments, w.controls,
-      w.laws, w.materials);
+    a(w.bodies, w.inertia, w.forces, w.forces_clear, w.info, w.elements, w.pieces, w.edges, w.convex_outlines,
+      w.segments, w.controls, w.laws, w.materials);
     a(w.points, w.point_states, w.shear_forces, w.bond_overlaps, w.root_masses, w.kind_begin, w.point_forces,
-      w.normal_dashpot, w.shear_dashpot, w.spring_work, w.openings, w.owed, w.strong_normal, w.strong_shear,
-      w.body_begin, w.body_slots, w.gather_order);
+      w.keep_point_forces, w.normal_dashpot, w.shear_dashpot, w.spring_work, w.openings, w.owed, w.strong_normal,
+      w.strong_shear, w.body_begin, w.body_slots);
     a(w.skin, w.widest_skin, w.list_reference, w.turning_reach, w.some_turn, w.size_rank, w.largest_smaller,
       w.travelled, w.fastest, w.fastest_allowed_move, w.list_valid, w.list_step, w.list_builds);
     a(w.domain, w.thick, w.segment_law, w.integrator, w.gravity, w.time_step, w.drift, w.automatic_step,
@@ -128,8 +128,8 @@ void serialize(Archive& a, World& w) {
       w.allow_unstable, w.has_bonds, w.ledger_on, w.intact);
     a(w.step, w.time, w.forces_current, w.kick_share, w.events, w.bonds_initial, w.bonds_broken, w.interfaces_initial,
       w.interfaces_lost);
-    a(w.loss_blocks, w.dashpot_loss, w.friction_loss, w.fracture_loss, w.law_loss, w.displacement_work, w.force_work,
-      w.initial_energy, w.initial_energy_taken, w.largest_supply);
+    a(w.loss_blocks, w.points_gained, w.dashpot_loss, w.friction_loss, w.fracture_loss, w.law_loss, w.displacement_work,
+      w.force_work, w.initial_energy, w.initial_energy_taken, w.largest_supply);
 }
 // NOLINTEND(bugprone-macro-parentheses)
 
@@ -177,6 +177,7 @@ void set_threads(World& world, int threads) {
     if (threads < 1 || threads > 1024) throw InputError(fmt::format("threads: found {}, expected 1 to 1024", threads));
     world.threads = threads;
     world.thread_blocks.assign(static_cast<std::size_t>(threads), 0);
+    world.sweep.valid = false;
 }
 
 }  // namespace crackle

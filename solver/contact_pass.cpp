@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The contact kernels: one loop over the points of a kind, compiled for each set of features, picked once a pass.
+// The contact kernels: one loop over a block of points, compiled for each kind and set of features, picked once a pass.
 
 #include "solver/contact_pass.hpp"
-
-#include <omp.h>
 
 #include <algorithm>
 #include <array>
@@ -16,11 +14,6 @@
 
 namespace crackle {
 namespace {
-
-struct PassRange {
-    PointIndex begin, end;
-    std::size_t block;  // into World::loss_blocks
-};
 
 /// Work of the drift that ended here, by the spring's force before it and after it (`now` along the normal, N).
 inline void store_work(SpringWork& work, const World& world, const ContactPoint& point, double now, double closing) {
@@ -46,7 +39,7 @@ template <PointKind K>
 inline void feel_bodies(const World& world, const ContactPoint& point, const ContactGeometry& g, Approach& approach) {
     const auto add = [&](BodyIndex b, double arm_x, double arm_y, double sense) {
         const BodyInertia& inertia = world.inertia[b];
-        const BodyForce& force = world.forces[b];
+        const BodyForce& force = world.last_forces[b];
         const double turn = arm_x * g.ny - arm_y * g.nx;
         approach.inverse_mass += inertia.inverse_mass_x * g.nx * g.nx + inertia.inverse_mass_y * g.ny * g.ny +
                                  inertia.inverse_moment * turn * turn;
@@ -58,14 +51,13 @@ inline void feel_bodies(const World& world, const ContactPoint& point, const Con
     if constexpr (K != PointKind::element_wall) add(point.body_j, g.ajx, g.ajy, -1.0);
 }
 
-/// Force of one point, with all that can happen to it.
+/// Force of one point into `out`, with all that can happen to it.
 template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Ledger, bool Consistent>
-inline void force_point(World& world, PointIndex k, World::LossBlock& loss) {
+inline void force_point(World& world, PointIndex k, PointForce& out, World::LossBlock& loss) {
     const double dt = world.drift;
     [[maybe_unused]] const double kick = kick_before(world) + 0.5 * world.time_step;
     ContactPoint& point = world.points[k];
     PointState& state = world.point_states[k];
-    PointForce& out = world.point_forces[k];
     const ContactGeometry g = contact_geometry<K>(world, point, point.feature_j);
     const ContactLaw& law = world.laws[state.law];
     bool bonded = false;
@@ -201,61 +193,60 @@ template <PointKind K, bool Consistent>
 inline constexpr bool in_batches = (K == PointKind::circle_circle || K == PointKind::element_outline) && !Consistent;
 
 template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Ledger, bool Consistent>
-void force_block(World& world, const PassRange& range) {
+void force_block(World& world, const PointBlock& block) {
     World::LossBlock loss;
-    PointIndex k = range.begin;
+    PointIndex k = block.begin;
+    const auto out_of = [&](PointIndex point) { return block.forces + (point - block.begin); };
     if constexpr (in_batches<K, Consistent>) {
         // Geometry first: its roots and divisions then overlap those of the next batches.
         constexpr PointIndex ahead = 64 / lane_count;
         BatchGeometry geometry[ahead];
-        while (k + lane_count <= range.end) {
-            const PointIndex batches = std::min<PointIndex>(ahead, (range.end - k) / lane_count);
+        while (k + lane_count <= block.end) {
+            const PointIndex batches = std::min<PointIndex>(ahead, (block.end - k) / lane_count);
             for (PointIndex b = 0; b < batches; ++b) geometry_batch<K>(world, k + b * lane_count, geometry[b]);
             for (PointIndex b = 0; b < batches; ++b, k += lane_count) {
-                if (force_batch<K, Friction, Damping, Bonds, Ledger>(world, k, geometry[b], loss)) continue;
+                if (force_batch<K, Friction, Damping, Bonds, Ledger>(world, k, geometry[b], out_of(k), loss)) continue;
                 for (PointIndex one = k; one < k + lane_count; ++one)
-                    force_point<K, Friction, Damping, Bonds, Ledger, Consistent>(world, one, loss);
+                    force_point<K, Friction, Damping, Bonds, Ledger, Consistent>(world, one, *out_of(one), loss);
             }
         }
     }
-    for (; k < range.end; ++k) force_point<K, Friction, Damping, Bonds, Ledger, Consistent>(world, k, loss);
-    world.loss_blocks[range.block] = loss;
+    for (; k < block.end; ++k) force_point<K, Friction, Damping, Bonds, Ledger, Consistent>(world, k, *out_of(k), loss);
+    world.loss_blocks[block.number] = loss;
 }
 
 /// Geometry alone, for profiles.
 template <PointKind K>
-void geometry_block(World& world, const PassRange& range) {
-    PointIndex k = range.begin;
+void geometry_block(World& world, const PointBlock& block) {
+    PointIndex k = block.begin;
     if constexpr (in_batches<K, false>) {
-        for (; k + lane_count <= range.end; k += lane_count) {
+        for (; k + lane_count <= block.end; k += lane_count) {
             BatchGeometry g;
             geometry_batch<K>(world, k, g);
             asm volatile("" : : "m"(g));
         }
     }
-    for (; k < range.end; ++k) {
+    for (; k < block.end; ++k) {
         ContactPoint& point = world.points[k];
         const ContactGeometry g = contact_geometry<K>(world, point, point.feature_j);
         asm volatile("" : : "m"(g));
     }
 }
 
-using BlockKernel = void (*)(World&, const PassRange&);
-
-/// The kernel of a set of features, numbered by their bits as contact_pass() does.
+/// The kernel of a set of features, numbered by their bits as force_kernel() does.
 template <PointKind K, std::size_t Features>
-constexpr BlockKernel kernel_of() {
+constexpr ForceKernel kernel_of() {
     constexpr bool friction = (Features & 1) != 0, damping = (Features & 2) != 0, bonds = (Features & 4) != 0;
     constexpr bool ledger = (Features & 8) != 0, consistent = (Features & 16) != 0 && !by_guide(K);
     return &force_block<K, friction, damping, bonds, ledger, consistent>;
 }
 
 template <PointKind K, std::size_t... Features>
-constexpr std::array<BlockKernel, 32> kernels_of(std::index_sequence<Features...>) {
+constexpr std::array<ForceKernel, 32> kernels_of(std::index_sequence<Features...>) {
     return {kernel_of<K, Features>()...};
 }
 
-constexpr std::array<std::array<BlockKernel, 32>, point_kinds> kernels{
+constexpr std::array<std::array<ForceKernel, 32>, point_kinds> kernels{
     kernels_of<PointKind::circle_circle>(std::make_index_sequence<32>{}),
     kernels_of<PointKind::element_element>(std::make_index_sequence<32>{}),
     kernels_of<PointKind::element_outline>(std::make_index_sequence<32>{}),
@@ -264,15 +255,11 @@ constexpr std::array<std::array<BlockKernel, 32>, point_kinds> kernels{
     kernels_of<PointKind::element_wall>(std::make_index_sequence<32>{}),
 };
 
-constexpr std::array<BlockKernel, point_kinds> geometry_kernels{
+constexpr std::array<ForceKernel, point_kinds> geometry_kernels{
     &geometry_block<PointKind::circle_circle>,   &geometry_block<PointKind::element_element>,
     &geometry_block<PointKind::element_outline>, &geometry_block<PointKind::disc_segment>,
     &geometry_block<PointKind::segment_segment>, &geometry_block<PointKind::element_wall>,
 };
-
-PointIndex blocks_of_kind(const World& world, std::size_t kind) {
-    return (world.kind_begin[kind + 1] - world.kind_begin[kind] + block_points - 1) / block_points;
-}
 
 }  // namespace
 
@@ -286,45 +273,37 @@ ContactFeatures features_of(const World& world) {
     return features;
 }
 
-PointIndex block_count(const World& world) {
-    PointIndex total = 0;
-    for (std::size_t kind = 0; kind < point_kinds; ++kind) total += blocks_of_kind(world, kind);
-    return total;
+PointIndex blocks_of_kind(const World& world, std::size_t kind) {
+    return (world.kind_begin[kind + 1] - world.kind_begin[kind] + block_points - 1) / block_points;
 }
 
-namespace {
-
-/// Every block of points once, by the kernel of its kind. @return blocks done by this thread
-template <class KernelOf>
-std::int64_t for_all_blocks(World& world, KernelOf kernel_of_kind) {
-    std::size_t first_block = 0;
-    std::int64_t done = 0;
-    for (std::size_t kind = 0; kind < point_kinds; ++kind) {
-        const PointIndex blocks = blocks_of_kind(world, kind);
-        const BlockKernel kernel = kernel_of_kind(kind);
-#pragma omp for schedule(static) nowait
-        for (PointIndex b = 0; b < blocks; ++b) {
-            const PointIndex begin = world.kind_begin[kind] + b * block_points;
-            kernel(world, {begin, std::min(begin + block_points, world.kind_begin[kind + 1]), first_block + b});
-            ++done;
-        }
-        first_block += blocks;
-    }
-    return done;
+std::size_t first_block_of(const World& world, std::size_t kind) {
+    std::size_t before = 0;
+    for (std::size_t other = 0; other < kind; ++other) before += blocks_of_kind(world, other);
+    return before;
 }
 
-}  // namespace
+std::size_t block_count(const World& world) { return first_block_of(world, point_kinds); }
 
-void contact_pass(World& world, const ContactFeatures& features) {
+PointBlock block_of(const World& world, std::size_t kind, PointIndex block, PointForce* forces) {
+    const PointIndex begin = world.kind_begin[kind] + block * block_points;
+    return {begin, std::min(begin + block_points, world.kind_begin[kind + 1]), first_block_of(world, kind) + block,
+            forces};
+}
+
+ForceKernel force_kernel(const ContactFeatures& features, std::size_t kind) {
     const std::size_t choice = (features.friction ? 1u : 0u) + (features.damping ? 2u : 0u) +
                                (features.bonds ? 4u : 0u) + (features.ledger ? 8u : 0u) +
                                (features.consistent ? 16u : 0u);
-    world.thread_blocks[static_cast<std::size_t>(omp_get_thread_num())] +=
-        for_all_blocks(world, [choice](std::size_t kind) { return kernels[kind][choice]; });
+    return kernels[kind][choice];
 }
 
 void geometry_pass(World& world) {
-    for_all_blocks(world, [](std::size_t kind) { return geometry_kernels[kind]; });
+    for (std::size_t kind = 0; kind < point_kinds; ++kind) {
+        const PointIndex blocks = blocks_of_kind(world, kind);
+#pragma omp for schedule(static) nowait
+        for (PointIndex b = 0; b < blocks; ++b) geometry_kernels[kind](world, block_of(world, kind, b, nullptr));
+    }
 }
 
 }  // namespace crackle

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// First pass of a step: every contact point computes its force into its own slot.
+// Forces of contact points, a block of points of one kind at a time, by kernels compiled for what the scene has.
 #pragma once
+
+#include <cstddef>
 
 #include "solver/world.hpp"
 
@@ -17,15 +19,27 @@ struct ContactFeatures {
 
 ContactFeatures features_of(const World& world);
 
-/// Forces of all points at the present positions: shear springs, bond breaking and losses included.
-/// Must be called by all threads of a parallel region (or by one thread alone); ends without a barrier.
-void contact_pass(World& world, const ContactFeatures& features);
+/// Neighbouring points of one kind, at most block_points.
+struct PointBlock {
+    PointIndex begin, end;
+    std::size_t number;  // into World::loss_blocks
+    PointForce* forces;  // of the points, to be filled
+};
 
-/// Only the geometry of all points at the present positions, as contact_pass() takes it and called like it: what the
-/// narrow phase costs. Changes nothing but the edges that points remember.
+PointIndex blocks_of_kind(const World& world, std::size_t kind);
+/// Number of a kind's first block.
+std::size_t first_block_of(const World& world, std::size_t kind);
+/// Of all kinds.
+std::size_t block_count(const World& world);
+PointBlock block_of(const World& world, std::size_t kind, PointIndex block, PointForce* forces);
+
+/// Forces of a block at the present positions: shear springs, bond breaking and losses included.
+using ForceKernel = void (*)(World& world, const PointBlock& block);
+ForceKernel force_kernel(const ContactFeatures& features, std::size_t kind);
+
+/// Only the geometry of all points at the present positions, as the force kernels take it: what the narrow phase costs.
+/// Changes nothing but the edges that points remember. Must be called by all threads of a parallel region (or by one
+/// thread alone); ends without a barrier.
 void geometry_pass(World& world);
-
-/// Blocks of points of one kind, for sizing World::loss_blocks.
-PointIndex block_count(const World& world);
 
 }  // namespace crackle

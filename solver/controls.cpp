@@ -73,6 +73,8 @@ void set_control(World& world, BodyIndex body, const DofControl (&dof)[3], std::
     else
         *place = fresh;
     enter(world, *place);
+    world.sweep.valid = false;
+    world.forces_clear = false;
 }
 
 void change_velocity(World& world, BodyIndex body, int dof, double velocity) {

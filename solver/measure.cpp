@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <stdexcept>
+
 #include "solver/contact_geometry.hpp"
 #include "solver/errors.hpp"
 #include "solver/overlap_gradient.hpp"
@@ -81,7 +83,13 @@ BodyIndex body_of_id(const World& world, int id) {
         fmt::format("body {}: found no such body, expected one of the {} of this scene", id, world.info.size()));
 }
 
+void forget_point_forces(World& world) {
+    world.keep_point_forces = false;
+    world.point_forces = {};
+}
+
 std::array<Vec2, 4> measure_wall_forces(const World& world) {
+    if (!world.keep_point_forces) throw std::logic_error("measure_wall_forces: this world keeps no forces of points");
     std::array<Vec2, 4> sums{};
     for (PointIndex k = world.kind_begin[static_cast<std::size_t>(PointKind::element_wall)]; k < world.points.size();
          ++k) {

@@ -2,11 +2,11 @@
 // Kick and drift of bodies, compiled for what the scene has: v += a·kick, x += v·Δt.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
 #include "solver/lanes.hpp"
+#include "solver/speeds.hpp"
 #include "solver/world.hpp"
 
 namespace crackle {
@@ -29,33 +29,24 @@ inline void turn_frame(BodyState& body, double turn) {
     body.shape[1] = scale * s;
 }
 
-/// Largest squared surface speed, m2/s2; not a number if any velocity is not.
-struct Speeds {
-    double fastest = 0.0;
-    double sum_of_excess = 0.0;  // 0·speed, added up: 0, or not a number if any speed is infinite or none
-
-    void add(double squared) {
-        sum_of_excess += 0.0 * squared;
-        fastest = std::max(fastest, squared);
-    }
-    bool finite() const { return sum_of_excess == 0.0; }
-};
-
-/// Bodies `begin` to `end`. @param kick s
+/// Bodies number(0) to number(count - 1). @param kick s
 /// @tparam Turning some bodies have a frame that turns with them
-template <bool Gravity, bool Turning>
-Speeds move_range(World& world, double kick, std::int64_t begin, std::int64_t end) {
+/// @tparam Clear World::forces of these bodies are left as 0
+template <bool Gravity, bool Turning, bool Clear, class Number>
+Speeds move_each(World& world, double kick, std::int64_t count, Number number) {
     const double dt = world.time_step;
     [[maybe_unused]] const Pair gravity{world.gravity.x, world.gravity.y};
     BodyState* const bodies = world.bodies.data();
     const BodyInertia* const inertias = world.inertia.data();
-    const BodyForce* const forces = world.forces.data();
+    BodyForce* const forces = world.forces.data();
     [[maybe_unused]] const double* const reaches = world.turning_reach.data();
     Speeds speeds;
-    for (std::int64_t n = begin; n < end; ++n) {
+    for (std::int64_t k = 0; k < count; ++k) {
+        const auto n = number(k);
         BodyState& body = bodies[n];
         const BodyInertia& inertia = inertias[n];
-        const BodyForce& force = forces[n];
+        const BodyForce force = forces[n];
+        if constexpr (Clear) forces[n] = {};
         Pair push = load_as<Pair>(&force.fx);
         if constexpr (Gravity) push += inertia.mass * gravity;
         const Pair v = load_as<Pair>(&body.vx) + kick * push * load_as<Pair>(&inertia.inverse_mass_x);
@@ -75,6 +66,18 @@ Speeds move_range(World& world, double kick, std::int64_t begin, std::int64_t en
         speeds.add(speed);
     }
     return speeds;
+}
+
+/// Bodies `begin` to `end`.
+template <bool Gravity, bool Turning>
+Speeds move_range(World& world, double kick, std::int64_t begin, std::int64_t end) {
+    return move_each<Gravity, Turning, false>(world, kick, end - begin, [begin](std::int64_t k) { return begin + k; });
+}
+
+/// The bodies of a list.
+template <bool Gravity, bool Turning, bool Clear>
+Speeds move_listed(World& world, double kick, const BodyIndex* bodies, std::int64_t count) {
+    return move_each<Gravity, Turning, Clear>(world, kick, count, [bodies](std::int64_t k) { return bodies[k]; });
 }
 
 }  // namespace crackle

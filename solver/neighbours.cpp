@@ -422,7 +422,7 @@ void exchange_points(World& world, PointLists& lists) {
     world.kind_begin = next.begin;
     find_pairs(world);
     if (consistent) hand_on(world);
-    world.point_forces.assign(world.points.size(), PointForce{});
+    world.point_forces.assign(world.keep_point_forces ? world.points.size() : 0, PointForce{});
     world.loss_blocks.assign(block_count(world), World::LossBlock{});
 }
 
@@ -444,14 +444,7 @@ void index_slots(World& world) {
         world.body_slots[next[world.points[k].body_i]++] = slot_of(k, 0);
         if (k < walls) world.body_slots[next[world.points[k].body_j]++] = slot_of(k, 1);
     }
-    world.gather_order.resize(world.bodies.size());
-    std::iota(world.gather_order.begin(), world.gather_order.end(), BodyIndex{0});
-    const auto slots_of = [&](BodyIndex b) { return world.body_begin[b + 1] - world.body_begin[b]; };
-    for (auto first = world.gather_order.begin(); first != world.gather_order.end();) {
-        const auto last = first + std::min(gather_block, std::distance(first, world.gather_order.end()));
-        std::stable_sort(first, last, [&](BodyIndex a, BodyIndex b) { return slots_of(a) < slots_of(b); });
-        first = last;
-    }
+    world.sweep.valid = false;
 }
 
 /// Longest way any surface point can have gone since the list was built, m.

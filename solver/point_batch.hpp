@@ -194,7 +194,7 @@ struct BatchState {
 /// @tparam All every point was in contact, holds, and stuck before (and is bonded, where there are bonds)
 template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Ledger, bool All>
 CRACKLE_INLINE void force_lanes(World& world, PointIndex k, const BatchGeometry& g, const BatchState& batch,
-                                World::LossBlock& loss) {
+                                PointForce* out, World::LossBlock& loss) {
     const ContactLaw& law = batch.law;
     const Lanes zero{};
     const auto where_held = [&](const Lanes& held, const Lanes& otherwise) -> Lanes {
@@ -276,14 +276,14 @@ CRACKLE_INLINE void force_lanes(World& world, PointIndex k, const BatchGeometry&
     }
     const Lanes fx = where_held(-normal * g.nx - tangential * g.ny, zero);
     const Lanes fy = where_held(-normal * g.ny + tangential * g.nx, zero);
-    store_quads(&world.point_forces[k], fx, fy, where_held(g.aix * fy - g.aiy * fx, zero),
-                where_held(g.ajy * fx - g.ajx * fy, zero));
+    store_quads(out, fx, fy, where_held(g.aix * fy - g.aiy * fx, zero), where_held(g.ajy * fx - g.ajx * fy, zero));
 }
 
-/// Forces of points k to k + lane_count - 1. @return false, with no force or loss changed, where the scalar code must
-/// look
+/// Forces of points k to k + lane_count - 1, into `out`. @return false, with no force or loss changed, where the scalar
+/// code must look
 template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Ledger>
-CRACKLE_INLINE bool force_batch(World& world, PointIndex k, const BatchGeometry& g, World::LossBlock& loss) {
+CRACKLE_INLINE bool force_batch(World& world, PointIndex k, const BatchGeometry& g, PointForce* out,
+                                World::LossBlock& loss) {
     constexpr auto bit_of = [](int flags) { return static_cast<LaneBit>(flags) << 16; };
     constexpr LaneBit of_law = 0xffff;
     PointState* const states = world.point_states.data() + k;
@@ -297,7 +297,7 @@ CRACKLE_INLINE bool force_batch(World& world, PointIndex k, const BatchGeometry&
     constexpr LaneBit looked_at = bit_of(at_rest | point_sliding);
     if (none_of((law_and_flags & looked_at) ^ bit_of(at_rest)) && mask_of(~over) == 0) {
         force_lanes<K, Friction, Damping, Bonds, Ledger, true>(world, k, g, {law, states, law_and_flags, over, over},
-                                                               loss);
+                                                               out, loss);
         return true;
     }
     LaneBits bonded{}, holds = g.overlap > 0.0;
@@ -308,11 +308,11 @@ CRACKLE_INLINE bool force_batch(World& world, PointIndex k, const BatchGeometry&
     const LaneBits held_before = bonded | ((law_and_flags & bit_of(point_touching)) != 0);
     if (mask_of(~holds & held_before) != 0) return false;  // breaks or parts
     if (mask_of(holds) == 0) {
-        store_quads(&world.point_forces[k], Lanes{}, Lanes{}, Lanes{}, Lanes{});
+        store_quads(out, Lanes{}, Lanes{}, Lanes{}, Lanes{});
         return true;
     }
     force_lanes<K, Friction, Damping, Bonds, Ledger, false>(world, k, g, {law, states, law_and_flags, bonded, holds},
-                                                            loss);
+                                                            out, loss);
     return true;
 }
 

@@ -13,8 +13,8 @@ enum class Phase : std::uint8_t {
     broad_phase,   // pairs of bodies that come near each other
     listing,       // their contact points, with what the old list remembers of them
     step_bound,    // bound on the stable step, when the list is rebuilt or points come to carry load
-    force,         // contact points: geometry (the narrow phase) and force
-    gather,        // every body adds up its forces
+    force,         // contact points: geometry (the narrow phase) and force; a call is a block of points
+    gather,        // forces of a block's points added to their bodies
     bookkeeping,   // breaks, losses, driven bodies
     integrate,     // kick and drift
     observe,       // curve rows, breaks, peak
@@ -33,7 +33,8 @@ struct Profile {
     std::array<Spent, phase_count> phases{};
     /// Geometry of all points alone, timed in one force pass of geometry_interval: the narrow phase's part of `force`.
     Spent geometry_sampled;
-    std::int64_t point_steps = 0;  // points looked at by all force passes
+    std::int64_t force_passes = 0;
+    std::int64_t point_steps = 0;  // points looked at by all of them
 
     Spent& of(Phase phase) { return phases[static_cast<std::size_t>(phase)]; }
     const Spent& of(Phase phase) const { return phases[static_cast<std::size_t>(phase)]; }

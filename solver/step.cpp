@@ -4,7 +4,7 @@
 // compute_forces() brings the neighbour list up to date, lets every contact point compute its force from x(n) and
 // v(n-½), adds up each body's forces in a fixed order, and records broken bonds. Observers may look now: everything is
 // known at time n. advance() is leapfrog: v(n+½) = v(n-½) + a(n)Δt, x(n+1) = x(n) + v(n+½)Δt, driven bodies as their
-// controls say.
+// controls say. step() does both, in one sweep where nobody looks between (solver/sweep.hpp).
 
 #include <omp.h>
 
@@ -12,10 +12,9 @@
 #include <cmath>
 
 #include "solver/breaks.hpp"
-#include "solver/contact_pass.hpp"
 #include "solver/controls.hpp"
-#include "solver/gather.hpp"
 #include "solver/motion.hpp"
+#include "solver/sweep.hpp"
 #include "solver/world.hpp"
 
 namespace crackle {
@@ -23,26 +22,31 @@ namespace {
 
 constexpr std::int64_t block_bodies = 512;
 
-/// Kick and drift of all bodies. @return largest squared surface speed, m2/s2 (not a number if any velocity is not)
-double move_bodies(World& world, double kick) {
-    kick_controls(world, kick);
+/// s, of the kick that joins the middles of two drifts.
+double kick_now(const World& world) { return kick_before(world) + 0.5 * world.time_step; }
+
+/// Kick and drift of all bodies.
+Speeds move_bodies(World& world, double kick) {
     const auto count = static_cast<std::int64_t>(world.bodies.size());
     const auto move = world.gravity == Vec2{} ? (world.some_turn ? &move_range<false, true> : &move_range<false, false>)
                                               : (world.some_turn ? &move_range<true, true> : &move_range<true, false>);
-    Speeds speeds;
-    if (world.threads == 1) {
-        speeds = move(world, kick, 0, count);
-    } else {
-        double fastest = 0.0, excess = 0.0;
+    if (world.threads == 1) return move(world, kick, 0, count);
+    double fastest = 0.0, excess = 0.0;
 #pragma omp parallel for num_threads(world.threads) schedule(static) reduction(max : fastest) reduction(+ : excess)
-        for (std::int64_t begin = 0; begin < count; begin += block_bodies) {
-            const Speeds here = move(world, kick, begin, std::min(begin + block_bodies, count));
-            excess += here.sum_of_excess;
-            fastest = std::max(fastest, here.fastest);
-        }
-        speeds = {fastest, excess};
+    for (std::int64_t begin = 0; begin < count; begin += block_bodies) {
+        const Speeds here = move(world, kick, begin, std::min(begin + block_bodies, count));
+        excess += here.sum_of_excess;
+        fastest = std::max(fastest, here.fastest);
     }
-    return speeds.finite() ? speeds.fastest : std::numeric_limits<double>::quiet_NaN();
+    return {fastest, excess};
+}
+
+/// The move of lists of bodies that suits the world.
+template <bool Clear>
+MoveListed move_of_lists(const World& world) {
+    return world.gravity == Vec2{}
+               ? (world.some_turn ? &move_listed<false, true, Clear> : &move_listed<false, false, Clear>)
+               : (world.some_turn ? &move_listed<true, true, Clear> : &move_listed<true, false, Clear>);
 }
 
 /// Adds up what the blocks of the force pass report, in their order.
@@ -56,57 +60,40 @@ void sum_blocks(World& world) {
         gained += block.gained;
     }
     if (broken > 0) record_breaks(world);
-    if (gained > 0) count_new_points(world);
-}
-
-/// Calls `work` on every thread of the world. One thread needs no team: its barriers would cost a tenth of a small
-/// scene's step.
-template <class Work>
-void as_team(const World& world, Work work) {
-    if (world.threads == 1) return work();
-#pragma omp parallel num_threads(world.threads)
-    work();
+    world.points_gained = gained > 0;
 }
 
 void sample_geometry(World& world) {
+    world.profile->force_passes += 1;
     world.profile->point_steps += static_cast<std::int64_t>(world.points.size());
     if (world.step % geometry_interval != 0) return;
     const PhaseTimer timer(world.profile, &world.profile->geometry_sampled);
-    as_team(world, [&] { geometry_pass(world); });
+#pragma omp parallel num_threads(world.threads) if (world.threads > 1)
+    geometry_pass(world);
 }
 
-}  // namespace
-
-void compute_forces(World& world) {
-    if (world.forces_current) return;
+/// What the force pass needs to be up to date.
+void prepare_forces(World& world) {
+    if (world.points_gained) {
+        count_new_points(world);
+        world.points_gained = false;
+    }
     refresh_neighbours(world);
-    const ContactFeatures features = features_of(world);
-    const auto passes = [&] {
-        Profile* const profile = omp_get_thread_num() == 0 ? world.profile : nullptr;
-        {
-            const PhaseTimer timer(profile, Phase::force);
-            contact_pass(world, features);
-#pragma omp barrier
-        }
-        const PhaseTimer timer(profile, Phase::gather);
-        gather_forces(world);
-    };
+    plan_sweep(world);
+    clear_forces(world);
     if (world.profile != nullptr) sample_geometry(world);
-    as_team(world, passes);
+}
+
+/// Breaks, losses, driven bodies: what the force pass has left to be written down at time n.
+void account_forces(World& world) {
     const PhaseTimer timer(world.profile, Phase::bookkeeping);
     sum_blocks(world);
     account_controls(world);
-    world.forces_current = true;
-    if (!world.initial_energy_taken) {
-        world.initial_energy_taken = true;
-        world.initial_energy = 0.0;
-        world.initial_energy = measure_ledger(world).closing_error;
-    }
 }
 
-void advance(World& world) {
-    const PhaseTimer timer(world.profile, Phase::integrate);
-    world.fastest = std::sqrt(move_bodies(world, kick_before(world) + 0.5 * world.time_step));
+/// All but the motion of bodies itself. @param speeds of all bodies
+void end_step(World& world, const Speeds& speeds) {
+    world.fastest = std::sqrt(speeds.checked());
     world.drift = world.time_step;
     world.step += 1;
     world.time += world.time_step;
@@ -117,9 +104,48 @@ void advance(World& world) {
     if (!(world.fastest * world.time_step < world.fastest_allowed_move)) check_health(world);
 }
 
+}  // namespace
+
+void compute_forces(World& world) {
+    if (world.forces_current) return;
+    prepare_forces(world);
+    sweep_by_team(world, features_of(world), nullptr, 0.0);
+    world.forces_clear = false;
+    account_forces(world);
+    world.forces_current = true;
+    if (!world.initial_energy_taken) {
+        world.initial_energy_taken = true;
+        world.initial_energy = 0.0;
+        world.initial_energy = measure_ledger(world).closing_error;
+    }
+}
+
+void advance(World& world) {
+    const PhaseTimer timer(world.profile, Phase::integrate);
+    const double kick = kick_now(world);
+    kick_controls(world, kick);
+    end_step(world, move_bodies(world, kick));
+}
+
 void step(World& world) {
-    compute_forces(world);
-    advance(world);
+    if (world.forces_current || !world.initial_energy_taken) {
+        compute_forces(world);
+        advance(world);
+        return;
+    }
+    prepare_forces(world);
+    const bool clear = world.integrator != Integrator::consistent;  // it looks at the last pass's forces
+    const MoveListed move = clear ? move_of_lists<true>(world) : move_of_lists<false>(world);
+    const double kick = kick_now(world);
+    sweep_by_team(world, features_of(world), move, kick);
+    world.forces_clear = clear;
+    account_forces(world);
+    const PhaseTimer timer(world.profile, Phase::integrate);
+    Speeds speeds = move_the_rest(world, move, kick);
+    kick_controls(world, kick);
+    for (const ControlState& control : world.controls)
+        speeds.add(move_of_lists<false>(world)(world, kick, &control.body, 1));
+    end_step(world, speeds);
 }
 
 }  // namespace crackle

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The world: the flat arrays that a step touches. Built once from a Scene; nothing in it is allocated during a step.
 //
-// A body's step state fills one cache line; contact points are compact records grouped by kind; each point writes its
-// force into its own slot, and each body then adds up its own slots in a fixed order, so that the bytes of the result
-// do not depend on the number of threads. Bodies are numbered along a space-filling curve; `body_id` leads back to the
-// input's numbers.
+// A body's step state fills one cache line; contact points are compact records grouped by kind; the forces of a body's
+// points are added up in a fixed order, so that the bytes of the result do not depend on the number of threads. Bodies
+// are numbered along a space-filling curve; `body_id` leads back to the input's numbers.
 #pragma once
 
 #include <array>
@@ -15,6 +14,7 @@
 
 #include "solver/profile.hpp"
 #include "solver/scene.hpp"
+#include "solver/speeds.hpp"
 
 namespace crackle {
 
@@ -41,8 +41,9 @@ struct BodyInertia {
 static_assert(sizeof(BodyInertia) == 32);
 
 /// Sum of a body's contact forces (without gravity and applied loads), N and N m about its centroid.
-struct BodyForce {
+struct alignas(32) BodyForce {
     double fx, fy, torque;
+    double unused = 0.0;  // a point's record is added as a whole
 };
 
 /// What cannot change during a run, or is read only by observers.
@@ -129,12 +130,11 @@ struct PointForce {
 };
 static_assert(sizeof(PointForce) == 32);
 
-/// One body's side of a point (0: the body is i, 1: it is j) as the bytes from the first point's force to this one's,
-/// with 8 more for the second side: what adding up a body's forces needs, without further arithmetic.
-constexpr std::uint32_t slot_of(PointIndex point, std::uint32_t side) { return 32 * point + 8 * side; }
-constexpr PointIndex point_of_slot(std::uint32_t slot) { return slot / 32; }
-constexpr std::uint32_t side_of_slot(std::uint32_t slot) { return slot / 8 % 2; }
-inline constexpr std::size_t most_points = std::size_t{1} << 27;  // that slots can tell apart
+/// One body's side of a point (0: the body is i, 1: it is j).
+constexpr std::uint32_t slot_of(PointIndex point, std::uint32_t side) { return 2 * point + side; }
+constexpr PointIndex point_of_slot(std::uint32_t slot) { return slot / 2; }
+constexpr std::uint32_t side_of_slot(std::uint32_t slot) { return slot % 2; }
+inline constexpr std::size_t most_points = std::size_t{1} << 31;  // that slots can tell apart
 
 /// What the normal spring of a point under the guide's law has taken up. Its force is k_n(δ - δ0) at the resultant's
 /// place, but δ does not change by the way of that place alone: there is no potential, so the work itself is added up,
@@ -218,13 +218,48 @@ inline constexpr double loose_step_share = 0.1;
 /// Points a force pass hands to one thread at a time; fixed, so that sums over blocks do not depend on the threads.
 inline constexpr PointIndex block_points = 256;
 
-inline constexpr std::int64_t gather_block = 256;  // bodies
+/// In which order a step on World::threads threads goes through points and bodies (solver/sweep.cpp).
+struct Sweep {
+    bool valid = false;
+    std::size_t largest_kind = 0;
+
+    /// Some blocks of points of the largest kind, and the bodies that have no points beyond them.
+    struct Chunk {
+        PointIndex end_block;    // of that kind
+        std::uint32_t end_body;  // into `order`
+    };
+    std::vector<Chunk> chunks;
+    std::vector<std::uint32_t> thread_chunks;  // per thread: first of its chunks; one more at the end
+    std::vector<BodyIndex> order;              // bodies of the chunks, late ones, driven ones
+    std::uint32_t late_begin = 0;  // into `order`: bodies with points of the largest kind in chunks of several threads
+    std::uint32_t driven_begin = 0;  // into `order`: bodies that a control drives
+
+    // For several threads: what one cannot add to a body at once, because another's points come first.
+    std::vector<std::uint16_t> owner;           // per body: thread that adds to it
+    std::vector<std::uint8_t> defers;           // per block of the largest kind: has points for others' bodies
+    std::vector<BodyForce> deferred;            // contributions of other threads
+    std::vector<std::uint32_t> deferred_begin;  // per thread: its first in `deferred`
+    std::vector<std::uint32_t> sources;         // into `deferred`, by body of `order` from late_begin on
+    std::vector<std::uint32_t> sources_begin;
+    std::vector<PointForce> smaller_kinds;  // forces of the points of all kinds but the largest
+
+    /// What a thread has done of the present step.
+    struct alignas(64) Share {
+        Speeds speeds;
+        std::uint32_t moved_end = 0;  // into `order`: bodies of its chunks moved so far end here
+        bool broken = false;          // has met a broken bond
+    };
+    std::vector<Share> shares;
+};
 
 struct World {
     // ---- bodies
     std::vector<BodyState> bodies;
     std::vector<BodyInertia> inertia;
-    std::vector<BodyForce> forces;  // of the last force pass
+    /// Of the last force pass: after compute_forces() of all bodies, after step() of driven ones.
+    std::vector<BodyForce> forces;
+    bool forces_clear = false;           // those of all but driven bodies are 0
+    std::vector<BodyForce> last_forces;  // of the pass before; consistent integrator only
     std::vector<BodyInfo> info;
     std::vector<Element> elements;
     std::vector<Piece> pieces;
@@ -245,7 +280,8 @@ struct World {
     std::vector<double> bond_overlaps;  // δ0, m; back-tension f_b = -k_n δ0
     std::vector<double> root_masses;    // square root of the effective mass, sqrt(kg)
     std::array<PointIndex, point_kinds + 1> kind_begin{};
-    std::vector<PointForce> point_forces;
+    std::vector<PointForce> point_forces;  // of the last force pass; empty unless kept
+    bool keep_point_forces = true;         // looked at when the list is rebuilt
     // Dashpot forces of the last force pass, N: their work is taken by the trapezoidal rule. Empty without the ledger.
     std::vector<double> normal_dashpot, shear_dashpot;
     std::vector<SpringWork> spring_work;  // empty without the ledger or the guide's law
@@ -256,7 +292,7 @@ struct World {
     std::vector<double> strong_normal, strong_shear;
     std::vector<std::uint32_t> body_begin;  // per body: range in body_slots
     std::vector<std::uint32_t> body_slots;  // slot_of(point, side)
-    std::vector<BodyIndex> gather_order;    // in blocks of gather_block: bodies with equally many slots together
+    Sweep sweep;                            // never saved
 
     // ---- neighbour list
     double skin = 0.0;         // m
@@ -310,6 +346,7 @@ struct World {
         std::uint32_t broken = 0;
         std::uint32_t gained = 0;  // points that carry load and are not counted in step_bound yet
     };
+    bool points_gained = false;  // some block has: they are counted before the next force pass
     std::vector<LossBlock> loss_blocks;
     double dashpot_loss = 0.0, friction_loss = 0.0, fracture_loss = 0.0, law_loss = 0.0;
     double displacement_work = 0.0, force_work = 0.0;
@@ -378,6 +415,8 @@ void finish_bonding(World& world);
 void set_thickness(World& world, double thick);
 
 // ---- measuring (solver/measure.cpp, solver/ledger.cpp)
+/// Saves time and memory where nobody will ask for the forces of single points or those on walls.
+void forget_point_forces(World& world);
 /// Only the overlap of it, m.
 double overlap_of(const World& world, PointIndex point);
 PointView view_point(const World& world, PointIndex point);
@@ -388,7 +427,7 @@ BodyIndex body_of_id(const World& world, int id);
 double stored_energy(const World& world, PointIndex point);
 /// Energies at x_n; call between compute_forces() and advance().
 Ledger measure_ledger(const World& world);
-/// Force of the bodies on each wall at the last force pass, N.
+/// Force of the bodies on each wall at the last force pass, N. @throws std::logic_error where they are not kept
 std::array<Vec2, 4> measure_wall_forces(const World& world);
 /// World-frame corners of a chain body, or circle centres of a circle body, in input order.
 std::vector<Vec2> element_positions(const World& world, BodyIndex body);
@@ -403,7 +442,8 @@ double stable_step_bound(const World& world, BodyIndex* limiting = nullptr);
 /// World::step_bound anew, of the points that carry load (without bonds: of all listed ones), and the step kept below.
 /// @throws UnstableRun if a time step that was given lies above it (not with allow_unstable)
 void evaluate_step_bound(World& world);
-/// Lowers World::step_bound by the points that have come to carry load since, and the step with it. @throws UnstableRun
+/// Lowers World::step_bound by the points that came to carry load in the last force pass, and the coming steps with it.
+/// @throws UnstableRun as above
 void count_new_points(World& world);
 /// A derived step is lowered to what step_bound allows (up to step_goal again when it rises). @throws UnstableRun
 void keep_step_below_bound(World& world);

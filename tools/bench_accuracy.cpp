@@ -12,10 +12,11 @@
 #include <vector>
 
 #include "solver/errors.hpp"
+#include "solver/replace_file.hpp"
 #include "specimens/accuracy/accuracy.hpp"
 #include "tools/bench.hpp"
 #include "tools/gnuplot.hpp"
-#include "tools/write_file.hpp"
+#include "tools/results_folder.hpp"
 
 namespace crackle::tools {
 namespace {
@@ -148,24 +149,21 @@ int bench_accuracy(const Arguments& arguments) {
         given.contains("only") ? given["only"].as<std::vector<std::string>>() : std::vector<std::string>{};
     const std::vector<const AccuracyStudy*> studies = chosen(only);
     const fs::path folder = given["output"].as<std::string>();
-    std::error_code failed;
-    fs::create_directories(folder, failed);
-    if (!fs::is_directory(folder))
-        throw InputError(fmt::format("{}: cannot be made, expected a folder or a path for one", folder.string()));
+    make_results_folder(folder);
 
     const bool quick = given.contains("quick");
     std::string command = "crackle bench accuracy";
     if (quick) command += " --quick";
     for (const std::string& name : only) command += " --only " + name;
-    write_file(folder / "accuracy.csv", table_of({}, command));  // before minutes are spent on what cannot be written
+    replace_file(folder / "accuracy.csv", table_of({}, command));  // before minutes are spent on what cannot be written
     std::vector<AccuracyRow> rows;
     for (const AccuracyStudy* study : studies) {
         const std::vector<AccuracyRow> more = study->run(quick);
         rows.insert(rows.end(), more.begin(), more.end());
         fmt::print(stderr, "{:<20} {} runs\n", study->name, more.size());
-        write_file(folder / "accuracy.csv", table_of(rows, command));
+        replace_file(folder / "accuracy.csv", table_of(rows, command));
     }
-    write_file(folder / "accuracy.gp", script_of(studies, rows));
+    replace_file(folder / "accuracy.gp", script_of(studies, rows));
     const std::string problem = draw_with_gnuplot(folder / "accuracy.gp");
     if (!problem.empty())
         fmt::print(stderr, "crackle: {}. accuracy.csv is complete; draw it later with gnuplot accuracy.gp\n", problem);

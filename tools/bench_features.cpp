@@ -13,11 +13,12 @@
 
 #include "solver/errors.hpp"
 #include "solver/lanes.hpp"
+#include "solver/replace_file.hpp"
 #include "specimens/throughput/feature_costs.hpp"
 #include "specimens/throughput/machine_limits.hpp"
 #include "tools/bench.hpp"
 #include "tools/gnuplot.hpp"
-#include "tools/write_file.hpp"
+#include "tools/results_folder.hpp"
 
 namespace crackle::tools {
 namespace {
@@ -160,10 +161,7 @@ int bench_features(const Arguments& arguments) {
     }
     FeatureStudy study = study_of(given);
     const fs::path folder = given["output"].as<std::string>();
-    std::error_code failed;
-    fs::create_directories(folder, failed);
-    if (!fs::is_directory(folder))
-        throw InputError(fmt::format("{}: cannot be made, expected a folder or a path for one", folder.string()));
+    make_results_folder(folder);
     study.scratch = folder / "scratch";
 
     std::string command = "crackle bench features";
@@ -173,11 +171,12 @@ int bench_features(const Arguments& arguments) {
         rows.push_back(row);
         fmt::print(stderr, "{:<11}{:<9}{:<46}{:>8.2f} ns, {} times {}\n", name_of(row.kind), row.bodies, row.feature,
                    1e9 * row.contact_seconds, interval(row.ratio, 1.0, "{:.3f}"), row.beside);
-        write_file(folder / "features.md", page_of(command, study, rows));
-        write_file(folder / "features.csv", table_of(command, rows));
+        replace_file(folder / "features.md", page_of(command, study, rows));
+        replace_file(folder / "features.csv", table_of(command, rows));
     });
+    std::error_code failed;
     fs::remove_all(study.scratch, failed);
-    write_file(folder / "features.gp", script_of(rows));
+    replace_file(folder / "features.gp", script_of(rows));
     const std::string problem = draw_with_gnuplot(folder / "features.gp");
     if (!problem.empty()) fmt::print(stderr, "crackle: {}. features.csv is complete\n", problem);
     std::cout << page_of(command, study, rows);

@@ -16,10 +16,10 @@
 #include <vector>
 
 #include "solver/errors.hpp"
+#include "solver/replace_file.hpp"
 #include "specimens/studies/guide_experiments.hpp"
 #include "specimens/studies/guide_page.hpp"
 #include "tools/bench.hpp"
-#include "tools/write_file.hpp"
 
 namespace crackle::tools {
 namespace {
@@ -278,8 +278,8 @@ int bench_guide(const Arguments& arguments) {
     const studies::GuidePage page{command_of(given, plan), plan.laws, plan.packings, ensemble.rate_factor,
                                   tests.size() - results.size()};
     const std::string text = studies::guide_page(page, results);
-    write_file(folder / "guide.csv", studies::guide_csv(page, results));
-    write_file(folder / "guide.md", text);
+    replace_file(folder / "guide.csv", studies::guide_csv(page, results));
+    replace_file(folder / "guide.md", text);
     std::cout << text;
     if (!stop_asked) return exit_done;
     std::cerr << "crackle: interrupted; the same command goes on\n";

@@ -15,6 +15,7 @@
 
 #include "solver/errors.hpp"
 #include "solver/lanes.hpp"
+#include "solver/replace_file.hpp"
 #include "specimens/throughput/bare_kernel.hpp"
 #include "specimens/throughput/flowing.hpp"
 #include "specimens/throughput/machine_limits.hpp"
@@ -22,7 +23,7 @@
 #include "specimens/throughput/timed_test.hpp"
 #include "tools/bench.hpp"
 #include "tools/gnuplot.hpp"
-#include "tools/write_file.hpp"
+#include "tools/results_folder.hpp"
 
 namespace crackle::tools {
 namespace {
@@ -233,11 +234,7 @@ int bench_throughput(const Arguments& arguments) {
             fmt::format("bench throughput: --seconds: found {}, expected above 0, at most 600", settings.seconds));
     if (settings.repeats < 1 || settings.repeats > 100)
         throw InputError(fmt::format("bench throughput: --repeats: found {}, expected 1 to 100", settings.repeats));
-    std::error_code failed;
-    fs::create_directories(settings.folder, failed);
-    if (!fs::is_directory(settings.folder))
-        throw InputError(
-            fmt::format("{}: cannot be made, expected a folder or a path for one", settings.folder.string()));
+    make_results_folder(settings.folder);
 
     std::string command = "crackle bench throughput";
     for (const std::string& word : arguments) command += ' ' + word;
@@ -248,8 +245,8 @@ int bench_throughput(const Arguments& arguments) {
         rows.push_back(row);
         fmt::print(stderr, "{:<18}{:>9} on {}: {:7.2f} M/s{}\n", row.scene, row.particles, row.threads, 1e-6 * row.rate,
                    row.bare > 0.0 ? fmt::format(", {:.2f} of the bare kernel", row.rate / row.bare) : "");
-        write_file(settings.folder / "throughput.md", page_of(command, limits, rows));
-        write_file(settings.folder / "throughput.csv", table_of(command, limits, rows));
+        replace_file(settings.folder / "throughput.md", page_of(command, limits, rows));
+        replace_file(settings.folder / "throughput.csv", table_of(command, limits, rows));
     };
     for (const std::int64_t count : counts) add(measure_test(settings, "circles", count, 1, true));
     for (const std::int64_t count : counts) {
@@ -265,8 +262,9 @@ int bench_throughput(const Arguments& arguments) {
             if (count <= *std::max_element(counts.begin(), counts.end())) add(measure_flow(settings, polygons, count));
         }
     }
+    std::error_code failed;
     fs::remove_all(settings.folder / "scratch", failed);
-    write_file(settings.folder / "throughput.gp", script_of(rows));
+    replace_file(settings.folder / "throughput.gp", script_of(rows));
     const std::string problem = draw_with_gnuplot(settings.folder / "throughput.gp");
     if (!problem.empty()) fmt::print(stderr, "crackle: {}. throughput.csv is complete\n", problem);
     std::cout << page_of(command, limits, rows);

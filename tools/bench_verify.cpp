@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "solver/errors.hpp"
+#include "solver/replace_file.hpp"
 #include "specimens/verification/page.hpp"
 #include "tools/bench.hpp"
-#include "tools/write_file.hpp"
 
 namespace crackle::tools {
 namespace {
@@ -112,7 +112,7 @@ int bench_verify(const Arguments& arguments) {
     if (page.empty()) {
         std::cout << text;
     } else {
-        write_file(page, text);
+        replace_file(page, text);
     }
     return fails ? exit_claim_fails : exit_done;
 }

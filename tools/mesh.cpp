@@ -14,8 +14,8 @@
 
 #include "solver/demseg/deck_reader.hpp"
 #include "solver/demseg/geometry.hpp"
-#include "solver/demseg/outputs.hpp"
 #include "solver/errors.hpp"
+#include "solver/replace_file.hpp"
 #include "specimens/cell_bodies.hpp"
 #include "tools/commands.hpp"
 #include "tools/seed_list.hpp"

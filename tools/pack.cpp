@@ -11,8 +11,8 @@
 #include <string>
 
 #include "solver/demseg/geometry.hpp"
-#include "solver/demseg/outputs.hpp"
 #include "solver/errors.hpp"
+#include "solver/replace_file.hpp"
 #include "specimens/packing.hpp"
 #include "tools/commands.hpp"
 

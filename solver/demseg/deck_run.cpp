@@ -15,6 +15,7 @@
 #include "solver/demseg/outputs.hpp"
 #include "solver/demseg/random_circles.hpp"
 #include "solver/errors.hpp"
+#include "solver/replace_file.hpp"
 
 namespace crackle {
 namespace {
@@ -200,6 +201,11 @@ void DeckRun::refuse_existing_outputs() const {
     }
 }
 
+bool DeckRun::rows_due() const {
+    const std::int64_t step = world_.step;
+    return step == first_step_ || step == 1 || due(step, asked_.output_interval) || due(step, asked_.row_interval);
+}
+
 void DeckRun::write_rows(DeckOutputs& outputs) const {
     const std::int64_t step = world_.step;
     const bool beginning = step == first_step_;
@@ -221,8 +227,13 @@ void DeckRun::run(const std::function<bool(const World&)>& go_on) {
                                          : first_part ? OutputMode::fresh
                                                       : OutputMode::part);
     while (world_.step < last_step_ && (!go_on || go_on(world_))) {
+        const bool check_due = due(world_.step, health_interval);
+        if (!check_due && !rows_due()) {
+            step(world_);
+            continue;
+        }
         compute_forces(world_);
-        if (due(world_.step, health_interval)) check_health(world_);
+        if (check_due) check_health(world_);
         if (first_part || world_.step > first_step_)
             write_rows(outputs);  // the last part has written the row of its last step
         advance(world_);

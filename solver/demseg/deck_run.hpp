@@ -65,6 +65,8 @@ class DeckRun {
     bool appends() const { return options_.goes_on && options_.output.empty(); }
     std::filesystem::path input(const std::string& name) const;
 
+    /// Whether write_rows() has something to write at the present step.
+    bool rows_due() const;
     void write_rows(DeckOutputs& outputs) const;
     bool finished() const { return world_.step - boundary_.steps_before >= boundary_.steps; }
     Scene present_scene() const;

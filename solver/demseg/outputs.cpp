@@ -7,7 +7,6 @@
 
 #include <cerrno>
 #include <charconv>
-#include <cstring>
 #include <iterator>
 #include <string_view>
 #include <system_error>
@@ -15,6 +14,7 @@
 
 #include "solver/demseg/contact_files.hpp"
 #include "solver/errors.hpp"
+#include "solver/replace_file.hpp"
 
 namespace crackle {
 namespace {
@@ -28,11 +28,6 @@ constexpr std::array<const char*, 6> headers{
     "",  // as in the guide: rows only
     "# step body vy\n",
 };
-
-[[noreturn]] void refuse_output(const std::filesystem::path& path) {
-    throw InputError(fmt::format("{}: cannot be written ({}), expected a writable folder with room on the disc",
-                                 path.string(), std::strerror(errno)));
-}
 
 /// Whole numbers at the beginning of a row: its step, and from the third word on the counts of a frame's lines.
 /// @return false if the row is none of ours
@@ -82,21 +77,6 @@ std::uintmax_t length_up_to(const std::filesystem::path& path, std::int64_t step
 bool touching(const World& world, PointIndex k) { return (world.point_states[k].flags & point_touching) != 0; }
 
 }  // namespace
-
-void replace_file(const std::filesystem::path& path, const std::string& contents) {
-    std::filesystem::path temporary = path;
-    temporary += ".tmp";
-    {
-        errno = 0;
-        std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
-        file.write(contents.data(), static_cast<std::streamsize>(contents.size()));
-        file.close();
-        if (!file) refuse_output(temporary);
-    }
-    std::error_code error;
-    std::filesystem::rename(temporary, path, error);
-    if (error) throw InputError(fmt::format("{}: cannot be replaced ({})", path.string(), error.message()));
-}
 
 void drop_rows_after(const std::filesystem::path& folder, std::int64_t step) {
     std::vector<std::pair<std::filesystem::path, std::uintmax_t>> lengths;

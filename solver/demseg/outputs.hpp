@@ -54,8 +54,4 @@ class DeckOutputs {
 /// @throws InputError on a file that is none of ours, before any is touched.
 void drop_rows_after(const std::filesystem::path& folder, std::int64_t step);
 
-/// Writes a whole file under a temporary name and renames it, so that a failure leaves the earlier one as it was.
-/// @throws InputError if it cannot be written.
-void replace_file(const std::filesystem::path& path, const std::string& contents);
-
 }  // namespace crackle

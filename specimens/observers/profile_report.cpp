@@ -19,8 +19,8 @@ constexpr std::array<PhaseName, phase_count> phase_names{{
     {"broad_phase", "rebuilds: pairs of bodies that come near each other"},
     {"listing", "rebuilds: their contact points, with what the old list remembers"},
     {"step_bound", "bound on the stable step, at rebuilds and new contacts"},
-    {"force", "contact points: geometry and force"},
-    {"gather", "every body adds up its forces"},
+    {"force", "contact points: geometry and force, by blocks"},
+    {"gather", "the blocks' forces added to their bodies"},
     {"bookkeeping", "breaks, losses, driven bodies"},
     {"integrate", "kick and drift"},
     {"observe", "curve rows, breaks, peak"},
@@ -54,11 +54,13 @@ nlohmann::ordered_json profile_report(const Profile& profile, std::int64_t parti
         if (static_cast<Phase>(p) != Phase::force) continue;
         const auto samples = static_cast<double>(profile.geometry_sampled.calls);
         add("  narrow_phase", "of that the geometry alone, sampled",
-            samples > 0.0 ? sampled / samples * static_cast<double>(spent.calls) : 0.0, profile.geometry_sampled.calls);
+            samples > 0.0 ? sampled / samples * static_cast<double>(profile.force_passes) : 0.0,
+            profile.geometry_sampled.calls);
     }
     add("rest", "between the phases", total - named, 0);
     return {{"step_seconds", total},
             {"steps", steps},
+            {"force_passes", profile.force_passes},
             {"points_per_particle", static_cast<double>(profile.point_steps) / particle_steps},
             {"force_ns_per_point", 1e9 * profile.of(Phase::force).seconds /
                                        static_cast<double>(std::max<std::int64_t>(1, profile.point_steps))},

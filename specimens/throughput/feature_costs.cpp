@@ -10,6 +10,7 @@
 
 #include "solver/contact_pass.hpp"
 #include "solver/errors.hpp"
+#include "solver/sweep.hpp"
 #include "specimens/catalogue/lattices.hpp"
 #include "specimens/observers/test_files.hpp"
 #include "specimens/throughput/least_step.hpp"
@@ -331,6 +332,11 @@ void hold_still(World& world) {
     for (BodyState& body : world.bodies) body.vx = body.vy = body.omega = 0.0;
 }
 
+void force_pass(World& world, const ContactFeatures& features) {
+    clear_forces(world);
+    sweep(world, features, nullptr, 0.0);
+}
+
 /// Force passes alone, where an overhead shows most.
 void add_absent_kernels(const FeatureStudy& study, const std::string& bodies, const Scene& scene, const Add& add) {
     for (const Absence& absence : absences()) {
@@ -339,8 +345,8 @@ void add_absent_kernels(const FeatureStudy& study, const std::string& bodies, co
         World work = start;
         const ContactFeatures without = absence.without;
         {
-            const Trial direct = trial_of(start, work, [without](World& world) { contact_pass(world, without); });
-            const Trial picked = trial_of(start, work, [](World& world) { contact_pass(world, features_of(world)); });
+            const Trial direct = trial_of(start, work, [without](World& world) { force_pass(world, without); });
+            const Trial picked = trial_of(start, work, [](World& world) { force_pass(world, features_of(world)); });
             add(compare(study,
                         row_of(FeatureRowKind::dispatched, bodies, absence.feature, "kernel compiled without it"),
                         direct, picked));
@@ -349,8 +355,8 @@ void add_absent_kernels(const FeatureStudy& study, const std::string& bodies, co
         with.*absence.absent = true;
         make_room_for(start, with);
         work = start;
-        const Trial direct = trial_of(start, work, [without](World& world) { contact_pass(world, without); });
-        const Trial forced = trial_of(start, work, [with](World& world) { contact_pass(world, with); });
+        const Trial direct = trial_of(start, work, [without](World& world) { force_pass(world, without); });
+        const Trial forced = trial_of(start, work, [with](World& world) { force_pass(world, with); });
         add(compare(study, row_of(FeatureRowKind::forced, bodies, absence.feature, "kernel compiled without it"),
                     direct, forced));
     }

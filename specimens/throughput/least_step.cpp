@@ -2,20 +2,19 @@
 #include "specimens/throughput/least_step.hpp"
 
 #include <cmath>
-#include <iterator>
-#include <limits>
 
-#include "solver/gather.hpp"
 #include "solver/motion.hpp"
+#include "solver/sweep.hpp"
 
 namespace crackle::throughput {
 void least_step(World& world, const ContactFeatures& features) {
-    contact_pass(world, features);
-    gather_forces(world);
-    const Speeds speeds =
-        move_range<false, false>(world, 0.5 * (world.drift + world.time_step), 0, std::ssize(world.bodies));
-    const double squared = speeds.finite() ? speeds.fastest : std::numeric_limits<double>::quiet_NaN();
-    world.fastest = std::sqrt(squared);
+    const double kick = 0.5 * (world.drift + world.time_step);
+    const MoveListed move = &move_listed<false, false, true>;
+    clear_forces(world);
+    sweep(world, features, move, kick);
+    world.forces_clear = true;
+    const Speeds speeds = move_the_rest(world, move, kick);
+    world.fastest = std::sqrt(speeds.checked());
     world.drift = world.time_step;
     world.step += 1;
     world.time += world.time_step;
@@ -35,6 +34,7 @@ void make_room_for(World& world, const ContactFeatures& features) {
     if (features.consistent) {
         world.openings.resize(points);
         world.owed.resize(world.bodies.size(), 0.0);
+        world.last_forces.resize(world.bodies.size());
     }
 }
 

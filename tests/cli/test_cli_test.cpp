@@ -182,8 +182,10 @@ TEST_F(CrackleTest, ProfileAccountsForTheLoopAndChangesNoNumber) {
     }
     EXPECT_NEAR(shares, 1.0, 1e-9);
     const double steps = summary["steps"];
-    EXPECT_EQ(calls["force"], steps);  // the first pass is made at bonding, the last one is followed by no drift
-    EXPECT_EQ(calls["integrate"], steps);
+    // The first pass is made at bonding, the last one is followed by no drift.
+    EXPECT_EQ(profile["force_passes"].get<double>(), steps);
+    EXPECT_GE(calls["force"], steps);
+    EXPECT_GE(calls["integrate"], steps);
     EXPECT_GT(calls["observe"], 100.0);
     EXPECT_LT(calls["broad_phase"], 0.1 * steps);
     ASSERT_EQ(call("case.toml -o plain -q").code, 0);

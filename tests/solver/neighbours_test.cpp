@@ -141,7 +141,7 @@ TEST(NeighbourList, MissesNoTouchingPointOfAnyMixtureOfSizes) {
     }
 }
 
-/// Bodies are taken by their number of slots, many (platens), few or none, and by several threads.
+/// Bodies with many points (platens), few or none, by one thread and by several: smaller kinds first, then the largest.
 TEST(NeighbourList, EveryBodyAddsUpItsPointsInTheirOrder) {
     for (const int threads : {1, 3}) {
         World world = build_world(mixture(5));
@@ -151,14 +151,23 @@ TEST(NeighbourList, EveryBodyAddsUpItsPointsInTheirOrder) {
         std::vector<BodyForce> sums(world.bodies.size(), BodyForce{0.0, 0.0, 0.0});
         std::set<std::uint32_t> numbers_of_slots;
         const PointIndex walls = world.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
-        for (PointIndex k = 0; k < world.points.size(); ++k) {
-            const PointForce& force = world.point_forces[k];
-            BodyForce& on_i = sums[world.points[k].body_i];
-            on_i = {on_i.fx + force.fx, on_i.fy + force.fy, on_i.torque + force.torque_i};
-            if (k >= walls) continue;
-            BodyForce& on_j = sums[world.points[k].body_j];
-            on_j = {on_j.fx - force.fx, on_j.fy - force.fy, on_j.torque + force.torque_j};
-        }
+        const auto add_kind = [&](std::size_t kind) {
+            for (PointIndex k = world.kind_begin[kind]; k < world.kind_begin[kind + 1]; ++k) {
+                const PointForce& force = world.point_forces[k];
+                BodyForce& on_i = sums[world.points[k].body_i];
+                on_i = {on_i.fx + force.fx, on_i.fy + force.fy, on_i.torque + force.torque_i};
+                if (k >= walls) continue;
+                BodyForce& on_j = sums[world.points[k].body_j];
+                on_j = {on_j.fx - force.fx, on_j.fy - force.fy, on_j.torque + force.torque_j};
+            }
+        };
+        std::size_t largest = 0;
+        const auto points_of = [&](std::size_t kind) { return world.kind_begin[kind + 1] - world.kind_begin[kind]; };
+        for (std::size_t kind = 1; kind < point_kinds; ++kind)
+            if (points_of(kind) > points_of(largest)) largest = kind;
+        for (std::size_t kind = 0; kind < point_kinds; ++kind)
+            if (kind != largest) add_kind(kind);
+        add_kind(largest);
         for (std::size_t b = 0; b < sums.size(); ++b) {
             EXPECT_EQ(world.forces[b].fx, sums[b].fx) << b;
             EXPECT_EQ(world.forces[b].fy, sums[b].fy) << b;

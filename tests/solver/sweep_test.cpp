@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// step() moves bodies while forces are still being found; compute_forces() and advance() do one after the other.
+
+#include "solver/sweep.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "specimens/catalogue/disordered.hpp"
+#include "tests/support/claim.hpp"
+#include "tests/support/measures.hpp"
+
+namespace crackle {
+namespace {
+
+template <class T>
+bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
+    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
+}
+
+struct Trial {
+    const char* name;
+    Scene scene;
+    double thick;
+    double share;  // of the energy that breaks every bond, as kinetic energy
+    bool breaks;
+};
+
+Material damped_rock() {
+    Material material = testing::rock();
+    material.damping_ratio = 0.05;
+    return material;
+}
+
+/// Discs in a box, many enough for several threads to have blocks of their own; one is driven, one pushed.
+Scene driven_discs(Integrator integrator) {
+    DisorderedDiscs request;
+    request.columns = 24, request.rows = 24;
+    Scene scene = disordered_discs(request, damped_rock());
+    scene.domain = {-0.021, 10.0, -0.021, 10.0, {true, true, true, true}};
+    scene.integrator = integrator;
+    scene.controls.push_back({40, {Drive::velocity, 0.0}, {Drive::displacement, 1e-4}, {}, 300});
+    scene.controls.push_back({300, {Drive::force, 10.0}, {}, {Drive::force, 0.01}, 0});
+    return scene;
+}
+
+Scene driven_cells() {
+    ShakenCells request;
+    request.columns = 12, request.rows = 12;
+    Scene scene = shaken_cells(request, damped_rock());
+    scene.controls.push_back({0, {Drive::velocity, 0.0}, {Drive::displacement, -1e-5}, {}, 300});
+    return scene;
+}
+
+World made(const Trial& trial, int threads) {
+    World world = build_world(trial.scene);
+    bond_all(world, trial.thick);
+    testing::shake(world, trial.share * testing::breaking_energy(world), 3);
+    set_threads(world, threads);
+    return world;
+}
+
+TEST(Sweep, HasTheBytesOfForcesThenMotionOnAnyNumberOfThreads) {
+    const Trial trials[] = {
+        {"discs that break", driven_discs(Integrator::leapfrog), 0.0, 1.0, true},
+        {"discs under the consistent integrator", driven_discs(Integrator::consistent), 0.0, 1.0, true},
+        {"cells that break", driven_cells(), 1.08e-3, 1.0, true},
+        {"cells that hold", driven_cells(), 1.08e-3, 1e-6, false},
+    };
+    for (const Trial& trial : trials) {
+        World apart = made(trial, 1);
+        for (int n = 0; n < 600; ++n) {
+            compute_forces(apart);
+            advance(apart);
+        }
+        compute_forces(apart);
+        EXPECT_EQ(apart.bonds_broken > 0, trial.breaks) << trial.name;
+        EXPECT_GT(apart.list_builds, 1) << trial.name;
+        for (const int threads : {1, 2, 3, 7}) {
+            World swept = made(trial, threads);
+            for (int n = 0; n < 600; ++n) step(swept);
+            compute_forces(swept);
+            SCOPED_TRACE(std::string(trial.name) + ", " + std::to_string(threads) + " threads");
+            EXPECT_TRUE(same_bytes(swept.bodies, apart.bodies));
+            EXPECT_TRUE(same_bytes(swept.shear_forces, apart.shear_forces));
+            EXPECT_TRUE(same_bytes(swept.point_forces, apart.point_forces));
+            EXPECT_EQ(swept.dashpot_loss, apart.dashpot_loss);
+            EXPECT_EQ(swept.fracture_loss, apart.fracture_loss);
+            EXPECT_EQ(swept.displacement_work, apart.displacement_work);
+            EXPECT_EQ(swept.force_work, apart.force_work);
+            EXPECT_EQ(swept.time_step, apart.time_step);
+            ASSERT_EQ(swept.events.size(), apart.events.size());
+            for (std::size_t e = 0; e < swept.events.size(); ++e) {
+                EXPECT_EQ(swept.events[e].step, apart.events[e].step);
+                EXPECT_EQ(swept.events[e].position.x, apart.events[e].position.x);
+                EXPECT_EQ(swept.events[e].energy, apart.events[e].energy);
+            }
+        }
+    }
+}
+
+TEST(Sweep, FindsTheSameForcesWhetherThoseOfPointsAreKept) {
+    World kept = made({"", driven_discs(Integrator::leapfrog), 0.0, 1.0, true}, 2);
+    World forgotten = kept;
+    forget_point_forces(forgotten);
+    for (int n = 0; n < 300; ++n) {
+        step(kept);
+        step(forgotten);
+    }
+    EXPECT_FALSE(kept.point_forces.empty());
+    EXPECT_TRUE(forgotten.point_forces.empty());
+    EXPECT_TRUE(same_bytes(kept.bodies, forgotten.bodies));
+    EXPECT_THROW(measure_wall_forces(forgotten), std::logic_error);
+}
+
+}  // namespace
+}  // namespace crackle

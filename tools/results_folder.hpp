@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <filesystem>
+
+namespace crackle::tools {
+
+/// Makes the folder of a study's results where there is none. @throws InputError if it cannot
+void make_results_folder(const std::filesystem::path& folder);
+
+}  // namespace crackle::tools
