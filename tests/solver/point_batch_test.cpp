@@ -6,15 +6,17 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
 #include <random>
 
 #include "solver/world.hpp"
 #include "specimens/catalogue/lattices.hpp"
 #include "specimens/catalogue/materials.hpp"
+#include "tests/support/same_bytes.hpp"
 
 namespace crackle {
 namespace {
+
+using testing::same_bytes;
 
 Material damped_rock() {
     Material material = undamped_rock(1e7, 27.0);
@@ -42,11 +44,6 @@ World made(Trial trial, bool two_materials) {
     World world = build_world(trial.scene);
     if (trial.thick > 0.0) bond_all(world, trial.thick);
     return world;
-}
-
-template <class T>
-bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
-    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 
 /// Of all points, whatever their laws are numbered.

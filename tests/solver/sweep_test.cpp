@@ -5,21 +5,17 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
-
 #include "specimens/catalogue/disordered.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/measures.hpp"
+#include "tests/support/same_bytes.hpp"
 
 namespace crackle {
 namespace {
 
-template <class T>
-bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
-    return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
-}
+using testing::same_bytes;
 
-struct Trial {
+struct SweptScene {
     const char* name;
     Scene scene;
     double thick;
@@ -27,7 +23,7 @@ struct Trial {
     bool breaks;
 };
 
-Material damped_rock() {
+Material lightly_damped_rock() {
     Material material = testing::rock();
     material.damping_ratio = 0.05;
     return material;
@@ -37,7 +33,7 @@ Material damped_rock() {
 Scene driven_discs(Integrator integrator) {
     DisorderedDiscs request;
     request.columns = 24, request.rows = 24;
-    Scene scene = disordered_discs(request, damped_rock());
+    Scene scene = disordered_discs(request, lightly_damped_rock());
     scene.domain = {-0.021, 10.0, -0.021, 10.0, {true, true, true, true}};
     scene.integrator = integrator;
     scene.controls.push_back({40, {Drive::velocity, 0.0}, {Drive::displacement, 1e-4}, {}, 300});
@@ -48,40 +44,40 @@ Scene driven_discs(Integrator integrator) {
 Scene driven_cells() {
     ShakenCells request;
     request.columns = 12, request.rows = 12;
-    Scene scene = shaken_cells(request, damped_rock());
+    Scene scene = shaken_cells(request, lightly_damped_rock());
     scene.controls.push_back({0, {Drive::velocity, 0.0}, {Drive::displacement, -1e-5}, {}, 300});
     return scene;
 }
 
-World made(const Trial& trial, int threads) {
-    World world = build_world(trial.scene);
-    bond_all(world, trial.thick);
-    testing::shake(world, trial.share * testing::breaking_energy(world), 3);
+World bonded_and_shaken(const SweptScene& swept_scene, int threads) {
+    World world = build_world(swept_scene.scene);
+    bond_all(world, swept_scene.thick);
+    testing::shake(world, swept_scene.share * testing::breaking_energy(world), 3);
     set_threads(world, threads);
     return world;
 }
 
 TEST(Sweep, HasTheBytesOfForcesThenMotionOnAnyNumberOfThreads) {
-    const Trial trials[] = {
+    const SweptScene scenes[] = {
         {"discs that break", driven_discs(Integrator::leapfrog), 0.0, 1.0, true},
         {"discs under the consistent integrator", driven_discs(Integrator::consistent), 0.0, 1.0, true},
         {"cells that break", driven_cells(), 1.08e-3, 1.0, true},
         {"cells that hold", driven_cells(), 1.08e-3, 1e-6, false},
     };
-    for (const Trial& trial : trials) {
-        World apart = made(trial, 1);
+    for (const SweptScene& swept_scene : scenes) {
+        World apart = bonded_and_shaken(swept_scene, 1);
         for (int n = 0; n < 600; ++n) {
             compute_forces(apart);
             advance(apart);
         }
         compute_forces(apart);
-        EXPECT_EQ(apart.bonds_broken > 0, trial.breaks) << trial.name;
-        EXPECT_GT(apart.list_builds, 1) << trial.name;
+        EXPECT_EQ(apart.bonds_broken > 0, swept_scene.breaks) << swept_scene.name;
+        EXPECT_GT(apart.list_builds, 1) << swept_scene.name;
         for (const int threads : {1, 2, 3, 7}) {
-            World swept = made(trial, threads);
+            World swept = bonded_and_shaken(swept_scene, threads);
             for (int n = 0; n < 600; ++n) step(swept);
             compute_forces(swept);
-            SCOPED_TRACE(std::string(trial.name) + ", " + std::to_string(threads) + " threads");
+            SCOPED_TRACE(std::string(swept_scene.name) + ", " + std::to_string(threads) + " threads");
             EXPECT_TRUE(same_bytes(swept.bodies, apart.bodies));
             EXPECT_TRUE(same_bytes(swept.shear_forces, apart.shear_forces));
             EXPECT_TRUE(same_bytes(swept.point_forces, apart.point_forces));
@@ -101,7 +97,7 @@ TEST(Sweep, HasTheBytesOfForcesThenMotionOnAnyNumberOfThreads) {
 }
 
 TEST(Sweep, FindsTheSameForcesWhetherThoseOfPointsAreKept) {
-    World kept = made({"", driven_discs(Integrator::leapfrog), 0.0, 1.0, true}, 2);
+    World kept = bonded_and_shaken({"", driven_discs(Integrator::leapfrog), 0.0, 1.0, true}, 2);
     World forgotten = kept;
     forget_point_forces(forgotten);
     for (int n = 0; n < 300; ++n) {
