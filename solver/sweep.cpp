@@ -211,7 +211,8 @@ class Sweeper {
                 if (threads_ == 1)
                     do_block(kernel, kind, b, [&](const PointBlock& block) { add_all(block, kind); });
                 else
-                    run(kernel, block_of(world_, kind, b, plan_.smaller_kinds.data() + before + b * block_points));
+                    run(kernel,
+                        block_of(world_, kind, b, plan_.smaller_kinds.data() + before + std::size_t{b} * block_points));
             }
             before += world_.kind_begin[kind + 1] - world_.kind_begin[kind];
         }
