@@ -78,14 +78,7 @@ TEST(Sweep, HasTheBytesOfForcesThenMotionOnAnyNumberOfThreads) {
             for (int n = 0; n < 600; ++n) step(swept);
             compute_forces(swept);
             SCOPED_TRACE(std::string(swept_scene.name) + ", " + std::to_string(threads) + " threads");
-            EXPECT_TRUE(same_bytes(swept.bodies, apart.bodies));
-            EXPECT_TRUE(same_bytes(swept.shear_forces, apart.shear_forces));
-            EXPECT_TRUE(same_bytes(swept.point_forces, apart.point_forces));
-            EXPECT_EQ(swept.dashpot_loss, apart.dashpot_loss);
-            EXPECT_EQ(swept.fracture_loss, apart.fracture_loss);
-            EXPECT_EQ(swept.displacement_work, apart.displacement_work);
-            EXPECT_EQ(swept.force_work, apart.force_work);
-            EXPECT_EQ(swept.time_step, apart.time_step);
+            testing::expect_same_run(swept, apart);
             ASSERT_EQ(swept.events.size(), apart.events.size());
             for (std::size_t e = 0; e < swept.events.size(); ++e) {
                 EXPECT_EQ(swept.events[e].step, apart.events[e].step);
