@@ -60,7 +60,7 @@ std::vector<std::uint32_t> spatial_order(const std::vector<MassProperties>& prop
 
 Edge edge_between(Vec2 a, Vec2 b) {
     const double length = norm(b - a);
-    return {a.x, a.y, (b.x - a.x) / length, (b.y - a.y) / length, length, no_body};
+    return {a.x, a.y, (b.x - a.x) / length, (b.y - a.y) / length, length};
 }
 
 std::vector<std::vector<std::uint32_t>> pieces_of(int id, std::span<const Vec2> frame) {
@@ -68,6 +68,18 @@ std::vector<std::vector<std::uint32_t>> pieces_of(int id, std::span<const Vec2> 
         return convex_pieces(frame);
     } catch (const InputError& error) {
         throw InputError(fmt::format("body {}: {}", id, error.what()));
+    }
+}
+
+/// @param ring the edges of a convex piece, counterclockwise
+void set_cones(std::span<Edge> ring) {
+    for (std::size_t e = 0; e < ring.size(); ++e) {
+        Edge &edge = ring[e], &next = ring[(e + 1) % ring.size()];
+        const double sine = edge.tx * next.ty - edge.ty * next.tx, cosine = edge.tx * next.tx + edge.ty * next.ty;
+        // Where the outline goes straight on, the corner is closest to nothing.
+        const double cotangent = sine > 0.0 ? cosine / sine : std::numeric_limits<double>::max();
+        edge.cone[1] = -cotangent;
+        next.cone[0] = cotangent;
     }
 }
 
@@ -80,6 +92,7 @@ void add_pieces(World& world, BodyInfo& info, std::span<const Vec2> frame) {
             for (std::size_t k = 0; k < ring.size(); ++k) {
                 world.edges.push_back(edge_between(frame[ring[k]], frame[ring[(k + 1) % ring.size()]]));
             }
+            set_cones(std::span(world.edges).last(ring.size()));
         }
     } else {
         for (std::size_t k = 0; k + 1 < frame.size(); ++k) {
@@ -96,14 +109,8 @@ void mark_outlines(World& world) {
         const BodyInfo& info = world.info[b];
         if (info.piece_count != 1 || !world.pieces[info.first_piece].closed) continue;
         const Piece& piece = world.pieces[info.first_piece];
-        if (piece.edge_count > std::numeric_limits<std::int16_t>::max()) continue;
-        const auto around = static_cast<std::int16_t>(piece.edge_count - 1);
-        for (std::uint32_t e = 0; e < piece.edge_count; ++e) {
-            Edge& edge = world.edges[piece.first_edge + e];
-            edge.outline_of = static_cast<BodyIndex>(b);
-            edge.to_neighbour[1] = e == 0 ? around : std::int16_t{-1};
-            edge.to_neighbour[0] = e + 1 == piece.edge_count ? static_cast<std::int16_t>(-around) : std::int16_t{1};
-        }
+        for (std::uint32_t e = 0; e < piece.edge_count; ++e)
+            world.edges[piece.first_edge + e].outline_of = static_cast<BodyIndex>(b);
     }
     world.convex_outlines = std::all_of(world.edges.begin(), world.edges.end(),
                                         [](const Edge& edge) { return edge.outline_of != no_body; });
@@ -155,7 +162,7 @@ void add_body(World& world, const Scene& scene, const Body& body, const MassProp
     info.closed = body.closed;
     info.single_circle = body.circle_count == 1;
     BodyState state{
-        properties.centroid.x, properties.centroid.y, body.velocity.x, body.velocity.y, body.spin, 0.0, {1.0, 0.0}};
+        properties.centroid.x, properties.centroid.y, body.velocity.x, body.velocity.y, body.spin, {1.0, 0.0}, 0.0};
     add_elements(world, scene, body, properties, info, state);
     if (world.segment_law != SegmentLaw::rounded) add_segments(world, info);
     if (info.single_circle) {

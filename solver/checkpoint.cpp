@@ -18,7 +18,7 @@
 namespace crackle {
 
 // Raise when the fields below change.
-constexpr std::uint32_t checkpoint_version = 10;
+constexpr std::uint32_t checkpoint_version = 11;
 constexpr std::uint64_t checkpoint_magic = 0x454c4b4341524321ULL;  // "!CRACKLE"
 
 // NOLINTBEGIN(bugprone-macro-parentheses)
@@ -45,7 +45,7 @@ void serialize(Archive& a, DofControl& c) {
 }
 template <class Archive>
 void serialize(Archive& a, BodyState& b) {
-    a(b.x, b.y, b.vx, b.vy, b.omega, b.angle, b.shape);
+    a(b.x, b.y, b.vx, b.vy, b.omega, b.shape, b.angle);
 }
 template <class Archive>
 void serialize(Archive& a, BodyInertia& i) {
@@ -70,7 +70,7 @@ void serialize(Archive& a, Piece& p) {
 }
 template <class Archive>
 void serialize(Archive& a, Edge& e) {
-    a(e.x, e.y, e.tx, e.ty, e.length, e.outline_of, e.to_neighbour);
+    a(e.x, e.y, e.tx, e.ty, e.length, e.cone, e.outline_of);
 }
 template <class Archive>
 void serialize(Archive& a, ControlState& c) {
@@ -118,9 +118,9 @@ template <class Archive>
 void serialize(Archive& a, World& w) {
     a(w.bodies, w.inertia, w.forces, w.forces_clear, w.info, w.elements, w.pieces, w.edges, w.convex_outlines,
       w.segments, w.controls, w.laws, w.materials);
-    a(w.points, w.point_states, w.shear_forces, w.bond_overlaps, w.root_masses, w.kind_begin, w.point_forces,
-      w.keep_point_forces, w.normal_dashpot, w.shear_dashpot, w.spring_work, w.openings, w.owed, w.strong_normal,
-      w.strong_shear, w.body_begin, w.body_slots);
+    a(w.points, w.point_states, w.shear_forces, w.bond_overlaps, w.root_masses, w.kind_begin, w.fours_end,
+      w.point_forces, w.keep_point_forces, w.normal_dashpot, w.shear_dashpot, w.spring_work, w.openings, w.owed,
+      w.strong_normal, w.strong_shear, w.body_begin, w.body_slots);
     a(w.skin, w.widest_skin, w.list_reference, w.turning_reach, w.some_turn, w.size_rank, w.largest_smaller,
       w.travelled, w.fastest, w.fastest_allowed_move, w.list_valid, w.list_step, w.list_builds);
     a(w.domain, w.thick, w.segment_law, w.integrator, w.gravity, w.time_step, w.drift, w.automatic_step,

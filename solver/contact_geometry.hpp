@@ -11,6 +11,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "solver/segment_contact.hpp"
 #include "solver/world.hpp"
@@ -31,29 +32,34 @@ struct OutlineFacing {
     std::uint32_t edge;  // faced, into World::edges
 };
 
+/// m2; closer points are taken to coincide. Above, √s/s is 1/√s to rounding; the root and the division need not wait
+/// for each other.
+inline constexpr double least_squared_distance = std::numeric_limits<double>::min();
+
 namespace detail {
 
-inline OutlineFacing face_vertex(double dx, double dy, const Edge& edge, std::uint32_t index) {
-    const double distance = std::sqrt(dx * dx + dy * dy);
+/// An end of an edge, seen from `over` beyond it along the edge and `across` in front of its line.
+inline OutlineFacing face_corner(double over, double across, const Edge& edge, std::uint32_t index) {
+    const double squared = over * over + across * across, distance = std::sqrt(squared);
     // On the corner itself any direction of its normal cone will do; the edge's normal is one.
-    if (distance == 0.0) return {0.0, edge.ty, -edge.tx, index};
-    const double inverse = 1.0 / distance;
-    return {distance, inverse * dx, inverse * dy, index};
+    if (!(squared >= least_squared_distance)) return {distance, edge.ty, -edge.tx, index};
+    const double inverse = distance * (1.0 / squared);
+    const double along = over * inverse, out = across * inverse;
+    return {distance, along * edge.tx + out * edge.ty, along * edge.ty - out * edge.tx, index};
 }
 
 /// Unsigned distance to one open segment.
 inline OutlineFacing face_segment(const Edge& edge, std::uint32_t index, double px, double py) {
     const double dx = px - edge.x, dy = py - edge.y;
     const double along = dx * edge.tx + dy * edge.ty;
-    if (along <= 0.0) return face_vertex(dx, dy, edge, index);
-    if (along >= edge.length) return face_vertex(dx - edge.length * edge.tx, dy - edge.length * edge.ty, edge, index);
     const double across = dx * edge.ty - dy * edge.tx;
+    if (along <= 0.0) return face_corner(along, across, edge, index);
+    if (along >= edge.length) return face_corner(along - edge.length, across, edge, index);
     return across >= 0.0 ? OutlineFacing{across, edge.ty, -edge.tx, index}
                          : OutlineFacing{-across, -edge.ty, edge.tx, index};
 }
 
-/// Signed distance to a convex closed piece by looking at every edge. Corners are where the edge that begins there
-/// says, as in face_convex(): which of the two was asked leaves no trace in the result.
+/// Signed distance to a convex closed piece by looking at every edge.
 inline OutlineFacing face_every_edge(const Edge* edges, const Piece& piece, double px, double py) {
     OutlineFacing inside{-std::numeric_limits<double>::infinity(), 0.0, 0.0, 0};
     OutlineFacing outside{std::numeric_limits<double>::infinity(), 0.0, 0.0, 0};
@@ -67,10 +73,9 @@ inline OutlineFacing face_every_edge(const Edge* edges, const Piece& piece, doub
         const double along = dx * edge.tx + dy * edge.ty;
         OutlineFacing candidate{across, edge.ty, -edge.tx, e};
         if (along < 0.0) {
-            candidate = face_vertex(dx, dy, edge, e);
+            candidate = face_corner(along, across, edge, e);
         } else if (along > edge.length) {
-            const std::uint32_t next = e + 1 == end ? piece.first_edge : e + 1;
-            candidate = face_vertex(px - edges[next].x, py - edges[next].y, edges[next], next);
+            candidate = face_corner(along - edge.length, across, edge, e);
         }
         if (candidate.distance < outside.distance) outside = candidate;
     }
@@ -79,6 +84,7 @@ inline OutlineFacing face_every_edge(const Edge* edges, const Piece& piece, doub
 
 /// Signed distance to a convex closed piece, starting from the edge faced last. The normal strips of the edges and the
 /// cones of the corners partition the outside of a convex outline, so a point found in one needs no further search.
+/// A corner is where the edge faced says: the two that meet there agree to rounding.
 inline OutlineFacing face_convex(const Edge* edges, const Piece& piece, std::uint32_t hint, double px, double py) {
     const std::uint32_t first = piece.first_edge, last = first + piece.edge_count - 1;
     std::uint32_t e = hint >= first && hint <= last ? hint : first;
@@ -88,21 +94,11 @@ inline OutlineFacing face_convex(const Edge* edges, const Piece& piece, std::uin
         const double across = dx * edge.ty - dy * edge.tx;
         if (across < 0.0) break;
         const double along = dx * edge.tx + dy * edge.ty;
-        if (along < 0.0) {
-            const std::uint32_t previous = e == first ? last : e - 1;
-            const Edge& before = edges[previous];
-            if ((px - before.x) * before.tx + (py - before.y) * before.ty >= before.length)
-                return face_vertex(dx, dy, edge, e);
-            e = previous;
-        } else if (along > edge.length) {
-            const std::uint32_t next = e == last ? first : e + 1;
-            const Edge& after = edges[next];
-            const double ax = px - after.x, ay = py - after.y;
-            if (ax * after.tx + ay * after.ty <= 0.0) return face_vertex(ax, ay, after, e);
-            e = next;
-        } else {
-            return {across, edge.ty, -edge.tx, e};
-        }
+        if (along >= 0.0 && along <= edge.length) return {across, edge.ty, -edge.tx, e};
+        const bool before = along < 0.0;
+        const double over = before ? along : along - edge.length;
+        if (across + over * edge.cone[before ? 0 : 1] >= 0.0) return face_corner(over, across, edge, e);
+        e = before ? (e == first ? last : e - 1) : (e == last ? first : e + 1);
     }
     return face_every_edge(edges, piece, px, py);
 }
@@ -132,21 +128,19 @@ inline Vec2 turned(const BodyState& body, const Element& element) {
 
 namespace detail {
 
-/// Two circles whose centres are `oix, oiy` and `ojx, ojy` away from the centroids.
-inline ContactGeometry circles_geometry(const BodyState& i, const BodyState& j, Vec2 oi, Vec2 oj, double ri,
-                                        double rj) {
-    const double dx = (j.x - i.x) + (oj.x - oi.x), dy = (j.y - i.y) + (oj.y - oi.y);
-    const double distance = std::sqrt(dx * dx + dy * dy);
-    const double inverse = 1.0 / distance;
+/// Two circles, the second `dx, dy` away from the first. Arms count from the circles' centres.
+inline ContactGeometry circles_geometry(double dx, double dy, double ri, double rj) {
+    const double squared = dx * dx + dy * dy, distance = std::sqrt(squared), inverse = distance * (1.0 / squared);
+    const bool apart = squared >= least_squared_distance;
     ContactGeometry g;
     g.overlap = ri + rj - distance;
-    g.nx = distance > 0.0 ? dx * inverse : 1.0;  // coincident centres have no normal: take the x axis
-    g.ny = distance > 0.0 ? dy * inverse : 0.0;
+    g.nx = apart ? dx * inverse : 1.0;  // coincident centres have no normal: take the x axis
+    g.ny = apart ? dy * inverse : 0.0;
     const double li = ri - 0.5 * g.overlap, lj = rj - 0.5 * g.overlap;
-    g.aix = oi.x + li * g.nx;
-    g.aiy = oi.y + li * g.ny;
-    g.ajx = oj.x - lj * g.nx;
-    g.ajy = oj.y - lj * g.ny;
+    g.aix = li * g.nx;
+    g.aiy = li * g.ny;
+    g.ajx = -lj * g.nx;
+    g.ajy = -lj * g.ny;
     return g;
 }
 
@@ -186,12 +180,19 @@ inline ContactGeometry contact_geometry(const World& world, const ContactPoint& 
     const BodyState& i = world.bodies[point.body_i];
     if constexpr (K == PointKind::circle_circle) {
         const BodyState& j = world.bodies[point.body_j];
-        return detail::circles_geometry(i, j, {}, {}, i.shape[0], j.shape[0]);
+        return detail::circles_geometry(j.x - i.x, j.y - i.y, i.shape[0], j.shape[0]);
     } else if constexpr (K == PointKind::element_element) {
         const BodyState& j = world.bodies[point.body_j];
         const Element& a = world.elements[point.element_i];
         const Element& b = world.elements[point.feature_j];
-        return detail::circles_geometry(i, j, turned(i, a), turned(j, b), a.radius, b.radius);
+        const Vec2 oi = turned(i, a), oj = turned(j, b);
+        ContactGeometry g =
+            detail::circles_geometry((j.x - i.x) + (oj.x - oi.x), (j.y - i.y) + (oj.y - oi.y), a.radius, b.radius);
+        g.aix += oi.x;
+        g.aiy += oi.y;
+        g.ajx += oj.x;
+        g.ajy += oj.y;
+        return g;
     } else if constexpr (K == PointKind::element_outline) {
         const BodyState& j = world.bodies[point.body_j];
         const Element& a = world.elements[point.element_i];

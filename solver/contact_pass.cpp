@@ -25,7 +25,7 @@ inline void store_work(SpringWork& work, const World& world, const ContactPoint&
 
 /// Out of contact: no force; what the shear spring still held is lost to the slider.
 template <bool Friction, bool Ledger>
-inline void release(World& world, PointIndex k, World::LossBlock& loss, double shear_move) {
+inline void release(World& world, PointIndex k, BlockLosses& loss, double shear_move) {
     PointState& state = world.point_states[k];
     if constexpr (Ledger && Friction)
         loss.friction += shear_force(world.laws[state.law], world.shear_forces[k], shear_move, 0.0).friction;
@@ -51,9 +51,50 @@ inline void feel_bodies(const World& world, const ContactPoint& point, const Con
     if constexpr (K != PointKind::element_wall) add(point.body_j, g.ajx, g.ajy, -1.0);
 }
 
-/// Force of one point into `out`, with all that can happen to it.
+/// Lengths of the arms of two single circles, which lie along the normal, m.
+struct Arms {
+    double i, j;
+};
+inline Arms arms_of_circles(const BodyState& i, const BodyState& j, const ContactGeometry& g) {
+    return {i.shape[0] - 0.5 * g.overlap, j.shape[0] - 0.5 * g.overlap};
+}
+
+/// Slip that ω × a at the end of the drift misses, where the arm is not along the normal: the chord of its turn,
+/// ½ω²Δt·a, in m/s. Left out, a bonded specimen that turns as a whole would collect shear, first order in Δt.
+inline double chord(const World& world, const BodyState& body, double arm_x, double arm_y, const ContactGeometry& g) {
+    return 0.5 * world.drift * body.omega * body.omega * (arm_y * g.nx - arm_x * g.ny);
+}
+
+/// How i moves against j at the contact position, m/s.
+struct Motion {
+    double closing, slipping;  // along the normal and the tangent
+};
+
+template <PointKind K>
+inline Motion relative_motion(const World& world, const ContactPoint& point, const ContactGeometry& g) {
+    const BodyState& i = world.bodies[point.body_i];
+    if constexpr (K == PointKind::element_wall) {
+        const double rx = i.vx - i.omega * g.aiy, ry = i.vy + i.omega * g.aix;
+        return {rx * g.nx + ry * g.ny, ry * g.nx - rx * g.ny + chord(world, i, g.aix, g.aiy, g)};
+    } else {
+        const BodyState& j = world.bodies[point.body_j];
+        double rx = i.vx - j.vx, ry = i.vy - j.vy;
+        if constexpr (K == PointKind::circle_circle) {
+            const Arms arms = arms_of_circles(i, j, g);
+            return {rx * g.nx + ry * g.ny, (ry * g.nx - rx * g.ny) + (i.omega * arms.i + j.omega * arms.j)};
+        }
+        rx -= i.omega * g.aiy - j.omega * g.ajy;
+        ry += i.omega * g.aix - j.omega * g.ajx;
+        double slipping = ry * g.nx - rx * g.ny;
+        slipping += chord(world, i, g.aix, g.aiy, g);
+        slipping -= chord(world, j, g.ajx, g.ajy, g);
+        return {rx * g.nx + ry * g.ny, slipping};
+    }
+}
+
+/// Force of one point into `out`, with all that can happen to it. @param place in its block
 template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Ledger, bool Consistent>
-inline void force_point(World& world, PointIndex k, PointForce& out, World::LossBlock& loss) {
+inline void force_point(World& world, PointIndex k, PointIndex place, PointForce& out, BlockLosses& loss) {
     const double dt = world.drift;
     [[maybe_unused]] const double kick = kick_before(world) + 0.5 * world.time_step;
     ContactPoint& point = world.points[k];
@@ -70,25 +111,7 @@ inline void force_point(World& world, PointIndex k, PointForce& out, World::Loss
         return;
     }
 
-    // Velocity of i against j at the contact position, along the normal (closing) and the tangent.
-    const BodyState& i = world.bodies[point.body_i];
-    double rx = i.vx - i.omega * g.aiy, ry = i.vy + i.omega * g.aix;
-    if constexpr (K != PointKind::element_wall) {
-        const BodyState& j = world.bodies[point.body_j];
-        rx -= j.vx - j.omega * g.ajy;
-        ry -= j.vy + j.omega * g.ajx;
-    }
-    const double closing = rx * g.nx + ry * g.ny;
-    double slipping = ry * g.nx - rx * g.ny;
-    if constexpr (K != PointKind::circle_circle) {
-        // Where the arms are not along the normal, ω × a at the end of the drift misses the chord of the arm's turn
-        // by ½ω²Δt·a; left out, a bonded specimen that turns as a whole would collect shear, first order in Δt.
-        slipping += 0.5 * dt * i.omega * i.omega * (g.aiy * g.nx - g.aix * g.ny);
-        if constexpr (K != PointKind::element_wall) {
-            const double spin = world.bodies[point.body_j].omega;
-            slipping -= 0.5 * dt * spin * spin * (g.ajy * g.nx - g.ajx * g.ny);
-        }
-    }
+    const auto [closing, slipping] = relative_motion<K>(world, point, g);
 
     [[maybe_unused]] Approach approach{};
     [[maybe_unused]] double before = 0.0;
@@ -102,7 +125,8 @@ inline void force_point(World& world, PointIndex k, PointForce& out, World::Loss
     if (!holds) {
         if constexpr (Consistent) rest_opening(world.openings[k]);
         if constexpr (Ledger && Damping) {
-            loss.dashpot += 0.5 * dt * (world.normal_dashpot[k] * closing + world.shear_dashpot[k] * slipping);
+            loss.dashpot[place % BlockLosses::places] +=
+                0.5 * dt * (world.normal_dashpot[k] * closing + world.shear_dashpot[k] * slipping);
             world.normal_dashpot[k] = world.shear_dashpot[k] = 0.0;
         }
         if constexpr (Ledger && by_guide(K)) {
@@ -172,9 +196,9 @@ inline void force_point(World& world, PointIndex k, PointForce& out, World::Loss
         const double normal_dashpot = normal_damping(law, world.root_masses[k]) * closing;
         const double shear_damper = sliding ? 0.0 : shear_dashpot(law, world.root_masses[k], slipping, compression);
         if constexpr (Ledger) {
-            loss.dashpot += 0.5 * dt *
-                            ((world.normal_dashpot[k] + normal_dashpot) * closing +
-                             (world.shear_dashpot[k] + shear_damper) * slipping);
+            loss.dashpot[place % BlockLosses::places] += 0.5 * dt *
+                                                         ((world.normal_dashpot[k] + normal_dashpot) * closing +
+                                                          (world.shear_dashpot[k] + shear_damper) * slipping);
             world.normal_dashpot[k] = normal_dashpot;
             world.shear_dashpot[k] = shear_damper;
         }
@@ -185,34 +209,57 @@ inline void force_point(World& world, PointIndex k, PointForce& out, World::Loss
     // Force on i: -f_n along the normal (pushed away from j), f_t along the tangent.
     const double fx = -normal * g.nx - tangential * g.ny;
     const double fy = -normal * g.ny + tangential * g.nx;
-    out = {fx, fy, g.aix * fy - g.aiy * fx, g.ajy * fx - g.ajx * fy};
+    if constexpr (K == PointKind::circle_circle) {
+        const Arms arms = arms_of_circles(world.bodies[point.body_i], world.bodies[point.body_j], g);
+        out = {fx, fy, arms.i * tangential, arms.j * tangential};
+    } else {
+        out = {fx, fy, g.aix * fy - g.aiy * fx, g.ajy * fx - g.ajx * fy};
+    }
 }
 
 /// Whether points of a kind are looked at eight at a time.
 template <PointKind K, bool Consistent>
 inline constexpr bool in_batches = (K == PointKind::circle_circle || K == PointKind::element_outline) && !Consistent;
 
-template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Ledger, bool Consistent>
-void force_block(World& world, const PointBlock& block) {
-    World::LossBlock loss;
-    PointIndex k = block.begin;
-    const auto out_of = [&](PointIndex point) { return block.forces + (point - block.begin); };
-    if constexpr (in_batches<K, Consistent>) {
-        // Geometry first: its roots and divisions then overlap those of the next batches.
-        constexpr PointIndex ahead = 64 / lane_count;
-        BatchGeometry geometry[ahead];
-        while (k + lane_count <= block.end) {
-            const PointIndex batches = std::min<PointIndex>(ahead, (block.end - k) / lane_count);
-            for (PointIndex b = 0; b < batches; ++b) geometry_batch<K>(world, k + b * lane_count, geometry[b]);
-            for (PointIndex b = 0; b < batches; ++b, k += lane_count) {
-                if (force_batch<K, Friction, Damping, Bonds, Ledger>(world, k, geometry[b], out_of(k), loss)) continue;
-                for (PointIndex one = k; one < k + lane_count; ++one)
-                    force_point<K, Friction, Damping, Bonds, Ledger, Consistent>(world, one, *out_of(one), loss);
-            }
+/// Points of a block from k on, as far as batches go. @return the first point left
+template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Ledger, bool Fours>
+CRACKLE_INLINE PointIndex force_batches(World& world, const PointBlock& block, PointIndex k, PointIndex end,
+                                        BlockLosses& loss) {
+    // Geometry first: its roots and divisions then overlap those of the next batches.
+    constexpr PointIndex ahead = 64 / lane_count;
+    if (k + lane_count > end) return k;
+    BatchGeometry geometry[ahead];
+    LawLanes law(world, world.point_states[k].law);
+    while (k + lane_count <= end) {
+        const PointIndex batches = std::min<PointIndex>(ahead, (end - k) / lane_count);
+        geometry_batches<K, Fours>(world, k, batches, geometry);
+        for (PointIndex b = 0; b < batches; ++b, k += lane_count) {
+            const PointIndex place = k - block.begin;
+            PointForce* const out = block.forces + place;
+            if (force_batch<K, Friction, Damping, Bonds, Ledger>(world, k, place, geometry[b], law, out, loss))
+                continue;
+            for (PointIndex l = 0; l < lane_count; ++l)
+                force_point<K, Friction, Damping, Bonds, Ledger, false>(world, k + l, place + l, out[l], loss);
         }
     }
-    for (; k < block.end; ++k) force_point<K, Friction, Damping, Bonds, Ledger, Consistent>(world, k, *out_of(k), loss);
-    world.loss_blocks[block.number] = loss;
+    return k;
+}
+
+template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Ledger, bool Consistent>
+void force_block(World& world, const PointBlock& block) {
+    BlockLosses loss;
+    PointIndex k = block.begin;
+    if constexpr (in_batches<K, Consistent>) {
+        if constexpr (K == PointKind::element_outline)
+            k = force_batches<K, Friction, Damping, Bonds, Ledger, true>(
+                world, block, k, std::min(block.end, std::max(k, world.fours_end)), loss);
+        k = force_batches<K, Friction, Damping, Bonds, Ledger, false>(world, block, k, block.end, loss);
+    }
+    for (; k < block.end; ++k) {
+        const PointIndex place = k - block.begin;
+        force_point<K, Friction, Damping, Bonds, Ledger, Consistent>(world, k, place, block.forces[place], loss);
+    }
+    world.loss_blocks[block.number] = loss.total();
 }
 
 /// Geometry alone, for profiles.
@@ -221,8 +268,8 @@ void geometry_block(World& world, const PointBlock& block) {
     PointIndex k = block.begin;
     if constexpr (in_batches<K, false>) {
         for (; k + lane_count <= block.end; k += lane_count) {
-            BatchGeometry g;
-            geometry_batch<K>(world, k, g);
+            BatchGeometry g[1];
+            geometry_batches<K, false>(world, k, 1, g);
             asm volatile("" : : "m"(g));
         }
     }

@@ -133,6 +133,12 @@ CRACKLE_INLINE Lanes join(const double* a, const double* b, const double* c, con
     return __builtin_shufflevector(join(a, b), join(c, d), 0, 1, 2, 3, 4, 5, 6, 7);
 }
 
+CRACKLE_INLINE Quad all_of_four(double value) { return value - Quad{}; }
+/// Each number four times.
+CRACKLE_INLINE Lanes lanes_of_fours(const double (&numbers)[2]) {
+    return __builtin_shufflevector(all_of_four(numbers[0]), all_of_four(numbers[1]), 0, 1, 2, 3, 4, 5, 6, 7);
+}
+
 /// The two numbers at each of the addresses. Pairs meet on their way from memory, which spares shuffles.
 CRACKLE_INLINE void gather_pairs(const double* const (&at)[lane_count], Lanes& first, Lanes& second) {
     const Lanes even = join(at[0], at[2], at[4], at[6]), odd = join(at[1], at[3], at[5], at[7]);
@@ -158,6 +164,9 @@ CRACKLE_INLINE void store_quads(void* to, const Lanes& a, const Lanes& b, const 
 }
 
 #else
+
+/// Each number four times.
+CRACKLE_INLINE Lanes lanes_of_fours(const double (&numbers)[1]) { return all_lanes(numbers[0]); }
 
 /// The two numbers at each of the addresses. Pairs meet on their way from memory, which spares shuffles.
 CRACKLE_INLINE void gather_pairs(const double* const (&at)[lane_count], Lanes& first, Lanes& second) {

@@ -311,12 +311,53 @@ PointKey key_of(PointKind kind, const ContactPoint& p) {
 
 constexpr PointIndex no_point = std::numeric_limits<PointIndex>::max();
 
+bool same_pair(const ContactPoint& p, const ContactPoint& q) {
+    return std::minmax(p.body_i, p.body_j) == std::minmax(q.body_i, q.body_j);
+}
+
+/// Points of a kind in the order of their keys.
+std::vector<PointIndex> in_order(const World& world, PointKind kind) {
+    const auto number = static_cast<std::size_t>(kind);
+    std::vector<PointIndex> order(world.kind_begin[number + 1] - world.kind_begin[number]);
+    std::iota(order.begin(), order.end(), world.kind_begin[number]);
+    if (kind == PointKind::element_outline) {
+        const auto rest = order.begin() + (world.fours_end - world.kind_begin[number]);
+        std::inplace_merge(order.begin(), rest, order.end(), [&](PointIndex a, PointIndex b) {
+            return key_of(kind, world.points[a]) < key_of(kind, world.points[b]);
+        });
+    }
+    return order;
+}
+
 /// The points of a new list and which points of the old one they are.
 struct Succession {
     std::vector<ContactPoint> points;
     std::vector<PointIndex> old;  // no_point: was not listed
     std::array<PointIndex, point_kinds + 1> begin{};
+    PointIndex fours_end = 0;
 };
+
+/// Of the points of element_outline, which end the list so far, the pairs with four go first.
+void put_fours_first(Succession& next) {
+    const PointIndex begin = next.begin[static_cast<std::size_t>(PointKind::element_outline)];
+    const auto end = static_cast<PointIndex>(next.points.size());
+    std::vector<PointIndex> order, others;
+    order.reserve(end - begin);
+    for (PointIndex first = begin, last = begin; first < end; first = last) {
+        while (last < end && same_pair(next.points[first], next.points[last])) ++last;
+        std::vector<PointIndex>& list = last - first == 4 ? order : others;
+        for (PointIndex k = first; k < last; ++k) list.push_back(k);
+    }
+    next.fours_end = begin + static_cast<PointIndex>(order.size());
+    if (others.empty()) return;
+    order.insert(order.end(), others.begin(), others.end());
+    const std::vector<ContactPoint> points(next.points.begin() + begin, next.points.end());
+    const std::vector<PointIndex> old(next.old.begin() + begin, next.old.end());
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        next.points[begin + k] = points[order[k] - begin];
+        next.old[begin + k] = old[order[k] - begin];
+    }
+}
 
 /// Takes the lists over one by one. A bond is carried over whether its point is listed or not: it lasts until the force
 /// pass finds it broken, and intact ones hold at any opening.
@@ -339,26 +380,28 @@ Succession succeed(World& world, PointLists& lists) {
     for (std::size_t number = 0; number < point_kinds; ++number) {
         const auto kind = static_cast<PointKind>(number);
         next.begin[number] = static_cast<PointIndex>(next.points.size());
-        PointIndex old = world.kind_begin[number];
-        const PointIndex old_end = world.kind_begin[number + 1];
-        const auto old_key = [&] { return key_of(kind, world.points[old]); };
+        const std::vector<PointIndex> old_points = in_order(world, kind);
+        auto at = old_points.begin();
+        const auto old_end = old_points.end();
+        const auto old_key = [&] { return key_of(kind, world.points[*at]); };
         const auto pass_unlisted = [&] {
             // One that touched a step ago has its last force to settle, however far it has gone.
-            const bool settles = consistent && !by_guide(kind) && flagged(old, point_touching) && !closed;
-            flagged(old, point_bonded) || settles ? add(world.points[old], old) : leave_out(old);
-            ++old;
+            const bool settles = consistent && !by_guide(kind) && flagged(*at, point_touching) && !closed;
+            flagged(*at, point_bonded) || settles ? add(world.points[*at], *at) : leave_out(*at);
+            ++at;
         };
         for (const ContactPoint& point : lists[number]) {
             const PointKey key = key_of(kind, point);
-            while (old < old_end && old_key() < key) pass_unlisted();
-            const bool known = old < old_end && old_key() == key;
-            if (!closed || (known && flagged(old, point_bonded)))
-                add(point, known ? old : no_point);
+            while (at != old_end && old_key() < key) pass_unlisted();
+            const bool known = at != old_end && old_key() == key;
+            if (!closed || (known && flagged(*at, point_bonded)))
+                add(point, known ? *at : no_point);
             else if (known)
-                leave_out(old);
-            if (known) ++old;
+                leave_out(*at);
+            if (known) ++at;
         }
-        while (old < old_end) pass_unlisted();
+        while (at != old_end) pass_unlisted();
+        if (kind == PointKind::element_outline) put_fours_first(next);
         std::vector<ContactPoint>().swap(lists[number]);
     }
     next.begin[point_kinds] = static_cast<PointIndex>(next.points.size());
@@ -420,6 +463,7 @@ void exchange_points(World& world, PointLists& lists) {
     carry_over(world.strong_shear, next.old, world.has_bonds);
     world.points = std::move(next.points);
     world.kind_begin = next.begin;
+    world.fours_end = next.fours_end;
     find_pairs(world);
     if (consistent) hand_on(world);
     world.point_forces.assign(world.keep_point_forces ? world.points.size() : 0, PointForce{});

@@ -4,6 +4,8 @@
 // materials, the batch is left to the scalar code; both give the same bytes.
 #pragma once
 
+#include <cstddef>
+
 #include "solver/contact_geometry.hpp"
 #include "solver/contact_law.hpp"
 #include "solver/lanes.hpp"
@@ -11,96 +13,143 @@
 
 namespace crackle {
 
-/// Arms, normal and overlap of the points, and how i moves against j at the contact position.
+/// Overlap and normal of the points, how i moves against j at the contact position, and the arms there: of outlines
+/// about both centroids, of single circles, whose arms lie along the normal, their lengths in aix and ajx.
 struct BatchGeometry {
     Lanes overlap, nx, ny, aix, aiy, ajx, ajy;
     Lanes closing, slipping;  // m/s, along the normal and the tangent
 };
-/// One body of each point.
-struct PlaceLanes {
-    Lanes x, y, shape0, shape1;
-};
-struct MotionLanes {
-    Lanes vx, vy, omega;
-};
 
 using BatchBodies = const BodyState* [lane_count];
 
-CRACKLE_INLINE PlaceLanes load_places(const BatchBodies& bodies) {
+/// Two numbers that lie side by side, of each body of a batch. @param first of them
+CRACKLE_INLINE void load_pairs(const BatchBodies& bodies, double BodyState::*first, Lanes& a, Lanes& b) {
     const double* at[lane_count];
-    PlaceLanes lanes;
-    for (int l = 0; l < lane_count; ++l) at[l] = &bodies[l]->x;
-    gather_pairs(at, lanes.x, lanes.y);
-    for (int l = 0; l < lane_count; ++l) at[l] = bodies[l]->shape;
-    gather_pairs(at, lanes.shape0, lanes.shape1);
-    return lanes;
+    for (int l = 0; l < lane_count; ++l) at[l] = &(bodies[l]->*first);
+    gather_pairs(at, a, b);
 }
 
-CRACKLE_INLINE MotionLanes load_motions(const BatchBodies& bodies) {
-    const double* at[lane_count];
-    MotionLanes lanes;
-    Lanes angle;
-    for (int l = 0; l < lane_count; ++l) at[l] = &bodies[l]->vx;
-    gather_pairs(at, lanes.vx, lanes.vy);
-    for (int l = 0; l < lane_count; ++l) at[l] = &bodies[l]->omega;
-    gather_pairs(at, lanes.omega, angle);
-    return lanes;
+/// As circles_geometry() of two single circles, and their approach as in force_point().
+CRACKLE_INLINE void circles_batch(const BatchBodies& i, const BatchBodies& j, BatchGeometry& g) {
+    static_assert(offsetof(BodyState, shape) == offsetof(BodyState, omega) + sizeof(double));
+    Lanes ix, iy, jx, jy, ivx, ivy, jvx, jvy, spin_i, spin_j, radius_i, radius_j;
+    load_pairs(i, &BodyState::x, ix, iy);
+    load_pairs(j, &BodyState::x, jx, jy);
+    load_pairs(i, &BodyState::omega, spin_i, radius_i);
+    load_pairs(j, &BodyState::omega, spin_j, radius_j);
+    const Lanes dx = jx - ix, dy = jy - iy;
+    const Lanes squared = dx * dx + dy * dy, distance = root(squared), inverse = distance * (1.0 / squared);
+    const LaneBits apart = squared >= least_squared_distance;
+    g.overlap = radius_i + radius_j - distance;
+    g.nx = apart ? dx * inverse : all_lanes(1.0);
+    g.ny = apart ? dy * inverse : Lanes{};
+    g.aix = radius_i - 0.5 * g.overlap;
+    g.ajx = radius_j - 0.5 * g.overlap;
+    load_pairs(i, &BodyState::vx, ivx, ivy);
+    load_pairs(j, &BodyState::vx, jvx, jvy);
+    const Lanes rx = ivx - jvx, ry = ivy - jvy;
+    g.closing = rx * g.nx + ry * g.ny;
+    g.slipping = (ry * g.nx - rx * g.ny) + (spin_i * g.aix + spin_j * g.ajx);
 }
 
-/// As detail::circles_geometry() of two single circles.
-CRACKLE_INLINE void circles_batch(const PlaceLanes& i, const PlaceLanes& j, BatchGeometry& g) {
-    const Lanes dx = (j.x - i.x) + 0.0, dy = (j.y - i.y) + 0.0;
-    const Lanes distance = root(dx * dx + dy * dy);
-    g.overlap = i.shape0 + j.shape0 - distance;
-    const Lanes inverse = 1.0 / distance;
-    g.nx = distance > 0.0 ? dx * inverse : all_lanes(1.0);
-    g.ny = distance > 0.0 ? dy * inverse : all_lanes(0.0);
-    const Lanes li = i.shape0 - 0.5 * g.overlap, lj = j.shape0 - 0.5 * g.overlap;
-    g.aix = 0.0 + li * g.nx;
-    g.aiy = 0.0 + li * g.ny;
-    g.ajx = 0.0 - lj * g.nx;
-    g.ajy = 0.0 - lj * g.ny;
-}
+/// The two bodies of each point of element_outline.
+struct PairLanes {
+    Lanes dx, dy, dvx, dvy;  // of i against j
+    Lanes spin_i, spin_j, cosine_i, sine_i, cosine_j, sine_j;
+};
 
-/// Points beyond an end of their edge: those in the cone of the corner there, as detail::face_convex() finds them.
-/// @param lanes asked for @return lanes found; only their distance and gradient are changed
-CRACKLE_INLINE LaneBits corners_batch(const World& world, const ContactPoint* points, const LaneBits& asked,
-                                      const LaneBits& before, const Lanes& px, const Lanes& py, const Lanes& dx,
-                                      const Lanes& dy, Lanes& distance, Lanes& gx, Lanes& gy) {
-    const unsigned to_previous = mask_of(before);
-    const double *starts[lane_count], *directions[lane_count], *lengths[lane_count];
+CRACKLE_INLINE PairLanes load_any_pairs(const World& world, const ContactPoint* points) {
+    static_assert(offsetof(BodyState, angle) == offsetof(BodyState, shape) + 2 * sizeof(double));
+    const BodyState* const bodies = world.bodies.data();
+    BatchBodies i, j;
     for (int l = 0; l < lane_count; ++l) {
-        const Edge* const faced = &world.edges[points[l].feature_j];
-        const Edge* const other = faced + faced->to_neighbour[to_previous >> l & 1];
-        starts[l] = &other->x;
-        directions[l] = &other->tx;
-        lengths[l] = &other->length;
+        i[l] = &bodies[points[l].body_i];
+        j[l] = &bodies[points[l].body_j];
     }
-    Lanes x, y, tx, ty, length, rest;
-    gather_pairs(starts, x, y);
-    gather_pairs(directions, tx, ty);
-    gather_pairs(lengths, length, rest);
-    const Lanes ex = px - x, ey = py - y;
-    const Lanes along = ex * tx + ey * ty;
-    const LaneBits found = asked & (before ? along >= length : along <= 0.0);
-    const Lanes cx = before ? dx : ex, cy = before ? dy : ey;
-    const Lanes to_corner = root(cx * cx + cy * cy);
-    const LaneBits apart = to_corner > 0.0;
-    const Lanes inverse = 1.0 / to_corner;
-    // On the corner itself the normal of the edge that begins there.
-    gx = found ? (apart ? cx * inverse : (before ? gx : ty)) : gx;
-    gy = found ? (apart ? cy * inverse : (before ? gy : -tx)) : gy;
-    distance = found ? to_corner : distance;
-    return found;
+    PairLanes pair;
+    Lanes ix, iy, jx, jy, unused;
+    load_pairs(i, &BodyState::x, ix, iy);
+    load_pairs(j, &BodyState::x, jx, jy);
+    pair.dx = ix - jx, pair.dy = iy - jy;
+    load_pairs(i, &BodyState::vx, ix, iy);
+    load_pairs(j, &BodyState::vx, jx, jy);
+    pair.dvx = ix - jx, pair.dvy = iy - jy;
+    load_pairs(i, &BodyState::omega, pair.spin_i, pair.cosine_i);
+    load_pairs(j, &BodyState::omega, pair.spin_j, pair.cosine_j);
+    const double *sine_i[lane_count], *sine_j[lane_count];
+    for (int l = 0; l < lane_count; ++l) sine_i[l] = i[l]->shape + 1, sine_j[l] = j[l]->shape + 1;
+    gather_pairs(sine_i, pair.sine_i, unused);
+    gather_pairs(sine_j, pair.sine_j, unused);
+    return pair;
 }
 
-/// As contact_geometry() of elements against outlines: the edge faced last and its corners are tried for all, the
-/// search is left to contact_geometry.hpp where a point has got beyond them or the outline is not one convex piece.
-CRACKLE_INLINE void outline_batch(const World& world, ContactPoint* points, const PlaceLanes& i, const PlaceLanes& j,
-                                  BatchGeometry& g) {
+/// Of points that lie in fours, those whose body_i is not that of the first.
+CRACKLE_INLINE LaneBits swapped_lanes(const ContactPoint* points) {
+    typedef std::int32_t Words __attribute__((vector_size(4 * lane_count)));
+    Words owners, firsts;
+    for (int l = 0; l < lane_count; ++l) {
+        owners[l] = static_cast<std::int32_t>(points[l].body_i);
+        firsts[l] = static_cast<std::int32_t>(points[l / 4 * 4].body_i);
+    }
+    return __builtin_convertvector(owners != firsts, LaneBits);
+}
+
+/// The same where the points lie in fours between two bodies each, which are loaded once.
+CRACKLE_INLINE PairLanes load_fours(const World& world, const ContactPoint* points) {
+    constexpr int fours = lane_count / 4;
+    const BodyState *a[fours], *b[fours];
+    for (int f = 0; f < fours; ++f) {
+        const ContactPoint* const four = points + 4 * f;
+        a[f] = &world.bodies[four->body_i];
+        b[f] = &world.bodies[four->body_j];
+    }
+    const LaneBits swapped = swapped_lanes(points);  // i is the second of the two
+    const LaneBits sign = swapped & sign_bit;
+    const auto of_fours = [](const auto& number) {
+        double numbers[fours];
+        for (int f = 0; f < fours; ++f) numbers[f] = number(f);
+        return lanes_of_fours(numbers);
+    };
+    const auto difference = [&](double BodyState::*number) {
+        return lanes_of(bits_of(of_fours([&](int f) { return a[f]->*number - b[f]->*number; })) ^ sign);
+    };
+    const auto either = [&](const auto& number, Lanes& i, Lanes& j) {
+        const Lanes of_a = of_fours([&](int f) { return number(*a[f]); });
+        const Lanes of_b = of_fours([&](int f) { return number(*b[f]); });
+        i = swapped ? of_b : of_a;
+        j = swapped ? of_a : of_b;
+    };
+    PairLanes pair;
+    pair.dx = difference(&BodyState::x), pair.dy = difference(&BodyState::y);
+    pair.dvx = difference(&BodyState::vx), pair.dvy = difference(&BodyState::vy);
+    either([](const BodyState& body) { return body.omega; }, pair.spin_i, pair.spin_j);
+    either([](const BodyState& body) { return body.shape[0]; }, pair.cosine_i, pair.cosine_j);
+    either([](const BodyState& body) { return body.shape[1]; }, pair.sine_i, pair.sine_j);
+    return pair;
+}
+
+/// What is known of points of element_outline before the roots: kernels do this for many batches, then the roots for
+/// all of these, for one batch is a chain of calculations that the processor would wait for.
+struct OutlineStage {
+    Lanes ox, oy;        // m, the element from i's centroid
+    Lanes wx, wy;        // m, from j's
+    Lanes radius;        // m, of the element
+    Lanes cover;         // m, distance at which the overlap begins
+    Lanes across;        // m, in front of the line of the edge faced
+    Lanes over;          // m, beyond an end of it; 0: faces the edge itself
+    Lanes tx, ty;        // direction of the edge, body frame of j
+    Lanes cosine, sine;  // of j
+    Lanes dvx, dvy, spin_i, spin_j;
+};
+
+/// The edge faced last and its corners are tried for all points; the search is left to contact_geometry.hpp where one
+/// has got beyond them or the outline is not one convex piece.
+CRACKLE_INLINE void outline_stage(const World& world, ContactPoint* points, const PairLanes& pair,
+                                  OutlineStage& stage) {
+    static_assert(offsetof(Edge, cone) == offsetof(Edge, length) + sizeof(double));
     const double *elements[lane_count], *element_reaches[lane_count], *edges[lane_count], *edge_directions[lane_count],
-        *edge_lengths[lane_count];
-    Lanes element_x, element_y, radius, target_reach, edge_x, edge_y, tx, ty, length, unused;
+        *edge_lengths[lane_count], *edge_ends[lane_count];
+    Lanes element_x, element_y, target_reach, edge_x, edge_y, tx, ty, length, cone_before, cone_beyond, unused;
     for (int l = 0; l < lane_count; ++l) {
         const Element& element = world.elements[points[l].element_i];
         const Edge& faced = world.edges[points[l].feature_j];
@@ -109,93 +158,165 @@ CRACKLE_INLINE void outline_batch(const World& world, ContactPoint* points, cons
         edges[l] = &faced.x;
         edge_directions[l] = &faced.tx;
         edge_lengths[l] = &faced.length;
+        edge_ends[l] = &faced.cone[1];
     }
     gather_pairs(elements, element_x, element_y);
-    gather_pairs(element_reaches, radius, target_reach);
+    gather_pairs(element_reaches, stage.radius, target_reach);
+    stage.cover = stage.radius + target_reach;
     gather_pairs(edges, edge_x, edge_y);
     gather_pairs(edge_directions, tx, ty);
-    gather_pairs(edge_lengths, length, unused);
+    gather_pairs(edge_lengths, length, cone_before);
+    gather_pairs(edge_ends, cone_beyond, unused);
+    stage.ox = pair.cosine_i * element_x - pair.sine_i * element_y;
+    stage.oy = pair.sine_i * element_x + pair.cosine_i * element_y;
+    const Lanes wx = stage.wx = pair.dx + stage.ox, wy = stage.wy = pair.dy + stage.oy;
+    const Lanes px = pair.cosine_j * wx + pair.sine_j * wy, py = pair.cosine_j * wy - pair.sine_j * wx;
+    const Lanes dx = px - edge_x, dy = py - edge_y;
+    const Lanes across = dx * ty - dy * tx, along = dx * tx + dy * ty;
+    const LaneBits before = along<0.0, beyond = along> length;
+    const Lanes over = before ? along : (beyond ? along - length : Lanes{});
+    LaneBits settled = (across >= 0.0) & (across + over * (before ? cone_before : cone_beyond) >= 0.0);
+    stage.across = across;
+    stage.over = over;
+    stage.tx = tx, stage.ty = ty;
+    stage.cosine = pair.cosine_j, stage.sine = pair.sine_j;
+    stage.dvx = pair.dvx, stage.dvy = pair.dvy;
+    stage.spin_i = pair.spin_i, stage.spin_j = pair.spin_j;
     // Whether the edge faced last is of an outline whose edges are all there is to face.
-    LaneBits known = LaneBits{} == 0;
     if (!world.convex_outlines) {
         for (int l = 0; l < lane_count; ++l)
-            known[l] = world.edges[points[l].feature_j].outline_of == points[l].body_j ? -1 : 0;
+            if (world.edges[points[l].feature_j].outline_of != points[l].body_j) settled[l] = 0;
     }
-    const Lanes ox = i.shape0 * element_x - i.shape1 * element_y, oy = i.shape1 * element_x + i.shape0 * element_y;
-    const Lanes wx = (i.x - j.x) + ox, wy = (i.y - j.y) + oy;
-    const Lanes px = j.shape0 * wx + j.shape1 * wy, py = j.shape0 * wy - j.shape1 * wx;
-    const Lanes dx = px - edge_x, dy = py - edge_y;
-    Lanes distance = dx * ty - dy * tx;
-    Lanes gx = ty, gy = -tx;
-    const Lanes along = dx * tx + dy * ty;
-    const LaneBits outside = known & (distance >= 0.0), before = along<0.0, beyond = along> length;
-    LaneBits settled = outside & ~(before | beyond);
-    if (const LaneBits asked = outside & (before | beyond); mask_of(asked) != 0)
-        settled |= corners_batch(world, points, asked, before, px, py, dx, dy, distance, gx, gy);
     if (const unsigned search = mask_of(~settled); search != 0) {
         for (int l = 0; l < lane_count; ++l) {
             if ((search >> l & 1) == 0) continue;
             ContactPoint& point = points[l];
             const OutlineFacing facing = face_outline(world, world.info[point.body_j], point.feature_j, px[l], py[l]);
             point.feature_j = facing.edge;
-            distance[l] = facing.distance;
-            gx[l] = facing.gx;
-            gy[l] = facing.gy;
+            stage.across[l] = facing.distance;
+            stage.over[l] = 0.0;
+            stage.tx[l] = -facing.gy;
+            stage.ty[l] = facing.gx;
         }
     }
-    g.overlap = radius + target_reach - distance;
-    g.nx = -(j.shape0 * gx - j.shape1 * gy);
-    g.ny = -(j.shape1 * gx + j.shape0 * gy);
-    const Lanes lift = radius - 0.5 * g.overlap;
-    g.aix = ox + lift * g.nx;
-    g.aiy = oy + lift * g.ny;
-    g.ajx = wx + lift * g.nx;
-    g.ajy = wy + lift * g.ny;
 }
 
-/// Velocity of i against j at the contact position, as in force_point().
-template <PointKind K>
-CRACKLE_INLINE void approach_batch(const MotionLanes& i, const MotionLanes& j, double dt, BatchGeometry& g) {
-    const Lanes rx = (i.vx - i.omega * g.aiy) - (j.vx - j.omega * g.ajy);
-    const Lanes ry = (i.vy + i.omega * g.aix) - (j.vy + j.omega * g.ajx);
+/// As contact_geometry() of elements against outlines, and their approach as in force_point().
+CRACKLE_INLINE void outline_batch(const OutlineStage& stage, double drift, BatchGeometry& g) {
+    const LaneBits at_corner = stage.over != 0.0;
+    const Lanes squared = stage.over * stage.over + stage.across * stage.across;
+    const Lanes to_corner = root(squared), inverse = to_corner * (1.0 / squared);
+    const LaneBits apart = at_corner & (squared >= least_squared_distance);
+    const Lanes a = stage.over * inverse, out = stage.across * inverse;
+    const Lanes gx = apart ? a * stage.tx + out * stage.ty : stage.ty;
+    const Lanes gy = apart ? a * stage.ty - out * stage.tx : -stage.tx;
+    g.overlap = stage.cover - (at_corner ? to_corner : stage.across);
+    g.nx = stage.sine * gy - stage.cosine * gx;
+    g.ny = -(stage.sine * gx + stage.cosine * gy);
+    const Lanes lift = stage.radius - 0.5 * g.overlap;
+    const Lanes lift_x = lift * g.nx, lift_y = lift * g.ny;
+    g.aix = stage.ox + lift_x;
+    g.aiy = stage.oy + lift_y;
+    g.ajx = stage.wx + lift_x;
+    g.ajy = stage.wy + lift_y;
+    const Lanes rx = stage.dvx - (stage.spin_i * g.aiy - stage.spin_j * g.ajy);
+    const Lanes ry = stage.dvy + (stage.spin_i * g.aix - stage.spin_j * g.ajx);
     g.closing = rx * g.nx + ry * g.ny;
     g.slipping = ry * g.nx - rx * g.ny;
-    if constexpr (K != PointKind::circle_circle) {
-        g.slipping += 0.5 * dt * i.omega * i.omega * (g.aiy * g.nx - g.aix * g.ny);
-        g.slipping -= 0.5 * dt * j.omega * j.omega * (g.ajy * g.nx - g.ajx * g.ny);
-    }
+    const double half = 0.5 * drift;
+    g.slipping += half * stage.spin_i * stage.spin_i * (g.aiy * g.nx - g.aix * g.ny);
+    g.slipping -= half * stage.spin_j * stage.spin_j * (g.ajy * g.nx - g.ajx * g.ny);
 }
 
-/// All that the forces of points k to k + lane_count - 1 need to know of their bodies.
-template <PointKind K>
-CRACKLE_INLINE void geometry_batch(World& world, PointIndex k, BatchGeometry& g) {
+/// All that the forces of some batches of points need to know of their bodies.
+/// @tparam Fours they lie before World::fours_end
+template <PointKind K, bool Fours, PointIndex Most>
+CRACKLE_INLINE void geometry_batches(World& world, PointIndex k, PointIndex batches, BatchGeometry (&geometry)[Most]) {
     static_assert(K == PointKind::circle_circle || K == PointKind::element_outline);
-    ContactPoint* const points = world.points.data() + k;
-    const BodyState* const bodies = world.bodies.data();
-    BatchBodies i, j;
-    for (int l = 0; l < lane_count; ++l) {
-        i[l] = &bodies[points[l].body_i];
-        j[l] = &bodies[points[l].body_j];
+    if constexpr (K == PointKind::circle_circle) {
+        const BodyState* const bodies = world.bodies.data();
+        for (PointIndex n = 0; n < batches; ++n) {
+            const ContactPoint* const points = world.points.data() + k + n * lane_count;
+            BatchBodies i, j;
+            for (int l = 0; l < lane_count; ++l) {
+                i[l] = &bodies[points[l].body_i];
+                j[l] = &bodies[points[l].body_j];
+            }
+            circles_batch(i, j, geometry[n]);
+        }
+    } else {
+        OutlineStage stages[Most];
+        for (PointIndex n = 0; n < batches; ++n) {
+            ContactPoint* const points = world.points.data() + k + n * lane_count;
+            outline_stage(world, points, Fours ? load_fours(world, points) : load_any_pairs(world, points), stages[n]);
+        }
+        for (PointIndex n = 0; n < batches; ++n) outline_batch(stages[n], world.drift, geometry[n]);
     }
-    if constexpr (K == PointKind::circle_circle)
-        circles_batch(load_places(i), load_places(j), g);
-    else
-        outline_batch(world, points, load_places(i), load_places(j), g);
-    approach_batch<K>(load_motions(i), load_motions(j), world.drift, g);
 }
 
-/// What the points of a batch have in common, and which of them carry load.
+/// Law of a batch, each number in all lanes, where kernels have them at hand.
+struct LawLanes {
+    LawLanes(const World& world, std::uint16_t of_law) : LawLanes(world.laws[of_law], of_law) {}
+
+    Lanes normal_stiffness, shear_stiffness, normal_damping, shear_damping, normal_damping_ratio_term,
+        shear_damping_ratio_term;
+    Lanes limit_stiffness;  // N/m: Coulomb's limit over the overlap
+    Lanes half_stiffness;
+    Lanes break_overlap;
+    LaneBit number;  // into World::laws
+    bool shears;     // has a shear spring
+
+  private:
+    LawLanes(const ContactLaw& law, std::uint16_t of_law)
+        : normal_stiffness(all_lanes(law.normal_stiffness)),
+          shear_stiffness(all_lanes(law.shear_stiffness)),
+          normal_damping(all_lanes(law.normal_damping)),
+          shear_damping(all_lanes(law.shear_damping)),
+          normal_damping_ratio_term(all_lanes(law.normal_damping_ratio_term)),
+          shear_damping_ratio_term(all_lanes(law.shear_damping_ratio_term)),
+          limit_stiffness(all_lanes(law.friction * law.normal_stiffness)),
+          half_stiffness(all_lanes(0.5 * law.normal_stiffness)),
+          break_overlap(all_lanes(law.break_overlap)),
+          number(of_law),
+          shears(law.shear_stiffness > 0.0) {}
+};
+
+/// Losses of a block of points, added up apart by the place of the point, so that lanes need not wait for each other.
+/// Always eight, so that a sum does not depend on the number of lanes.
+struct BlockLosses {
+    static constexpr PointIndex places = 8;
+    alignas(64) double dashpot[places] = {};
+    double friction = 0.0, law = 0.0;
+    std::uint32_t broken = 0, gained = 0;
+
+    /// @param place of the first, a multiple of four
+    CRACKLE_INLINE void add_dashpots(PointIndex place, const Lanes& lost) {
+        const PointIndex first = place % places;
+        if (first + lane_count <= places) {
+            store_as(dashpot + first, load_as<Lanes>(dashpot + first) + lost);
+        } else {
+            for (PointIndex l = 0; l < lane_count; ++l) dashpot[(first + l) % places] += lost[l];
+        }
+    }
+
+    World::LossBlock total() const {
+        double sum = 0.0;
+        for (const double one : dashpot) sum += one;
+        return {sum, friction, law, broken, gained};
+    }
+};
+
+/// Which points of a batch carry load, and what they were before.
 struct BatchState {
-    const ContactLaw& law;
     PointState* states;
     LaneBits law_and_flags, bonded, holds;
 };
 
 /// @tparam All every point was in contact, holds, and stuck before (and is bonded, where there are bonds)
+/// @param place of the first point in its block
 template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Ledger, bool All>
-CRACKLE_INLINE void force_lanes(World& world, PointIndex k, const BatchGeometry& g, const BatchState& batch,
-                                PointForce* out, World::LossBlock& loss) {
-    const ContactLaw& law = batch.law;
+CRACKLE_INLINE void force_lanes(World& world, PointIndex k, PointIndex place, const BatchGeometry& g,
+                                const LawLanes& law, const BatchState& batch, PointForce* out, BlockLosses& loss) {
     const Lanes zero{};
     const auto where_held = [&](const Lanes& held, const Lanes& otherwise) -> Lanes {
         if constexpr (All)
@@ -217,11 +338,15 @@ CRACKLE_INLINE void force_lanes(World& world, PointIndex k, const BatchGeometry&
         const Lanes before = load_as<Lanes>(spring);
         const Lanes trial = before - law.shear_stiffness * (g.slipping * dt);
         const Lanes squeezed = g.overlap < 0.0 ? zero : g.overlap;
-        const Lanes limit = law.friction * law.normal_stiffness * squeezed;
+        const Lanes limit = law.limit_stiffness * squeezed;
         sliding = (magnitude(trial) > limit) | (limit <= 0.0);
-        tangential = sliding ? with_sign(limit, trial) : trial;
-        store_as(spring, where_held(tangential, before));
-        if (const LaneBits slides = sliding & batch.holds; mask_of(slides) != 0) {
+        tangential = trial;
+        const LaneBits slides = sliding & batch.holds;
+        if (mask_of(slides) == 0) {
+            store_as(spring, where_held(trial, before));
+        } else {
+            tangential = sliding ? with_sign(limit, trial) : trial;
+            store_as(spring, where_held(tangential, before));
             if constexpr (Ledger) {
                 const Lanes lost = 0.5 * (before + tangential) * (trial - tangential) / law.shear_stiffness;
                 for (int l = 0; l < lane_count; ++l) loss.friction += slides[l] != 0 ? lost[l] : 0.0;
@@ -247,7 +372,7 @@ CRACKLE_INLINE void force_lanes(World& world, PointIndex k, const BatchGeometry&
             const unsigned uncounted = mask_of(batch.holds & ((batch.law_and_flags & counted) == 0));
             loss.gained += static_cast<std::uint32_t>(__builtin_popcount(uncounted));
         }
-        const Lanes half = 0.5 * law.normal_stiffness * bond_overlap;
+        const Lanes half = law.half_stiffness * bond_overlap;
         LaneBits strong = normal * normal + tangential * tangential >= half * half;
         if constexpr (!All) strong &= batch.bonded;
         if (mask_of(strong) != 0) {  // rare: spares the memory of the others
@@ -266,8 +391,7 @@ CRACKLE_INLINE void force_lanes(World& world, PointIndex k, const BatchGeometry&
             const Lanes last_normal = load_as<Lanes>(normal_memory), last_shear = load_as<Lanes>(shear_memory);
             const Lanes lost =
                 0.5 * dt * ((last_normal + normal_dashpot) * g.closing + (last_shear + shear_damper) * g.slipping);
-            const Lanes counted = where_held(lost, zero);
-            for (int l = 0; l < lane_count; ++l) loss.dashpot += counted[l];
+            loss.add_dashpots(place, where_held(lost, zero));
             store_as(normal_memory, where_held(normal_dashpot, last_normal));
             store_as(shear_memory, where_held(shear_damper, last_shear));
         }
@@ -276,28 +400,38 @@ CRACKLE_INLINE void force_lanes(World& world, PointIndex k, const BatchGeometry&
     }
     const Lanes fx = where_held(-normal * g.nx - tangential * g.ny, zero);
     const Lanes fy = where_held(-normal * g.ny + tangential * g.nx, zero);
-    store_quads(out, fx, fy, where_held(g.aix * fy - g.aiy * fx, zero), where_held(g.ajy * fx - g.ajx * fy, zero));
+    Lanes torque_i, torque_j;
+    if constexpr (K == PointKind::circle_circle) {
+        torque_i = g.aix * tangential;
+        torque_j = g.ajx * tangential;
+    } else {
+        torque_i = g.aix * fy - g.aiy * fx;
+        torque_j = g.ajy * fx - g.ajx * fy;
+    }
+    store_quads(out, fx, fy, where_held(torque_i, zero), where_held(torque_j, zero));
 }
 
-/// Forces of points k to k + lane_count - 1, into `out`. @return false, with no force or loss changed, where the scalar
-/// code must look
+/// Forces of points k to k + lane_count - 1, into `out`. @param place of the first in its block @param law of the batch
+/// before; left as this one's @return false, with no force or loss changed, where the scalar code must look
 template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Ledger>
-CRACKLE_INLINE bool force_batch(World& world, PointIndex k, const BatchGeometry& g, PointForce* out,
-                                World::LossBlock& loss) {
+CRACKLE_INLINE bool force_batch(World& world, PointIndex k, PointIndex place, const BatchGeometry& g, LawLanes& law,
+                                PointForce* out, BlockLosses& loss) {
     constexpr auto bit_of = [](int flags) { return static_cast<LaneBit>(flags) << 16; };
-    constexpr LaneBit of_law = 0xffff;
+    constexpr int at_rest = point_touching | (Bonds ? point_bonded | point_counted : 0);
+    constexpr LaneBit of_law = 0xffff, looked_at = of_law | bit_of(at_rest | point_sliding);
     PointState* const states = world.point_states.data() + k;
     const LaneBits law_and_flags = widened(states);
-    if (!none_of((law_and_flags ^ law_and_flags[0]) & of_law)) return false;
-    const ContactLaw& law = world.laws[states[0].law];
-    if (Friction && !(law.shear_stiffness > 0.0)) return false;
-    constexpr int at_rest = point_touching | (Bonds ? point_bonded | point_counted : 0);
-    const double least = Bonds ? law.break_overlap : 0.0;
-    const LaneBits over = g.overlap > least;
-    constexpr LaneBit looked_at = bit_of(at_rest | point_sliding);
-    if (none_of((law_and_flags & looked_at) ^ bit_of(at_rest)) && mask_of(~over) == 0) {
-        force_lanes<K, Friction, Damping, Bonds, Ledger, true>(world, k, g, {law, states, law_and_flags, over, over},
-                                                               out, loss);
+    LaneBits unlike = law_and_flags ^ (law.number | bit_of(at_rest));
+    if (!none_of(unlike & of_law)) {
+        if (!none_of((law_and_flags ^ law_and_flags[0]) & of_law)) return false;
+        law = LawLanes(world, states[0].law);
+        unlike = law_and_flags ^ (law.number | bit_of(at_rest));
+    }
+    if (Friction && !law.shears) return false;
+    const LaneBits over = g.overlap > (Bonds ? law.break_overlap : Lanes{});
+    if (none_of((unlike & looked_at) | ~over)) {
+        force_lanes<K, Friction, Damping, Bonds, Ledger, true>(world, k, place, g, law,
+                                                               {states, law_and_flags, over, over}, out, loss);
         return true;
     }
     LaneBits bonded{}, holds = g.overlap > 0.0;
@@ -311,8 +445,8 @@ CRACKLE_INLINE bool force_batch(World& world, PointIndex k, const BatchGeometry&
         store_quads(out, Lanes{}, Lanes{}, Lanes{}, Lanes{});
         return true;
     }
-    force_lanes<K, Friction, Damping, Bonds, Ledger, false>(world, k, g, {law, states, law_and_flags, bonded, holds},
-                                                            out, loss);
+    force_lanes<K, Friction, Damping, Bonds, Ledger, false>(world, k, place, g, law,
+                                                            {states, law_and_flags, bonded, holds}, out, loss);
     return true;
 }
 

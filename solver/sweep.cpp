@@ -28,11 +28,20 @@ std::size_t share_of(std::uint32_t one, std::uint32_t count, std::size_t threads
 
 bool has_partner(std::size_t kind) { return static_cast<PointKind>(kind) != PointKind::element_wall; }
 
-/// Calls visit(point, body) for each side of the points of the largest kind, in the order in which forces are added up.
+/// Of points from `begin` to `end`, of one kind, where those end that are added up four at a time.
+PointIndex end_of_fours(const World& world, std::size_t kind, PointIndex begin, PointIndex end) {
+    if (static_cast<PointKind>(kind) != PointKind::element_outline) return begin;
+    return std::clamp(world.fours_end, begin, end);
+}
+
+/// Calls visit(point, body) for each contribution of the points of the largest kind to a body, in the order in which
+/// they are added up.
 template <class Visit>
-void for_each_side(const World& world, Visit visit) {
+void for_each_contribution(const World& world, Visit visit) {
     const std::size_t kind = world.sweep.largest_kind;
-    for (PointIndex k = world.kind_begin[kind]; k < world.kind_begin[kind + 1]; ++k) {
+    const PointIndex begin = world.kind_begin[kind], end = world.kind_begin[kind + 1];
+    const PointIndex fours = end_of_fours(world, kind, begin, end);
+    for (PointIndex k = begin; k < end; k += k < fours ? 4 : 1) {
         visit(k, world.points[k].body_i);
         if (has_partner(kind)) visit(k, world.points[k].body_j);
     }
@@ -47,7 +56,7 @@ std::vector<BlockSpan> block_spans(const World& world, PointIndex blocks) {
     constexpr PointIndex none = std::numeric_limits<PointIndex>::max();
     std::vector<BlockSpan> spans(world.bodies.size(), {none, 0});
     const PointIndex first_point = world.kind_begin[world.sweep.largest_kind];
-    for_each_side(world, [&](PointIndex k, BodyIndex b) {
+    for_each_contribution(world, [&](PointIndex k, BodyIndex b) {
         const PointIndex block = (k - first_point) / block_points;
         spans[b].first = std::min(spans[b].first, block);
         spans[b].last = block;
@@ -71,7 +80,7 @@ void plan_deferred(World& world, const std::vector<BlockSpan>& spans, PointIndex
     plan.deferred_begin.assign(threads + 1, 0);
     plan.defers.assign(blocks, 0);
     const PointIndex first_point = world.kind_begin[plan.largest_kind];
-    for_each_side(world, [&](PointIndex k, BodyIndex b) {
+    for_each_contribution(world, [&](PointIndex k, BodyIndex b) {
         const PointIndex block = (k - first_point) / block_points;
         const std::size_t thread = share_of(block, blocks, threads);
         if (plan.owner[b] == thread) return;
@@ -157,11 +166,47 @@ namespace {
 
 /// Of a point's record what acts on i: the record itself. Its fourth number is nothing to a body.
 CRACKLE_INLINE Quad on_i(const PointForce& force) { return load_as<Quad>(&force); }
-CRACKLE_INLINE Quad on_j(const PointForce& force) {
-    const Quad record = load_as<Quad>(&force);
+/// The other side of what acts on i.
+CRACKLE_INLINE Quad on_j(const Quad& record) {
     return __builtin_shufflevector(record, record, 0, 1, 3, 2) * Quad{-1.0, -1.0, 1.0, 1.0};
 }
 CRACKLE_INLINE void add(BodyForce& sum, const Quad& force) { store_as(&sum, load_as<Quad>(&sum) + force); }
+
+/// Calls visit(body, force) for each contribution of some points of one kind, in the order of for_each_contribution().
+/// @param forces of point `begin` and on @param fours_end as by end_of_fours()
+template <bool Partner, class Visit>
+CRACKLE_INLINE void visit_contributions(const World& world, PointIndex begin, PointIndex fours_end, PointIndex end,
+                                        const PointForce* forces, Visit visit) {
+    const ContactPoint* const points = world.points.data();
+    PointIndex k = begin;
+    if constexpr (Partner) {
+        for (; k < fours_end; k += 4, forces += 4) {
+            const BodyIndex a = points[k].body_i, b = points[k].body_j;
+            const auto on_a = [&](PointIndex l) {
+                const Quad force = on_i(forces[l]);
+                return points[k + l].body_i == a ? force : on_j(force);
+            };
+            const Quad sum = (on_a(0) + on_a(1)) + (on_a(2) + on_a(3));
+            visit(a, sum);
+            visit(b, on_j(sum));
+        }
+    }
+    for (; k < end; ++k, ++forces) {
+        const Quad force = on_i(*forces);
+        visit(points[k].body_i, force);
+        if constexpr (Partner) visit(points[k].body_j, on_j(force));
+    }
+}
+
+/// The same of a kind that is known at run time alone.
+template <class Visit>
+CRACKLE_INLINE void visit_contributions(const World& world, std::size_t kind, PointIndex begin, PointIndex end,
+                                        const PointForce* forces, Visit visit) {
+    if (has_partner(kind))
+        visit_contributions<true>(world, begin, end_of_fours(world, kind, begin, end), end, forces, visit);
+    else
+        visit_contributions<false>(world, begin, begin, end, forces, visit);
+}
 
 /// One thread's part in a sweep.
 class Sweeper {
@@ -231,11 +276,11 @@ class Sweeper {
         const PointForce* force = plan_.smaller_kinds.data();
         for (std::size_t kind = 0; kind < point_kinds; ++kind) {
             if (kind == plan_.largest_kind) continue;
-            for (PointIndex k = world_.kind_begin[kind]; k < world_.kind_begin[kind + 1]; ++k, ++force) {
-                const ContactPoint& point = world_.points[k];
-                if (owns(point.body_i)) add(world_.forces[point.body_i], on_i(*force));
-                if (has_partner(kind) && owns(point.body_j)) add(world_.forces[point.body_j], on_j(*force));
-            }
+            const PointIndex begin = world_.kind_begin[kind], end = world_.kind_begin[kind + 1];
+            visit_contributions(world_, kind, begin, end, force, [&](BodyIndex b, const Quad& on_b) {
+                if (owns(b)) add(world_.forces[b], on_b);
+            });
+            force += end - begin;
         }
         if (!world_.point_forces.empty() && thread_ == 0) keep_smaller_kinds();
     }
@@ -304,31 +349,18 @@ class Sweeper {
     }
 
     void add_all(const PointBlock& block, std::size_t kind) {
-        has_partner(kind) ? add_all<true>(block) : add_all<false>(block);
-    }
-    template <bool Partner>
-    void add_all(const PointBlock& block) {
         BodyForce* const sums = world_.forces.data();
-        const ContactPoint* const points = world_.points.data() + block.begin;
-        const PointIndex count = block.end - block.begin;
-        for (PointIndex k = 0; k < count; ++k) {
-            add(sums[points[k].body_i], on_i(block.forces[k]));
-            if constexpr (Partner) add(sums[points[k].body_j], on_j(block.forces[k]));
-        }
+        visit_contributions(world_, kind, block.begin, block.end, block.forces,
+                            [sums](BodyIndex b, const Quad& force) { add(sums[b], force); });
     }
 
     void add_or_defer(const PointBlock& block, std::size_t kind) {
-        const auto give = [&](BodyIndex b, const Quad& force) {
+        visit_contributions(world_, kind, block.begin, block.end, block.forces, [&](BodyIndex b, const Quad& force) {
             if (owns(b))
                 add(world_.forces[b], force);
             else
                 store_as(deferred_++, force);
-        };
-        for (PointIndex k = block.begin; k < block.end; ++k) {
-            const PointForce& force = block.forces[k - block.begin];
-            give(world_.points[k].body_i, on_i(force));
-            if (has_partner(kind)) give(world_.points[k].body_j, on_j(force));
-        }
+        });
     }
 
     void move_on(std::uint32_t begin, std::uint32_t end) {

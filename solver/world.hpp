@@ -27,9 +27,9 @@ struct alignas(64) BodyState {
     double x, y;    // centroid, m
     double vx, vy;  // m/s, half a step behind x between steps (leapfrog)
     double omega;   // rad/s
-    double angle;   // rad, accumulated
     double
         shape[2];  // single circle: radius, 0; clump or chain: cos and sin of the turn since the body frame was taken
+    double angle;  // rad, accumulated
 };
 static_assert(sizeof(BodyState) == 64);
 
@@ -76,10 +76,13 @@ struct Edge {
     double x, y;
     double tx, ty;
     double length;
-    BodyIndex outline_of = no_body;         // the body whose outline is the one convex piece that this edge is of
-    std::int16_t to_neighbour[2] = {0, 0};  // from there: to the edges after and before, in World::edges
+    /// What the corners at its start and its end are closest to: points `across` >= 0 in front of the edge's line and
+    /// `over` beyond that end (negative at the start) with across + over·cone >= 0. cot θ and -cot θ, θ the angle by
+    /// which the outline turns there; closed pieces only.
+    double cone[2] = {0.0, 0.0};
+    BodyIndex outline_of = no_body;  // the body whose outline is the one convex piece that this edge is of
 };
-static_assert(sizeof(Edge) == 48);
+static_assert(sizeof(Edge) == 64);
 
 /// How a point's two sides look; points of one kind lie together and have a kernel of their own.
 enum class PointKind : std::uint8_t {
@@ -274,12 +277,15 @@ struct World {
     // ---- contact points
     // Each quantity of a point in an array of its own: the kernels take those of neighbouring points as they lie, and
     // what a step does not change is not written back.
-    std::vector<ContactPoint> points;  // grouped by kind, ordered by (i, j, element) within
+    std::vector<ContactPoint> points;  // grouped by kind, ordered by (i, j, element) within (but for fours_end)
     std::vector<PointState> point_states;
     std::vector<double> shear_forces;   // elastic, N on body_i along the normal (i to j) turned by +90 degrees
     std::vector<double> bond_overlaps;  // δ0, m; back-tension f_b = -k_n δ0
     std::vector<double> root_masses;    // square root of the effective mass, sqrt(kg)
     std::array<PointIndex, point_kinds + 1> kind_begin{};
+    /// Points of element_outline up to here lie in fours, each four between the same two bodies: the interfaces of a
+    /// mesh. The others of that kind follow.
+    PointIndex fours_end = 0;
     std::vector<PointForce> point_forces;  // of the last force pass; empty unless kept
     bool keep_point_forces = true;         // looked at when the list is rebuilt
     // Dashpot forces of the last force pass, N: their work is taken by the trapezoidal rule. Empty without the ledger.

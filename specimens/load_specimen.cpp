@@ -33,6 +33,7 @@ class PeakMoment {
         shear_forces_ = world.shear_forces;
         bond_overlaps_ = world.bond_overlaps;
         kind_begin_ = world.kind_begin;
+        fours_end_ = world.fours_end;
         row_ = row;
         index_ = index;
         waiting_ = true;
@@ -55,6 +56,7 @@ class PeakMoment {
         std::swap(world.shear_forces, shear_forces_);
         std::swap(world.bond_overlaps, bond_overlaps_);
         std::swap(world.kind_begin, kind_begin_);
+        std::swap(world.fours_end, fours_end_);
     }
 
     std::vector<BodyState> bodies_;
@@ -62,6 +64,7 @@ class PeakMoment {
     std::vector<PointState> states_;
     std::vector<double> shear_forces_, bond_overlaps_;
     std::array<PointIndex, point_kinds + 1> kind_begin_{};
+    PointIndex fours_end_ = 0;
     CurveRow row_;
     std::int64_t index_ = -1;
     bool waiting_ = false;

@@ -57,11 +57,14 @@ void Camera::take(const World& world, const CurveRow& row, std::int64_t row_inde
     frame.normal_force.assign(bonds, 0.0);
     frame.shear_force.assign(bonds, 0.0);
     frame.broken.assign(bonds, 1);
-    auto next = listed_.begin();
+    auto first = listed_.begin();  // of a kind
     for (int number = 0; number < point_kinds; ++number) {
         const auto kind = static_cast<PointKind>(number);
         const auto range = static_cast<std::size_t>(number);
+        while (first != listed_.end() && setup_.bonds[*first].kind < kind) ++first;
+        auto next = first;
         for (PointIndex k = world.kind_begin[range]; k < world.kind_begin[range + 1]; ++k) {
+            if (k == world.fours_end) next = first;  // here the order of a kind begins anew
             const ContactPoint& point = world.points[k];
             if ((world.point_states[k].flags & point_bonded) == 0) continue;
             while (next != listed_.end() && !holds(setup_.bonds[*next], kind, point)) ++next;
