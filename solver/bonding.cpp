@@ -12,6 +12,8 @@
 namespace crackle {
 namespace {
 
+constexpr std::int64_t events_at_once = 1024;  // for which there is room before steps allocate any
+
 std::int64_t count_interfaces(const World& world) {
     std::vector<std::uint64_t> pairs;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
@@ -78,7 +80,7 @@ void finish_bonding(World& world) {
     world.openings.assign(world.integrator == Integrator::consistent ? world.points.size() : 0, OpeningMemory{});
     std::fill(world.owed.begin(), world.owed.end(), 0.0);
     world.events.clear();
-    world.events.reserve(static_cast<std::size_t>(world.bonds_initial));
+    world.events.reserve(static_cast<std::size_t>(std::min<std::int64_t>(world.bonds_initial, events_at_once)));
     world.dashpot_loss = world.friction_loss = world.fracture_loss = world.law_loss = 0.0;
     world.displacement_work = world.force_work = 0.0;
     world.initial_energy_taken = false;

@@ -283,6 +283,12 @@ World build_world(Scene scene) {
         add_body(world, scene, scene.bodies[order[k]], properties[order[k]]);
     }
     mark_outlines(world);
+    world.bodies.shrink_to_fit();
+    world.inertia.shrink_to_fit();
+    world.info.shrink_to_fit();
+    world.elements.shrink_to_fit();
+    world.pieces.shrink_to_fit();
+    world.edges.shrink_to_fit();
     if (world.integrator == Integrator::consistent) {
         world.owed.assign(world.bodies.size(), 0.0);
         world.last_forces.assign(world.bodies.size(), BodyForce{});

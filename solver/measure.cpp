@@ -85,7 +85,7 @@ BodyIndex body_of_id(const World& world, int id) {
 
 void forget_point_forces(World& world) {
     world.keep_point_forces = false;
-    world.point_forces = {};
+    std::vector<PointForce>().swap(world.point_forces);  // `= {}` would keep the room
 }
 
 std::array<Vec2, 4> measure_wall_forces(const World& world) {

@@ -167,7 +167,7 @@ TestOutcome run_with_files(VirtualTest& test, const TestOptions& options, const 
     const auto write_summary = [&] {
         outcome.summary = make_summary(test.description, test.setup, test.state, test.world, timing_of(test, options),
                                        errors ? &*errors : nullptr);
-        files.write_summary(outcome.summary);
+        files.write_summary(outcome.summary, test.state);
     };
     const auto write_peak = [&] {
         if (test.state.peak_frame.row >= 0) files.add_frame(test.state.peak_frame, test.setup, test.state, test.world);

@@ -14,6 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr std::chrono::seconds collection_interval{1};
+
 /// Pictures that the state does not know of were taken after its checkpoint, and may not be taken again.
 void remove_unlisted_frames(const fs::path& frames, const TestState& state) {
     std::set<std::string> listed;
@@ -34,7 +36,8 @@ TestFiles::TestFiles(const OutputFolder& folder, std::string case_hash, const Te
     : folder_(folder),
       case_hash_(std::move(case_hash)),
       curve_(folder.path() / "curve.csv", state.curve_bytes),
-      events_(folder.path() / "events.csv", state.events_bytes) {
+      events_(folder.path() / "events.csv", state.events_bytes),
+      collection_due_(!state.frames.empty()) {
     if (state.curve_bytes == 0) curve_.write(curve_header());
     if (state.events_bytes == 0) events_.write(events_header());
     remove_unlisted_frames(folder.path() / "frames", state);
@@ -55,20 +58,25 @@ void TestFiles::add_frame(const Frame& frame, const TestSetup& setup, TestState&
     folder_.write("frames/" + particles_file(frame.row),
                   [&](std::ostream& out) { painter_->write_particles(out, frame); });
     folder_.write("frames/" + bonds_file(frame.row), [&](std::ostream& out) { painter_->write_bonds(out, frame); });
-    write_collection(state);
+    collection_due_ = true;
+    if (std::chrono::steady_clock::now() - collected_ >= collection_interval) write_collection(state);
 }
 
-void TestFiles::write_collection(const TestState& state) const {
+void TestFiles::write_collection(const TestState& state) {
+    if (!collection_due_) return;
     std::vector<CollectionEntry> entries;
     for (const FrameEntry& frame : state.frames) {
         entries.push_back({frame.time, 0, particles_file(frame.row)});
         entries.push_back({frame.time, 1, bonds_file(frame.row)});
     }
     folder_.write("frames/frames.pvd", pvd_text(entries));
+    collection_due_ = false;
+    collected_ = std::chrono::steady_clock::now();
 }
 
 void TestFiles::write_checkpoint(const TestSetup& setup, TestState& state, const World& world) {
     flush();
+    write_collection(state);
     state.curve_bytes = curve_.bytes();
     state.events_bytes = events_.bytes();
     folder_.write("checkpoint", save_test(case_hash_, setup, state, world));
@@ -79,7 +87,8 @@ void TestFiles::flush() {
     events_.flush();
 }
 
-void TestFiles::write_summary(const nlohmann::ordered_json& summary) {
+void TestFiles::write_summary(const nlohmann::ordered_json& summary, const TestState& state) {
+    write_collection(state);
     folder_.write("summary.json", summary.dump(2) + '\n');
 }
 

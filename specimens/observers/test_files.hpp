@@ -2,6 +2,7 @@
 // The files that grow while a test runs: curve.csv, events.csv, frames/, checkpoint, and summary.json at the end.
 #pragma once
 
+#include <chrono>
 #include <optional>
 #include <string>
 
@@ -18,21 +19,24 @@ class TestFiles {
 
     void add_row(const CurveRow& row);
     void add_event(const BreakEvent& event, double axial_strain);
-    /// Writes both pictures of a frame and lists it in state.frames, in the order of rows.
+    /// Writes both pictures of a frame and lists it in state.frames, in the order of rows. frames.pvd follows within
+    /// a second, or with the checkpoint or the summary: replacing a file costs more than a small specimen's frame.
     void add_frame(const Frame& frame, const TestSetup& setup, TestState& state, const World& world);
     /// Flushes the growing files, notes their lengths in the state, and writes the checkpoint.
     void write_checkpoint(const TestSetup& setup, TestState& state, const World& world);
     /// Without a checkpoint: for a run that has gone wrong, whose last good checkpoint stays.
     void flush();
-    void write_summary(const nlohmann::ordered_json& summary);
+    void write_summary(const nlohmann::ordered_json& summary, const TestState& state);
 
   private:
-    void write_collection(const TestState& state) const;
+    void write_collection(const TestState& state);
 
     const OutputFolder& folder_;
     std::string case_hash_;
     GrowingFile curve_, events_;
     std::optional<FramePainter> painter_;  // once there is a frame
+    bool collection_due_;                  // frames.pvd is not of the state
+    std::chrono::steady_clock::time_point collected_;
 };
 
 }  // namespace crackle
