@@ -261,7 +261,30 @@ inline ContactGeometry contact_geometry(const World& world, const ContactPoint& 
     }
 }
 
-/// The same of any point, whatever its kind (solver/measure.cpp).
+/// Only the overlap of it, m.
+template <PointKind K>
+inline double overlap_at(const World& world, const ContactPoint& point) {
+    std::uint32_t feature = point.feature_j;
+    return contact_geometry<K>(world, point, feature).overlap;
+}
+
+/// Calls visit.operator()<K>(begin, end) with the range of points of each kind K.
+template <class Visit>
+inline void visit_kinds(const World& world, Visit&& visit) {
+    const auto of_kind = [&]<PointKind K>() {
+        constexpr auto number = static_cast<std::size_t>(K);
+        visit.template operator()<K>(world.kind_begin[number], world.kind_begin[number + 1]);
+    };
+    of_kind.template operator()<PointKind::circle_circle>();
+    of_kind.template operator()<PointKind::element_element>();
+    of_kind.template operator()<PointKind::element_outline>();
+    of_kind.template operator()<PointKind::disc_segment>();
+    of_kind.template operator()<PointKind::segment_segment>();
+    of_kind.template operator()<PointKind::element_wall>();
+    static_assert(point_kinds == 6);
+}
+
+/// contact_geometry() of any point, whatever its kind (solver/measure.cpp).
 ContactGeometry geometry_at(const World& world, PointIndex point);
 
 }  // namespace crackle

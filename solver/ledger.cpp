@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "solver/contact_geometry.hpp"
 #include "solver/contact_law.hpp"
 #include "solver/contact_opening.hpp"
 #include "solver/world.hpp"
@@ -71,11 +72,13 @@ double energy_at(const World& world, PointIndex k, double overlap) {
 
 double strain_of_points(const World& world) {
     double sum = 0.0;
-    for (PointIndex k = 0; k < world.points.size(); ++k) {
-        if ((world.point_states[k].flags & point_touching) == 0) continue;
-        const double overlap = overlap_of(world, k);
-        if ((world.point_states[k].flags & point_bonded) != 0 || overlap > 0.0) sum += energy_at(world, k, overlap);
-    }
+    visit_kinds(world, [&]<PointKind K>(PointIndex begin, PointIndex end) {
+        for (PointIndex k = begin; k < end; ++k) {
+            if ((world.point_states[k].flags & point_touching) == 0) continue;
+            const double overlap = overlap_at<K>(world, world.points[k]);
+            if ((world.point_states[k].flags & point_bonded) != 0 || overlap > 0.0) sum += energy_at(world, k, overlap);
+        }
+    });
     for (const OpeningMemory& memory : world.openings) sum += opening_energy(memory);
     for (const double energy : world.owed) sum += energy;
     return sum;

@@ -146,7 +146,7 @@ struct OutlineStage {
 /// points tell: a fifth of the step of 20,000 cells.
 CRACKLE_INLINE void prefetch_outlines(const World& world, const ContactPoint* points) {
     constexpr std::ptrdiff_t points_ahead = 128;
-    if (world.points.data() + world.points.size() - points < points_ahead + lane_count) return;
+    if (world.points.data() + world.fours_end - points < points_ahead + lane_count) return;
     const ContactPoint* const later = points + points_ahead;
     for (int l = 0; l < lane_count; ++l) __builtin_prefetch(&world.edges[later[l].feature_j]);
     for (int l = 0; l < lane_count; l += 2) __builtin_prefetch(&world.elements[later[l].element_i]);

@@ -27,13 +27,6 @@ bool holds(const BondAnchor& bond, PointKind kind, const ContactPoint& point) {
            bond.element_i == point.element_i && bond.feature_j == (named ? point.feature_j : 0);
 }
 
-/// overlap_of(), of circles without what else it finds out.
-double overlap_at(const World& world, PointKind kind, PointIndex k) {
-    if (kind != PointKind::circle_circle) return overlap_of(world, k);
-    std::uint32_t feature = 0;
-    return contact_geometry<PointKind::circle_circle>(world, world.points[k], feature).overlap;
-}
-
 }  // namespace
 
 Camera::Camera(const TestSetup& setup) : setup_(setup), listed_(setup.bonds.size()) {
@@ -58,24 +51,22 @@ void Camera::take(const World& world, const CurveRow& row, std::int64_t row_inde
     frame.shear_force.assign(bonds, 0.0);
     frame.broken.assign(bonds, 1);
     auto first = listed_.begin();  // of a kind
-    for (int number = 0; number < point_kinds; ++number) {
-        const auto kind = static_cast<PointKind>(number);
-        const auto range = static_cast<std::size_t>(number);
-        while (first != listed_.end() && setup_.bonds[*first].kind < kind) ++first;
+    visit_kinds(world, [&]<PointKind K>(PointIndex begin, PointIndex end) {
+        while (first != listed_.end() && setup_.bonds[*first].kind < K) ++first;
         auto next = first;
-        for (PointIndex k = world.kind_begin[range]; k < world.kind_begin[range + 1]; ++k) {
+        for (PointIndex k = begin; k < end; ++k) {
             if (k == world.fours_end) next = first;  // here the order of a kind begins anew
             const ContactPoint& point = world.points[k];
             if ((world.point_states[k].flags & point_bonded) == 0) continue;
-            while (next != listed_.end() && !holds(setup_.bonds[*next], kind, point)) ++next;
+            while (next != listed_.end() && !holds(setup_.bonds[*next], K, point)) ++next;
             if (next == listed_.end())
                 throw std::logic_error("a bonded point is not where the start of loading listed it");
             const double stiffness = world.laws[world.point_states[k].law].normal_stiffness;
-            frame.normal_force[*next] = stiffness * (overlap_at(world, kind, k) - world.bond_overlaps[k]);
+            frame.normal_force[*next] = stiffness * (overlap_at<K>(world, point) - world.bond_overlaps[k]);
             frame.shear_force[*next] = world.shear_forces[k];
             frame.broken[*next] = 0;
         }
-    }
+    });
 }
 
 std::int64_t default_frames(std::int64_t bodies, std::int64_t curve_rows) {
