@@ -96,9 +96,9 @@ CRACKLE_INLINE LaneBits swapped_lanes(const ContactPoint* points) {
 
 /// The same where the points lie in fours between two bodies each, which are loaded once.
 CRACKLE_INLINE PairLanes load_fours(const World& world, const ContactPoint* points) {
-    constexpr int fours = lane_count / 4;
+    constexpr std::size_t fours = lane_count / 4;
     const BodyState *a[fours], *b[fours];
-    for (int f = 0; f < fours; ++f) {
+    for (std::size_t f = 0; f < fours; ++f) {
         const ContactPoint* const four = points + 4 * f;
         a[f] = &world.bodies[four->body_i];
         b[f] = &world.bodies[four->body_j];
@@ -107,15 +107,15 @@ CRACKLE_INLINE PairLanes load_fours(const World& world, const ContactPoint* poin
     const LaneBits sign = swapped & sign_bit;
     const auto of_fours = [](const auto& number) {
         double numbers[fours];
-        for (int f = 0; f < fours; ++f) numbers[f] = number(f);
+        for (std::size_t f = 0; f < fours; ++f) numbers[f] = number(f);
         return lanes_of_fours(numbers);
     };
     const auto difference = [&](double BodyState::*number) {
-        return lanes_of(bits_of(of_fours([&](int f) { return a[f]->*number - b[f]->*number; })) ^ sign);
+        return lanes_of(bits_of(of_fours([&](std::size_t f) { return a[f]->*number - b[f]->*number; })) ^ sign);
     };
     const auto either = [&](const auto& number, Lanes& i, Lanes& j) {
-        const Lanes of_a = of_fours([&](int f) { return number(*a[f]); });
-        const Lanes of_b = of_fours([&](int f) { return number(*b[f]); });
+        const Lanes of_a = of_fours([&](std::size_t f) { return number(*a[f]); });
+        const Lanes of_b = of_fours([&](std::size_t f) { return number(*b[f]); });
         i = swapped ? of_b : of_a;
         j = swapped ? of_a : of_b;
     };
@@ -252,7 +252,7 @@ CRACKLE_INLINE void geometry_batches(World& world, PointIndex k, PointIndex batc
     static_assert(K == PointKind::circle_circle || K == PointKind::element_outline);
     if constexpr (K == PointKind::circle_circle) {
         const BodyState* const bodies = world.bodies.data();
-        for (PointIndex n = 0; n < batches; ++n) {
+        for (std::size_t n = 0; n < batches; ++n) {
             const ContactPoint* const points = world.points.data() + k + n * lane_count;
             BatchBodies i, j;
             for (int l = 0; l < lane_count; ++l) {
@@ -264,7 +264,7 @@ CRACKLE_INLINE void geometry_batches(World& world, PointIndex k, PointIndex batc
     } else {
         OutlineStage stages[Most];
         const bool in_memory = world.points.size() > points_in_cache;
-        for (PointIndex n = 0; n < batches; ++n) {
+        for (std::size_t n = 0; n < batches; ++n) {
             ContactPoint* const points = world.points.data() + k + n * lane_count;
             if (Fours && in_memory) prefetch_outlines(world, points);
             outline_stage(world, points, Fours ? load_fours(world, points) : load_any_pairs(world, points), stages[n]);
