@@ -28,7 +28,7 @@ namespace crackle {
 namespace {
 
 /// Steps that a list of a bonded world is to last. Building it, with the bound on the step, costs what some 30 steps
-/// do: at 200 that was an eighth of a test of 300 discs. Longer, polygons list corners that nothing brings together.
+/// do: at 200 that was 8 % of a test of 300 discs. Longer, polygons list corners that nothing brings together.
 constexpr double list_lasts = 1000.0;
 /// Steps between two looks whether a narrower skin would do.
 constexpr std::int64_t look_interval = 64;

@@ -253,7 +253,7 @@ class LoadingLoop {
 }  // namespace
 
 void load_specimen(VirtualTest& test, const TestHooks& hooks, TestFiles* files) {
-    malloc_trim(0);  // what packing, meshing and bonding needed: a third of all there is at a million discs
+    malloc_trim(0);  // what packing, meshing and bonding needed: a third of all there is at 200,000 discs
     LoadingLoop(test, hooks, files).run();
 }
 

@@ -209,7 +209,7 @@ TEST(NeighbourList, MissesNoTouchingPointInMotionBetweenRebuilds) {
 
 /// The skin of a bonded scene at rest, then flying apart, against the same with its widest skin all the time.
 struct SkinTrace {
-    double distance;     // largest of a body from its place in the other run, over the mean reach
+    double distance;     // largest of a body's surface from its place in the other run, over the mean reach
     std::size_t spared;  // points not listed at rest
 };
 
@@ -252,7 +252,8 @@ SkinTrace trace_of_skin(Scene scene, double thick, double share) {
     for (std::size_t b = 0; b < follows.bodies.size(); ++b) {
         const BodyState &one = follows.bodies[b], &other = stays.bodies[b];
         reach += follows.info[b].reach / static_cast<double>(follows.bodies.size());
-        worst = std::max(worst, std::hypot(one.x - other.x, one.y - other.y));
+        worst = std::max(worst, std::hypot(one.x - other.x, one.y - other.y) +
+                                    follows.info[b].reach * std::abs(one.angle - other.angle));
     }
     fmt::print("  largest distance between the two runs: {:.2g} of a mean reach\n", worst / reach);
     return {worst / reach, spared};
