@@ -72,9 +72,9 @@ void finish_bonding(World& world) {
     evaluate_step_bound(world);
     world.bonds_broken = 0;
     world.interfaces_lost = 0;
-    world.strong_normal.assign(world.points.size(), 0.0);
+    world.strong_normal.assign(world.points.size(), 0.0F);
     world.strong_shear = world.strong_normal;
-    world.normal_dashpot.assign(world.ledger_on ? world.points.size() : 0, 0.0);
+    world.normal_dashpot.assign(world.ledger_on ? world.points.size() : 0, 0.0F);
     world.shear_dashpot = world.normal_dashpot;
     world.spring_work.assign(keeps_spring_work(world) ? world.points.size() : 0, SpringWork{});
     world.openings.assign(world.integrator == Integrator::consistent ? world.points.size() : 0, OpeningMemory{});

@@ -44,15 +44,15 @@ double fracture_energy(const World& world, PointIndex k, const PointView& view) 
     return normal + 0.5 * world.shear_forces[k] * shear / law.shear_stiffness;
 }
 
-/// Whether a bond is left between the two; one found broken in the same pass but not yet recorded still counts, so that
-/// an interface that loses several at once is lost once.
-bool interface_holds(const World& world, BodyIndex a, BodyIndex b) {
-    for (std::uint32_t s = world.body_begin[a]; s < world.body_begin[a + 1]; ++s) {
-        const PointIndex k = point_of_slot(world.body_slots[s]);
-        if ((world.point_states[k].flags & (point_bonded | point_just_broken)) == 0) continue;
-        const ContactPoint& point = world.points[k];
-        if ((point.body_i == a && point.body_j == b) || (point.body_i == b && point.body_j == a)) return true;
-    }
+/// Whether a bond is left between the two bodies of a point; one found broken in the same pass but not yet recorded
+/// still counts, so that an interface that loses several at once is lost once. Points of two bodies lie together.
+bool interface_holds(const World& world, PointIndex k) {
+    const auto has_bond = [&](PointIndex other) {
+        return (world.point_states[other].flags & (point_bonded | point_just_broken)) != 0;
+    };
+    const auto [begin, end] = points_between(world, k);
+    for (PointIndex other = begin; other < end; ++other)
+        if (has_bond(other)) return true;
     return false;
 }
 
@@ -83,7 +83,7 @@ void record_breaks(World& world) {
             static_cast<std::uint16_t>(world.point_states[k].flags & point_counted);  // until the bound is found anew
         if (!world.spring_work.empty()) world.spring_work[k] = {};
         if (!world.openings.empty()) world.openings[k] = {};
-        event.last_of_interface = !interface_holds(world, point.body_i, point.body_j);
+        event.last_of_interface = !interface_holds(world, k);
         world.fracture_loss += event.energy;
         world.bonds_broken += 1;
         world.interfaces_lost += event.last_of_interface ? 1 : 0;

@@ -157,7 +157,7 @@ void add_segments(World& world, const BodyInfo& info) {
 void add_body(World& world, const Scene& scene, const Body& body, const MassProperties& properties) {
     BodyInfo info{};
     info.id = body.id;
-    info.material = body.material;
+    info.material = static_cast<std::uint16_t>(body.material);
     info.moment = properties.moment;
     info.closed = body.closed;
     info.single_circle = body.circle_count == 1;

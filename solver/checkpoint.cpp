@@ -10,15 +10,18 @@
 #include <cereal/types/optional.hpp>
 #include <cereal/types/vector.hpp>
 
+#include <cstring>
+#include <memory>
 #include <sstream>
 
 #include "solver/errors.hpp"
+#include "solver/watching_buffer.hpp"
 #include "solver/world.hpp"
 
 namespace crackle {
 
 // Raise when the fields below change.
-constexpr std::uint32_t checkpoint_version = 11;
+constexpr std::uint32_t checkpoint_version = 12;
 constexpr std::uint64_t checkpoint_magic = 0x454c4b4341524321ULL;  // "!CRACKLE"
 
 // NOLINTBEGIN(bugprone-macro-parentheses)
@@ -120,12 +123,12 @@ void serialize(Archive& a, World& w) {
       w.segments, w.controls, w.laws, w.materials);
     a(w.points, w.point_states, w.shear_forces, w.bond_overlaps, w.root_masses, w.kind_begin, w.fours_end,
       w.point_forces, w.keep_point_forces, w.normal_dashpot, w.shear_dashpot, w.spring_work, w.openings, w.owed,
-      w.strong_normal, w.strong_shear, w.body_begin, w.body_slots);
+      w.strong_normal, w.strong_shear);
     a(w.skin, w.widest_skin, w.list_reference, w.turning_reach, w.some_turn, w.size_rank, w.largest_smaller,
       w.travelled, w.fastest, w.fastest_allowed_move, w.list_valid, w.list_step, w.list_builds);
     a(w.domain, w.thick, w.segment_law, w.integrator, w.gravity, w.time_step, w.drift, w.automatic_step,
-      w.safety_factor, w.step_bound, w.limiting_body, w.step_weights, w.exact_step, w.exact_step_proved, w.step_goal,
-      w.allow_unstable, w.has_bonds, w.ledger_on, w.intact);
+      w.safety_factor, w.step_bound, w.limiting_body, w.step_weights, w.weighed_bound, w.weighed_points, w.exact_step,
+      w.exact_step_proved, w.step_goal, w.allow_unstable, w.has_bonds, w.ledger_on, w.intact);
     a(w.step, w.time, w.forces_current, w.kick_share, w.events, w.bonds_initial, w.bonds_broken, w.interfaces_initial,
       w.interfaces_lost);
     a(w.loss_blocks, w.points_gained, w.dashpot_loss, w.friction_loss, w.fracture_loss, w.law_loss, w.displacement_work,
@@ -133,28 +136,32 @@ void serialize(Archive& a, World& w) {
 }
 // NOLINTEND(bugprone-macro-parentheses)
 
+void save_world(const World& world, std::ostream& out) {
+    const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> hash(XXH3_createState(), &XXH3_freeState);
+    XXH3_64bits_reset(hash.get());
+    WatchingBuffer buffer(out,
+                          [&](std::string_view piece) { XXH3_64bits_update(hash.get(), piece.data(), piece.size()); });
+    std::ostream watched(&buffer);
+    cereal::BinaryOutputArchive{watched}(checkpoint_magic, checkpoint_version, world);
+    watched.flush();
+    cereal::BinaryOutputArchive{out}(XXH3_64bits_digest(hash.get()));
+}
+
 std::string save_world(const World& world) {
     std::ostringstream out(std::ios::binary);
-    cereal::BinaryOutputArchive inner(out);
-    inner(world);
-    const std::string payload = std::move(out).str();
-    std::ostringstream framed(std::ios::binary);
-    cereal::BinaryOutputArchive archive(framed);
-    archive(checkpoint_magic, checkpoint_version, static_cast<std::uint64_t>(payload.size()),
-            XXH3_64bits(payload.data(), payload.size()));
-    framed.write(payload.data(), static_cast<std::streamsize>(payload.size()));
-    return std::move(framed).str();
+    save_world(world, out);
+    return std::move(out).str();
 }
 
 World load_world(const std::string& bytes, const std::string& name) {
-    constexpr std::size_t frame = 3 * sizeof(std::uint64_t) + sizeof(std::uint32_t);
-    std::uint64_t magic = 0, size = 0, hash = 0;
+    constexpr std::size_t head = sizeof checkpoint_magic + sizeof checkpoint_version, tail = sizeof(XXH64_hash_t);
+    std::uint64_t magic = 0;
     std::uint32_t version = 0;
-    std::istringstream in(bytes, std::ios::binary);
-    if (bytes.size() < frame)
+    if (bytes.size() < head + tail)
         throw InputError(fmt::format("{}: found {} bytes, expected a crackle checkpoint", name, bytes.size()));
+    std::istringstream in(bytes, std::ios::binary);
     cereal::BinaryInputArchive archive(in);
-    archive(magic, version, size, hash);
+    archive(magic, version);
     if (magic != checkpoint_magic)
         throw InputError(fmt::format("{}: found other data, expected a crackle checkpoint", name));
     if (version != checkpoint_version) {
@@ -163,12 +170,14 @@ World load_world(const std::string& bytes, const std::string& name) {
                         version, checkpoint_version));
     }
     // Judged before a single length in it is believed.
-    if (size != bytes.size() - frame || XXH3_64bits(bytes.data() + frame, bytes.size() - frame) != hash) {
+    XXH64_hash_t hash = 0;
+    std::memcpy(&hash, bytes.data() + bytes.size() - tail, tail);
+    if (XXH3_64bits(bytes.data(), bytes.size() - tail) != hash)
         throw InputError(fmt::format("{}: found a truncated or damaged checkpoint, expected a complete one", name));
-    }
     World world;
     archive(world);
     world.threads = 1;
+    world.marks.resize(world.bodies.size());
     world.thread_blocks.assign(1, 0);
     return world;
 }

@@ -9,6 +9,7 @@
 // kinds of its own, by segment_contact.hpp. Source: reference/model.md 2.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -155,12 +156,11 @@ inline Bar bar_of(const World& world, const BodyState& body, std::uint32_t eleme
             edge.length};
 }
 
-/// Calls visit(bar, disc's centre, radius, sense) for every disc of a point under the guide's law; positions count from
-/// i's centroid, sense is +1 for a disc of i.
+/// Calls visit(bar, disc's centre, radius, sense) for every disc of a point under the guide's law between bodies i and
+/// j; positions count from i's centroid, sense is +1 for a disc of i.
 template <PointKind K, typename Visit>
-inline void visit_discs(const World& world, const ContactPoint& point, Visit&& visit) {
-    const BodyState& i = world.bodies[point.body_i];
-    const BodyState& j = world.bodies[point.body_j];
+inline void visit_discs(const World& world, const ContactPoint& point, const BodyState& i, const BodyState& j,
+                        Visit&& visit) {
     const Bar b = bar_of(world, j, point.feature_j, {j.x - i.x, j.y - i.y});
     if constexpr (K == PointKind::disc_segment) {
         const Element& circle = world.elements[point.element_i];
@@ -174,15 +174,14 @@ inline void visit_discs(const World& world, const ContactPoint& point, Visit&& v
     }
 }
 
-/// Geometry of a point of kind K; `feature` comes back as the edge faced.
+/// Geometry of a point of kind K were its bodies where i and j say (of a wall j is not looked at); `feature` comes back
+/// as the edge faced.
 template <PointKind K>
-inline ContactGeometry contact_geometry(const World& world, const ContactPoint& point, std::uint32_t& feature) {
-    const BodyState& i = world.bodies[point.body_i];
+inline ContactGeometry contact_geometry(const World& world, const ContactPoint& point, const BodyState& i,
+                                        const BodyState& j, std::uint32_t& feature) {
     if constexpr (K == PointKind::circle_circle) {
-        const BodyState& j = world.bodies[point.body_j];
         return detail::circles_geometry(j.x - i.x, j.y - i.y, i.shape[0], j.shape[0]);
     } else if constexpr (K == PointKind::element_element) {
-        const BodyState& j = world.bodies[point.body_j];
         const Element& a = world.elements[point.element_i];
         const Element& b = world.elements[point.feature_j];
         const Vec2 oi = turned(i, a), oj = turned(j, b);
@@ -194,7 +193,6 @@ inline ContactGeometry contact_geometry(const World& world, const ContactPoint& 
         g.ajy += oj.y;
         return g;
     } else if constexpr (K == PointKind::element_outline) {
-        const BodyState& j = world.bodies[point.body_j];
         const Element& a = world.elements[point.element_i];
         const Vec2 oi = turned(i, a);
         const double wx = (i.x - j.x) + oi.x, wy = (i.y - j.y) + oi.y;
@@ -214,11 +212,10 @@ inline ContactGeometry contact_geometry(const World& world, const ContactPoint& 
         return g;
     } else if constexpr (by_guide(K)) {
         DiscResultant resultant;
-        const auto visit = [&](auto&& add) { visit_discs<K>(world, point, add); };
+        const auto visit = [&](auto&& add) { visit_discs<K>(world, point, i, j, add); };
         visit([&](const Bar& bar, Vec2 centre, double radius, double sense) {
             resultant.add(bar, centre, radius, sense);
         });
-        const BodyState& j = world.bodies[point.body_j];
         const DiscResultant::Contact contact = resultant.contact(world.segment_law == SegmentLaw::demseg_mean, visit);
         return {contact.overlap, contact.normal.x,           contact.normal.y,          contact.at.x,
                 contact.at.y,    contact.at.x - (j.x - i.x), contact.at.y - (j.y - i.y)};
@@ -261,6 +258,13 @@ inline ContactGeometry contact_geometry(const World& world, const ContactPoint& 
     }
 }
 
+/// The same where the bodies are.
+template <PointKind K>
+inline ContactGeometry contact_geometry(const World& world, const ContactPoint& point, std::uint32_t& feature) {
+    const BodyState& i = world.bodies[point.body_i];
+    return contact_geometry<K>(world, point, i, K == PointKind::element_wall ? i : world.bodies[point.body_j], feature);
+}
+
 /// Only the overlap of it, m.
 template <PointKind K>
 inline double overlap_at(const World& world, const ContactPoint& point) {
@@ -268,12 +272,12 @@ inline double overlap_at(const World& world, const ContactPoint& point) {
     return contact_geometry<K>(world, point, feature).overlap;
 }
 
-/// Calls visit.operator()<K>(begin, end) with the range of points of each kind K.
+/// Calls visit.operator()<K>(begin, end) with the range of points of each kind K. @param kind_begin as of a world
 template <class Visit>
-inline void visit_kinds(const World& world, Visit&& visit) {
+inline void visit_kinds(const std::array<PointIndex, point_kinds + 1>& kind_begin, Visit&& visit) {
     const auto of_kind = [&]<PointKind K>() {
         constexpr auto number = static_cast<std::size_t>(K);
-        visit.template operator()<K>(world.kind_begin[number], world.kind_begin[number + 1]);
+        visit.template operator()<K>(kind_begin[number], kind_begin[number + 1]);
     };
     of_kind.template operator()<PointKind::circle_circle>();
     of_kind.template operator()<PointKind::element_element>();

@@ -127,7 +127,7 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
         if constexpr (Ledger && Damping) {
             loss.dashpot[place % BlockLosses::places] +=
                 0.5 * dt * (world.normal_dashpot[k] * closing + world.shear_dashpot[k] * slipping);
-            world.normal_dashpot[k] = world.shear_dashpot[k] = 0.0;
+            world.normal_dashpot[k] = world.shear_dashpot[k] = 0.0F;
         }
         if constexpr (Ledger && by_guide(K)) {
             SpringWork& work = world.spring_work[k];
@@ -187,8 +187,8 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
         if (bonded) {
             const double half_strength = 0.5 * law.normal_stiffness * world.bond_overlaps[k];
             if (normal * normal + tangential * tangential >= half_strength * half_strength) {
-                world.strong_normal[k] = normal;
-                world.strong_shear[k] = tangential;
+                world.strong_normal[k] = static_cast<float>(normal);
+                world.strong_shear[k] = static_cast<float>(tangential);
             }
         }
     }
@@ -199,8 +199,8 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
             loss.dashpot[place % BlockLosses::places] += 0.5 * dt *
                                                          ((world.normal_dashpot[k] + normal_dashpot) * closing +
                                                           (world.shear_dashpot[k] + shear_damper) * slipping);
-            world.normal_dashpot[k] = normal_dashpot;
-            world.shear_dashpot[k] = shear_damper;
+            world.normal_dashpot[k] = static_cast<float>(normal_dashpot);
+            world.shear_dashpot[k] = static_cast<float>(shear_damper);
         }
         normal += normal_dashpot;
         tangential -= shear_damper;

@@ -45,6 +45,18 @@ CRACKLE_INLINE void store_as(void* to, const V& v) {
     *static_cast<Loose*>(to) = v;
 }
 
+/// Floats as lanes, and lanes rounded to floats.
+CRACKLE_INLINE Lanes load_floats(const float* from) {
+    typedef float Floats __attribute__((vector_size(4 * lane_count)));
+    typedef Floats Loose __attribute__((aligned(4), may_alias));
+    return __builtin_convertvector(*reinterpret_cast<const Loose*>(from), Lanes);
+}
+CRACKLE_INLINE void store_floats(float* to, const Lanes& v) {
+    typedef float Floats __attribute__((vector_size(4 * lane_count)));
+    typedef Floats Loose __attribute__((aligned(4), may_alias));
+    *reinterpret_cast<Loose*>(to) = __builtin_convertvector(v, Floats);
+}
+
 CRACKLE_INLINE Lanes all_lanes(double value) { return value - Lanes{}; }
 
 CRACKLE_INLINE Lanes root(const Lanes& v) {

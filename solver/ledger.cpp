@@ -72,7 +72,7 @@ double energy_at(const World& world, PointIndex k, double overlap) {
 
 double strain_of_points(const World& world) {
     double sum = 0.0;
-    visit_kinds(world, [&]<PointKind K>(PointIndex begin, PointIndex end) {
+    visit_kinds(world.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
         for (PointIndex k = begin; k < end; ++k) {
             if ((world.point_states[k].flags & point_touching) == 0) continue;
             const double overlap = overlap_at<K>(world, world.points[k]);

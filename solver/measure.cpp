@@ -44,6 +44,15 @@ ContactGeometry geometry_at(const World& world, PointIndex k) {
     return geometry_of(world, kind_of(world, k), world.points[k]);
 }
 
+std::pair<PointIndex, PointIndex> points_between(const World& world, PointIndex k) {
+    const auto belongs = [&](PointIndex other) { return same_pair(world.points[other], world.points[k]); };
+    PointIndex begin = k, end = k + 1;
+    const PointIndex walls = world.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
+    while (begin > 0 && belongs(begin - 1)) --begin;
+    while (end < walls && belongs(end)) ++end;
+    return {begin, end};
+}
+
 double overlap_of(const World& world, PointIndex k) { return geometry_at(world, k).overlap; }
 
 PointView view_point(const World& world, PointIndex k) {

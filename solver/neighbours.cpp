@@ -22,6 +22,7 @@
 #include "solver/contact_pass.hpp"
 #include "solver/errors.hpp"
 #include "solver/pierced.hpp"
+#include "solver/point_order.hpp"
 #include "solver/world.hpp"
 
 namespace crackle {
@@ -279,8 +280,12 @@ bool both_held(const World& world, BodyIndex i, BodyIndex j) {
     return held(i) && held(j);
 }
 
-PointLists emit_points(const World& world, const std::vector<std::uint64_t>& pairs) {
+PointLists emit_points(const World& world, std::vector<std::uint64_t> pairs) {
     PointLists lists;
+    for (std::size_t kind = 0; kind < point_kinds; ++kind) {
+        const PointIndex listed = world.kind_begin[kind + 1] - world.kind_begin[kind];
+        lists[kind].reserve(listed + listed / 64);  // few more than before
+    }
     for (const std::uint64_t pair : pairs) {
         const auto i = static_cast<BodyIndex>(pair >> 32), j = static_cast<BodyIndex>(pair & 0xffffffffu);
         if (both_held(world, i, j)) continue;
@@ -297,116 +302,137 @@ PointLists emit_points(const World& world, const std::vector<std::uint64_t>& pai
     return lists;
 }
 
-/// Order of emission: pair, which of the two owns the element, element, partner's circle or segment.
-struct PointKey {
-    std::uint32_t low, high, owner_is_high, element, partner;
-    auto operator<=>(const PointKey&) const = default;
-};
-
-PointKey key_of(PointKind kind, const ContactPoint& p) {
-    if (kind == PointKind::element_wall) return {p.body_i, p.body_j, 0, p.element_i, 0};
-    const bool swapped = p.body_i > p.body_j;
-    return {swapped ? p.body_j : p.body_i, swapped ? p.body_i : p.body_j, swapped ? 1u : 0u, p.element_i,
-            kind == PointKind::element_element || by_guide(kind) ? p.feature_j : 0u};
-}
-
 constexpr PointIndex no_point = std::numeric_limits<PointIndex>::max();
 
-bool same_pair(const ContactPoint& p, const ContactPoint& q) {
-    return std::minmax(p.body_i, p.body_j) == std::minmax(q.body_i, q.body_j);
-}
-
-/// Points of a kind in the order of their keys.
-std::vector<PointIndex> in_order(const World& world, PointKind kind) {
-    const auto number = static_cast<std::size_t>(kind);
-    std::vector<PointIndex> order(world.kind_begin[number + 1] - world.kind_begin[number]);
-    std::iota(order.begin(), order.end(), world.kind_begin[number]);
-    if (kind == PointKind::element_outline) {
-        const auto rest = order.begin() + (world.fours_end - world.kind_begin[number]);
-        std::inplace_merge(order.begin(), rest, order.end(), [&](PointIndex a, PointIndex b) {
-            return key_of(kind, world.points[a]) < key_of(kind, world.points[b]);
-        });
+/// Walks the listed points of a kind in the order of their keys; those of element_outline lie in two runs.
+class OldPoints {
+  public:
+    OldPoints(const World& world, PointKind kind) : world_(world), kind_(kind) {
+        const auto number = static_cast<std::size_t>(kind);
+        first_ = world.kind_begin[number];
+        second_end_ = world.kind_begin[number + 1];
+        first_end_ = second_ = kind == PointKind::element_outline ? world.fours_end : second_end_;
     }
-    return order;
-}
+    bool done() const { return first_ == first_end_ && second_ == second_end_; }
+    PointIndex at() const { return from_first() ? first_ : second_; }
+    PointKey key() const { return key_of(kind_, world_.points[at()]); }
+    void next() { ++(from_first() ? first_ : second_); }
 
-/// The points of a new list and which points of the old one they are.
+  private:
+    bool from_first() const {
+        if (first_ == first_end_ || second_ == second_end_) return second_ == second_end_;
+        return key_of(kind_, world_.points[first_]) < key_of(kind_, world_.points[second_]);
+    }
+
+    const World& world_;
+    PointKind kind_;
+    PointIndex first_, first_end_, second_, second_end_;
+};
+
+/// Points of a new list and which points of the old one they are.
 struct Succession {
     std::vector<ContactPoint> points;
     std::vector<PointIndex> old;  // no_point: was not listed
-    std::array<PointIndex, point_kinds + 1> begin{};
-    PointIndex fours_end = 0;
 };
 
-/// Of the points of element_outline, which end the list so far, the pairs with four go first.
-void put_fours_first(Succession& next) {
-    const PointIndex begin = next.begin[static_cast<std::size_t>(PointKind::element_outline)];
-    const auto end = static_cast<PointIndex>(next.points.size());
-    std::vector<PointIndex> order, others;
-    order.reserve(end - begin);
-    for (PointIndex first = begin, last = begin; first < end; first = last) {
-        while (last < end && same_pair(next.points[first], next.points[last])) ++last;
-        std::vector<PointIndex>& list = last - first == 4 ? order : others;
-        for (PointIndex k = first; k < last; ++k) list.push_back(k);
-    }
-    next.fours_end = begin + static_cast<PointIndex>(order.size());
-    if (others.empty()) return;
-    order.insert(order.end(), others.begin(), others.end());
-    const std::vector<ContactPoint> points(next.points.begin() + begin, next.points.end());
-    const std::vector<PointIndex> old(next.old.begin() + begin, next.old.end());
-    for (std::size_t k = 0; k < order.size(); ++k) {
-        next.points[begin + k] = points[order[k] - begin];
-        next.old[begin + k] = old[order[k] - begin];
+/// An old point that stays though it is not listed anew.
+struct KeptPoint {
+    std::size_t place;  // before the point here
+    PointIndex old;
+};
+
+/// Inserts kept points, which come in order.
+void insert_kept(const World& world, const std::vector<KeptPoint>& kept, Succession& next) {
+    std::size_t from = next.points.size(), to = from + kept.size();
+    next.points.resize(to);
+    next.old.resize(to);
+    for (auto one = kept.rbegin(); one != kept.rend(); ++one) {
+        while (from > one->place) {
+            --from, --to;
+            next.points[to] = next.points[from];
+            next.old[to] = next.old[from];
+        }
+        --to;
+        next.points[to] = world.points[one->old];
+        next.old[to] = one->old;
     }
 }
 
-/// Takes the lists over one by one. A bond is carried over whether its point is listed or not: it lasts until the force
-/// pass finds it broken, and intact ones hold at any opening.
-Succession succeed(World& world, PointLists& lists) {
-    Succession next;
-    std::size_t total = 0;
-    for (const auto& list : lists) total += list.size();
-    next.points.reserve(total);
-    next.old.reserve(total);
-    const auto add = [&](const ContactPoint& point, PointIndex old) {
-        next.points.push_back(point);
-        next.old.push_back(old);
-    };
+/// The new list of a kind, in the room of the points found. A bond is carried over whether its point was found or not:
+/// it lasts until the force pass finds it broken, and intact ones hold at any opening.
+Succession succeed(World& world, PointKind kind, std::vector<ContactPoint> found) {
+    Succession next{std::move(found), {}};
+    next.old.resize(next.points.size());
     const bool consistent = world.integrator == Integrator::consistent;
     const bool closed = world.has_bonds && world.intact.no_new_contacts;
     const auto flagged = [&](PointIndex old, PointFlag flag) { return (world.point_states[old].flags & flag) != 0; };
     const auto leave_out = [&](PointIndex old) {
         if (consistent) world.owed[world.points[old].body_i] += world.openings[old].defect;
     };
-    for (std::size_t number = 0; number < point_kinds; ++number) {
-        const auto kind = static_cast<PointKind>(number);
-        next.begin[number] = static_cast<PointIndex>(next.points.size());
-        const std::vector<PointIndex> old_points = in_order(world, kind);
-        auto at = old_points.begin();
-        const auto old_end = old_points.end();
-        const auto old_key = [&] { return key_of(kind, world.points[*at]); };
-        const auto pass_unlisted = [&] {
-            // One that touched a step ago has its last force to settle, however far it has gone.
-            const bool settles = consistent && !by_guide(kind) && flagged(*at, point_touching) && !closed;
-            flagged(*at, point_bonded) || settles ? add(world.points[*at], *at) : leave_out(*at);
-            ++at;
-        };
-        for (const ContactPoint& point : lists[number]) {
-            const PointKey key = key_of(kind, point);
-            while (at != old_end && old_key() < key) pass_unlisted();
-            const bool known = at != old_end && old_key() == key;
-            if (!closed || (known && flagged(*at, point_bonded)))
-                add(point, known ? *at : no_point);
-            else if (known)
-                leave_out(*at);
-            if (known) ++at;
+    std::size_t count = 0;
+    std::vector<KeptPoint> kept;
+    OldPoints old(world, kind);
+    const auto pass_unlisted = [&] {
+        // One that touched a step ago has its last force to settle, however far it has gone.
+        const bool settles = consistent && !by_guide(kind) && flagged(old.at(), point_touching) && !closed;
+        if (flagged(old.at(), point_bonded) || settles) {
+            kept.push_back({count, old.at()});
+        } else {
+            leave_out(old.at());
         }
-        while (at != old_end) pass_unlisted();
-        if (kind == PointKind::element_outline) put_fours_first(next);
-        std::vector<ContactPoint>().swap(lists[number]);
+        old.next();
+    };
+    for (const ContactPoint& point : next.points) {
+        const PointKey key = key_of(kind, point);
+        while (!old.done() && old.key() < key) pass_unlisted();
+        const bool known = !old.done() && old.key() == key;
+        if (!closed || (known && flagged(old.at(), point_bonded))) {
+            next.old[count] = known ? old.at() : no_point;
+            next.points[count] = point;
+            ++count;
+        } else if (known) {
+            leave_out(old.at());
+        }
+        if (known) old.next();
     }
-    next.begin[point_kinds] = static_cast<PointIndex>(next.points.size());
+    while (!old.done()) pass_unlisted();
+    next.points.resize(count);
+    next.old.resize(count);
+    insert_kept(world, kept, next);
     return next;
+}
+
+/// The pairs with four points go first. @return how many points these have
+PointIndex put_fours_first(Succession& next) {
+    Succession others;
+    std::size_t fours = 0;
+    for (std::size_t first = 0, last = 0; first < next.points.size(); first = last) {
+        while (last < next.points.size() && same_pair(next.points[first], next.points[last])) ++last;
+        for (std::size_t k = first; k < last; ++k) {
+            if (last - first == 4) {
+                next.points[fours] = next.points[k];
+                next.old[fours] = next.old[k];
+                ++fours;
+            } else {
+                others.points.push_back(next.points[k]);
+                others.old.push_back(next.old[k]);
+            }
+        }
+    }
+    std::ranges::copy(others.points, next.points.begin() + static_cast<std::ptrdiff_t>(fours));
+    std::ranges::copy(others.old, next.old.begin() + static_cast<std::ptrdiff_t>(fours));
+    return static_cast<PointIndex>(fours);
+}
+
+/// Puts one kind behind another, in the room of the larger.
+template <class T>
+void append(std::vector<T>& all, std::vector<T> more) {
+    if (all.size() < more.size()) {
+        more.insert(more.begin(), all.begin(), all.end());
+        all = std::move(more);
+    } else {
+        all.insert(all.end(), more.begin(), more.end());
+    }
 }
 
 /// One remembered quantity in the new order; nothing in a world that does not keep it.
@@ -441,9 +467,8 @@ void find_pairs(World& world) {
     world.root_masses.resize(world.points.size());
     for (PointIndex k = 0; k < world.points.size(); ++k) {
         const BodyIndex i = world.points[k].body_i, j = world.points[k].body_j;
-        const auto material = static_cast<std::size_t>(world.info[i].material), materials = world.materials.size();
-        const std::size_t law = k < walls ? material * materials + static_cast<std::size_t>(world.info[j].material)
-                                          : materials * materials + material;
+        const std::size_t materials = world.materials.size();
+        const std::size_t law = k < walls ? law_between(world, i, j) : materials * materials + world.info[i].material;
         world.point_states[k].law = static_cast<std::uint16_t>(law);
         world.root_masses[k] = k < walls ? root_effective_mass(world, i, j) : std::sqrt(world.inertia[i].mass);
     }
@@ -451,7 +476,17 @@ void find_pairs(World& world) {
 
 /// Replaces the points of the world, carrying over what the old ones remember.
 void exchange_points(World& world, PointLists& lists) {
-    Succession next = succeed(world, lists);
+    Succession next;
+    std::array<PointIndex, point_kinds + 1> kind_begin{};
+    PointIndex fours_end = 0;
+    for (std::size_t number = 0; number < point_kinds; ++number) {
+        const auto kind = static_cast<PointKind>(number);
+        Succession of_kind = succeed(world, kind, std::move(lists[number]));
+        if (kind == PointKind::element_outline) fours_end = kind_begin[number] + put_fours_first(of_kind);
+        append(next.points, std::move(of_kind.points));
+        append(next.old, std::move(of_kind.old));
+        kind_begin[number + 1] = static_cast<PointIndex>(next.points.size());
+    }
     const bool consistent = world.integrator == Integrator::consistent;
     carry_over(world.point_states, next.old);
     carry_over(world.shear_forces, next.old);
@@ -463,33 +498,12 @@ void exchange_points(World& world, PointLists& lists) {
     carry_over(world.strong_normal, next.old, world.has_bonds);
     carry_over(world.strong_shear, next.old, world.has_bonds);
     world.points = std::move(next.points);
-    world.kind_begin = next.begin;
-    world.fours_end = next.fours_end;
+    world.kind_begin = kind_begin;
+    world.fours_end = fours_end;
     find_pairs(world);
     if (consistent) hand_on(world);
     world.point_forces.assign(world.keep_point_forces ? world.points.size() : 0, PointForce{});
     world.loss_blocks.assign(block_count(world), World::LossBlock{});
-}
-
-/// Per body the slots of its points, in the order of the points.
-void index_slots(World& world) {
-    if (world.points.size() > most_points)
-        throw InputError(fmt::format("found {} contact points, expected at most {}; take a smaller scene",
-                                     world.points.size(), most_points));
-    world.body_begin.assign(world.bodies.size() + 1, 0);
-    const PointIndex walls = world.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
-    for (PointIndex k = 0; k < world.points.size(); ++k) {
-        ++world.body_begin[world.points[k].body_i + 1];
-        if (k < walls) ++world.body_begin[world.points[k].body_j + 1];
-    }
-    for (std::size_t b = 1; b < world.body_begin.size(); ++b) world.body_begin[b] += world.body_begin[b - 1];
-    world.body_slots.resize(world.body_begin.back());
-    std::vector<std::uint32_t> next(world.body_begin.begin(), world.body_begin.end() - 1);
-    for (PointIndex k = 0; k < world.points.size(); ++k) {
-        world.body_slots[next[world.points[k].body_i]++] = slot_of(k, 0);
-        if (k < walls) world.body_slots[next[world.points[k].body_j]++] = slot_of(k, 1);
-    }
-    world.sweep.valid = false;
 }
 
 /// Longest way any surface point can have gone since the list was built, m.
@@ -514,12 +528,13 @@ double skin_for(const World& world, double way) {
 }
 
 void rebuild(World& world) {
-    const std::vector<std::uint64_t> pairs = near_pairs(world);
+    std::vector<std::uint64_t> pairs = near_pairs(world);
     {
         const PhaseTimer timer(world.profile, Phase::listing);
-        PointLists lists = emit_points(world, pairs);
+        PointLists lists = emit_points(world, std::move(pairs));
         exchange_points(world, lists);
-        index_slots(world);
+        world.sweep.valid = false;
+        world.marks.resize(world.bodies.size());
     }
     world.list_reference.resize(world.bodies.size());
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {

@@ -38,10 +38,11 @@ Discs discs_of(const World& world, PointKind kind, const ContactPoint& point) {
         place(found, bar, centre);
         discs.all[discs.count++] = {found, bar, centre, radius, sense};
     };
+    const BodyState &i = world.bodies[point.body_i], &j = world.bodies[point.body_j];
     if (kind == PointKind::disc_segment) {
-        visit_discs<PointKind::disc_segment>(world, point, add);
+        visit_discs<PointKind::disc_segment>(world, point, i, j, add);
     } else {
-        visit_discs<PointKind::segment_segment>(world, point, add);
+        visit_discs<PointKind::segment_segment>(world, point, i, j, add);
     }
     return discs;
 }

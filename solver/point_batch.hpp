@@ -395,9 +395,9 @@ CRACKLE_INLINE void force_lanes(World& world, PointIndex k, PointIndex place, co
         LaneBits strong = normal * normal + tangential * tangential >= half * half;
         if constexpr (!All) strong &= batch.bonded;
         if (mask_of(strong) != 0) {  // rare: spares the memory of the others
-            double *const strong_normal = &world.strong_normal[k], *const strong_shear = &world.strong_shear[k];
-            store_as(strong_normal, strong ? normal : load_as<Lanes>(strong_normal));
-            store_as(strong_shear, strong ? tangential : load_as<Lanes>(strong_shear));
+            float *const strong_normal = &world.strong_normal[k], *const strong_shear = &world.strong_shear[k];
+            store_floats(strong_normal, strong ? normal : load_floats(strong_normal));
+            store_floats(strong_shear, strong ? tangential : load_floats(strong_shear));
         }
     }
     if constexpr (Damping) {
@@ -406,13 +406,13 @@ CRACKLE_INLINE void force_lanes(World& world, PointIndex k, PointIndex place, co
         const Lanes shear_damper =
             sliding ? zero : (law.shear_damping + law.shear_damping_ratio_term * root_mass) * g.slipping;
         if constexpr (Ledger) {
-            double *const normal_memory = &world.normal_dashpot[k], *const shear_memory = &world.shear_dashpot[k];
-            const Lanes last_normal = load_as<Lanes>(normal_memory), last_shear = load_as<Lanes>(shear_memory);
+            float *const normal_memory = &world.normal_dashpot[k], *const shear_memory = &world.shear_dashpot[k];
+            const Lanes last_normal = load_floats(normal_memory), last_shear = load_floats(shear_memory);
             const Lanes lost =
                 0.5 * dt * ((last_normal + normal_dashpot) * g.closing + (last_shear + shear_damper) * g.slipping);
             loss.add_dashpots(place, where_held(lost, zero));
-            store_as(normal_memory, where_held(normal_dashpot, last_normal));
-            store_as(shear_memory, where_held(shear_damper, last_shear));
+            store_floats(normal_memory, where_held(normal_dashpot, last_normal));
+            store_floats(shear_memory, where_held(shear_damper, last_shear));
         }
         normal += normal_dashpot;
         tangential -= shear_damper;

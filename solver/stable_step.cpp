@@ -27,6 +27,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -95,7 +96,6 @@ Roots roots_of(const BodyInertia& inertia) {
 /// Where a point acts.
 struct PointArms {
     Vec2 normal, arm_i, arm_j;
-    double overlap;
 };
 
 /// One side of a point, scaled by the roots: rows of its normal n and of the tangent, at `arm` from the centroid.
@@ -156,27 +156,7 @@ bool with_wall(const World& world, PointIndex k) {
     return k >= world.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
 }
 
-PointArms arms_of(const World& world, PointIndex k) {
-    const ContactGeometry g = geometry_at(world, k);
-    return {{g.nx, g.ny}, {g.aix, g.aiy}, {g.ajx, g.ajy}, g.overlap};
-}
-
-/// The geometry of all points, found once.
-std::vector<PointArms> all_arms(const World& world) {
-    std::vector<PointArms> arms(world.points.size());
-    const auto count = static_cast<std::int64_t>(arms.size());
-#pragma omp parallel for num_threads(world.threads) if (world.threads > 1) schedule(static)
-    for (std::int64_t k = 0; k < count; ++k)
-        arms[static_cast<std::size_t>(k)] = arms_of(world, static_cast<PointIndex>(k));
-    return arms;
-}
-
-std::vector<Roots> all_roots(const World& world) {
-    std::vector<Roots> roots;
-    roots.reserve(world.bodies.size());
-    for (const BodyInertia& inertia : world.inertia) roots.push_back(roots_of(inertia));
-    return roots;
-}
+PointArms arms_of(const ContactGeometry& g) { return {{g.nx, g.ny}, {g.aix, g.aiy}, {g.ajx, g.ajy}}; }
 
 bool has_rows(const World& world, PointIndex k) {
     return k >= world.kind_begin[static_cast<std::size_t>(PointKind::disc_segment)] && !with_wall(world, k);
@@ -221,8 +201,7 @@ void add_point(BodyBlocks& blocks, const World& world, const std::vector<double>
 void lower_to_first_meeting(Least& least, const World& world, BodyIndex b) {
     const BodyInfo& info = world.info[b];
     const Roots roots = roots_of(world.inertia[b]);
-    const ContactLaw& law =
-        world.laws[world.materials.size() * world.materials.size() + static_cast<std::size_t>(info.material)];
+    const ContactLaw& law = world.laws[world.materials.size() * world.materials.size() + info.material];
     const Vec2 along{info.reach, 0.0};
     const double root_mass = std::sqrt(world.inertia[b].mass);
     BodyBlocks head_on;
@@ -235,32 +214,45 @@ void lower_to_first_meeting(Least& least, const World& world, BodyIndex b) {
 }
 
 /// What does not change from round to round.
-struct Geometry {
-    std::vector<Roots> roots;
-    std::vector<PointArms> arms;
+struct Surroundings {
     std::vector<Spring> rows;
+    std::vector<bool> met;  // by body: has a point
 };
 
-Geometry geometry_of(const World& world) { return {all_roots(world), all_arms(world), guide_rows(world)}; }
-
-/// Blocks of all bodies from the points that count.
-template <class Counts>
-std::vector<BodyBlocks> blocks_of(const World& world, const std::vector<double>& weights, const Geometry& geometry,
-                                  Counts counts) {
-    const std::vector<Roots>& roots = geometry.roots;  // no structured binding: the lambda below uses it
-    const std::vector<PointArms>& arms = geometry.arms;
-    std::vector<BodyBlocks> blocks(world.bodies.size());
+Surroundings surroundings_of(const World& world) {
+    Surroundings all{guide_rows(world), std::vector<bool>(world.bodies.size())};
     for (PointIndex k = 0; k < world.points.size(); ++k) {
-        if (!counts(k)) continue;
-        const BodyIndex i = world.points[k].body_i, j = world.points[k].body_j;
-        if (!held(world.inertia[i])) add_point(blocks[i], world, weights, k, i, roots[i], arms[k]);
-        if (!with_wall(world, k) && !held(world.inertia[j]))
-            add_point(blocks[j], world, weights, k, j, roots[j], arms[k]);
+        all.met[world.points[k].body_i] = true;
+        if (!with_wall(world, k)) all.met[world.points[k].body_j] = true;
     }
-    for (const Spring& row : geometry.rows) {
+    return all;
+}
+
+/// Blocks of all bodies from the points that count. Geometry is found anew in each round: kept, it would be as much
+/// memory as all that points remember. @param counts  asked with each point and its overlap, m
+template <class Counts>
+std::vector<BodyBlocks> blocks_of(const World& world, const std::vector<double>& weights,
+                                  const std::vector<Spring>& rows, Counts counts) {
+    std::vector<BodyBlocks> blocks(world.bodies.size());
+    visit_kinds(world.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
+        for (PointIndex k = begin; k < end; ++k) {
+            const ContactPoint& point = world.points[k];
+            std::uint32_t feature = point.feature_j;
+            const ContactGeometry g = contact_geometry<K>(world, point, feature);
+            if (!counts(k, g.overlap)) continue;
+            const auto add = [&](BodyIndex b) {
+                if (held(world.inertia[b])) return;
+                add_point(blocks[b], world, weights, k, b, roots_of(world.inertia[b]), arms_of(g));
+            };
+            add(point.body_i);
+            if constexpr (K != PointKind::element_wall) add(point.body_j);
+        }
+    });
+    for (const Spring& row : rows) {
         const auto add = [&](BodyIndex b, BodyIndex partner, bool second) {
             if (held(world.inertia[b])) return;
-            add_row(blocks[b].stiffness, roots[b], row, second, share_of(weights[b], weights[partner]));
+            add_row(blocks[b].stiffness, roots_of(world.inertia[b]), row, second,
+                    share_of(weights[b], weights[partner]));
         };
         add(row.i, row.j, false);
         add(row.j, row.i, true);
@@ -268,54 +260,91 @@ std::vector<BodyBlocks> blocks_of(const World& world, const std::vector<double>&
     return blocks;
 }
 
+constexpr auto every_point = [](PointIndex, double) { return true; };
+
 /// Every free body's own scaled stiffness over all listed points, held bodies 0.
-std::vector<double> first_weights(const World& world, const Geometry& geometry) {
+std::vector<double> first_weights(const World& world, const std::vector<Spring>& rows) {
     const std::vector<double> alone(world.bodies.size(), 0.0);  // every share 1
-    const auto blocks = blocks_of(world, alone, geometry, [](PointIndex) { return true; });
     std::vector<double> weights;
-    weights.reserve(blocks.size());
-    for (const BodyBlocks& block : blocks) weights.push_back(largest_eigenvalue(block.stiffness));
+    weights.reserve(alone.size());
+    for (const BodyBlocks& block : blocks_of(world, alone, rows, every_point))
+        weights.push_back(largest_eigenvalue(block.stiffness));
     return weights;
 }
 
-Least least_of(const World& world, const std::vector<BodyBlocks>& blocks) {
+Least least_of(const World& world, const std::vector<BodyBlocks>& blocks, const std::vector<bool>& met) {
     Least least;
     for (BodyIndex b = 0; b < blocks.size(); ++b) {
         if (held(world.inertia[b])) continue;
         least.lower_to(blocks[b], b);
-        if (world.body_begin[b] == world.body_begin[b + 1]) lower_to_first_meeting(least, world, b);
+        if (!met[b]) lower_to_first_meeting(least, world, b);
     }
     return least;
 }
 
 // On the guide's three specimens more rounds raise the bound by less than 1 %.
 constexpr int weight_rounds = 12;
+// Rounds go on while three of them raise the bound by this share of it.
+constexpr double worth_three_rounds = 5e-4;
+// By how much a bound may lie below that of the last search and still be as good.
+constexpr double as_good = 2e-3;
 // No weight falls below this share of its first value: a point that comes to carry load later between a body that was
 // let off and one that was not would cost the latter all the more.
 constexpr double lowest_weight_share = 0.125;
+// How far a list may differ in length from the one that weights were found for.
+constexpr double like_list = 0.01;
 
-/// Raises the weight of the bodies that limit against those that do not, until the bound is `enough`; keeps the best
-/// round.
+/// Whether there are weights from before for all bodies that can move and meet something: without, they would count as
+/// held.
+bool weighed_before(const World& world, const std::vector<bool>& met) {
+    if (world.step_weights.size() != met.size()) return false;
+    for (std::size_t b = 0; b < met.size(); ++b)
+        if (met[b] && !held(world.inertia[b]) && !(world.step_weights[b] > 0.0)) return false;
+    return true;
+}
+
+/// What a derived step asks of the bound, or a given one. Loose bodies take a small share of it anyway.
+double enough_for(const World& world) {
+    if (!world.has_bonds) return 0.0;
+    return world.automatic_step ? world.step_goal : world.time_step;
+}
+
+/// Raises the weight of the bodies that limit against those that do not, until the bound is enough, or as good as
+/// before where the weights come from a list like this one; keeps the best round in World::step_weights.
 template <class Counts>
-Least raised(const World& world, std::vector<double>& weights, const Geometry& geometry, Counts counts, double enough) {
-    const std::vector<double> first = weights;
-    std::vector<double> trial = weights;
+Least raised(World& world, const Surroundings& all, Counts counts) {
+    const bool bonded = world.has_bonds && weighed_before(world, all.met);
+    const bool like_before =
+        bonded && std::abs(static_cast<double>(world.points.size()) - static_cast<double>(world.weighed_points)) <=
+                      like_list * static_cast<double>(world.weighed_points);
+    std::vector<double> first;
+    if (!bonded) first = first_weights(world, all.rows);
+    std::vector<double> trial = bonded ? world.step_weights : first;
+    const double enough = enough_for(world);
     Least best;
     best.bound = 0.0;
+    std::array<double, weight_rounds> reached{};
     for (int round = 0; round < weight_rounds; ++round) {
-        const std::vector<BodyBlocks> blocks = blocks_of(world, trial, geometry, counts);
-        const Least least = least_of(world, blocks);
+        const std::vector<BodyBlocks> blocks = blocks_of(world, trial, all.rows, counts);
+        const Least least = least_of(world, blocks, all.met);
         if (least.bound > best.bound) {
             best = least;
-            weights = trial;
+            world.step_weights = trial;
         }
+        const auto now = static_cast<std::size_t>(round);
+        reached[now] = best.bound;
         if (best.bound >= enough) break;
+        if (round == 0 && like_before && best.bound >= (1.0 - as_good) * world.weighed_bound) return best;
+        if (round >= 3 && best.bound < (1.0 + worth_three_rounds) * reached[now - 3]) break;
+        if (first.empty()) first = first_weights(world, all.rows);
         for (std::size_t b = 0; b < trial.size(); ++b) {
             const double step =
                 stable_step_of(eigenvalue_at_most(blocks[b].stiffness), eigenvalue_at_most(blocks[b].damping));
             trial[b] = std::max(trial[b] * least.bound / step, lowest_weight_share * first[b]);
         }
     }
+    world.weighed_bound = best.bound;
+    world.weighed_points = world.has_bonds ? world.points.size() : 0;
     return best;
 }
 
@@ -332,65 +361,68 @@ double derived_step_share(const World& world) {
 }
 
 double stable_step_bound(const World& world, BodyIndex* limiting) {
-    const Geometry geometry = geometry_of(world);
-    const std::vector<double> weights = first_weights(world, geometry);
-    const Least least = least_of(world, blocks_of(world, weights, geometry, [](PointIndex) { return true; }));
+    const Surroundings all = surroundings_of(world);
+    const std::vector<double> weights = first_weights(world, all.rows);
+    const Least least = least_of(world, blocks_of(world, weights, all.rows, every_point), all.met);
     if (limiting != nullptr && std::isfinite(least.bound)) *limiting = least.body;
     return least.bound;
 }
 
 void evaluate_step_bound(World& world) {
     const PhaseTimer timer(world.profile, Phase::step_bound);
-    const Geometry geometry = geometry_of(world);
     const bool all_count = !world.has_bonds || world.segment_law != SegmentLaw::rounded;
-    for (PointIndex k = 0; k < world.points.size(); ++k) {
-        const bool counts =
-            all_count || (world.point_states[k].flags & point_bonded) != 0 || geometry.arms[k].overlap > 0.0;
-        world.point_states[k].flags = static_cast<std::uint16_t>(counts ? world.point_states[k].flags | point_counted
-                                                                        : world.point_states[k].flags & ~point_counted);
-    }
-    world.step_weights = first_weights(world, geometry);
-    const auto counted = [&](PointIndex k) { return (world.point_states[k].flags & point_counted) != 0; };
-    // Loose bodies take a small share of the bound anyway.
-    const double enough = !world.has_bonds ? 0.0 : world.automatic_step ? world.step_goal : world.time_step;
-    const Least least = raised(world, world.step_weights, geometry, counted, enough);
+    const auto counts = [&](PointIndex k, double overlap) {
+        std::uint16_t& flags = world.point_states[k].flags;
+        const bool counted = all_count || (flags & point_bonded) != 0 || overlap > 0.0;
+        flags = static_cast<std::uint16_t>(counted ? flags | point_counted : flags & ~point_counted);
+        return counted;
+    };
+    const Least least = raised(world, surroundings_of(world), counts);
     world.step_bound = least.bound;
     world.limiting_body = least.body;
     keep_step_below_bound(world);
 }
 
-namespace {
-
-/// Blocks of one body from its counted points.
-BodyBlocks blocks_of_body(const World& world, BodyIndex b) {
-    BodyBlocks blocks;
-    const Roots roots = roots_of(world.inertia[b]);
-    for (std::uint32_t s = world.body_begin[b]; s < world.body_begin[b + 1]; ++s) {
-        const PointIndex k = point_of_slot(world.body_slots[s]);
-        if ((world.point_states[k].flags & point_counted) == 0) continue;
-        add_point(blocks, world, world.step_weights, k, b, roots, arms_of(world, k));
-    }
-    return blocks;
-}
-
-}  // namespace
-
 void count_new_points(World& world) {
-    const auto is_new = [&](PointIndex k) {
-        return (world.point_states[k].flags & (point_touching | point_counted)) == point_touching;
-    };
-    Least least{world.step_bound, world.limiting_body};
-    const auto look_at = [&](BodyIndex b) {
-        if (!held(world.inertia[b])) least.lower_to(blocks_of_body(world, b), b);
-    };
     const PhaseTimer timer(world.profile, Phase::step_bound);
+    constexpr std::size_t most = 64;
+    static_assert(most < std::numeric_limits<decltype(world.marks)::value_type>::max());
+    std::array<BodyIndex, most> gaining{};  // their marks are 1 and on
+    std::size_t count = 0;
+    Least least{world.step_bound, world.limiting_body};
+    // Blocks of the gaining bodies from all their counted points; a later new point of one of them looks again.
+    const auto look = [&] {
+        std::array<BodyBlocks, most> blocks{};
+        const auto add = [&](PointIndex k, BodyIndex b) {
+            if (world.marks[b] == 0) return;
+            add_point(blocks[world.marks[b] - std::size_t{1}], world, world.step_weights, k, b,
+                      roots_of(world.inertia[b]), arms_of(geometry_at(world, k)));
+        };
+        for (PointIndex k = 0; k < world.points.size(); ++k) {
+            if ((world.point_states[k].flags & point_counted) == 0) continue;
+            add(k, world.points[k].body_i);
+            if (!with_wall(world, k)) add(k, world.points[k].body_j);
+        }
+        for (std::size_t n = 0; n < count; ++n) {
+            least.lower_to(blocks[n], gaining[n]);
+            world.marks[gaining[n]] = 0;
+        }
+        count = 0;
+    };
+    const auto gains = [&](BodyIndex b) {
+        if (held(world.inertia[b]) || world.marks[b] != 0) return;
+        if (count == most) look();
+        gaining[count++] = b;
+        world.marks[b] = static_cast<std::uint8_t>(count);
+    };
     for (PointIndex k = 0; k < world.points.size(); ++k) {
-        if (!is_new(k)) continue;
-        ContactPoint& point = world.points[k];
-        world.point_states[k].flags = static_cast<std::uint16_t>(world.point_states[k].flags | point_counted);
-        look_at(point.body_i);  // a later new point of the same body looks again
-        if (!with_wall(world, k)) look_at(point.body_j);
+        std::uint16_t& flags = world.point_states[k].flags;
+        if ((flags & (point_touching | point_counted)) != point_touching) continue;
+        flags = static_cast<std::uint16_t>(flags | point_counted);
+        gains(world.points[k].body_i);
+        if (!with_wall(world, k)) gains(world.points[k].body_j);
     }
+    look();
     if (least.bound >= world.step_bound) return;
     if (least.bound < world.time_step) return evaluate_step_bound(world);  // with weights that suit the new points
     world.step_bound = least.bound;

@@ -8,8 +8,10 @@
 
 #include <array>
 #include <cstdint>
+#include <iosfwd>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "solver/profile.hpp"
@@ -49,14 +51,15 @@ struct alignas(32) BodyForce {
 /// What cannot change during a run, or is read only by observers.
 struct BodyInfo {
     int id;
-    int material;
+    std::uint16_t material;
+    bool single_circle;
+    bool closed;
     double moment;  // kg m2
     double reach;   // m, bounding radius of the elements about the centroid (circle radius included, thick not)
     std::uint32_t first_element, element_count;  // into World::elements (vertices or circles)
     std::uint32_t first_piece, piece_count;      // into World::pieces; 0 pieces: circles
-    bool single_circle;
-    bool closed;
 };
+static_assert(sizeof(BodyInfo) == 40);
 
 /// A circle or a vertex of a clump or chain, or the one circle of a single-circle body, in the body frame.
 struct Element {
@@ -120,6 +123,11 @@ struct ContactPoint {
 };
 static_assert(sizeof(ContactPoint) == 16);
 
+/// Whether two points that are not with walls are between the same bodies.
+inline bool same_pair(const ContactPoint& p, const ContactPoint& q) {
+    return (p.body_i == q.body_i && p.body_j == q.body_j) || (p.body_i == q.body_j && p.body_j == q.body_i);
+}
+
 struct PointState {
     std::uint16_t law;    // into World::laws
     std::uint16_t flags;  // PointFlag
@@ -132,12 +140,6 @@ struct PointForce {
     double torque_i, torque_j;
 };
 static_assert(sizeof(PointForce) == 32);
-
-/// One body's side of a point (0: the body is i, 1: it is j).
-constexpr std::uint32_t slot_of(PointIndex point, std::uint32_t side) { return 2 * point + side; }
-constexpr PointIndex point_of_slot(std::uint32_t slot) { return slot / 2; }
-constexpr std::uint32_t side_of_slot(std::uint32_t slot) { return slot % 2; }
-inline constexpr std::size_t most_points = std::size_t{1} << 31;  // that slots can tell apart
 
 /// What the normal spring of a point under the guide's law has taken up. Its force is k_n(δ - δ0) at the resultant's
 /// place, but δ does not change by the way of that place alone: there is no potential, so the work itself is added up,
@@ -289,16 +291,15 @@ struct World {
     std::vector<PointForce> point_forces;  // of the last force pass; empty unless kept
     bool keep_point_forces = true;         // looked at when the list is rebuilt
     // Dashpot forces of the last force pass, N: their work is taken by the trapezoidal rule. Empty without the ledger.
-    std::vector<double> normal_dashpot, shear_dashpot;
+    // Floats, like strong forces: they are reported, no motion follows from them, and they are much of what is moved.
+    std::vector<float> normal_dashpot, shear_dashpot;
     std::vector<SpringWork> spring_work;  // empty without the ledger or the guide's law
     std::vector<OpeningMemory> openings;  // empty without the consistent integrator
     std::vector<double> owed;             // J per body: defects of points that have left the list; empty likewise
     // Elastic forces of a bonded point in the last step in which it carried at least half its strength, N: normal,
     // compression positive, and shear. Empty without bonds.
-    std::vector<double> strong_normal, strong_shear;
-    std::vector<std::uint32_t> body_begin;  // per body: range in body_slots
-    std::vector<std::uint32_t> body_slots;  // slot_of(point, side)
-    Sweep sweep;                            // never saved
+    std::vector<float> strong_normal, strong_shear;
+    Sweep sweep;  // never saved
 
     // ---- neighbour list
     double skin = 0.0;         // m
@@ -328,7 +329,10 @@ struct World {
     double step_bound = std::numeric_limits<double>::infinity();  // s, guaranteed stable below, of the counted points
     BodyIndex limiting_body = 0;                                  // sets step_bound
     std::vector<double> step_weights;                             // per body, see stable_step.cpp
-    double exact_step = 0.0;  // s, exact stable step when bonds were made; 0: no bonds yet
+    double weighed_bound = 0.0;                                   // s, step_bound when step_weights were found
+    std::uint64_t weighed_points = 0;                             // listed then
+    std::vector<std::uint8_t> marks;  // per body, 0 but within count_new_points(); never saved
+    double exact_step = 0.0;          // s, exact stable step when bonds were made; 0: no bonds yet
     bool exact_step_proved = false;
     double step_goal = 0.0;  // s, what a derived step goes back to: safety_factor times the exact one; 0: none
     bool allow_unstable = false;
@@ -388,6 +392,11 @@ struct PointView {
     bool bonded, touching, sliding, slid;
 };
 
+/// Of two bodies, into World::laws.
+inline std::size_t law_between(const World& world, BodyIndex i, BodyIndex j) {
+    return world.info[i].material * world.materials.size() + world.info[j].material;
+}
+
 /// Whether springs of the guide's law have their work added up.
 inline bool keeps_spring_work(const World& world) {
     return world.ledger_on && world.segment_law != SegmentLaw::rounded;
@@ -426,6 +435,8 @@ void forget_point_forces(World& world);
 /// Only the overlap of it, m.
 double overlap_of(const World& world, PointIndex point);
 PointView view_point(const World& world, PointIndex point);
+/// First and behind the last of the points between the bodies of a point that is not with a wall: they lie together.
+std::pair<PointIndex, PointIndex> points_between(const World& world, PointIndex point);
 /// Number of the internal index of an input id; throws InputError if there is none.
 BodyIndex body_of_id(const World& world, int id);
 /// Strain energy of a point, J, from its bonded state: ½k_n(δ-δ0)² + ½f_t²/k_s, under the guide's law the work its
@@ -461,6 +472,7 @@ double derived_step_share(const World& world);
 
 // ---- checkpoint (solver/checkpoint.cpp)
 /// Complete state, versioned; straight and restarted runs agree byte for byte.
+void save_world(const World& world, std::ostream& out);
 std::string save_world(const World& world);
 /// @throws InputError on a foreign, truncated or newer checkpoint; `name` is used in the message.
 World load_world(const std::string& bytes, const std::string& name);

@@ -24,54 +24,6 @@ constexpr double seconds_between_progress = 0.2;
 // not depend on how much of it is looked at.
 constexpr std::int64_t min_judged_rows = 2000;
 
-/// The world at the largest stress so far. While the stress rises every row is a new peak, so what a picture needs is
-/// only copied, and taken when somebody wants it: for polygons that is as much work as several steps.
-class PeakMoment {
-  public:
-    void keep(const World& world, const CurveRow& row, std::int64_t index) {
-        bodies_ = world.bodies;
-        points_ = world.points;
-        states_ = world.point_states;
-        shear_forces_ = world.shear_forces;
-        bond_overlaps_ = world.bond_overlaps;
-        kind_begin_ = world.kind_begin;
-        fours_end_ = world.fours_end;
-        row_ = row;
-        index_ = index;
-        waiting_ = true;
-    }
-
-    /// Puts the picture into the frame, if there is a new one.
-    void draw(World& world, const Camera& camera, Frame& frame) {
-        if (!waiting_) return;
-        exchange(world);
-        camera.take(world, row_, index_, frame);
-        exchange(world);
-        waiting_ = false;
-    }
-
-  private:
-    void exchange(World& world) {
-        std::swap(world.bodies, bodies_);
-        std::swap(world.points, points_);
-        std::swap(world.point_states, states_);
-        std::swap(world.shear_forces, shear_forces_);
-        std::swap(world.bond_overlaps, bond_overlaps_);
-        std::swap(world.kind_begin, kind_begin_);
-        std::swap(world.fours_end, fours_end_);
-    }
-
-    std::vector<BodyState> bodies_;
-    std::vector<ContactPoint> points_;
-    std::vector<PointState> states_;
-    std::vector<double> shear_forces_, bond_overlaps_;
-    std::array<PointIndex, point_kinds + 1> kind_begin_{};
-    PointIndex fours_end_ = 0;
-    CurveRow row_;
-    std::int64_t index_ = -1;
-    bool waiting_ = false;
-};
-
 class LoadingLoop {
   public:
     LoadingLoop(VirtualTest& test, const TestHooks& hooks, TestFiles* files)
@@ -89,18 +41,15 @@ class LoadingLoop {
           last_checkpoint_(begun_),
           last_progress_(begun_),
           first_step_(test.world.step),
-          step_seconds_before_(test.state.step_seconds),
-          camera_(test.setup) {}
+          step_seconds_before_(test.state.step_seconds) {}
 
     void run() {
         try {
             load();
         } catch (const UnstableRun&) {
             record_breaks();  // of the step that went wrong
-            draw_peak();
             throw;
         }
-        draw_peak();
         state_.step_seconds = step_seconds();
     }
 
@@ -135,8 +84,6 @@ class LoadingLoop {
             advance(world_);
         }
     }
-
-    void draw_peak() { peak_.draw(world_, camera_, state_.peak_frame); }
 
     double step_seconds() const { return step_seconds_before_ + seconds(begun_, Clock::now()); }
     static double seconds(Clock::time_point from, Clock::time_point to) {
@@ -194,10 +141,10 @@ class LoadingLoop {
         const bool frame_due = row.axial_strain >= frame_spacing_ * static_cast<double>(state_.next_frame);
         while (row.axial_strain >= frame_spacing_ * static_cast<double>(state_.next_frame)) ++state_.next_frame;
         const bool frame_wanted = frame_due || !state_.ended_by.empty();
-        if (new_peak) peak_.keep(world_, row, index);
-        if (!frame_wanted) return;
-        new_peak ? draw_peak() : camera_.take(world_, row, index, frame_);
-        files_->add_frame(new_peak ? state_.peak_frame : frame_, setup_, state_, world_);
+        if (!frame_wanted && !new_peak) return;
+        Frame& frame = new_peak ? state_.peak_frame : frame_;
+        take_frame(world_, setup_, row, index, frame);
+        if (frame_wanted) files_->add_frame(frame, setup_, state_, world_);
     }
 
     /// Between steps: progress, checkpoint, interrupt. @return whether to stop
@@ -210,7 +157,6 @@ class LoadingLoop {
         }
         if (files_ != nullptr && seconds(last_checkpoint_, now) >= checkpoint_interval_) {
             const PhaseTimer timer(world_.profile, Phase::write);
-            draw_peak();
             state_.step_seconds = step_seconds();
             files_->write_checkpoint(setup_, state_, world_);
             last_checkpoint_ = Clock::now();
@@ -245,8 +191,6 @@ class LoadingLoop {
     double step_seconds_before_;
     double strain_ = 0.0;  // axial, of the last force pass
     std::size_t events_counted_ = 0;
-    Camera camera_;
-    PeakMoment peak_;
     Frame frame_;
 };
 

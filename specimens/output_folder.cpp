@@ -210,7 +210,10 @@ void OutputFolder::write(const std::string& name, const std::function<void(std::
     fs::create_directories(file.parent_path(), error);
     if (error) cannot_write(file.parent_path(), error.message());
     errno = 0;
-    std::ofstream out(temporary, std::ios::binary);
+    std::vector<char> buffer(std::size_t{1} << 18);
+    std::ofstream out;
+    out.rdbuf()->pubsetbuf(buffer.data(), static_cast<std::streamsize>(buffer.size()));
+    out.open(temporary, std::ios::binary);
     write_to(out);
     out.close();
     if (!out) {

@@ -21,7 +21,7 @@ struct Hold {
 
 Hold hold_of(const World& world, const TestSetup& setup, BodyIndex platen) {
     Hold hold;
-    for (const BondAnchor& bond : setup.bonds) {
+    for (const auto& [bond, overlap] : setup.bonds) {
         if (bond.body_i != platen && bond.body_j != platen) continue;
         ++hold.bonds;
         const BodyIndex particle = bond.body_i == platen ? bond.body_j : bond.body_i;
@@ -37,7 +37,7 @@ Hold hold_of(const World& world, const TestSetup& setup, BodyIndex platen) {
 
 bool connected(const TestSetup& setup, std::size_t bodies) {
     boost::disjoint_sets_with_storage<> pieces(bodies);
-    for (const BondAnchor& bond : setup.bonds) pieces.union_set(bond.body_i, bond.body_j);
+    for (const auto& [bond, overlap] : setup.bonds) pieces.union_set(bond.body_i, bond.body_j);
     return pieces.find_set(setup.bottom) == pieces.find_set(setup.top);
 }
 

@@ -6,6 +6,10 @@
 #include <limits>
 #include <map>
 #include <unordered_map>
+#include <utility>
+
+#include "solver/contact_geometry.hpp"
+#include "solver/point_order.hpp"
 
 namespace crackle {
 namespace {
@@ -33,27 +37,24 @@ std::vector<BodyIndex> gauge(const World& world, const std::vector<int>& ids, co
 void record_bonds(TestSetup& setup, const World& world) {
     std::map<std::pair<BodyIndex, BodyIndex>, double> interfaces;  // ordered: the sum must not depend on hashing
     double overlap = 0.0, tension = 0.0;
-    for (PointIndex k = 0; k < world.points.size(); ++k) {
-        const ContactPoint& point = world.points[k];
-        if ((world.point_states[k].flags & point_touching) != 0) ++setup.contacts_initial;
-        if ((world.point_states[k].flags & point_bonded) == 0) continue;
-        BondAnchor anchor = anchor_of(world, k);
-        const PointView view = view_point(world, k);
-        const bool outline = view.kind == PointKind::element_outline && setup.polygons;
-        // A pair of segments sums up several overlaps: there the gap is that of the mesh.
-        const double gap = outline                                   ? setup.bond_thick - view.overlap
-                           : view.kind == PointKind::segment_segment ? setup.mesh_thick
-                                                                     : 0.0;
-        const Vec2 half_gap = 0.5 * gap * view.normal;
-        anchor.on_i = view.position - half_gap;
-        anchor.on_j = view.position + half_gap;
-        setup.bonds.push_back(anchor);
-        overlap += world.bond_overlaps[k];
-        tension += view.normal_stiffness * world.bond_overlaps[k];
-        interfaces[std::minmax(point.body_i, point.body_j)] += view.normal_stiffness * world.bond_overlaps[k];
-    }
-    std::sort(setup.bonds.begin(), setup.bonds.end(),
-              [](const BondAnchor& a, const BondAnchor& b) { return a.key() < b.key(); });
+    setup.bonds.reserve(static_cast<std::size_t>(world.bonds_initial));
+    visit_kinds(world.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
+        for (PointIndex k = begin; k < end; ++k) {
+            const ContactPoint& point = world.points[k];
+            const PointState& state = world.point_states[k];
+            if ((state.flags & point_touching) != 0) ++setup.contacts_initial;
+            if ((state.flags & point_bonded) == 0) continue;
+            setup.bonds.push_back({point, world.bond_overlaps[k]});
+            const double back_tension = world.laws[state.law].normal_stiffness * world.bond_overlaps[k];
+            overlap += world.bond_overlaps[k];
+            tension += back_tension;
+            interfaces[std::minmax(point.body_i, point.body_j)] += back_tension;
+        }
+        const PointIndex first = setup.bond_kind_begin[static_cast<std::size_t>(K)];
+        std::sort(setup.bonds.begin() + first, setup.bonds.end(),
+                  [](const Bond& a, const Bond& b) { return key_of(K, a.point) < key_of(K, b.point); });
+        setup.bond_kind_begin[static_cast<std::size_t>(K) + 1] = static_cast<PointIndex>(setup.bonds.size());
+    });
     if (setup.bonds.empty()) return;
     setup.mean_bond_overlap = overlap / static_cast<double>(setup.bonds.size());
     setup.mean_back_tension = tension / static_cast<double>(setup.bonds.size());
@@ -62,18 +63,13 @@ void record_bonds(TestSetup& setup, const World& world) {
 
 }  // namespace
 
-BondAnchor anchor_of(const World& world, PointIndex k) {
-    const ContactPoint& point = world.points[k];
-    BondAnchor anchor;
-    int kind = 0;
-    while (k >= world.kind_begin[static_cast<std::size_t>(kind) + 1]) ++kind;
-    anchor.kind = static_cast<PointKind>(kind);
-    anchor.body_i = point.body_i;
-    anchor.body_j = point.body_j;
-    anchor.element_i = point.element_i;
-    const bool named = anchor.kind == PointKind::element_element || by_guide(anchor.kind);
-    anchor.feature_j = named ? point.feature_j : 0;
-    return anchor;
+BodyState placed_body(const World& world, const TestSetup& setup, BodyIndex b, double x, double y, double angle) {
+    BodyState body{x, y, 0.0, 0.0, 0.0, {world.bodies[b].shape[0], 0.0}, angle};
+    if (world.info[b].single_circle) return body;
+    const double turn = angle - setup.start[b].angle;
+    body.shape[0] = std::cos(turn);
+    body.shape[1] = std::sin(turn);
+    return body;
 }
 
 double TestSetup::axial_strain(const World& world) const {

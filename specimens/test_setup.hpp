@@ -2,9 +2,9 @@
 // What a loaded specimen was when loading began: everything that a measurement refers back to.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "solver/world.hpp"
@@ -19,17 +19,10 @@ struct StartPlace {
     double x = 0.0, y = 0.0, angle = 0.0;
 };
 
-/// One bonded point, held to both bodies by a place on each (world coordinates at the start, m).
-struct BondAnchor {
-    PointKind kind = PointKind::circle_circle;
-    BodyIndex body_i = 0, body_j = 0;
-    std::uint32_t element_i = 0;
-    std::uint32_t feature_j =
-        0;  ///< of clumps and the guide's segments; 0 elsewhere, where the solver's value is a hint
-    Vec2 on_i, on_j;
-
-    /// What tells bonds apart, whatever the order of the points.
-    auto key() const { return std::tuple(kind, body_i, body_j, element_i, feature_j); }
+/// A point bonded when loading began.
+struct Bond {
+    ContactPoint point;
+    double overlap = 0.0;  ///< δ0, m
 };
 
 struct TestSetup {
@@ -57,7 +50,8 @@ struct TestSetup {
     RateRule rate_rule;
 
     std::vector<StartPlace> start;  ///< by body
-    std::vector<BondAnchor> bonds;  ///< sorted by key
+    std::vector<Bond> bonds;        ///< by kind and in the order in which a world lists its points (point_order.hpp)
+    std::array<PointIndex, point_kinds + 1> bond_kind_begin{};  ///< into bonds
     std::vector<std::string> notices;
     std::vector<std::pair<std::string, double>> packing;  ///< figures of the packing by name; empty for a particle file
 
@@ -70,7 +64,7 @@ struct TestSetup {
 /// Takes down the start of loading. Needs a bonded world with its platens in place and compute_forces() done.
 TestSetup record_setup(const World& world, const Specimen& specimen, const Platens& platens, bool compression);
 
-/// The bond a point of the world would be, if it is bonded.
-BondAnchor anchor_of(const World& world, PointIndex point);
+/// A body where only its place is known. @param angle rad, as BodyState's
+BodyState placed_body(const World& world, const TestSetup& setup, BodyIndex body, double x, double y, double angle);
 
 }  // namespace crackle

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `crackle COMMAND ...`: finds the subcommand, runs it, turns failures into one message and an exit code.
 
+#include <malloc.h>
+
 #include <boost/program_options/errors.hpp>
 #include <exception>
 #include <filesystem>
@@ -61,6 +63,10 @@ int run(const std::vector<std::string>& words) {
 
 int main(int argc, char** argv) {
     using namespace crackle::tools;
+    // Arrays of large specimens go back to the system when they are freed. By itself glibc soon keeps them for good:
+    // a list of neighbours built anew would then cost as much memory as the whole specimen.
+    mallopt(M_MMAP_THRESHOLD, 1 << 20);
+    mallopt(M_TRIM_THRESHOLD, 1 << 22);
     const auto all = std::span(argv, static_cast<std::size_t>(argc));
     try {
         return run({all.begin() + 1, all.end()});

@@ -11,7 +11,8 @@
 // Cell data: body_i, body_j, normal_force [N, elastic, compression positive], shear_force [N], broken [0/1].
 //
 // Points are Float32 (a hundred-millionth of the specimen), what was computed Float64, ids and indices Int32 (indices
-// Int64 beyond 2³¹), broken UInt8. What never changes is packed once and put into every file again.
+// Int64 beyond 2³¹), broken UInt8. What never changes is packed once and put into every file again, up to 2,000
+// particles; beyond it would be a quarter of all memory, and packing it is little beside the steps between two frames.
 #pragma once
 
 #include <iosfwd>
@@ -42,17 +43,15 @@ class FramePainter {
   private:
     template <class Visit>
     void visit_cells(const Visit& visit) const;
-    template <class Index>
-    void list_particles();
-    template <class Index>
-    void list_bonds();
+    void write_particle_cells(std::ostream& out) const;
+    void write_bond_cells(std::ostream& out) const;
 
     const World& world_;
     const TestSetup& setup_;
     std::vector<BodyIndex> order_;  // in which bodies are drawn
     std::vector<Vec2> outline_;     // of a circle
     VtpCounts particle_counts_, bond_counts_;
-    std::string particle_cells_, bond_cells_;  // what never changes of the files, from the cells on
+    std::string particle_cells_, bond_cells_;  // what write_..._cells() write, where it is kept
 };
 
 }  // namespace crackle

@@ -4,39 +4,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 #include <stdexcept>
-#include <tuple>
 
 #include "solver/contact_geometry.hpp"
+#include "solver/point_order.hpp"
 #include "specimens/observers/curve.hpp"
 
 namespace crackle {
-namespace {
 
-/// By this the world sorts its points (solver/neighbours.cpp): kind, pair, which of the two owns the element, element,
-/// partner's feature.
-auto place_in_list(const BondAnchor& bond) {
-    const auto [low, high] = std::minmax(bond.body_i, bond.body_j);
-    return std::tuple(bond.kind, low, high, bond.body_i > bond.body_j, bond.element_i, bond.feature_j);
-}
-
-bool holds(const BondAnchor& bond, PointKind kind, const ContactPoint& point) {
-    const bool named = kind == PointKind::element_element || by_guide(kind);
-    return bond.body_i == point.body_i && bond.body_j == point.body_j && bond.kind == kind &&
-           bond.element_i == point.element_i && bond.feature_j == (named ? point.feature_j : 0);
-}
-
-}  // namespace
-
-Camera::Camera(const TestSetup& setup) : setup_(setup), listed_(setup.bonds.size()) {
-    std::iota(listed_.begin(), listed_.end(), 0U);
-    std::sort(listed_.begin(), listed_.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return place_in_list(setup.bonds[a]) < place_in_list(setup.bonds[b]);
-    });
-}
-
-void Camera::take(const World& world, const CurveRow& row, std::int64_t row_index, Frame& frame) const {
+void take_frame(const World& world, const TestSetup& setup, const CurveRow& row, std::int64_t row_index, Frame& frame) {
     frame.row = row_index;
     frame.axial_strain = row.axial_strain;
     frame.axial_stress = row.axial_stress;
@@ -46,25 +22,43 @@ void Camera::take(const World& world, const CurveRow& row, std::int64_t row_inde
         return Frame::Body{body.x, body.y, body.angle, body.vx, body.vy};
     });
     // Bonds are never made anew: what the walk along the list does not meet is broken.
-    const std::size_t bonds = setup_.bonds.size();
-    frame.normal_force.assign(bonds, 0.0);
-    frame.shear_force.assign(bonds, 0.0);
-    frame.broken.assign(bonds, 1);
-    auto first = listed_.begin();  // of a kind
-    visit_kinds(world, [&]<PointKind K>(PointIndex begin, PointIndex end) {
-        while (first != listed_.end() && setup_.bonds[*first].kind < K) ++first;
-        auto next = first;
+    const std::vector<Bond>& bonds = setup.bonds;
+    frame.shear_force.assign(bonds.size(), 0.0);
+    frame.broken.assign(bonds.size(), 1);
+    visit_kinds(world.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
+        const PointIndex first = setup.bond_kind_begin[static_cast<std::size_t>(K)];
+        PointIndex next = first;
         for (PointIndex k = begin; k < end; ++k) {
             if (k == world.fours_end) next = first;  // here the order of a kind begins anew
             const ContactPoint& point = world.points[k];
             if ((world.point_states[k].flags & point_bonded) == 0) continue;
-            while (next != listed_.end() && !holds(setup_.bonds[*next], K, point)) ++next;
-            if (next == listed_.end())
+            while (next < bonds.size() && !same_point(K, bonds[next].point, point)) ++next;
+            if (next == bonds.size())
                 throw std::logic_error("a bonded point is not where the start of loading listed it");
-            const double stiffness = world.laws[world.point_states[k].law].normal_stiffness;
-            frame.normal_force[*next] = stiffness * (overlap_at<K>(world, point) - world.bond_overlaps[k]);
-            frame.shear_force[*next] = world.shear_forces[k];
-            frame.broken[*next] = 0;
+            frame.shear_force[next] = world.shear_forces[k];
+            frame.broken[next] = 0;
+        }
+    });
+}
+
+void visit_normal_forces(const World& world, const TestSetup& setup, const Frame& frame,
+                         const std::function<void(double)>& visit) {
+    const auto body = [&](BodyIndex b) {
+        const Frame::Body& place = frame.bodies[b];
+        return placed_body(world, setup, b, place.x, place.y, place.angle);
+    };
+    visit_kinds(setup.bond_kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
+        for (PointIndex k = begin; k < end; ++k) {
+            if (frame.broken[k] != 0) {
+                visit(0.0);
+                continue;
+            }
+            const auto& [point, bond_overlap] = setup.bonds[k];
+            std::uint32_t feature = point.feature_j;
+            const double overlap =
+                contact_geometry<K>(world, point, body(point.body_i), body(point.body_j), feature).overlap;
+            const ContactLaw& law = world.laws[law_between(world, point.body_i, point.body_j)];
+            visit(law.normal_stiffness * (overlap - bond_overlap));
         }
     });
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -13,7 +14,7 @@ namespace crackle {
 
 struct CurveRow;
 
-/// A moment of a test. The one at the peak waits here until it is known to be the peak: 40 bytes a body, 17 a bond.
+/// A moment of a test. The one at the peak waits here until it is known to be the peak: 40 bytes a body, 9 a bond.
 struct Frame {
     struct Body {
         double x, y, angle;  // m, rad
@@ -21,23 +22,18 @@ struct Frame {
     };
     std::int64_t row = -1;  ///< of the curve; -1: no frame
     double axial_strain = 0.0, axial_stress = 0.0, time = 0.0;
-    std::vector<Body> bodies;                       ///< as in the world
-    std::vector<double> normal_force, shear_force;  ///< N, elastic, as TestSetup::bonds; 0 of broken ones
-    std::vector<std::uint8_t> broken;               ///< likewise, 0 or 1
+    std::vector<Body> bodies;          ///< as in the world
+    std::vector<double> shear_force;   ///< N, elastic, as TestSetup::bonds; 0 of broken ones
+    std::vector<std::uint8_t> broken;  ///< likewise, 0 or 1
 };
 
-/// Takes the frames of one test.
-class Camera {
-  public:
-    explicit Camera(const TestSetup& setup);
-    /// Needs compute_forces() to have been called. Linear in bodies and listed points, 30 ns a particle.
-    /// @param frame  receives the moment; its room is used again
-    void take(const World& world, const CurveRow& row, std::int64_t row_index, Frame& frame) const;
-
-  private:
-    const TestSetup& setup_;
-    std::vector<std::uint32_t> listed_;  // bonds in the order in which the world lists its points
-};
+/// The present moment. Needs compute_forces() to have been called. Linear in bodies and listed points. While the stress
+/// rises every row is a new peak: what takes longer, the forces normal to bonds, is left to who draws.
+/// @param frame  receives the moment; its room is used again
+void take_frame(const World& world, const TestSetup& setup, const CurveRow& row, std::int64_t row_index, Frame& frame);
+/// k_n (δ - δ0) of all bonds, N, compression positive; 0 of broken ones. @param visit  called with each, in order
+void visit_normal_forces(const World& world, const TestSetup& setup, const Frame& frame,
+                         const std::function<void(double)>& visit);
 
 /// Frames over max_axial_strain where the case does not say: 100 up to 2,000 bodies, beyond that 200,000 over their
 /// number, but at least 20, and never more than rows of the curve. A frame costs what some thirty steps cost, and

@@ -79,7 +79,7 @@ void TestFiles::write_checkpoint(const TestSetup& setup, TestState& state, const
     write_collection(state);
     state.curve_bytes = curve_.bytes();
     state.events_bytes = events_.bytes();
-    folder_.write("checkpoint", save_test(case_hash_, setup, state, world));
+    folder_.write("checkpoint", [&](std::ostream& out) { save_test(out, case_hash_, setup, state, world); });
 }
 
 void TestFiles::flush() {

@@ -35,9 +35,9 @@ std::span<const unsigned char> bytes_of(const std::vector<T>& values) {
     return {reinterpret_cast<const unsigned char*>(values.data()), values.size() * sizeof(T)};
 }
 
-/// One zlib stream by ISA-L: measured numbers are noise but for their exponents, and other packers spend ten times the
-/// time on looking for repeats in it.
-void append_packed(std::span<const unsigned char> bytes, std::string& packed) {
+/// Appends one zlib stream by ISA-L: measured numbers are noise but for their exponents, and other packers spend ten
+/// times the time on looking for repeats in it.
+void append_packed(std::span<const unsigned char> bytes, std::vector<unsigned char>& packed) {
     constexpr std::size_t slack = 512;  // heads of the stream and of blocks that do not shrink
     std::vector<std::uint8_t> memory(ISAL_DEF_LVL1_DEFAULT);
     isal_zstream stream{};  // all of it: what the library leaves unset steers its search for repeats
@@ -52,18 +52,11 @@ void append_packed(std::span<const unsigned char> bytes, std::string& packed) {
     stream.avail_in = static_cast<std::uint32_t>(bytes.size());
     const std::size_t begin = packed.size();
     packed.resize(begin + bytes.size() + bytes.size() / 256 + slack);
-    stream.next_out = reinterpret_cast<std::uint8_t*>(packed.data()) + begin;
+    stream.next_out = packed.data() + begin;
     stream.avail_out = static_cast<std::uint32_t>(packed.size() - begin);
     const int outcome = isal_deflate_stateless(&stream);
     if (outcome != COMP_OK) throw std::runtime_error(fmt::format("frames: packing failed ({})", outcome));
     packed.resize(packed.size() - stream.avail_out);
-}
-
-/// A piece of text after the other: the whole would be as large as the array again.
-void write_base64(std::ostream& out, std::span<const unsigned char> bytes) {
-    constexpr std::size_t piece = 3 << 14;  // whole groups of three
-    for (std::size_t at = 0; at < bytes.size(); at += piece)
-        out << encode_base64(bytes.subspan(at, std::min(piece, bytes.size() - at)));
 }
 
 void write_root(std::ostream& out, const char* type) {
@@ -96,34 +89,60 @@ std::string in_attribute(const std::string& text) {
 }  // namespace
 
 template <class T>
-PackedArray<T>::PackedArray(std::string name, std::size_t components)
-    : name_(std::move(name)), components_(components) {
-    block_.reserve(block_values);
+PackedArray<T>::PackedArray(std::ostream& out, std::string_view name, std::size_t components, std::size_t values,
+                            std::string_view attributes)
+    : out_(out),
+      values_(values),
+      held_(values * sizeof(T) <= most_held),
+      header_(3 + (values + block_values - 1) / block_values) {
+    block_.reserve(std::min(values, block_values));
+    fmt::print(out, "<DataArray type=\"{}\" Name=\"{}\"", vtk_name<T>(), in_attribute(std::string(name)));
+    if (components > 1) fmt::print(out, " NumberOfComponents=\"{}\"", components);
+    out << attributes << " format=\"binary\">";
+    header_[0] = header_.size() - 3;
+    header_[1] = block_values * sizeof(T);
+    if (held_) return;
+    header_at_ = out.tellp();
+    write_header();
 }
 
 template <class T>
 void PackedArray<T>::pack_block() {
+    added_ += block_.size();
+    if (added_ > values_) throw std::logic_error("frames: an array has more values than it was made for");
+    if (block_.size() < block_values) header_[2] = block_.size() * sizeof(T);
     const std::size_t before = packed_.size();
     append_packed(bytes_of(block_), packed_);
-    packed_bytes_.push_back(packed_.size() - before);
-    last_block_bytes_ = block_.size() * sizeof(T);
+    header_[3 + blocks_] = packed_.size() - before;
+    ++blocks_;
     block_.clear();
+    if (!held_) write_packed(packed_.size() / 3 * 3);  // base64 runs on through all blocks
 }
 
 template <class T>
-void PackedArray<T>::write(std::ostream& out, std::string_view attributes) {
+void PackedArray<T>::write_header() {
+    out_ << encode_base64(bytes_of(header_));
+}
+
+template <class T>
+void PackedArray<T>::write_packed(std::size_t bytes) {
+    out_ << encode_base64(std::span(packed_).first(bytes));
+    packed_.erase(packed_.begin(), packed_.begin() + static_cast<std::ptrdiff_t>(bytes));
+}
+
+template <class T>
+void PackedArray<T>::finish() {
     if (!block_.empty()) pack_block();
-    fmt::print(out, "<DataArray type=\"{}\" Name=\"{}\"", vtk_name<T>(), in_attribute(name_));
-    if (components_ > 1) fmt::print(out, " NumberOfComponents=\"{}\"", components_);
-    out << attributes << " format=\"binary\">";
-    // Header: number of blocks, bytes of one, bytes of a shorter last one (0: it is whole), packed bytes of each.
-    constexpr std::size_t block_bytes = block_values * sizeof(T);
-    std::vector<std::uint64_t> header{packed_bytes_.size(), block_bytes,
-                                      last_block_bytes_ == block_bytes ? 0 : last_block_bytes_};
-    header.insert(header.end(), packed_bytes_.begin(), packed_bytes_.end());
-    write_base64(out, bytes_of(header));
-    write_base64(out, {reinterpret_cast<const unsigned char*>(packed_.data()), packed_.size()});
-    out << "</DataArray>\n";
+    if (added_ != values_) throw std::logic_error("frames: an array has fewer values than it was made for");
+    if (held_) write_header();
+    write_packed(packed_.size());
+    if (!held_) {
+        const std::streampos end = out_.tellp();
+        out_.seekp(header_at_);
+        write_header();
+        out_.seekp(end);
+    }
+    out_ << "</DataArray>\n";
 }
 
 template class PackedArray<double>;
@@ -138,9 +157,9 @@ void write_vtp_head(std::ostream& out, const std::vector<std::pair<std::string, 
     out << "<PolyData>\n";
     begin_element(out, "FieldData");
     for (const auto& [name, value] : fields) {
-        PackedArray<double> array(name, 1);
+        PackedArray<double> array(out, name, 1, 1, " NumberOfTuples=\"1\"");
         array.add(value);
-        array.write(out, " NumberOfTuples=\"1\"");
+        array.finish();
     }
     end_element(out, "FieldData");
     fmt::print(out,

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// ParaView's XML PolyData (.vtp) and its collection file (.pvd), written piece after piece: an array is packed while
-// its values come, and never lies in memory unpacked. Arrays stand in the text as base64 of zlib-compressed
+// ParaView's XML PolyData (.vtp) and its collection file (.pvd), written piece after piece: an array is packed and
+// written while its values come, and never lies in memory. Arrays stand in the text as base64 of zlib-compressed
 // little-endian bytes (vtkZLibDataCompressor). Format: VTK File Formats, "XML File Formats".
 //
 //     write_vtp_head(out, fields, counts)
@@ -30,29 +30,40 @@ void write_vtp_end(std::ostream& out);
 void begin_element(std::ostream& out, std::string_view name);
 void end_element(std::ostream& out, std::string_view name);
 
-/// One DataArray. T: double, float, std::int64_t, std::int32_t or std::uint8_t, under VTK's names for them.
+/// One DataArray, written while its values come. T: double, float, std::int64_t, std::int32_t or std::uint8_t, under
+/// VTK's names for them.
 template <class T>
 class PackedArray {
   public:
+    /// @param out         seekable: the sizes of packed blocks stand before them
     /// @param components  values a point or cell
-    PackedArray(std::string name, std::size_t components);
+    /// @param values      how many will come in all
+    /// @param attributes  further ones, with a blank before each
+    PackedArray(std::ostream& out, std::string_view name, std::size_t components, std::size_t values,
+                std::string_view attributes = {});
     void add(T value) {
         block_.push_back(value);
         if (block_.size() == block_values) pack_block();
     }
-    /// All values are there: the element's text. @param attributes  further ones, with a blank before each
-    void write(std::ostream& out, std::string_view attributes = {});
+    /// All values have come. @throws std::logic_error if they have not
+    void finish();
 
   private:
     static constexpr std::size_t block_values = 3 << 12;  // whole records of one or three; stays in a core's cache
+    static constexpr std::size_t most_held = 1 << 20;     // bytes, of values; larger arrays are written block by block
     void pack_block();
+    void write_header();
+    void write_packed(std::size_t bytes);
 
-    std::string name_;
-    std::size_t components_;
+    std::ostream& out_;
+    std::size_t values_;
+    bool held_;  // nothing is written before the whole is packed: no way back to the header
     std::vector<T> block_;
-    std::string packed_;
-    std::vector<std::uint64_t> packed_bytes_;  // by block
-    std::size_t last_block_bytes_ = 0;
+    std::vector<unsigned char> packed_;  // not written yet
+    std::vector<std::uint64_t> header_;  // number of blocks, bytes of one, bytes of a shorter last one (0: it is
+                                         // whole), packed bytes of each
+    std::size_t blocks_ = 0, added_ = 0;
+    std::streampos header_at_;
 };
 
 struct CollectionEntry {

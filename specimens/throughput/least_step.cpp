@@ -24,12 +24,12 @@ void least_step(World& world, const ContactFeatures& features) {
 void make_room_for(World& world, const ContactFeatures& features) {
     const std::size_t points = world.points.size();
     if (features.bonds) {
-        world.strong_normal.resize(points, 0.0);
-        world.strong_shear.resize(points, 0.0);
+        world.strong_normal.resize(points, 0.0F);
+        world.strong_shear.resize(points, 0.0F);
     }
     if (features.ledger) {
-        world.normal_dashpot.resize(points, 0.0);
-        world.shear_dashpot.resize(points, 0.0);
+        world.normal_dashpot.resize(points, 0.0F);
+        world.shear_dashpot.resize(points, 0.0F);
     }
     if (features.consistent) {
         world.openings.resize(points);

@@ -46,12 +46,12 @@ struct DiscStress {
 DiscStress stress_of(const World& world, BodyIndex disc) {
     DiscStress stress;
     const double area = 0.5 * std::sqrt(3.0) * spacing * spacing;
-    for (std::uint32_t s = world.body_begin[disc]; s < world.body_begin[disc + 1]; ++s) {
-        const std::uint32_t slot = world.body_slots[s];
-        const ContactPoint& point = world.points[point_of_slot(slot)];
-        const PointForce& force = world.point_forces[point_of_slot(slot)];
-        const double sign = side_of_slot(slot) != 0 ? -1.0 : 1.0;
-        const BodyIndex other = side_of_slot(slot) != 0 ? point.body_i : point.body_j;
+    for (PointIndex k = 0; k < world.points.size(); ++k) {
+        const ContactPoint& point = world.points[k];
+        if (point.body_i != disc && point.body_j != disc) continue;
+        const PointForce& force = world.point_forces[k];
+        const double sign = point.body_i == disc ? 1.0 : -1.0;
+        const BodyIndex other = point.body_i == disc ? point.body_j : point.body_i;
         const Vec2 arm{world.bodies[other].x - world.bodies[disc].x, world.bodies[other].y - world.bodies[disc].y};
         stress.xx += 0.5 * sign * force.fx * arm.x / area;
         stress.yy += 0.5 * sign * force.fy * arm.y / area;

@@ -43,9 +43,10 @@ Section strained(int columns, int rows, double shear_share, const Strain& e) {
         const BodyState& body = world.bodies[b];
         return Motion{e.xx * body.x + e.xy * body.y, e.xy * body.x + e.yy * body.y, 0.0};
     };
+    std::vector<int> bonds(world.bodies.size());
+    for (const ContactPoint& point : world.points) ++bonds[point.body_i], ++bonds[point.body_j];
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
-        const std::uint32_t bonds = world.body_begin[b + 1] - world.body_begin[b];
-        if (bonds < 6) held.push_back({static_cast<BodyIndex>(b), affine(b)});
+        if (bonds[b] < 6) held.push_back({static_cast<BodyIndex>(b), affine(b)});
     }
     const ElasticSolution solution = solve_elastic(world, held);
     Section section{{}, {}, 0.0};

@@ -214,8 +214,8 @@ TEST_F(TestFolder, ResumingRefusesWhatDoesNotFit) {
     flipped[checkpoint.size() / 2] = static_cast<char>(flipped[checkpoint.size() / 2] ^ 1);
     put(flipped);
     refused("truncated or damaged checkpoint");
-    put("crackle test checkpoint 9\n");
-    refused("found checkpoint version 9");
+    put("crackle test checkpoint 999\n");
+    refused("found checkpoint version 999");
     put("hello");
     refused("found other data");
     put(checkpoint);

@@ -137,7 +137,7 @@ TEST_F(VirtualRock, FrictionalPlatensStartWithoutForceAndHoldNoBond) {
     wanted.kind = "compression";
     wanted.loading = "platens = \"frictional\"\nplaten_friction_angle = 5";
     VirtualTest test = prepare(wanted);
-    for (const BondAnchor& bond : test.setup.bonds) {
+    for (const auto& [bond, overlap] : test.setup.bonds) {
         EXPECT_NE(bond.body_j, test.setup.top);
         EXPECT_NE(bond.body_j, test.setup.bottom);
     }

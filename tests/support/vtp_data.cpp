@@ -10,9 +10,9 @@ namespace {
 
 template <class T>
 void write_array(std::ostream& out, const std::string& name, std::size_t components, const std::vector<T>& values) {
-    PackedArray<T> array(name, components);
+    PackedArray<T> array(out, name, components, values.size());
     for (const T value : values) array.add(value);
-    array.write(out);
+    array.finish();
 }
 
 }  // namespace
