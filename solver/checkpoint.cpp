@@ -144,6 +144,7 @@ void save_world(const World& world, std::ostream& out) {
     std::ostream watched(&buffer);
     cereal::BinaryOutputArchive{watched}(checkpoint_magic, checkpoint_version, world);
     watched.flush();
+    if (!watched) out.setstate(std::ios::badbit);
     cereal::BinaryOutputArchive{out}(XXH3_64bits_digest(hash.get()));
 }
 

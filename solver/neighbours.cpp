@@ -14,8 +14,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <numeric>
-#include <span>
 #include <utility>
 
 #include "solver/contact_geometry.hpp"
@@ -474,6 +472,13 @@ void find_pairs(World& world) {
     }
 }
 
+void refuse_more_than_countable(std::size_t points) {
+    constexpr std::size_t most = no_point - 1;
+    if (points > most)
+        throw InputError(
+            fmt::format("found {} contact points, expected at most {}; take a smaller scene", points, most));
+}
+
 /// Replaces the points of the world, carrying over what the old ones remember.
 void exchange_points(World& world, PointLists& lists) {
     Succession next;
@@ -483,6 +488,7 @@ void exchange_points(World& world, PointLists& lists) {
         const auto kind = static_cast<PointKind>(number);
         Succession of_kind = succeed(world, kind, std::move(lists[number]));
         if (kind == PointKind::element_outline) fours_end = kind_begin[number] + put_fours_first(of_kind);
+        refuse_more_than_countable(next.points.size() + of_kind.points.size());
         append(next.points, std::move(of_kind.points));
         append(next.old, std::move(of_kind.old));
         kind_begin[number + 1] = static_cast<PointIndex>(next.points.size());

@@ -286,8 +286,8 @@ Least least_of(const World& world, const std::vector<BodyBlocks>& blocks, const 
 constexpr int weight_rounds = 12;
 // Rounds go on while three of them raise the bound by this share of it.
 constexpr double worth_three_rounds = 5e-4;
-// By how much a bound may lie below that of the last search and still be as good.
-constexpr double as_good = 2e-3;
+// By how much a bound may differ from that of the last search and count as the same.
+constexpr double unchanged = 2e-3;
 // No weight falls below this share of its first value: a point that comes to carry load later between a body that was
 // let off and one that was not would cost the latter all the more.
 constexpr double lowest_weight_share = 0.125;
@@ -309,18 +309,23 @@ double enough_for(const World& world) {
     return world.automatic_step ? world.step_goal : world.time_step;
 }
 
-/// Raises the weight of the bodies that limit against those that do not, until the bound is enough, or as good as
-/// before where the weights come from a list like this one; keeps the best round in World::step_weights.
+/// Whether the last search for weights, on a list like this one, has not reached what a derived step asks for: then
+/// another one is worth its time only where the bound has changed.
+bool searched_in_vain(const World& world, double enough) {
+    const auto listed = static_cast<double>(world.points.size()), then = static_cast<double>(world.weighed_points);
+    return world.automatic_step && world.weighed_bound < enough && std::abs(listed - then) <= like_list * then;
+}
+
+/// Raises the weight of the bodies that limit against those that do not, until the bound is enough; keeps the best
+/// round in World::step_weights. The first round has the weights found last, which as a rule do.
 template <class Counts>
 Least raised(World& world, const Surroundings& all, Counts counts) {
-    const bool bonded = world.has_bonds && weighed_before(world, all.met);
-    const bool like_before =
-        bonded && std::abs(static_cast<double>(world.points.size()) - static_cast<double>(world.weighed_points)) <=
-                      like_list * static_cast<double>(world.weighed_points);
-    std::vector<double> first;
-    if (!bonded) first = first_weights(world, all.rows);
-    std::vector<double> trial = bonded ? world.step_weights : first;
     const double enough = enough_for(world);
+    const bool warm = enough > 0.0 && weighed_before(world, all.met);
+    const bool in_vain = warm && searched_in_vain(world, enough);
+    std::vector<double> first;
+    if (!warm) first = first_weights(world, all.rows);
+    std::vector<double> trial = warm ? world.step_weights : first;
     Least best;
     best.bound = 0.0;
     std::array<double, weight_rounds> reached{};
@@ -334,8 +339,8 @@ Least raised(World& world, const Surroundings& all, Counts counts) {
         const auto now = static_cast<std::size_t>(round);
         reached[now] = best.bound;
         if (best.bound >= enough) break;
-        if (round == 0 && like_before && best.bound >= (1.0 - as_good) * world.weighed_bound) return best;
-        if (round >= 3 && best.bound < (1.0 + worth_three_rounds) * reached[now - 3]) break;
+        if (in_vain && round == 0 && std::abs(best.bound - world.weighed_bound) <= unchanged * best.bound) return best;
+        if (world.automatic_step && round >= 3 && best.bound < (1.0 + worth_three_rounds) * reached[now - 3]) break;
         if (first.empty()) first = first_weights(world, all.rows);
         for (std::size_t b = 0; b < trial.size(); ++b) {
             const double step =
@@ -388,30 +393,13 @@ void count_new_points(World& world) {
     constexpr std::size_t most = 64;
     static_assert(most < std::numeric_limits<decltype(world.marks)::value_type>::max());
     std::array<BodyIndex, most> gaining{};  // their marks are 1 and on
-    std::size_t count = 0;
-    Least least{world.step_bound, world.limiting_body};
-    // Blocks of the gaining bodies from all their counted points; a later new point of one of them looks again.
-    const auto look = [&] {
-        std::array<BodyBlocks, most> blocks{};
-        const auto add = [&](PointIndex k, BodyIndex b) {
-            if (world.marks[b] == 0) return;
-            add_point(blocks[world.marks[b] - std::size_t{1}], world, world.step_weights, k, b,
-                      roots_of(world.inertia[b]), arms_of(geometry_at(world, k)));
-        };
-        for (PointIndex k = 0; k < world.points.size(); ++k) {
-            if ((world.point_states[k].flags & point_counted) == 0) continue;
-            add(k, world.points[k].body_i);
-            if (!with_wall(world, k)) add(k, world.points[k].body_j);
-        }
-        for (std::size_t n = 0; n < count; ++n) {
-            least.lower_to(blocks[n], gaining[n]);
-            world.marks[gaining[n]] = 0;
-        }
-        count = 0;
-    };
+    std::size_t count = 0, uncounted = 0;
     const auto gains = [&](BodyIndex b) {
         if (held(world.inertia[b]) || world.marks[b] != 0) return;
-        if (count == most) look();
+        if (count == most) {
+            ++uncounted;
+            return;
+        }
         gaining[count++] = b;
         world.marks[b] = static_cast<std::uint8_t>(count);
     };
@@ -422,7 +410,25 @@ void count_new_points(World& world) {
         gains(world.points[k].body_i);
         if (!with_wall(world, k)) gains(world.points[k].body_j);
     }
-    look();
+
+    // Blocks of these bodies from all their counted points.
+    std::array<BodyBlocks, most> blocks{};
+    const auto add = [&](PointIndex k, BodyIndex b) {
+        if (world.marks[b] == 0) return;
+        add_point(blocks[world.marks[b] - std::size_t{1}], world, world.step_weights, k, b, roots_of(world.inertia[b]),
+                  arms_of(geometry_at(world, k)));
+    };
+    for (PointIndex k = 0; k < world.points.size(); ++k) {
+        if ((world.point_states[k].flags & point_counted) == 0) continue;
+        add(k, world.points[k].body_i);
+        if (!with_wall(world, k)) add(k, world.points[k].body_j);
+    }
+    Least least{world.step_bound, world.limiting_body};
+    for (std::size_t n = 0; n < count; ++n) {
+        least.lower_to(blocks[n], gaining[n]);
+        world.marks[gaining[n]] = 0;
+    }
+    if (uncounted > 0) return evaluate_step_bound(world);
     if (least.bound >= world.step_bound) return;
     if (least.bound < world.time_step) return evaluate_step_bound(world);  // with weights that suit the new points
     world.step_bound = least.bound;

@@ -90,6 +90,7 @@ void save_test(std::ostream& out, const std::string& case_hash, const TestSetup&
     cereal::BinaryOutputArchive{watched}(case_hash, setup, state);
     save_world(world, watched);
     watched.flush();
+    if (!watched) out.setstate(std::ios::badbit);
     out << hash.digits();
 }
 

@@ -27,13 +27,14 @@ void take_frame(const World& world, const TestSetup& setup, const CurveRow& row,
     frame.broken.assign(bonds.size(), 1);
     visit_kinds(world.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
         const PointIndex first = setup.bond_kind_begin[static_cast<std::size_t>(K)];
+        const PointIndex last = setup.bond_kind_begin[static_cast<std::size_t>(K) + 1];
         PointIndex next = first;
         for (PointIndex k = begin; k < end; ++k) {
             if (k == world.fours_end) next = first;  // here the order of a kind begins anew
             const ContactPoint& point = world.points[k];
             if ((world.point_states[k].flags & point_bonded) == 0) continue;
-            while (next < bonds.size() && !same_point(K, bonds[next].point, point)) ++next;
-            if (next == bonds.size())
+            while (next < last && !same_point(K, bonds[next].point, point)) ++next;
+            if (next == last)
                 throw std::logic_error("a bonded point is not where the start of loading listed it");
             frame.shear_force[next] = world.shear_forces[k];
             frame.broken[next] = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// ParaView's XML PolyData (.vtp) and its collection file (.pvd), written piece after piece: an array is packed and
-// written while its values come, and never lies in memory. Arrays stand in the text as base64 of zlib-compressed
-// little-endian bytes (vtkZLibDataCompressor). Format: VTK File Formats, "XML File Formats".
+// ParaView's XML PolyData (.vtp) and its collection file (.pvd), written piece after piece: an array is packed while
+// its values come, and a large one written, so that it never lies in memory. Arrays stand in the text as base64 of
+// zlib-compressed little-endian bytes (vtkZLibDataCompressor). Format: VTK File Formats, "XML File Formats".
 //
 //     write_vtp_head(out, fields, counts)
 //     begin_element(out, "Points"), a PackedArray, end_element(out, "Points"); Lines and Polys with connectivity and

@@ -46,6 +46,7 @@ struct DiscStress {
 DiscStress stress_of(const World& world, BodyIndex disc) {
     DiscStress stress;
     const double area = 0.5 * std::sqrt(3.0) * spacing * spacing;
+    // There are no walls.
     for (PointIndex k = 0; k < world.points.size(); ++k) {
         const ContactPoint& point = world.points[k];
         if (point.body_i != disc && point.body_j != disc) continue;

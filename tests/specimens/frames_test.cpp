@@ -203,11 +203,12 @@ TEST(DefaultFrames, FallWithTheNumberOfBodies) {
     EXPECT_EQ(default_frames(77, 10), 10) << "frames are taken at rows";
 }
 
-/// Noise, zeros and repeats, of sizes about the blocks in which arrays are packed.
+/// Noise, zeros and repeats, of sizes about the blocks in which arrays are packed, and so large that they are written
+/// block by block.
 TEST(PackedArrays, ComeBackWhateverTheirSize) {
     const ScratchFolder folder;
     std::mt19937_64 generator(1);
-    for (const std::size_t count : {1U, 2U, 4095U, 4096U, 4097U, 12'288U, 40'000U}) {
+    for (const std::size_t count : {1U, 2U, 4095U, 4096U, 4097U, 12'288U, 40'000U, 200'000U}) {
         for (const int kind : {0, 1, 2}) {
             testing::VtpData data;
             std::vector<Vec2> places;
