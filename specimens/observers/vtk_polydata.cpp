@@ -56,7 +56,7 @@ void append_packed(std::span<const unsigned char> bytes, std::vector<unsigned ch
     stream.avail_out = static_cast<std::uint32_t>(packed.size() - begin);
     const int outcome = isal_deflate_stateless(&stream);
     if (outcome != COMP_OK) throw std::runtime_error(fmt::format("frames: packing failed ({})", outcome));
-    packed.resize(packed.size() - stream.avail_out);
+    packed.erase(packed.end() - stream.avail_out, packed.end());
 }
 
 void write_root(std::ostream& out, const char* type) {
