@@ -278,7 +278,7 @@ bool both_held(const World& world, BodyIndex i, BodyIndex j) {
     return held(i) && held(j);
 }
 
-PointLists emit_points(const World& world, std::vector<std::uint64_t> pairs) {
+PointLists emit_points(const World& world, const std::vector<std::uint64_t>& pairs) {
     PointLists lists;
     for (std::size_t kind = 0; kind < point_kinds; ++kind) {
         const PointIndex listed = world.kind_begin[kind + 1] - world.kind_begin[kind];
@@ -537,7 +537,8 @@ void rebuild(World& world) {
     std::vector<std::uint64_t> pairs = near_pairs(world);
     {
         const PhaseTimer timer(world.profile, Phase::listing);
-        PointLists lists = emit_points(world, std::move(pairs));
+        PointLists lists = emit_points(world, pairs);
+        std::vector<std::uint64_t>().swap(pairs);  // the lists need the room
         exchange_points(world, lists);
         world.sweep.valid = false;
         world.marks.resize(world.bodies.size());

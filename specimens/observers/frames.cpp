@@ -34,8 +34,7 @@ void take_frame(const World& world, const TestSetup& setup, const CurveRow& row,
             const ContactPoint& point = world.points[k];
             if ((world.point_states[k].flags & point_bonded) == 0) continue;
             while (next < last && !same_point(K, bonds[next].point, point)) ++next;
-            if (next == last)
-                throw std::logic_error("a bonded point is not where the start of loading listed it");
+            if (next == last) throw std::logic_error("a bonded point is not where the start of loading listed it");
             frame.shear_force[next] = world.shear_forces[k];
             frame.broken[next] = 0;
         }
