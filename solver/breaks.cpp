@@ -84,6 +84,8 @@ void record_breaks(World& world) {
         if (!world.spring_work.empty()) world.spring_work[k] = {};
         if (!world.openings.empty()) world.openings[k] = {};
         event.last_of_interface = !interface_holds(world, k);
+        event.kind = view.kind;
+        event.point = point;
         world.fracture_loss += event.energy;
         world.bonds_broken += 1;
         world.interfaces_lost += event.last_of_interface ? 1 : 0;

@@ -21,7 +21,7 @@
 namespace crackle {
 
 // Raise when the fields below change.
-constexpr std::uint32_t checkpoint_version = 12;
+constexpr std::uint32_t checkpoint_version = 13;
 constexpr std::uint64_t checkpoint_magic = 0x454c4b4341524321ULL;  // "!CRACKLE"
 
 // NOLINTBEGIN(bugprone-macro-parentheses)
@@ -115,7 +115,7 @@ void serialize(Archive& a, World::LossBlock& b) {
 template <class Archive>
 void serialize(Archive& a, BreakEvent& e) {
     a(e.step, e.time, e.body_i, e.body_j, e.position, e.orientation, e.energy, e.strength, e.normal_force,
-      e.shear_force, e.slid, e.shear_mode, e.last_of_interface);
+      e.shear_force, e.slid, e.shear_mode, e.last_of_interface, e.kind, e.point);
 }
 template <class Archive>
 void serialize(Archive& a, World& w) {

@@ -181,6 +181,8 @@ struct BreakEvent {
     bool slid;
     bool shear_mode;         // slid and |f_t| > |f_n|; else tension
     bool last_of_interface;  // no bonded point is left between the two bodies
+    PointKind kind;          // of the point
+    ContactPoint point;      // by internal numbers, for readers that keep books by points
 };
 
 /// Energies at x_n, and what has gone since the start. All in J; signs as in DEMseg's energy.dat.

@@ -118,6 +118,7 @@ class LoadingLoop {
             const BreakEvent& event = world_.events[k];
             ++(event.shear_mode ? state_.breaks_in_shear : state_.breaks_in_tension);
             state_.breaks_after_sliding += event.slid ? 1 : 0;
+            note_break(setup_, event, state_.history);
             if (files_ != nullptr) files_->add_event(event, strain_);
         }
         if (files_ != nullptr) world_.events.clear();
@@ -135,6 +136,8 @@ class LoadingLoop {
         } else if (at_end) {
             state_.ended_by = ended_by_strain;
         }
+        const bool loose = row.contacts_gained > 0 || !state_.history.loose.contacts.empty();
+        if (loose) look_at_contacts(world_, state_.history);
         if (files_ == nullptr) return;
         const PhaseTimer writing(world_.profile, Phase::write);
         if (index % judged_per_written_ == 0 || !state_.ended_by.empty()) files_->add_row(row);
@@ -143,7 +146,7 @@ class LoadingLoop {
         const bool frame_wanted = frame_due || !state_.ended_by.empty();
         if (!frame_wanted && !new_peak) return;
         Frame& frame = new_peak ? state_.peak_frame : frame_;
-        take_frame(world_, setup_, row, index, frame);
+        take_frame(world_, setup_, state_.history, row, index, frame);
         if (frame_wanted) files_->add_frame(frame, setup_, state_, world_);
     }
 

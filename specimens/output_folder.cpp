@@ -13,6 +13,7 @@
 #include <system_error>
 
 #include "solver/errors.hpp"
+#include "specimens/observers/frames.hpp"
 #include "specimens/results.hpp"
 
 namespace crackle {
@@ -56,10 +57,7 @@ bool are_of_a_test(const fs::path& folder) {
            begins_with(folder / "case.toml", resolved_case_mark);
 }
 
-bool is_frame(const std::string& name) {
-    return name == "frames.pvd" ||
-           ((name.starts_with("particles_") || name.starts_with("bonds_")) && name.ends_with(".vtp"));
-}
+bool is_frame(const std::string& name) { return name == "frames.pvd" || is_picture(name); }
 
 void remove_results(const fs::path& folder) {
     std::error_code ignored;

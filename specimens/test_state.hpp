@@ -10,6 +10,7 @@
 
 #include "specimens/failure.hpp"
 #include "specimens/loading_rate.hpp"
+#include "specimens/observers/contact_history.hpp"
 #include "specimens/observers/curve.hpp"
 #include "specimens/observers/frames.hpp"
 
@@ -31,6 +32,7 @@ inline constexpr const char* ended_by_instability = "instability";
 struct TestState {
     std::vector<CurveRow> rows;
     FailureTracker failure;
+    ContactHistory history;
     Frame peak_frame;                ///< waits in memory until the peak is known
     std::vector<FrameEntry> frames;  ///< written so far
     std::int64_t next_frame = 0;     ///< due at this multiple of the strain between frames

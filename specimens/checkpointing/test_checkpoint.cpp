@@ -20,7 +20,7 @@ namespace crackle {
 
 // Names the layout; the number is raised whenever a field below changes.
 constexpr const char* checkpoint_title = "crackle test checkpoint ";
-constexpr const char* checkpoint_version = "9";
+constexpr const char* checkpoint_version = "10";
 constexpr std::size_t hash_digits = 64;
 
 // The archive is given one member after the other: structs have padding, whose bytes are nobody's.
@@ -40,11 +40,31 @@ void serialize(Archive& a, FailureTracker& f) {
 }
 template <class Archive>
 void serialize(Archive& a, Frame::Body& b) {
-    a(b.x, b.y, b.angle, b.vx, b.vy);
+    a(b.x, b.y, b.angle, b.vx, b.vy, b.omega);
+}
+template <class Archive>
+void serialize(Archive& a, ContactPoint& p) {
+    a(p.body_i, p.body_j, p.element_i, p.feature_j);
+}
+template <class Archive>
+void serialize(Archive& a, LooseContact& c) {
+    a(c.point, c.shear_force, c.since);
+}
+template <class Archive>
+void serialize(Archive& a, LooseContacts& c) {
+    a(c.contacts, c.kind_begin);
+}
+template <class Archive>
+void serialize(Archive& a, Crack& c) {
+    a(c.time, c.energy, c.orientation, c.bond, c.shear_mode);
+}
+template <class Archive>
+void serialize(Archive& a, ContactHistory& h) {
+    a(h.cracks, h.loose);
 }
 template <class Archive>
 void serialize(Archive& a, Frame& f) {
-    a(f.row, f.axial_strain, f.axial_stress, f.time, f.bodies, f.shear_force, f.broken);
+    a(f.row, f.axial_strain, f.axial_stress, f.time, f.bodies, f.shear_force, f.states, f.loose, f.cracks);
 }
 template <class Archive>
 void serialize(Archive& a, FrameEntry& f) {
@@ -56,7 +76,7 @@ void serialize(Archive& a, StartPlace& p) {
 }
 template <class Archive>
 void serialize(Archive& a, Bond& b) {
-    a(b.point.body_i, b.point.body_j, b.point.element_i, b.point.feature_j, b.overlap);
+    a(b.point, b.overlap);
 }
 template <class Archive>
 void serialize(Archive& a, RateRule& r) {
@@ -76,9 +96,9 @@ void serialize(Archive& a, TestSetup& s) {
 }
 template <class Archive>
 void serialize(Archive& a, TestState& s) {
-    a(s.rows, s.failure, s.peak_frame, s.frames, s.next_frame, s.rate, s.breaks_in_shear, s.breaks_in_tension,
-      s.breaks_after_sliding, s.ended_by, s.youngs_modulus, s.poissons_ratio, s.modulus_residual, s.curve_bytes,
-      s.events_bytes, s.wall_seconds, s.step_seconds, s.command);
+    a(s.rows, s.failure, s.history, s.peak_frame, s.frames, s.next_frame, s.rate, s.breaks_in_shear,
+      s.breaks_in_tension, s.breaks_after_sliding, s.ended_by, s.youngs_modulus, s.poissons_ratio, s.modulus_residual,
+      s.curve_bytes, s.events_bytes, s.wall_seconds, s.step_seconds, s.command);
 }
 
 void save_test(std::ostream& out, const std::string& case_hash, const TestSetup& setup, const TestState& state,

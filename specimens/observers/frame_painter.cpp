@@ -11,6 +11,8 @@
 #include <utility>
 
 #include "solver/contact_geometry.hpp"
+#include "specimens/observers/crack_faces.hpp"
+#include "specimens/observers/fragments.hpp"
 
 namespace crackle {
 namespace {
@@ -24,29 +26,15 @@ std::vector<BodyIndex> drawing_order(const World& world, const TestSetup& setup)
     return order;
 }
 
-bool is_circles(const World& world, BodyIndex b) { return world.info[b].piece_count == 0; }
-
-Vec2 rotated(Vec2 turn, Vec2 arm) { return {turn.x * arm.x - turn.y * arm.y, turn.y * arm.x + turn.x * arm.y}; }
-
-/// Cosine and sine by which each body has turned since loading began.
-std::vector<Vec2> turns_of(const TestSetup& setup, const Frame& frame) {
-    std::vector<Vec2> turns(frame.bodies.size());
-    for (std::size_t b = 0; b < turns.size(); ++b) {
-        const double turn = frame.bodies[b].angle - setup.start[b].angle;
-        turns[b] = {std::cos(turn), std::sin(turn)};
-    }
-    return turns;
-}
-
 void add_point(PackedArray<float>& points, Vec2 place) {
     points.add(static_cast<float>(place.x));
     points.add(static_cast<float>(place.y));
     points.add(0.0F);
 }
 
-void add_vector(PackedArray<double>& vectors, double x, double y) {
-    vectors.add(x);
-    vectors.add(y);
+void add_vector(PackedArray<double>& vectors, Vec2 value) {
+    vectors.add(value.x);
+    vectors.add(value.y);
     vectors.add(0.0);
 }
 
@@ -70,30 +58,6 @@ void write_head(std::ostream& out, const Frame& frame, const VtpCounts& counts) 
     write_vtp_head(out,
                    {{"axial_strain", frame.axial_strain}, {"axial_stress", frame.axial_stress}, {"time", frame.time}},
                    counts);
-}
-
-/// Where a bond is held to its two bodies when loading begins, m: points of their surfaces, which between polygons are
-/// the width of the gap apart.
-struct BondPlaces {
-    Vec2 on_i, on_j;
-};
-
-template <PointKind K>
-BondPlaces places_at_start(const World& world, const TestSetup& setup, const ContactPoint& point) {
-    const auto body = [&](BodyIndex b) {
-        const StartPlace& start = setup.start[b];
-        return placed_body(world, setup, b, start.x, start.y, start.angle);
-    };
-    const BodyState i = body(point.body_i);
-    std::uint32_t feature = point.feature_j;
-    const ContactGeometry g = contact_geometry<K>(world, point, i, body(point.body_j), feature);
-    // A pair of segments sums up several overlaps: there the gap is that of the mesh.
-    const bool outline = K == PointKind::element_outline && setup.polygons;
-    const double gap = outline                           ? setup.bond_thick - g.overlap
-                       : K == PointKind::segment_segment ? setup.mesh_thick
-                                                         : 0.0;
-    const Vec2 middle{i.x + g.aix, i.y + g.aiy}, half_gap = 0.5 * gap * Vec2{g.nx, g.ny};
-    return {middle - half_gap, middle + half_gap};
 }
 
 constexpr std::int64_t most_kept = 2000;  // particles whose constant arrays are kept packed
@@ -123,13 +87,11 @@ FramePainter::FramePainter(const World& world, const TestSetup& setup)
         particle_counts_.points += corners;
         ++(setup.is_platen(b) ? particle_counts_.lines : particle_counts_.polygons);
     });
-    // Between circles the centres, each once, then a point a bond; between polygons two points a bond.
-    bond_counts_ = {setup.polygons ? 2 * setup.bonds.size() : setup.bonds.size(), setup.bonds.size(), 0};
-    for (BodyIndex b = 0; b < world.bodies.size() && !setup.polygons; ++b) bond_counts_.points += is_circles(world, b);
+    for (BodyIndex b = 0; b < world.bodies.size() && !setup.polygons; ++b) centres_ += is_circles(world, b);
     if (setup.particles > most_kept) return;
     std::ostringstream particles, bonds;
     write_particle_cells(particles);
-    write_bond_cells(bonds);
+    write_contact_cells(bonds, LooseContacts{});
     particle_cells_ = std::move(particles).str();
     bond_cells_ = std::move(bonds).str();
 }
@@ -188,14 +150,14 @@ void FramePainter::write_particle_cells(std::ostream& out) const {
     });
 }
 
-void FramePainter::write_particles(std::ostream& out, const Frame& frame) const {
+void FramePainter::write_particles(std::ostream& out, const PlacedFrame& placed, const FrameForces& forces) const {
+    const Frame& frame = placed.frame();
     write_head(out, frame, particle_counts_);
-    const std::vector<Vec2> turns = turns_of(setup_, frame);
     begin_element(out, "Points");
     PackedArray<float> points(out, "points", 3, 3 * particle_counts_.points);
     visit_cells([&](BodyIndex b, std::uint32_t element, std::size_t corners, double radius) {
         const Frame::Body& body = frame.bodies[b];
-        const Vec2 centroid{body.x, body.y}, turn = turns[b];
+        const Vec2 centroid{body.x, body.y}, turn = placed.turn(b);
         const auto place_of = [&](std::uint32_t e) {
             return centroid + rotated(turn, {world_.elements[e].x, world_.elements[e].y});
         };
@@ -212,101 +174,191 @@ void FramePainter::write_particles(std::ostream& out, const Frame& frame) const 
     particle_cells_.empty() ? write_particle_cells(out) : void(out << particle_cells_);
 
     const std::size_t cells = particle_counts_.lines + particle_counts_.polygons;
-    write_array<double>(out, "angle", cells, [&](const auto& add) {
-        visit_cells([&](BodyIndex b, std::uint32_t, std::size_t, double) {
-            add(frame.bodies[b].angle - setup_.start[b].angle);
+    const auto write_scalars = [&](const char* name, const auto& value_of) {
+        write_array<double>(out, name, cells, [&](const auto& add) {
+            visit_cells([&](BodyIndex b, std::uint32_t, std::size_t, double) { add(value_of(b)); });
         });
+    };
+    const auto write_vectors = [&](const char* name, const auto& value_of) {
+        PackedArray<double> array(out, name, 3, 3 * cells);
+        visit_cells([&](BodyIndex b, std::uint32_t, std::size_t, double) { add_vector(array, value_of(b)); });
+        array.finish();
+    };
+    const auto& bodies = frame.bodies;
+    const auto& start = setup_.start;
+    write_scalars("angle", [&](BodyIndex b) { return bodies[b].angle - start[b].angle; });
+    write_vectors("displacement", [&](BodyIndex b) {
+        return Vec2{bodies[b].x - start[b].x, bodies[b].y - start[b].y};
     });
-    PackedArray<double> displacement(out, "displacement", 3, 3 * cells);
-    visit_cells([&](BodyIndex b, std::uint32_t, std::size_t, double) {
-        add_vector(displacement, frame.bodies[b].x - setup_.start[b].x, frame.bodies[b].y - setup_.start[b].y);
+    write_vectors("velocity", [&](BodyIndex b) { return Vec2{bodies[b].vx, bodies[b].vy}; });
+    write_scalars("rotation_rate", [&](BodyIndex b) { return bodies[b].omega; });
+    write_scalars("stress_xx", [&](BodyIndex b) { return forces.stress[b].xx; });
+    write_scalars("stress_yy", [&](BodyIndex b) { return forces.stress[b].yy; });
+    write_scalars("stress_xy", [&](BodyIndex b) { return forces.stress[b].xy; });
+    write_array<std::int32_t>(out, "fragment", cells, [&](const auto& add) {
+        const std::vector<std::int32_t> fragments = find_fragments(world_, setup_, frame);
+        visit_cells([&](BodyIndex b, std::uint32_t, std::size_t, double) { add(fragments[b]); });
     });
-    displacement.finish();
-    PackedArray<double> velocity(out, "velocity", 3, 3 * cells);
-    visit_cells([&](BodyIndex b, std::uint32_t, std::size_t, double) {
-        add_vector(velocity, frame.bodies[b].vx, frame.bodies[b].vy);
-    });
-    velocity.finish();
     end_element(out, "CellData");
     write_vtp_end(out);
 }
 
-/// As write_particle_cells().
-void FramePainter::write_bond_cells(std::ostream& out) const {
+/// Each contact to visit(its point): bonds, then loose ones.
+template <class Visit>
+void FramePainter::visit_contacts(const LooseContacts& loose, const Visit& visit) const {
+    for (const Bond& bond : setup_.bonds) visit(bond.point);
+    for (const LooseContact& contact : loose.contacts) visit(contact.point);
+}
+
+/// As write_particle_cells(); without loose contacts it never changes.
+void FramePainter::write_contact_cells(std::ostream& out, const LooseContacts& loose) const {
     std::vector<std::uint32_t> centre(setup_.polygons ? 0 : world_.bodies.size());
     std::size_t centres = 0;
     for (BodyIndex b = 0; b < centre.size(); ++b) {
         if (is_circles(world_, b)) centre[b] = static_cast<std::uint32_t>(centres++);
     }
-    const auto corners = [&](const Bond& bond) {
+    const auto corners = [&](const ContactPoint& point) {
         if (setup_.polygons) return std::size_t{2};
-        return std::size_t{1} + is_circles(world_, bond.point.body_i) + is_circles(world_, bond.point.body_j);
+        return std::size_t{1} + is_circles(world_, point.body_i) + is_circles(world_, point.body_j);
     };
     std::size_t all_corners = 0;
-    for (const Bond& bond : setup_.bonds) all_corners += corners(bond);
+    visit_contacts(loose, [&](const ContactPoint& point) { all_corners += corners(point); });
+    const std::size_t contacts = setup_.bonds.size() + loose.contacts.size();
     begin_element(out, "Lines");
     write_indices(out, "connectivity", all_corners, all_corners, [&](const auto& add) {
         std::size_t next = centres;
-        for (const auto& [point, overlap] : setup_.bonds) {
+        visit_contacts(loose, [&](const ContactPoint& point) {
             if (!setup_.polygons && is_circles(world_, point.body_i)) add(centre[point.body_i]);
             add(next++);
             if (setup_.polygons) add(next++);
             if (!setup_.polygons && is_circles(world_, point.body_j)) add(centre[point.body_j]);
-        }
+        });
     });
-    write_indices(out, "offsets", setup_.bonds.size(), all_corners, [&](const auto& add) {
+    write_indices(out, "offsets", contacts, all_corners, [&](const auto& add) {
         std::size_t offset = 0;
-        for (const Bond& bond : setup_.bonds) add(offset += corners(bond));
+        visit_contacts(loose, [&](const ContactPoint& point) { add(offset += corners(point)); });
     });
     end_element(out, "Lines");
     begin_element(out, "CellData");
-    write_array<std::int32_t>(out, "body_i", setup_.bonds.size(), [&](const auto& add) {
-        for (const Bond& bond : setup_.bonds) add(world_.info[bond.point.body_i].id);
+    write_array<std::int32_t>(out, "body_i", contacts, [&](const auto& add) {
+        visit_contacts(loose, [&](const ContactPoint& point) { add(world_.info[point.body_i].id); });
     });
-    write_array<std::int32_t>(out, "body_j", setup_.bonds.size(), [&](const auto& add) {
-        for (const Bond& bond : setup_.bonds) add(world_.info[bond.point.body_j].id);
+    write_array<std::int32_t>(out, "body_j", contacts, [&](const auto& add) {
+        visit_contacts(loose, [&](const ContactPoint& point) { add(world_.info[point.body_j].id); });
     });
 }
 
-void FramePainter::write_bonds(std::ostream& out, const Frame& frame) const {
-    write_head(out, frame, bond_counts_);
-    const std::vector<Vec2> turns = turns_of(setup_, frame);
-    // Where a place that moved along with a body since the start is now.
-    const auto carried = [&](BodyIndex b, Vec2 place) {
-        const Frame::Body& body = frame.bodies[b];
-        return Vec2{body.x, body.y} + rotated(turns[b], place - Vec2{setup_.start[b].x, setup_.start[b].y});
-    };
+void FramePainter::write_contacts(std::ostream& out, const PlacedFrame& placed, const FrameForces& forces,
+                                  std::span<const Crack> cracks) const {
+    const Frame& frame = placed.frame();
+    const auto& loose = frame.loose.contacts;
+    const std::size_t contacts = setup_.bonds.size() + loose.size();
+    // Between circles the centres, each once, then a point a contact; between polygons two points a contact.
+    const VtpCounts counts{setup_.polygons ? 2 * contacts : centres_ + contacts, contacts, 0};
+    write_head(out, frame, counts);
     begin_element(out, "Points");
-    PackedArray<float> points(out, "points", 3, 3 * bond_counts_.points);
+    PackedArray<float> points(out, "points", 3, 3 * counts.points);
     for (BodyIndex b = 0; b < frame.bodies.size() && !setup_.polygons; ++b) {
         if (is_circles(world_, b)) add_point(points, {frame.bodies[b].x, frame.bodies[b].y});
     }
+    const auto add_places = [&](Vec2 on_i, Vec2 on_j) {
+        if (setup_.polygons) {
+            add_point(points, on_i);
+            add_point(points, on_j);
+        } else {
+            add_point(points, 0.5 * (on_i + on_j));
+        }
+    };
     visit_kinds(setup_.bond_kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
         for (PointIndex k = begin; k < end; ++k) {
             const ContactPoint& point = setup_.bonds[k].point;
-            const BondPlaces start = places_at_start<K>(world_, setup_, point);
-            const Vec2 on_i = carried(point.body_i, start.on_i), on_j = carried(point.body_j, start.on_j);
-            if (setup_.polygons) {
-                add_point(points, on_i);
-                add_point(points, on_j);
-            } else {
-                add_point(points, 0.5 * (on_i + on_j));
-            }
+            const Facing held = facing_at_start<K>(world_, setup_, point);
+            add_places(placed.carried(point.body_i, held.on_i), placed.carried(point.body_j, held.on_j));
+        }
+    });
+    visit_kinds(frame.loose.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
+        for (PointIndex k = begin; k < end; ++k) {
+            const ContactPoint& point = loose[k].point;
+            std::uint32_t feature = point.feature_j;
+            const BodyState i = placed.body(point.body_i), j = placed.body(point.body_j);
+            const Facing now = facing_at(setup_, K, i, contact_geometry<K>(world_, point, i, j, feature));
+            add_places(now.on_i, now.on_j);
         }
     });
     points.finish();
     end_element(out, "Points");
-    bond_cells_.empty() ? write_bond_cells(out) : void(out << bond_cells_);
+    loose.empty() && !bond_cells_.empty() ? void(out << bond_cells_) : write_contact_cells(out, frame.loose);
 
-    const auto write_values = [&]<class T>(const char* name, const std::vector<T>& values) {
-        write_array<T>(out, name, values.size(), [&](const auto& add) {
-            for (const T value : values) add(value);
+    write_array<double>(out, "normal_force", contacts, [&](const auto& add) {
+        for (const double force : forces.normal) add(force);
+    });
+    write_array<double>(out, "shear_force", contacts, [&](const auto& add) {
+        for (const double force : frame.shear_force) add(force);
+        for (const LooseContact& contact : loose) add(contact.shear_force);
+    });
+    write_array<std::uint8_t>(out, "state", contacts, [&](const auto& add) {
+        for (const ContactState state : frame.states) add(static_cast<std::uint8_t>(state));
+        for (std::size_t k = 0; k < loose.size(); ++k) add(static_cast<std::uint8_t>(ContactState::loose));
+    });
+    write_array<double>(out, "age", contacts, [&](const auto& add) {
+        std::vector<std::pair<PointIndex, double>> breaks;  // bond, time
+        for (const Crack& crack : cracks) breaks.emplace_back(crack.bond, crack.time);
+        std::sort(breaks.begin(), breaks.end());
+        auto broken = breaks.begin();
+        for (PointIndex bond = 0; bond < setup_.bonds.size(); ++bond) {
+            const bool breaks_here = broken != breaks.end() && broken->first == bond;
+            add(breaks_here ? frame.time - (broken++)->second : frame.time);
+        }
+        for (const LooseContact& contact : loose) add(frame.time - contact.since);
+    });
+    end_element(out, "CellData");
+    write_vtp_end(out);
+}
+
+void FramePainter::write_cracks(std::ostream& out, const PlacedFrame& placed, std::span<const Crack> cracks) const {
+    write_head(out, placed.frame(), {2 * cracks.size(), cracks.size(), 0});
+    std::vector<double> openings;
+    openings.reserve(cracks.size());
+    begin_element(out, "Points");
+    PackedArray<float> points(out, "points", 3, 6 * cracks.size());
+    for (const Crack& crack : cracks) {
+        const CrackFace face = find_crack_face(placed, crack.bond);
+        add_point(points, face.begin);
+        add_point(points, face.end);
+        openings.push_back(face.opening);
+    }
+    points.finish();
+    end_element(out, "Points");
+    begin_element(out, "Lines");
+    write_indices(out, "connectivity", 2 * cracks.size(), 2 * cracks.size(), [&](const auto& add) {
+        for (std::size_t point = 0; point < 2 * cracks.size(); ++point) add(point);
+    });
+    write_indices(out, "offsets", cracks.size(), 2 * cracks.size(), [&](const auto& add) {
+        for (std::size_t crack = 1; crack <= cracks.size(); ++crack) add(2 * crack);
+    });
+    end_element(out, "Lines");
+    begin_element(out, "CellData");
+    const auto write_values = [&]<class T>(const char* name, T, const auto& value_of) {
+        write_array<T>(out, name, cracks.size(), [&](const auto& add) {
+            for (const Crack& crack : cracks) add(value_of(crack));
         });
     };
-    write_array<double>(out, "normal_force", setup_.bonds.size(),
-                        [&](const auto& add) { visit_normal_forces(world_, setup_, frame, add); });
-    write_values("shear_force", frame.shear_force);
-    write_values("broken", frame.broken);
+    const auto point_of = [&](const Crack& crack) { return setup_.bonds[crack.bond].point; };
+    const auto strength = [&](const Crack& crack) {
+        const ContactPoint point = point_of(crack);
+        const ContactLaw& law = world_.laws[law_between(world_, point.body_i, point.body_j)];
+        return law.normal_stiffness * setup_.bonds[crack.bond].overlap;
+    };
+    write_values("body_i", std::int32_t{}, [&](const Crack& crack) { return world_.info[point_of(crack).body_i].id; });
+    write_values("body_j", std::int32_t{}, [&](const Crack& crack) { return world_.info[point_of(crack).body_j].id; });
+    write_values("time", double{}, [](const Crack& crack) { return crack.time; });
+    write_values("mode", std::uint8_t{}, [](const Crack& crack) { return crack.shear_mode ? 1 : 0; });
+    write_values("energy", double{}, [](const Crack& crack) { return crack.energy; });
+    write_values("orientation", double{}, [](const Crack& crack) { return crack.orientation; });
+    write_values("strength", double{}, strength);
+    write_array<double>(out, "opening", cracks.size(), [&](const auto& add) {
+        for (const double opening : openings) add(opening);
+    });
     end_element(out, "CellData");
     write_vtp_end(out);
 }

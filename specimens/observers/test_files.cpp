@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <set>
+#include <span>
 #include <system_error>
 #include <vector>
 
@@ -19,13 +20,13 @@ constexpr std::chrono::seconds collection_interval{1};
 /// Pictures that the state does not know of were taken after its checkpoint, and may not be taken again.
 void remove_unlisted_frames(const fs::path& frames, const TestState& state) {
     std::set<std::string> listed;
-    for (const FrameEntry& entry : state.frames) listed.insert({particles_file(entry.row), bonds_file(entry.row)});
+    for (const FrameEntry& entry : state.frames)
+        listed.insert({particles_file(entry.row), contacts_file(entry.row), cracks_file(entry.row)});
     std::vector<fs::path> unlisted;
     std::error_code error;
     for (const auto& file : fs::directory_iterator(frames, error)) {
         const std::string name = file.path().filename().string();
-        const bool picture = name.starts_with("particles_") || name.starts_with("bonds_");
-        if (picture && !listed.contains(name)) unlisted.push_back(file.path());
+        if (is_picture(name) && !listed.contains(name)) unlisted.push_back(file.path());
     }
     for (const fs::path& file : unlisted) fs::remove(file, error);
 }
@@ -55,9 +56,15 @@ void TestFiles::add_frame(const Frame& frame, const TestSetup& setup, TestState&
     if (later != state.frames.end() && later->row == frame.row) return;
     state.frames.insert(later, {frame.row, frame.axial_strain, frame.time});
     if (!painter_ || !painter_->paints(world, setup)) painter_.emplace(world, setup);
+    const PlacedFrame placed(world, setup, frame);
+    const FrameForces forces = find_forces(placed);
+    const auto cracks = std::span(state.history.cracks).first(frame.cracks);
     folder_.write("frames/" + particles_file(frame.row),
-                  [&](std::ostream& out) { painter_->write_particles(out, frame); });
-    folder_.write("frames/" + bonds_file(frame.row), [&](std::ostream& out) { painter_->write_bonds(out, frame); });
+                  [&](std::ostream& out) { painter_->write_particles(out, placed, forces); });
+    folder_.write("frames/" + contacts_file(frame.row),
+                  [&](std::ostream& out) { painter_->write_contacts(out, placed, forces, cracks); });
+    folder_.write("frames/" + cracks_file(frame.row),
+                  [&](std::ostream& out) { painter_->write_cracks(out, placed, cracks); });
     collection_due_ = true;
     if (std::chrono::steady_clock::now() - collected_ >= collection_interval) write_collection(state);
 }
@@ -67,7 +74,8 @@ void TestFiles::write_collection(const TestState& state) {
     std::vector<CollectionEntry> entries;
     for (const FrameEntry& frame : state.frames) {
         entries.push_back({frame.time, 0, particles_file(frame.row)});
-        entries.push_back({frame.time, 1, bonds_file(frame.row)});
+        entries.push_back({frame.time, 1, contacts_file(frame.row)});
+        entries.push_back({frame.time, 2, cracks_file(frame.row)});
     }
     folder_.write("frames/frames.pvd", pvd_text(entries));
     collection_due_ = false;

@@ -19,7 +19,7 @@ class TestFiles {
 
     void add_row(const CurveRow& row);
     void add_event(const BreakEvent& event, double axial_strain);
-    /// Writes both pictures of a frame and lists it in state.frames, in the order of rows. frames.pvd follows within
+    /// Writes the pictures of a frame and lists it in state.frames, in the order of rows. frames.pvd follows within
     /// a second, or with the checkpoint or the summary: replacing a file costs more than a small specimen's frame.
     void add_frame(const Frame& frame, const TestSetup& setup, TestState& state, const World& world);
     /// Flushes the growing files, notes their lengths in the state, and writes the checkpoint.

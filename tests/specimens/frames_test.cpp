@@ -11,6 +11,7 @@
 #include <map>
 #include <numbers>
 #include <random>
+#include <span>
 #include <sstream>
 #include <utility>
 
@@ -46,61 +47,111 @@ class Frames : public ::testing::Test {
         EXPECT_GT(test.world.bonds_broken, 0);
         return test;
     }
-    static Frame taken(const VirtualTest& test) {
+    enum class Picture { particles, contacts, cracks };
+    static Frame taken(VirtualTest& test) {
+        ContactHistory& history = test.state.history;
+        while (history.cracks.size() < test.world.events.size())
+            note_break(test.setup, test.world.events[history.cracks.size()], history);
+        look_at_contacts(test.world, history);
         Frame frame;
-        take_frame(test.world, test.setup, observe_row(test.world, test.setup), 7, frame);
+        take_frame(test.world, test.setup, history, observe_row(test.world, test.setup), 7, frame);
         return frame;
     }
-    PolyData read(const FramePainter& painter, const Frame& frame, bool bonds) const {
+    static void write(std::ostream& out, const VirtualTest& test, const FramePainter& painter, const Frame& frame,
+                      Picture picture) {
+        const PlacedFrame placed(test.world, test.setup, frame);
+        const auto cracks = std::span(test.state.history.cracks).first(frame.cracks);
+        switch (picture) {
+            case Picture::particles:
+                painter.write_particles(out, placed, find_forces(placed));
+                break;
+            case Picture::contacts:
+                painter.write_contacts(out, placed, find_forces(placed), cracks);
+                break;
+            case Picture::cracks:
+                painter.write_cracks(out, placed, cracks);
+        }
+    }
+    PolyData read(const VirtualTest& test, const Frame& frame, Picture picture) const {
         std::ofstream out(scratch_ / "frame.vtp", std::ios::binary);
-        bonds ? painter.write_bonds(out, frame) : painter.write_particles(out, frame);
+        write(out, test, FramePainter(test.world, test.setup), frame, picture);
         out.close();
         return read_polydata(scratch_ / "frame.vtp");
+    }
+    static std::string all_pictures(const VirtualTest& test, const FramePainter& painter, const Frame& frame) {
+        std::ostringstream text;
+        for (const Picture picture : {Picture::particles, Picture::contacts, Picture::cracks})
+            write(text, test, painter, frame, picture);
+        return std::move(text).str();
     }
 
     ScratchFolder scratch_;
 };
 
-TEST_F(Frames, BondsHaveTheForcesOfTheirPoints) {
+TEST_F(Frames, ContactsHaveTheForcesAndStatesOfTheirPoints) {
     for (const auto& [mesh, law] : {std::pair("", "rounded"), {"voronoi", "rounded"}, {"voronoi", "demseg"}}) {
-        const VirtualTest test = broken_test(mesh, law);
-        const PolyData data = read(FramePainter(test.world, test.setup), taken(test), true);
+        VirtualTest test = broken_test(mesh, law);
+        const PolyData data = read(test, taken(test), Picture::contacts);
         const auto& bonds = test.setup.bonds;
-        ASSERT_EQ(data.cells.size(), bonds.size());
-        std::map<std::pair<PointKind, PointKey>, PointView> bonded;
+        std::map<std::pair<PointKind, PointKey>, PointView> touching;
+        std::size_t bonded = 0;
         for (PointIndex k = 0; k < test.world.points.size(); ++k) {
             const PointView view = view_point(test.world, k);
-            if (view.bonded) bonded[{view.kind, key_of(view.kind, test.world.points[k])}] = view;
+            if (view.touching) touching[{view.kind, key_of(view.kind, test.world.points[k])}] = view;
+            bonded += view.bonded;
         }
-        EXPECT_LT(bonded.size(), bonds.size());
+        EXPECT_LT(bonded, bonds.size());
         // Places are known to a rounding of the specimen's size, turns to one of a whole turn.
         const double rounding = 1e7 * 1e-15 * test.setup.height;
         double largest = 0.0;
+        std::array<int, 5> counts{};
+        const auto expect_forces = [&](std::size_t cell, const PointView& view) {
+            EXPECT_NEAR(data.cell_data.at("normal_force")[cell], view.normal_force, rounding);
+            EXPECT_EQ(data.cell_data.at("shear_force")[cell], view.shear_force);
+            largest = std::max(largest, std::abs(view.shear_force));
+            ++counts.at(static_cast<std::size_t>(data.cell_data.at("state")[cell]));
+        };
         for (std::size_t k = 0; k < bonds.size(); ++k) {
             int kind = 0;
             while (k >= test.setup.bond_kind_begin[static_cast<std::size_t>(kind) + 1]) ++kind;
             const ContactPoint& point = bonds[k].point;
-            const auto held = bonded.find({PointKind(kind), key_of(PointKind(kind), point)});
-            const bool broken = held == bonded.end();
-            EXPECT_EQ(data.cell_data.at("broken")[k], broken ? 1.0 : 0.0);
-            EXPECT_NEAR(data.cell_data.at("normal_force")[k], broken ? 0.0 : held->second.normal_force, rounding);
-            EXPECT_EQ(data.cell_data.at("shear_force")[k], broken ? 0.0 : held->second.shear_force);
+            const auto held = touching.find({PointKind(kind), key_of(PointKind(kind), point)});
+            const bool touches = held != touching.end();
+            const PointView view = touches ? held->second : PointView{};
+            const double state = view.bonded ? (view.slid ? 1.0 : 0.0) : touches ? 3.0 : 2.0;
+            EXPECT_EQ(data.cell_data.at("state")[k], state);
+            expect_forces(k, view);
             EXPECT_EQ(data.cell_data.at("body_i")[k], test.world.info[point.body_i].id);
             EXPECT_EQ(data.cell_data.at("body_j")[k], test.world.info[point.body_j].id);
-            largest = std::max(largest, std::abs(data.cell_data.at("shear_force")[k]));
+            if (touches) touching.erase(held);
         }
-        fmt::print("  {} {}: {} of {} bonds hold, shear up to {:.3g} N\n", *mesh == '\0' ? "circles" : mesh, law,
-                   bonded.size(), bonds.size(), largest);
+        ASSERT_EQ(data.cells.size(), bonds.size() + touching.size()) << "what is left was never bonded";
+        std::size_t cell = bonds.size();
+        for (const auto& [name, view] : touching) {  // by kind and key, as they are written
+            EXPECT_EQ(data.cell_data.at("state")[cell], 4.0);
+            EXPECT_EQ(data.cell_data.at("body_i")[cell], test.world.info[view.body_i].id);
+            EXPECT_EQ(data.cell_data.at("body_j")[cell], test.world.info[view.body_j].id);
+            Vec2 middle;  // of the line's inner or only points
+            const auto& line = data.cells[cell].points;
+            for (const std::size_t point : line)
+                middle = middle + (1.0 / static_cast<double>(line.size())) * data.points[point];
+            if (!test.setup.polygons && line.size() == 3) middle = data.points[line[1]];
+            if (!test.setup.polygons && line.size() == 2) middle = data.points[line[1]];
+            EXPECT_LT(norm(middle - view.position), 1e-7 * test.setup.height);
+            expect_forces(cell++, view);
+        }
+        fmt::print("  {} {}: intact, slid, broken, touching again, loose: {}, {}, {}, {}, {}; shear up to {:.3g} N\n",
+                   *mesh == '\0' ? "circles" : mesh, law, counts[0], counts[1], counts[2], counts[3], counts[4],
+                   largest);
         EXPECT_GT(largest, 0.0);
     }
 }
 
 TEST_F(Frames, OutlinesAndBondsLieWhereTheBodiesAre) {
     for (const std::string mesh : {"", "voronoi"}) {
-        const VirtualTest test = broken_test(mesh);
+        VirtualTest test = broken_test(mesh);
         const Frame frame = taken(test);
-        const FramePainter painter(test.world, test.setup);
-        const PolyData particles = read(painter, frame, false), bonds = read(painter, frame, true);
+        const PolyData particles = read(test, frame, Picture::particles), bonds = read(test, frame, Picture::contacts);
         ASSERT_EQ(particles.cells.size(), test.world.bodies.size());
         EXPECT_TRUE(particles.cells[0].line && particles.cells[1].line && !particles.cells[2].line);
         const double rounding = 1e-7 * test.setup.height;
@@ -122,13 +173,14 @@ TEST_F(Frames, OutlinesAndBondsLieWhereTheBodiesAre) {
             EXPECT_EQ(particles.cell_data.at("displacement")[3 * c + 1],
                       test.world.bodies[b].y - test.setup.start[b].y);
             EXPECT_EQ(particles.cell_data.at("velocity")[3 * c], test.world.bodies[b].vx);
+            EXPECT_EQ(particles.cell_data.at("rotation_rate")[c], test.world.bodies[b].omega);
             turned = std::max(turned, std::abs(particles.cell_data.at("angle")[c]));
         }
         // A bond that holds runs from body to body without a leap.
         double longest = 0.0;
         for (std::size_t k = 0; k < bonds.cells.size(); ++k) {
             const auto& line = bonds.cells[k].points;
-            if (bonds.cell_data.at("broken")[k] == 1.0) continue;
+            if (bonds.cell_data.at("state")[k] > 1.0) continue;
             for (std::size_t p = 1; p < line.size(); ++p)
                 longest = std::max(longest, norm(bonds.points[line[p]] - bonds.points[line[p - 1]]));
         }
@@ -144,35 +196,29 @@ TEST_F(Frames, DoNotDependOnThoseWrittenBefore) {
     for (const std::string mesh : {"", "voronoi"}) {
         VirtualTest test = broken_test(mesh);
         const FramePainter used(test.world, test.setup);
-        const Frame first = taken(test);
-        std::ostringstream before;
-        used.write_particles(before, first);
-        used.write_bonds(before, first);
+        const std::string before = all_pictures(test, used, taken(test));
         for (int k = 0; k < 50; ++k) step(test.world);
         compute_forces(test.world);
         const Frame second = taken(test);
-        std::ostringstream one, other;
-        used.write_particles(one, second);
-        used.write_bonds(one, second);
-        const FramePainter fresh(test.world, test.setup);
-        fresh.write_particles(other, second);
-        fresh.write_bonds(other, second);
-        EXPECT_TRUE(one.str() == other.str()) << mesh;
-        EXPECT_FALSE(one.str() == before.str()) << mesh;
+        const std::string one = all_pictures(test, used, second);
+        EXPECT_TRUE(one == all_pictures(test, FramePainter(test.world, test.setup), second)) << mesh;
+        EXPECT_FALSE(one == before) << mesh;
     }
 }
 
 TEST_F(Frames, HaveTheTypesThatAreWrittenDown) {
-    const VirtualTest test = broken_test("");
-    const FramePainter painter(test.world, test.setup);
-    std::ostringstream text;
-    painter.write_particles(text, taken(test));
-    painter.write_bonds(text, taken(test));
-    for (const char* array : {"Float32\" Name=\"points", "Int32\" Name=\"connectivity", "Int32\" Name=\"offsets",
-                              "Int32\" Name=\"id", "Float64\" Name=\"radius", "Float64\" Name=\"displacement",
-                              "Float64\" Name=\"velocity", "Float64\" Name=\"angle", "Float64\" Name=\"normal_force",
-                              "Float64\" Name=\"shear_force", "UInt8\" Name=\"broken"})
-        EXPECT_NE(text.str().find(array), std::string::npos) << array;
+    VirtualTest test = broken_test("");
+    const std::string text = all_pictures(test, FramePainter(test.world, test.setup), taken(test));
+    for (const char* array :
+         {"Float32\" Name=\"points",    "Int32\" Name=\"connectivity",   "Int32\" Name=\"offsets",
+          "Int32\" Name=\"id",          "Float64\" Name=\"radius",       "Float64\" Name=\"displacement",
+          "Float64\" Name=\"velocity",  "Float64\" Name=\"angle",        "Float64\" Name=\"rotation_rate",
+          "Float64\" Name=\"stress_xx", "Float64\" Name=\"stress_yy",    "Float64\" Name=\"stress_xy",
+          "Int32\" Name=\"fragment",    "Float64\" Name=\"normal_force", "Float64\" Name=\"shear_force",
+          "UInt8\" Name=\"state",       "Float64\" Name=\"age",          "Float64\" Name=\"time",
+          "UInt8\" Name=\"mode",        "Float64\" Name=\"energy",       "Float64\" Name=\"orientation",
+          "Float64\" Name=\"strength",  "Float64\" Name=\"opening",      "Int32\" Name=\"body_j"})
+        EXPECT_NE(text.find(array), std::string::npos) << array;
 }
 
 TEST(CircleOutline, CoversTheCircleAndNothingElse) {

@@ -8,8 +8,11 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <set>
 
 #include "solver/errors.hpp"
+#include "specimens/observers/frames.hpp"
+#include "specimens/observers/read_frames.hpp"
 #include "specimens/output_folder.hpp"
 #include "specimens/results.hpp"
 #include "specimens/virtual_test.hpp"
@@ -184,6 +187,39 @@ TEST_F(TestFolder, ResumedEndsWithTheBytesOfAnUninterruptedTest) {
     }
 }
 
+/// Since when a contact without a bond has touched, no file tells but the checkpoint.
+TEST_F(TestFolder, ResumedKnowsHowOldItsContactsAre) {
+    SmallCase wanted;
+    wanted.kind = "compression";
+    wanted.mesh = "delaunay";
+    wanted.rate = 0.2;
+    wanted.max_strain = 0.012;
+    wanted.loading = "stop_at_share_of_peak = 0.05";
+    wanted.output = "curve_rows = 2000\nframes = 20";
+    const TestCase test = small_case(wanted);
+    run_test(test, options("straight"));
+    TestOutcome outcome = run_test(test, options("broken"), stopping_at(2));
+    std::set<double> interrupts;  // s
+    while (outcome.interrupted) {
+        interrupts.insert(outcome.summary["simulated_time"].get<double>());
+        outcome = resume_test(options("broken"), stopping_at(4));
+    }
+    expect_same(contents(scratch_ / "broken"), contents(scratch_ / "straight"), "resumed");
+    int old = 0;  // contacts that an interrupt came across
+    for (const auto& entry : fs::directory_iterator(scratch_ / "straight/frames")) {
+        if (!entry.path().filename().string().starts_with("contacts_")) continue;
+        const PolyData data = read_polydata(entry.path());
+        const double time = data.field_values.at("time");
+        for (std::size_t k = 0; k < data.cells.size(); ++k) {
+            const auto next = interrupts.upper_bound(time - data.cell_data.at("age")[k]);
+            const bool loose = data.cell_data.at("state")[k] == static_cast<double>(ContactState::loose);
+            old += loose && next != interrupts.end() && *next < time;
+        }
+    }
+    fmt::print("  {} interrupts, {} times a contact from before one\n", interrupts.size(), old);
+    EXPECT_GT(old, 0);
+}
+
 TEST_F(TestFolder, ResumingTakesAwayWhatCameAfterTheCheckpoint) {
     const TestCase test = small_case();
     run_test(test, options("straight"));
@@ -191,7 +227,8 @@ TEST_F(TestFolder, ResumingTakesAwayWhatCameAfterTheCheckpoint) {
     // As after a kill: the files have grown beyond the checkpoint.
     std::ofstream(scratch_ / "broken/curve.csv", std::ios::app) << "1,2,3\n";
     std::ofstream(scratch_ / "broken/events.csv", std::ios::app) << "1,2,3\n";
-    std::ofstream(scratch_ / "broken/frames/particles_99999.vtp") << "later\n";
+    for (const char* picture : {"particles_99999.vtp", "contacts_99999.vtp", "cracks_99999.vtp"})
+        std::ofstream(scratch_ / "broken/frames" / picture) << "later\n";
     EXPECT_FALSE(resume_test(options("broken")).interrupted);
     expect_same(contents(scratch_ / "broken"), contents(scratch_ / "straight"), "resumed after a kill");
     EXPECT_TRUE(resume_test(options("broken")).was_finished);

@@ -4,15 +4,18 @@
 
   CRACKLE_PROGRAM    the program
 Blocks marked `sh` run in their order in one shell, in an empty folder that has the project's specimens/ and the built program
-where the README expects them. Commands of blocks marked `sh ci` must stand in .ci/run.
+where the README expects them; then those marked `python`, as one script in the same folder. Commands of blocks marked `sh ci`
+must stand in .ci/run.
 """
 import csv
 import json
 import os
 import re
 import subprocess
+import sys
 import tempfile
 import unittest
+import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 TOP = Path(__file__).resolve().parents[2]
@@ -41,6 +44,9 @@ class Readme(unittest.TestCase):
         cls.run_of_commands = subprocess.run(["bash", "-eux", "-c", "\n".join(blocks("sh"))], cwd=cls.folder, capture_output=True,
                                              text=True, check=False, stdin=subprocess.DEVNULL)
         print(cls.run_of_commands.stdout, cls.run_of_commands.stderr, sep="")
+        cls.run_of_python = subprocess.run([sys.executable, "-c", "\n".join(blocks("python"))], cwd=cls.folder, capture_output=True,
+                                           text=True, check=False, stdin=subprocess.DEVNULL)
+        print(cls.run_of_python.stdout, cls.run_of_python.stderr, sep="")
 
     def test_its_commands_run(self):
         self.assertGreaterEqual(len(blocks("sh")), 6)
@@ -48,6 +54,11 @@ class Readme(unittest.TestCase):
         for made in ("out/in_gm.dat", "out/in_gm_volo.dat", "out/pulled/summary.json", "out/squeezed/curve.csv",
                      "out/report.html", "out/triangle/output.dat"):
             self.assertTrue((self.folder / made).is_file(), f"{made}: found nothing, expected what the README's commands make")
+
+    def test_its_python_runs(self):
+        self.assertGreaterEqual(len(blocks("python")), 2)
+        self.assertEqual(self.run_of_python.returncode, 0, self.run_of_python.stderr)
+        self.assertNotEqual(self.run_of_python.stdout, "")
 
     def test_its_commands_for_ci_stand_in_ci(self):
         script = (TOP / ".ci" / "run").read_text(encoding="utf-8")
@@ -70,6 +81,12 @@ class Readme(unittest.TestCase):
     def test_files_are_those_of_a_test(self):
         for name in table("`crackle test CASE.toml -o OUT` leaves"):
             self.assertTrue((self.folder / "out" / "squeezed" / name).exists(), f"{name}: not among a test's results")
+
+    def test_arrays_are_those_of_the_frames(self):
+        for name in ("particles", "contacts", "cracks"):
+            file = min((self.folder / "out" / "squeezed" / "frames").glob(f"{name}_*.vtp"))
+            cells = ElementTree.parse(file).find("PolyData/Piece/CellData")
+            self.assertCountEqual(table(f"Arrays of `{name}`:"), [array.get("Name") for array in cells])
 
     def test_commands_are_those_of_the_program(self):
         told = subprocess.run([PROGRAM, "--help"], capture_output=True, text=True, check=True).stdout

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/observers/contact_history.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "solver/contact_geometry.hpp"
+#include "solver/point_order.hpp"
+
+namespace crackle {
+
+PointIndex bond_of(const TestSetup& setup, PointKind kind, const ContactPoint& point) {
+    const auto number = static_cast<std::size_t>(kind);
+    const auto first = setup.bonds.begin() + setup.bond_kind_begin[number];
+    const auto last = setup.bonds.begin() + setup.bond_kind_begin[number + 1];
+    const auto found = std::lower_bound(first, last, key_of(kind, point), [&](const Bond& bond, const PointKey& key) {
+        return key_of(kind, bond.point) < key;
+    });
+    const bool is_bond = found != last && same_point(kind, found->point, point);
+    return static_cast<PointIndex>(is_bond ? found - setup.bonds.begin() : setup.bonds.end() - setup.bonds.begin());
+}
+
+void note_break(const TestSetup& setup, const BreakEvent& event, ContactHistory& history) {
+    const PointIndex bond = bond_of(setup, event.kind, event.point);
+    if (bond == setup.bonds.size()) throw std::logic_error("a point broke that was not bonded when loading began");
+    history.cracks.push_back({event.time, event.energy, event.orientation, bond, event.shear_mode});
+}
+
+void look_at_contacts(const World& world, ContactHistory& history) {
+    LooseContacts now;
+    visit_kinds(world.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
+        const auto number = static_cast<std::size_t>(K);
+        const auto less = [](const LooseContact& a, const LooseContact& b) {
+            return key_of(K, a.point) < key_of(K, b.point);
+        };
+        const std::size_t first = now.contacts.size();
+        for (PointIndex k = begin; k < end && K != PointKind::element_wall; ++k) {
+            if ((world.point_states[k].flags & (point_touching | point_bonded)) == point_touching)
+                now.contacts.push_back({world.points[k], world.shear_forces[k], world.time});
+        }
+        const auto found = now.contacts.begin() + static_cast<std::ptrdiff_t>(first);
+        if (K == PointKind::element_outline) std::sort(found, now.contacts.end(), less);  // listed in two runs
+        auto known = history.loose.contacts.cbegin() + history.loose.kind_begin[number];
+        const auto known_end = history.loose.contacts.cbegin() + history.loose.kind_begin[number + 1];
+        for (auto contact = found; contact != now.contacts.end(); ++contact) {
+            while (known != known_end && less(*known, *contact)) ++known;
+            if (known != known_end && same_point(K, known->point, contact->point)) contact->since = known->since;
+        }
+        now.kind_begin[number + 1] = static_cast<PointIndex>(now.contacts.size());
+    });
+    history.loose = std::move(now);
+}
+
+}  // namespace crackle
