@@ -10,6 +10,8 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <optional>
+#include <set>
 #include <system_error>
 
 #include "solver/errors.hpp"
@@ -28,6 +30,9 @@ constexpr const char* report_name =
     "report.html";  // made of the results by another command; stale once they are replaced
 constexpr const char* temporary_suffix = ".tmp";
 constexpr const char* staged_mark = "replaces-older-results";  // in OUT.new: a forced test's own, to be begun anew
+constexpr const char* staging_suffix = ".new";
+// First line of the mark once the results are complete and take the old ones' place; names of their frames follow.
+constexpr const char* moving_line = "complete, being moved";
 
 [[noreturn]] void cannot_write(const fs::path& path, const std::string& why) {
     throw InputError(
@@ -50,6 +55,26 @@ bool begins_with(const fs::path& file, const std::string& mark) {
     return in.read(begin.data(), static_cast<std::streamsize>(begin.size())) && begin == mark;
 }
 
+/// Whether a text file holds a heading at most. One that is not there does.
+bool is_heading_alone(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::string heading, row;
+    std::getline(in, heading);
+    return !std::getline(in, row);
+}
+
+/// Of a test that was stopped before its first checkpoint: headings without a row, and a case that is still elsewhere.
+bool has_only_begun(const fs::path& folder) {
+    std::error_code error;
+    for (const char* name : {"checkpoint", "summary.json", "frames"}) {
+        if (fs::exists(folder / name, error)) return false;
+    }
+    const fs::path own_case = folder / "case.toml";
+    return fs::exists(folder / "curve.csv", error) && is_heading_alone(folder / "curve.csv") &&
+           is_heading_alone(folder / "events.csv") &&
+           (!fs::exists(own_case, error) || begins_with(own_case, resolved_case_mark));
+}
+
 /// A case.toml or a frames/ alone may be anybody's.
 bool are_of_a_test(const fs::path& folder) {
     std::error_code error;
@@ -64,21 +89,63 @@ void remove_results(const fs::path& folder) {
     for (const char* name : result_names) fs::remove_all(folder / name, ignored);
 }
 
-/// Puts the frames in `from` in the place of those in `to`; other files there stay.
-void replace_frames(const fs::path& from, const fs::path& to, std::error_code& error) {
+/// What a process that was stopped while it wrote has left behind.
+void remove_temporaries(const fs::path& folder) {
+    std::vector<fs::path> files{folder / "probe.tmp", folder / (std::string(staged_mark) + temporary_suffix)};
+    for (const std::string name : result_names) files.push_back(folder / (name + temporary_suffix));
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder / "frames", error)) {
+        const fs::path& file = entry.path();
+        if (file.extension() == temporary_suffix && is_frame(file.stem().string())) files.push_back(file);
+    }
+    for (const fs::path& file : files) fs::remove(file, error);
+}
+
+/// Names of the frames that are being moved out of a folder of staged results; none: nothing is.
+std::optional<std::set<std::string>> frames_being_moved(const fs::path& working) {
+    std::ifstream in(working / staged_mark, std::ios::binary);
+    std::string line;
+    if (!std::getline(in, line) || line != moving_line) return std::nullopt;
+    std::set<std::string> names;
+    while (std::getline(in, line)) names.insert(line);
+    return names;
+}
+
+/// Puts the frames in `from` in the place of those in `to`; other files there stay. Stopped at any moment and done
+/// again, it ends the same. @param names of the new ones
+void replace_frames(const fs::path& from, const fs::path& to, const std::set<std::string>& names,
+                    std::error_code& error) {
     std::vector<fs::path> old_frames, new_frames;
     fs::create_directories(to, error);
     if (error) return;
-    for (const auto& entry : fs::directory_iterator(to, error)) {
-        if (is_frame(entry.path().filename().string())) old_frames.push_back(entry.path());
-    }
     for (const auto& entry : fs::directory_iterator(from, error)) new_frames.push_back(entry.path());
-    for (const fs::path& file : old_frames) fs::remove(file, error);
     for (const fs::path& file : new_frames) {
         fs::rename(file, to / file.filename(), error);
         if (error) return;
     }
+    for (const auto& entry : fs::directory_iterator(to, error)) {
+        const std::string name = entry.path().filename().string();
+        if (is_frame(name) && !names.contains(name)) old_frames.push_back(entry.path());
+    }
+    for (const fs::path& file : old_frames) fs::remove(file, error);
     fs::remove(from, error);
+}
+
+/// Puts complete results in the place of the old ones, or goes on with that. @param names of the new frames
+void move_staged(const fs::path& working, const fs::path& target, const std::set<std::string>& names) {
+    std::error_code error;
+    if (is_report_page(target / report_name)) fs::remove(target / report_name, error);
+    for (const std::string name : result_names) {
+        if (!fs::exists(working / name, error)) continue;
+        if (name == "frames") {
+            replace_frames(working / name, target / name, names, error);
+        } else {
+            fs::rename(working / name, target / name, error);
+        }
+        if (error) cannot_write(target / name, error.message());
+    }
+    fs::remove(working / staged_mark, error);
+    fs::remove(working, error);
 }
 
 void refuse_inputs_among_results(const fs::path& target, std::span<const fs::path> inputs) {
@@ -128,6 +195,22 @@ FolderLock::~FolderLock() {
     if (descriptor_ >= 0) ::close(descriptor_);  // which unlocks
 }
 
+namespace {
+
+/// Ends a move of results into `target` that was stopped. @throws InputError if another process is at it
+void complete_move(const fs::path& target) {
+    const fs::path working = target.string() + staging_suffix;
+    const auto names = frames_being_moved(working);
+    if (!names) return;
+    const FolderLock working_lock(working), target_lock(target);
+    remove_temporaries(target);
+    move_staged(working, target, *names);
+}
+
+}  // namespace
+
+bool holds_test_results(const fs::path& folder) { return holds_results(folder) && !has_only_begun(folder); }
+
 bool is_result_name(const std::string& name) {
     return std::find(result_names.begin(), result_names.end(), name) != result_names.end();
 }
@@ -140,8 +223,9 @@ OutputFolder OutputFolder::create(const fs::path& wanted, bool force, std::span<
             fmt::format("{}: found a file, expected a folder or nothing; choose another -o", target.string()));
     }
     refuse_inputs_among_results(target, inputs);
+    complete_move(target);
     fs::path working = target;
-    const bool staged = holds_results(target);
+    const bool staged = holds_test_results(target);
     if (staged) {
         if (!force) {
             throw InputError(
@@ -155,7 +239,7 @@ OutputFolder OutputFolder::create(const fs::path& wanted, bool force, std::span<
                             "replace; choose another -o",
                             target.string()));
         }
-        working = fs::path(target.string() + ".new");
+        working = fs::path(target.string() + staging_suffix);
         if (holds_results(working) && !fs::exists(working / staged_mark, error)) {
             throw InputError(
                 fmt::format("{}: found results, expected nothing where the new ones grow before they replace those in "
@@ -168,6 +252,8 @@ OutputFolder OutputFolder::create(const fs::path& wanted, bool force, std::span<
     fs::create_directories(working, error);
     if (error) cannot_write(working, error.message());
     folder.locks_.emplace_back(working);
+    remove_temporaries(working);
+    if (!staged && has_only_begun(working)) remove_results(working);
     if (staged) {
         folder.locks_.emplace_back(target);
         remove_results(working);  // of a forced test that was never finished; those in the target stay
@@ -178,7 +264,10 @@ OutputFolder OutputFolder::create(const fs::path& wanted, bool force, std::span<
 }
 
 OutputFolder OutputFolder::reopen(const fs::path& wanted) {
-    const fs::path target = without_trailing_slash(wanted);
+    fs::path target = without_trailing_slash(wanted);
+    // Their place is no longer here, and what has been moved is missing.
+    if (target.extension() == staging_suffix && frames_being_moved(target)) target.replace_extension();
+    complete_move(target);
     std::error_code error;
     if (!fs::is_directory(target, error)) {
         throw InputError(fmt::format("{}: found no such folder, expected one that a test was writing; check the path",
@@ -186,6 +275,7 @@ OutputFolder OutputFolder::reopen(const fs::path& wanted) {
     }
     OutputFolder folder(target, target);
     folder.locks_.emplace_back(target);
+    remove_temporaries(target);
     probe(target);
     fs::remove(target / staged_mark, error);  // gone on with, they are results to keep
     return folder;
@@ -225,19 +315,14 @@ void OutputFolder::write(const std::string& name, const std::function<void(std::
 
 void OutputFolder::finish() {
     if (!staged()) return;
+    std::string mark = std::string(moving_line) + '\n';
+    std::set<std::string> names;
     std::error_code error;
-    if (is_report_page(target_ / report_name)) fs::remove(target_ / report_name, error);
-    for (const std::string name : result_names) {
-        if (!fs::exists(working_ / name, error)) continue;
-        if (name == "frames") {
-            replace_frames(working_ / name, target_ / name, error);
-        } else {
-            fs::rename(working_ / name, target_ / name, error);
-        }
-        if (error) cannot_write(target_ / name, error.message());
-    }
-    fs::remove(working_ / staged_mark, error);
-    fs::remove(working_, error);
+    for (const auto& entry : fs::directory_iterator(working_ / "frames", error))
+        names.insert(entry.path().filename().string());
+    for (const std::string& name : names) mark += name + '\n';
+    write(staged_mark, mark);  // whoever finds it ends the move
+    move_staged(working_, target_, names);
     working_ = target_;
     made_ = false;
 }

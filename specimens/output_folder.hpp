@@ -20,6 +20,10 @@ namespace crackle {
 /// Names that a test makes in its folder; anything else there belongs to the user.
 bool is_result_name(const std::string& name);
 
+/// Whether a folder holds what a test made. What is there of one that was stopped before its loading began is nothing:
+/// such a test is simply run again.
+bool holds_test_results(const std::filesystem::path& folder);
+
 /// First line of a test's case.toml: by it a folder's case is known to be a result, not somebody's own.
 inline constexpr const char* resolved_case_mark = "# Resolved case of crackle ";
 
@@ -43,7 +47,8 @@ class OutputFolder {
     /// another process, or cannot be written.
     static OutputFolder create(const std::filesystem::path& wanted, bool force,
                                std::span<const std::filesystem::path> inputs);
-    /// An existing folder, to go on with. @throws InputError if there is none.
+    /// An existing folder, to go on with; results that were just taking its place do so first.
+    /// @throws InputError if there is none.
     static OutputFolder reopen(const std::filesystem::path& folder);
 
     OutputFolder(OutputFolder&&) = default;

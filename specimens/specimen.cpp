@@ -73,8 +73,11 @@ Scene packed_scene(const TestCase& test, const TestHooks& hooks, Specimen& speci
     apply_material(test.material, request.material);
     Packing packing;
     try {
-        packing = make_packing(request, [&](const PackingProgress&) {
+        packing = make_packing(request, [&](const PackingProgress& p) {
             if (hooks.interrupted && hooks.interrupted()) throw TestInterrupted();
+            if (hooks.working)
+                hooks.working(fmt::format("{} (draw {}): unbalanced by {:.1e} of the mean contact force", p.stage,
+                                          p.attempt, p.residual));
         });
     } catch (const InputError& error) {
         throw located(test, error.what());
@@ -212,6 +215,7 @@ void mesh_specimen(Specimen& specimen, const TestCase& test, const TestHooks& ho
     request.merge_destroyed = test.mesh.merge_destroyed;
     const Domain& domain = circles.domain;
     Mesh mesh;
+    if (hooks.working) hooks.working(fmt::format("meshing {} seeds", seeds.size()));
     try {
         mesh = make_mesh(seeds, {domain.x1, domain.x2, domain.y1, domain.y2}, request);
     } catch (const MeshError& error) {

@@ -21,6 +21,8 @@ struct TestProgress {
 /// Empty members are skipped.
 struct TestHooks {
     std::function<void(const std::string&)> stage;      ///< one line a stage: "packed 304 circles …"
+    std::function<void(const std::string&)> detail;     ///< what only some want to know of a stage, likewise
+    std::function<void(const std::string&)> working;    ///< what is being done before loading, often
     std::function<void(const TestProgress&)> progress;  ///< a few times a second
     std::function<bool()> interrupted;
 };

@@ -40,6 +40,24 @@ void say(const TestHooks& hooks, const std::string& line) {
     if (hooks.stage) hooks.stage(line);
 }
 
+void tell_work(const TestHooks& hooks, const char* what) {
+    if (hooks.working) hooks.working(what);
+}
+
+/// What was bonded, and where the step comes from.
+void tell_bonded(const TestHooks& hooks, const World& world, const TestSetup& setup, const TestCase& test) {
+    if (!hooks.detail) return;
+    hooks.detail(fmt::format("{} bodies, {} segments; {} contact points touch, {} of them bonded; {} threads",
+                             world.bodies.size(), setup.segments, setup.contacts_initial, world.bonds_initial,
+                             world.threads));
+    hooks.detail(fmt::format(
+        "time step {:.4g} s, {}; exact stable step {:.4g} s{}, guaranteed bound {:.4g} s", world.time_step,
+        test.numerics.time_step ? std::string("given by the case")
+                                : fmt::format("{:.3g} of the bound, followed as contacts open and close",
+                                              world.time_step / world.step_bound),
+        setup.stable_time_step, setup.stable_time_step_proved ? "" : " (a bound itself)", setup.time_step_bound));
+}
+
 std::string read_bytes(const fs::path& path) {
     std::ifstream in(path, std::ios::binary);
     if (!in) throw InputError(fmt::format("{}: cannot be read, expected a file; check the path", path.string()));
@@ -257,6 +275,7 @@ VirtualTest bond_test(const TestCase& description, const TestHooks& hooks) {
     const Clock::time_point begun = Clock::now();
     const Specimen specimen = make_specimen(description, hooks);
     test.specimen_seconds = seconds_since(begun);
+    tell_work(hooks, "bonding");
     Bonded bonded = bond_specimen(specimen, description, description.loading);
     test.world = std::move(bonded.world);
     test.setup = record_setup(test.world, specimen, bonded.platens, description.loading.kind == "compression");
@@ -265,6 +284,8 @@ VirtualTest bond_test(const TestCase& description, const TestHooks& hooks) {
     test.state.failure.share_of_peak = description.loading.stop_at_share_of_peak;
     say(hooks, fmt::format("bonded {} points of {} interfaces, time step {:.3g} s", test.world.bonds_initial,
                            test.world.interfaces_initial, test.world.time_step));
+    tell_bonded(hooks, test.world, test.setup, description);
+    tell_work(hooks, "solving for small strain");
     notice_deep_bonds(test);
     if (bonded.platens.bonded) {
         check_platen_hold(test.world, test.setup, bonded.platens, description);
@@ -316,8 +337,9 @@ TestOutcome run_test(const TestCase& description, const TestOptions& options, co
     test.state.command = options.command;
     recorded.output.frames = test.description.output.frames;  // known only now where the case is silent
     const std::string text = resolved_case(recorded, folder.target());
+    TestFiles files(folder, sha256(text),
+                    test.state);  // empty until loading: by that a test that has only begun is known
     folder.write("case.toml", text);
-    TestFiles files(folder, sha256(text), test.state);
     return run_with_files(test, options, hooks, folder, files);
 }
 
@@ -326,9 +348,11 @@ TestOutcome resume_test(const TestOptions& options, const TestHooks& hooks) {
     const fs::path checkpoint_path = folder.path() / "checkpoint";
     std::error_code error;
     if (!fs::is_regular_file(checkpoint_path, error)) {
-        throw InputError(
-            fmt::format("{}: found no checkpoint, expected one to resume from; run the test again with --force",
-                        checkpoint_path.string()));
+        throw InputError(fmt::format("{}: found no checkpoint, {}", checkpoint_path.string(),
+                                     holds_test_results(folder.path())
+                                         ? "expected one to resume from; run the test again with --force"
+                                         : "for the test was stopped before its loading began; nothing is lost, run "
+                                           "the test again"));
     }
     const fs::path case_path = folder.path() / "case.toml";
     VirtualTest test;

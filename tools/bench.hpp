@@ -6,11 +6,17 @@
 
 namespace crackle::tools {
 
-int bench_accuracy(const Arguments& arguments);
-int bench_features(const Arguments& arguments);
-int bench_guide(const Arguments& arguments);
-int bench_verify(const Arguments& arguments);
-int bench_stress(const Arguments& arguments);
-int bench_throughput(const Arguments& arguments);
+CommandLine describe_bench_accuracy();
+int bench_accuracy(const Invocation& given);
+CommandLine describe_bench_features();
+int bench_features(const Invocation& given);
+CommandLine describe_bench_guide();
+int bench_guide(const Invocation& given);
+CommandLine describe_bench_stress();
+int bench_stress(const Invocation& given);
+CommandLine describe_bench_throughput();
+int bench_throughput(const Invocation& given);
+CommandLine describe_bench_verify();
+int bench_verify(const Invocation& given);
 
 }  // namespace crackle::tools

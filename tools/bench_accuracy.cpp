@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/program_options.hpp>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -22,16 +21,8 @@ namespace crackle::tools {
 namespace {
 
 namespace fs = std::filesystem;
-namespace po = boost::program_options;
 using accuracy::AccuracyRow;
 using accuracy::AccuracyStudy;
-
-constexpr const char* accuracy_examples = R"(
-examples:
-  crackle bench accuracy -o accuracy             minutes; leaves accuracy.csv, .gp, .svg and .png there
-  crackle bench accuracy -o accuracy --quick     seconds, with fewer and shorter runs
-  crackle bench accuracy --only bounce_energy
-)";
 
 std::string table_of(const std::vector<AccuracyRow>& rows, const std::string& command) {
     std::string text = fmt::format(
@@ -130,21 +121,30 @@ std::vector<const AccuracyStudy*> chosen(const std::vector<std::string>& only) {
 
 }  // namespace
 
-int bench_accuracy(const Arguments& arguments) {
-    po::options_description options("options");
-    options.add_options()("help,h", "show this")("output,o", po::value<std::string>()->default_value("."),
-                                                 "folder for accuracy.csv and its picture")(
-        "quick", "fewer and shorter runs")("only", po::value<std::vector<std::string>>(),
-                                           "this study; may be given more than once");
-    po::variables_map given;
-    po::store(po::command_line_parser(arguments).options(options).positional({}).run(), given);
-    po::notify(given);
-    if (given.contains("help")) {
-        std::cout << "usage: crackle bench accuracy [OPTIONS]\n\nWhat an error costs in processor time, over time step "
-                     "and loading rate, for each contact law and integrator.\n\n"
-                  << options << accuracy_examples;
-        return exit_done;
-    }
+CommandLine describe_bench_accuracy() {
+    po::options_description options;
+    options.add_options()("output,o", po::value<std::string>()->value_name("DIR")->default_value("."),
+                          "folder for accuracy.csv and its picture")  //
+        ("quick", "fewer and shorter runs")                           //
+        ("only", po::value<Arguments>()->value_name("STUDY"), "this study; may be given more than once");
+    Choices names{"only", {}};
+    for (const AccuracyStudy& study : accuracy::accuracy_studies()) names.words.push_back(study.name);
+    return {
+        .synopses = {"crackle bench accuracy [OPTIONS]"},
+        .description =
+            "What an error costs in processor time, over time step and loading rate, for each contact "
+            "law and integrator.",
+        .options = {{"options", options}},
+        .choices = {names},
+        .verbose = "seconds of each study",
+        .examples = {{"crackle bench accuracy -o accuracy", "minutes; leaves accuracy.csv, .gp, .svg and .png there"},
+                     {"crackle bench accuracy -o accuracy --quick", "seconds, with fewer and shorter runs"},
+                     {"crackle bench accuracy --only bounce_energy"}}};
+}
+
+int bench_accuracy(const Invocation& invocation) {
+    const po::variables_map& given = invocation.values;
+    Talk& talk = invocation.talk;
     const auto only =
         given.contains("only") ? given["only"].as<std::vector<std::string>>() : std::vector<std::string>{};
     const std::vector<const AccuracyStudy*> studies = chosen(only);
@@ -157,16 +157,18 @@ int bench_accuracy(const Arguments& arguments) {
     for (const std::string& name : only) command += " --only " + name;
     replace_file(folder / "accuracy.csv", table_of({}, command));  // before minutes are spent on what cannot be written
     std::vector<AccuracyRow> rows;
+    talk.progress().begin(studies.front()->name, static_cast<double>(studies.size()), "studies");
+    double done = 0.0;
     for (const AccuracyStudy* study : studies) {
+        talk.progress().step(done++, study->name);
         const std::vector<AccuracyRow> more = study->run(quick);
         rows.insert(rows.end(), more.begin(), more.end());
-        fmt::print(stderr, "{:<20} {} runs\n", study->name, more.size());
+        talk.stage(fmt::format("{:<20} {} runs", study->name, more.size()));
         replace_file(folder / "accuracy.csv", table_of(rows, command));
     }
     replace_file(folder / "accuracy.gp", script_of(studies, rows));
     const std::string problem = draw_with_gnuplot(folder / "accuracy.gp");
-    if (!problem.empty())
-        fmt::print(stderr, "crackle: {}. accuracy.csv is complete; draw it later with gnuplot accuracy.gp\n", problem);
+    if (!problem.empty()) talk.notice(problem + ". accuracy.csv is complete; draw it later with gnuplot accuracy.gp");
     return exit_done;
 }
 

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <boost/program_options.hpp>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -24,17 +23,7 @@ namespace crackle::tools {
 namespace {
 
 namespace fs = std::filesystem;
-namespace po = boost::program_options;
 using namespace throughput;
-
-constexpr const char* features_examples = R"(
-examples:
-  crackle bench features --quick                         seconds: 300 bodies, short runs
-  crackle bench features -o out/features                 minutes: features.md, .csv, .svg
-  crackle bench features --count 50000 --pairs 30
-
-Pairs take turns, so that a busy machine is busy for both; an interval that holds 1 shows no difference.
-)";
 
 std::string interval(const MedianInterval& value, double unit, const char* format) {
     const auto number = [&](double x) { return fmt::format(fmt::runtime(format), unit * x); };
@@ -124,6 +113,9 @@ std::string script_of(const std::vector<FeatureRow>& rows) {
         data_of(true), data_of(false));
 }
 
+/// Rows of both tables, tests/cli/bench_test.cpp counts them; only the progress depends on it.
+constexpr std::size_t feature_rows = 42;
+
 FeatureStudy study_of(const po::variables_map& given) {
     const bool quick = given.contains("quick");
     FeatureStudy study;
@@ -143,34 +135,46 @@ FeatureStudy study_of(const po::variables_map& given) {
 
 }  // namespace
 
-int bench_features(const Arguments& arguments) {
-    po::options_description options("options");
-    options.add_options()("help,h", "show this")("output,o", po::value<std::string>()->default_value("out/features"),
-                                                 "DIR for features.md, .csv, .svg")(
-        "count", po::value<std::int64_t>(), "discs, and polygons, of each scene (default 5000; quick: 300)")(
-        "pairs", po::value<int>(), "runs of both scenes, of which the median counts (default 15; quick: 6)")(
-        "seconds", po::value<double>(), "of one run, about (default 0.08; quick: 0.01)")("quick", "small and short");
-    po::variables_map given;
-    po::store(po::command_line_parser(arguments).options(options).positional({}).run(), given);
-    po::notify(given);
-    if (given.contains("help")) {
-        std::cout << "usage: crackle bench features [OPTIONS]\n\nNanoseconds a contact and step with one feature added "
-                     "after the other, and what is left of features that a scene lacks.\n\n"
-                  << options << features_examples;
-        return exit_done;
-    }
+CommandLine describe_bench_features() {
+    po::options_description options;
+    options.add_options()("output,o", po::value<std::string>()->value_name("DIR")->default_value("out/features"),
+                          "folder for features.md, .csv, .svg")  //
+        ("count", po::value<std::int64_t>()->value_name("N"),
+         "discs, and polygons, of each scene (default 5000; quick: 300)")  //
+        ("pairs", po::value<int>()->value_name("N"),
+         "runs of both scenes, of which the median counts (default 15; quick: 6)")                          //
+        ("seconds", po::value<double>()->value_name("X"), "of one run, about (default 0.08; quick: 0.01)")  //
+        ("quick", "small and short");
+    return {.synopses = {"crackle bench features [OPTIONS]"},
+            .description =
+                "Nanoseconds a contact and step with one feature added after the other, and what is left of "
+                "features that a scene lacks.",
+            .options = {{"options", options}},
+            .verbose = "seconds of each row",
+            .examples = {{"crackle bench features --quick", "seconds: 300 bodies, short runs"},
+                         {"crackle bench features -o out/features", "minutes: features.md, .csv, .svg"},
+                         {"crackle bench features --count 50000 --pairs 30"}},
+            .notes = {"Pairs take turns, so that a busy machine is busy for both; an interval that holds 1 shows no "
+                      "difference."}};
+}
+
+int bench_features(const Invocation& invocation) {
+    const po::variables_map& given = invocation.values;
+    Talk& talk = invocation.talk;
     FeatureStudy study = study_of(given);
     const fs::path folder = given["output"].as<std::string>();
     make_results_folder(folder);
     study.scratch = folder / "scratch";
 
     std::string command = "crackle bench features";
-    for (const std::string& word : arguments) command += ' ' + word;
+    for (const std::string& word : invocation.words) command += ' ' + word;
     std::vector<FeatureRow> rows;
+    talk.progress().begin("comparing scenes", static_cast<double>(feature_rows), "rows");
     measure_feature_costs(study, [&](const FeatureRow& row) {
         rows.push_back(row);
-        fmt::print(stderr, "{:<11}{:<9}{:<46}{:>8.2f} ns, {} times {}\n", name_of(row.kind), row.bodies, row.feature,
-                   1e9 * row.contact_seconds, interval(row.ratio, 1.0, "{:.3f}"), row.beside);
+        talk.stage(fmt::format("{:<11}{:<9}{:<46}{:>8.2f} ns, {} times {}", name_of(row.kind), row.bodies, row.feature,
+                               1e9 * row.contact_seconds, interval(row.ratio, 1.0, "{:.3f}"), row.beside));
+        talk.progress().count(static_cast<double>(rows.size()));
         replace_file(folder / "features.md", page_of(command, study, rows));
         replace_file(folder / "features.csv", table_of(command, rows));
     });
@@ -178,7 +182,8 @@ int bench_features(const Arguments& arguments) {
     fs::remove_all(study.scratch, failed);
     replace_file(folder / "features.gp", script_of(rows));
     const std::string problem = draw_with_gnuplot(folder / "features.gp");
-    if (!problem.empty()) fmt::print(stderr, "crackle: {}. features.csv is complete\n", problem);
+    talk.make_room();
+    if (!problem.empty()) talk.notice(problem + ". features.csv is complete");
     std::cout << page_of(command, study, rows);
     return exit_done;
 }

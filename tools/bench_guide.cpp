@@ -3,13 +3,9 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
-#include <boost/program_options.hpp>
 #include <chrono>
-#include <csignal>
 #include <filesystem>
 #include <iostream>
 #include <string>
@@ -20,33 +16,16 @@
 #include "specimens/studies/guide_experiments.hpp"
 #include "specimens/studies/guide_page.hpp"
 #include "tools/bench.hpp"
+#include "tools/interrupt.hpp"
 
 namespace crackle::tools {
 namespace {
 
 namespace fs = std::filesystem;
-namespace po = boost::program_options;
 using studies::as_shipped;
 using studies::elastic_test;
 using studies::GuideTest;
 using Words = std::vector<std::string>;
-
-std::atomic<bool> stop_asked{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler");
-
-extern "C" void ask_guide_to_stop(int) { stop_asked = true; }
-
-constexpr const char* guide_examples = R"(
-DIR gets guide.md, guide.csv and cache/, a file a test: the same command goes on where a stopped one was, and a larger
-one takes what is there. After a change of the engine, remove cache/.
-
-examples:
-  crackle bench guide --quick
-  crackle bench guide --strength-packings 5 1 0 --minutes 30 -o out/guide
-  crackle bench guide --laws rounded --strength-packings 20 --experiment-packings 3 3 -o out/guide
-
-exit codes: 0 done, 2 bad input, 130 interrupted (the page shows what is there)
-)";
 
 struct Plan {
     std::int64_t packings = 20;
@@ -205,43 +184,54 @@ std::string command_of(const po::variables_map& given, const Plan& plan) {
     return text;
 }
 
-po::options_description options_described() {
-    po::options_description options("options");
-    const auto numbers = [] { return po::value<std::vector<std::int64_t>>()->multitoken(); };
-    options.add_options()("help,h", "show this")                                                                     //
-        ("packings", po::value<std::int64_t>(), "seeds 1 to this (default 20; quick: 2)")                            //
-        ("laws", po::value<Words>()->multitoken(), "contact laws of polygons (default rounded demseg demseg_mean)")  //
-        ("strength-packings", numbers(),
-         "packings that are also loaded until they fail, a number a law (default 5 0 0: the guide's law takes small "
-         "steps)")  //
-        ("experiment-packings", numbers(),
-         "packings of the experiments: elastic, loaded circles, loaded triangles (default 3 2 0)")                 //
-        ("experiments", po::value<Words>()->multitoken(), "only these (default all)")                              //
-        ("rate-factor", po::value<double>()->default_value(1.0, "1"), "times as fast as shipped")                  //
-        ("minutes", po::value<double>(), "give up tests not done by then; the page shows what is there")           //
-        ("jobs", po::value<int>()->default_value(2), "tests at a time, each on one thread")                        //
-        ("cases", po::value<std::string>()->default_value("specimens/guide_rock"), "folder of the shipped cases")  //
-        ("output,o", po::value<std::string>()->default_value("out/guide"), "DIR")                                  //
-        ("quick", "two packings, no loading, no experiments");
-    return options;
-}
-
 }  // namespace
 
-int bench_guide(const Arguments& arguments) {
+CommandLine describe_bench_guide() {
+    po::options_description options;
+    const auto numbers = [](const char* name) {
+        return po::value<std::vector<std::int64_t>>()->multitoken()->value_name(name);
+    };
+    options.add_options()("packings", po::value<std::int64_t>()->value_name("N"),
+                          "seeds 1 to this (default 20; quick: 2)")  //
+        ("laws", po::value<Words>()->multitoken()->value_name("LAW"),
+         "contact laws of polygons (default rounded demseg demseg_mean)")  //
+        ("strength-packings", numbers("N"),
+         "packings that are also loaded until they fail, a number a law (default 5 0 0: the guide's law takes small "
+         "steps)")  //
+        ("experiment-packings", numbers("N"),
+         "packings of the experiments: elastic, loaded circles, loaded triangles (default 3 2 0)")                  //
+        ("experiments", po::value<Words>()->multitoken()->value_name("NAME"), "only these (default all)")           //
+        ("rate-factor", po::value<double>()->value_name("X")->default_value(1.0, "1"), "times as fast as shipped")  //
+        ("minutes", po::value<double>()->value_name("X"),
+         "give up tests not done by then; the page shows what is there")                                      //
+        ("jobs", po::value<int>()->value_name("N")->default_value(2), "tests at a time, each on one thread")  //
+        ("cases", po::value<std::string>()->value_name("DIR")->default_value("specimens/guide_rock"),
+         "folder of the shipped cases")                                                                               //
+        ("output,o", po::value<std::string>()->value_name("DIR")->default_value("out/guide"), "folder for the page")  //
+        ("quick", "two packings, no loading, no experiments");
+    Choices experiments{"experiments", {}};
+    for (const auto& one : studies::guide_experiments()) experiments.words.push_back(one.name);
+    return {.synopses = {"crackle bench guide [OPTIONS]"},
+            .description =
+                "Tests the guide's rock on many packings and shows each of the guide's numbers beside mean "
+                "and standard deviation of ours, with a verdict and, for each row outside, the experiments "
+                "that move it.\n\n"
+                "DIR gets guide.md, guide.csv and cache/, a file a test: the same command goes on where a "
+                "stopped one was, and a larger one takes what is there. After a change of the engine, "
+                "remove cache/.",
+            .options = {{"options", options}},
+            .choices = {{"laws", {"rounded", "demseg", "demseg_mean"}}, experiments},
+            .verbose = "each test as it is done",
+            .examples = {{"crackle bench guide --quick"},
+                         {"crackle bench guide --strength-packings 5 1 0 --minutes 30 -o out/guide"},
+                         {"crackle bench guide --laws rounded --strength-packings 20 --experiment-packings 3 3"}},
+            .notes = {"exit codes: 0 done, 2 bad input, 130 interrupted (the page shows what is there)"}};
+}
+
+int bench_guide(const Invocation& invocation) {
     const auto begun = std::chrono::steady_clock::now();
-    const po::options_description options = options_described();
-    po::variables_map given;
-    po::store(po::command_line_parser(arguments).options(options).positional({}).run(), given);
-    po::notify(given);
-    if (given.contains("help")) {
-        std::cout
-            << "usage: crackle bench guide [OPTIONS]\n\nTests the guide's rock on many packings and shows each of "
-               "the guide's numbers beside mean and standard deviation of ours, with a verdict and, for each row "
-               "outside, the experiments that move it.\n\n"
-            << options << guide_examples;
-        return exit_done;
-    }
+    const po::variables_map& given = invocation.values;
+    Talk& talk = invocation.talk;
     const Plan plan = plan_of(given);
     const fs::path folder = given["output"].as<std::string>();
     studies::EnsembleOptions ensemble;
@@ -258,22 +248,22 @@ int bench_guide(const Arguments& arguments) {
     for (const GuideTest& test : tests)
         static_cast<void>(studies::guide_case(test, ensemble));  // refused before minutes are spent
 
-    std::signal(SIGINT, ask_guide_to_stop);
-    std::signal(SIGTERM, ask_guide_to_stop);
-    const bool terminal = isatty(STDERR_FILENO) != 0;
+    watch_interrupts();
     studies::EnsembleHooks hooks;
     const double minutes = given.contains("minutes") ? given["minutes"].as<double>() : 1e9;
     hooks.interrupted = [&] {
         const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begun;
-        return stop_asked || spent.count() > 60.0 * minutes;
+        return interrupted() || spent.count() > 60.0 * minutes;
     };
-    if (terminal) {
-        hooks.progress = [](std::size_t done, std::size_t all, const GuideTest& last) {
-            std::cerr << fmt::format("\r\x1b[K{} of {} tests, last {}", done, all, last.name()) << std::flush;
+    if (talk.verbose() || talk.progress().shown()) {
+        talk.progress().begin("testing", static_cast<double>(tests.size()), "tests");
+        hooks.progress = [&talk](std::size_t done, std::size_t all, const GuideTest& last) {
+            talk.detail(fmt::format("{} of {}: {}", done, all, last.name()));
+            talk.progress().count(static_cast<double>(done), fmt::format("last {}", last.name()));
         };
     }
     const studies::GuideResults results = studies::run_guide_tests(tests, ensemble, hooks);
-    if (terminal) std::cerr << "\r\x1b[K" << std::flush;
+    talk.make_room();
 
     const studies::GuidePage page{command_of(given, plan), plan.laws, plan.packings, ensemble.rate_factor,
                                   tests.size() - results.size()};
@@ -281,8 +271,8 @@ int bench_guide(const Arguments& arguments) {
     replace_file(folder / "guide.csv", studies::guide_csv(page, results));
     replace_file(folder / "guide.md", text);
     std::cout << text;
-    if (!stop_asked) return exit_done;
-    std::cerr << "crackle: interrupted; the same command goes on\n";
+    if (!interrupted()) return exit_done;
+    tell_error("interrupted; the same command goes on");
     return exit_interrupted;
 }
 

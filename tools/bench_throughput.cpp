@@ -4,11 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/program_options.hpp>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <string>
 #include <vector>
@@ -29,18 +29,8 @@ namespace crackle::tools {
 namespace {
 
 namespace fs = std::filesystem;
-namespace po = boost::program_options;
 using Clock = std::chrono::steady_clock;
 using namespace throughput;
-
-constexpr const char* throughput_examples = R"(
-examples:
-  crackle bench throughput --quick                       seconds: small scenes, half a second each
-  crackle bench throughput -o out/throughput             minutes: up to a million circles; throughput.md, .csv, .svg
-  crackle bench throughput --counts 300 5000 --repeats 5
-
-Rates are particle-steps a second. Machines are noisy: compare what stands in one table.
-)";
 
 struct Row {
     std::string scene;
@@ -195,25 +185,33 @@ std::string script_of(const std::vector<Row>& rows) {
 
 }  // namespace
 
-int bench_throughput(const Arguments& arguments) {
+CommandLine describe_bench_throughput() {
+    po::options_description options;
+    options.add_options()("output,o", po::value<std::string>()->value_name("DIR")->default_value("out/throughput"),
+                          "folder for throughput.md, .csv, .svg")  //
+        ("counts", po::value<std::vector<std::int64_t>>()->multitoken()->value_name("N"),
+         "circles of the scenes (default 300 1000 5000 50000 1000000; quick: 300 5000)")                    //
+        ("seconds", po::value<double>()->value_name("X"), "of stepping, each run (default 2; quick: 0.3)")  //
+        ("repeats", po::value<int>()->value_name("N"),
+         "runs of a scene, of which the median counts (default 3; quick: 1)")  //
+        ("quick", "small and short");
+    return {.synopses = {"crackle bench throughput [OPTIONS]"},
+            .description =
+                "The engine's rates over size, threads and kind of specimen, beside what a bare kernel and "
+                "the memory reach in the same run.",
+            .options = {{"options", options}},
+            .verbose = "seconds of each row",
+            .examples = {{"crackle bench throughput --quick", "seconds: small scenes, half a second each"},
+                         {"crackle bench throughput -o out/throughput",
+                          "minutes: up to a million circles; throughput.md, .csv, .svg"},
+                         {"crackle bench throughput --counts 300 5000 --repeats 5"}},
+            .notes = {"Rates are particle-steps a second. Machines are noisy: compare what stands in one table."}};
+}
+
+int bench_throughput(const Invocation& invocation) {
     const std::size_t empty_process = peak_memory();
-    po::options_description options("options");
-    options.add_options()("help,h", "show this")("output,o", po::value<std::string>()->default_value("out/throughput"),
-                                                 "DIR for throughput.md, .csv, .svg")(
-        "counts", po::value<std::vector<std::int64_t>>()->multitoken(),
-        "circles of the scenes (default 300 1000 5000 50000 1000000; quick: 300 5000)")(
-        "seconds", po::value<double>(), "of stepping, each run (default 2; quick: 0.3)")(
-        "repeats", po::value<int>(), "runs of a scene, of which the median counts (default 3; quick: 1)")(
-        "quick", "small and short");
-    po::variables_map given;
-    po::store(po::command_line_parser(arguments).options(options).positional({}).run(), given);
-    po::notify(given);
-    if (given.contains("help")) {
-        std::cout << "usage: crackle bench throughput [OPTIONS]\n\nThe engine's rates over size, threads and kind of "
-                     "specimen, beside what a bare kernel and the memory reach in the same run.\n\n"
-                  << options << throughput_examples;
-        return exit_done;
-    }
+    const po::variables_map& given = invocation.values;
+    Talk& talk = invocation.talk;
     const bool quick = given.contains("quick");
     const auto counts = given.contains("counts") ? given["counts"].as<std::vector<std::int64_t>>()
                         : quick                  ? std::vector<std::int64_t>{300, 5000}
@@ -237,36 +235,55 @@ int bench_throughput(const Arguments& arguments) {
     make_results_folder(settings.folder);
 
     std::string command = "crackle bench throughput";
-    for (const std::string& word : arguments) command += ' ' + word;
+    for (const std::string& word : invocation.words) command += ' ' + word;
     const Limits limits{triad_bandwidth(std::size_t{24} << 10, 0.2), triad_bandwidth(std::size_t{384} << 10, 0.2),
                         triad_bandwidth(std::size_t{384} << 20, 0.5)};
     std::vector<Row> rows;
     const auto add = [&](const Row& row) {
         rows.push_back(row);
-        fmt::print(stderr, "{:<18}{:>9} on {}: {:7.2f} M/s{}\n", row.scene, row.particles, row.threads, 1e-6 * row.rate,
-                   row.bare > 0.0 ? fmt::format(", {:.2f} of the bare kernel", row.rate / row.bare) : "");
+        talk.stage(fmt::format("{:<18}{:>9} on {}: {:7.2f} M/s{}", row.scene, row.particles, row.threads,
+                               1e-6 * row.rate,
+                               row.bare > 0.0 ? fmt::format(", {:.2f} of the bare kernel", row.rate / row.bare) : ""));
         replace_file(settings.folder / "throughput.md", page_of(command, limits, rows));
         replace_file(settings.folder / "throughput.csv", table_of(command, limits, rows));
     };
-    for (const std::int64_t count : counts) add(measure_test(settings, "circles", count, 1, true));
+    // Planned first: the progress wants to know how many there are.
+    struct Planned {
+        std::string what;
+        std::function<Row()> measure;
+    };
+    std::vector<Planned> plan;
+    const auto plan_test = [&](const std::string& kind, std::int64_t count, int threads, bool with_bare) {
+        plan.push_back({fmt::format("{} {} on {}", count, kind, threads),
+                        [=, &settings] { return measure_test(settings, kind, count, threads, with_bare); }});
+    };
+    for (const std::int64_t count : counts) plan_test("circles", count, 1, true);
     for (const std::int64_t count : counts) {
-        if (count >= 5000) add(measure_test(settings, "circles", count, 2, false));
+        if (count >= 5000) plan_test("circles", count, 2, false);
     }
     for (const char* kind : {"voronoi", "delaunay"}) {
         for (const std::int64_t count : counts) {
-            if (count <= 50'000) add(measure_test(settings, kind, count, 1, false));
+            if (count <= 50'000) plan_test(kind, count, 1, false);
         }
     }
     for (const bool polygons : {false, true}) {
         for (const std::int64_t count : {std::int64_t{582}, std::int64_t{50'000}}) {
-            if (count <= *std::max_element(counts.begin(), counts.end())) add(measure_flow(settings, polygons, count));
+            if (count > *std::max_element(counts.begin(), counts.end())) continue;
+            plan.push_back({fmt::format("{} flowing {}", count, polygons ? "hexagons" : "circles"),
+                            [=, &settings] { return measure_flow(settings, polygons, count); }});
         }
     }
+    talk.progress().begin("", static_cast<double>(plan.size()), "rows");
+    for (const Planned& planned : plan) {
+        talk.progress().step(static_cast<double>(rows.size()), planned.what);
+        add(planned.measure());
+    }
+    talk.make_room();
     std::error_code failed;
     fs::remove_all(settings.folder / "scratch", failed);
     replace_file(settings.folder / "throughput.gp", script_of(rows));
     const std::string problem = draw_with_gnuplot(settings.folder / "throughput.gp");
-    if (!problem.empty()) fmt::print(stderr, "crackle: {}. throughput.csv is complete\n", problem);
+    if (!problem.empty()) talk.notice(problem + ". throughput.csv is complete");
     std::cout << page_of(command, limits, rows);
     return exit_done;
 }

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/program_options.hpp>
 #include <filesystem>
 #include <iostream>
 #include <string>
@@ -19,18 +18,8 @@ namespace crackle::tools {
 namespace {
 
 namespace fs = std::filesystem;
-namespace po = boost::program_options;
 using verification::CheckedClaim;
 using verification::Claim;
-
-constexpr const char* verify_examples = R"(
-examples:
-  crackle bench verify -o verification.md
-  crackle bench verify --only disc_on_a_slope --only catenary
-  crackle bench verify --list
-
-exit codes: 0 all rows hold, 1 a row fails, 2 bad input
-)";
 
 std::vector<Claim> chosen_claims(const std::vector<std::string>& only) {
     if (only.empty()) return verification::claims();
@@ -55,39 +44,53 @@ void check_writable(const fs::path& page) {
     }
 }
 
-/// One line a claim, and each row that fails.
-void tell(const CheckedClaim& checked) {
+/// One line a claim, and each row that fails: those even with -q, for they are what was asked.
+void tell(Talk& talk, const CheckedClaim& checked) {
     const bool fails = checked.fails();
-    fmt::print(stderr, "{:<50} {}\n", checked.claim.name,
-               !checked.claim.offered ? "not offered"
-               : fails                ? "FAILS"
-                                      : fmt::format("holds, {} rows", checked.rows.size()));
-    if (!fails) return;
+    talk.stage(fmt::format("{:<50} {}", checked.claim.name,
+                           !checked.claim.offered ? "not offered"
+                           : fails                ? "FAILS"
+                                                  : fmt::format("holds, {} rows", checked.rows.size())));
+    talk.make_room();
     for (const verification::ClaimRow& row : checked.rows) {
-        if (row.holds) continue;
-        fmt::print(stderr, "  {}: expected {:.8g}, got {:.8g}, error {:.2g}, tolerance {:.2g}{}\n", row.label,
-                   row.expected, row.got, row.error, row.tolerance,
-                   row.order ? fmt::format(", order {:.2f}, expected {:g}", *row.order, *row.expected_order) : "");
+        const std::string text =
+            fmt::format("  {}: expected {:.8g}, got {:.8g}, error {:.2g}, tolerance {:.2g}{}", row.label, row.expected,
+                        row.got, row.error, row.tolerance,
+                        row.order ? fmt::format(", order {:.2f}, expected {:g}", *row.order, *row.expected_order) : "");
+        if (fails && !row.holds) {
+            fmt::print(stderr, "{}\n", text);
+        } else {
+            talk.detail(text);
+        }
     }
 }
 
 }  // namespace
 
-int bench_verify(const Arguments& arguments) {
-    po::options_description options("options");
-    options.add_options()("help,h", "show this")("output,o", po::value<std::string>(),
-                                                 "write the page there (Markdown); default: print it")(
-        "only", po::value<std::vector<std::string>>(), "check this claim; may be given more than once")(
-        "list", "name all claims, one a line");
-    po::variables_map given;
-    po::store(po::command_line_parser(arguments).options(options).positional({}).run(), given);
-    po::notify(given);
-    if (given.contains("help")) {
-        std::cout << "usage: crackle bench verify [OPTIONS]\n\nChecks every closed form and law that the engine has to "
-                     "meet and shows claim, expected, got, error, tolerance, observed order and verdict.\n\n"
-                  << options << verify_examples;
-        return exit_done;
-    }
+CommandLine describe_bench_verify() {
+    po::options_description options;
+    options.add_options()("output,o", po::value<std::string>()->value_name("FILE"),
+                          "write the page there (Markdown); default: print it")                                 //
+        ("only", po::value<Arguments>()->value_name("CLAIM"), "check this claim; may be given more than once")  //
+        ("list", "name all claims, one a line");
+    Choices names{"only", {}};
+    for (const Claim& claim : verification::claims()) names.words.push_back(claim.name);
+    return {.synopses = {"crackle bench verify [OPTIONS]"},
+            .description =
+                "Checks every closed form and law that the engine has to meet and shows claim, expected, "
+                "got, error, tolerance, observed order and verdict.",
+            .options = {{"options", options}},
+            .choices = {names},
+            .verbose = "each row of a claim",
+            .examples = {{"crackle bench verify -o verification.md"},
+                         {"crackle bench verify --only disc_on_a_slope --only bonded_chain_hangs_as_a_catenary"},
+                         {"crackle bench verify --list"}},
+            .notes = {"exit codes: 0 all rows hold, 1 a row fails, 2 bad input"}};
+}
+
+int bench_verify(const Invocation& invocation) {
+    const po::variables_map& given = invocation.values;
+    Talk& talk = invocation.talk;
     if (given.contains("list")) {
         for (const Claim& claim : verification::claims()) std::cout << claim.name << '\n';
         return exit_done;
@@ -100,10 +103,12 @@ int bench_verify(const Arguments& arguments) {
 
     std::vector<CheckedClaim> checked;
     bool fails = false;
+    talk.progress().begin("", static_cast<double>(wanted.size()), "claims");
     for (const Claim& claim : wanted) {
+        talk.progress().step(static_cast<double>(checked.size()), claim.name);
         checked.push_back({claim, verification::check_claim(claim)});
         fails = fails || checked.back().fails();
-        tell(checked.back());
+        tell(talk, checked.back());
     }
     std::string command = "crackle bench verify";
     if (!page.empty()) command += " -o " + page.filename().string();

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <boost/program_options.hpp>
 #include <chrono>
 #include <cmath>
 #include <fstream>
@@ -18,23 +17,8 @@
 namespace crackle::tools {
 namespace {
 
-namespace po = boost::program_options;
 using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
-
-constexpr const char* elastic_usage =
-    "usage: crackle elastic CASE.toml [OPTIONS]\n\n"
-    "Makes and bonds the specimen of CASE.toml with its platens, assembles its sparse stiffness and solves it: "
-    "small-strain\n"
-    "Young's modulus and Poisson's ratio, the bond that breaks first (linear, no slip) and the one that slips first, "
-    "the\n"
-    "exact stable time step, motions without energy. Takes no time step; writes nothing unless asked.\n\n";
-
-constexpr const char* elastic_examples =
-    "\nexamples:\n"
-    "  crackle elastic specimens/guide_rock/circles_tension.toml\n"
-    "  crackle elastic case.toml --json --modes 5\n"
-    "  crackle elastic case.toml --strain 1e-4 --bonds bonds.csv\n";
 
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
@@ -136,28 +120,34 @@ void write_bonds(const std::string& path, const ElasticAnalysis& a) {
 
 }  // namespace
 
-int elastic(const Arguments& arguments) {
-    po::options_description visible("options");
-    visible.add_options()("help,h", "this text")                                                            //
-        ("json", "print one JSON object")                                                                   //
-        ("strain", po::value<double>()->default_value(1e-4), "axial strain at which --bonds gives forces")  //
-        ("bonds", po::value<std::string>(),
+CommandLine describe_elastic() {
+    po::options_description options;
+    options.add_options()("json", "print one JSON object")  //
+        ("strain", po::value<double>()->value_name("X")->default_value(1e-4, "1e-4"),
+         "axial strain at which --bonds gives forces")  //
+        ("bonds", po::value<std::string>()->value_name("FILE"),
          "CSV file to write: forces in all bonds, compression positive; strains of break and slip, inf: never")  //
         ("force", "replace that file")                                                                           //
-        ("modes", po::value<int>()->default_value(0), "lowest vibration modes to find")                          //
-        ("quiet,q", "no stages");
-    po::options_description all = visible;
-    all.add_options()("case", po::value<std::string>(), "");
-    po::positional_options_description positional;
-    positional.add("case", 1);
-    po::variables_map values;
-    po::store(po::command_line_parser(arguments).options(all).positional(positional).run(), values);
-    po::notify(values);
-    if (values.contains("help")) {
-        std::cout << elastic_usage << visible << elastic_examples;
-        return exit_done;
-    }
-    if (!values.contains("case"))
+        ("modes", po::value<int>()->value_name("N")->default_value(0), "lowest vibration modes to find");
+    return {
+        .synopses = {"crackle elastic CASE.toml [OPTIONS]"},
+        .description =
+            "Makes and bonds the specimen of CASE.toml with its platens, assembles its sparse stiffness and solves "
+            "it: small-strain Young's modulus and Poisson's ratio, the bond that breaks first (linear, no slip) and "
+            "the one that slips first, the exact stable time step, motions without energy. Takes no time step; "
+            "writes nothing unless asked.",
+        .options = {{"options", options}},
+        .operand = "CASE.toml",
+        .verbose = "seconds of each stage, bodies and contacts, unknowns",
+        .examples = {{"crackle elastic specimens/guide_rock/circles_tension.toml"},
+                     {"crackle elastic case.toml --json --modes 5"},
+                     {"crackle elastic case.toml --strain 1e-4 --bonds bonds.csv"}}};
+}
+
+int elastic(const Invocation& given) {
+    const po::variables_map& values = given.values;
+    Talk& talk = given.talk;
+    if (given.operands.empty())
         throw InputError("crackle elastic: found no CASE.toml, expected one (see crackle elastic --help)");
     const double strain = values["strain"].as<double>();
     if (!(strain > 0.0) || !(strain < 1.0))
@@ -169,20 +159,25 @@ int elastic(const Arguments& arguments) {
         throw InputError(fmt::format("{}: exists already, expected a new file; choose another name, or --force",
                                      values["bonds"].as<std::string>()));
     }
-    TestCase description = read_case(values["case"].as<std::string>());
+    TestCase description = read_case(given.operands.front());
     TestHooks hooks;
-    if (!values.contains("quiet") && !values.contains("json"))
-        hooks.stage = [](const std::string& text) { std::cerr << text << '\n'; };
+    if (!values.contains("json") || talk.verbose())
+        hooks.stage = [&talk](const std::string& text) { talk.stage(text); };
+    if (talk.verbose()) hooks.detail = [&talk](const std::string& text) { talk.detail(text); };
+    if (talk.progress().shown())
+        hooks.working = [&talk](const std::string& what) { talk.progress().draw({.detail = what}); };
     if (description.loading.platens != "bonded") {
-        if (!values.contains("quiet"))
-            std::cerr << "crackle: the linear solution knows bonded platens alone: taken in place of "
-                      << description.loading.platens << '\n';
+        talk.notice("the linear solution knows bonded platens alone: taken in place of " + description.loading.platens);
         description.loading.platens = "bonded";
     }
     const Clock::time_point start = Clock::now();
     const VirtualTest test = bond_test(description, hooks);
+    talk.progress().begin("solving the linear system", 2.0, "");
+    if (modes > 0) talk.progress().step(0.0, fmt::format("solving the linear system, {} modes", modes));
     const ElasticAnalysis analysis = analyse_elastic(test, strain, modes);
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count() - test.specimen_seconds;
+    talk.make_room();
+    talk.detail(fmt::format("solved for {} unknowns, residual {:.1e}", analysis.unknowns, analysis.residual));
     if (hooks.stage)
         for (const std::string& notice : test.setup.notices) hooks.stage("notice: " + notice);
     if (values.contains("bonds")) write_bonds(values["bonds"].as<std::string>(), analysis);

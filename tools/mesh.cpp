@@ -6,7 +6,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/program_options.hpp>
 #include <filesystem>
 #include <iostream>
 #include <sstream>
@@ -23,43 +22,7 @@
 namespace crackle::tools {
 namespace {
 
-namespace po = boost::program_options;
 namespace fs = std::filesystem;
-
-constexpr const char* mesh_usage =
-    "usage: crackle mesh IN --kind delaunay|voronoi --thick T [OPTIONS]\n\n"
-    "Makes polygons of the centres of the circles in IN, an in_gm.dat, or of a list of seeds, one x y a line. Each\n"
-    "polygon is inset along every edge, so that facing edges stand T apart, and T/2 from the domain's faces. Writes a\n"
-    "particle file of polygons (in_gm_tri.dat or in_gm_volo.dat). Lengths in the units of IN.\n\n";
-
-constexpr const char* mesh_examples =
-    "\nexamples:\n"
-    "  crackle mesh in_gm.dat --kind voronoi --thick 1e-3                      the cells of a packing\n"
-    "  crackle mesh in_gm.dat --kind delaunay --thick 1e-3 --boundary seeds    triangles between circles only\n"
-    "  crackle mesh seeds.txt --kind voronoi --thick 0 --domain 0 1 0 2        cells of your own seeds, no gaps\n";
-
-po::options_description mesh_options() {
-    const Material usual{2500.0, 1.0e7, 2.5e6, 0.0, 0.0, {}, 27.0};
-    po::options_description options("options");
-    options.add_options()("help,h", "this text")                                                    //
-        ("kind", po::value<std::string>(), "delaunay or voronoi")                                   //
-        ("thick", po::value<double>(), "gap between facing edges, m")                               //
-        ("inset", po::value<double>(), "move edges inwards by so much instead of half the gap, m")  //
-        ("boundary", po::value<std::string>()->default_value("domain"),
-         "of triangles. domain: flat faces, made by projecting the outer seeds; seeds: between seeds only")  //
-        ("merge", "give the place of cells that the inset destroys to neighbours, instead of an error")      //
-        ("output,o", po::value<std::string>(),
-         "file to write, or folder (default: in_gm_tri.dat or in_gm_volo.dat)")  //
-        ("force", "replace the output if it is there");
-    po::options_description plain("options for a list of seeds");
-    plain.add_options()("domain", po::value<std::string>()->value_name("x1 x2 y1 y2"), "the domain, m")  //
-        ("bounding-box", "take the seeds' bounding box as the domain")                                   //
-        ("density", po::value<double>()->default_value(usual.density), "kg/m2")                          //
-        ("normal-stiffness", po::value<double>()->default_value(usual.normal_stiffness), "N/m")          //
-        ("shear-stiffness", po::value<double>()->default_value(usual.shear_stiffness), "N/m")            //
-        ("friction-angle", po::value<double>()->default_value(usual.friction_angle), "degrees");
-    return options.add(plain);
-}
 
 /// The four numbers after --domain as one value: a negative one would be taken for an option.
 Arguments join_domain(Arguments words) {
@@ -238,32 +201,67 @@ void print_report(const Source& source, const Mesh& mesh, const MeshRequest& req
 
 }  // namespace
 
-int mesh(const Arguments& arguments) {
-    po::options_description all = mesh_options();
-    all.add_options()("input", po::value<std::string>(), "");
-    po::positional_options_description positional;
-    positional.add("input", 1);
-    po::variables_map values;
-    po::store(po::command_line_parser(join_domain(arguments)).options(all).positional(positional).run(), values);
-    po::notify(values);
-    if (values.contains("help")) {
-        std::cout << mesh_usage << mesh_options() << mesh_examples;
-        return exit_done;
-    }
-    if (!values.contains("input")) {
+CommandLine describe_mesh() {
+    const Material usual{2500.0, 1.0e7, 2.5e6, 0.0, 0.0, {}, 27.0};
+    const auto number = [] { return po::value<double>()->value_name("X"); };
+    const auto word = [](const char* name) { return po::value<std::string>()->value_name(name); };
+    po::options_description options, plain;
+    options.add_options()("kind", word("KIND"), "delaunay or voronoi")                   //
+        ("thick", number(), "gap between facing edges, m")                               //
+        ("inset", number(), "move edges inwards by so much instead of half the gap, m")  //
+        ("boundary", word("WHICH")->default_value("domain"),
+         "of triangles. domain: flat faces, made by projecting the outer seeds; seeds: between seeds only")  //
+        ("merge", "give the place of cells that the inset destroys to neighbours, instead of an error")      //
+        ("output,o", word("FILE"), "file to write, or folder (default: in_gm_tri.dat or in_gm_volo.dat)")    //
+        ("force", "replace the output if it is there");
+    plain.add_options()("domain", word("X1 X2 Y1 Y2"), "the domain, m")               //
+        ("bounding-box", "take the seeds' bounding box as the domain")                //
+        ("density", number()->default_value(usual.density), "kg/m2")                  //
+        ("normal-stiffness", number()->default_value(usual.normal_stiffness), "N/m")  //
+        ("shear-stiffness", number()->default_value(usual.shear_stiffness), "N/m")    //
+        ("friction-angle", number()->default_value(usual.friction_angle), "degrees");
+    return {.synopses = {"crackle mesh IN --kind delaunay|voronoi --thick T [OPTIONS]"},
+            .description =
+                "Makes polygons of the centres of the circles in IN, an in_gm.dat, or of a list of seeds, one x y a "
+                "line. Each polygon is inset along every edge, so that facing edges stand T apart, and T/2 from the "
+                "domain's faces. Writes a particle file of polygons (in_gm_tri.dat or in_gm_volo.dat). Lengths in the "
+                "units of IN.",
+            .options = {{"options", options}, {"options for a list of seeds", plain}},
+            .operand = "IN",
+            .choices = {{"kind", {"delaunay", "voronoi"}}, {"boundary", {"domain", "seeds"}}},
+            .verbose = "seconds of each stage, counts",
+            .examples = {{"crackle mesh in_gm.dat --kind voronoi --thick 1e-3", "the cells of a packing"},
+                         {"crackle mesh in_gm.dat --kind delaunay --thick 1e-3 --boundary seeds",
+                          "triangles between circles only"},
+                         {"crackle mesh seeds.txt --kind voronoi --thick 0 --domain 0 1 0 2",
+                          "cells of your own seeds, no gaps"}},
+            .prepared = join_domain};
+}
+
+int mesh(const Invocation& given) {
+    const po::variables_map& values = given.values;
+    if (given.operands.empty()) {
         throw InputError(
             "crackle mesh: found no IN, expected an in_gm.dat or a list of seeds (see crackle mesh --help)");
     }
     const MeshRequest request = request_of(values);
-    const std::string name = values["input"].as<std::string>();
+    const std::string& name = given.operands.front();
     const fs::path output = output_path(values, request.kind, name);
+    Talk& talk = given.talk;
+    talk.progress().begin("reading " + name, 3.0, "");
     const std::string text = read_text_file(name);
     Source source = looks_like_seed_list(text) ? seeds_of_list(name, text, values) : seeds_of_deck(name, text, values);
+    talk.detail(fmt::format("read {} seeds from {}, {} bytes", source.seeds.size(), name, text.size()));
+    talk.progress().step(1.0, fmt::format("meshing {} seeds", source.seeds.size()));
     const Mesh made = mesh_source(source, request);
+    talk.detail(fmt::format("meshed {} cells of {} segments", made.report.cells, made.report.segments));
+    talk.progress().step(2.0, fmt::format("writing {} cells", made.report.cells));
     std::ostringstream deck;
     write_geometry(deck, scene_of(source, made, request.thick));
     replace_file(output, deck.str());
-    print_report(source, made, request, output);
+    talk.make_room();
+    talk.detail(fmt::format("wrote {} bytes", deck.str().size()));
+    if (!talk.quiet()) print_report(source, made, request, output);
     return exit_done;
 }
 

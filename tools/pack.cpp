@@ -2,9 +2,7 @@
 // `crackle pack`: random circles in a box, compressed to equilibrium, as an in_gm.dat.
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <boost/program_options.hpp>
 #include <filesystem>
 #include <iostream>
 #include <sstream>
@@ -18,50 +16,6 @@
 
 namespace crackle::tools {
 namespace {
-
-namespace po = boost::program_options;
-
-constexpr const char* pack_usage =
-    "usage: crackle pack (--count N | --width W --height H) SIZES (--mean-overlap D | --void-ratio E) [OPTIONS]\n\n"
-    "Packs random circles between four smooth walls to mechanical equilibrium and writes them as an in_gm.dat.\n\n";
-
-constexpr const char* pack_examples =
-    "\nexamples:\n"
-    "  crackle pack --count 304 --radius-min 1.333e-2 --radius-max 2.667e-2 --mean-overlap 7.74e-5 -o in_gm.dat\n"
-    "  crackle pack --width 0.5 --height 1 --radius-min 0.01 --radius-max 0.02 --void-ratio 0.19 --seed 7 -o "
-    "dense.dat\n"
-    "  crackle pack --count 1000 --lognormal-median 0.01 --lognormal-deviation 0.3 --radius-min 5e-3 --radius-max 2e-2 "
-    "\\\n"
-    "      --mean-overlap 2e-5 -o graded.dat\n"
-    "  crackle pack --count 500 --sieve curve.csv --mean-overlap 2e-5 -o sieved.dat     (CSV: size,passing_by_mass)\n";
-
-po::options_description pack_options() {
-    const Material usual{2500.0, 1.0e7, 2.5e6, 0.0, 0.0, {}, 27.0};
-    po::options_description options("options");
-    options.add_options()("help,h", "this text")                                                         //
-        ("count", po::value<std::int64_t>(), "number of circles; the box follows")                       //
-        ("height-to-width", po::value<double>(), "shape of the box, with --count (2 if not given)")      //
-        ("width", po::value<double>(), "of the box, m; met exactly, by scaling the radii within 0.5 %")  //
-        ("height", po::value<double>(), "of the box, m; likewise")                                       //
-        ("radius-min", po::value<double>(), "smallest radius, m (alone with --radius-max: uniform)")     //
-        ("radius-max", po::value<double>(), "largest radius, m")                                         //
-        ("lognormal-median", po::value<double>(), "median radius, m")                                    //
-        ("lognormal-deviation", po::value<double>(), "standard deviation of ln(radius)")                 //
-        ("sieve", po::value<std::string>(),
-         "grading curve, CSV with the columns size (diameter, m),passing_by_mass")                     //
-        ("mean-overlap", po::value<double>(), "target: mean over circles and bottom and top wall, m")  //
-        ("void-ratio", po::value<double>(), "target: (box - circles) / circles")                       //
-        ("seed", po::value<std::int64_t>()->default_value(1), "of the random numbers")                 //
-        ("threads", po::value<int>()->default_value(1), "never change a byte")                         //
-        ("output,o", po::value<std::string>()->default_value("in_gm.dat"), "file to write")            //
-        ("force", "replace the output if it is there")                                                 //
-        ("quiet,q", "no progress line")                                                                //
-        ("density", po::value<double>()->default_value(usual.density), "kg/m2")                        //
-        ("normal-stiffness", po::value<double>()->default_value(usual.normal_stiffness), "N/m")        //
-        ("shear-stiffness", po::value<double>()->default_value(usual.shear_stiffness), "N/m")          //
-        ("friction-angle", po::value<double>()->default_value(usual.friction_angle), "degrees");
-    return options;
-}
 
 template <typename T>
 std::optional<T> optional_value(const po::variables_map& values, const char* name) {
@@ -132,14 +86,48 @@ void print_report(const PackingReport& r, const std::string& output) {
 
 }  // namespace
 
-int pack(const Arguments& arguments) {
-    po::variables_map values;
-    po::store(po::command_line_parser(arguments).options(pack_options()).positional({}).run(), values);
-    po::notify(values);
-    if (values.contains("help")) {
-        std::cout << pack_usage << pack_options() << pack_examples;
-        return exit_done;
-    }
+CommandLine describe_pack() {
+    const Material usual{2500.0, 1.0e7, 2.5e6, 0.0, 0.0, {}, 27.0};
+    const auto number = [] { return po::value<double>()->value_name("X"); };
+    po::options_description options, material;
+    options.add_options()("count", po::value<std::int64_t>()->value_name("N"), "number of circles; the box follows")  //
+        ("height-to-width", number(), "shape of the box, with --count (2 if not given)")                              //
+        ("width", number(), "of the box, m; met exactly, by scaling the radii within 0.5 %")                          //
+        ("height", number(), "of the box, m; likewise")                                                               //
+        ("radius-min", number(), "smallest radius, m (alone with --radius-max: uniform)")                             //
+        ("radius-max", number(), "largest radius, m")                                                                 //
+        ("lognormal-median", number(), "median radius, m")                                                            //
+        ("lognormal-deviation", number(), "standard deviation of ln(radius)")                                         //
+        ("sieve", po::value<std::string>()->value_name("FILE"),
+         "grading curve, CSV with the columns size (diameter, m),passing_by_mass")                               //
+        ("mean-overlap", number(), "target: mean over circles and bottom and top wall, m")                       //
+        ("void-ratio", number(), "target: (box - circles) / circles")                                            //
+        ("seed", po::value<std::int64_t>()->value_name("N")->default_value(1), "of the random numbers")          //
+        ("threads", po::value<int>()->value_name("N")->default_value(1), "never change a byte")                  //
+        ("output,o", po::value<std::string>()->value_name("FILE")->default_value("in_gm.dat"), "file to write")  //
+        ("force", "replace the output if it is there");
+    material.add_options()("density", number()->default_value(usual.density), "kg/m2")  //
+        ("normal-stiffness", number()->default_value(usual.normal_stiffness), "N/m")    //
+        ("shear-stiffness", number()->default_value(usual.shear_stiffness), "N/m")      //
+        ("friction-angle", number()->default_value(usual.friction_angle), "degrees");
+    return {
+        .synopses = {"crackle pack (--count N | --width W --height H) SIZES (--mean-overlap D | --void-ratio E) "
+                     "[OPTIONS]"},
+        .description =
+            "Packs random circles between four smooth walls to mechanical equilibrium and writes them as an "
+            "in_gm.dat.",
+        .options = {{"options", options}, {"material of the file", material}},
+        .verbose = "seconds of each stage, draws of the packing",
+        .examples = {
+            {"crackle pack --count 304 --radius-min 1.333e-2 --radius-max 2.667e-2 --mean-overlap 7.74e-5 -o "
+             "in_gm.dat"},
+            {"crackle pack --width 0.5 --height 1 --radius-min 0.01 --radius-max 0.02 --void-ratio 0.19 -o dense.dat"},
+            {"crackle pack --count 1000 --lognormal-median 0.01 --lognormal-deviation 0.3 --mean-overlap 2e-5"},
+            {"crackle pack --count 500 --sieve curve.csv --mean-overlap 2e-5", "CSV: size,passing_by_mass"}}};
+}
+
+int pack(const Invocation& given) {
+    const po::variables_map& values = given.values;
     const std::string output = values["output"].as<std::string>();
     std::error_code unreadable;  // writing says what cannot be written
     if (std::filesystem::exists(output, unreadable) && !values.contains("force")) {
@@ -147,18 +135,27 @@ int pack(const Arguments& arguments) {
             fmt::format("--output: found {} there already, expected a new file; add --force to replace it", output));
     }
     const PackingRequest request = packing_request(values);
-    const bool talk = !values.contains("quiet") && isatty(STDERR_FILENO) == 1;
+    Talk& talk = given.talk;
+    std::string stage;
     const Packing packing = make_packing(request, [&](const PackingProgress& p) {
-        if (talk) std::cerr << fmt::format("\r{} (attempt {}): imbalance {:.2e}   ", p.stage, p.attempt, p.residual);
+        if (talk.verbose() && p.stage != stage) {
+            stage = p.stage;
+            talk.detail(fmt::format("draw {}: {}", p.attempt, stage));
+        }
+        if (!talk.progress().shown()) return;
+        talk.progress().draw({.detail = fmt::format("{} (draw {}): unbalanced by {:.1e} of the mean contact force",
+                                                    p.stage, p.attempt, p.residual)});
     });
-    if (talk) std::cerr << '\r' << std::string(60, ' ') << '\r';
+    talk.make_room();
+    talk.detail(fmt::format("packed {} circles, {} contacts, in {} draws", packing.report.circles,
+                            packing.report.circle_contacts, packing.report.attempts));
     std::ostringstream deck;
     write_geometry(deck, packing.scene);
     const std::filesystem::path folder = std::filesystem::path(output).parent_path();
     std::error_code refused;  // replace_file() says what cannot be written
     if (!folder.empty()) std::filesystem::create_directories(folder, refused);
     replace_file(output, deck.str());
-    print_report(packing.report, output);
+    if (!talk.quiet()) print_report(packing.report, output);
     return exit_done;
 }
 

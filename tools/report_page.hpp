@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fills the bundled page with the results of tests: one HTML file that needs nothing else.
-// A test's numbers are laid end to end as little-endian arrays, compressed with zlib, written as base64; a JSON
-// manifest says where each array lies. tools/viewer/src/data.ts reads the same layout.
+// Fills the bundled page with recordings: one HTML file that needs nothing else. page_data.hpp says how numbers are
+// laid out. What the first picture needs stands before the page's script, all other blocks after it.
 #pragma once
 
 #include <filesystem>
@@ -9,18 +8,32 @@
 #include <string_view>
 #include <vector>
 
-#include "specimens/results.hpp"
+#include "specimens/recordings/recording.hpp"
+#include "tools/talk.hpp"
 
 namespace crackle::tools {
 
-/// @param page  the template, holding the marker once
-/// @return the page's bytes: the same for the same results
-std::string report_page(std::string_view page, const std::string& title, const std::vector<TestResults>& tests);
+/// Frames shown where the user does not say: a step on a laptop's screen is a pixel of the curve.
+inline constexpr std::size_t default_page_frames = 500;
 
-/// Reads the folders, writes the page under a temporary name and renames it.
-/// @param title  empty: taken from the tests
-/// @throws InputError for folders without results, or where `output` is a file that is not a report
-void write_report(const std::vector<std::filesystem::path>& folders, const std::filesystem::path& output,
-                  const std::string& title = {});
+enum class PageView { report, view };  ///< tables and curves first, or the moving picture
+
+struct PageHead {
+    std::string title;  ///< empty: taken from the recordings
+    PageView view = PageView::report;
+};
+
+/// @param page  the template, holding each marker once
+/// @return the page's bytes: the same for the same recordings
+std::string filled_page(std::string_view page, const PageHead& head, const std::vector<Recording>& recordings,
+                        Talk& talk);
+
+/// Fills the page of this build and writes it under a temporary name, which is then renamed.
+/// @throws InputError in a build without the page, or where `output` is a file that is no page of ours
+void write_page(const std::filesystem::path& output, const PageHead& head, const std::vector<Recording>& recordings,
+                Talk& talk);
+
+/// What -v tells of a recording.
+void tell_recording(Talk& talk, const Recording& recording);
 
 }  // namespace crackle::tools

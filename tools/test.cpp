@@ -2,86 +2,20 @@
 // `crackle test CASE.toml -o OUT`: one virtual test.
 
 #include <fmt/format.h>
-#include <unistd.h>
 
-#include <atomic>
-#include <boost/program_options.hpp>
-#include <csignal>
+#include <filesystem>
 #include <iostream>
 #include <string>
 
 #include "solver/errors.hpp"
 #include "specimens/observers/profile_report.hpp"
+#include "specimens/output_folder.hpp"
 #include "specimens/virtual_test.hpp"
 #include "tools/commands.hpp"
+#include "tools/interrupt.hpp"
 
 namespace crackle::tools {
 namespace {
-
-namespace po = boost::program_options;
-
-std::atomic<bool> stop_asked{false};
-static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler");
-
-extern "C" void ask_test_to_stop(int) { stop_asked = true; }
-
-constexpr const char* test_usage =
-    "usage: crackle test CASE.toml -o OUT [OPTIONS]\n"
-    "       crackle test --resume OUT [OPTIONS]\n\n"
-    "Makes the specimen that CASE.toml describes, bonds it with its platens, loads it until it fails, and writes into "
-    "OUT:\n"
-    "curve.csv, events.csv, summary.json, frames/ (ParaView), checkpoint, and case.toml with every value in the "
-    "open.\n\n";
-
-constexpr const char* test_examples =
-    "\nexamples:\n"
-    "  crackle test specimens/guide_rock/circles_tension.toml -o out/circles-tension\n"
-    "  crackle test case.toml -o out/case --threads 2 -q\n"
-    "  crackle test case.toml -o out/case --verify\n"
-    "  crackle test case.toml -o out/case --profile\n"
-    "  crackle test --resume out/case           goes on after an interrupt, to the bytes of an uninterrupted test\n"
-    "  crackle test --keys                      all keys of a case, with units, defaults and ranges\n";
-
-po::options_description test_options() {
-    po::options_description options("options");
-    options.add_options()("help,h", "this text")                                                                 //
-        ("output,o", po::value<std::string>(), "folder for the results")                                         //
-        ("force", "replace the results in OUT once the new ones are complete")                                   //
-        ("resume", po::value<std::string>(), "go on with the test in this folder from its last checkpoint")      //
-        ("verify", "run the test's companions too (half step, half rate, half and double damping): error bars")  //
-        ("profile", "time the phases of a step: a table, and `profile` in summary.json")                         //
-        ("threads", po::value<int>(), "threads (default: the case's); results do not depend on them")            //
-        ("allow-unstable", "accept a time step above the stable bound, and runaway energy")                      //
-        ("keys", "list all keys of a case")                                                                      //
-        ("quiet,q", "no progress, no notices, no figures");
-    return options;
-}
-
-/// One line that is written over, on a terminal only.
-class ProgressLine {
-  public:
-    explicit ProgressLine(bool wanted) : shown_(wanted && isatty(STDERR_FILENO) != 0) {}
-    ProgressLine(const ProgressLine&) = delete;
-    ProgressLine& operator=(const ProgressLine&) = delete;
-    ~ProgressLine() { clear(); }
-
-    bool shown() const { return shown_; }
-    void show(const TestProgress& p) const {
-        std::cerr << fmt::format(
-                         "\r\x1b[K{:5.1f} %  strain {:.3e}  stress {:.3e} N/m (peak {:.3e})  {} bonds broken  {:.3g} "
-                         "steps/s  at "
-                         "most {:.0f} s left",
-                         100.0 * p.share_done, p.axial_strain, p.axial_stress, p.peak_stress, p.bonds_broken,
-                         p.steps_per_second, p.seconds_left)
-                  << std::flush;
-    }
-    void clear() const {
-        if (shown_) std::cerr << "\r\x1b[K" << std::flush;
-    }
-
-  private:
-    bool shown_;
-};
 
 std::string shown(const nlohmann::ordered_json& summary, const std::string& key) {
     const auto value = summary.find(key);
@@ -120,56 +54,109 @@ void print_figures(const TestOutcome& outcome) {
     std::cout << "  results in " << outcome.folder.string() << '\n';
 }
 
-TestHooks hooks_for(const ProgressLine& line, bool quiet) {
+TestHooks hooks_for(Talk& talk) {
     TestHooks hooks;
-    hooks.interrupted = [] { return stop_asked.load(); };
-    if (!quiet) hooks.stage = [](const std::string& text) { std::cerr << text << '\n'; };
-    if (line.shown()) hooks.progress = [&line](const TestProgress& p) { line.show(p); };
+    hooks.interrupted = interrupted;
+    if (!talk.quiet()) hooks.stage = [&talk](const std::string& text) { talk.stage(text); };
+    if (talk.verbose()) hooks.detail = [&talk](const std::string& text) { talk.detail(text); };
+    if (!talk.progress().shown()) return hooks;
+    hooks.working = [&talk](const std::string& what) { talk.progress().draw({.detail = what}); };
+    hooks.progress = [&talk](const TestProgress& p) {
+        talk.progress().draw({.share = p.share_done,
+                              .rate = p.steps_per_second,
+                              .unit = "steps",
+                              .seconds_left = p.seconds_left,
+                              .detail = fmt::format("strain {:.3e}, {:.3e} N/m (peak {:.3e}), {} bonds broken",
+                                                    p.axial_strain, p.axial_stress, p.peak_stress, p.bonds_broken)});
+    };
     return hooks;
 }
 
-int finish(const TestOutcome& outcome, const std::string& wanted, bool quiet) {
+/// What -v tells of a test that has ended.
+void tell_details(Talk& talk, const TestOutcome& outcome) {
+    if (!talk.verbose()) return;
+    const auto& s = outcome.summary;
+    talk.detail(fmt::format("{} steps in {} s on {} threads; mean time step {} s", shown(s, "steps"),
+                            shown(s, "step_seconds"), shown(s, "threads"), shown(s, "time_step_mean")));
+    std::uintmax_t files = 0, bytes = 0;
+    std::error_code vanished;
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(outcome.folder, vanished)) {
+        if (!entry.is_regular_file(vanished)) continue;
+        ++files;
+        bytes += entry.file_size(vanished);
+    }
+    talk.detail(fmt::format("{} files, {} bytes in {}", files, bytes, outcome.folder.string()));
+}
+
+int finish(const TestOutcome& outcome, const std::string& wanted, Talk& talk) {
+    const bool quiet = talk.quiet();
+    talk.make_room();
+    tell_details(talk, outcome);
     if (outcome.was_finished) {
         if (!quiet) std::cout << outcome.folder.string() << ": the test is finished, nothing is left to do\n";
+        const std::string newer = outcome.folder.string() + ".new";
+        if (holds_test_results(newer))
+            talk.notice(
+                fmt::format("{0} holds one that was to replace it; go on with `crackle test --resume {0}`", newer));
         return exit_done;
     }
     if (!quiet) print_figures(outcome);
     if (outcome.unverified) {
-        std::cerr << fmt::format(
-            "crackle: the test is complete, its companions were interrupted and no error is stated; `crackle test "
-            "--resume {} --verify` runs them again\n",
-            outcome.folder.string());
+        tell_error(fmt::format(
+            "the test is complete, its companions were interrupted and no error is stated; `crackle test --resume {} "
+            "--verify` runs them again",
+            outcome.folder.string()));
         return exit_interrupted;
     }
     if (!outcome.interrupted) return exit_done;
-    if (outcome.folder != std::filesystem::path(wanted) && !quiet) {
-        std::cerr << fmt::format("crackle: earlier results in {} are as they were\n", wanted);
+    if (outcome.folder != std::filesystem::path(wanted)) {
+        talk.notice(fmt::format("earlier results in {} are as they were", wanted));
     }
-    std::cerr << fmt::format("crackle: interrupted; go on with `crackle test --resume {}`\n", outcome.folder.string());
+    tell_error(fmt::format("interrupted; go on with `crackle test --resume {}`", outcome.folder.string()));
     return exit_interrupted;
 }
 
 }  // namespace
 
-int test(const Arguments& arguments) {
+CommandLine describe_test() {
+    po::options_description options;
+    options.add_options()("output,o", po::value<std::string>()->value_name("OUT"), "folder for the results")  //
+        ("force", "replace the results in OUT once the new ones are complete")                                //
+        ("resume", po::value<std::string>()->value_name("OUT"),
+         "go on with the test in this folder from its last checkpoint")                                          //
+        ("verify", "run the test's companions too (half step, half rate, half and double damping): error bars")  //
+        ("profile", "time the phases of a step: a table, and `profile` in summary.json")                         //
+        ("threads", po::value<int>()->value_name("N"),
+         "threads (default: the case's); results do not depend on them")                     //
+        ("allow-unstable", "accept a time step above the stable bound, and runaway energy")  //
+        ("keys", "list all keys of a case");
+    return {.synopses = {"crackle test CASE.toml -o OUT [OPTIONS]", "crackle test --resume OUT [OPTIONS]"},
+            .description =
+                "Makes the specimen that CASE.toml describes, bonds it with its platens, loads it until it fails, and "
+                "writes into OUT: curve.csv, events.csv, summary.json, frames/ (ParaView), checkpoint, and case.toml "
+                "with every value in the open.",
+            .options = {{"options", options}},
+            .operand = "CASE.toml",
+            .verbose = "seconds of each stage, bodies and contacts, the time step and why, bytes written",
+            .examples = {{"crackle test specimens/guide_rock/circles_tension.toml -o out/circles-tension"},
+                         {"crackle test case.toml -o out/case --threads 2 -q"},
+                         {"crackle test case.toml -o out/case --verify"},
+                         {"crackle test case.toml -o out/case --profile"},
+                         {"crackle test --resume out/case",
+                          "goes on after an interrupt, to the bytes of an "
+                          "uninterrupted test"},
+                         {"crackle test --keys", "all keys of a case, with units, defaults and ranges"}}};
+}
+
+int test(const Invocation& given) {
     TestOptions options;  // takes the time
-    po::options_description all = test_options();
-    all.add_options()("case", po::value<std::string>(), "");
-    po::positional_options_description positional;
-    positional.add("case", 1);
-    po::variables_map values;
-    po::store(po::command_line_parser(arguments).options(all).positional(positional).run(), values);
-    po::notify(values);
-    if (values.contains("help")) {
-        std::cout << test_usage << test_options() << test_examples;
-        return exit_done;
-    }
+    const po::variables_map& values = given.values;
     if (values.contains("keys")) {
         describe_case_keys(std::cout);
         return exit_done;
     }
     const bool resume = values.contains("resume");
-    if (resume == values.contains("case")) {
+    if (resume != given.operands.empty()) {
         throw InputError(
             resume
                 ? "crackle test: found CASE.toml and --resume, expected one of them; a resumed test has its case in OUT"
@@ -192,29 +179,24 @@ int test(const Arguments& arguments) {
     options.profile = values.contains("profile");
     options.threads = values.contains("threads") ? values["threads"].as<int>() : 0;
     options.command = "crackle test";
-    for (const std::string& word : arguments) options.command += ' ' + word;
-    const bool quiet = values.contains("quiet");
-    std::signal(SIGINT, ask_test_to_stop);
-    std::signal(SIGTERM, ask_test_to_stop);
-
-    const ProgressLine line(!quiet);
-    const TestHooks hooks = hooks_for(line, quiet);
+    for (const std::string& word : given.words) options.command += ' ' + word;
+    watch_interrupts();
+    const TestHooks hooks = hooks_for(given.talk);
     TestOutcome outcome;
     if (resume) {
         outcome = resume_test(options, hooks);
     } else {
-        TestCase description = read_case(values["case"].as<std::string>());
+        TestCase description = read_case(given.operands.front());
         if (values.contains("allow-unstable")) description.numerics.allow_unstable = true;
         try {
             outcome = run_test(description, options, hooks);
         } catch (const TestInterrupted& stop) {
-            line.clear();
-            std::cerr << "crackle: " << stop.what() << '\n';
+            given.talk.make_room();
+            tell_error(stop.what());
             return exit_interrupted;
         }
     }
-    line.clear();
-    return finish(outcome, options.folder.string(), quiet);
+    return finish(outcome, options.folder.string(), given.talk);
 }
 
 }  // namespace crackle::tools

@@ -58,7 +58,8 @@ std::string read_text_file(const std::filesystem::path& path) {
     return std::move(text).str();
 }
 
-DeckReader::DeckReader(std::string name, std::string text) : name_(std::move(name)), text_(std::move(text)) {
+DeckReader::DeckReader(std::string name, std::string text, int first_line)
+    : name_(std::move(name)), text_(std::move(text)), line_(first_line), token_line_(first_line) {
     if (text_.starts_with("\xef\xbb\xbf")) position_ = 3;  // byte order mark that some editors put in front
 }
 

@@ -17,7 +17,8 @@ namespace crackle {
 class DeckReader {
   public:
     /// @param name used in messages, as the user would write the file's path.
-    DeckReader(std::string name, std::string text);
+    /// @param first_line of the text, in its file
+    DeckReader(std::string name, std::string text, int first_line = 1);
 
     /// @throws InputError if the file cannot be read.
     static DeckReader open(const std::filesystem::path& path);
@@ -51,8 +52,8 @@ class DeckReader {
     std::string text_;
     std::string_view token_;  // into text_
     std::size_t position_ = 0;
-    int line_ = 1;        // of position_
-    int token_line_ = 1;  // of token_
+    int line_;        // of position_
+    int token_line_;  // of token_
 };
 
 /// Whole contents. @throws InputError if the file cannot be read.

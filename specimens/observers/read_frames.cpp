@@ -9,7 +9,9 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <fstream>
 #include <pugixml.hpp>
+#include <string>
 
 #include "solver/errors.hpp"
 #include "specimens/observers/base64.hpp"
@@ -151,6 +153,15 @@ void append_cells(const std::filesystem::path& file, const pugi::xml_node& list,
     }
 }
 
+std::map<std::string, double> field_values_of(const std::filesystem::path& file, const pugi::xml_node& fields) {
+    std::map<std::string, double> all;
+    for (const pugi::xml_node array : fields.children("DataArray")) {
+        const std::vector<double> values = read_array(file, array);
+        if (values.size() == 1) all[array.attribute("Name").value()] = values.front();
+    }
+    return all;
+}
+
 const std::vector<double>& column(const std::filesystem::path& file, const PolyData& data, const char* name) {
     const auto found = data.cell_data.find(name);
     if (found == data.cell_data.end() || found->second.size() != data.cells.size()) {
@@ -188,11 +199,21 @@ PolyData read_polydata(const std::filesystem::path& file) {
     for (const pugi::xml_node array : piece.child("CellData").children("DataArray")) {
         data.cell_data[array.attribute("Name").value()] = read_array(file, array);
     }
-    for (const pugi::xml_node array : root.child("PolyData").child("FieldData").children("DataArray")) {
-        const std::vector<double> values = read_array(file, array);
-        if (values.size() == 1) data.field_values[array.attribute("Name").value()] = values.front();
-    }
+    data.field_values = field_values_of(file, root.child("PolyData").child("FieldData"));
     return data;
+}
+
+std::map<std::string, double> read_field_values(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    if (!in) throw InputError(fmt::format("{}: file not found, expected a frame of a test", file.string()));
+    std::string text, line;
+    constexpr std::size_t most = 1 << 16;  // a few numbers
+    while (text.size() < most && line != "</FieldData>" && std::getline(in, line)) text += line + '\n';
+    const std::size_t begin = text.find("<FieldData>");
+    pugi::xml_document document;
+    if (begin == std::string::npos || line != "</FieldData>" || !document.load_string(text.c_str() + begin))
+        refuse(file, "found no FieldData at its beginning");
+    return field_values_of(file, document.child("FieldData"));
 }
 
 ParticleFrame read_particle_frame(const std::filesystem::path& file) {

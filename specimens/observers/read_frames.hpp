@@ -27,6 +27,9 @@ struct PolyData {
 /// @throws InputError naming the file and what is missing or broken in it
 PolyData read_polydata(const std::filesystem::path& file);
 
+/// The file's field_values alone, which stand at its beginning. @throws InputError as above
+std::map<std::string, double> read_field_values(const std::filesystem::path& file);
+
 /// One drawn element of a body: its outline, or one circle of it (a clump has several with its id).
 struct FrameBody {
     int id = 0;                 ///< as in the input

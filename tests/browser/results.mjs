@@ -2,6 +2,7 @@
 // What the tests know of a folder of results, read independently of the program and of the page.
 import {readFileSync} from 'node:fs';
 import {join} from 'node:path';
+import {inflateSync} from 'node:zlib';
 
 export function table(file) {
     const [names, ...rows] = readFileSync(file, 'utf8').trim().split('\n').map((line) => line.split(','));
@@ -27,4 +28,40 @@ export function stressAt(curve, strain) {
     if (after <= 0) return curve[Math.max(0, after)].axial_stress;
     const [a, b] = [curve[after - 1], curve[after]];
     return a.axial_stress + (b.axial_stress - a.axial_stress) * (strain - a.axial_strain) / (b.axial_strain - a.axial_strain);
+}
+
+/// One array of a VTK file: blocks compressed with zlib, their sizes before them, both in base64.
+function vtkArray(text, name, nth = 0) {
+    const found = [...text.matchAll(new RegExp(`<DataArray type="(\\w+)" Name="${name}"[^>]*>([^<]*)<`, 'g'))][nth];
+    const [, type, raw] = found, base64 = raw.trim();
+    const blocks = Number(Buffer.from(base64.slice(0, 12), 'base64').readBigUInt64LE(0));
+    const headLetters = 4 * Math.ceil(8 * (3 + blocks) / 3);
+    const head = Buffer.from(base64.slice(0, headLetters), 'base64'), data = Buffer.from(base64.slice(headLetters), 'base64');
+    const parts = [];
+    for (let block = 0, at = 0; block < blocks; ++block) {
+        const size = Number(head.readBigUInt64LE(8 * (3 + block)));
+        parts.push(inflateSync(data.subarray(at, at += size)));
+    }
+    const bytes = Buffer.concat(parts), buffer = bytes.buffer.slice(bytes.byteOffset, bytes.byteOffset + bytes.length);
+    return Array.from(new {Float64: Float64Array, Float32: Float32Array, Int32: Int32Array, Int64: BigInt64Array}[type](buffer), Number);
+}
+
+/// Particles of a frame by number: place (mean of the outline) and radius. Lines (platens) stand before polygons.
+export function particles(file) {
+    const text = readFileSync(file, 'utf8');
+    const points = vtkArray(text, 'points'), ids = vtkArray(text, 'id'), radii = vtkArray(text, 'radius');
+    const found = new Map();
+    let cell = 0;
+    for (const part of [0, 1]) {
+        const connectivity = vtkArray(text, 'connectivity', part);
+        let first = 0;
+        for (const end of vtkArray(text, 'offsets', part)) {
+            const corners = connectivity.slice(first, end);
+            const mean = (axis) => corners.reduce((sum, corner) => sum + points[3 * corner + axis], 0) / corners.length;
+            found.set(ids[cell], {x: mean(0), y: mean(1), radius: radii[cell]});
+            first = end;
+            ++cell;
+        }
+    }
+    return found;
 }

@@ -193,7 +193,7 @@ TEST_F(Report, LeavesAFileThatIsNotAReportAlone) {
     const std::string before = text_of(root / "test" / "curve.csv");
     const Outcome outcome = run("test -o test/curve.csv");
     EXPECT_EQ(outcome.code, 2);
-    EXPECT_NE(outcome.output.find("not a crackle report"), std::string::npos) << outcome.output;
+    EXPECT_NE(outcome.output.find("not a page of crackle"), std::string::npos) << outcome.output;
     EXPECT_EQ(text_of(root / "test" / "curve.csv"), before);
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bundles src/ into one page template without a single outside reference: page.html with script and style inlined.
-// `crackle report` puts the tests' data where the template says @CRACKLE_DATA@.
+// `crackle report` and `crackle view` put a manifest, the first block of each test and all further blocks at the markers.
 //   node build.mjs [output file, default dist/page.html]
 import {build} from 'esbuild';
 import {mkdir, readFile, writeFile} from 'node:fs/promises';
@@ -33,8 +33,9 @@ const filled = template
     .replace('@CRACKLE_STYLE@', () => style.trim())
     // An HTML parser ends the script at the first such tag, wherever it stands.
     .replace('@CRACKLE_SCRIPT@', () => script.trim().replaceAll('</script', '<\\/script'));
-if (filled.split('@CRACKLE_DATA@').length !== 2) {
-    throw new Error('the page must hold the marker @CRACKLE_DATA@ exactly once');
+for (const marker of ['@CRACKLE_DATA@', '@CRACKLE_FIRST@', '@CRACKLE_REST@']) {
+    const found = filled.split(marker).length - 1;
+    if (found !== 1) throw new Error(`the page must hold the marker ${marker} exactly once, found ${found}`);
 }
 await mkdir(dirname(output), {recursive: true});
 await writeFile(output, filled);

@@ -5,18 +5,14 @@
 //   polygon or platen     the parts of the two nearest parallel edges that face each other; where none do (corner on
 //                         corner), short ticks across the line of the two nearest corners
 
-import type {Bodies, Events} from './data';
-
-export interface Point {
-    x: number;
-    y: number;
-}
+import {centre, outline, reach, type Cells, type Point} from './cells';
+import type {Events} from './data';
 
 type Segment = [Point, Point];
 
 /// One side of a broken interface: a line that moves with its body.
 export interface CrackFace {
-    body: number; // index into Bodies
+    cell: number;
     from: Point; // m, first frame
     to: Point;
 }
@@ -36,23 +32,11 @@ const unit = (a: Point): Point => {
     return size > 0 ? {x: a.x / size, y: a.y / size} : {x: 1, y: 0};
 };
 
-export function outline(bodies: Bodies, body: number): Point[] {
-    const points: Point[] = [];
-    for (let at = bodies.firstPoint[body]!; at < bodies.firstPoint[body + 1]!; ++at) points.push({x: bodies.x[at]!, y: bodies.y[at]!});
-    return points;
-}
-
-function edges(bodies: Bodies, body: number): Segment[] {
-    const points = outline(bodies, body);
+function edges(cells: Cells, cell: number): Segment[] {
+    const points = outline(cells, cell);
     const joined: Segment[] = points.slice(1).map((point, index) => [points[index]!, point]);
-    if (bodies.open[body] !== 1 && points.length > 2) joined.push([points[points.length - 1]!, points[0]!]);
+    if (cells.open[cell] !== 1 && points.length > 2) joined.push([points[points.length - 1]!, points[0]!]);
     return joined;
-}
-
-export function centre(bodies: Bodies, body: number): Point {
-    const points = outline(bodies, body);
-    const sum = points.reduce((total, point) => ({x: total.x + point.x, y: total.y + point.y}), {x: 0, y: 0});
-    return {x: sum.x / points.length, y: sum.y / points.length};
 }
 
 function nearestOn([a, b]: Segment, point: Point): Point {
@@ -61,21 +45,21 @@ function nearestOn([a, b]: Segment, point: Point): Point {
     return along(a, direction, Math.min(1, Math.max(0, share)));
 }
 
-const tick = (body: number, at: Point, normal: Point, half: number): CrackFace => {
+const tick = (cell: number, at: Point, normal: Point, half: number): CrackFace => {
     const tangent = {x: -normal.y, y: normal.x};
-    return {body, from: along(at, tangent, -half), to: along(at, tangent, half)};
+    return {cell, from: along(at, tangent, -half), to: along(at, tangent, half)};
 };
 
-function circleFaces(bodies: Bodies, circle: number, other: number): CrackFace[] {
-    const from = centre(bodies, circle);
-    const radius = bodies.radius[circle]!;
-    if (bodies.radius[other]! > 0) {
-        const to = centre(bodies, other);
+function circleFaces(cells: Cells, circle: number, other: number): CrackFace[] {
+    const from = centre(cells, circle);
+    const radius = cells.radius[circle]!;
+    if (cells.radius[other]! > 0) {
+        const to = centre(cells, other);
         const normal = unit(minus(to, from));
-        const half = 0.6 * Math.min(radius, bodies.radius[other]!);
-        return [tick(circle, along(from, normal, radius), normal, half), tick(other, along(to, normal, -bodies.radius[other]!), normal, half)];
+        const half = 0.6 * Math.min(radius, cells.radius[other]!);
+        return [tick(circle, along(from, normal, radius), normal, half), tick(other, along(to, normal, -cells.radius[other]!), normal, half)];
     }
-    const candidates = edges(bodies, other).map((edge) => nearestOn(edge, from));
+    const candidates = edges(cells, other).map((edge) => nearestOn(edge, from));
     const nearest = candidates.reduce((best, point) =>
         (Math.hypot(point.x - from.x, point.y - from.y) < Math.hypot(best.x - from.x, best.y - from.y) ? point : best));
     const normal = unit(minus(nearest, from));
@@ -96,54 +80,50 @@ function facing(a: Segment, b: Segment): {first: Segment; second: Segment; lengt
     return {first, second, length: high - low, gap};
 }
 
-function outlineFaces(bodies: Bodies, i: number, j: number): CrackFace[] {
+function outlineFaces(cells: Cells, i: number, j: number): CrackFace[] {
     let best: ReturnType<typeof facing>;
-    for (const a of edges(bodies, i)) {
-        for (const b of edges(bodies, j)) {
+    for (const a of edges(cells, i)) {
+        for (const b of edges(cells, j)) {
             const found = facing(a, b);
             // A long overlap counts, a wide gap counts more against it: edges on the far sides lose.
             if (found && found.gap < found.length && (!best || found.length - 4 * found.gap > best.length - 4 * best.gap)) best = found;
         }
     }
-    if (best) return [{body: i, from: best.first[0], to: best.first[1]}, {body: j, from: best.second[0], to: best.second[1]}];
+    if (best) return [{cell: i, from: best.first[0], to: best.first[1]}, {cell: j, from: best.second[0], to: best.second[1]}];
 
     let nearest: {a: Point; b: Point; distance: number} | undefined;
     const consider = (a: Point, b: Point) => {
         const distance = Math.hypot(a.x - b.x, a.y - b.y);
         if (!nearest || distance < nearest.distance) nearest = {a, b, distance};
     };
-    for (const corner of outline(bodies, i)) for (const edge of edges(bodies, j)) consider(corner, nearestOn(edge, corner));
-    for (const corner of outline(bodies, j)) for (const edge of edges(bodies, i)) consider(nearestOn(edge, corner), corner);
+    for (const corner of outline(cells, i)) for (const edge of edges(cells, j)) consider(corner, nearestOn(edge, corner));
+    for (const corner of outline(cells, j)) for (const edge of edges(cells, i)) consider(nearestOn(edge, corner), corner);
     if (!nearest) return [];
     const normal = unit(minus(nearest.b, nearest.a));
-    const half = Math.max(2 * nearest.distance, 0.1 * Math.min(size(bodies, i), size(bodies, j)));
+    const half = Math.max(2 * nearest.distance, 0.1 * Math.min(reach(cells, i), reach(cells, j)));
     return [tick(i, nearest.a, normal, half), tick(j, nearest.b, normal, half)];
 }
 
-function size(bodies: Bodies, body: number): number {
-    const points = outline(bodies, body);
-    const middle = centre(bodies, body);
-    return Math.max(...points.map((point) => Math.hypot(point.x - middle.x, point.y - middle.y)));
-}
-
-function facesOf(bodies: Bodies, i: number, j: number): CrackFace[] {
-    if (bodies.radius[i]! > 0) return circleFaces(bodies, i, j);
-    if (bodies.radius[j]! > 0) return circleFaces(bodies, j, i);
-    return outlineFaces(bodies, i, j);
+/// The two faces of the interface of two cells.
+export function facesOf(cells: Cells, i: number, j: number): CrackFace[] {
+    if (cells.radius[i]! > 0) return circleFaces(cells, i, j);
+    if (cells.radius[j]! > 0) return circleFaces(cells, j, i);
+    return outlineFaces(cells, i, j);
 }
 
 /// How far the surfaces of two drawn elements are apart, about: tells which circles of two clumps touched.
-function gap(bodies: Bodies, i: number, j: number): number {
-    const a = centre(bodies, i), b = centre(bodies, j);
-    return Math.hypot(a.x - b.x, a.y - b.y) - bodies.radius[i]! - bodies.radius[j]!;
+function gap(cells: Cells, i: number, j: number): number {
+    const a = centre(cells, i), b = centre(cells, j);
+    return Math.hypot(a.x - b.x, a.y - b.y) - cells.radius[i]! - cells.radius[j]!;
 }
 
 /// One crack a pair of bodies, in the order of their first breaks.
-export function findCracks(bodies: Bodies, events: Events): Crack[] {
+export function findCracks(cells: Cells, events: Events): Crack[] {
     const elementsOf = new Map<number, number[]>(); // several for a clump
-    for (let element = 0; element < bodies.id.length; ++element) {
-        const id = bodies.id[element]!;
-        elementsOf.set(id, [...(elementsOf.get(id) ?? []), element]);
+    for (let element = 0; element < cells.count; ++element) {
+        const id = cells.id[element]!, elements = elementsOf.get(id);
+        if (elements) elements.push(element);
+        else elementsOf.set(id, [element]);
     }
     const cracks = new Map<string, Crack>();
     for (let event = 0; event < events.count; ++event) {
@@ -151,13 +131,45 @@ export function findCracks(bodies: Bodies, events: Events): Crack[] {
         const key = ids[0] < ids[1] ? `${ids[0]} ${ids[1]}` : `${ids[1]} ${ids[0]}`;
         let crack = cracks.get(key);
         if (!crack) {
-            const pairs = (elementsOf.get(ids[0]) ?? []).flatMap((i) => (elementsOf.get(ids[1]) ?? []).map((j) => ({i, j, gap: gap(bodies, i, j)})));
+            const pairs = (elementsOf.get(ids[0]) ?? []).flatMap((i) => (elementsOf.get(ids[1]) ?? []).map((j) => ({i, j, gap: gap(cells, i, j)})));
             if (pairs.length === 0) throw new Error(`break ${event + 1}: body ${ids[0]} or ${ids[1]} is not drawn`);
             const {i, j} = pairs.reduce((best, pair) => (pair.gap < best.gap ? pair : best));
-            crack = {faces: facesOf(bodies, i, j), breaks: []};
+            crack = {faces: facesOf(cells, i, j), breaks: []};
             cracks.set(key, crack);
         }
         crack.breaks.push({time: events.time[event]!, shear: events.shear[event] === 1, last: events.last[event] === 1});
     }
     return [...cracks.values()];
+}
+
+/// One crack as it stands at a time; undefined before its first break.
+export interface CrackState {
+    shear: boolean; // most of its breaks were in shear mode
+    parted: boolean; // no bonded point of the interface holds any more
+    since: number; // s, first break
+}
+
+export function crackState(crack: Crack, time: number): CrackState | undefined {
+    let broken = 0, shear = 0, parted = false;
+    for (const one of crack.breaks) {
+        if (one.time > time) continue;
+        broken += 1;
+        if (one.shear) shear += 1;
+        if (one.last) parted = true;
+    }
+    return broken === 0 ? undefined : {shear: 2 * shear > broken, parted, since: crack.breaks[0]!.time};
+}
+
+export interface BrokenSoFar {
+    tension: number; // bonded points
+    shear: number;
+}
+
+/// Bonded points broken up to a time. A frame written right after a break carries its time.
+export function brokenUntil(events: Events, time: number): BrokenSoFar {
+    const counts = {tension: 0, shear: 0};
+    for (let event = 0; event < events.count; ++event) {
+        if (events.time[event]! <= time) counts[events.shear[event] === 1 ? 'shear' : 'tension'] += 1;
+    }
+    return counts;
 }

@@ -12,6 +12,7 @@ import type {ECharts} from 'echarts/core';
 import {SVGRenderer} from 'echarts/renderers';
 import type {CustomSeriesRenderItemAPI, CustomSeriesRenderItemParams} from 'echarts/types/dist/shared';
 
+import {Cursor} from './cursor';
 import {peakOf, type TestData} from './data';
 import {element} from './dom';
 import type {Member, Panel} from './grouping';
@@ -248,6 +249,11 @@ export function drawPanel(container: HTMLElement, panel: Panel, theme: Theme): E
     chart.setOption(panelOption(panel, theme));
     chart.getZr().on('dblclick', () => chart.dispatchAction({type: 'dataZoom', start: 0, end: 100}));
     return chart;
+}
+
+/// The cursor that the panel shares with the specimens, from the top of the curves to the foot of the lowest strip.
+export function panelCursor(chart: ECharts, onClick: (strain: number) => void): Cursor {
+    return new Cursor(chart, top, bottom, onClick);
 }
 
 /// The panel as a file for a paper: SVG text.

@@ -22,10 +22,36 @@ export function svgElement(tag: string, attributes: Record<string, string | numb
 }
 
 /// Hands the reader a file made in the page.
-export function saveFile(name: string, type: string, text: string): void {
-    const address = URL.createObjectURL(new Blob([text], {type}));
+export function saveFile(name: string, type: string, content: BlobPart): void {
+    const address = URL.createObjectURL(new Blob([content], {type}));
     element('a', {href: address, download: name}).click();
-    setTimeout(() => URL.revokeObjectURL(address), 1000);
+    setTimeout(() => URL.revokeObjectURL(address), 10000);
+}
+
+export function svgText(svg: SVGElement): string {
+    return new XMLSerializer().serializeToString(svg);
+}
+
+export function button(content: Child, title: string, onClick: () => void, attributes: Record<string, string> = {}): HTMLButtonElement {
+    const made = element('button', {type: 'button', title, ...attributes}, content);
+    made.addEventListener('click', onClick);
+    return made;
+}
+
+export function checkbox(label: string, checked: boolean, onChange: (checked: boolean) => void, attributes: Record<string, string> = {}): HTMLLabelElement {
+    const box = element('input', {type: 'checkbox', ...attributes});
+    box.checked = checked;
+    box.addEventListener('change', () => onChange(box.checked));
+    return element('label', {class: 'check'}, box, label);
+}
+
+export function select<T extends string>(
+    label: string, options: readonly {value: T; text: string}[], chosen: T, onChange: (value: T) => void, attributes: Record<string, string> = {},
+): HTMLLabelElement {
+    const list = element('select', attributes, ...options.map(({value, text}) => element('option', {value}, text)));
+    list.value = chosen;
+    list.addEventListener('change', () => onChange(list.value as T));
+    return element('label', {class: 'select'}, element('span', {}, label), list);
 }
 
 /// A row of buttons of which one is chosen.

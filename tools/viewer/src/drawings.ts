@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The figure of specimens: a card for each test with the drawings of start, peak and end side by side, all at one scale.
 
-import {findCracks, type Crack} from './cracks';
-import {element, saveFile} from './dom';
+import {brokenUntil} from './cracks';
+import {element, saveFile, svgText} from './dom';
+import type {Extent} from './extent';
+import type {Frame} from './frames';
 import {sortedBy, type Styled} from './grouping';
-import {brokenUntil, drawSpecimen, extentOfTest, type Extent} from './specimen';
+import {drawSpecimen, extentOfMoments} from './specimen';
+import type {SpecimenView} from './specimen_view';
 import type {Theme} from './theme';
 import {counted, quantity, strain} from './units';
 
@@ -18,20 +21,34 @@ function roleName(styled: Styled, role: keyof typeof roleNames): string {
     return role === 'peak' && !styled.test.failed ? 'Peak so far' : roleNames[role];
 }
 
-function card(styled: Styled, cracks: Crack[], extent: Extent, pixelsPerMetre: number, magnification: number, theme: Theme): HTMLElement {
-    const {test} = styled;
+/// The frames of a test that have a role, in their order.
+export interface Moments {
+    view: SpecimenView;
+    frames: Frame[];
+}
+
+export async function momentsOf(view: SpecimenView): Promise<Moments> {
+    const wanted = view.test.frames.flatMap(({role}, index) => (role ? [index] : []));
+    const frames: Frame[] = [];
+    for (const index of wanted) frames.push(await view.frames.load(index));
+    return {view, frames};
+}
+
+function card({view, frames}: Moments, extent: Extent, pixelsPerMetre: number, magnification: number, theme: Theme): HTMLElement {
+    const {styled, test, cracks} = view;
     const width = test.summary['initial_width'], height = test.summary['initial_height'];
     const size = typeof width === 'number' && typeof height === 'number' ? `${quantity(width, 'm')} × ${quantity(height, 'm')}` : '';
     const row = element('div', {class: 'moments'});
-    for (const [index, frame] of test.frames.entries()) {
-        const broken = brokenUntil(cracks, frame.time);
+    for (const [index, frame] of frames.entries()) {
+        const role = frame.entry.role!;
+        const broken = brokenUntil(test.events, frame.time);
         const drawing = drawSpecimen({test, cracks, frame, extent, pixelsPerMetre, magnification, scaleBar: index === 0}, theme);
         const save = element('button', {type: 'button', class: 'save', title: 'Save this drawing as SVG'}, 'SVG');
-        save.addEventListener('click', () => saveFile(`${test.name}-${frame.role}.svg`, 'image/svg+xml', new XMLSerializer().serializeToString(drawing)));
+        save.addEventListener('click', () => saveFile(`${test.name}-${role}.svg`, 'image/svg+xml', svgText(drawing)));
         row.append(element('figure', {},
             drawing,
             element('figcaption', {},
-                element('b', {}, roleName(styled, frame.role)), ` ε = ${strain(frame.strain)}`, element('br'),
+                element('b', {}, roleName(styled, role)), ` ε = ${strain(frame.strain)}`, element('br'),
                 `${counted(broken.tension + broken.shear)} broken`, save)));
     }
     return element('article', {class: 'card', 'data-test': test.name},
@@ -39,13 +56,13 @@ function card(styled: Styled, cracks: Crack[], extent: Extent, pixelsPerMetre: n
         row);
 }
 
-export function drawings(tests: Styled[], magnification: number, theme: Theme): HTMLElement[] {
-    const drawn = sortedBy('specimen', tests).filter(({test}) => test.frames.length > 0);
-    const extents = drawn.map(({test}) => extentOfTest(test, magnification));
+export function drawings(moments: Moments[], magnification: number, theme: Theme): HTMLElement[] {
+    const order = sortedBy('specimen', moments.map(({view}) => view.styled)).map(({test}) => test);
+    const drawn = moments.filter(({frames}) => frames.length > 0).sort((a, b) => order.indexOf(a.view.test) - order.indexOf(b.view.test));
+    const extents = drawn.map(({view, frames}) => extentOfMoments(view.test, frames, magnification));
     const scales = extents.map((extent, index) => Math.min(drawnHeight / (extent.y2 - extent.y1),
-        (cardWidth / drawn[index]!.test.frames.length - 16) / (extent.x2 - extent.x1)));
+        (cardWidth / drawn[index]!.frames.length - 16) / (extent.x2 - extent.x1)));
     // One scale for all, unless sizes differ so much that small specimens would be lost.
     const smallest = Math.min(...scales), shared = Math.max(...scales) < 2 * smallest;
-    return drawn.map((styled, index) =>
-        card(styled, findCracks(styled.test.bodies, styled.test.events), extents[index]!, shared ? smallest : scales[index]!, magnification, theme));
+    return drawn.map((one, index) => card(one, extents[index]!, shared ? smallest : scales[index]!, magnification, theme));
 }

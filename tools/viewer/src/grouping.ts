@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which tests share a panel, what each is called there, and how its curve looks.
 
-import type {TestData} from './data';
+import type {CurvedTest, TestData} from './data';
 
 export type View = 'kind' | 'specimen' | 'test';
 
 /// How one test appears wherever it is shown.
-export interface Styled {
-    test: TestData;
+export interface Styled<Test extends TestData = TestData> {
+    test: Test;
     colour: number; // index into Theme.series
     label: string; // full name, unique in the report
 }
 
-export interface Member extends Styled {
+export interface Member extends Styled<CurvedTest> {
     shortLabel: string; // name inside its panel
     dashed: boolean;
 }
@@ -46,7 +46,7 @@ function ordered(values: string[], order: string[]): string[] {
 /// Tests named by specimen and kind where that tells them apart (colour = specimen), else by folder (colour = test).
 export function style(tests: TestData[]): Styled[] {
     const name = (test: TestData) => `${specimenName(test)}, ${test.kind}`;
-    const tellsApart = unique(tests.map(name)).length === tests.length;
+    const tellsApart = unique(tests.map(name)).length === tests.length && tests.every((test) => test.curve);
     const specimens = ordered(tests.map((test) => test.specimen), specimenOrder);
     const folders = unique(tests.map((test) => test.name));
     return tests.map((test, index) => {
@@ -71,7 +71,7 @@ function shortLabel(panelView: View, styled: Styled): string {
     return panelView === 'kind' ? specimenName(styled.test) : capitalised(styled.test.kind);
 }
 
-export function panels(styled: Styled[], view: View): Panel[] {
+export function panels(styled: Styled<CurvedTest>[], view: View): Panel[] {
     if (view === 'test') {
         return styled.map((one) => ({title: one.label, members: [{...one, shortLabel: shortLabel('specimen', one), dashed: false}]}));
     }
@@ -92,7 +92,7 @@ export function panels(styled: Styled[], view: View): Panel[] {
 }
 
 /// Tests sorted by kind, then specimen (the table's columns), or by specimen, then kind (the rows of drawings).
-export function sortedBy(first: 'kind' | 'specimen', styled: Styled[]): Styled[] {
+export function sortedBy<Test extends TestData>(first: 'kind' | 'specimen', styled: Styled<Test>[]): Styled<Test>[] {
     const rank = (order: string[], value: string) => (order.includes(value) ? order.indexOf(value) : order.length);
     const kindRank = (one: Styled) => rank(kindOrder, one.test.kind);
     const specimenRank = (one: Styled) => rank(specimenOrder, one.test.specimen);
@@ -104,4 +104,8 @@ export function sortedBy(first: 'kind' | 'specimen', styled: Styled[]): Styled[]
             return (first === 'kind' ? byKind || bySpecimen : bySpecimen || byKind) || a.index - b.index;
         })
         .map(({one}) => one);
+}
+
+export function withCurve(styled: Styled[]): Styled<CurvedTest>[] {
+    return styled.filter((one): one is Styled<CurvedTest> => one.test.curve !== undefined);
 }

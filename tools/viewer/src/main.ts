@@ -1,15 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Builds the page: title, curves, summaries, drawings; draws the figures anew when theme, view, size or paper change.
+// Builds the page: title, curves, viewer, breaks, fragments, summaries, drawings; draws the figures anew when theme, view, size
+// or paper change.
 
 import type {ECharts} from 'echarts/core';
 
-import {drawPanel, panelAsSvg} from './curves';
-import {readReport, type Report} from './data';
-import {choice, element, saveFile} from './dom';
-import {drawings, magnifications} from './drawings';
-import {panels, style, viewsFor, type Styled, type View} from './grouping';
+import {breakCard, type MapColour} from './breaks';
+import {particleCount} from './cells';
+import {momentOfStrain} from './clock';
+import type {Cursor} from './cursor';
+import {drawPanel, panelAsSvg, panelCursor} from './curves';
+import {readReport, type CurvedTest, type Report} from './data';
+import {button, choice, element, saveFile} from './dom';
+import {drawings, momentsOf, type Moments, magnifications} from './drawings';
+import {fragmentCard} from './fragments';
+import {panels, sortedBy, style, viewsFor, withCurve, type Panel, type Styled, type View} from './grouping';
+import {expose} from './hook';
+import {Inspector} from './inspector';
+import {listen} from './keyboard';
+import {directionWidth} from './rose';
+import {SpecimenView} from './specimen_view';
 import {summaryTable} from './table';
 import {currentTheme} from './theme';
+import {counted, forgetUnits, strainFactor} from './units';
+import {Viewer} from './viewer';
+import {ViewerControls} from './viewer_controls';
 
 const viewNames: Record<View, string> = {kind: 'Kind of test', specimen: 'Specimen', test: 'Each test'};
 
@@ -18,86 +32,192 @@ interface State {
     magnification: number;
 }
 
+interface Chart {
+    chart: ECharts;
+    panel: Panel;
+    cursor: Cursor;
+}
+
 class Page {
-    private charts: ECharts[] = [];
+    private charts: Chart[] = [];
     private readonly state: State = {view: 'kind', magnification: 1};
     private readonly tests: Styled[];
+    private readonly views: SpecimenView[];
+    private viewer: Viewer | undefined;
+    private controls: ViewerControls | undefined;
+    private moments: Moments[] = [];
+    private breakCharts: ECharts[] = [];
+    private mapColour: MapColour = 'mode';
+    private readonly breakHolder = element('div', {class: 'cards'});
+    private readonly fragmentHolder = element('div', {class: 'cards'});
+    private readonly fragmentSection = element('section', {id: 'fragments', hidden: ''});
     private readonly panelHolder = element('div', {class: 'panels'});
     private readonly cardHolder = element('div', {class: 'cards'});
 
     constructor(private readonly report: Report, private readonly root: HTMLElement) {
         this.tests = style(report.tests);
+        this.views = this.tests.map((styled) => new SpecimenView(styled));
+        document.title = report.title;
+        document.documentElement.dataset['view'] = report.view;
         this.layOut();
-        this.draw();
+    }
+
+    /// Draws what needs no frames, the viewer first; then what must wait for them.
+    async draw(): Promise<void> {
+        this.applyTheme();
+        if (this.viewer) {
+            this.viewer.start();
+            this.controls?.build();
+            await this.firstPicture(this.viewer);
+        }
+        this.drawCurves();
+        this.drawBreaks();
         this.watch();
+        for (const view of this.views) this.moments.push(await momentsOf(view));
+        this.drawFragments();
+        this.drawSpecimens();
     }
 
     private layOut(): void {
-        document.title = this.report.title;
-        const views = viewsFor(this.report.tests).map((value) => ({value, text: viewNames[value]}));
-        const unfinished = this.tests.filter(({test}) => !test.failed);
+        this.fragmentSection.append(element('h2', {}, 'Fragments at the end'), this.fragmentHolder,
+            element('p', {class: 'caption'}, 'Particles joined by unbroken bonds share a colour; the largest fragment has the colour of grain.'));
+        const curved = withCurve(this.tests);
+        const unfinished = curved.filter(({test}) => !test.failed);
+        const curves = curved.length === 0 ? [] : [this.curveSection(curved)];
+        const viewer = this.viewerSection();
         this.root.replaceChildren(
             element('header', {}, element('div', {}, element('h1', {}, this.report.title), element('p', {class: 'about'}, this.about())), this.themeButton()),
             ...(unfinished.length === 0 ? [] : [element('p', {class: 'notice warning', role: 'note'},
                 `Not failed: ${unfinished.map(({label, test}) => label + endedBy(test.summary['ended_by'])).join('; ')}. What is shown as the peak of ${unfinished.length === 1 ? 'this test' : 'these tests'} is the peak so far.`)]),
-            element('section', {id: 'curves'},
-                element('h2', {}, 'Stress, strain and bond breaks'),
-                element('div', {class: 'controls'}, ...(views.length > 1 ? [choice('One panel for each', views, this.state.view, (value) => {
-                    this.state.view = value;
-                    this.drawCurves();
-                })] : []), element('span', {class: 'hint'}, 'Shift and wheel zoom the strain axis, dragging moves it, a double click shows all.')),
-                this.panelHolder,
-                this.curveCaption()),
-            element('section', {id: 'summary'}, element('h2', {}, 'Summary'), summaryTable(this.tests)),
-            element('section', {id: 'specimens'},
-                element('h2', {}, 'Specimens and broken bonds'),
-                element('div', {class: 'controls'}, choice('Displacements', magnifications.map((value) => ({value: String(value), text: `×${value}`})), '1', (value) => {
-                    this.state.magnification = Number(value);
-                    this.drawSpecimens();
-                }), this.modeLegend()),
-                this.cardHolder),
+            ...(this.report.view === 'view' ? [viewer, ...curves] : [...curves, viewer]),
+            ...(this.tests.some(({test}) => test.events.count > 0) ? [this.breakSection()] : []),
+            this.fragmentSection,
+            ...(curved.length === 0 ? [] : [element('section', {id: 'summary'}, element('h2', {}, 'Summary'), summaryTable(curved))]),
+            ...(this.tests.some(({test}) => test.frames.some(({role}) => role)) ? [this.drawingSection()] : []),
             element('footer', {}, `Made by crackle ${this.report.version}. Strictly 2D: stresses and moduli are forces per unit length, N/m.`));
     }
 
+    private curveSection(curved: Styled<CurvedTest>[]): HTMLElement {
+        const views = viewsFor(curved.map(({test}) => test)).map((value) => ({value, text: viewNames[value]}));
+        return element('section', {id: 'curves'},
+            element('h2', {}, 'Stress, strain and bond breaks'),
+            element('div', {class: 'controls'}, ...(views.length > 1 ? [choice('One panel for each', views, this.state.view, (value) => {
+                this.state.view = value;
+                this.drawCurves();
+            })] : []), element('span', {class: 'hint'}, 'A click sends the specimens to that strain. Shift and wheel zoom the strain axis, dragging moves it, a double click shows all.')),
+            this.panelHolder,
+            element('p', {class: 'caption'},
+                'Stress is the mean of the two platens’ forces over the initial width, strain the platen displacement over the initial height, both positive in ',
+                'the test’s own sense. Beneath each: bonds broken in each interval of strain, by mode (', mark('tension'), ' tension, ', mark('shear'), ' shear), ',
+                'and bonds broken so far as a line.'));
+    }
+
+    private viewerSection(): HTMLElement {
+        const large = this.report.view === 'view';
+        const section = element('section', {id: 'viewer', class: large ? 'large' : ''}, ...(large ? [] : [element('h2', {}, 'Specimens in motion')]));
+        const shown = this.views.filter(({test}) => test.frames.length > 0);
+        if (shown.length === 0) {
+            section.append(element('p', {class: 'hint'}, 'There are no frames to show.'));
+            return section;
+        }
+        try {
+            this.viewer = new Viewer(shown, large);
+        } catch (error) {
+            section.append(element('p', {class: 'notice warning'}, `This browser draws no WebGL 2, so the specimens do not move here: ${String(error)}`));
+            return section;
+        }
+        const {viewer} = this, controls = new ViewerControls(viewer), inspector = new Inspector(viewer);
+        this.controls = controls;
+        controls.panel.prepend(inspector.element);
+        section.append(element('div', {class: 'viewer'}, element('div', {class: 'front'}, viewer.stageElement, controls.transport), controls.panel, controls.help));
+        viewer.onShown = () => {
+            controls.update();
+            inspector.update();
+            this.moveCursors();
+        };
+        listen(viewer, controls, section, large);
+        return section;
+    }
+
+    private breakSection(): HTMLElement {
+        return element('section', {id: 'breaks'},
+            element('h2', {}, 'Where bonds broke, and which way'),
+            element('div', {class: 'controls'}, choice('Colour by', [{value: 'mode', text: 'Mode'}, {value: 'time', text: 'Time'}], this.mapColour, (colour) => {
+                this.mapColour = colour as MapColour;
+                this.drawBreaks();
+            })),
+            this.breakHolder,
+            element('p', {class: 'caption'}, 'Left: each broken bond at its place, the area of its circle as its energy (', mark('tension'), ' tension, ', mark('shear'),
+                ' shear, or dark early and bright late). Right: directions in which the cracks run, that is across the contacts’ normals; breaks in each ',
+                `${directionWidth}°, counted both ways. The loading axis is at 90°.`));
+    }
+
+    private drawBreaks(): void {
+        for (const chart of this.breakCharts) chart.dispose();
+        const theme = currentTheme();
+        const cards = sortedBy('specimen', this.tests.filter(({test}) => test.events.count > 0)).map((styled) => breakCard(styled, this.mapColour, theme));
+        this.breakHolder.replaceChildren(...cards.map(({element: card}) => card));
+        this.breakCharts = cards.flatMap(({draw}) => draw());
+    }
+
+    private drawFragments(): void {
+        const theme = currentTheme();
+        const cards = this.moments.flatMap((moments) => fragmentCard(moments, theme) ?? []);
+        this.fragmentSection.hidden = cards.length === 0;
+        this.fragmentHolder.replaceChildren(...cards);
+    }
+
+    private drawingSection(): HTMLElement {
+        return element('section', {id: 'specimens'},
+            element('h2', {}, 'Specimens and broken bonds'),
+            element('div', {class: 'controls'}, choice('Displacements', magnifications.map((value) => ({value: String(value), text: `×${value}`})), '1', (value) => {
+                this.state.magnification = Number(value);
+                this.drawSpecimens();
+            }), element('span', {class: 'legend'}, 'Broken in ', mark('tension'), ' tension, ', mark('shear'),
+                ' shear; dotted: some bonded points of the interface still hold.')),
+            this.cardHolder);
+    }
+
     private about(): string {
-        const count = this.report.tests.length;
+        const count = this.tests.length;
+        const curved = withCurve(this.tests).length;
+        if (curved === 0) return this.tests.map(({test}) => `${test.name}: ${counted(particleCount(test.cells))} particles, ${counted(test.frames.length)} ${test.frames.length === 1 ? 'frame' : 'frames'}`).join(' · ');
         return `${count} virtual ${count === 1 ? 'test' : 'tests'}: ${this.tests.map(({label}) => label).join(' · ')}`;
     }
 
-    private curveCaption(): HTMLElement {
-        return element('p', {class: 'caption'},
-            'Stress is the mean of the two platens’ forces over the initial width, strain the platen displacement over the initial height, both positive in ',
-            'the test’s own sense. Beneath each: bonds broken in each interval of strain, by mode (', mark('tension'), ' tension, ', mark('shear'), ' shear), ',
-            'and bonds broken so far as a line.');
-    }
-
-    private modeLegend(): HTMLElement {
-        return element('span', {class: 'legend'}, 'Broken in ', mark('tension'), ' tension, ', mark('shear'),
-            ' shear; dotted: some bonded points of the interface still hold.');
-    }
-
     private themeButton(): HTMLElement {
-        const button = element('button', {type: 'button', class: 'theme'}, 'Light / dark');
-        button.addEventListener('click', () => {
+        return button('Light / dark', 'Change between light and dark', () => {
             document.documentElement.dataset['theme'] = currentTheme().name === 'dark' ? 'light' : 'dark';
-            this.draw();
-        });
-        return button;
+            this.redraw();
+        }, {class: 'theme'});
     }
 
-    private draw(): void {
+    private applyTheme(): void {
         const theme = currentTheme();
         document.documentElement.dataset['shown'] = theme.name;
         document.documentElement.style.setProperty('--tension', theme.tension);
         document.documentElement.style.setProperty('--shear', theme.shear);
+    }
+
+    private redraw(): void {
+        this.applyTheme();
         this.drawCurves();
+        this.drawBreaks();
+        this.drawFragments();
         this.drawSpecimens();
+        this.viewer?.refresh();
+    }
+
+    private async firstPicture(viewer: Viewer): Promise<void> {
+        await new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn)));
+        viewer.picture.stage.finish();
+        document.documentElement.dataset['firstPicture'] = performance.now().toFixed(0);
     }
 
     private drawCurves(): void {
-        for (const chart of this.charts) chart.dispose();
+        for (const {chart} of this.charts) chart.dispose();
         const theme = currentTheme();
-        const shown = panels(this.tests, this.state.view);
+        const shown = panels(withCurve(this.tests), this.state.view);
         this.panelHolder.classList.toggle('single', shown.length === 1);
         const holders = shown.map((panel) => {
             const figure = element('div', {class: 'panel'});
@@ -109,24 +229,51 @@ class Page {
         this.charts = holders.map(({panel, figure, save}) => {
             const chart = drawPanel(figure, panel, theme);
             save.addEventListener('click', () => saveFile(`${panel.title.toLowerCase()}.svg`, 'image/svg+xml', panelAsSvg(chart)));
-            return chart;
+            const cursor = panelCursor(chart, (value) => this.goToStrain(panel, value * strainFactor));
+            chart.on('datazoom', () => this.moveCursors());
+            return {chart, panel, cursor};
         });
+        this.moveCursors();
+    }
+
+    /// Each curve's cursor stands at the frame that its specimen shows.
+    private moveCursors(): void {
+        const theme = currentTheme();
+        for (const {panel, cursor} of this.charts) {
+            cursor.show(panel.members.flatMap((member) => {
+                const strain = this.viewer?.shownOf(member.test)?.strain;
+                return strain === undefined ? [] : [{value: strain / strainFactor, colour: theme.series[member.colour % theme.series.length]!}];
+            }));
+        }
+    }
+
+    private goToStrain(panel: Panel, strain: number): void {
+        const {viewer} = this;
+        const view = viewer?.chosen.find(({test}) => panel.members.some((member) => member.test === test));
+        if (viewer && view) viewer.clock.goTo(momentOfStrain(view.test, viewer.clock.axis, strain));
     }
 
     private drawSpecimens(): void {
-        this.cardHolder.replaceChildren(...drawings(this.tests, this.state.magnification, currentTheme()));
+        this.cardHolder.replaceChildren(...drawings(this.moments, this.state.magnification, currentTheme()));
     }
 
     private watch(): void {
-        new ResizeObserver(() => this.charts.forEach((chart) => chart.resize())).observe(this.panelHolder);
-        matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.draw());
+        new ResizeObserver(() => {
+            for (const {chart} of this.charts) chart.resize();
+            this.moveCursors();
+        }).observe(this.panelHolder);
+        matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.redraw());
         const paper = (printing: boolean) => {
             if (printing) document.documentElement.dataset['printing'] = 'true';
             else delete document.documentElement.dataset['printing'];
-            this.draw();
+            this.redraw();
         };
         addEventListener('beforeprint', () => paper(true));
         addEventListener('afterprint', () => paper(false));
+    }
+
+    get shownViewer(): Viewer | undefined {
+        return this.viewer;
     }
 }
 
@@ -141,10 +288,14 @@ function mark(mode: 'tension' | 'shear'): HTMLElement {
 async function start(): Promise<void> {
     const root = document.getElementById('page')!;
     try {
-        new Page(await readReport(document.getElementById('crackle-data')), root);
+        const report = await readReport(document.getElementById('crackle-data'));
+        if (report.tests.some(({source}) => source !== 'test')) forgetUnits();
+        const page = new Page(report, root);
+        if (page.shownViewer) expose(page.shownViewer);
+        await page.draw();
         document.documentElement.dataset['ready'] = 'true';
     } catch (error) {
-        root.replaceChildren(element('p', {class: 'notice warning'}, `This report cannot be shown: ${error instanceof Error ? error.message : String(error)}`));
+        root.replaceChildren(element('p', {class: 'notice warning'}, `This page cannot be shown: ${error instanceof Error ? error.message : String(error)}`));
         throw error;
     }
 }

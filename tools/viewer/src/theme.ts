@@ -13,7 +13,13 @@ export interface Theme {
     platen: string;
     tension: string; // breakage modes
     shear: string;
+    compressive: string; // contact forces
+    tensile: string;
+    bond: string;
+    slid: string; // bond that has slid
+    picked: string; // outline of the picked particle
     series: readonly string[]; // curves
+    overlaid: readonly [string, string]; // two tests in one picture
 }
 
 const light: Theme = {
@@ -27,7 +33,13 @@ const light: Theme = {
     platen: '#4b5259',
     tension: '#0072b2',
     shear: '#d55e00',
+    compressive: '#1d2125',
+    tensile: '#cc3d8f',
+    bond: '#7a8188',
+    slid: '#009e73',
+    picked: '#d4006a',
     series: ['#22262a', '#00896b', '#aa3377', '#8a6d00', '#6a51a3', '#737a80', '#a6611a', '#33a3c2'],
+    overlaid: ['#00896b', '#aa3377'],
 };
 
 const dark: Theme = {
@@ -41,7 +53,13 @@ const dark: Theme = {
     platen: '#b4bac0',
     tension: '#56b4e9',
     shear: '#ff8c3a',
+    compressive: '#f2f4f5',
+    tensile: '#ff7ac2',
+    bond: '#8d959c',
+    slid: '#35c9a4',
+    picked: '#ff5fa8',
     series: ['#eceff1', '#35c9a4', '#e57cb8', '#e0c04c', '#b3a2e6', '#8f989f', '#d9a066', '#7cd3ea'],
+    overlaid: ['#35c9a4', '#e57cb8'],
 };
 
 /// The reader's choice, else the system's; always light on paper.

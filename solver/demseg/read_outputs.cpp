@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// See read_outputs.hpp.
+
+#include "solver/demseg/read_outputs.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <utility>
+
+#include "solver/demseg/deck_reader.hpp"
+#include "solver/errors.hpp"
+
+namespace crackle {
+namespace {
+
+constexpr int largest_id = std::numeric_limits<int>::max();
+constexpr std::int64_t most_lines = 1'000'000'000;
+
+DeckReader reader_of(const DeckFrameFile& file, const DeckFrameFile::Head& head) {
+    return {file.path().string(), file.lines(head), head.line + 1};
+}
+
+Vec2 read_place(DeckReader& reader, const char* x_key, const char* y_key) {
+    const double x = reader.number(x_key);
+    return {x, reader.number(y_key)};
+}
+
+int read_id(DeckReader& reader, const char* key, int lowest) {
+    return static_cast<int>(reader.integer(key, lowest, largest_id));
+}
+
+/// The file's frame of a step.
+const DeckFrameFile::Head* head_of_step(const DeckFrameFile& file, std::int64_t step) {
+    const auto& heads = file.heads();
+    const auto found = std::lower_bound(heads.begin(), heads.end(), step,
+                                        [](const DeckFrameFile::Head& head, std::int64_t s) { return head.step < s; });
+    return found == heads.end() || found->step != step ? nullptr : &*found;
+}
+
+std::optional<DeckFrameFile> file_if_there(const std::filesystem::path& path) {
+    if (!std::filesystem::exists(path)) return std::nullopt;
+    return DeckFrameFile(path, 1);
+}
+
+}  // namespace
+
+DeckFrameFile::DeckFrameFile(std::filesystem::path path, int counts) : path_(std::move(path)) {
+    std::ifstream file(path_, std::ios::binary);
+    if (!file)
+        throw InputError(fmt::format("{}: cannot be read, expected the output of `crackle run`", path_.string()));
+    std::string line;
+    std::int64_t at = 0;
+    int number = 0;
+    while (std::getline(file, line) && !file.eof()) {
+        at += static_cast<std::int64_t>(line.size()) + 1;
+        ++number;
+        if (line.starts_with('#')) continue;
+        Head head;
+        DeckReader words(path_.string(), line, number);
+        head.step = words.integer("step", 0, std::numeric_limits<std::int64_t>::max());
+        head.time = words.number("time");
+        std::int64_t lines = 0;
+        for (int k = 0; k < counts; ++k) {
+            head.counts.push_back(words.integer("count", 0, most_lines));
+            lines += head.counts.back();
+        }
+        words.expect_end("the counts");
+        if (!heads_.empty() && head.step <= heads_.back().step) {
+            throw InputError(fmt::format("{}:{}: found step {} after step {}, expected steps that rise", path_.string(),
+                                         number, head.step, heads_.back().step));
+        }
+        head.offset = at;
+        head.line = number;
+        for (; lines > 0 && std::getline(file, line) && !file.eof(); --lines) {
+            at += static_cast<std::int64_t>(line.size()) + 1;
+            ++number;
+        }
+        head.bytes = at - head.offset;
+        if (lines == 0) heads_.push_back(std::move(head));
+    }
+}
+
+std::string DeckFrameFile::lines(const Head& head) const {
+    std::ifstream file(path_, std::ios::binary);
+    std::string text(static_cast<std::size_t>(head.bytes), '\0');
+    file.seekg(head.offset);
+    file.read(text.data(), head.bytes);
+    if (!file) throw InputError(fmt::format("{}:{}: the frame cannot be read", path_.string(), head.line));
+    return text;
+}
+
+DeckFrames::DeckFrames(const std::filesystem::path& folder)
+    : positions_(folder / "output.dat", 2),
+      forces_(file_if_there(folder / "cont.dat")),
+      details_(file_if_there(folder / "cont2.dat")) {
+    if (positions_.heads().empty()) {
+        throw InputError(
+            fmt::format("{}: found no complete frame, expected those of `crackle run`", positions_.path().string()));
+    }
+}
+
+DeckFrames::Positions DeckFrames::positions(std::size_t k) const {
+    const DeckFrameFile::Head& head = heads()[k];
+    DeckReader reader = reader_of(positions_, head);
+    Positions all;
+    for (std::int64_t n = 0; n < head.counts[0]; ++n) {
+        DeckCircle circle;
+        circle.id = read_id(reader, "body", 1);
+        circle.radius = reader.positive_number("radius");
+        circle.centre = read_place(reader, "xc", "yc");
+        circle.angle = reader.number("angle");
+        all.circles.push_back(circle);
+    }
+    for (std::int64_t n = 0; n < head.counts[1]; ++n) {
+        DeckSegment segment;
+        segment.id = read_id(reader, "body", 1);
+        segment.start = read_place(reader, "xs", "ys");
+        segment.end = read_place(reader, "xe", "ye");
+        all.segments.push_back(segment);
+    }
+    reader.expect_end("the frame's bodies");
+    return all;
+}
+
+std::vector<DeckContact> DeckFrames::contacts(std::size_t k) const {
+    const std::int64_t step = heads()[k].step;
+    const DeckFrameFile::Head* forces_head = forces_ ? head_of_step(*forces_, step) : nullptr;
+    const DeckFrameFile::Head* details_head = details_ ? head_of_step(*details_, step) : nullptr;
+    if (!forces_head || !details_head) return {};
+    if (forces_head->counts != details_head->counts) {
+        throw InputError(fmt::format("{}:{}: found {} contacts, expected {} as in cont.dat", details_->path().string(),
+                                     details_head->line, details_head->counts[0], forces_head->counts[0]));
+    }
+    DeckReader forces = reader_of(*forces_, *forces_head), details = reader_of(*details_, *details_head);
+    std::vector<DeckContact> all;
+    for (std::int64_t n = 0; n < forces_head->counts[0]; ++n) {
+        DeckContact contact;
+        contact.id = read_id(forces, "body", 1);
+        contact.other = read_id(forces, "other", -4);
+        contact.place = read_place(forces, "x", "y");
+        contact.force = read_place(forces, "fx", "fy");
+        if (read_id(details, "body", 1) != contact.id || read_id(details, "other", -4) != contact.other) {
+            details.refuse("body, other", fmt::format("the {} and {} of cont.dat", contact.id, contact.other));
+        }
+        for (const char* passed_over : {"nx", "ny", "overlap"}) details.number(passed_over);
+        contact.normal_force = details.number("normal_force");
+        contact.shear_force = details.number("shear_force");
+        contact.back_tension = details.number("back_tension");
+        all.push_back(contact);
+    }
+    return all;
+}
+
+}  // namespace crackle

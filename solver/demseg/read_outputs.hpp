@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Reads back the frames that a deck run wrote: output.dat, cont.dat and cont2.dat. Formats: FORMATS.md.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "solver/vec2.hpp"
+
+namespace crackle {
+
+struct DeckCircle {
+    int id = 0;
+    double radius = 0.0;
+    Vec2 centre;
+    double angle = 0.0;  // rad
+};
+
+struct DeckSegment {
+    int id = 0;
+    Vec2 start, end;
+};
+
+struct DeckContact {
+    int id = 0, other = 0;  ///< bodies; other -1, -2, -3, -4: left, right, bottom, top wall
+    Vec2 place, force;      ///< force on body `id`, dashpots included
+    double normal_force = 0.0, shear_force = 0.0, back_tension = 0.0;  ///< of the springs
+};
+
+/// One of the files as a list of frames: a line `step time count [count]`, then as many lines as the counts say.
+class DeckFrameFile {
+  public:
+    struct Head {
+        std::int64_t step = 0;
+        double time = 0.0;
+        std::vector<std::int64_t> counts;
+        std::int64_t offset = 0;  ///< of the first line after the head, bytes
+        std::int64_t bytes = 0;   ///< of those lines
+        int line = 0;             ///< of the head
+    };
+
+    /// Walks through the file once; a last frame that a killed run left incomplete is not listed.
+    /// @param counts  that a head has @throws InputError naming file and line
+    DeckFrameFile(std::filesystem::path path, int counts);
+
+    const std::vector<Head>& heads() const { return heads_; }
+    const std::filesystem::path& path() const { return path_; }
+    /// The lines of a frame. @throws InputError if it cannot be read
+    std::string lines(const Head& head) const;
+
+  private:
+    std::filesystem::path path_;
+    std::vector<Head> heads_;
+};
+
+class DeckFrames {
+  public:
+    /// @param folder  holds output.dat; the two others may be absent
+    explicit DeckFrames(const std::filesystem::path& folder);
+
+    const std::vector<DeckFrameFile::Head>& heads() const { return positions_.heads(); }
+    struct Positions {
+        std::vector<DeckCircle> circles;
+        std::vector<DeckSegment> segments;
+    };
+    /// Of frame k. @throws InputError naming file and line
+    Positions positions(std::size_t k) const;
+    /// Of the same step; none where the run wrote none.
+    std::vector<DeckContact> contacts(std::size_t k) const;
+
+  private:
+    DeckFrameFile positions_;
+    std::optional<DeckFrameFile> forces_, details_;
+};
+
+}  // namespace crackle

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The outputs of a deck run (output.dat, cont.dat, cont2.dat) as a recording.
+//
+// They hold places and forces only. Velocities are those between two frames; a chain is taken to turn by less than half
+// a turn from one to the next. Stress of a body: σ = -1/A Σ f ⊗ (x - x_c), symmetrised, dashpots included, compression
+// positive; f the forces on it, A its area (of a clump the sum of its circles, as for its mass).
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <numeric>
+#include <unordered_map>
+
+#include "solver/demseg/geometry.hpp"
+#include "solver/demseg/read_outputs.hpp"
+#include "solver/errors.hpp"
+#include "specimens/recordings/cell_finder.hpp"
+#include "specimens/recordings/recording.hpp"
+
+namespace crackle {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Segments of one body, joined end to end.
+struct Chain {
+    int id = 0;
+    std::vector<Vec2> points;
+    bool closed = false;
+};
+
+std::vector<Chain> joined(const std::vector<DeckSegment>& segments) {
+    std::vector<Chain> chains;
+    for (const DeckSegment& segment : segments) {
+        if (chains.empty() || chains.back().id != segment.id) chains.push_back({segment.id, {segment.start}, false});
+        chains.back().points.push_back(segment.end);
+    }
+    for (Chain& chain : chains) {
+        const Vec2 first = chain.points.front(), last = chain.points.back();
+        chain.closed = chain.points.size() > 3 && first.x == last.x && first.y == last.y;  // both of one corner
+        if (chain.closed) chain.points.pop_back();
+    }
+    return chains;
+}
+
+Vec2 mean(const std::vector<Vec2>& points) {
+    const Vec2 sum = std::accumulate(points.begin(), points.end(), Vec2{});
+    return (1.0 / static_cast<double>(points.size())) * sum;
+}
+
+double direction(const Chain& chain) {
+    const Vec2 first = chain.points[1] - chain.points[0];
+    return std::atan2(first.y, first.x);
+}
+
+/// Shoelace formula. m2
+double area_of(const RecordedCell& cell) {
+    if (cell.radius > 0.0) return std::numbers::pi * cell.radius * cell.radius;
+    if (cell.open) return 0.0;
+    double twice = 0.0;
+    for (std::size_t k = 0; k < cell.outline.size(); ++k)
+        twice += cross(cell.outline[k], cell.outline[(k + 1) % cell.outline.size()]);
+    return 0.5 * std::abs(twice);
+}
+
+struct Place {
+    Vec2 centre;
+    double angle = 0.0;
+};
+
+/// Reads the frames of one run; remembers places, for velocities and whole turns: 24 bytes a cell and frame.
+class DeckMotion {
+  public:
+    DeckMotion(const fs::path& folder, std::size_t most_frames)
+        : frames_(folder), chosen_(chosen_frames(frames_.heads().size(), most_frames, {})) {}
+
+    void read_start(const fs::path& folder, Recording& recording) {
+        const DeckFrames::Positions start = frames_.positions(chosen_.front());
+        for (const DeckCircle& circle : start.circles)
+            recording.cells.push_back({circle.id, 1, circle.radius, false, false, circle.centre, {}});
+        for (const Chain& chain : joined(start.segments))
+            recording.cells.push_back({chain.id, 1, 0.0, !chain.closed, false, mean(chain.points), chain.points});
+        add_materials_and_walls(folder, recording);
+        for (const std::size_t k : chosen_) {
+            const DeckFrameFile::Head& head = frames_.heads()[k];
+            FrameHead shown;
+            shown.time = head.time;
+            shown.step = head.step;
+            shown.file = fmt::format("output.dat:{}", head.line);
+            recording.frames.push_back(std::move(shown));
+        }
+        for (const RecordedCell& cell : recording.cells) {
+            ids_.push_back(cell.id);
+            area_of_body_[cell.id] += area_of(cell);
+        }
+        finder_ = CellFinder(recording.cells);
+    }
+
+    RecordedFrame read(std::size_t k) {
+        // Velocities are those since the frame before; of the first frame those that follow it.
+        const std::size_t earlier = k == 0 ? 0 : k - 1,
+                          later = k == 0 ? std::min<std::size_t>(1, chosen_.size() - 1) : k;
+        unwind(later);
+        const std::vector<Place>&now = places_[k], &from = places_[earlier], &to = places_[later];
+        const double elapsed = time(later) - time(earlier);
+        RecordedFrame frame;
+        for (std::size_t cell = 0; cell < now.size(); ++cell) {
+            frame.ux.push_back(now[cell].centre.x - places_[0][cell].centre.x);
+            frame.uy.push_back(now[cell].centre.y - places_[0][cell].centre.y);
+            frame.angle.push_back(now[cell].angle - places_[0][cell].angle);
+            if (later == earlier) continue;
+            frame.vx.push_back((to[cell].centre.x - from[cell].centre.x) / elapsed);
+            frame.vy.push_back((to[cell].centre.y - from[cell].centre.y) / elapsed);
+            frame.rotation_rate.push_back((to[cell].angle - from[cell].angle) / elapsed);
+        }
+        add_contacts(frames_.contacts(chosen_[k]), now, frame);
+        return frame;
+    }
+
+  private:
+    double time(std::size_t k) const { return frames_.heads()[chosen_[k]].time; }
+
+    /// Fills places_ up to frame k. Angles of chains, which are known but for whole turns, are taken near those before.
+    void unwind(std::size_t k) {
+        constexpr double turn = 2.0 * std::numbers::pi;
+        while (places_.size() <= k) {
+            std::vector<Place> now = places(places_.size());
+            for (std::size_t cell = 0; cell < now.size() && !places_.empty(); ++cell) {
+                if (finder_.is_circle(ids_[cell])) continue;
+                now[cell].angle -= turn * std::round((now[cell].angle - places_.back()[cell].angle) / turn);
+            }
+            places_.push_back(std::move(now));
+        }
+    }
+
+    std::vector<Place> places(std::size_t k) const {
+        const DeckFrames::Positions positions = frames_.positions(chosen_[k]);
+        std::vector<Place> all;
+        std::vector<int> ids;
+        for (const DeckCircle& circle : positions.circles) {
+            all.push_back({circle.centre, circle.angle});
+            ids.push_back(circle.id);
+        }
+        for (const Chain& chain : joined(positions.segments)) {
+            all.push_back({mean(chain.points), direction(chain)});
+            ids.push_back(chain.id);
+        }
+        if (ids != ids_) {
+            const DeckFrameFile::Head& head = frames_.heads()[chosen_[k]];
+            throw InputError(fmt::format(
+                "output.dat:{}: found other bodies in the frame of step {} than in the first one; the outputs of "
+                "different runs cannot be shown as one",
+                head.line, head.step));
+        }
+        return all;
+    }
+
+    void add_materials_and_walls(const fs::path& folder, Recording& recording) const {
+        for (const char* name : {"new_in_gm.dat", "in_gm.dat"}) {
+            const fs::path file = folder / name;
+            if (!fs::exists(file) || read_geometry_mode(file) != 1) continue;
+            const Scene scene = read_geometry(file);
+            recording.walls = {scene.domain.x1, scene.domain.x2, scene.domain.y1, scene.domain.y2};
+            std::unordered_map<int, int> material_of;
+            for (const Body& body : scene.bodies) material_of[body.id] = body.material + 1;
+            for (RecordedCell& cell : recording.cells) {
+                if (const auto found = material_of.find(cell.id); found != material_of.end())
+                    cell.material = found->second;
+            }
+            return;
+        }
+    }
+
+    std::int32_t cell_of(int id, Vec2 place) const {
+        if (id < 0) return recorded_walls[static_cast<std::size_t>(-id - 1)];
+        const std::int32_t cell = finder_.find(id, place);
+        if (cell < 0) throw InputError(fmt::format("cont.dat: found body {}, which output.dat does not have", id));
+        return cell;
+    }
+
+    void add_contacts(const std::vector<DeckContact>& contacts, const std::vector<Place>& now,
+                      RecordedFrame& frame) const {
+        struct Stress {
+            double xx = 0.0, yy = 0.0, xy = 0.0;
+        };
+        std::unordered_map<int, Stress> stress_of;  // times the area
+        const auto load = [&](std::int32_t cell, Vec2 place, Vec2 force) {
+            if (cell < 0) return;
+            const auto at = static_cast<std::size_t>(cell);
+            const Vec2 arm = place - now[at].centre;
+            Stress& stress = stress_of[ids_[at]];
+            stress.xx -= force.x * arm.x;
+            stress.yy -= force.y * arm.y;
+            stress.xy -= 0.5 * (force.x * arm.y + force.y * arm.x);
+        };
+        for (const DeckContact& contact : contacts) {
+            const std::int32_t i = cell_of(contact.id, contact.place), j = cell_of(contact.other, contact.place);
+            frame.contacts.i.push_back(i);
+            frame.contacts.j.push_back(j);
+            frame.contacts.x.push_back(contact.place.x);
+            frame.contacts.y.push_back(contact.place.y);
+            frame.contacts.normal_force.push_back(contact.normal_force);
+            frame.contacts.shear_force.push_back(contact.shear_force);
+            load(i, contact.place, contact.force);
+            load(j, contact.place, -1.0 * contact.force);
+        }
+        for (const int id : ids_) {
+            const Stress stress = stress_of[id];
+            const double area = area_of_body_.at(id);
+            frame.stress_xx.push_back(area > 0.0 ? stress.xx / area : 0.0);
+            frame.stress_yy.push_back(area > 0.0 ? stress.yy / area : 0.0);
+            frame.stress_xy.push_back(area > 0.0 ? stress.xy / area : 0.0);
+        }
+    }
+
+    DeckFrames frames_;
+    std::vector<std::size_t> chosen_;
+    std::vector<int> ids_;  // of cells
+    std::unordered_map<int, double> area_of_body_;
+    CellFinder finder_{{}};
+    std::vector<std::vector<Place>> places_;  // by frame, as far as they have been asked for
+};
+
+}  // namespace
+
+Recording read_deck_recording(const fs::path& folder, std::size_t most_frames) {
+    Recording recording;
+    recording.kind = Recording::Kind::deck;
+    recording.name = fs::weakly_canonical(folder).filename().string();
+    recording.mean_velocities = true;
+    const auto motion = std::make_shared<DeckMotion>(folder, most_frames);
+    motion->read_start(folder, recording);
+    recording.frame = [motion](std::size_t k) { return motion->read(k); };
+    return recording;
+}
+
+}  // namespace crackle

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/recordings/recording.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <set>
+
+#include "solver/errors.hpp"
+
+namespace crackle {
+
+std::vector<std::size_t> chosen_frames(std::size_t count, std::size_t most, const std::vector<std::size_t>& kept) {
+    std::set<std::size_t> chosen(kept.begin(), kept.end());
+    if (count > 0) chosen.insert({0, count - 1});
+    // Evenly from the first to the last.
+    const std::size_t even = std::min(count, most > kept.size() ? most - kept.size() : 0);
+    for (std::size_t k = 0; k < even; ++k) chosen.insert(even < 2 ? 0 : k * (count - 1) / (even - 1));
+    return {chosen.begin(), chosen.end()};
+}
+
+Recording read_recording(const std::filesystem::path& path, std::size_t most_frames, std::uint64_t seed) {
+    namespace fs = std::filesystem;
+    if (fs::is_regular_file(path)) return read_particle_recording(path, seed);
+    if (!fs::is_directory(path)) {
+        throw InputError(fmt::format(
+            "{}: found no such file or folder, expected the folder of a test or of a deck, or a particle file",
+            path.string()));
+    }
+    if (fs::exists(path / "summary.json")) return read_test_recording(path, most_frames);
+    if (fs::exists(path / "output.dat")) return read_deck_recording(path, most_frames);
+    if (fs::exists(path / "in_gm.dat")) return read_particle_recording(path / "in_gm.dat", seed);
+    throw InputError(fmt::format(
+        "{}: found neither summary.json nor output.dat nor in_gm.dat, expected what `crackle test -o` or `crackle run` "
+        "leaves in a folder",
+        path.string()));
+}
+
+}  // namespace crackle

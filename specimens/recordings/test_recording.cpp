@@ -1,0 +1,245 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The frames that a test left in frames/ (frame_painter.hpp) as a recording.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+
+#include "solver/errors.hpp"
+#include "specimens/observers/frames.hpp"
+#include "specimens/observers/read_frames.hpp"
+#include "specimens/recordings/cell_finder.hpp"
+#include "specimens/recordings/recording.hpp"
+
+namespace crackle {
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void refuse(const fs::path& file, const std::string& what) {
+    throw InputError(fmt::format("{}: {}; write the frames anew with `crackle test --force`", file.string(), what));
+}
+
+/// The numbers of the pictures of the particles, ascending.
+std::vector<std::int64_t> drawn_rows(const fs::path& frames) {
+    std::vector<std::int64_t> rows;
+    if (!fs::exists(frames)) return rows;
+    for (const auto& entry : fs::directory_iterator(frames)) {
+        const std::string name = entry.path().filename().string();
+        constexpr std::string_view head = "particles_";
+        if (!name.starts_with(head)) continue;
+        const std::int64_t row = std::atoll(name.c_str() + head.size());
+        if (name == particles_file(row)) rows.push_back(row);
+    }
+    std::sort(rows.begin(), rows.end());
+    return rows;
+}
+
+const std::vector<double>& column(const fs::path& file, const PolyData& data, const char* name, std::size_t values) {
+    const auto found = data.cell_data.find(name);
+    const std::size_t count = found == data.cell_data.end() ? 0 : found->second.size();
+    if (count != values || found == data.cell_data.end())
+        refuse(file, fmt::format("cell data '{}': found {} values, expected {}", name, count, values));
+    return found->second;
+}
+
+/// Empty where the file has no such array.
+std::vector<double> column_if_there(const fs::path& file, const PolyData& data, const char* name) {
+    return data.cell_data.contains(name) ? column(file, data, name, data.cells.size()) : std::vector<double>();
+}
+
+/// Mean of a cell's corners.
+std::vector<Vec2> centres(const PolyData& data) {
+    std::vector<Vec2> all;
+    all.reserve(data.cells.size());
+    for (const PolyData::Cell& cell : data.cells) {
+        Vec2 sum;
+        for (const std::size_t point : cell.points) sum = sum + data.points[point];
+        all.push_back((1.0 / static_cast<double>(cell.points.size())) * sum);
+    }
+    return all;
+}
+
+void append_cells(const fs::path& file, const PolyData& data, std::vector<RecordedCell>& cells) {
+    const auto& id = column(file, data, "id", data.cells.size());
+    const auto& radius = column(file, data, "radius", data.cells.size());
+    const std::vector<double> material = column_if_there(file, data, "material");
+    const std::vector<Vec2> centre = centres(data);
+    for (std::size_t k = 0; k < data.cells.size(); ++k) {
+        if (!(std::abs(id[k]) < 2e9))
+            refuse(file, fmt::format("cell {}: id: found {}, expected a whole number", k, id[k]));
+        const bool line = data.cells[k].line;
+        RecordedCell cell{static_cast<int>(id[k]), 1, radius[k], line, line, centre[k], {}};
+        if (!material.empty()) cell.material = static_cast<int>(material[k]);
+        for (const std::size_t point : data.cells[k].points) {
+            if (cell.radius == 0.0) cell.outline.push_back(data.points[point]);
+        }
+        cells.push_back(std::move(cell));
+    }
+}
+
+/// Where a contact's line says that it acts: between circles its corner that is no centre, between polygons the middle
+/// of the gap.
+Vec2 place_of(const PolyData& data, const PolyData::Cell& line, bool first_is_circle, bool second_is_circle) {
+    const auto at = [&](std::size_t corner) { return data.points[line.points[corner]]; };
+    if (first_is_circle) return at(1);
+    if (second_is_circle) return at(0);
+    return 0.5 * (at(0) + at(1));
+}
+
+constexpr double unbonded = 4.0;  // state of contacts that are no bonds; they stand after all bonds
+
+/// Reads the files of one test, frame after frame.
+class TestFrames {
+  public:
+    TestFrames(fs::path frames, std::vector<std::int64_t> rows) : frames_(std::move(frames)), rows_(std::move(rows)) {}
+
+    void read_start(Recording& recording) {
+        const fs::path file = frames_ / particles_file(rows_.front());
+        append_cells(file, read_polydata(file), recording.cells);
+        for (const RecordedCell& cell : recording.cells) start_.push_back(cell.centre);
+        const fs::path contacts = frames_ / contacts_file(rows_.front());
+        if (!fs::exists(contacts)) return;
+        finder_.emplace(recording.cells);
+        const PolyData data = read_polydata(contacts);
+        const auto [i, j, state] = columns(contacts, data);
+        for (std::size_t k = 0; k < data.cells.size() && state[k] != unbonded; ++k) {
+            const Vec2 place = place_at(data, k, i[k], j[k]);
+            recording.bonds.push_back({cell_of(contacts, i[k], place), cell_of(contacts, j[k], place), place});
+        }
+        bonds_ = recording.bonds.size();
+    }
+
+    RecordedFrame read(std::size_t k) const {
+        RecordedFrame frame;
+        read_particles(frames_ / particles_file(rows_[k]), frame);
+        const fs::path contacts = frames_ / contacts_file(rows_[k]);
+        if (finder_) read_contacts(contacts, frame);
+        return frame;
+    }
+
+  private:
+    struct ContactColumns {
+        const std::vector<double>&i, &j, &state;
+    };
+    static ContactColumns columns(const fs::path& file, const PolyData& data) {
+        const std::size_t lines = data.cells.size();
+        return {column(file, data, "body_i", lines), column(file, data, "body_j", lines),
+                column(file, data, "state", lines)};
+    }
+    std::int32_t cell_of(const fs::path& file, double id, Vec2 place) const {
+        const std::int32_t cell = finder_->find(static_cast<int>(id), place);
+        if (cell < 0) refuse(file, fmt::format("found a contact of body {}, which is not drawn", id));
+        return cell;
+    }
+    Vec2 place_at(const PolyData& data, std::size_t line, double i, double j) const {
+        const bool circles_i = finder_->is_circle(static_cast<int>(i)),
+                   circles_j = finder_->is_circle(static_cast<int>(j));
+        return place_of(data, data.cells[line], circles_i, circles_j);
+    }
+
+    void read_particles(const fs::path& file, RecordedFrame& frame) const {
+        const PolyData data = read_polydata(file);
+        const std::size_t cells = data.cells.size();
+        if (cells != start_.size())
+            refuse(file, fmt::format("found {} cells, expected {} as in the first frame", cells, start_.size()));
+        const std::vector<Vec2> centre = centres(data);
+        for (std::size_t k = 0; k < cells; ++k) {
+            frame.ux.push_back(centre[k].x - start_[k].x);
+            frame.uy.push_back(centre[k].y - start_[k].y);
+        }
+        frame.angle = column(file, data, "angle", cells);
+        if (data.cell_data.contains("velocity")) {
+            const std::vector<double>& velocity = column(file, data, "velocity", 3 * cells);
+            for (std::size_t k = 0; k < cells; ++k) {
+                frame.vx.push_back(velocity[3 * k]);
+                frame.vy.push_back(velocity[3 * k + 1]);
+            }
+        }
+        frame.rotation_rate = column_if_there(file, data, "rotation_rate");
+        frame.stress_xx = column_if_there(file, data, "stress_xx");
+        frame.stress_yy = column_if_there(file, data, "stress_yy");
+        frame.stress_xy = column_if_there(file, data, "stress_xy");
+        frame.fragment = column_if_there(file, data, "fragment");
+    }
+
+    void read_contacts(const fs::path& file, RecordedFrame& frame) const {
+        const PolyData data = read_polydata(file);
+        const auto [i, j, state] = columns(file, data);
+        const auto& normal = column(file, data, "normal_force", data.cells.size());
+        const auto& shear = column(file, data, "shear_force", data.cells.size());
+        if (data.cells.size() < bonds_)
+            refuse(file, fmt::format("found {} contacts, expected the {} bonds of the first frame", data.cells.size(),
+                                     bonds_));
+        const auto bonds = static_cast<std::ptrdiff_t>(bonds_);
+        frame.normal_force.assign(normal.begin(), normal.begin() + bonds);
+        frame.shear_force.assign(shear.begin(), shear.begin() + bonds);
+        frame.state.assign(state.begin(), state.begin() + bonds);
+        RecordedContacts& contacts = frame.contacts;
+        for (std::size_t k = bonds_; k < data.cells.size(); ++k) {
+            const Vec2 place = place_at(data, k, i[k], j[k]);
+            contacts.i.push_back(cell_of(file, i[k], place));
+            contacts.j.push_back(cell_of(file, j[k], place));
+            contacts.x.push_back(place.x);
+            contacts.y.push_back(place.y);
+            contacts.normal_force.push_back(normal[k]);
+            contacts.shear_force.push_back(shear[k]);
+        }
+    }
+
+    fs::path frames_;
+    std::vector<std::int64_t> rows_;
+    std::vector<Vec2> start_;
+    std::optional<CellFinder> finder_;  ///< where there are contacts
+    std::size_t bonds_ = 0;
+};
+
+FrameHead head_of(const fs::path& folder, const TestResults& results, std::int64_t row) {
+    FrameHead head;
+    head.file = "frames/" + particles_file(row);
+    const std::map<std::string, double> values = read_field_values(folder / head.file);
+    const auto value = [&](const char* name) {
+        const auto found = values.find(name);
+        if (found == values.end()) refuse(folder / head.file, fmt::format("found no field value '{}'", name));
+        return found->second;
+    };
+    head.time = value("time");
+    head.axial_strain = value("axial_strain");
+    head.axial_stress = value("axial_stress");
+    for (const char* role : {"start", "peak", "end"}) {
+        const auto named = results.summary.find(std::string("frame_") + role);
+        if (named != results.summary.end() && *named == head.file && head.role.empty()) head.role = role;
+    }
+    return head;
+}
+
+}  // namespace
+
+Recording read_test_recording(const fs::path& folder, std::size_t most_frames) {
+    Recording recording;
+    recording.kind = Recording::Kind::test;
+    recording.results = read_results(folder);
+    recording.name = recording.results.name;
+    const std::vector<std::int64_t> rows = drawn_rows(folder / "frames");
+    if (rows.empty()) return recording;
+
+    std::vector<FrameHead> heads;
+    std::vector<std::size_t> with_role;
+    for (const std::int64_t row : rows) {
+        heads.push_back(head_of(folder, recording.results, row));
+        if (!heads.back().role.empty()) with_role.push_back(heads.size() - 1);
+    }
+    std::vector<std::int64_t> chosen;
+    for (const std::size_t k : chosen_frames(rows.size(), most_frames, with_role)) {
+        recording.frames.push_back(heads[k]);
+        chosen.push_back(rows[k]);
+    }
+    const auto frames = std::make_shared<TestFrames>(folder / "frames", std::move(chosen));
+    frames->read_start(recording);
+    recording.frame = [frames](std::size_t k) { return frames->read(k); };
+    return recording;
+}
+
+}  // namespace crackle

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Ctrl-C as a wish to end cleanly.
+#pragma once
+
+namespace crackle::tools {
+
+/// From now on SIGINT and SIGTERM are taken down instead of ending the program; a second one of the same kind ends it.
+void watch_interrupts();
+
+/// Whether one has come.
+bool interrupted();
+
+}  // namespace crackle::tools

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/plot/axes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace crackle::plot {
+namespace {
+
+constexpr double tick_length = 2.5, frame_width = 0.6, gap = 2.0;  // pt
+
+std::string with_minus(std::string number) {
+    if (number.starts_with('-')) number.replace(0, 1, "−");
+    return number;
+}
+
+double widest_label(const Canvas& canvas, const Scale& scale) {
+    double widest = 0.0;
+    for (const double tick : scale.ticks()) widest = std::max(widest, canvas.size_of(scale.label(tick)).width);
+    return widest;
+}
+
+}  // namespace
+
+std::vector<double> Scale::ticks() const {
+    std::vector<double> all;
+    const auto first = static_cast<long>(std::ceil(low / step - 1e-9)),
+               last = static_cast<long>(std::floor(high / step + 1e-9));
+    for (long k = first; k <= last; ++k) all.push_back(static_cast<double>(k) * step);
+    return all;
+}
+
+std::string Scale::label(double tick) const {
+    const int decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + 1e-9)));
+    return with_minus(fmt::format("{:.{}f}", std::abs(tick) < 1e-9 * step ? 0.0 : tick, decimals));
+}
+
+Scale scale_for(double smallest, double largest, int most_ticks) {
+    const double low = std::min(0.0, smallest);
+    const double high = largest > low ? largest : low + 1.0;
+    const double raw = (high - low) / most_ticks;
+    const double power = std::pow(10.0, std::floor(std::log10(raw)));
+    constexpr std::array<double, 4> steps{1.0, 2.0, 5.0, 10.0};
+    const double step = power * *std::find_if(steps.begin(), steps.end() - 1,
+                                              [&](double s) { return s * power >= raw * (1.0 - 1e-9); });
+    // The topmost curve keeps off the frame.
+    return {low < 0.0 ? low - 0.04 * (high - low) : 0.0, high + 0.06 * (high - low), step};
+}
+
+Unit unit_for(double largest, const std::string& unit) {
+    constexpr std::array<std::pair<double, const char*>, 8> prefixes{
+        {{1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1.0, ""}, {1e-3, "m"}, {1e-6, "µ"}, {1e-9, "n"}, {1e-12, "p"}}};
+    for (const auto& [factor, prefix] : prefixes) {
+        if (std::abs(largest) >= 0.9995 * factor) return {factor, prefix + unit};
+    }
+    return {1.0, unit};
+}
+
+Point Axes::at(double value_x, double value_y) const {
+    return {frame.x + (value_x - x.low) / (x.high - x.low) * frame.width,
+            frame.bottom() - (value_y - y.low) / (y.high - y.low) * frame.height};
+}
+
+double Axes::room_left(const Canvas& canvas, const Scale& scale) {
+    return widest_label(canvas, scale) + canvas.size_of("0").height + tick_length + 2.0 * gap;
+}
+
+double Axes::room_below(const Canvas& canvas) { return 2.0 * canvas.size_of("0").height + tick_length + gap; }
+
+void Axes::draw(Canvas& canvas, const std::string& x_title, const std::string& y_title) const {
+    const Colour ink = colour("#1d2125");
+    const double height = canvas.size_of("0").height;
+    for (const double tick : y.ticks()) {
+        const Point mark = at(x.low, tick);
+        canvas.line({mark, {mark.x - tick_length, mark.y}}, ink, frame_width);
+        canvas.text({mark.x - tick_length - gap, mark.y}, y.label(tick), Across::right, Down::middle, 1.0, ink);
+    }
+    const double title_x = frame.x - tick_length - 2.0 * gap - widest_label(canvas, y);
+    canvas.text({title_x, frame.y + 0.5 * frame.height}, y_title, Across::centre, Down::bottom, 1.0, ink, true);
+    for (const double tick : x.ticks()) {
+        const Point mark = at(tick, y.low);
+        canvas.line({mark, {mark.x, mark.y + tick_length}}, ink, frame_width);
+        if (!x_title.empty())
+            canvas.text({mark.x, mark.y + tick_length + 0.5 * gap}, x.label(tick), Across::centre, Down::top, 1.0, ink);
+    }
+    if (!x_title.empty()) {
+        canvas.text({frame.x + 0.5 * frame.width, frame.bottom() + tick_length + gap + height}, x_title, Across::centre,
+                    Down::top, 1.0, ink);
+    }
+    canvas.line({{frame.x, frame.y}, {frame.x, frame.bottom()}, {frame.right(), frame.bottom()}}, ink, frame_width);
+}
+
+void Axes::draw_right(Canvas& canvas, const Scale& scale, const std::string& title) const {
+    const Colour ink = colour("#5b636b");
+    Axes other = *this;
+    other.y = scale;
+    for (const double tick : scale.ticks()) {
+        const Point mark = other.at(x.high, tick);
+        canvas.line({mark, {mark.x + tick_length, mark.y}}, ink, frame_width);
+        canvas.text({mark.x + tick_length + gap, mark.y}, scale.label(tick), Across::left, Down::middle, 1.0, ink);
+    }
+    canvas.line({{frame.right(), frame.y}, {frame.right(), frame.bottom()}}, ink, frame_width);
+    const double title_x = frame.right() + tick_length + 2.0 * gap + widest_label(canvas, scale);
+    canvas.text({title_x, frame.y + 0.5 * frame.height}, title, Across::centre, Down::top, 1.0, ink, true);
+}
+
+}  // namespace crackle::plot

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A sheet to draw on, for print: SVG, PDF or PNG by Cairo, text by Pango. Fonts are embedded (PDF) or drawn as outlines
+// (SVG). Lengths are points, 1/72 inch, from the upper left corner, y down.
+#pragma once
+
+#include <cairo.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace crackle::plot {
+
+inline constexpr double points_of_mm = 72.0 / 25.4;
+
+struct Colour {
+    double red = 0.0, green = 0.0, blue = 0.0;  // 0 to 1
+};
+/// "#rrggbb"
+Colour colour(const char* hex);
+
+struct Point {
+    double x = 0.0, y = 0.0;
+};
+
+struct Rect {
+    double x = 0.0, y = 0.0, width = 0.0, height = 0.0;
+    double right() const { return x + width; }
+    double bottom() const { return y + height; }
+};
+
+enum class Format { svg, pdf, png };
+
+struct SheetStyle {
+    std::string font = "DejaVu Sans";
+    double font_size = 8.0;  ///< pt
+    double dpi = 300.0;      ///< of PNG
+};
+
+enum class Across { left, centre, right };
+enum class Down { top, middle, bottom };
+
+struct TextSize {
+    double width = 0.0, height = 0.0;
+};
+
+class Canvas {
+  public:
+    /// @throws std::runtime_error if Cairo cannot make such a sheet
+    Canvas(double width, double height, Format format, const SheetStyle& style);
+    Canvas(const Canvas&) = delete;
+    Canvas& operator=(const Canvas&) = delete;
+    ~Canvas();
+
+    const SheetStyle& style() const { return style_; }
+
+    void line(const std::vector<Point>& points, const Colour& colour, double width, bool dashed = false);
+    void polygon(const std::vector<Point>& corners, const Colour* fill, const Colour* edge, double edge_width);
+    void circle(Point centre, double radius, const Colour* fill, const Colour* edge, double edge_width);
+    void rectangle(const Rect& rect, const Colour& fill);
+
+    /// @param markup  Pango's: <sup>, <i>, <b>
+    TextSize size_of(const std::string& markup, double scale = 1.0) const;
+    /// @param at  the text's anchor, as `across` and `down` say @param scale  of the font size
+    void text(Point at, const std::string& markup, Across across = Across::left, Down down = Down::top,
+              double scale = 1.0, const Colour& colour = {}, bool upwards = false);
+
+    /// What is drawn between stays inside the rectangle.
+    void clip(const Rect& rect);
+    void unclip();
+
+    /// The finished file; nothing can be drawn afterwards.
+    std::string finish();
+
+  private:
+    void set(const Colour& colour);
+    void stroke(const Colour& colour, double width);
+
+    SheetStyle style_;
+    Format format_;
+    std::string bytes_;  // what Cairo has written
+    cairo_surface_t* surface_ = nullptr;
+    cairo_t* cairo_ = nullptr;
+};
+
+/// Text as Pango's markup takes it.
+std::string escaped(const std::string& text);
+
+}  // namespace crackle::plot

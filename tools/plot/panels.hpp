@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a figure is put together of: diagrams and drawings that know how high they are at a width, one below the other
+// or side by side.
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "specimens/recordings/recording.hpp"
+#include "tools/plot/canvas.hpp"
+
+namespace crackle::plot {
+
+struct Panel {
+    std::function<double(double width)> height;  ///< pt
+    std::function<void(Canvas&, const Rect&)> draw;
+    bool letter_above = false;  ///< its letter, (a), (b), ..., needs a line of its own
+};
+
+/// One test as it appears in diagrams.
+struct PlottedTest {
+    const TestResults* results = nullptr;
+    std::string label;
+    std::size_t colour = 0;
+    bool dashed = false;
+};
+
+/// Axial stress over axial strain, and beneath it the bonds broken: of one test in each interval of strain, by mode, of
+/// several so far.
+Panel stress_strain(const std::vector<PlottedTest>& tests);
+/// Bonds broken in each interval of strain, by mode, and so far (right axis); of several tests so far.
+Panel breaks(const std::vector<PlottedTest>& tests);
+
+/// One moment of one specimen.
+struct DrawnMoment {
+    const Recording* recording = nullptr;
+    std::size_t frame = 0;
+    std::string caption;  ///< markup
+};
+struct DrawingStyle {
+    double magnify = 1.0;  ///< displacements
+};
+/// Specimens side by side at one scale, cracks coloured by mode.
+/// @param folders  of the moments' tests, which hold the frames' cracks
+Panel drawings(const std::vector<DrawnMoment>& moments, const std::vector<std::filesystem::path>& folders,
+               const DrawingStyle& style);
+
+/// A figure of panels one below the other. @param width pt @return the file's bytes
+std::string figure(const std::vector<Panel>& panels, const std::string& title, double width, Format format,
+                   const SheetStyle& style);
+
+}  // namespace crackle::plot
