@@ -84,18 +84,6 @@ nlohmann::ordered_json read_summary(const std::filesystem::path& file) {
     return summary;
 }
 
-/// Motions are taken from frame to frame, element by element.
-void require_same_bodies(const ParticleFrame& first, const ParticleFrame& later, const std::filesystem::path& file) {
-    const auto same = [](const FrameBody& a, const FrameBody& b) {
-        return a.id == b.id && a.outline.size() == b.outline.size();
-    };
-    if (!std::equal(first.bodies.begin(), first.bodies.end(), later.bodies.begin(), later.bodies.end(), same)) {
-        throw InputError(fmt::format(
-            "{}: found other bodies than in the first frame; write the frames anew with `crackle test --force`",
-            file.string()));
-    }
-}
-
 }  // namespace
 
 bool is_report_page(const std::filesystem::path& file) {
@@ -168,15 +156,6 @@ TestResults read_results(const std::filesystem::path& folder) {
     require_columns(folder / "events.csv", results.events,
                     {"time", "axial_strain", "x", "y", "body_i", "body_j", "mode", "last_of_interface"});
     require_whole_numbers(folder / "events.csv", results.events, {"body_i", "body_j", "last_of_interface"});
-
-    for (const char* role : {"start", "peak", "end"}) {
-        const auto entry = results.summary.find(std::string("frame_") + role);
-        if (entry == results.summary.end() || !entry->is_string() || entry->get<std::string>().empty()) continue;
-        const std::filesystem::path file = folder / entry->get<std::string>();
-        KeyFrame frame{role, entry->get<std::string>(), read_particle_frame(file)};
-        if (!results.frames.empty()) require_same_bodies(results.frames.front().particles, frame.particles, file);
-        results.frames.push_back(std::move(frame));
-    }
     return results;
 }
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The results of one finished test, read back from its folder: summary, curve, breaks, and the frames at start, peak
-// and end.
+// The results of one finished test, read back from its folder: summary, curve and breaks.
 #pragma once
 
 #include <filesystem>
@@ -8,8 +7,6 @@
 #include <string>
 #include <string_view>
 #include <vector>
-
-#include "specimens/observers/read_frames.hpp"
 
 namespace crackle {
 
@@ -27,19 +24,11 @@ struct NumberTable {
     std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
 };
 
-/// One drawn moment of a test.
-struct KeyFrame {
-    std::string role;         ///< start, peak, end
-    std::string file;         ///< relative to the test's folder
-    ParticleFrame particles;  ///< the same bodies in the same order in each frame of a test
-};
-
 struct TestResults {
     std::string name;                ///< the folder's
     nlohmann::ordered_json summary;  ///< as written
     NumberTable curve;               ///< columns of curve.csv
     NumberTable events;              ///< columns of events.csv; `mode` as 1 for shear, 0 for tension
-    std::vector<KeyFrame> frames;    ///< empty where the test kept none
 };
 
 /// Comma-separated numbers under a line of names. The words of column `word_column`, if given, are read as their place

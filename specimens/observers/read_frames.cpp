@@ -23,10 +23,6 @@ static_assert(std::endian::native == std::endian::little, "VTK files are read as
 
 using Bytes = std::vector<unsigned char>;
 
-[[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
-    throw InputError(fmt::format("{}: {}; write the frames anew with `crackle test --force`", file.string(), what));
-}
-
 std::uint64_t word_at(const Bytes& bytes, std::size_t index) {
     std::uint64_t word = 0;
     std::memcpy(&word, bytes.data() + 8 * index, 8);
@@ -42,8 +38,8 @@ class ArrayReader {
         const auto is_space = [](char c) { return c == ' ' || c == '\n' || c == '\r' || c == '\t'; };
         std::erase_if(text, is_space);
         if (std::string_view(array.attribute("format").value()) != "binary") {
-            refuse(file, fmt::format("array '{}': found format '{}', expected 'binary'", name,
-                                     array.attribute("format").value()));
+            refuse_frame(file, fmt::format("array '{}': found format '{}', expected 'binary'", name,
+                                           array.attribute("format").value()));
         }
     }
 
@@ -52,7 +48,7 @@ class ArrayReader {
         const std::uint64_t blocks = word_at(decode(0, 32, 24), 0);
         if (blocks == 0) return {};
         if (blocks > text.size())
-            refuse(file, fmt::format("array '{}': found {} blocks in {} letters", name, blocks, text.size()));
+            refuse_frame(file, fmt::format("array '{}': found {} blocks in {} letters", name, blocks, text.size()));
         const std::size_t header_bytes = 8 * (3 + static_cast<std::size_t>(blocks));
         const std::size_t header_letters = (header_bytes + 2) / 3 * 4;
         const Bytes header = decode(0, header_letters, header_bytes);
@@ -66,14 +62,16 @@ class ArrayReader {
             const std::uint64_t packed_size = word_at(header, 3 + block);
             // zlib packs at most about 1000 : 1, so a larger claim is damage, not data.
             if (packed_size > packed.size() - at || size > 1100 * packed_size) {
-                refuse(file, fmt::format("array '{}': found sizes that its {} bytes cannot hold", name, packed.size()));
+                refuse_frame(file,
+                             fmt::format("array '{}': found sizes that its {} bytes cannot hold", name, packed.size()));
             }
             const std::size_t begin = values.size();
             values.resize(begin + static_cast<std::size_t>(size));
             auto got = static_cast<uLongf>(size);
             const int status =
                 uncompress(values.data() + begin, &got, packed.data() + at, static_cast<uLong>(packed_size));
-            if (status != Z_OK || got != size) refuse(file, fmt::format("array '{}': its zlib data are damaged", name));
+            if (status != Z_OK || got != size)
+                refuse_frame(file, fmt::format("array '{}': its zlib data are damaged", name));
             at += static_cast<std::size_t>(packed_size);
         }
         return values;
@@ -81,10 +79,10 @@ class ArrayReader {
 
   private:
     Bytes decode(std::size_t begin, std::size_t count, std::size_t expected_bytes) const {
-        if (begin > text.size()) refuse(file, fmt::format("array '{}': ends early", name));
+        if (begin > text.size()) refuse_frame(file, fmt::format("array '{}': ends early", name));
         const std::optional<Bytes> bytes = decode_base64(std::string_view(text).substr(begin, count));
         if (!bytes || bytes->size() < expected_bytes)
-            refuse(file, fmt::format("array '{}': found text that is not base64", name));
+            refuse_frame(file, fmt::format("array '{}': found text that is not base64", name));
         return *bytes;
     }
 
@@ -113,7 +111,8 @@ std::vector<double> read_array(const std::filesystem::path& file, const pugi::xm
     if (type == "Int32") return as_doubles<std::int32_t>(bytes);
     if (type == "UInt8") return as_doubles<std::uint8_t>(bytes);
     if (type == "Int8") return as_doubles<std::int8_t>(bytes);
-    refuse(file, fmt::format("array '{}': found type '{}', expected Float64, Float32, Int64, Int32, Int8 or UInt8",
+    refuse_frame(file,
+                 fmt::format("array '{}': found type '{}', expected Float64, Float32, Int64, Int32, Int8 or UInt8",
                              array.attribute("Name").value(), type));
 }
 
@@ -127,7 +126,8 @@ pugi::xml_document load(const std::filesystem::path& file) {
     if (result.status == pugi::status_file_not_found) {
         throw InputError(fmt::format("{}: file not found, expected a frame of a test", file.string()));
     }
-    if (!result) refuse(file, fmt::format("found broken XML ({} at byte {})", result.description(), result.offset));
+    if (!result)
+        refuse_frame(file, fmt::format("found broken XML ({} at byte {})", result.description(), result.offset));
     return document;
 }
 
@@ -139,12 +139,12 @@ void append_cells(const std::filesystem::path& file, const pugi::xml_node& list,
     double begin = 0;
     for (const double end : offsets) {
         if (end < begin || end > static_cast<double>(connectivity.size()))
-            refuse(file, "cell offsets do not rise within the connectivity");
+            refuse_frame(file, "cell offsets do not rise within the connectivity");
         PolyData::Cell cell{line, {}};
         for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
             if (!(connectivity[k] >= 0 && connectivity[k] < static_cast<double>(data.points.size()))) {
-                refuse(file, fmt::format("a cell names point {}, expected 0 to {}", connectivity[k],
-                                         static_cast<double>(data.points.size()) - 1));
+                refuse_frame(file, fmt::format("a cell names point {}, expected 0 to {}", connectivity[k],
+                                               static_cast<double>(data.points.size()) - 1));
             }
             cell.points.push_back(static_cast<std::size_t>(connectivity[k]));
         }
@@ -162,15 +162,6 @@ std::map<std::string, double> field_values_of(const std::filesystem::path& file,
     return all;
 }
 
-const std::vector<double>& column(const std::filesystem::path& file, const PolyData& data, const char* name) {
-    const auto found = data.cell_data.find(name);
-    if (found == data.cell_data.end() || found->second.size() != data.cells.size()) {
-        refuse(file, fmt::format("cell data '{}': found {} values, expected one for each of the {} cells", name,
-                                 found == data.cell_data.end() ? 0 : found->second.size(), data.cells.size()));
-    }
-    return found->second;
-}
-
 }  // namespace
 
 PolyData read_polydata(const std::filesystem::path& file) {
@@ -179,14 +170,14 @@ PolyData read_polydata(const std::filesystem::path& file) {
     const auto expect = [&](const char* attribute, std::string_view expected) {
         const std::string_view found = root.attribute(attribute).value();
         if (found != expected)
-            refuse(file, fmt::format("VTKFile: {}: found '{}', expected '{}'", attribute, found, expected));
+            refuse_frame(file, fmt::format("VTKFile: {}: found '{}', expected '{}'", attribute, found, expected));
     };
     expect("type", "PolyData");
     expect("byte_order", "LittleEndian");
     expect("header_type", "UInt64");
     expect("compressor", "vtkZLibDataCompressor");
     const pugi::xml_node piece = root.child("PolyData").child("Piece");
-    if (!piece) refuse(file, "found no Piece in PolyData");
+    if (!piece) refuse_frame(file, "found no Piece in PolyData");
 
     PolyData data;
     if (const pugi::xml_node points = piece.child("Points").child("DataArray")) {
@@ -212,31 +203,22 @@ std::map<std::string, double> read_field_values(const std::filesystem::path& fil
     const std::size_t begin = text.find("<FieldData>");
     pugi::xml_document document;
     if (begin == std::string::npos || line != "</FieldData>" || !document.load_string(text.c_str() + begin))
-        refuse(file, "found no FieldData at its beginning");
+        refuse_frame(file, "found no FieldData at its beginning");
     return field_values_of(file, document.child("FieldData"));
 }
 
-ParticleFrame read_particle_frame(const std::filesystem::path& file) {
-    const PolyData data = read_polydata(file);
-    const std::vector<double>& id = column(file, data, "id");
-    const std::vector<double>& radius = column(file, data, "radius");
-    const std::vector<double>& angle = column(file, data, "angle");
-    const auto field = [&](const char* name) {
-        const auto found = data.field_values.find(name);
-        if (found == data.field_values.end()) refuse(file, fmt::format("found no field value '{}'", name));
-        return found->second;
-    };
+const std::vector<double>& cell_values(const std::filesystem::path& file, const PolyData& data, const char* name,
+                                       std::size_t components) {
+    const auto found = data.cell_data.find(name);
+    const std::size_t count = found == data.cell_data.end() ? 0 : found->second.size(),
+                      expected = components * data.cells.size();
+    if (found == data.cell_data.end() || count != expected)
+        refuse_frame(file, fmt::format("cell data '{}': found {} values, expected {}", name, count, expected));
+    return found->second;
+}
 
-    ParticleFrame frame{field("time"), field("axial_strain"), {}};
-    for (std::size_t k = 0; k < data.cells.size(); ++k) {
-        if (!(std::abs(id[k]) < 2e9))
-            refuse(file, fmt::format("cell {}: id: found {}, expected a whole number", k, id[k]));
-        FrameBody body{static_cast<int>(id[k]), radius[k], angle[k], data.cells[k].line, {}};
-        for (const std::size_t point : data.cells[k].points) body.outline.push_back(data.points[point]);
-        if (body.outline.empty()) refuse(file, fmt::format("body {} has no points", body.id));
-        frame.bodies.push_back(std::move(body));
-    }
-    return frame;
+void refuse_frame(const std::filesystem::path& file, const std::string& what) {
+    throw InputError(fmt::format("{}: {}; write the frames anew with `crackle test --force`", file.string(), what));
 }
 
 }  // namespace crackle

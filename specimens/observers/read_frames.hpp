@@ -30,23 +30,11 @@ PolyData read_polydata(const std::filesystem::path& file);
 /// The file's field_values alone, which stand at its beginning. @throws InputError as above
 std::map<std::string, double> read_field_values(const std::filesystem::path& file);
 
-/// One drawn element of a body: its outline, or one circle of it (a clump has several with its id).
-struct FrameBody {
-    int id = 0;                 ///< as in the input
-    double radius = 0.0;        ///< m; 0 for polygons and open chains
-    double angle = 0.0;         ///< rad, turned since loading began, counter-clockwise
-    bool open = false;          ///< an open chain
-    std::vector<Vec2> outline;  ///< m, present position
-};
+/// Cell data `name`, `components` values a cell. @throws InputError as above
+const std::vector<double>& cell_values(const std::filesystem::path& file, const PolyData& data, const char* name,
+                                       std::size_t components = 1);
 
-struct ParticleFrame {
-    double time = 0.0;          ///< s
-    double axial_strain = 0.0;  ///< positive in the sense of the test
-    std::vector<FrameBody> bodies;
-};
-
-/// One particles_NNNNN.vtp: cell data `id`, `radius` and `angle`, field data `time` and `axial_strain`.
-/// @throws InputError as above
-ParticleFrame read_particle_frame(const std::filesystem::path& file);
+/// @throws InputError that names the file and how to mend it
+[[noreturn]] void refuse_frame(const std::filesystem::path& file, const std::string& what);
 
 }  // namespace crackle

@@ -11,7 +11,6 @@
 #include <cmath>
 #include <memory>
 #include <numbers>
-#include <numeric>
 #include <unordered_map>
 
 #include "solver/demseg/geometry.hpp"
@@ -44,11 +43,6 @@ std::vector<Chain> joined(const std::vector<DeckSegment>& segments) {
         if (chain.closed) chain.points.pop_back();
     }
     return chains;
-}
-
-Vec2 mean(const std::vector<Vec2>& points) {
-    const Vec2 sum = std::accumulate(points.begin(), points.end(), Vec2{});
-    return (1.0 / static_cast<double>(points.size())) * sum;
 }
 
 double direction(const Chain& chain) {

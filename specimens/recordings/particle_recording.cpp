@@ -1,22 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A particle file (in_gm.dat and its like) as a recording of one frame.
 
-#include <numeric>
-
 #include "solver/demseg/geometry.hpp"
 #include "solver/demseg/random_circles.hpp"
 #include "specimens/recordings/recording.hpp"
 
 namespace crackle {
-namespace {
-
-Vec2 mean(const std::vector<Vec2>& points) {
-    const Vec2 sum = std::accumulate(points.begin(), points.end(), Vec2{});
-    return (1.0 / static_cast<double>(points.size())) * sum;
-}
-
-}  // namespace
-
 Recording read_particle_recording(const std::filesystem::path& file, std::uint64_t seed) {
     const Scene scene = read_geometry_mode(file) == 1 ? read_geometry(file)
                                                       : make_random_circles(read_random_geometry(file), seed).scene;

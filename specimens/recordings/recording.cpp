@@ -4,11 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 #include <set>
 
 #include "solver/errors.hpp"
 
 namespace crackle {
+
+Vec2 mean(const std::vector<Vec2>& corners) {
+    const Vec2 sum = std::accumulate(corners.begin(), corners.end(), Vec2{});
+    return (1.0 / static_cast<double>(corners.size())) * sum;
+}
 
 std::vector<std::size_t> chosen_frames(std::size_t count, std::size_t most, const std::vector<std::size_t>& kept) {
     std::set<std::size_t> chosen(kept.begin(), kept.end());

@@ -23,6 +23,9 @@ namespace crackle {
 /// Where contacts with the walls of a deck's domain lie in place of a cell: left, right, bottom, top.
 inline constexpr std::array<std::int32_t, 4> recorded_walls{-1, -2, -3, -4};
 
+/// Mean of a cell's corners.
+Vec2 mean(const std::vector<Vec2>& corners);
+
 /// One drawn cell: a polygon, an open chain, or a circle (a clump has several with its id).
 struct RecordedCell {
     int id = 0;  ///< of the body, as in the input

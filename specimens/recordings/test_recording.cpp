@@ -18,10 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-[[noreturn]] void refuse(const fs::path& file, const std::string& what) {
-    throw InputError(fmt::format("{}: {}; write the frames anew with `crackle test --force`", file.string(), what));
-}
-
 /// The numbers of the pictures of the particles, ascending.
 std::vector<std::int64_t> drawn_rows(const fs::path& frames) {
     std::vector<std::int64_t> rows;
@@ -37,20 +33,17 @@ std::vector<std::int64_t> drawn_rows(const fs::path& frames) {
     return rows;
 }
 
-const std::vector<double>& column(const fs::path& file, const PolyData& data, const char* name, std::size_t values) {
-    const auto found = data.cell_data.find(name);
-    const std::size_t count = found == data.cell_data.end() ? 0 : found->second.size();
-    if (count != values || found == data.cell_data.end())
-        refuse(file, fmt::format("cell data '{}': found {} values, expected {}", name, count, values));
-    return found->second;
-}
-
 /// Empty where the file has no such array.
 std::vector<double> column_if_there(const fs::path& file, const PolyData& data, const char* name) {
-    return data.cell_data.contains(name) ? column(file, data, name, data.cells.size()) : std::vector<double>();
+    return data.cell_data.contains(name) ? cell_values(file, data, name) : std::vector<double>();
 }
 
-/// Mean of a cell's corners.
+int body_number(const fs::path& file, double id) {
+    if (!(std::abs(id) < 2e9)) refuse_frame(file, fmt::format("found body {}, expected a whole number", id));
+    return static_cast<int>(id);
+}
+
+/// Mean of each cell's corners.
 std::vector<Vec2> centres(const PolyData& data) {
     std::vector<Vec2> all;
     all.reserve(data.cells.size());
@@ -63,15 +56,14 @@ std::vector<Vec2> centres(const PolyData& data) {
 }
 
 void append_cells(const fs::path& file, const PolyData& data, std::vector<RecordedCell>& cells) {
-    const auto& id = column(file, data, "id", data.cells.size());
-    const auto& radius = column(file, data, "radius", data.cells.size());
+    const auto& id = cell_values(file, data, "id");
+    const auto& radius = cell_values(file, data, "radius");
     const std::vector<double> material = column_if_there(file, data, "material");
     const std::vector<Vec2> centre = centres(data);
     for (std::size_t k = 0; k < data.cells.size(); ++k) {
-        if (!(std::abs(id[k]) < 2e9))
-            refuse(file, fmt::format("cell {}: id: found {}, expected a whole number", k, id[k]));
+        if (data.cells[k].points.empty()) refuse_frame(file, fmt::format("body {} has no points", id[k]));
         const bool line = data.cells[k].line;
-        RecordedCell cell{static_cast<int>(id[k]), 1, radius[k], line, line, centre[k], {}};
+        RecordedCell cell{body_number(file, id[k]), 1, radius[k], line, line, centre[k], {}};
         if (!material.empty()) cell.material = static_cast<int>(material[k]);
         for (const std::size_t point : data.cells[k].points) {
             if (cell.radius == 0.0) cell.outline.push_back(data.points[point]);
@@ -99,14 +91,14 @@ class TestFrames {
     void read_start(Recording& recording) {
         const fs::path file = frames_ / particles_file(rows_.front());
         append_cells(file, read_polydata(file), recording.cells);
-        for (const RecordedCell& cell : recording.cells) start_.push_back(cell.centre);
+        for (const RecordedCell& cell : recording.cells) start_.push_back({cell.centre, cell.id});
         const fs::path contacts = frames_ / contacts_file(rows_.front());
         if (!fs::exists(contacts)) return;
         finder_.emplace(recording.cells);
         const PolyData data = read_polydata(contacts);
         const auto [i, j, state] = columns(contacts, data);
         for (std::size_t k = 0; k < data.cells.size() && state[k] != unbonded; ++k) {
-            const Vec2 place = place_at(data, k, i[k], j[k]);
+            const Vec2 place = place_at(contacts, data, k, i[k], j[k]);
             recording.bonds.push_back({cell_of(contacts, i[k], place), cell_of(contacts, j[k], place), place});
         }
         bonds_ = recording.bonds.size();
@@ -125,18 +117,18 @@ class TestFrames {
         const std::vector<double>&i, &j, &state;
     };
     static ContactColumns columns(const fs::path& file, const PolyData& data) {
-        const std::size_t lines = data.cells.size();
-        return {column(file, data, "body_i", lines), column(file, data, "body_j", lines),
-                column(file, data, "state", lines)};
+        return {cell_values(file, data, "body_i"), cell_values(file, data, "body_j"), cell_values(file, data, "state")};
     }
     std::int32_t cell_of(const fs::path& file, double id, Vec2 place) const {
-        const std::int32_t cell = finder_->find(static_cast<int>(id), place);
-        if (cell < 0) refuse(file, fmt::format("found a contact of body {}, which is not drawn", id));
+        const std::int32_t cell = finder_->find(body_number(file, id), place);
+        if (cell < 0) refuse_frame(file, fmt::format("found a contact of body {}, which is not drawn", id));
         return cell;
     }
-    Vec2 place_at(const PolyData& data, std::size_t line, double i, double j) const {
-        const bool circles_i = finder_->is_circle(static_cast<int>(i)),
-                   circles_j = finder_->is_circle(static_cast<int>(j));
+    Vec2 place_at(const fs::path& file, const PolyData& data, std::size_t line, double i, double j) const {
+        if (data.cells[line].points.size() < 2)
+            refuse_frame(file, fmt::format("contact {}: found fewer than two points", line));
+        const bool circles_i = finder_->is_circle(body_number(file, i)),
+                   circles_j = finder_->is_circle(body_number(file, j));
         return place_of(data, data.cells[line], circles_i, circles_j);
     }
 
@@ -144,15 +136,19 @@ class TestFrames {
         const PolyData data = read_polydata(file);
         const std::size_t cells = data.cells.size();
         if (cells != start_.size())
-            refuse(file, fmt::format("found {} cells, expected {} as in the first frame", cells, start_.size()));
+            refuse_frame(file, fmt::format("found {} cells, expected {} as in the first frame", cells, start_.size()));
+        const std::vector<double>& id = cell_values(file, data, "id");
         const std::vector<Vec2> centre = centres(data);
         for (std::size_t k = 0; k < cells; ++k) {
-            frame.ux.push_back(centre[k].x - start_[k].x);
-            frame.uy.push_back(centre[k].y - start_[k].y);
+            if (id[k] != start_[k].id)
+                refuse_frame(file, fmt::format("cell {}: found body {}, expected {} as in the first frame", k, id[k],
+                                               start_[k].id));
+            frame.ux.push_back(centre[k].x - start_[k].centre.x);
+            frame.uy.push_back(centre[k].y - start_[k].centre.y);
         }
-        frame.angle = column(file, data, "angle", cells);
+        frame.angle = cell_values(file, data, "angle");
         if (data.cell_data.contains("velocity")) {
-            const std::vector<double>& velocity = column(file, data, "velocity", 3 * cells);
+            const std::vector<double>& velocity = cell_values(file, data, "velocity", 3);
             for (std::size_t k = 0; k < cells; ++k) {
                 frame.vx.push_back(velocity[3 * k]);
                 frame.vy.push_back(velocity[3 * k + 1]);
@@ -168,18 +164,18 @@ class TestFrames {
     void read_contacts(const fs::path& file, RecordedFrame& frame) const {
         const PolyData data = read_polydata(file);
         const auto [i, j, state] = columns(file, data);
-        const auto& normal = column(file, data, "normal_force", data.cells.size());
-        const auto& shear = column(file, data, "shear_force", data.cells.size());
+        const auto& normal = cell_values(file, data, "normal_force");
+        const auto& shear = cell_values(file, data, "shear_force");
         if (data.cells.size() < bonds_)
-            refuse(file, fmt::format("found {} contacts, expected the {} bonds of the first frame", data.cells.size(),
-                                     bonds_));
+            refuse_frame(file, fmt::format("found {} contacts, expected the {} bonds of the first frame",
+                                           data.cells.size(), bonds_));
         const auto bonds = static_cast<std::ptrdiff_t>(bonds_);
         frame.normal_force.assign(normal.begin(), normal.begin() + bonds);
         frame.shear_force.assign(shear.begin(), shear.begin() + bonds);
         frame.state.assign(state.begin(), state.begin() + bonds);
         RecordedContacts& contacts = frame.contacts;
         for (std::size_t k = bonds_; k < data.cells.size(); ++k) {
-            const Vec2 place = place_at(data, k, i[k], j[k]);
+            const Vec2 place = place_at(file, data, k, i[k], j[k]);
             contacts.i.push_back(cell_of(file, i[k], place));
             contacts.j.push_back(cell_of(file, j[k], place));
             contacts.x.push_back(place.x);
@@ -191,7 +187,11 @@ class TestFrames {
 
     fs::path frames_;
     std::vector<std::int64_t> rows_;
-    std::vector<Vec2> start_;
+    struct Start {
+        Vec2 centre;
+        int id = 0;
+    };
+    std::vector<Start> start_;
     std::optional<CellFinder> finder_;  ///< where there are contacts
     std::size_t bonds_ = 0;
 };
@@ -202,7 +202,7 @@ FrameHead head_of(const fs::path& folder, const TestResults& results, std::int64
     const std::map<std::string, double> values = read_field_values(folder / head.file);
     const auto value = [&](const char* name) {
         const auto found = values.find(name);
-        if (found == values.end()) refuse(folder / head.file, fmt::format("found no field value '{}'", name));
+        if (found == values.end()) refuse_frame(folder / head.file, fmt::format("found no field value '{}'", name));
         return found->second;
     };
     head.time = value("time");

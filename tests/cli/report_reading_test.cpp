@@ -9,13 +9,15 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "solver/errors.hpp"
 #include "specimens/observers/base64.hpp"
 #include "specimens/observers/read_frames.hpp"
-#include "specimens/results.hpp"
+#include "specimens/recordings/recording.hpp"
 #include "tests/support/sample_results.hpp"
 #include "tests/support/vtp_data.hpp"
 
@@ -39,7 +41,8 @@ class TemporaryFile {
 std::string message_of(const std::string& text) {
     const TemporaryFile file(text);
     try {
-        read_particle_frame(file.path);
+        const PolyData data = read_polydata(file.path);
+        for (const char* name : {"id", "radius", "angle"}) cell_values(file.path, data, name);
     } catch (const InputError& error) {
         return error.what();
     }
@@ -56,6 +59,11 @@ VtpData one_platen_one_triangle() {
                         {"displacement", 3, {1, 2, 3, 4, 5, 6}, {}}};
     data.field_values = {{"time", 0.125}, {"axial_strain", 1e-3}};
     return data;
+}
+
+std::string text_of(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
 }
 
 std::string replaced(std::string text, const std::string& old_text, const std::string& new_text) {
@@ -94,19 +102,22 @@ Vec2 in_single_precision(Vec2 place) {
 
 TEST(ReadFrames, BodiesComeBackBitForBit) {
     const TemporaryFile file(vtp_text(one_platen_one_triangle()));
-    const ParticleFrame frame = read_particle_frame(file.path);
-    EXPECT_EQ(frame.time, 0.125);
-    EXPECT_EQ(frame.axial_strain, 1e-3);
-    ASSERT_EQ(frame.bodies.size(), 2U);
-    EXPECT_TRUE(frame.bodies[0].open);
-    EXPECT_EQ(frame.bodies[0].id, 9);
-    EXPECT_EQ(frame.bodies[0].outline,
-              (std::vector<Vec2>{in_single_precision({0.1, 0.2}), in_single_precision({1.0 / 3.0, 0.2})}));
-    EXPECT_FALSE(frame.bodies[1].open);
-    EXPECT_EQ(frame.bodies[1].id, 4);
-    EXPECT_EQ(frame.bodies[1].angle, -0.25);
-    EXPECT_EQ(frame.bodies[1].outline, (std::vector<Vec2>{{0.0, 0.0}, {1.0, 0.0}, in_single_precision({0.0, 1e-30})}));
-    EXPECT_EQ(read_polydata(file.path).cell_data.at("displacement"), (std::vector<double>{1, 2, 3, 4, 5, 6}));
+    const PolyData data = read_polydata(file.path);
+    const auto outline = [&](std::size_t cell) {
+        std::vector<Vec2> corners;
+        for (const std::size_t point : data.cells[cell].points) corners.push_back(data.points[point]);
+        return corners;
+    };
+    EXPECT_EQ(data.field_values, (std::map<std::string, double>{{"time", 0.125}, {"axial_strain", 1e-3}}));
+    EXPECT_EQ(read_field_values(file.path), data.field_values);
+    ASSERT_EQ(data.cells.size(), 2U);
+    EXPECT_TRUE(data.cells[0].line);
+    EXPECT_EQ(outline(0), (std::vector<Vec2>{in_single_precision({0.1, 0.2}), in_single_precision({1.0 / 3.0, 0.2})}));
+    EXPECT_FALSE(data.cells[1].line);
+    EXPECT_EQ(outline(1), (std::vector<Vec2>{{0.0, 0.0}, {1.0, 0.0}, in_single_precision({0.0, 1e-30})}));
+    EXPECT_EQ(cell_values(file.path, data, "id"), (std::vector<double>{9, 4}));
+    EXPECT_EQ(cell_values(file.path, data, "angle"), (std::vector<double>{0.0, -0.25}));
+    EXPECT_EQ(cell_values(file.path, data, "displacement", 3), (std::vector<double>{1, 2, 3, 4, 5, 6}));
 }
 
 TEST(ReadFrames, ReadsArraysInSeveralBlocksAsVtkWritesThem) {
@@ -143,8 +154,6 @@ TEST(ReadFrames, SaysWhatIsWrongWithAFrame) {
               std::string::npos);
     EXPECT_NE(message_of(replaced(good, "Name=\"radius\"", "Name=\"size\"")).find("cell data 'radius': found 0 values"),
               std::string::npos);
-    EXPECT_NE(message_of(replaced(good, "Name=\"time\"", "Name=\"date\"")).find("found no field value 'time'"),
-              std::string::npos);
     EXPECT_NE(message_of(replaced(good, "type=\"Int32\" Name=\"id\"", "type=\"String\" Name=\"id\""))
                   .find("found type 'String'"),
               std::string::npos);
@@ -169,17 +178,36 @@ TEST(ReadResults, SampleFolderComesBackWithItsCounts) {
     testing::SampleTest test;
     test.specimen = "voronoi";
     const testing::SampleCounts counts = testing::write_sample_results(folder, test);
-    const TestResults results = read_results(folder);
-    fs::remove_all(folder);
+    const Recording recording = read_test_recording(folder, 10);
+    const TestResults& results = recording.results;
 
     const std::vector<double>& modes = *results.events.find("mode");
     EXPECT_EQ(std::count(modes.begin(), modes.end(), 1.0), counts.shear_breaks);
     EXPECT_EQ(std::count(modes.begin(), modes.end(), 0.0), counts.tension_breaks);
     EXPECT_EQ(results.curve.rows(), 601U);
-    ASSERT_EQ(results.frames.size(), 3U);
-    for (const KeyFrame& frame : results.frames)
-        EXPECT_EQ(frame.particles.bodies.size(), static_cast<std::size_t>(counts.particles) + 2);
-    EXPECT_EQ(results.frames[2].particles.axial_strain, 1.5e-3);
+    EXPECT_EQ(recording.cells.size(), static_cast<std::size_t>(counts.particles) + 2);
+    ASSERT_EQ(recording.frames.size(), 3U);
+    EXPECT_EQ(recording.frames[1].role, "peak");
+    EXPECT_EQ(recording.frames[2].axial_strain, 1.5e-3);
+
+    const fs::path peak = folder / "frames" / "particles_00400.vtp";
+    const std::string good = text_of(peak);
+    const auto complaint = [&](const std::string& text) -> std::string {
+        std::ofstream(peak, std::ios::binary) << text;
+        try {
+            read_test_recording(folder, 10).frame(1);
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "read without complaint";
+    };
+    EXPECT_EQ(complaint(good), "read without complaint");
+    EXPECT_NE(complaint(replaced(good, "Name=\"time\"", "Name=\"date\"")).find("found no field value 'time'"),
+              std::string::npos);
+    VtpData others = one_platen_one_triangle();
+    others.field_values.emplace_back("axial_stress", 0.0);
+    EXPECT_NE(complaint(vtp_text(others)).find("particles_00400.vtp: found 2 cells, expected"), std::string::npos);
+    fs::remove_all(folder);
 }
 
 }  // namespace

@@ -167,12 +167,12 @@ TEST_F(ViewCommand, ATestsCellsAndForcesAreThoseOfItsFrames) {
     double force_quantum = 0.0;
     for (std::size_t f = 0; f < frames.size(); ++f) {
         const std::string name = frames[f]["file"];
-        const ParticleFrame particles = read_particle_frame(folder_ / "out" / name);
+        const PolyData particles = read_polydata(folder_ / "out" / name);
         const std::vector<double> ux = shown.row("ux", f), fn = shown.row("fn", f);
-        for (std::size_t k = 0; k < particles.bodies.size(); ++k) {
+        for (std::size_t k = 0; k < particles.cells.size(); ++k) {
             double sum = 0.0;
-            for (const Vec2 corner : particles.bodies[k].outline) sum += corner.x;
-            expected_x.push_back(sum / static_cast<double>(particles.bodies[k].outline.size()));
+            for (const std::size_t corner : particles.cells[k].points) sum += particles.points[corner].x;
+            expected_x.push_back(sum / static_cast<double>(particles.cells[k].points.size()));
             got_x.push_back(x[k] + ux[k]);
         }
         std::string contacts = name;

@@ -14,7 +14,7 @@
 #include "specimens/observers/frames.hpp"
 #include "specimens/observers/read_frames.hpp"
 #include "specimens/output_folder.hpp"
-#include "specimens/results.hpp"
+#include "specimens/recordings/recording.hpp"
 #include "specimens/virtual_test.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/deck_files.hpp"
@@ -64,10 +64,13 @@ class TestFolder : public ::testing::Test {
 
 TEST_F(TestFolder, HoldsWhatReadersLookFor) {
     const TestOutcome outcome = run_test(small_case(), options("out"));
-    const TestResults results = read_results(scratch_ / "out");
+    const Recording recording = read_test_recording(scratch_ / "out", 3);
+    const TestResults& results = recording.results;
     EXPECT_TRUE(results.summary["failed"].get<bool>());
-    EXPECT_EQ(results.frames.size(), 3u) << "start, peak, end";
-    EXPECT_EQ(results.frames[0].particles.bodies.size(), 79u) << "77 discs and two platens";
+    ASSERT_EQ(recording.frames.size(), 3u);
+    EXPECT_EQ(recording.frames[0].role + " " + recording.frames[1].role + " " + recording.frames[2].role,
+              "start peak end");
+    EXPECT_EQ(recording.cells.size(), 79u) << "77 discs and two platens";
     const std::string curve = read_text_file(scratch_ / "out/curve.csv");
     EXPECT_EQ(static_cast<std::ptrdiff_t>(results.curve.rows()), std::count(curve.begin(), curve.end(), '\n') - 1);
     EXPECT_EQ(results.events.rows(), results.summary["bonds_broken"].get<std::size_t>());

@@ -10,7 +10,7 @@
 namespace crackle::plot {
 namespace {
 
-constexpr double tick_length = 2.5, frame_width = 0.6, gap = 2.0;  // pt
+constexpr double tick_length = 2.5, frame_width = 0.6, label_gap = 2.0;  // pt
 
 std::string with_minus(std::string number) {
     if (number.starts_with('-')) number.replace(0, 1, "−");
@@ -65,46 +65,47 @@ Point Axes::at(double value_x, double value_y) const {
 }
 
 double Axes::room_left(const Canvas& canvas, const Scale& scale) {
-    return widest_label(canvas, scale) + canvas.size_of("0").height + tick_length + 2.0 * gap;
+    return widest_label(canvas, scale) + canvas.size_of("0").height + tick_length + 2.0 * label_gap;
 }
 
-double Axes::room_below(const Canvas& canvas) { return 2.0 * canvas.size_of("0").height + tick_length + gap; }
+double Axes::room_below(const Canvas& canvas) { return 2.0 * canvas.size_of("0").height + tick_length + label_gap; }
 
 void Axes::draw(Canvas& canvas, const std::string& x_title, const std::string& y_title) const {
-    const Colour ink = colour("#1d2125");
     const double height = canvas.size_of("0").height;
     for (const double tick : y.ticks()) {
         const Point mark = at(x.low, tick);
         canvas.line({mark, {mark.x - tick_length, mark.y}}, ink, frame_width);
-        canvas.text({mark.x - tick_length - gap, mark.y}, y.label(tick), Across::right, Down::middle, 1.0, ink);
+        canvas.text({mark.x - tick_length - label_gap, mark.y}, y.label(tick), Across::right, Down::middle, 1.0, ink);
     }
-    const double title_x = frame.x - tick_length - 2.0 * gap - widest_label(canvas, y);
+    const double title_x = frame.x - tick_length - 2.0 * label_gap - widest_label(canvas, y);
     canvas.text({title_x, frame.y + 0.5 * frame.height}, y_title, Across::centre, Down::bottom, 1.0, ink, true);
     for (const double tick : x.ticks()) {
         const Point mark = at(tick, y.low);
         canvas.line({mark, {mark.x, mark.y + tick_length}}, ink, frame_width);
         if (!x_title.empty())
-            canvas.text({mark.x, mark.y + tick_length + 0.5 * gap}, x.label(tick), Across::centre, Down::top, 1.0, ink);
+            canvas.text({mark.x, mark.y + tick_length + 0.5 * label_gap}, x.label(tick), Across::centre, Down::top, 1.0,
+                        ink);
     }
     if (!x_title.empty()) {
-        canvas.text({frame.x + 0.5 * frame.width, frame.bottom() + tick_length + gap + height}, x_title, Across::centre,
-                    Down::top, 1.0, ink);
+        canvas.text({frame.x + 0.5 * frame.width, frame.bottom() + tick_length + label_gap + height}, x_title,
+                    Across::centre, Down::top, 1.0, ink);
     }
     canvas.line({{frame.x, frame.y}, {frame.x, frame.bottom()}, {frame.right(), frame.bottom()}}, ink, frame_width);
 }
 
 void Axes::draw_right(Canvas& canvas, const Scale& scale, const std::string& title) const {
-    const Colour ink = colour("#5b636b");
+    const Colour grey = colour("#5b636b");
     Axes other = *this;
     other.y = scale;
     for (const double tick : scale.ticks()) {
         const Point mark = other.at(x.high, tick);
-        canvas.line({mark, {mark.x + tick_length, mark.y}}, ink, frame_width);
-        canvas.text({mark.x + tick_length + gap, mark.y}, scale.label(tick), Across::left, Down::middle, 1.0, ink);
+        canvas.line({mark, {mark.x + tick_length, mark.y}}, grey, frame_width);
+        canvas.text({mark.x + tick_length + label_gap, mark.y}, scale.label(tick), Across::left, Down::middle, 1.0,
+                    grey);
     }
-    canvas.line({{frame.right(), frame.y}, {frame.right(), frame.bottom()}}, ink, frame_width);
-    const double title_x = frame.right() + tick_length + 2.0 * gap + widest_label(canvas, scale);
-    canvas.text({title_x, frame.y + 0.5 * frame.height}, title, Across::centre, Down::top, 1.0, ink, true);
+    canvas.line({{frame.right(), frame.y}, {frame.right(), frame.bottom()}}, grey, frame_width);
+    const double title_x = frame.right() + tick_length + 2.0 * label_gap + widest_label(canvas, scale);
+    canvas.text({title_x, frame.y + 0.5 * frame.height}, title, Across::centre, Down::top, 1.0, grey, true);
 }
 
 }  // namespace crackle::plot

@@ -13,8 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const Colour grain = colour("#e3e0d9"), grain_edge = colour("#8d877b"), platen = colour("#4b5259"),
-             tension_colour = colour("#0072b2"), shear_colour = colour("#d55e00");
+const Colour grain = colour("#e3e0d9"), grain_edge = colour("#8d877b"), platen = colour("#4b5259");
 
 struct Extent {
     double x1 = std::numeric_limits<double>::infinity(), x2 = -x1, y1 = x1, y2 = -x1;
@@ -96,7 +95,7 @@ Moment prepared(const DrawnMoment& drawn, const fs::path& folder, const DrawingS
 
 /// Room around a specimen for what bulges and moves out, of its width.
 constexpr double surroundings = 0.18;
-constexpr double gap = 6.0;  // pt between drawings
+constexpr double between_drawings = 6.0;  // pt
 
 Extent common_extent(const std::vector<Moment>& moments) {
     Extent all;
@@ -149,7 +148,7 @@ Panel drawings(const std::vector<DrawnMoment>& drawn, const std::vector<fs::path
     const auto each = [count = moments.size()](double width) {
         const auto number = static_cast<double>(count);
         // A single specimen need not fill the sheet.
-        return std::min((width - gap * (number - 1.0)) / number, 0.45 * width);
+        return std::min((width - between_drawings * (number - 1.0)) / number, 0.45 * width);
     };
     const bool two_lines = std::any_of(drawn.begin(), drawn.end(), [](const DrawnMoment& moment) {
         return moment.caption.find('\n') != std::string::npos;
@@ -163,11 +162,11 @@ Panel drawings(const std::vector<DrawnMoment>& drawn, const std::vector<fs::path
     panel.draw = [moments, extent, each, caption](Canvas& canvas, const Rect& place) {
         const double width = each(place.width);
         const auto count = static_cast<double>(moments.size());
-        double x = place.x + 0.5 * (place.width - count * width - gap * (count - 1.0));
+        double x = place.x + 0.5 * (place.width - count * width - between_drawings * (count - 1.0));
         for (const Moment& moment : moments) {
             draw_moment(canvas, {x, place.y, width, place.height - caption}, moment, extent);
             canvas.text({x + 0.5 * width, place.bottom() - caption + 3.0}, moment.caption, Across::centre, Down::top);
-            x += width + gap;
+            x += width + between_drawings;
         }
     };
     return panel;
