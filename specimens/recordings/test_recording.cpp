@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 
@@ -196,6 +197,14 @@ class TestFrames {
     std::size_t bonds_ = 0;
 };
 
+constexpr std::array roles{"start", "peak", "end"};
+
+/// Empty where the test had none.
+std::string named_frame(const TestResults& results, const char* role) {
+    const auto named = results.summary.find(std::string("frame_") + role);
+    return named != results.summary.end() && named->is_string() ? named->get<std::string>() : std::string();
+}
+
 FrameHead head_of(const fs::path& folder, const TestResults& results, std::int64_t row) {
     FrameHead head;
     head.file = "frames/" + particles_file(row);
@@ -208,9 +217,8 @@ FrameHead head_of(const fs::path& folder, const TestResults& results, std::int64
     head.time = value("time");
     head.axial_strain = value("axial_strain");
     head.axial_stress = value("axial_stress");
-    for (const char* role : {"start", "peak", "end"}) {
-        const auto named = results.summary.find(std::string("frame_") + role);
-        if (named != results.summary.end() && *named == head.file && head.role.empty()) head.role = role;
+    for (const char* role : roles) {
+        if (named_frame(results, role) == head.file && head.role.empty()) head.role = role;
     }
     return head;
 }
@@ -224,6 +232,12 @@ Recording read_test_recording(const fs::path& folder, std::size_t most_frames) {
     recording.name = recording.results.name;
     const std::vector<std::int64_t> rows = drawn_rows(folder / "frames");
     if (rows.empty()) return recording;
+    for (const char* role : roles) {
+        const std::string named = named_frame(recording.results, role);
+        if (!named.empty() && !fs::exists(folder / named))
+            throw InputError(fmt::format("{}: file not found, expected the frame at {} that summary.json names",
+                                         (folder / named).string(), role));
+    }
 
     std::vector<FrameHead> heads;
     std::vector<std::size_t> with_role;
