@@ -130,7 +130,10 @@ class CodedBlock {
 /// The place of one number a cell (or bond) in a recorded frame.
 using Field = std::vector<double> RecordedFrame::*;
 
-constexpr double largest_share = 0x1p-12;  // quantum over the largest value
+// What no eye sees, even where displacements are magnified a hundred times; half of a page is these numbers' noise.
+constexpr double place_share = 0x1p-22;    // quantum over the specimen's size
+constexpr double angle_quantum = 0x1p-18;  // rad
+constexpr double largest_share = 0x1p-10;  // quantum over the block's largest value
 
 double largest_of(const std::vector<std::vector<double>>& rows) {
     double largest = 0.0;
@@ -236,8 +239,8 @@ void add_bonds(PlainBlock& block, const std::vector<RecordedBond>& bonds) {
 }
 
 void add_results(PlainBlock& block, const TestResults& results) {
-    for (std::size_t k = 0; k < results.curve.names.size(); ++k)
-        block.add("curve." + results.curve.names[k], results.curve.columns[k]);
+    for (const char* name : {"axial_strain", "axial_stress", "bonds_broken"})
+        block.add(std::string("curve.") + name, *results.curve.find(name));
     const auto whole = [&](const char* name) {
         return listed<std::int32_t>(*results.events.find(name), [](double value) { return value; });
     };
@@ -248,10 +251,8 @@ void add_results(PlainBlock& block, const TestResults& results) {
     };
     for (const char* name : {"body_i", "body_j"}) block.add(std::string("events.") + name, whole(name));
     flag("shear", "mode");
-    flag("slid", "slid");
     flag("last_of_interface", "last_of_interface");
-    for (const char* name : {"time", "step", "axial_strain", "x", "y", "orientation", "energy", "strength",
-                             "normal_force", "shear_force"}) {
+    for (const char* name : {"time", "axial_strain", "x", "y", "orientation", "energy"}) {
         if (const std::vector<double>* values = results.events.find(name))
             block.add(std::string("events.") + name, *values);
     }
@@ -262,7 +263,7 @@ Json listed_frame(const FrameHead& head) {
     if (head.axial_strain) entry["axial_strain"] = *head.axial_strain;
     if (head.axial_stress) entry["axial_stress"] = *head.axial_stress;
     if (head.step) entry["step"] = *head.step;
-    if (!head.role.empty()) entry["role"] = head.role;
+    if (!head.roles.empty()) entry["roles"] = head.roles;
     if (!head.file.empty()) entry["file"] = head.file;
     return entry;
 }
@@ -300,7 +301,7 @@ PageData pack_recording(const Recording& recording, const std::function<void(std
     manifest["groups"] = Json::array();
     data.blocks.push_back(packed(first.bytes()));
 
-    const double place_quantum = 0x1p-24 * size_of(recording.cells);
+    const double place_quantum = place_share * size_of(recording.cells);
     for (std::size_t begin = 0; begin < recording.frames.size(); begin += frames_in_block) {
         const std::size_t end = std::min(begin + frames_in_block, recording.frames.size());
         std::vector<RecordedFrame> frames;
@@ -311,7 +312,7 @@ PageData pack_recording(const Recording& recording, const std::function<void(std
         CodedBlock block;
         add_field(block, "ux", frames, &RecordedFrame::ux, place_quantum);
         add_field(block, "uy", frames, &RecordedFrame::uy, place_quantum);
-        add_field(block, "angle", frames, &RecordedFrame::angle, 0x1p-20);
+        add_field(block, "angle", frames, &RecordedFrame::angle, angle_quantum);
         add_field(block, "vx", frames, &RecordedFrame::vx);
         add_field(block, "vy", frames, &RecordedFrame::vy);
         add_field(block, "rate", frames, &RecordedFrame::rotation_rate);

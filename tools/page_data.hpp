@@ -8,7 +8,7 @@
 // to row, zigzag coded (0, -1, 1, -2, ... as 0, 1, 2, 3, ...), lowest bytes of all first, then the second ones: bytes
 // of equal meaning lie together, and most are small. Contacts other than bonds come and go: their tables have one row
 // for all frames of the block, differences from column to column, and `contacts.count` says how many each frame has.
-// Quanta: places 2⁻²⁴ of the specimen's size, angles 2⁻²⁰ rad, else 2⁻¹² of the block's largest value.
+// Quanta: places 2⁻²² of the specimen's size, angles 2⁻¹⁸ rad, else 2⁻¹⁰ of the block's largest value.
 #pragma once
 
 #include <functional>

@@ -105,7 +105,9 @@ std::size_t frame_at(const Recording& test, const std::string& at) {
     if (test.frames.empty())
         throw InputError(
             fmt::format("plot: {}: found no frames, expected those of a test (output.frames of its case)", test.name));
-    const auto has_role = [&](const FrameHead& head) { return head.role == at; };
+    const auto has_role = [&](const FrameHead& head) {
+        return std::find(head.roles.begin(), head.roles.end(), at) != head.roles.end();
+    };
     if (const auto found = std::find_if(test.frames.begin(), test.frames.end(), has_role); found != test.frames.end())
         return static_cast<std::size_t>(found - test.frames.begin());
     double strain = 0.0;
@@ -133,8 +135,8 @@ Panel drawings_of(const Recording& test, const fs::path& folder, const Words& mo
     for (const std::string& at : moments) {
         const std::size_t frame = frame_at(test, at);
         const FrameHead& head = test.frames[frame];
-        const std::string role = head.role.empty() ? "" : head.role + "\n";
-        drawn.push_back({&test, frame, role + strain_text(head.axial_strain.value_or(0.0))});
+        const std::string roles = head.roles.empty() ? "" : fmt::format("{}\n", fmt::join(head.roles, ", "));
+        drawn.push_back({&test, frame, roles + strain_text(head.axial_strain.value_or(0.0))});
     }
     return drawings(drawn, std::vector<fs::path>(drawn.size(), folder), style);
 }

@@ -56,8 +56,8 @@ struct FrameHead {
     double time = 0.0;
     std::optional<double> axial_strain, axial_stress;
     std::optional<std::int64_t> step;
-    std::string role;  ///< start, peak or end of a test, or empty
-    std::string file;  ///< for people
+    std::vector<std::string> roles;  ///< of start, peak and end those that a test names it as
+    std::string file;                ///< for people
 };
 
 /// One moment. By cell or by bond; empty where the source does not know it, but for the motion.

@@ -218,7 +218,7 @@ FrameHead head_of(const fs::path& folder, const TestResults& results, std::int64
     head.axial_strain = value("axial_strain");
     head.axial_stress = value("axial_stress");
     for (const char* role : roles) {
-        if (named_frame(results, role) == head.file && head.role.empty()) head.role = role;
+        if (named_frame(results, role) == head.file) head.roles.emplace_back(role);
     }
     return head;
 }
@@ -243,7 +243,7 @@ Recording read_test_recording(const fs::path& folder, std::size_t most_frames) {
     std::vector<std::size_t> with_role;
     for (const std::int64_t row : rows) {
         heads.push_back(head_of(folder, recording.results, row));
-        if (!heads.back().role.empty()) with_role.push_back(heads.size() - 1);
+        if (!heads.back().roles.empty()) with_role.push_back(heads.size() - 1);
     }
     std::vector<std::int64_t> chosen;
     for (const std::size_t k : chosen_frames(rows.size(), most_frames, with_role)) {

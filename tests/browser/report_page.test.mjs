@@ -92,7 +92,7 @@ test('each specimen stands at start, peak and end with all its particles, its pl
     for (const folder of sixFolders) {
         const {summary, curve, events} = results(join(root, folder));
         const drawings = page.locator(`#specimens article[data-test="${folder}"] svg`);
-        assert.deepEqual(await drawings.evaluateAll((all) => all.map((one) => one.dataset.role)), ['start', 'peak', 'end']);
+        assert.deepEqual(await drawings.evaluateAll((all) => all.map((one) => one.dataset.roles)), ['start', 'peak', 'end']);
         const times = [0, summary.peak_strain / 0.01, curve.at(-1).time];
         for (const [index, time] of times.entries()) {
             const drawn = await drawings.nth(index).evaluate((svg) => Object.fromEntries(

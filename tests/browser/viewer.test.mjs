@@ -317,7 +317,7 @@ test('on paper: the drawings at start, peak and end, light, without buttons', as
     const {page, close} = await open('pulled.html', {colorScheme: 'dark'});
     await page.emulateMedia({media: 'print', colorScheme: 'dark'});
     await page.evaluate(() => dispatchEvent(new Event('beforeprint')));
-    assert.deepEqual(await page.locator('#specimens svg').evaluateAll((all) => all.map((one) => one.dataset.role)), ['start', 'peak', 'end']);
+    assert.deepEqual(await page.locator('#specimens svg').evaluateAll((all) => all.map((one) => one.dataset.roles)), ['start', 'peak', 'end']);
     assert.ok(await page.locator('.transport').isHidden());
     assert.equal(await page.evaluate(() => document.documentElement.dataset.shown), 'light');
     await page.evaluate(() => dispatchEvent(new Event('afterprint')));

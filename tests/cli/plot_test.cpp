@@ -145,6 +145,13 @@ TEST_F(PlotCommand, TheNearestFrameIsDrawn) {
     EXPECT_FALSE(at("end") == at("peak"));
 }
 
+TEST_F(PlotCommand, AFrameMayBePeakAndEndAtOnce) {
+    replace("pulled/summary.json", "frames/particles_00400.vtp", "frames/particles_00600.vtp");
+    EXPECT_TRUE(drawn("pulled --what specimen --at end", "figure.svg") ==
+                drawn("pulled --what specimen --at peak", "figure.svg"));
+    EXPECT_FALSE(drawn("pulled", "figure.svg").empty());
+}
+
 TEST_F(PlotCommand, TheGuidesFiguresComeFromItsSixTests) {
     for (const auto& folder : write_six_sample_results(folder_ / "six")) {
         std::string name = folder.filename().string();

@@ -187,7 +187,7 @@ TEST(ReadResults, SampleFolderComesBackWithItsCounts) {
     EXPECT_EQ(results.curve.rows(), 601U);
     EXPECT_EQ(recording.cells.size(), static_cast<std::size_t>(counts.particles) + 2);
     ASSERT_EQ(recording.frames.size(), 3U);
-    EXPECT_EQ(recording.frames[1].role, "peak");
+    EXPECT_EQ(recording.frames[1].roles, std::vector<std::string>{"peak"});
     EXPECT_EQ(recording.frames[2].axial_strain, 1.5e-3);
 
     const fs::path peak = folder / "frames" / "particles_00400.vtp";

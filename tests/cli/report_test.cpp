@@ -88,7 +88,7 @@ TEST_F(Report, OfOneTestLiesInItsFolderAndCarriesItsTitleAndSummary) {
     EXPECT_EQ(data["tests"][0]["summary"], nlohmann::json::parse(text_of(root / "test" / "summary.json")));
     EXPECT_EQ(data["tests"][0]["arrays"]["curve.axial_stress"]["length"], 601);
     ASSERT_EQ(data["tests"][0]["frames"].size(), 3U);
-    EXPECT_EQ(data["tests"][0]["frames"][1]["role"], "peak");
+    EXPECT_EQ(data["tests"][0]["frames"][1]["roles"], nlohmann::json({"peak"}));
     EXPECT_DOUBLE_EQ(data["tests"][0]["frames"][1]["axial_strain"], 1.0e-3);
 }
 

@@ -68,8 +68,9 @@ TEST_F(TestFolder, HoldsWhatReadersLookFor) {
     const TestResults& results = recording.results;
     EXPECT_TRUE(results.summary["failed"].get<bool>());
     ASSERT_EQ(recording.frames.size(), 3u);
-    EXPECT_EQ(recording.frames[0].role + " " + recording.frames[1].role + " " + recording.frames[2].role,
-              "start peak end");
+    std::vector<std::string> roles;
+    for (const FrameHead& head : recording.frames) roles.insert(roles.end(), head.roles.begin(), head.roles.end());
+    EXPECT_EQ(roles, (std::vector<std::string>{"start", "peak", "end"}));
     EXPECT_EQ(recording.cells.size(), 79u) << "77 discs and two platens";
     const std::string curve = read_text_file(scratch_ / "out/curve.csv");
     EXPECT_EQ(static_cast<std::ptrdiff_t>(results.curve.rows()), std::count(curve.begin(), curve.end(), '\n') - 1);

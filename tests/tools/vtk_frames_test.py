@@ -8,7 +8,7 @@ Three small specimens are broken: circles, triangles, Voronoi cells. Then
 - every array of every file, as VTK's reader reads it, agrees with what our own reader reads (minimum, maximum, sum);
 - at the end of the test it agrees with the solver's state in the checkpoint, which neither painter nor reader has touched, and
   the cracks with events.csv;
-- a picture that VTK renders covers what the true discs and outlines of that state cover.
+- a picture that VTK renders covers what the true discs and outlines of that state cover, and what `crackle plot` draws.
 Needs Debian's python3-vtk9 and python3-numpy, and xvfb for VTK's window.
 """
 import csv
@@ -24,6 +24,7 @@ from pathlib import Path
 
 import numpy
 from vtkmodules.util.numpy_support import vtk_to_numpy
+from vtkmodules.vtkIOImage import vtkPNGReader
 from vtkmodules.vtkIOXML import vtkXMLPolyDataReader
 
 CASE = """
@@ -108,6 +109,39 @@ def covered_by(shapes, view):
                 inside &= (bx - ax) * (y - ay) - (by - ay) * (x - ax) >= 0.0
         picture[numpy.ix_(rows, columns)] |= inside
     return picture
+
+
+def drawn_by_plot(folder, picture):
+    """Our figure's silhouette, upside up as arrays of VTK are: warm greys are particles, cold ones platens and letters."""
+    subprocess.run([os.environ["CRACKLE_PROGRAM"], "plot", folder, "--what", "specimen", "--at", "end", "--width", "1000", "--dpi", "72",
+                    "-o", picture, "--quiet"], check=True)
+    reader = vtkPNGReader()
+    reader.SetFileName(str(picture))
+    reader.Update()
+    image = reader.GetOutput()
+    columns, rows, _ = image.GetDimensions()
+    colours = vtk_to_numpy(image.GetPointData().GetScalars()).reshape(rows, columns, -1).astype(int)
+    warmth = colours[:, :, 0] - colours[:, :, 2]
+    return (warmth >= 9) & (warmth <= 40)
+
+
+def middle_and_spread(picture):
+    """Centre of area (x, y) and radius of gyration, pixels."""
+    rows, columns = numpy.nonzero(picture)
+    middle = numpy.array([columns.mean(), rows.mean()])
+    return middle, math.sqrt(((columns - middle[0]) ** 2 + (rows - middle[1]) ** 2).mean())
+
+
+def laid_over(picture, other):
+    """The picture moved and scaled, not turned, until its area lies and spreads as the other's."""
+    (middle, spread), (onto, wide) = middle_and_spread(picture), middle_and_spread(other)
+    row, column = numpy.indices(other.shape)
+    from_column = numpy.rint(middle[0] + (column - onto[0]) * spread / wide).astype(int)
+    from_row = numpy.rint(middle[1] + (row - onto[1]) * spread / wide).astype(int)
+    inside = (from_row >= 0) & (from_row < picture.shape[0]) & (from_column >= 0) & (from_column < picture.shape[1])
+    moved = numpy.zeros_like(other)
+    moved[inside] = picture[from_row[inside], from_column[inside]]
+    return moved
 
 
 def render(file, view, picture):
@@ -256,16 +290,18 @@ class VtkFrames(unittest.TestCase):
             self.assertEqual(sorted(ages), sorted(end - float(event["time"]) for event in events))
             self.assertTrue((contacts["age"][contacts["state"] < 2] == end).all())
 
-    def test_a_picture_by_vtk_covers_what_the_particles_cover(self):
-        for name in ("circles", "voronoi"):
+    def test_a_picture_by_vtk_covers_what_the_particles_cover_and_what_our_figure_draws(self):
+        for name in SPECIMENS:
             state = self.state[name]
             shapes = [numpy.array(shape) for shape in state["discs"] + state["polygons"]]
             view = view_of(shapes)
-            ours, theirs = covered_by(shapes, view), rendered(self.files(name)[-3][2], view, self.folder)
-            overlap = (ours & theirs).sum() / (ours | theirs).sum()
-            print(f"  {name}: {ours.sum()} and {theirs.sum()} pixels, intersection over union {overlap:.4f}")
-            self.assertGreater(ours.mean(), 0.2)
-            self.assertGreaterEqual(overlap, 0.98)
+            by_vtk = rendered(self.files(name)[-3][2], view, self.folder)
+            figure = drawn_by_plot(self.folder / name, self.folder / f"{name}.png")
+            for whose, ours in (("particles", covered_by(shapes, view)), ("figure", laid_over(figure, by_vtk))):
+                overlap = (ours & by_vtk).sum() / (ours | by_vtk).sum()
+                print(f"  {name}, {whose}: {ours.sum()} and {by_vtk.sum()} pixels, intersection over union {overlap:.4f}")
+                self.assertGreater(ours.mean(), 0.2)
+                self.assertGreaterEqual(overlap, 0.98)
 
 
 if __name__ == "__main__":

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bundles src/ into one page template without a single outside reference: page.html with script and style inlined.
+// Bundles src/ into one page template without a single outside reference: page.html with script (packed) and style inlined.
 // `crackle report` and `crackle view` put a manifest, the first block of each test and all further blocks at the markers.
 //   node build.mjs [output file, default dist/page.html]
 import {build} from 'esbuild';
 import {mkdir, readFile, writeFile} from 'node:fs/promises';
 import {dirname, join} from 'node:path';
 import {fileURLToPath} from 'node:url';
+import {deflateSync} from 'node:zlib';
 
 const here = dirname(fileURLToPath(import.meta.url));
 const output = process.argv[2] ?? join(here, 'dist', 'page.html');
@@ -26,13 +27,15 @@ async function bundle(entry, options) {
 }
 
 const script = await bundle('main.ts', {format: 'iife'});
+const loader = await bundle('loader.ts', {format: 'iife'});
 const style = await bundle('style.css', {});
 const template = await readFile(join(here, 'src', 'page.html'), 'utf8');
 
 const filled = template
     .replace('@CRACKLE_STYLE@', () => style.trim())
+    .replace('@CRACKLE_SCRIPT@', () => deflateSync(script, {level: 9}).toString('base64'))
     // An HTML parser ends the script at the first such tag, wherever it stands.
-    .replace('@CRACKLE_SCRIPT@', () => script.trim().replaceAll('</script', '<\\/script'));
+    .replace('@CRACKLE_LOADER@', () => loader.trim().replaceAll('</script', '<\\/script'));
 for (const marker of ['@CRACKLE_DATA@', '@CRACKLE_FIRST@', '@CRACKLE_REST@']) {
     const found = filled.split(marker).length - 1;
     if (found !== 1) throw new Error(`the page must hold the marker ${marker} exactly once, found ${found}`);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Blocks of data: elements of the page that hold base64 of a zlib stream. Block 0 of each test stands before the script,
+// Blocks: elements of the page that hold base64 of a zlib stream. Block 0 of each test stands before the script,
 // all others behind it, so that the first picture does not wait for them; they are awaited when they are needed.
 
 type WithBase64 = typeof Uint8Array & {fromBase64?: (text: string) => Uint8Array<ArrayBuffer>};
@@ -24,8 +24,11 @@ async function complete(id: string): Promise<HTMLElement> {
     }
 }
 
+export function unpacked(text: string): ReadableStream<Uint8Array<ArrayBuffer>> {
+    return new Blob([bytesOf(text.trim())]).stream().pipeThrough(new DecompressionStream('deflate'));
+}
+
 export async function readBlock(test: number, block: number): Promise<ArrayBuffer> {
     const element = await complete(`crackle-${test}-${block}`);
-    const stream = new Blob([bytesOf(element.textContent.trim())]).stream().pipeThrough(new DecompressionStream('deflate'));
-    return new Response(stream).arrayBuffer();
+    return new Response(unpacked(element.textContent)).arrayBuffer();
 }

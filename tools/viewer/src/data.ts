@@ -17,13 +17,15 @@ interface ArrayEntry {
     length: number; // elements
 }
 
+export type Role = 'start' | 'peak' | 'end';
+
 /// One frame as the manifest tells it.
 export interface FrameEntry {
     time: number; // s
     axial_strain?: number;
     axial_stress?: number; // N/m
     step?: number;
-    role?: 'start' | 'peak' | 'end';
+    roles?: Role[];
     file?: string;
 }
 

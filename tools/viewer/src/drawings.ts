@@ -2,6 +2,7 @@
 // The figure of specimens: a card for each test with the drawings of start, peak and end side by side, all at one scale.
 
 import {brokenUntil} from './cracks';
+import type {Role} from './data';
 import {element, saveFile, svgText} from './dom';
 import type {Extent} from './extent';
 import type {Frame} from './frames';
@@ -15,10 +16,9 @@ export const magnifications = [1, 5, 20, 100] as const;
 const drawnHeight = 330; // px, tallest specimen
 const cardWidth = 560; // px, three drawings and their gaps
 
-const roleNames = {start: 'Start', peak: 'Peak', end: 'End'} as const;
-
-function roleName(styled: Styled, role: keyof typeof roleNames): string {
-    return role === 'peak' && !styled.test.failed ? 'Peak so far' : roleNames[role];
+function rolesText(styled: Styled, roles: readonly Role[]): string {
+    const text = roles.map((role) => (role === 'peak' && !styled.test.failed ? 'peak so far' : role)).join(', ');
+    return text.charAt(0).toUpperCase() + text.slice(1);
 }
 
 /// The frames of a test that have a role, in their order.
@@ -28,7 +28,7 @@ export interface Moments {
 }
 
 export async function momentsOf(view: SpecimenView): Promise<Moments> {
-    const wanted = view.test.frames.flatMap(({role}, index) => (role ? [index] : []));
+    const wanted = view.test.frames.flatMap(({roles}, index) => (roles ? [index] : []));
     const frames: Frame[] = [];
     for (const index of wanted) frames.push(await view.frames.load(index));
     return {view, frames};
@@ -40,15 +40,15 @@ function card({view, frames}: Moments, extent: Extent, pixelsPerMetre: number, m
     const size = typeof width === 'number' && typeof height === 'number' ? `${quantity(width, 'm')} × ${quantity(height, 'm')}` : '';
     const row = element('div', {class: 'moments'});
     for (const [index, frame] of frames.entries()) {
-        const role = frame.entry.role!;
+        const roles = frame.entry.roles ?? [];
         const broken = brokenUntil(test.events, frame.time);
         const drawing = drawSpecimen({test, cracks, frame, extent, pixelsPerMetre, magnification, scaleBar: index === 0}, theme);
         const save = element('button', {type: 'button', class: 'save', title: 'Save this drawing as SVG'}, 'SVG');
-        save.addEventListener('click', () => saveFile(`${test.name}-${role}.svg`, 'image/svg+xml', svgText(drawing)));
+        save.addEventListener('click', () => saveFile(`${test.name}-${roles.join('-')}.svg`, 'image/svg+xml', svgText(drawing)));
         row.append(element('figure', {},
             drawing,
             element('figcaption', {},
-                element('b', {}, roleName(styled, role)), ` ε = ${strain(frame.strain)}`, element('br'),
+                element('b', {}, rolesText(styled, roles)), ` ε = ${strain(frame.strain)}`, element('br'),
                 `${counted(broken.tension + broken.shear)} broken`, save)));
     }
     return element('article', {class: 'card', 'data-test': test.name},

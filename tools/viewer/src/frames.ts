@@ -79,6 +79,11 @@ export class Frame {
         return this.group?.row(name, this.index - this.group.entry.first);
     }
 
+    /// What numbers of an array are whole multiples of.
+    resolution(name: string): number {
+        return this.group?.entry.arrays[name]?.quantum ?? 0;
+    }
+
     get contacts(): Contacts | undefined {
         return this.group?.contacts(this.index - this.group.entry.first);
     }

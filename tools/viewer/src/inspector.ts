@@ -25,6 +25,7 @@ interface Touch {
     with: string;
     fn: number;
     fs: number;
+    resolution: number; // of both
     kind: string;
 }
 
@@ -120,23 +121,24 @@ async function historyOf(view: SpecimenView, quantity: Quantity, cell: number): 
 
 function valueTable({view, cell}: Picked, frame: Frame): HTMLElement {
     const {cells} = view.test, centre = movedCentre(cells, frame, cell, 1), radius = cells.radius[cell]!;
-    const pair = (x: number, y: number, unit: string) => {
-        const scale = scaleFor([x, y], unit);
-        return `${significant(x / scale.factor)}, ${significant(y / scale.factor)}${thinSpace}${scale.unit}`;
+    const pair = (x: number, y: number, unit: string, name: string) => {
+        const scale = scaleFor([x, y], unit), one = (value: number) => significant(value / scale.factor, 3, frame.resolution(name) / scale.factor);
+        return `${one(x)}, ${one(y)}${thinSpace}${scale.unit}`;
     };
+    const one = (value: number, unit: string, name: string) => withUnit(value, unit, 3, frame.resolution(name));
     const field = (name: string) => frame.field(name)?.[cell];
     const [vx, vy, sxx, syy, sxy, fragment, rate] = ['vx', 'vy', 'sxx', 'syy', 'sxy', 'fragment', 'rate'].map(field);
     const rows: [string, string, string, number?][] = [
         ['id', 'Number', String(cells.id[cell]), cells.id[cell]!],
         ['material', 'Material', String(cells.material[cell]), cells.material[cell]!],
         radius > 0 ? ['radius', 'Radius', withUnit(radius, 'm'), radius] : ['area', 'Area', areaText(area(cells, cell)), area(cells, cell)],
-        ['place', 'Centre', pair(centre.x, centre.y, 'm')],
-        ['displacement', 'Displacement', pair(frame.ux[cell]!, frame.uy[cell]!, 'm'), Math.hypot(frame.ux[cell]!, frame.uy[cell]!)],
-        ['rotation', 'Rotation', withUnit(frame.angle[cell]!, 'rad'), frame.angle[cell]!],
-        ...(vx === undefined || vy === undefined ? [] : [['velocity', 'Velocity', pair(vx, vy, 'm/s'), Math.hypot(vx, vy)] as [string, string, string, number]]),
-        ...(rate === undefined ? [] : [['rate', 'Rotation rate', withUnit(rate, 'rad/s'), rate] as [string, string, string, number]]),
+        ['place', 'Centre', pair(centre.x, centre.y, 'm', 'ux')],
+        ['displacement', 'Displacement', pair(frame.ux[cell]!, frame.uy[cell]!, 'm', 'ux'), Math.hypot(frame.ux[cell]!, frame.uy[cell]!)],
+        ['rotation', 'Rotation', one(frame.angle[cell]!, 'rad', 'angle'), frame.angle[cell]!],
+        ...(vx === undefined || vy === undefined ? [] : [['velocity', 'Velocity', pair(vx, vy, 'm/s', 'vx'), Math.hypot(vx, vy)] as [string, string, string, number]]),
+        ...(rate === undefined ? [] : [['rate', 'Rotation rate', one(rate, 'rad/s', 'rate'), rate] as [string, string, string, number]]),
         ...(sxx === undefined || syy === undefined || sxy === undefined ? [] : [
-            ['stress', 'Stress xx, yy', pair(sxx, syy, 'N/m')] as [string, string, string], ['stress_shear', 'Stress xy', withUnit(sxy, 'N/m'), sxy] as [string, string, string, number]]),
+            ['stress', 'Stress xx, yy', pair(sxx, syy, 'N/m', 'syy')] as [string, string, string], ['stress_shear', 'Stress xy', one(sxy, 'N/m', 'sxy'), sxy] as [string, string, string, number]]),
         ...(fragment === undefined ? [] : [['fragment', 'Fragment', fragment === 0 ? 'largest' : `${fragment + 1}`, fragment] as [string, string, string, number]]),
     ];
     return element('table', {class: 'values'}, ...rows.map(([key, name, text, value]) => element('tr', {},
@@ -152,11 +154,12 @@ function areaText(value: number): string {
 function contactTable(view: SpecimenView, frame: Frame, cell: number): HTMLElement {
     const touches = touching(view, frame, cell).sort((a, b) => Math.hypot(b.fn, b.fs) - Math.hypot(a.fn, a.fs));
     const scale = scaleFor(touches.flatMap(({fn, fs}) => [fn, fs]), 'N');
+    const force = (value: number, resolution: number) => significant(value / scale.factor, 3, resolution / scale.factor);
     return element('details', {open: ''},
         element('summary', {}, `${touches.length} contact ${touches.length === 1 ? 'point' : 'points'}`),
         ...(touches.length === 0 ? [] : [element('table', {class: 'touches'},
             element('tr', {}, element('th', {scope: 'col'}, 'with'), element('th', {scope: 'col', title: 'compression positive'}, `Fn [${scale.unit}]`), element('th', {scope: 'col'}, `Fs [${scale.unit}]`), element('th', {scope: 'col'}, '')),
-            ...touches.map(({with: other, fn, fs, kind}) => element('tr', {}, element('td', {}, other), element('td', {}, significant(fn / scale.factor)), element('td', {}, significant(fs / scale.factor)), element('td', {}, kind))))]));
+            ...touches.map(({with: other, fn, fs, resolution, kind}) => element('tr', {}, element('td', {}, other), element('td', {}, force(fn, resolution)), element('td', {}, force(fs, resolution)), element('td', {}, kind))))]));
 }
 
 function touching(view: SpecimenView, frame: Frame, cell: number): Touch[] {
@@ -166,12 +169,12 @@ function touching(view: SpecimenView, frame: Frame, cell: number): Touch[] {
     for (let bond = 0; bond < bonds.count; ++bond) {
         const i = bonds.i[bond]!, j = bonds.j[bond]!, now = state?.[bond] ?? 0;
         if ((i !== cell && j !== cell) || now === bondBroken || !fn || !fs) continue;
-        touches.push({with: name(i === cell ? j : i), fn: fn[bond]!, fs: fs[bond]!, kind: ['bond', 'bond, slid', '', 'broken'][now] ?? ''});
+        touches.push({with: name(i === cell ? j : i), fn: fn[bond]!, fs: fs[bond]!, resolution: frame.resolution('fn'), kind: ['bond', 'bond, slid', '', 'broken'][now] ?? ''});
     }
     const {contacts} = frame;
     for (let contact = 0; contacts && contact < contacts.count; ++contact) {
         const i = contacts.i[contact]!, j = contacts.j[contact]!;
-        if (i === cell || j === cell) touches.push({with: name(i === cell ? j : i), fn: contacts.fn[contact]!, fs: contacts.fs[contact]!, kind: 'touches'});
+        if (i === cell || j === cell) touches.push({with: name(i === cell ? j : i), fn: contacts.fn[contact]!, fs: contacts.fs[contact]!, resolution: frame.resolution('contacts.fn'), kind: 'touches'});
     }
     return touches;
 }

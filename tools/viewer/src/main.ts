@@ -93,7 +93,7 @@ class Page {
             ...(this.tests.some(({test}) => test.events.count > 0) ? [this.breakSection()] : []),
             this.fragmentSection,
             ...(curved.length === 0 ? [] : [element('section', {id: 'summary'}, element('h2', {}, 'Summary'), summaryTable(curved))]),
-            ...(this.tests.some(({test}) => test.frames.some(({role}) => role)) ? [this.drawingSection()] : []),
+            ...(this.tests.some(({test}) => test.frames.some(({roles}) => roles)) ? [this.drawingSection()] : []),
             element('footer', {}, `Made by crackle ${this.report.version}. Strictly 2D: stresses and moduli are forces per unit length, N/m.`));
     }
 
@@ -210,7 +210,7 @@ class Page {
 
     private async firstPicture(viewer: Viewer): Promise<void> {
         await new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn)));
-        viewer.picture.stage.finish();
+        await viewer.picture.stage.finished();
         document.documentElement.dataset['firstPicture'] = performance.now().toFixed(0);
     }
 

@@ -95,7 +95,7 @@ export function drawSpecimen(drawing: Drawing, theme: Theme): SVGElement {
             ...(dashes ? {'stroke-dasharray': dashes} : {}), 'data-count': list.length});
     const svg = svgElement('svg', {
         viewBox: `0 0 ${width.toFixed(2)} ${(height + barRoom).toFixed(2)}`, width: width.toFixed(2), height: (height + barRoom).toFixed(2), role: 'img',
-        'aria-label': `${test.name}, ${frame.entry.role ?? `frame ${frame.index}`}`, 'data-role': frame.entry.role ?? '',
+        'aria-label': `${test.name}, ${frame.entry.roles?.join(', ') ?? `frame ${frame.index}`}`, 'data-roles': frame.entry.roles?.join(' ') ?? '',
     },
         ...[...grains].map(([fill, list]) => svgElement('path', {class: 'grains', d: list.join(''), fill, stroke: theme.grainEdge, 'stroke-width': edge.toFixed(2),
             'stroke-linejoin': 'round', 'data-count': list.length})),

@@ -114,10 +114,13 @@ export class Stage {
         }
     }
 
-    /// Waits until the picture stands: for measurements.
-    finish(): void {
-        const gl = this.renderer.getContext();
-        gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
+    /// When the picture stands: for measurements.
+    async finished(): Promise<void> {
+        const gl = this.renderer.getContext() as WebGL2RenderingContext, fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
+        if (!fence) return; // the context is lost
+        gl.flush();
+        while (gl.getSyncParameter(fence, gl.SYNC_STATUS) === gl.UNSIGNALED) await new Promise((resume) => setTimeout(resume));
+        gl.deleteSync(fence);
     }
 
     stillRatio(): number {

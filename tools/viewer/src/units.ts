@@ -33,11 +33,19 @@ export function scaleFor(values: readonly (number | undefined)[], unit: string):
 
 const withMinus = (text: string): string => text.replace('-', '−');
 
-/// `digits` significant digits, without an exponent where that stays readable.
-export function significant(value: number | undefined, digits = 3): string {
+/// `digits` significant digits, fewer where the last would be finer than the numbers are stored (`resolution`); without
+/// an exponent where that stays readable.
+export function significant(value: number | undefined, digits = 3, resolution = 0): string {
     if (value === undefined || !Number.isFinite(value)) return missing;
     if (value === 0) return '0';
     const size = Math.abs(value);
+    if (resolution > 0) {
+        const finest = Math.ceil(Math.log10(resolution)), last = Math.floor(Math.log10(size)) + 1 - digits;
+        if (finest > last) {
+            const unit = 10 ** finest, left = digits - (finest - last);
+            return significant(Math.round(value / unit) * unit, Math.max(1, left));
+        }
+    }
     if (size >= 1e6 || size < 1e-3) return scientific(value, digits);
     const decimals = Math.max(0, digits - 1 - Math.floor(Math.log10(Number(size.toPrecision(digits)))));
     return withMinus(value.toFixed(decimals));
@@ -61,10 +69,10 @@ export function counted(value: number | undefined): string {
 }
 
 /// A quantity with its unit, prefix chosen for it alone.
-export function quantity(value: number | undefined, unit: string, digits = 3): string {
+export function quantity(value: number | undefined, unit: string, digits = 3, resolution = 0): string {
     if (value === undefined) return missing;
     const scale = scaleFor([value], unit);
-    return `${significant(value / scale.factor, digits)}${thinSpace}${scale.unit}`;
+    return `${significant(value / scale.factor, digits, resolution / scale.factor)}${thinSpace}${scale.unit}`;
 }
 
 /// Strains are shown in thousandths: 1.94×10⁻³.
