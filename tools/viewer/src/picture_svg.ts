@@ -8,7 +8,7 @@ import type {Frame} from './frames';
 import {movedCentre, moverOf} from './motion';
 import {css, type Rgb} from './palettes';
 import type {Segments} from './segments';
-import {lineScale, outlineWidth, widestForce, type Look, type SpecimenView} from './specimen_view';
+import {lineScale, outlineWidth, type Look, type SpecimenView} from './specimen_view';
 import type {Pane, Placing} from './stage';
 
 /// A pane's specimens, cut off at its border.
@@ -19,7 +19,7 @@ export function paneAsSvg(pane: Pane, placing: Placing, shown: readonly {view: S
         view.fillLines(frame, look);
         const group = svgElement('g', {'data-test': view.test.name, ...(look.opacity < 1 ? {opacity: look.opacity} : {})});
         if (look.settings.layers.particles) group.append(particles(view, frame, look, placing));
-        group.append(lines(view.lines, placing, lineScale(view.meanSize * placing.scale)), lines(view.forces, placing, widestForce(view.meanSize * placing.scale)));
+        group.append(lines(view.lines, placing, lineScale(view.meanSize * placing.scale)), lines(view.forces, placing, view.widestForce(placing.scale)));
         svg.append(group);
     }
     return svg;

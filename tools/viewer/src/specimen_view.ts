@@ -6,7 +6,7 @@ import {Scene} from 'three';
 import {reach, type Point} from './cells';
 import type {Colouring} from './colouring';
 import {findCracks, type Crack} from './cracks';
-import type {TestData} from './data';
+import type {Bonds, TestData} from './data';
 import {addBonds, addChains, addCracks, addForces, addPicked, type CrackColours} from './drawn_lines';
 import {extentAtStart, type Extent} from './extent';
 import {Frames, type Frame} from './frames';
@@ -35,6 +35,7 @@ export class SpecimenView {
     readonly extent: Extent; // m, first frame
     readonly origin: Point;
     readonly meanSize: number; // m, about a particle's diameter
+    private readonly forceLines: number;
     readonly lines: Segments; // platens, cracks, bonds, picked
     readonly forces: Segments; // widths are shares of the widest
     private madeParticles: ParticleLayer | undefined;
@@ -58,6 +59,7 @@ export class SpecimenView {
             measured += 1;
         }
         this.meanSize = measured > 0 ? sum / measured : 1;
+        this.forceLines = Math.sqrt(pointsOfPair(test.bonds));
     }
 
     get test(): TestData {
@@ -101,6 +103,11 @@ export class SpecimenView {
         if (layers.forces) addForces(this.forces, this.test, frame, magnification, look.largestForce, theme);
     }
 
+    /// Width of the line of the largest force, px: thinner where the lines of a face's points fan out side by side.
+    widestForce(pixelsPerMetre: number): number {
+        return Math.min(20, Math.max(1.5, (0.22 * this.meanSize * pixelsPerMetre) / this.forceLines));
+    }
+
     show(frame: Frame, look: Look): void {
         this.particles.group.visible = look.settings.layers.particles;
         this.particles.setPalette(look.colouring.palette, look.theme.grainEdge);
@@ -115,7 +122,7 @@ export class SpecimenView {
     prepare({width, height, ratio, pixelsPerMetre, seen, outlines, moving}: Drawn): void {
         const particlePixels = this.meanSize * pixelsPerMetre;
         this.lineLayer.setScale(width * ratio, height * ratio, ratio * lineScale(particlePixels));
-        this.forceLayer.setScale(width * ratio, height * ratio, ratio * widestForce(particlePixels));
+        this.forceLayer.setScale(width * ratio, height * ratio, ratio * this.widestForce(pixelsPerMetre));
         this.particles.prepare(seen, pixelsPerMetre * ratio, outlines ? outlineWidth(particlePixels) * ratio : 0, moving);
     }
 }
@@ -131,9 +138,11 @@ export interface Drawn {
     moving: boolean;
 }
 
-/// Width of the line of the largest force on a particle of that size, px.
-export function widestForce(particlePixels: number): number {
-    return Math.min(20, Math.max(1.5, 0.22 * particlePixels));
+/// Bonded points of a pair of cells, on average: circles have one, faces of polygons several. Those of a pair lie together.
+function pointsOfPair({count, i, j}: Bonds): number {
+    let pairs = 0;
+    for (let bond = 0; bond < count; ++bond) if (bond === 0 || i[bond] !== i[bond - 1] || j[bond] !== j[bond - 1]) ++pairs;
+    return pairs > 0 ? count / pairs : 1;
 }
 
 /// Lines grow thin where particles are small: cracks would otherwise hide the specimen.
