@@ -20,7 +20,7 @@ if (!existsSync(driver)) {
 }
 const {chromium} = createRequire(driver)('playwright-core');
 
-const browser = await chromium.launch({executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: ['--no-sandbox', '--disable-gpu']});
+const browser = await chromium.launch({executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader']});
 try {
     const page = await browser.newPage({viewport: {width: 1280, height: 900}, colorScheme: 'light'});
     await page.goto(pathToFileURL(join(results, 'report.html')).href);
@@ -30,6 +30,18 @@ try {
         await page.locator(part).screenshot({path: join(gallery, name), animations: 'disabled'});
         console.log(join(gallery, name));
     }
+    // The viewer: all tests side by side at their peaks, stresses and forces.
+    const viewer = page.locator('#viewer');
+    for (const [name, value] of [['layout', 'side'], ['axis', 'share'], ['quantity', 'stress_y']]) await viewer.locator(`select.${name}`).selectOption(value);
+    await viewer.getByLabel('Contact forces').check();
+    await viewer.locator('.stage').focus();
+    while (await page.evaluate(() => window.crackle.moment()) < 1) await page.keyboard.press('ArrowRight');
+    await page.evaluate(async () => {
+        document.activeElement.blur();
+        await window.crackle.settled();
+    });
+    await viewer.screenshot({path: join(gallery, 'viewer.png'), animations: 'disabled'});
+    console.log(join(gallery, 'viewer.png'));
     await copyFile(join(results, 'comparison.txt'), join(gallery, 'comparison.txt'));
 } finally {
     await browser.close();

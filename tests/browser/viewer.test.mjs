@@ -3,7 +3,7 @@
 //   CRACKLE_PROGRAM, SAMPLE_RESULTS: the programs; SPECIMENS: folder of cases and decks; CHROMIUM: the browser
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
-import {mkdtempSync, readFileSync, rmSync, statSync} from 'node:fs';
+import {mkdtempSync, readFileSync, rmSync, statSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {after, before, test} from 'node:test';
@@ -17,6 +17,10 @@ let root, browser;
 const crackle = (...options) => execFileSync(process.env.CRACKLE_PROGRAM, options, {stdio: ['ignore', 'ignore', 'inherit']});
 const open = (file, options) => openPage(browser, join(root, file), options);
 
+/// A particle file with one polygon.
+const deckOf = (corners) => ['1 0 0', '1.0d-4 0.0 0.0', '1', '1.0 1.0d8 1.0d8 0.0 0.0 0.0', '-1.0 4.0 -1.0 4.0 0.0', '0 1 0', `1 1 ${corners.length}`, '0.0 0.0 0.0',
+    ...corners.flatMap(([x, y], at) => [`${at + 1} ${x}.0 ${y}.0`, corners[(at + 1) % corners.length].map((value) => `${value}.0`).join(' ')])].join('\n');
+
 before(async () => {
     root = mkdtempSync(join(tmpdir(), 'crackle-viewer-'));
     execFileSync(process.env.SAMPLE_RESULTS, [root]);
@@ -26,6 +30,8 @@ before(async () => {
     crackle('view', join(process.env.SPECIMENS, 'demseg', 'embankment', 'in_gm.dat'), '-o', join(root, 'particles.html'));
     crackle('run', join(process.env.SPECIMENS, 'demseg', 'embankment'), '--steps', '2000', '-o', join(root, 'deck'));
     crackle('view', join(root, 'deck'), '-o', join(root, 'deck.html'));
+    writeFileSync(join(root, 'in_gm_notched.dat'), deckOf([[0, 0], [3, 0], [3, 3], [2, 3], [2, 1], [1, 1], [1, 3], [0, 3]]));
+    crackle('view', join(root, 'in_gm_notched.dat'), '-o', join(root, 'notched.html'));
     browser = await launch();
 });
 
@@ -295,6 +301,31 @@ test('a particle file: a still picture of all particles, no curves, nothing to p
     assert.equal(await page.locator('button[data-save="gif"]').count(), 0);
     const svg = readFileSync((await saved(page, 'svg')).file, 'utf8');
     assert.equal([...svg.matchAll(/class="particle"/g)].length, 127);
+    await close();
+});
+
+test('a polygon with a notch is filled to its outline and no farther', async () => {
+    const {page, close} = await open('notched.html');
+    await page.click('[data-layer="outlines"]');
+    await page.click('[data-layer="platens"]');
+    await settled(page);
+    const {file} = await saved(page, 'png');
+    const got = await page.evaluate(async (base64) => {
+        const bitmap = await createImageBitmap(new Blob([Uint8Array.from(atob(base64), (letter) => letter.charCodeAt(0))]));
+        const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d');
+        context.drawImage(bitmap, 0, 0);
+        const {data} = context.getImageData(0, 0, bitmap.width, bitmap.height);
+        let left = bitmap.width, right = 0, low = bitmap.height, high = 0, count = 0;
+        for (let at = 0; at < data.length; at += 4) {
+            if (data[at] - data[at + 2] < 5) continue; // grain is warmer than paper, ink and letters
+            const x = (at / 4) % bitmap.width, y = Math.floor(at / 4 / bitmap.width);
+            [left, right, low, high, count] = [Math.min(left, x), Math.max(right, x), Math.min(low, y), Math.max(high, y), count + 1];
+        }
+        return count / ((right - left + 1) * (high - low + 1));
+    }, readFileSync(file).toString('base64'));
+    const expected = 7 / 9; // three by three less a notch of one by two
+    console.log(`  share of its box: expected ${expected.toFixed(4)}, got ${got.toFixed(4)}`);
+    assert.ok(Math.abs(got - expected) < 0.01, `expected ${expected}, got ${got}`);
     await close();
 });
 

@@ -103,6 +103,7 @@ class Legend {
 
 std::vector<Legend::Entry> entries_of(const std::vector<PlottedTest>& tests) {
     std::vector<Legend::Entry> entries;
+    entries.reserve(tests.size());
     for (const PlottedTest& test : tests) entries.push_back({test.label, colour_of(test), test.dashed});
     return entries;
 }

@@ -118,6 +118,7 @@ void draw_moment(Canvas& canvas, const Rect& place, const Moment& moment, const 
     };
     const auto on_sheet = [&](const std::vector<Vec2>& points) {
         std::vector<Point> all;
+        all.reserve(points.size());
         for (const Vec2 p : points) all.push_back(at(p));
         return all;
     };

@@ -1,19 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is written over a pane: the tests' names and moments, a scale bar, particle numbers where they fit.
 
+import type {Clock} from './clock';
 import type {Frame} from './frames';
 import {movedCentre} from './motion';
 import type {Sheet} from './sheet';
 import type {SpecimenView} from './specimen_view';
 import type {Pane, Placing} from './stage';
 import type {Theme} from './theme';
-import {quantity, strain} from './units';
+import {quantity, significant, strain} from './units';
 
 /// "ε = 1.94×10⁻³ σ = 67.2 kN/m", or the time where there is no strain.
 export function momentText(frame: Frame): string {
     if (frame.strain === undefined) return `t = ${quantity(frame.time, 's')}`;
     const stress = frame.entry.axial_stress;
     return `ε = ${strain(frame.strain)}${stress === undefined ? '' : `\u2003σ = ${quantity(stress, 'N/m')}`}`;
+}
+
+/// Where the clock of several tests stands; what each of them shows stands over its pane.
+export function clockText({axis, moment}: Clock): string {
+    switch (axis) {
+        case 'strain': return `ε = ${strain(moment)}`;
+        case 'share': return `ε = ${significant(moment)} of that at peak`;
+        case 'time': return `t = ${quantity(moment, 's')}`;
+        case 'frame': return `Frame ${moment + 1}`;
+    }
 }
 
 /// The name, and where the pane is too narrow for both, the moment under it.

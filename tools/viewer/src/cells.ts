@@ -53,6 +53,21 @@ export function area(cells: Cells, cell: number): number {
     }, 0));
 }
 
+/// Whether all of a polygon can be seen from its centre.
+export function isStar(cells: Cells, cell: number): boolean {
+    const {x, y} = centre(cells, cell), arms = outline(cells, cell).map((point) => ({x: point.x - x, y: point.y - y}));
+    const turns = arms.map((a, at) => {
+        const b = arms[(at + 1) % arms.length]!;
+        return a.x * b.y - a.y * b.x;
+    });
+    return turns.every((turn) => turn > 0) || turns.every((turn) => turn < 0);
+}
+
+/// Closed polygons that are not.
+export function jaggedCells(cells: Cells): number[] {
+    return Array.from({length: cells.count}, (_, cell) => cell).filter((cell) => cells.open[cell] !== 1 && cells.radius[cell] === 0 && !isStar(cells, cell));
+}
+
 /// Bodies, that is: a clump is one.
 export function particleCount(cells: Cells): number {
     const ids = new Set<number>();

@@ -27,6 +27,14 @@ export function addChains(lines: Segments, test: TestData, frame: Frame, magnifi
     addPath(lines, [{x: x1, y: y1}, {x: x2, y: y1}, {x: x2, y: y2}, {x: x1, y: y2}, {x: x1, y: y1}], 1.5, colour);
 }
 
+/// Outlines of the polygons that the particle layer draws without.
+export function addOutlines(lines: Segments, cells: Cells, frame: Frame, jagged: readonly number[], magnification: number, theme: Theme): void {
+    for (const cell of jagged) {
+        const corners = outline(cells, cell);
+        addPath(lines, [...corners, corners[0]!].map(moverOf(cells, frame, cell, magnification)), 1, rgb(theme.grainEdge));
+    }
+}
+
 function addPath(lines: Segments, points: readonly Point[], width: number, colour: Rgb): void {
     points.slice(1).forEach((to, at) => lines.add(points[at]!.x, points[at]!.y, to.x, to.y, width, colour));
 }

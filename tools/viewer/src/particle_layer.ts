@@ -2,17 +2,18 @@
 // All circles and polygons of a test as one mesh of three.js. Corners are uploaded once; a frame is one small texture with
 // displacement, angle and palette index of each cell, and the vertex shader does the rigid motion. Panning and zooming change
 // the camera alone.
-//   polygon   a fan about its centre (cells are star-shaped about it), circle   a square
+//   polygon   a fan about its centre, if it is star-shaped about it, circle   a square
 // `rim` grows from the length 0 at the centre to 1 at the outline in both, which gives circles their shape and both an outline
-// of the same width in pixels at any zoom.
+// of the same width in pixels at any zoom. Other polygons are cut at their corners; their outlines are lines (drawn_lines.ts).
 // WebGL in software draws a triangle in about a microsecond whatever its size. So only what is in view is drawn, by batches of
 // neighbours, and where that is still too much while the picture moves, each cell is a point of its own area.
 
 import {
-    BufferAttribute, BufferGeometry, DataTexture, FloatType, GLSL3, Group, Mesh, NearestFilter, Points, RawShaderMaterial, RGBAFormat, Vector3,
+    BufferAttribute, BufferGeometry, DataTexture, FloatType, GLSL3, Group, Mesh, NearestFilter, Points, RawShaderMaterial, RGBAFormat, ShapeUtils,
+    Vector2, Vector3,
 } from 'three';
 
-import {area, reach, type Cells, type Point} from './cells';
+import {area, jaggedCells, outline, reach, type Cells, type Point} from './cells';
 import {paletteIndices, type Colouring} from './colouring';
 import type {Extent} from './extent';
 import type {Frame} from './frames';
@@ -61,7 +62,7 @@ out vec4 colour;
 void main() {
     float share = length(toRim);
     if (share > 1.0001) discard;
-    float pixels = (1.0 - share) / fwidth(share);
+    float pixels = (1.0 - share) / max(fwidth(share), 1e-6);
     colour = vec4(edgeWidth > 0.0 ? mix(edge, fill, clamp(pixels - edgeWidth + 0.5, 0.0, 1.0)) : fill, opacity);
 }`;
 
@@ -203,11 +204,12 @@ function neighbours(cells: Cells): Batch[] {
 /// Triangles of all batches, one after the other; sets their parts of the index.
 function fanGeometry(cells: Cells, origin: Point, batches: readonly Batch[]): BufferGeometry {
     let corners = 0, triangles = 0;
+    const cut = new Map(jaggedCells(cells).map((cell) => [cell, ShapeUtils.triangulateShape(outline(cells, cell).map(({x, y}) => new Vector2(x, y)), [])]));
     for (const batch of batches) {
         for (const cell of batch.cells) {
             const points = cells.firstPoint[cell + 1]! - cells.firstPoint[cell]!;
             corners += cells.radius[cell]! > 0 ? 4 : points + 1;
-            triangles += cells.radius[cell]! > 0 ? 2 : points;
+            triangles += cells.radius[cell]! > 0 ? 2 : cut.get(cell)?.length ?? points;
         }
     }
     const place = new Float32Array(4 * corners), rim = new Int8Array(2 * corners), owner = new Float32Array(corners), order = new Uint32Array(3 * triangles);
@@ -237,11 +239,13 @@ function fanGeometry(cells: Cells, origin: Point, batches: readonly Batch[]): Bu
                 continue;
             }
             const begin = cells.firstPoint[cell]!, count = cells.firstPoint[cell + 1]! - begin;
+            const faces = cut.get(cell);
             add(cell, 0, 0, 0, 0);
             for (let k = 0; k < count; ++k) {
-                add(cell, cells.outlineX[begin + k]! - cells.x[cell]!, cells.outlineY[begin + k]! - cells.y[cell]!, 1, 0);
-                triangle(first, first + 1 + k, first + 1 + (k + 1) % count);
+                add(cell, cells.outlineX[begin + k]! - cells.x[cell]!, cells.outlineY[begin + k]! - cells.y[cell]!, faces ? 0 : 1, 0);
+                if (!faces) triangle(first, first + 1 + k, first + 1 + (k + 1) % count);
             }
+            for (const [a, b, c] of faces ?? []) triangle(first + 1 + a!, first + 1 + b!, first + 1 + c!);
         }
         batch.count = at - batch.first;
     }

@@ -3,11 +3,11 @@
 
 import {Scene} from 'three';
 
-import {reach, type Point} from './cells';
+import {jaggedCells, reach, type Point} from './cells';
 import type {Colouring} from './colouring';
 import {findCracks, type Crack} from './cracks';
 import type {Bonds, TestData} from './data';
-import {addBonds, addChains, addCracks, addForces, addPicked, type CrackColours} from './drawn_lines';
+import {addBonds, addChains, addCracks, addForces, addOutlines, addPicked, type CrackColours} from './drawn_lines';
 import {extentAtStart, type Extent} from './extent';
 import {Frames, type Frame} from './frames';
 import type {Styled} from './grouping';
@@ -35,6 +35,7 @@ export class SpecimenView {
     readonly extent: Extent; // m, first frame
     readonly origin: Point;
     readonly meanSize: number; // m, about a particle's diameter
+    private readonly jagged: readonly number[]; // cells
     private readonly forceLines: number;
     readonly lines: Segments; // platens, cracks, bonds, picked
     readonly forces: Segments; // widths are shares of the widest
@@ -59,6 +60,7 @@ export class SpecimenView {
             measured += 1;
         }
         this.meanSize = measured > 0 ? sum / measured : 1;
+        this.jagged = jaggedCells(test.cells);
         this.forceLines = Math.sqrt(pointsOfPair(test.bonds));
     }
 
@@ -96,6 +98,7 @@ export class SpecimenView {
         const {settings, theme} = look, {layers, magnification} = settings;
         this.lines.clear();
         this.forces.clear();
+        if (layers.particles && layers.outlines) addOutlines(this.lines, this.test.cells, frame, this.jagged, magnification, theme);
         if (layers.bonds) addBonds(this.lines, this.test, frame, magnification, theme);
         if (layers.platens) addChains(this.lines, this.test, frame, magnification, theme);
         if (layers.cracks) addCracks(this.lines, this.test, this.cracks, frame, magnification, look.crackColours, theme);

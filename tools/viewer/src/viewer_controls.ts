@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The viewer's buttons: transport under the picture, a panel beside it.
 
-import {momentText} from './annotations';
+import {clockText, momentText} from './annotations';
 import {axisNames, type Axis} from './clock';
 import {button, checkbox, element, select} from './dom';
 import {icon} from './icons';
@@ -111,7 +111,7 @@ export class ViewerControls {
         this.slider.max = String(clock.count - 1);
         this.slider.value = String(clock.index);
         const first = [...picture.shown.values()][0];
-        const text = first ? `${this.viewer.chosen.length === 1 ? `Frame ${first.frame.index + 1}/${first.view.frames.count}\u2003` : ''}${momentText(first.frame)}` : '';
+        const text = picture.shown.size > 1 ? clockText(clock) : first ? `Frame ${first.frame.index + 1}/${first.view.frames.count}\u2003${momentText(first.frame)}` : '';
         this.readout.textContent = text;
         // Said when it stands still: no screen reader keeps up with a film.
         if (!clock.playing) this.spoken.textContent = text;
