@@ -35,7 +35,7 @@ const times = await page.evaluate(async (count) => {
         } else {
             pane.dispatchEvent(new WheelEvent('wheel', {clientX: x, clientY: y, deltaY: picture % 20 < 10 ? -60 : 60, bubbles: true, cancelable: true}));
         }
-        await window.crackle.draw();
+        window.crackle.draw();
         times.push(performance.now() - before);
         await new Promise((resume) => setTimeout(resume));
     }

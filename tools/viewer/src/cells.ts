@@ -53,19 +53,21 @@ export function area(cells: Cells, cell: number): number {
     }, 0));
 }
 
-/// Whether all of a polygon can be seen from its centre.
-export function isStar(cells: Cells, cell: number): boolean {
-    const {x, y} = centre(cells, cell), arms = outline(cells, cell).map((point) => ({x: point.x - x, y: point.y - y}));
-    const turns = arms.map((a, at) => {
-        const b = arms[(at + 1) % arms.length]!;
-        return a.x * b.y - a.y * b.x;
-    });
-    return turns.every((turn) => turn > 0) || turns.every((turn) => turn < 0);
+/// Whether all of a polygon can be seen from its centre: its corners go round it in one sense.
+function isStar({firstPoint, outlineX, outlineY, x, y}: Cells, cell: number): boolean {
+    const begin = firstPoint[cell]!, end = firstPoint[cell + 1]!, x0 = x[cell]!, y0 = y[cell]!;
+    let left = 0;
+    for (let from = end - 1, to = begin; to < end; from = to++) {
+        if ((outlineX[from]! - x0) * (outlineY[to]! - y0) > (outlineY[from]! - y0) * (outlineX[to]! - x0)) ++left;
+    }
+    return left === 0 || left === end - begin;
 }
 
 /// Closed polygons that are not.
 export function jaggedCells(cells: Cells): number[] {
-    return Array.from({length: cells.count}, (_, cell) => cell).filter((cell) => cells.open[cell] !== 1 && cells.radius[cell] === 0 && !isStar(cells, cell));
+    const jagged: number[] = [];
+    for (let cell = 0; cell < cells.count; ++cell) if (cells.open[cell] !== 1 && cells.radius[cell] === 0 && !isStar(cells, cell)) jagged.push(cell);
+    return jagged;
 }
 
 /// Bodies, that is: a clump is one.

@@ -19,7 +19,7 @@ export function expose(viewer: Viewer): void {
         /// Draws as while moving, and waits until the picture stands.
         draw: () => {
             stage.drawMoving();
-            return stage.finished();
+            stage.finish();
         },
     })});
 }

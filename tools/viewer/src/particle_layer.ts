@@ -6,14 +6,15 @@
 // `rim` grows from the length 0 at the centre to 1 at the outline in both, which gives circles their shape and both an outline
 // of the same width in pixels at any zoom. Other polygons are cut at their corners; their outlines are lines (drawn_lines.ts).
 // WebGL in software draws a triangle in about a microsecond whatever its size. So only what is in view is drawn, by batches of
-// neighbours, and where that is still too much while the picture moves, each cell is a point of its own area.
+// neighbours, and where that is still too much while the picture moves, each cell is a point of its own area; of very many
+// an even share is drawn, larger.
 
 import {
     BufferAttribute, BufferGeometry, DataTexture, FloatType, GLSL3, Group, Mesh, NearestFilter, Points, RawShaderMaterial, RGBAFormat, ShapeUtils,
     Vector2, Vector3,
 } from 'three';
 
-import {area, jaggedCells, outline, reach, type Cells, type Point} from './cells';
+import {area, outline, reach, type Cells, type Point} from './cells';
 import {paletteIndices, type Colouring} from './colouring';
 import type {Extent} from './extent';
 import type {Frame} from './frames';
@@ -24,6 +25,7 @@ const textureWidth = 512; // cells a row
 const batchSize = 500; // cells
 /// More than these are points while the picture moves: software WebGL on two cores then keeps to 20 pictures a second.
 const mostOutlinesMoving = 8000;
+const mostPointsMoving = 20000;
 
 const placing = `
 precision highp float;
@@ -68,10 +70,10 @@ void main() {
 
 const pointVertex = `${placing}
 in vec3 spot; // centre, and the side of the square of the cell's area
-uniform float pixelsPerMetre;
+uniform float pointScale; // pixels a metre, and what makes up for the cells that are left out
 void main() {
     gl_Position = projectionMatrix * modelViewMatrix * vec4(spot.xy + placed().xy, 0.0, 1.0);
-    gl_PointSize = max(1.0, spot.z * pixelsPerMetre);
+    gl_PointSize = max(1.0, spot.z * pointScale);
 }`;
 
 const pointFragment = `
@@ -100,7 +102,8 @@ export class ParticleLayer {
     private readonly palette: DataTexture;
     private readonly batches: Batch[];
 
-    constructor(private readonly cells: Cells, private readonly origin: Point) {
+    /// @param jagged  polygons that are not star-shaped about their centre
+    constructor(private readonly cells: Cells, private readonly origin: Point, jagged: readonly number[]) {
         const rows = Math.max(1, Math.ceil(cells.count / textureWidth));
         this.values = new Float32Array(4 * textureWidth * rows);
         this.placements = new DataTexture(this.values, textureWidth, rows, RGBAFormat, FloatType);
@@ -108,13 +111,13 @@ export class ParticleLayer {
         for (const texture of [this.placements, this.palette]) texture.minFilter = texture.magFilter = NearestFilter;
         this.uniforms = {
             placements: {value: this.placements}, palette: {value: this.palette}, edge: {value: new Vector3()}, edgeWidth: {value: 1}, opacity: {value: 1},
-            pixelsPerMetre: {value: 1},
+            pointScale: {value: 1},
         };
         const material = (vertexShader: string, fragmentShader: string) => new RawShaderMaterial({
             glslVersion: GLSL3, vertexShader, fragmentShader, depthTest: false, depthWrite: false, uniforms: this.uniforms,
         });
         this.batches = neighbours(cells);
-        this.fans = new Mesh(fanGeometry(cells, origin, this.batches), [material(fanVertex, fanFragment)]);
+        this.fans = new Mesh(fanGeometry(cells, origin, jagged, this.batches), [material(fanVertex, fanFragment)]);
         this.points = new Points(pointGeometry(cells, origin), material(pointVertex, pointFragment));
         this.fans.frustumCulled = this.points.frustumCulled = false;
         this.group.add(this.fans, this.points);
@@ -167,8 +170,10 @@ export class ParticleLayer {
         geometry.addGroup(first, count, 0);
         this.points.visible = moving && seen > mostOutlinesMoving;
         this.fans.visible = !this.points.visible;
+        const share = Math.min(1, mostPointsMoving / Math.max(1, seen));
+        this.points.geometry.setDrawRange(0, Math.ceil(share * this.cells.count));
         this.uniforms.edgeWidth.value = edgeWidth;
-        this.uniforms.pixelsPerMetre.value = pixelsPerMetre;
+        this.uniforms.pointScale.value = pixelsPerMetre / Math.sqrt(share);
     }
 
     private box(batch: Batch): void {
@@ -202,9 +207,9 @@ function neighbours(cells: Cells): Batch[] {
 }
 
 /// Triangles of all batches, one after the other; sets their parts of the index.
-function fanGeometry(cells: Cells, origin: Point, batches: readonly Batch[]): BufferGeometry {
+function fanGeometry(cells: Cells, origin: Point, jagged: readonly number[], batches: readonly Batch[]): BufferGeometry {
     let corners = 0, triangles = 0;
-    const cut = new Map(jaggedCells(cells).map((cell) => [cell, ShapeUtils.triangulateShape(outline(cells, cell).map(({x, y}) => new Vector2(x, y)), [])]));
+    const cut = new Map(jagged.map((cell) => [cell, ShapeUtils.triangulateShape(outline(cells, cell).map(({x, y}) => new Vector2(x, y)), [])]));
     for (const batch of batches) {
         for (const cell of batch.cells) {
             const points = cells.firstPoint[cell + 1]! - cells.firstPoint[cell]!;
@@ -257,16 +262,25 @@ function fanGeometry(cells: Cells, origin: Point, batches: readonly Batch[]): Bu
     return geometry;
 }
 
+/// In an order whose every beginning is spread over all cells.
 function pointGeometry(cells: Cells, origin: Point): BufferGeometry {
-    const spot = new Float32Array(3 * cells.count);
-    for (let cell = 0; cell < cells.count; ++cell) {
-        spot[3 * cell] = cells.x[cell]! - origin.x;
-        spot[3 * cell + 1] = cells.y[cell]! - origin.y;
-        spot[3 * cell + 2] = Math.sqrt(area(cells, cell));
+    const spot = new Float32Array(3 * cells.count), owner = new Float32Array(cells.count), step = coprimeStep(cells.count);
+    for (let at = 0, cell = 0; at < cells.count; ++at, cell = (cell + step) % cells.count) {
+        spot[3 * at] = cells.x[cell]! - origin.x;
+        spot[3 * at + 1] = cells.y[cell]! - origin.y;
+        spot[3 * at + 2] = Math.sqrt(area(cells, cell));
+        owner[at] = cell;
     }
     const geometry = new BufferGeometry();
     geometry.setAttribute('spot', new BufferAttribute(spot, 3));
-    geometry.setAttribute('cell', new BufferAttribute(Float32Array.from({length: cells.count}, (_, cell) => cell), 1));
-    geometry.setDrawRange(0, cells.count);
+    geometry.setAttribute('cell', new BufferAttribute(owner, 1));
     return geometry;
+}
+
+/// A step by which all of `count` places are visited, in golden proportion: what is visited lies evenly among what is not.
+function coprimeStep(count: number): number {
+    const divisor = (a: number, b: number): number => (b === 0 ? a : divisor(b, a % b));
+    let step = Math.max(1, Math.round(0.618034 * count));
+    while (divisor(step, count) !== 1) ++step;
+    return step;
 }

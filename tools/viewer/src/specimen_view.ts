@@ -71,7 +71,7 @@ export class SpecimenView {
     /// Made when first shown: not every test of a report is looked at.
     private get particles(): ParticleLayer {
         if (!this.madeParticles) {
-            this.madeParticles = new ParticleLayer(this.test.cells, this.origin);
+            this.madeParticles = new ParticleLayer(this.test.cells, this.origin, this.jagged);
             this.scene.add(this.madeParticles.group);
         }
         return this.madeParticles;
