@@ -98,6 +98,12 @@ CriticalStep critical_step(const World& world, ClosedPoints which) {
     return result;
 }
 
+bool stable_at(const World& world, ClosedPoints which, double dt) {
+    const MassScaled pencil(world, which);
+    if (pencil.size() > most_exact_unknowns) return dt <= stable_step_bound(world);
+    return pencil.size() == 0 || positive_definite(pencil, dt / (1.0 - critical_step_margin));
+}
+
 double growth_per_step(const World& world, ClosedPoints which, double dt) {
     const MassScaled pencil(world, which);
     double zeta = 1.0;

@@ -35,6 +35,9 @@ inline constexpr double critical_step_margin = 1e-6;
 /// @param which points count as closed; with `listed` the result holds until the neighbour list is rebuilt
 CriticalStep critical_step(const World& world, ClosedPoints which);
 
+/// Whether `dt` is at or below critical_step(), by one factorisation.
+bool stable_at(const World& world, ClosedPoints which, double dt);
+
 /// Largest |z| of all modes at time step `dt`: 1 up to the limit, beyond it the growth of the fastest mode a step,
 /// found by the same iteration on (1 + ζ)²M - Δt(1 + ζ)C - Δt²ζK with z = -ζ.
 double growth_per_step(const World& world, ClosedPoints which, double dt);

@@ -309,11 +309,11 @@ double enough_for(const World& world) {
     return world.automatic_step ? world.step_goal : world.time_step;
 }
 
-/// Whether the last search for weights, on a list like this one, has not reached what a derived step asks for: then
+/// Whether the last search for weights, on a list like this one, has not reached what the step asks for: then
 /// another one is worth its time only where the bound has changed.
 bool searched_in_vain(const World& world, double enough) {
     const auto listed = static_cast<double>(world.points.size()), then = static_cast<double>(world.weighed_points);
-    return world.automatic_step && world.weighed_bound < enough && std::abs(listed - then) <= like_list * then;
+    return world.weighed_bound < enough && std::abs(listed - then) <= like_list * then;
 }
 
 /// Raises the weight of the bodies that limit against those that do not, until the bound is enough; keeps the best
@@ -340,7 +340,7 @@ Least raised(World& world, const Surroundings& all, Counts counts) {
         reached[now] = best.bound;
         if (best.bound >= enough) break;
         if (in_vain && round == 0 && std::abs(best.bound - world.weighed_bound) <= unchanged * best.bound) return best;
-        if (world.automatic_step && round >= 3 && best.bound < (1.0 + worth_three_rounds) * reached[now - 3]) break;
+        if (round >= 3 && best.bound < (1.0 + worth_three_rounds) * reached[now - 3]) break;
         if (first.empty()) first = first_weights(world, all.rows);
         for (std::size_t b = 0; b < trial.size(); ++b) {
             const double step =
@@ -453,14 +453,16 @@ void keep_step_below_bound(World& world) {
     // bear it.
     for (const ClosedPoints which : {ClosedPoints::listed, ClosedPoints::touching}) {
         if (!world.has_bonds) break;
-        world.step_bound = std::max(world.step_bound, critical_step(world, which).step);
-        if (world.time_step > world.step_bound) continue;
+        if (!stable_at(world, which, world.time_step)) continue;
+        world.step_bound = world.time_step;
         if (which == ClosedPoints::listed) {
             for (PointState& point : world.point_states)
                 point.flags = static_cast<std::uint16_t>(point.flags | point_counted);
         }
         return;
     }
+    if (world.has_bonds)
+        world.step_bound = std::max(world.step_bound, critical_step(world, ClosedPoints::touching).step);
     throw UnstableRun(
         world.step, world.info[world.limiting_body].id,
         fmt::format("the time step, {:.6g} s, is above the stable bound, which fell to {:.6g} s as contacts came "

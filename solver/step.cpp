@@ -109,7 +109,7 @@ void end_step(World& world, const Speeds& speeds) {
 void compute_forces(World& world) {
     if (world.forces_current) return;
     prepare_forces(world);
-    sweep_by_team(world, features_of(world), nullptr, 0.0);
+    sweep(world, features_of(world), nullptr, 0.0);
     world.forces_clear = false;
     account_forces(world);
     world.forces_current = true;
@@ -137,7 +137,7 @@ void step(World& world) {
     const bool clear = world.integrator != Integrator::consistent;  // it looks at the last pass's forces
     const MoveListed move = clear ? move_of_lists<true>(world) : move_of_lists<false>(world);
     const double kick = kick_now(world);
-    sweep_by_team(world, features_of(world), move, kick);
+    sweep(world, features_of(world), move, kick);
     world.forces_clear = clear;
     account_forces(world);
     const PhaseTimer timer(world.profile, Phase::integrate);

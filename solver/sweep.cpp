@@ -208,29 +208,21 @@ CRACKLE_INLINE void visit_contributions(const World& world, std::size_t kind, Po
         visit_contributions<false>(world, begin, begin, end, forces, visit);
 }
 
-/// One thread's part in a sweep.
+/// One share of a sweep, by whichever thread: do_smaller_kinds(), then do_largest_kind(), then finish_late_bodies(),
+/// each once all shares have done the one before.
 class Sweeper {
   public:
-    Sweeper(World& world, const ContactFeatures& features, MoveListed move, double kick)
+    Sweeper(World& world, const ContactFeatures& features, MoveListed move, double kick, std::size_t thread)
         : world_(world),
           plan_(world.sweep),
           features_(features),
           move_(move),
           kick_(kick),
-          thread_(static_cast<std::size_t>(omp_get_thread_num())),
+          thread_(thread),
           threads_(plan_.shares.size()),
           profile_(thread_ == 0 ? world.profile : nullptr),
           share_(plan_.shares[thread_]),
           deferred_(threads_ == 1 ? nullptr : plan_.deferred.data() + plan_.deferred_begin[thread_]) {}
-
-    void sweep() {
-        share_ = {{}, thread_ == 0 ? 0 : end_of_chunks(plan_, thread_ - 1), false};
-        share_.broken = do_smaller_kinds();
-        do_largest_kind();
-        if (threads_ == 1) return;
-#pragma omp barrier
-        finish_late_bodies();
-    }
 
     static std::uint32_t end_of_chunks(const Sweep& plan, std::size_t thread) {
         const std::uint32_t chunks = plan.thread_chunks[thread + 1];
@@ -241,15 +233,11 @@ class Sweeper {
         return std::ranges::none_of(plan.shares, [](const Sweep::Share& share) { return share.broken; });
     }
 
-  private:
-    /// @return whether a bond has broken among them
-    bool do_smaller_kinds() {
-        bool some = false;
+    void do_smaller_kinds() {
         std::size_t before = 0;  // points of kinds passed
         for (std::size_t kind = 0; kind < point_kinds; ++kind) {
             const PointIndex blocks = blocks_of_kind(world_, kind);
             if (kind == plan_.largest_kind || blocks == 0) continue;
-            some = true;
             const ForceKernel kernel = force_kernel(features_, kind);
             for (PointIndex b = share_begin(blocks, thread_, threads_); b < share_begin(blocks, thread_ + 1, threads_);
                  ++b) {
@@ -261,38 +249,11 @@ class Sweeper {
             }
             before += world_.kind_begin[kind + 1] - world_.kind_begin[kind];
         }
-        if (!some) return false;
-        if (threads_ > 1) {
-#pragma omp barrier
-            add_smaller_kinds();
-        }
-        const std::size_t first = first_block_of(world_, plan_.largest_kind);
-        return some_broke(0, first) ||
-               some_broke(first + blocks_of_kind(world_, plan_.largest_kind), world_.loss_blocks.size());
-    }
-
-    /// Each thread goes through all of them and adds to the bodies it owns.
-    void add_smaller_kinds() {
-        const PointForce* force = plan_.smaller_kinds.data();
-        for (std::size_t kind = 0; kind < point_kinds; ++kind) {
-            if (kind == plan_.largest_kind) continue;
-            const PointIndex begin = world_.kind_begin[kind], end = world_.kind_begin[kind + 1];
-            visit_contributions(world_, kind, begin, end, force, [&](BodyIndex b, const Quad& on_b) {
-                if (owns(b)) add(world_.forces[b], on_b);
-            });
-            force += end - begin;
-        }
-        if (!world_.point_forces.empty() && thread_ == 0) keep_smaller_kinds();
-    }
-
-    void keep_smaller_kinds() {
-        const auto largest = static_cast<std::ptrdiff_t>(world_.kind_begin[plan_.largest_kind]);
-        std::copy_n(plan_.smaller_kinds.begin(), largest, world_.point_forces.begin());
-        std::copy(plan_.smaller_kinds.begin() + largest, plan_.smaller_kinds.end(),
-                  world_.point_forces.begin() + world_.kind_begin[plan_.largest_kind + 1]);
     }
 
     void do_largest_kind() {
+        if (threads_ > 1) add_smaller_kinds();
+        share_ = {{}, thread_ == 0 ? 0 : end_of_chunks(plan_, thread_ - 1), smaller_kinds_broke()};
         const std::size_t kind = plan_.largest_kind, first_block = first_block_of(world_, kind);
         const ForceKernel kernel = force_kernel(features_, kind);
         const PointIndex blocks = blocks_of_kind(world_, kind);
@@ -329,6 +290,34 @@ class Sweeper {
         if (move_ == nullptr || !none_broken(plan_)) return;
         const auto free_end = [&](std::uint32_t n) { return std::min(plan_.late_begin + n, plan_.driven_begin); };
         move_on(free_end(begin), free_end(end));
+    }
+
+  private:
+    bool smaller_kinds_broke() const {
+        const std::size_t first = first_block_of(world_, plan_.largest_kind);
+        return some_broke(0, first) ||
+               some_broke(first + blocks_of_kind(world_, plan_.largest_kind), world_.loss_blocks.size());
+    }
+
+    /// Each thread goes through all of them and adds to the bodies it owns.
+    void add_smaller_kinds() {
+        const PointForce* force = plan_.smaller_kinds.data();
+        for (std::size_t kind = 0; kind < point_kinds; ++kind) {
+            if (kind == plan_.largest_kind) continue;
+            const PointIndex begin = world_.kind_begin[kind], end = world_.kind_begin[kind + 1];
+            visit_contributions(world_, kind, begin, end, force, [&](BodyIndex b, const Quad& on_b) {
+                if (owns(b)) add(world_.forces[b], on_b);
+            });
+            force += end - begin;
+        }
+        if (!world_.point_forces.empty() && thread_ == 0) keep_smaller_kinds();
+    }
+
+    void keep_smaller_kinds() {
+        const auto largest = static_cast<std::ptrdiff_t>(world_.kind_begin[plan_.largest_kind]);
+        std::copy_n(plan_.smaller_kinds.begin(), largest, world_.point_forces.begin());
+        std::copy(plan_.smaller_kinds.begin() + largest, plan_.smaller_kinds.end(),
+                  world_.point_forces.begin() + world_.kind_begin[plan_.largest_kind + 1]);
     }
 
     /// Forces of a block, kept where somebody wants to see them, then `add_up` while they are at hand.
@@ -390,14 +379,31 @@ class Sweeper {
 }  // namespace
 
 void sweep(World& world, const ContactFeatures& features, MoveListed move, double kick) {
-    Sweeper(world, features, move, kick).sweep();
-}
-
-// One thread needs no team: its barriers would cost a tenth of a small scene's step.
-void sweep_by_team(World& world, const ContactFeatures& features, MoveListed move, double kick) {
-    if (world.threads == 1) return sweep(world, features, move, kick);
+    const std::size_t shares = world.sweep.shares.size();
+    if (shares == 1) {  // needs no team: its barriers would cost a tenth of a small scene's step
+        Sweeper sweeper(world, features, move, kick, 0);
+        sweeper.do_smaller_kinds();
+        return sweeper.do_largest_kind();
+    }
+    const bool smaller_kinds = !world.sweep.smaller_kinds.empty();
 #pragma omp parallel num_threads(world.threads)
-    sweep(world, features, move, kick);
+    {
+        // A team can be smaller than was asked for (OMP_THREAD_LIMIT, OMP_DYNAMIC): its threads then do several shares.
+        const auto team = static_cast<std::size_t>(omp_get_num_threads());
+        const auto mine = [&](auto phase) {
+            for (auto share = static_cast<std::size_t>(omp_get_thread_num()); share < shares; share += team) {
+                Sweeper sweeper(world, features, move, kick, share);
+                (sweeper.*phase)();
+            }
+        };
+        if (smaller_kinds) {
+            mine(&Sweeper::do_smaller_kinds);
+#pragma omp barrier
+        }
+        mine(&Sweeper::do_largest_kind);
+#pragma omp barrier
+        mine(&Sweeper::finish_late_bodies);
+    }
 }
 
 Speeds move_the_rest(World& world, MoveListed move, double kick) {

@@ -24,16 +24,13 @@ void clear_forces(World& world);
 /// Moves the bodies of a list and clears their forces, if they are not needed in the next pass.
 using MoveListed = Speeds (*)(World& world, double kick, const BodyIndex* bodies, std::int64_t count);
 
-/// Forces of all points, their sums, and the motion of all bodies but the driven ones: the calling thread's share,
-/// after plan_sweep() and clear_forces(). Must be called by all threads of a parallel region (or by one thread alone).
-/// Where a thread meets a broken bond it moves no body from there on: its event is to be recorded as all was at time n.
+/// Forces of all points, their sums, and the motion of all bodies but the driven ones, on the threads of the world;
+/// after plan_sweep() and clear_forces(). Where a thread meets a broken bond it moves no body from there on: its event
+/// is to be recorded as all was at time n.
 /// @param move null: bodies stay
 void sweep(World& world, const ContactFeatures& features, MoveListed move, double kick);
 
 /// Moves those that a broken bond has kept in place. @return of all bodies but the driven ones
 Speeds move_the_rest(World& world, MoveListed move, double kick);
-
-/// sweep() on all threads of the world.
-void sweep_by_team(World& world, const ContactFeatures& features, MoveListed move, double kick);
 
 }  // namespace crackle

@@ -165,7 +165,8 @@ std::vector<Parameter> all_parameters() {
             .below(90),
 
         CRACKLE_KEY(numerics, time_step, "s", "Time step; derived from the stiffness bound if not given.").above(0),
-        CRACKLE_KEY(numerics, safety_factor, "", "Share of the stable bound that a derived step takes.")
+        CRACKLE_KEY(numerics, safety_factor, "",
+                    "Share of the exact stable step that a derived step takes, if the guaranteed bound allows it.")
             .above(0)
             .at_most(1)
             .otherwise(0.8),

@@ -48,6 +48,7 @@ class LoadingLoop {
             load();
         } catch (const UnstableRun&) {
             record_breaks();  // of the step that went wrong
+            state_.step_seconds = step_seconds();
             throw;
         }
         state_.step_seconds = step_seconds();

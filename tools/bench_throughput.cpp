@@ -40,6 +40,7 @@ struct Row {
     double rate = 0.0;      // particle-steps / s
     double bare = 0.0;      // of the bare kernel on the same discs, 0: not measured
     double bytes = 0.0;     // a particle, 0: unknown
+    double list = 0.0;      // steps that a neighbour list lasted, 0: unknown
 };
 
 /// Steps until the seconds have gone. @return particle-steps a second
@@ -74,7 +75,7 @@ double bare_rate(std::int64_t count, double seconds) {
 
 Row measure_test(const Settings& settings, const std::string& kind, std::int64_t count, int threads, bool with_bare) {
     std::vector<double> rates, bares;
-    Row row{kind, count, threads, 0.0, 0.0, 0.0, 0.0};
+    Row row{kind, count, threads, 0.0, 0.0, 0.0, 0.0, 0.0};
     for (int k = 0; k < settings.repeats; ++k) {
         const TimedTest timed =
             time_test({kind, count, threads, settings.seconds}, settings.folder / "scratch", settings.empty_process);
@@ -89,19 +90,36 @@ Row measure_test(const Settings& settings, const std::string& kind, std::int64_t
     return row;
 }
 
+/// Flowing columns, each for as long as it flows, until the seconds have gone.
 Row measure_flow(const Settings& settings, bool polygons, std::int64_t count) {
-    std::vector<double> rates;
-    rates.reserve(static_cast<std::size_t>(settings.repeats));
-    Row row{polygons ? "flowing hexagons" : "flowing circles", count, 1, 0.0, 0.0, 0.0, 0.0};
-    World world = build_world(flowing_column(count, polygons));
-    row.particles = static_cast<std::int64_t>(world.bodies.size());
-    rate_of(world.bodies.size(), settings.seconds, [&] { step(world); });  // until it moves
-    for (int k = 0; k < settings.repeats; ++k)
-        rates.push_back(rate_of(world.bodies.size(), settings.seconds, [&] { step(world); }));
-    std::int64_t touching = 0;
-    for (const PointState point : world.point_states) touching += (point.flags & point_touching) != 0 ? 1 : 0;
-    row.contacts = static_cast<double>(touching) / static_cast<double>(row.particles);
+    constexpr int until_in_touch = 100;  // steps
+    std::vector<double> rates, lists;
+    Row row{polygons ? "flowing hexagons" : "flowing circles", count, 1, 0.0, 0.0, 0.0, 0.0, 0.0};
+    const FlowingColumn column = flowing_column(count, polygons);
+    for (int k = 0; k < settings.repeats; ++k) {
+        double took = 0.0, steps = 0.0, builds = 0.0;
+        while (took < settings.seconds) {
+            World world = build_world(column.scene);
+            row.particles = static_cast<std::int64_t>(world.bodies.size());
+            for (int n = 0; n < until_in_touch; ++n) step(world);
+            const std::int64_t first_step = world.step, first_build = world.list_builds;
+            const Clock::time_point begun = Clock::now();
+            const auto gone = [&] { return std::chrono::duration<double>(Clock::now() - begun).count(); };
+            const std::int64_t together = std::max<std::int64_t>(1, 20000 / row.particles);
+            while (world.time < column.lasts && took + gone() < settings.seconds)
+                for (std::int64_t n = 0; n < together; ++n) step(world);
+            took += gone();
+            steps += static_cast<double>(world.step - first_step);
+            builds += static_cast<double>(world.list_builds - first_build);
+            std::int64_t touching = 0;
+            for (const PointState point : world.point_states) touching += (point.flags & point_touching) != 0 ? 1 : 0;
+            row.contacts = static_cast<double>(touching) / static_cast<double>(row.particles);
+        }
+        rates.push_back(static_cast<double>(row.particles) * steps / took);
+        lists.push_back(builds > 0.0 ? steps / builds : 0.0);
+    }
     row.rate = median(rates);
+    row.list = median(lists);
     return row;
 }
 
@@ -121,15 +139,18 @@ std::string page_of(const std::string& command, const Limits& limits, const std:
         "steps); the bare kernel has neither neighbour search nor bonds, ledger, controls or observers. Contacts: "
         "bonded "
         "points a particle. Memory: peak resident set while stepping less an empty process. Flowing: a column without "
-        "its right wall under gravity, touching points.\n\n"
+        "its right wall in the midst of its collapse, its front as fast as a dam break's, touching points; and how "
+        "many "
+        "steps a neighbour list lasted.\n\n"
         "| scene | particles | threads | contacts a particle | rate, M/s | bare kernel, M/s | ratio | ns a particle | "
-        "bytes a particle |\n| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
+        "bytes a particle | steps a list |\n"
+        "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
         command, processor_name(), lane_count, limits.l1, limits.l2, limits.memory);
     for (const Row& row : rows) {
-        text += fmt::format("| {} | {} | {} | {:.2f} | {:.2f} | {} | {} | {:.1f} | {} |\n", row.scene, row.particles,
-                            row.threads, row.contacts, 1e-6 * row.rate, shown(1e-6 * row.bare, "{:.2f}"),
+        text += fmt::format("| {} | {} | {} | {:.2f} | {:.2f} | {} | {} | {:.1f} | {} | {} |\n", row.scene,
+                            row.particles, row.threads, row.contacts, 1e-6 * row.rate, shown(1e-6 * row.bare, "{:.2f}"),
                             shown(row.bare > 0.0 ? row.rate / row.bare : 0.0, "{:.2f}"), 1e9 / row.rate,
-                            shown(row.bytes, "{:.0f}"));
+                            shown(row.bytes, "{:.0f}"), shown(row.list, "{:.1f}"));
     }
     return text;
 }
@@ -138,11 +159,11 @@ std::string table_of(const std::string& command, const Limits& limits, const std
     std::string text = fmt::format(
         "# Made by `{}` on {}. triad [GB/s]: {:.1f} first cache, {:.1f} second, {:.1f} memory.\n"
         "scene,particles,threads,contacts_per_particle,particle_steps_per_second,bare_kernel_per_second,"
-        "bytes_per_particle\n",
+        "bytes_per_particle,steps_per_list\n",
         command, processor_name(), limits.l1, limits.l2, limits.memory);
     for (const Row& row : rows) {
-        text += fmt::format("{},{},{},{:.4g},{:.5g},{:.5g},{:.4g}\n", row.scene, row.particles, row.threads,
-                            row.contacts, row.rate, row.bare, row.bytes);
+        text += fmt::format("{},{},{},{:.4g},{:.5g},{:.5g},{:.4g},{:.4g}\n", row.scene, row.particles, row.threads,
+                            row.contacts, row.rate, row.bare, row.bytes, row.list);
     }
     return text;
 }

@@ -172,7 +172,7 @@ bool DeckRun::start_from_state(const Texts& texts) {
 }
 
 void DeckRun::enter_steps_before() {
-    world_.step = boundary_.steps_before;
+    world_.step = world_.list_step = boundary_.steps_before;
     world_.time = static_cast<double>(world_.step) * world_.time_step;
     for (ControlState& control : world_.controls) control.first_step = world_.step;
 }

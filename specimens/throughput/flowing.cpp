@@ -18,7 +18,7 @@ constexpr double runout = 20.0;           // times the column's width: nothing r
 
 }  // namespace
 
-Scene flowing_column(std::int64_t count, bool polygons) {
+FlowingColumn flowing_column(std::int64_t count, bool polygons) {
     Scene scene;
     if (polygons) {
         const int columns = std::max(3, static_cast<int>(std::lround(std::sqrt(static_cast<double>(count) / 2.0))));
@@ -30,8 +30,16 @@ Scene flowing_column(std::int64_t count, bool polygons) {
     }
     scene.gravity = {0.0, -gravity};
     scene.domain.x2 = scene.domain.x1 + runout * (scene.domain.x2 - scene.domain.x1);
-    scene.domain.y2 += scene.domain.y2 - scene.domain.y1;
-    return scene;
+    const Vec2 corner{scene.domain.x1, scene.domain.y1};
+    const double height = scene.domain.y2 - scene.domain.y1, pace = 0.5 * std::sqrt(gravity / height);
+    for (Body& body : scene.bodies) {
+        const Vec2 place =
+            (body.circle_count > 0 ? scene.circles[body.first_circle].centre : scene.vertices[body.first_vertex]) -
+            corner;
+        body.velocity = {pace * place.x, -pace * place.y};
+    }
+    scene.domain.y2 += height;
+    return {scene, 0.25 / pace};
 }
 
 }  // namespace crackle::throughput

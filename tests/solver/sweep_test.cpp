@@ -4,6 +4,7 @@
 #include "solver/sweep.hpp"
 
 #include <gtest/gtest.h>
+#include <omp.h>
 
 #include "specimens/catalogue/disordered.hpp"
 #include "tests/support/claim.hpp"
@@ -86,6 +87,31 @@ TEST(Sweep, HasTheBytesOfForcesThenMotionOnAnyNumberOfThreads) {
                 EXPECT_EQ(swept.events[e].energy, apart.events[e].energy);
             }
         }
+    }
+}
+
+// As under OMP_THREAD_LIMIT or OMP_DYNAMIC: within a parallel region of ours a team is one thread, whatever is asked
+// for.
+TEST(Sweep, HasTheSameBytesWhereFewerThreadsAreGivenThanAskedFor) {
+    const SweptScene scenes[] = {{"discs", driven_discs(Integrator::leapfrog), 0.0, 1.0, true},
+                                 {"cells", driven_cells(), 1.08e-3, 1.0, true}};
+    for (const SweptScene& swept_scene : scenes) {
+        World alone = bonded_and_shaken(swept_scene, 1), given_one = bonded_and_shaken(swept_scene, 3);
+        for (int n = 0; n < 300; ++n) step(alone);
+        int team = 0;
+#pragma omp parallel num_threads(2)
+#pragma omp single
+        {
+            for (int n = 0; n < 300; ++n) step(given_one);
+#pragma omp parallel num_threads(3)
+#pragma omp single
+            team = omp_get_num_threads();
+        }
+        ASSERT_EQ(team, 1);
+        compute_forces(alone);
+        compute_forces(given_one);
+        EXPECT_GT(alone.bonds_broken, 0);
+        testing::expect_same_run(given_one, alone);
     }
 }
 
