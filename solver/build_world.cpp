@@ -20,10 +20,6 @@
 namespace crackle {
 namespace {
 
-// Verlet skin as a share of the median bounding radius: an intact specimen strains by less, and few idle points are
-// listed.
-constexpr double skin_share = 0.1;
-
 /// Diameter of the disc with a body's moment of inertia, m.
 double equivalent_diameter(const MassProperties& body) { return std::sqrt(8.0 * body.moment / body.mass); }
 

@@ -21,7 +21,7 @@
 namespace crackle {
 
 // Raise when the fields below change.
-constexpr std::uint32_t checkpoint_version = 13;
+constexpr std::uint32_t checkpoint_version = 14;
 constexpr std::uint64_t checkpoint_magic = 0x454c4b4341524321ULL;  // "!CRACKLE"
 
 // NOLINTBEGIN(bugprone-macro-parentheses)
@@ -124,8 +124,9 @@ void serialize(Archive& a, World& w) {
     a(w.points, w.point_states, w.shear_forces, w.bond_overlaps, w.root_masses, w.kind_begin, w.fours_end,
       w.point_forces, w.keep_point_forces, w.normal_dashpot, w.shear_dashpot, w.spring_work, w.openings, w.owed,
       w.strong_normal, w.strong_shear);
-    a(w.skin, w.widest_skin, w.list_reference, w.turning_reach, w.some_turn, w.size_rank, w.largest_smaller,
-      w.travelled, w.fastest, w.fastest_allowed_move, w.list_valid, w.list_step, w.list_builds);
+    a(w.skin, w.widest_skin, w.half_skins, w.list_reference, w.turning_reach, w.some_turn, w.size_rank,
+      w.largest_smaller, w.travelled, w.free_way, w.fastest, w.fastest_allowed_move, w.list_valid, w.list_step,
+      w.list_builds);
     a(w.domain, w.thick, w.segment_law, w.integrator, w.gravity, w.time_step, w.drift, w.automatic_step,
       w.safety_factor, w.step_bound, w.limiting_body, w.step_weights, w.weighed_bound, w.weighed_points, w.exact_step,
       w.exact_step_proved, w.step_goal, w.allow_unstable, w.has_bonds, w.ledger_on, w.intact);

@@ -4,9 +4,11 @@
 // Bodies lie in a uniform grid by their centroids. A pair is found by its larger body, which searches its own bounding
 // box widened by the reach of the next smaller body: any mixture of sizes, platens and containers included, needs no
 // user hint. In a bonded world the skin is as narrow as the motion allows, so that points which nothing brings together
-// cost nothing: a mesh has many corners that face each other over a gap. Pairs are sorted, their points emitted in that
-// order, and what a point remembers (shear spring, bond, flags) is carried over by one linear merge of the old list
-// with the new one. Everything depends on positions and steps alone, never on the number of threads.
+// cost nothing: a mesh has many corners that face each other over a gap. A body that is fast beyond that has a wider
+// skin of its own: a few fragments in flight, or a flow, would have the list rebuilt every few steps. Pairs are sorted,
+// their points emitted in that order, and what a point remembers (shear spring, bond, flags) is carried over by one
+// linear merge of the old list with the new one. Everything depends on positions and steps alone, never on the number
+// of threads.
 
 #include <fmt/format.h>
 
@@ -32,6 +34,11 @@ constexpr double list_lasts = 1000.0;
 /// Steps between two looks whether a narrower skin would do.
 constexpr std::int64_t look_interval = 64;
 constexpr double narrowest_share = 0.01;  // of the widest skin
+// A body that moves by p reaches a step and has a half skin of h reaches lasts h/p steps and lists about as many
+// points more by the share of h (discs in a dense packing: 0.8 to 1 of those that touch a reach). With a rebuild worth
+// R steps the sum h + R p/h is least at h = √(R p).
+constexpr double rebuild_steps = 45.0;
+constexpr double widest_own = 0.5;  // of the median reach: half skins of fast bodies
 
 struct Box {
     Vec2 low{1e300, 1e300}, high{-1e300, -1e300};
@@ -40,6 +47,9 @@ struct Box {
         high = {std::max(high.x, p.x + margin), std::max(high.y, p.y + margin)};
     }
 };
+
+/// How far the surfaces of a listed pair may be apart beyond what they touch at, m.
+double skin_between(const World& world, BodyIndex i, BodyIndex j) { return world.half_skins[i] + world.half_skins[j]; }
 
 Vec2 centre_of(const BodyState& body) { return {body.x, body.y}; }
 
@@ -112,12 +122,12 @@ class Grid {
 std::vector<std::uint64_t> near_pairs(const World& world) {
     const PhaseTimer timer(world.profile, Phase::broad_phase);
     const Grid grid(world);
-    const double gap = world.thick + world.skin;
+    const double widest = world.half_skins.empty() ? 0.0 : *std::ranges::max_element(world.half_skins);
     std::vector<std::uint64_t> pairs;
     pairs.reserve(4 * world.bodies.size());
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
         const Box own = bounding_box(world, b);
-        const double margin = world.largest_smaller[b] + gap;
+        const double margin = world.largest_smaller[b] + world.thick + world.half_skins[b] + widest;
         Box search;
         search.add(own.low, margin);
         search.add(own.high, margin);
@@ -125,7 +135,8 @@ std::vector<std::uint64_t> near_pairs(const World& world) {
         grid.visit(search, [&](BodyIndex other) {
             if (world.size_rank[other] <= world.size_rank[b]) return;
             const BodyState& partner = world.bodies[other];
-            const double reach = world.info[other].reach + gap;
+            const double reach =
+                world.info[other].reach + world.thick + skin_between(world, static_cast<BodyIndex>(b), other);
             const double dx = partner.x - body.x, dy = partner.y - body.y;
             const double limit = world.info[b].reach + reach;
             if (dx * dx + dy * dy > limit * limit) return;
@@ -164,11 +175,12 @@ ContactPoint new_point(BodyIndex i, BodyIndex j, std::uint32_t element, std::uin
 void add_circle_pairs(const World& world, BodyIndex i, BodyIndex j, PointLists& lists) {
     const BodyInfo &a = world.info[i], &b = world.info[j];
     const bool single = a.single_circle && b.single_circle;
+    const double skin = skin_between(world, i, j);
     for (std::uint32_t p = a.first_element; p < a.first_element + a.element_count; ++p) {
         const Vec2 centre = centre_of(world.bodies[i]) + turned(world.bodies[i], world.elements[p]);
         for (std::uint32_t q = b.first_element; q < b.first_element + b.element_count; ++q) {
             const Vec2 other = centre_of(world.bodies[j]) + turned(world.bodies[j], world.elements[q]);
-            if (norm(other - centre) > world.elements[p].radius + world.elements[q].radius + world.skin) continue;
+            if (norm(other - centre) > world.elements[p].radius + world.elements[q].radius + skin) continue;
             lists[static_cast<std::size_t>(single ? PointKind::circle_circle : PointKind::element_element)].push_back(
                 new_point(i, j, p, q));
         }
@@ -182,7 +194,7 @@ void add_outline_points(const World& world, BodyIndex i, BodyIndex j, PointLists
     for (std::uint32_t p = a.first_element; p < a.first_element + a.element_count; ++p) {
         const Element& element = world.elements[p];
         const Vec2 w = centre_of(world.bodies[i]) + turned(world.bodies[i], element) - centre_of(target);
-        const double limit = element.radius + element.target_reach + world.skin;
+        const double limit = element.radius + element.target_reach + skin_between(world, i, j);
         if (dot(w, w) > (b.reach + limit) * (b.reach + limit)) continue;
         const double c = target.shape[0], s = target.shape[1];
         const OutlineFacing facing = face_outline(world, b, b.first_piece, c * w.x + s * w.y, c * w.y - s * w.x);
@@ -198,7 +210,7 @@ void add_circle_segment_points(const World& world, BodyIndex i, BodyIndex j, Poi
     const Vec2 to_j = centre_of(world.bodies[j]) - centre_of(own);
     for (std::uint32_t p = a.first_element; p < a.first_element + a.element_count; ++p) {
         const Vec2 centre = turned(own, world.elements[p]);
-        const double limit = world.elements[p].radius + world.thick + world.skin;
+        const double limit = world.elements[p].radius + world.thick + skin_between(world, i, j);
         if (norm(centre - to_j) > b.reach + limit) continue;
         for (std::uint32_t q = b.first_element; q < b.first_element + b.element_count; ++q) {
             if (world.segments[q].length == 0.0) continue;
@@ -213,7 +225,7 @@ void add_circle_segment_points(const World& world, BodyIndex i, BodyIndex j, Poi
 void add_segment_pairs(const World& world, BodyIndex i, BodyIndex j, PointLists& lists) {
     const BodyInfo &a = world.info[i], &b = world.info[j];
     const Vec2 to_j = centre_of(world.bodies[j]) - centre_of(world.bodies[i]);
-    const double limit = world.thick + world.skin;
+    const double limit = world.thick + skin_between(world, i, j);
     for (std::uint32_t p = a.first_element; p < a.first_element + a.element_count; ++p) {
         if (world.segments[p].length == 0.0) continue;
         const Bar own = bar_of(world, world.bodies[i], p, {});
@@ -248,17 +260,18 @@ void add_wall_points(const World& world, BodyIndex i, PointLists& lists) {
     const BodyState& body = world.bodies[i];
     const Domain& d = world.domain;
     const bool chain = info.piece_count > 0;
+    const double skin = skin_between(world, i, i);
     for (std::uint32_t wall = 0; wall < 4; ++wall) {
         if (!d.wall_present[wall]) continue;
         const double whole = wall == 0   ? body.x - d.x1
                              : wall == 1 ? d.x2 - body.x
                              : wall == 2 ? body.y - d.y1
                                          : d.y2 - body.y;
-        if (whole > info.reach + world.skin) continue;
+        if (whole > info.reach + skin) continue;
         for (std::uint32_t p = info.first_element; p < info.first_element + info.element_count; ++p) {
             const Vec2 o = turned(body, world.elements[p]);
             const double distance = whole + (wall == 0 ? o.x : wall == 1 ? -o.x : wall == 2 ? o.y : -o.y);
-            if (distance > (chain ? 0.0 : world.elements[p].radius) + world.skin) continue;
+            if (distance > (chain ? 0.0 : world.elements[p].radius) + skin) continue;
             ContactPoint point{};
             point.body_i = i;
             point.body_j = wall;
@@ -512,28 +525,55 @@ void exchange_points(World& world, PointLists& lists) {
     world.loss_blocks.assign(block_count(world), World::LossBlock{});
 }
 
-/// Longest way any surface point can have gone since the list was built, m.
-double longest_way(const World& world) {
-    double longest = 0.0;
+/// How far surface points can have gone since the list was built.
+struct Ways {
+    double longest = 0.0;  // m
+    double left = 0.0;     // m, least that any has left of its half skin
+    bool used_up = false;  // some has hardly anything left
+};
+
+Ways ways_since_list(const World& world) {
+    Ways ways{0.0, std::numeric_limits<double>::infinity(), false};
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
         const BodyState& body = world.bodies[b];
         const ListReference& then = world.list_reference[b];
         const double way =
             norm({body.x - then.x, body.y - then.y}) + world.turning_reach[b] * std::abs(body.angle - then.angle);
-        longest = std::max(longest, way);
+        const double half = world.half_skins[b];
+        ways.longest = std::max(ways.longest, way);
+        ways.left = std::min(ways.left, half - way);
+        ways.used_up = ways.used_up || way > 0.8 * half;
     }
-    return longest;
+    return ways;
 }
 
 bool skin_follows(const World& world) { return world.has_bonds && world.widest_skin > 0.0; }
 
-/// The skin that lasts for list_lasts steps like those since the list was built. @param way longest_way(), m
+/// The skin that lasts for list_lasts steps like those since the list was built. @param way the longest since then, m
 double skin_for(const World& world, double way) {
     const double pace = way / static_cast<double>(std::max<std::int64_t>(1, world.step - world.list_step));
     return std::clamp(2.0 * list_lasts * pace, narrowest_share * world.widest_skin, world.widest_skin);
 }
 
+/// Half skins of all bodies by how fast they are now. Where no skin is wide enough a body's own speed counts; under the
+/// guide's law every listed disc bounds the step, so that none is listed early.
+void choose_half_skins(World& world) {
+    const double half = 0.5 * world.skin;
+    world.half_skins.assign(world.bodies.size(), half);
+    // Before there is a step, ramps have no velocity yet.
+    const bool own = world.time_step > 0.0 && world.widest_skin > 0.0 && world.skin == world.widest_skin;
+    if (!own || world.segment_law != SegmentLaw::rounded) return;
+    const double reach = world.widest_skin / skin_share;
+    for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+        const BodyState& body = world.bodies[b];
+        const double speed = norm({body.vx, body.vy}) + world.turning_reach[b] * std::abs(body.omega);
+        const double lasting = std::sqrt(rebuild_steps * speed * world.time_step * reach);
+        world.half_skins[b] = std::clamp(lasting, half, std::max(half, widest_own * reach));
+    }
+}
+
 void rebuild(World& world) {
+    choose_half_skins(world);
     std::vector<std::uint64_t> pairs = near_pairs(world);
     {
         const PhaseTimer timer(world.profile, Phase::listing);
@@ -548,6 +588,7 @@ void rebuild(World& world) {
         world.list_reference[b] = {world.bodies[b].x, world.bodies[b].y, world.bodies[b].angle};
     }
     world.travelled = 0.0;
+    world.free_way = world.half_skins.empty() ? 0.0 : *std::ranges::min_element(world.half_skins);
     world.list_valid = true;
     world.list_step = world.step;
     world.list_builds += 1;
@@ -558,16 +599,16 @@ void rebuild(World& world) {
 
 void refresh_neighbours(World& world) {
     if (world.list_valid) {
-        const double half_skin = 0.5 * world.skin;
         const std::int64_t age = world.step - world.list_step;
         const bool look = skin_follows(world) && age > 0 && age % look_interval == 0;
-        if (!look && world.travelled <= half_skin) return;
-        // The bound is used up: look how far bodies really went, and rebuild if little is left of the skin.
-        world.travelled = longest_way(world);
-        const bool used_up = world.travelled > 0.8 * half_skin;
-        if (!used_up && !(look && skin_for(world, world.travelled) < 0.25 * world.skin)) return;
+        if (!look && world.travelled <= world.free_way) return;
+        // The bound is used up: look how far bodies really went, and rebuild if one has little left of its skin.
+        const Ways ways = ways_since_list(world);
+        world.travelled = 0.0;
+        world.free_way = ways.left;
+        if (!ways.used_up && !(look && skin_for(world, ways.longest) < 0.25 * world.skin)) return;
         refuse_piercing(world);
-        if (skin_follows(world)) world.skin = skin_for(world, world.travelled);
+        if (skin_follows(world)) world.skin = skin_for(world, ways.longest);
     }
     rebuild(world);
 }

@@ -20,9 +20,9 @@
 // |α| < t/4, a disc's may grow to 1.5 times what an idle one counts, against the share a derived step leaves.
 //
 // In a bonded world those points count that carry load; one that comes to carry load later is found by the contact
-// pass, and only its two bodies are looked at again. In a world without bonds, or under the guide's law, all listed
-// points count, and a body without points counts one against a wall. Geometry is that of the last evaluation, at the
-// latest when the list was built: since then nothing has moved by more than half the skin.
+// pass, and only its two bodies are looked at again. In a world without bonds all points within the common skin count,
+// under the guide's law all listed ones, and a body without points counts one against a wall. Geometry is that of the
+// last evaluation, at the latest when the list was built: since then nothing has moved by more than its half skin.
 
 #include <fmt/format.h>
 
@@ -303,10 +303,10 @@ bool weighed_before(const World& world, const std::vector<bool>& met) {
     return true;
 }
 
-/// What a derived step asks of the bound, or a given one. Loose bodies take a small share of it anyway.
+/// What a derived step asks of the bound, or a given one.
 double enough_for(const World& world) {
-    if (!world.has_bonds) return 0.0;
-    return world.automatic_step ? world.step_goal : world.time_step;
+    if (!world.automatic_step) return world.time_step;
+    return world.has_bonds ? world.step_goal : world.time_step * world.safety_factor / derived_step_share(world);
 }
 
 /// Whether the last search for weights, on a list like this one, has not reached what the step asks for: then
@@ -339,6 +339,11 @@ Least raised(World& world, const Surroundings& all, Counts counts) {
         const auto now = static_cast<std::size_t>(round);
         reached[now] = best.bound;
         if (best.bound >= enough) break;
+        if (!world.has_bonds) {  // they take a small share of it anyway: their own weights do
+            if (round > 0 || !warm) break;
+            trial = first = first_weights(world, all.rows);
+            continue;
+        }
         if (in_vain && round == 0 && std::abs(best.bound - world.weighed_bound) <= unchanged * best.bound) return best;
         if (round >= 3 && best.bound < (1.0 + worth_three_rounds) * reached[now - 3]) break;
         if (first.empty()) first = first_weights(world, all.rows);
@@ -375,10 +380,16 @@ double stable_step_bound(const World& world, BodyIndex* limiting) {
 
 void evaluate_step_bound(World& world) {
     const PhaseTimer timer(world.profile, Phase::step_bound);
-    const bool all_count = !world.has_bonds || world.segment_law != SegmentLaw::rounded;
+    // Of loose bodies those that the common skin lists: a fast body's own is wider, but that is no reason for a lower
+    // step.
+    const bool by_guide = world.segment_law != SegmentLaw::rounded;
+    const double least_overlap = by_guide || (!world.has_bonds && world.widest_skin == 0.0)
+                                     ? -std::numeric_limits<double>::infinity()
+                                 : world.has_bonds ? 0.0
+                                                   : -world.widest_skin;
     const auto counts = [&](PointIndex k, double overlap) {
         std::uint16_t& flags = world.point_states[k].flags;
-        const bool counted = all_count || (flags & point_bonded) != 0 || overlap > 0.0;
+        const bool counted = (flags & point_bonded) != 0 || overlap > least_overlap;
         flags = static_cast<std::uint16_t>(counted ? flags | point_counted : flags & ~point_counted);
         return counted;
     };

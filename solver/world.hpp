@@ -259,6 +259,10 @@ struct Sweep {
     std::vector<Share> shares;
 };
 
+/// Widest common skin as a share of the median bounding radius: an intact specimen strains by less, and few idle points
+/// are listed.
+inline constexpr double skin_share = 0.1;
+
 struct World {
     // ---- bodies
     std::vector<BodyState> bodies;
@@ -306,12 +310,15 @@ struct World {
     // ---- neighbour list
     double skin = 0.0;         // m
     double widest_skin = 0.0;  // m; in a bonded world the skin follows the motion up to this; 0: it stays as given
+    // m per body: how far its surface may move until the list is rebuilt; half the skin, or more for a fast body.
+    std::vector<double> half_skins;
     std::vector<ListReference> list_reference;
     std::vector<double> turning_reach;     // m per body: how far turning moves its surface (0: single circles)
     bool some_turn = false;                // any of these is not 0
     std::vector<std::uint32_t> size_rank;  // bodies by bounding radius, largest 0; a pair is found by its larger body
     std::vector<double> largest_smaller;   // m per body: bounding radius of the next in that order
-    double travelled = 0.0;                // m, bound on any surface point's way since the list was built
+    double travelled = 0.0;                // m, bound on any surface point's way since ways were last looked at
+    double free_way = 0.0;                 // m, that every surface point can go from there within its half skin
     double fastest = 0.0;                  // m/s, largest surface speed in the last step
     double fastest_allowed_move = 0.0;     // m a step: half the smallest body, beyond which contacts would be missed
     bool list_valid = false;
