@@ -62,11 +62,21 @@ class PlainBlock {
     Json places_ = Json::object();
 };
 
+/// What a whole number stands for: see the header.
+struct Code {
+    double quantum = 1.0;
+    double growth = 0.0;  ///< 0: all steps are equal
+
+    double number(double value) const {
+        return std::round(growth > 0.0 ? std::asinh(value * growth / quantum) / growth : value / quantum);
+    }
+};
+
 /// Tables of whole numbers, as the header describes them.
 class CodedBlock {
   public:
     /// @param rows  all of one length; nothing is stored of empty ones
-    void add(const std::string& name, const std::vector<std::vector<double>>& rows, double quantum) {
+    void add(const std::string& name, const std::vector<std::vector<double>>& rows, Code code) {
         const std::size_t columns = rows.front().size();
         if (columns == 0) return;
         std::vector<std::uint64_t> coded;
@@ -74,25 +84,25 @@ class CodedBlock {
         std::vector<std::int64_t> last(columns, 0);
         for (const std::vector<double>& row : rows) {
             for (std::size_t k = 0; k < columns; ++k) {
-                const std::int64_t number = whole(name, row[k], quantum);
+                const std::int64_t number = whole(name, row[k], code);
                 coded.push_back(zigzag(number - last[k]));
                 last[k] = number;
             }
         }
-        store(name, coded, rows.size(), columns, quantum);
+        store(name, coded, rows.size(), columns, code);
     }
 
     /// One row, differences from column to column.
-    void add_row(const std::string& name, const std::vector<double>& row, double quantum) {
+    void add_row(const std::string& name, const std::vector<double>& row, Code code) {
         std::vector<std::uint64_t> coded;
         coded.reserve(row.size());
         std::int64_t last = 0;
         for (const double value : row) {
-            const std::int64_t number = whole(name, value, quantum);
+            const std::int64_t number = whole(name, value, code);
             coded.push_back(zigzag(number - last));
             last = number;
         }
-        store(name, coded, 1, row.size(), quantum);
+        store(name, coded, 1, row.size(), code);
     }
 
     const Json& places() const { return places_; }
@@ -103,23 +113,27 @@ class CodedBlock {
         return (static_cast<std::uint64_t>(difference) << 1) ^ static_cast<std::uint64_t>(difference >> 63);
     }
 
-    static std::int64_t whole(const std::string& name, double value, double quantum) {
+    static std::int64_t whole(const std::string& name, double value, Code code) {
         constexpr double most = 1ULL << 50;  // exact in a double, which is what the page adds up in
-        const double number = std::round(value / quantum);
+        const double number = code.number(value);
         if (!(std::abs(number) < most))
             throw InputError(fmt::format("frames: {}: found {}, expected a finite number of common size", name, value));
         return static_cast<std::int64_t>(number);
     }
 
     void store(const std::string& name, const std::vector<std::uint64_t>& coded, std::size_t rows, std::size_t columns,
-               double quantum) {
+               Code code) {
         std::uint64_t all = 1;
-        for (const std::uint64_t code : coded) all |= code;
+        for (const std::uint64_t one : coded) all |= one;
         const auto planes = static_cast<std::size_t>((std::bit_width(all) + 7) / 8);
-        places_[name] = {
-            {"quantum", quantum}, {"offset", bytes_.size()}, {"planes", planes}, {"rows", rows}, {"columns", columns}};
+        places_[name] = {{"quantum", code.quantum},
+                         {"offset", bytes_.size()},
+                         {"planes", planes},
+                         {"rows", rows},
+                         {"columns", columns}};
+        if (code.growth > 0.0) places_[name]["growth"] = code.growth;
         for (std::size_t plane = 0; plane < planes; ++plane) {
-            for (const std::uint64_t code : coded) bytes_.push_back(static_cast<unsigned char>(code >> (8 * plane)));
+            for (const std::uint64_t one : coded) bytes_.push_back(static_cast<unsigned char>(one >> (8 * plane)));
         }
     }
 
@@ -133,7 +147,9 @@ using Field = std::vector<double> RecordedFrame::*;
 // What no eye sees, even where displacements are magnified a hundred times; half of a page is these numbers' noise.
 constexpr double place_share = 0x1p-22;    // quantum over the specimen's size
 constexpr double angle_quantum = 0x1p-18;  // rad
-constexpr double largest_share = 0x1p-10;  // quantum over the block's largest value
+constexpr double least_share = 0x1p-20;    // quantum over the block's largest value, of what may be small or large
+constexpr double growth = 0x1p-7;          // of velocities and stresses: known to 0.4 % of themselves
+constexpr double force_growth = 0x1p-6;    // of forces, which are half of a page: to 0.8 %
 
 double largest_of(const std::vector<std::vector<double>>& rows) {
     double largest = 0.0;
@@ -143,8 +159,13 @@ double largest_of(const std::vector<std::vector<double>>& rows) {
     return largest;
 }
 
+Code code_of(const std::vector<std::vector<double>>& rows, double with_growth) {
+    const double largest = largest_of(rows);
+    return largest > 0.0 ? Code{least_share * largest, with_growth} : Code{};
+}
+
 void add_field(CodedBlock& block, const std::string& name, const std::vector<RecordedFrame>& frames, Field field,
-               double quantum = 0.0) {
+               const std::function<Code(const std::vector<std::vector<double>>&)>& code_for) {
     std::vector<std::vector<double>> rows;
     for (const RecordedFrame& frame : frames) {
         rows.push_back(frame.*field);
@@ -152,8 +173,7 @@ void add_field(CodedBlock& block, const std::string& name, const std::vector<Rec
             throw InputError(fmt::format("frames: {}: found {} values in one frame and {} in another, expected as many",
                                          name, rows.front().size(), rows.back().size()));
     }
-    if (quantum == 0.0) quantum = largest_share * largest_of(rows);
-    block.add(name, rows, quantum > 0.0 ? quantum : 1.0);
+    block.add(name, rows, code_for(rows));
 }
 
 void add_contacts(CodedBlock& block, const std::vector<RecordedFrame>& frames, double place_quantum) {
@@ -172,15 +192,14 @@ void add_contacts(CodedBlock& block, const std::vector<RecordedFrame>& frames, d
         append(shear_force, contacts.shear_force);
     }
     if (i.empty()) return;
-    const double largest = largest_of({normal_force, shear_force});
-    const double force_quantum = largest > 0.0 ? largest_share * largest : 1.0;
-    block.add_row("contacts.count", count, 1.0);
-    block.add_row("contacts.i", i, 1.0);
-    block.add_row("contacts.j", j, 1.0);
-    block.add_row("contacts.x", x, place_quantum);
-    block.add_row("contacts.y", y, place_quantum);
-    block.add_row("contacts.fn", normal_force, force_quantum);
-    block.add_row("contacts.fs", shear_force, force_quantum);
+    const Code places{place_quantum}, forces = code_of({normal_force, shear_force}, force_growth);
+    block.add_row("contacts.count", count, Code{});
+    block.add_row("contacts.i", i, Code{});
+    block.add_row("contacts.j", j, Code{});
+    block.add_row("contacts.x", x, places);
+    block.add_row("contacts.y", y, places);
+    block.add_row("contacts.fn", normal_force, forces);
+    block.add_row("contacts.fs", shear_force, forces);
 }
 
 /// Largest extent of the first frame, m.
@@ -310,19 +329,23 @@ PageData pack_recording(const Recording& recording, const std::function<void(std
             if (packed_frames) packed_frames(k);
         }
         CodedBlock block;
-        add_field(block, "ux", frames, &RecordedFrame::ux, place_quantum);
-        add_field(block, "uy", frames, &RecordedFrame::uy, place_quantum);
-        add_field(block, "angle", frames, &RecordedFrame::angle, angle_quantum);
-        add_field(block, "vx", frames, &RecordedFrame::vx);
-        add_field(block, "vy", frames, &RecordedFrame::vy);
-        add_field(block, "rate", frames, &RecordedFrame::rotation_rate);
-        add_field(block, "sxx", frames, &RecordedFrame::stress_xx);
-        add_field(block, "syy", frames, &RecordedFrame::stress_yy);
-        add_field(block, "sxy", frames, &RecordedFrame::stress_xy);
-        add_field(block, "fragment", frames, &RecordedFrame::fragment, 1.0);
-        add_field(block, "fn", frames, &RecordedFrame::normal_force);
-        add_field(block, "fs", frames, &RecordedFrame::shear_force);
-        add_field(block, "state", frames, &RecordedFrame::state, 1.0);
+        const auto evenly = [](double quantum) { return [=](const auto&) { return Code{quantum}; }; };
+        const auto by_size = [](double with_growth) {
+            return [=](const auto& rows) { return code_of(rows, with_growth); };
+        };
+        add_field(block, "ux", frames, &RecordedFrame::ux, evenly(place_quantum));
+        add_field(block, "uy", frames, &RecordedFrame::uy, evenly(place_quantum));
+        add_field(block, "angle", frames, &RecordedFrame::angle, evenly(angle_quantum));
+        add_field(block, "vx", frames, &RecordedFrame::vx, by_size(growth));
+        add_field(block, "vy", frames, &RecordedFrame::vy, by_size(growth));
+        add_field(block, "rate", frames, &RecordedFrame::rotation_rate, by_size(growth));
+        add_field(block, "sxx", frames, &RecordedFrame::stress_xx, by_size(growth));
+        add_field(block, "syy", frames, &RecordedFrame::stress_yy, by_size(growth));
+        add_field(block, "sxy", frames, &RecordedFrame::stress_xy, by_size(growth));
+        add_field(block, "fragment", frames, &RecordedFrame::fragment, evenly(1.0));
+        add_field(block, "fn", frames, &RecordedFrame::normal_force, by_size(force_growth));
+        add_field(block, "fs", frames, &RecordedFrame::shear_force, by_size(force_growth));
+        add_field(block, "state", frames, &RecordedFrame::state, evenly(1.0));
         add_contacts(block, frames, place_quantum);
         manifest["groups"].push_back(
             {{"block", data.blocks.size()}, {"first", begin}, {"count", frames.size()}, {"arrays", block.places()}});

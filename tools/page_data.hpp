@@ -4,11 +4,14 @@
 //
 // Block 0 of a recording holds plain little-endian arrays, each on a multiple of eight bytes: what never moves, the
 // curve and the breaks. Each further block holds up to 16 frames: for each quantity of cells or bonds a table of whole
-// numbers, value = quantum × number, rows frames, columns cells or bonds. What is stored are the differences from row
+// numbers, rows frames, columns cells or bonds. What is stored are the differences from row
 // to row, zigzag coded (0, -1, 1, -2, ... as 0, 1, 2, 3, ...), lowest bytes of all first, then the second ones: bytes
 // of equal meaning lie together, and most are small. Contacts other than bonds come and go: their tables have one row
 // for all frames of the block, differences from column to column, and `contacts.count` says how many each frame has.
-// Quanta: places 2⁻²² of the specimen's size, angles 2⁻¹⁸ rad, else 2⁻¹⁰ of the block's largest value.
+// A number n stands for the value q·n of places (q = 2⁻²² of the specimen's size), angles (2⁻¹⁸ rad) and whole numbers;
+// where an entry has a `growth` g, for q/g·sinh(g·n): velocities, stresses and forces, whose small values mean as much
+// as their large ones. Neighbours are then √(q² + (g·value)²) apart, with g = 2⁻⁷, of forces 2⁻⁶, and q = 2⁻²⁰ of the
+// block's largest value.
 #pragma once
 
 #include <functional>

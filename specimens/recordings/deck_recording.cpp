@@ -76,7 +76,8 @@ class DeckMotion {
         for (const DeckCircle& circle : start.circles)
             recording.cells.push_back({circle.id, 1, circle.radius, false, false, circle.centre, {}});
         for (const Chain& chain : joined(start.segments))
-            recording.cells.push_back({chain.id, 1, 0.0, !chain.closed, false, mean(chain.points), chain.points});
+            recording.cells.push_back(
+                {chain.id, 1, 0.0, !chain.closed, false, centroid(chain.points, !chain.closed), chain.points});
         add_materials_and_walls(folder, recording);
         for (const std::size_t k : chosen_) {
             const DeckFrameFile::Head& head = frames_.heads()[k];
@@ -139,7 +140,7 @@ class DeckMotion {
             ids.push_back(circle.id);
         }
         for (const Chain& chain : joined(positions.segments)) {
-            all.push_back({mean(chain.points), direction(chain)});
+            all.push_back({centroid(chain.points, !chain.closed), direction(chain)});
             ids.push_back(chain.id);
         }
         if (ids != ids_) {

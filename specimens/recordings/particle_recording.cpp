@@ -27,7 +27,7 @@ Recording read_particle_recording(const std::filesystem::path& file, std::uint64
         if (body.vertex_count > 0) {
             const auto first = scene.vertices.begin() + body.first_vertex;
             std::vector<Vec2> outline(first, first + body.vertex_count);
-            const Vec2 centre = mean(outline);
+            const Vec2 centre = centroid(outline, !body.closed);
             add({body.id, body.material + 1, 0.0, !body.closed, false, centre, std::move(outline)});
         }
     }

@@ -11,9 +11,20 @@
 
 namespace crackle {
 
-Vec2 mean(const std::vector<Vec2>& corners) {
-    const Vec2 sum = std::accumulate(corners.begin(), corners.end(), Vec2{});
-    return (1.0 / static_cast<double>(corners.size())) * sum;
+Vec2 centroid(const std::vector<Vec2>& corners, bool open) {
+    const Vec2 origin = corners.front();  // sums about a corner: a small cell far from nought keeps its digits
+    Vec2 by_area, by_length;
+    double twice_area = 0.0, length = 0.0;
+    for (std::size_t k = 0; k + 1 < corners.size() + (open ? 0 : 1); ++k) {
+        const Vec2 from = corners[k] - origin, to = corners[(k + 1) % corners.size()] - origin;
+        const double twice = cross(from, to), side = norm(to - from);
+        by_area = by_area + twice / 3.0 * (from + to);
+        by_length = by_length + 0.5 * side * (from + to);
+        twice_area += twice;
+        length += side;
+    }
+    if (!open && twice_area != 0.0) return origin + (1.0 / twice_area) * by_area;
+    return length > 0.0 ? origin + (1.0 / length) * by_length : origin;
 }
 
 std::vector<std::size_t> chosen_frames(std::size_t count, std::size_t most, const std::vector<std::size_t>& kept) {

@@ -23,8 +23,8 @@ namespace crackle {
 /// Where contacts with the walls of a deck's domain lie in place of a cell: left, right, bottom, top.
 inline constexpr std::array<std::int32_t, 4> recorded_walls{-1, -2, -3, -4};
 
-/// Mean of a cell's corners.
-Vec2 mean(const std::vector<Vec2>& corners);
+/// Where a cell turns about: the centroid of a polygon's area, of an open chain's length.
+Vec2 centroid(const std::vector<Vec2>& corners, bool open);
 
 /// One drawn cell: a polygon, an open chain, or a circle (a clump has several with its id).
 struct RecordedCell {
@@ -33,7 +33,7 @@ struct RecordedCell {
     double radius = 0.0;  ///< 0 for polygons and chains
     bool open = false;    ///< an open chain: platen or wall
     bool platen = false;
-    Vec2 centre;                ///< in the first frame: mean of the corners
+    Vec2 centre;                ///< in the first frame: centroid()
     std::vector<Vec2> outline;  ///< corners in the first frame; none for circles
 };
 

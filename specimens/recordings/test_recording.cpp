@@ -44,14 +44,14 @@ int body_number(const fs::path& file, double id) {
     return static_cast<int>(id);
 }
 
-/// Mean of each cell's corners.
-std::vector<Vec2> centres(const PolyData& data) {
-    std::vector<Vec2> all;
+std::vector<Vec2> centres(const fs::path& file, const PolyData& data) {
+    std::vector<Vec2> all, corners;
     all.reserve(data.cells.size());
     for (const PolyData::Cell& cell : data.cells) {
-        Vec2 sum;
-        for (const std::size_t point : cell.points) sum = sum + data.points[point];
-        all.push_back((1.0 / static_cast<double>(cell.points.size())) * sum);
+        if (cell.points.empty()) refuse_frame(file, fmt::format("cell {} has no points", all.size()));
+        corners.clear();
+        for (const std::size_t point : cell.points) corners.push_back(data.points[point]);
+        all.push_back(centroid(corners, cell.line));
     }
     return all;
 }
@@ -60,9 +60,8 @@ void append_cells(const fs::path& file, const PolyData& data, std::vector<Record
     const auto& id = cell_values(file, data, "id");
     const auto& radius = cell_values(file, data, "radius");
     const std::vector<double> material = column_if_there(file, data, "material");
-    const std::vector<Vec2> centre = centres(data);
+    const std::vector<Vec2> centre = centres(file, data);
     for (std::size_t k = 0; k < data.cells.size(); ++k) {
-        if (data.cells[k].points.empty()) refuse_frame(file, fmt::format("body {} has no points", id[k]));
         const bool line = data.cells[k].line;
         RecordedCell cell{body_number(file, id[k]), 1, radius[k], line, line, centre[k], {}};
         if (!material.empty()) cell.material = static_cast<int>(material[k]);
@@ -139,7 +138,7 @@ class TestFrames {
         if (cells != start_.size())
             refuse_frame(file, fmt::format("found {} cells, expected {} as in the first frame", cells, start_.size()));
         const std::vector<double>& id = cell_values(file, data, "id");
-        const std::vector<Vec2> centre = centres(data);
+        const std::vector<Vec2> centre = centres(file, data);
         for (std::size_t k = 0; k < cells; ++k) {
             if (id[k] != start_[k].id)
                 refuse_frame(file, fmt::format("cell {}: found body {}, expected {} as in the first frame", k, id[k],

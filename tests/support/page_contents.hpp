@@ -51,6 +51,7 @@ class PageContents {
 
     struct Table {
         double quantum = 0.0;
+        double growth = 0.0;                    ///< 0: value = quantum n, else quantum / growth sinh(growth n)
         std::vector<std::vector<double>> rows;  ///< as many as the block has frames; of contacts one
     };
     bool has(const std::string& name, std::size_t group, std::size_t t = 0) const {
@@ -61,7 +62,7 @@ class PageContents {
         const nlohmann::json& place = entry["arrays"].at(name);
         const std::vector<unsigned char> bytes = block(t, entry["block"]);
         const std::size_t rows = place["rows"], columns = place["columns"], planes = place["planes"];
-        Table table{place["quantum"], {}};
+        Table table{place["quantum"], place.value("growth", 0.0), {}};
         const bool along_columns = name.starts_with("contacts.");
         std::vector<std::int64_t> last(columns, 0);
         for (std::size_t f = 0; f < rows; ++f) {
@@ -75,7 +76,10 @@ class PageContents {
                 const std::int64_t difference = u % 2 == 0 ? std::int64_t(u / 2) : -std::int64_t(u / 2) - 1;
                 std::int64_t& number = last[along_columns ? 0 : k];
                 number += difference;
-                table.rows.back().push_back(table.quantum * static_cast<double>(number));
+                const auto n = static_cast<double>(number);
+                table.rows.back().push_back(table.growth > 0.0
+                                                ? table.quantum / table.growth * std::sinh(table.growth * n)
+                                                : table.quantum * n);
             }
         }
         return table;

@@ -7,9 +7,9 @@ import {PolarComponent} from 'echarts/components';
 import * as echarts from 'echarts/core';
 import type {ECharts} from 'echarts/core';
 
-import type {TestData} from './data';
+import {lastTimeOf, type TestData} from './data';
 import {element, saveFile} from './dom';
-import {extentAtStart} from './extent';
+import {extentOfBreaks} from './extent';
 import type {Styled} from './grouping';
 import {css, sequentialPalette} from './palettes';
 import {countDirections} from './rose';
@@ -67,14 +67,14 @@ export function breakCard({test, label}: Styled, colour: MapColour, theme: Theme
 }
 
 function drawMap(container: HTMLElement, test: TestData, colour: MapColour, largest: number, theme: Theme): ECharts {
-    const {events} = test, extent = extentAtStart(test);
+    const {events} = test, extent = extentOfBreaks(test);
     const width = container.clientWidth, scale = scaleFor([extent.x2 - extent.x1, extent.y2 - extent.y1], 'm');
     const left = 46, right = 12, top = 10, bottom = 40;
     // Equal scales on both axes.
     const perMetre = Math.min((mapHeight - top - bottom) / (extent.y2 - extent.y1), (width - left - right) / (extent.x2 - extent.x1));
     container.style.height = `${(extent.y2 - extent.y1) * perMetre + top + bottom}px`;
     const chart = echarts.init(container, null, {renderer: 'svg'});
-    const palette = sequentialPalette('cividis'), last = test.frames[test.frames.length - 1]?.time ?? 1;
+    const palette = sequentialPalette('cividis'), last = lastTimeOf(test);
     const text = {color: theme.ink, fontFamily, fontSize: 11};
     const axis = {type: 'value', axisLine: {show: true, onZero: false, lineStyle: {color: theme.ink}}, axisTick: {show: true, inside: true, lineStyle: {color: theme.ink}},
         splitLine: {show: false}, axisLabel: {...text, hideOverlap: true, showMinLabel: false, showMaxLabel: false, formatter: (value: number) => significant(value, 4).replace(/(\.\d*?)0+$/, '$1').replace(/\.$/, '')}, nameLocation: 'middle', nameTextStyle: text};
@@ -93,7 +93,7 @@ function drawMap(container: HTMLElement, test: TestData, colour: MapColour, larg
                 value: [events.x[event]! / scale.factor, events.y[event]! / scale.factor],
                 symbolSize: Math.max(smallestMark, widest * Math.sqrt(events.energy[event]! / (largest || 1))),
                 itemStyle: {
-                    color: colour === 'mode' ? (events.shear[event] === 1 ? theme.shear : theme.tension) : css(palette[Math.min(255, Math.floor(256 * events.time[event]! / last))]!),
+                    color: colour === 'mode' ? (events.shear[event] === 1 ? theme.shear : theme.tension) : css(palette[Math.min(255, Math.floor(last > 0 ? 256 * events.time[event]! / last : 0))]!),
                     opacity: 0.6, borderColor: theme.background, borderWidth: 0.4,
                 },
             })),
@@ -115,7 +115,10 @@ function drawRose(container: HTMLElement, test: TestData, theme: Theme): ECharts
             type: 'category', data: names, startAngle: -width / 2, clockwise: false, boundaryGap: true, axisTick: {show: false}, axisLine: {lineStyle: {color: theme.grid}},
             axisLabel: {...text, interval: 0, formatter: (name: string) => (Number(name) % 45 === 0 ? `${name}°` : '')},
         },
-        radiusAxis: {axisLine: {show: false}, axisTick: {show: false}, splitNumber: 3, axisLabel: {show: false}, splitLine: {lineStyle: {color: theme.grid}}},
+        radiusAxis: {
+            z: 10, axisLine: {show: false}, axisTick: {show: false}, splitNumber: 3, minInterval: 1, splitLine: {lineStyle: {color: theme.grid}},
+            axisLabel: {...text, color: theme.ink, showMinLabel: false, textBorderColor: theme.background, textBorderWidth: 2.5},
+        },
         series: [bars('tension', tension, theme.tension), bars('shear', shear, theme.shear)],
     });
     return chart;

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Coded arrays: value = quantum · n, and n are whole numbers stored as differences down the rows, zigzag coded, one plane
+// Coded arrays (tools/page_data.hpp): numbers n stand for values quantum · n, or with a growth g for
+// quantum / g · sinh(g · n), so that small values are told as well as large ones. n are whole numbers stored as differences down the rows, zigzag coded, one plane
 // of bytes after the other (the lowest first). Slow changes give planes of noughts, which zlib packs to almost nothing.
 
 export interface CodedEntry {
     quantum: number;
+    growth?: number;
     offset: number; // bytes into the block
     planes: number;
     rows: number;
@@ -12,6 +14,21 @@ export interface CodedEntry {
 
 /// Undoes zigzag coding: 0, 1, 2, 3 … stand for 0, −1, 1, −2 …
 const difference = (u: number): number => (u % 2 === 0 ? u / 2 : -(u + 1) / 2);
+
+const valueOf = ({quantum, growth}: CodedEntry, n: number): number => (growth ? quantum / growth * Math.sinh(growth * n) : quantum * n);
+
+/// How far apart neighbours of a value are.
+export const resolutionAt = ({quantum, growth}: CodedEntry, value: number): number => Math.hypot(quantum, (growth ?? 0) * value);
+
+/// valueOf() for the many: a sinh a value would double the time of decoding.
+function valuesBy(entry: CodedEntry): (n: number) => number {
+    if (!entry.growth) return (n) => entry.quantum * n;
+    const known: number[] = []; // of 0, 1, 2 …: some thousand
+    return (n) => {
+        const value = known[Math.abs(n)] ??= valueOf(entry, Math.abs(n));
+        return n < 0 ? -value : value;
+    };
+}
 
 function coded(bytes: Uint8Array, entry: CodedEntry, at: number): number {
     const plane = entry.rows * entry.columns;
@@ -27,7 +44,7 @@ function checked(bytes: Uint8Array, entry: CodedEntry): void {
 /// All values, row by row.
 export function decode(bytes: Uint8Array, entry: CodedEntry): Float32Array {
     checked(bytes, entry);
-    const {rows, columns, planes, quantum} = entry;
+    const {rows, columns, planes} = entry, valueAt = valuesBy(entry);
     const size = rows * columns, values = new Float32Array(size);
     if (planes === 0) return values;
     const sums = new Float64Array(columns);
@@ -36,7 +53,7 @@ export function decode(bytes: Uint8Array, entry: CodedEntry): Float32Array {
         for (let column = 0; column < columns; ++column, ++at) {
             // One and two planes are all but always enough.
             const u = planes === 1 ? bytes[low + at]! : planes === 2 ? bytes[low + at]! + 256 * bytes[high + at]! : coded(bytes, entry, at);
-            values[at] = quantum * (sums[column]! += difference(u));
+            values[at] = valueAt(sums[column]! += difference(u));
         }
     }
     return values;
@@ -46,12 +63,12 @@ export function decode(bytes: Uint8Array, entry: CodedEntry): Float32Array {
 export function decodeColumn(bytes: Uint8Array, entry: CodedEntry, column: number): Float32Array {
     checked(bytes, entry);
     let sum = 0;
-    return Float32Array.from({length: entry.rows}, (_, row) => entry.quantum * (sum += difference(coded(bytes, entry, row * entry.columns + column))));
+    return Float32Array.from({length: entry.rows}, (_, row) => valueOf(entry, sum += difference(coded(bytes, entry, row * entry.columns + column))));
 }
 
 /// The values of a list: one row, differences along it.
 export function decodeList(bytes: Uint8Array, entry: CodedEntry): Float32Array {
     checked(bytes, entry);
     let sum = 0;
-    return Float32Array.from({length: entry.columns}, (_, at) => entry.quantum * (sum += difference(coded(bytes, entry, at))));
+    return Float32Array.from({length: entry.columns}, (_, at) => valueOf(entry, sum += difference(coded(bytes, entry, at))));
 }

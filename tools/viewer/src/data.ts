@@ -207,6 +207,13 @@ export async function readReport(source: HTMLElement | null): Promise<Report> {
     };
 }
 
+/// Time of the last frame or break, s: a run may have been kept without frames.
+export function lastTimeOf({frames, events}: TestData): number {
+    let last = frames[frames.length - 1]?.time ?? 0;
+    for (let event = 0; event < events.count; ++event) last = Math.max(last, events.time[event]!);
+    return last;
+}
+
 /// A number of summary.json, or undefined where the test does not state it.
 export function numberOf(summary: Summary, key: string): number | undefined {
     const value = summary[key];

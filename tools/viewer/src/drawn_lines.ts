@@ -7,6 +7,7 @@ import type {TestData} from './data';
 import type {Contacts, Frame} from './frames';
 import {movedCentre, moverOf} from './motion';
 import {paletteSize, rgb, type Rgb} from './palettes';
+import type {ForceScale} from './ranges';
 import type {Segments} from './segments';
 import type {Theme} from './theme';
 
@@ -48,9 +49,11 @@ function addFaces(lines: Segments, cells: Cells, frame: Frame, faces: readonly C
 }
 
 export interface CrackColours {
-    by: 'mode' | 'time' | 'none'; // none: breaks are known only from the state of the bonds
-    palette: readonly Rgb[]; // over the test's time
-    lastTime: number; // s
+    by: 'mode' | 'time';
+    listed: boolean; // some test shown has a list of its breaks
+    unlisted: boolean; // of some, breaks are known only from the state of the bonds
+    palette: readonly Rgb[]; // over the time of all tests shown
+    lastTime: number; // s, of these
 }
 
 export function addCracks(lines: Segments, test: TestData, cracks: readonly Crack[], frame: Frame, magnification: number, colours: CrackColours, theme: Theme): void {
@@ -103,10 +106,11 @@ export function addBonds(lines: Segments, test: TestData, frame: Frame, magnific
 }
 
 /// Widths are shares of the widest line: the force over the scale's end.
-export function addForces(lines: Segments, test: TestData, frame: Frame, magnification: number, largestForce: number, theme: Theme): void {
+export function addForces(lines: Segments, test: TestData, frame: Frame, magnification: number, {end}: ForceScale, theme: Theme): void {
+    if (end === 0) return;
     const {bonds, cells} = test, compression = rgb(theme.compressive), tension = rgb(theme.tensile);
     const add = (i: number, j: number, fn: number, fs: number, at: () => Point) => {
-        const share = Math.hypot(fn, fs) / largestForce;
+        const share = Math.hypot(fn, fs) / end;
         if (share >= smallestForceShown) addBranches(lines, cells, frame, i, j, at(), magnification, Math.min(1, share), fn < 0 ? tension : compression, 0.85);
     };
     const fn = frame.field('fn'), fs = frame.field('fs');

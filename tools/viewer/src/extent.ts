@@ -43,6 +43,22 @@ export function extentOf(test: TestData, frame: Frame, magnification: number): E
     return extent;
 }
 
+/// The box of the first frame and of all breaks, which may have happened outside it; of the breaks alone where there is no frame.
+export function extentOfBreaks(test: TestData): Extent {
+    const {cells, events} = test;
+    const box = cells.count > 0 ? extentAtStart(test) : {x1: Infinity, x2: -Infinity, y1: Infinity, y2: -Infinity};
+    for (let event = 0; event < events.count; ++event) {
+        box.x1 = Math.min(box.x1, events.x[event]!);
+        box.x2 = Math.max(box.x2, events.x[event]!);
+        box.y1 = Math.min(box.y1, events.y[event]!);
+        box.y2 = Math.max(box.y2, events.y[event]!);
+    }
+    // Breaks along a line, or a single one, still get a box with an area.
+    const size = Math.max(box.x2 - box.x1, box.y2 - box.y1) || 1;
+    const roomX = Math.max(0, 0.2 * size - (box.x2 - box.x1)) / 2, roomY = Math.max(0, 0.2 * size - (box.y2 - box.y1)) / 2;
+    return {x1: box.x1 - roomX, x2: box.x2 + roomX, y1: box.y1 - roomY, y2: box.y2 + roomY};
+}
+
 /// The box of the first frame, without any frame's arrays, and with the walls; of platens a little more than the width.
 export function extentAtStart(test: TestData): Extent {
     const {cells, walls} = test;

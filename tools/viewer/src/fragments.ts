@@ -17,17 +17,18 @@ const drawnWidth = 300;
 const listed = 6;
 
 interface Fragment {
-    particles: number;
+    particles: number; // a clump is one
     area: number; // m²
 }
 
 /// Largest first.
 export function fragmentsOf(view: SpecimenView, frame: Frame): Fragment[] {
-    const {cells} = view.test, member = frame.field('fragment'), found: Fragment[] = [];
+    const {cells} = view.test, member = frame.field('fragment'), found: (Fragment & {ids: Set<number>})[] = [];
     for (let cell = 0; member && cell < cells.count; ++cell) {
         if (cells.open[cell] === 1) continue;
-        const fragment = found[member[cell]!] ??= {particles: 0, area: 0};
-        fragment.particles += 1;
+        const fragment = found[member[cell]!] ??= {particles: 0, area: 0, ids: new Set()};
+        fragment.ids.add(cells.id[cell]!);
+        fragment.particles = fragment.ids.size;
         fragment.area += area(cells, cell);
     }
     return found.filter((fragment) => fragment).sort((a, b) => b.area - a.area);

@@ -3,7 +3,7 @@
 // one soon after, and a few are kept. Arrays of a group are decoded when first asked for.
 
 import {readBlock} from './blocks';
-import {decode, decodeColumn, decodeList} from './coded';
+import {decode, decodeColumn, decodeList, resolutionAt} from './coded';
 import type {FrameEntry, GroupEntry, TestData} from './data';
 
 const groupsKept = 3;
@@ -79,9 +79,10 @@ export class Frame {
         return this.group?.row(name, this.index - this.group.entry.first);
     }
 
-    /// What numbers of an array are whole multiples of.
-    resolution(name: string): number {
-        return this.group?.entry.arrays[name]?.quantum ?? 0;
+    /// How finely an array tells a number as large as this one.
+    resolution(name: string, value: number): number {
+        const entry = this.group?.entry.arrays[name];
+        return entry ? resolutionAt(entry, value) : 0;
     }
 
     get contacts(): Contacts | undefined {

@@ -25,7 +25,7 @@ interface Touch {
     with: string;
     fn: number;
     fs: number;
-    resolution: number; // of both
+    array: string; // that tells both
     kind: string;
 }
 
@@ -122,10 +122,10 @@ async function historyOf(view: SpecimenView, quantity: Quantity, cell: number): 
 function valueTable({view, cell}: Picked, frame: Frame): HTMLElement {
     const {cells} = view.test, centre = movedCentre(cells, frame, cell, 1), radius = cells.radius[cell]!;
     const pair = (x: number, y: number, unit: string, name: string) => {
-        const scale = scaleFor([x, y], unit), one = (value: number) => significant(value / scale.factor, 3, frame.resolution(name) / scale.factor);
+        const scale = scaleFor([x, y], unit), one = (value: number) => significant(value / scale.factor, 3, frame.resolution(name, value) / scale.factor);
         return `${one(x)}, ${one(y)}${thinSpace}${scale.unit}`;
     };
-    const one = (value: number, unit: string, name: string) => withUnit(value, unit, 3, frame.resolution(name));
+    const one = (value: number, unit: string, name: string) => withUnit(value, unit, 3, frame.resolution(name, value));
     const field = (name: string) => frame.field(name)?.[cell];
     const [vx, vy, sxx, syy, sxy, fragment, rate] = ['vx', 'vy', 'sxx', 'syy', 'sxy', 'fragment', 'rate'].map(field);
     const rows: [string, string, string, number?][] = [
@@ -154,12 +154,12 @@ function areaText(value: number): string {
 function contactTable(view: SpecimenView, frame: Frame, cell: number): HTMLElement {
     const touches = touching(view, frame, cell).sort((a, b) => Math.hypot(b.fn, b.fs) - Math.hypot(a.fn, a.fs));
     const scale = scaleFor(touches.flatMap(({fn, fs}) => [fn, fs]), 'N');
-    const force = (value: number, resolution: number) => significant(value / scale.factor, 3, resolution / scale.factor);
+    const force = (value: number, array: string) => significant(value / scale.factor, 3, frame.resolution(array, value) / scale.factor);
     return element('details', {open: ''},
         element('summary', {}, `${touches.length} contact ${touches.length === 1 ? 'point' : 'points'}`),
         ...(touches.length === 0 ? [] : [element('table', {class: 'touches'},
             element('tr', {}, element('th', {scope: 'col'}, 'with'), element('th', {scope: 'col', title: 'compression positive'}, `Fn [${scale.unit}]`), element('th', {scope: 'col'}, `Fs [${scale.unit}]`), element('th', {scope: 'col'}, '')),
-            ...touches.map(({with: other, fn, fs, resolution, kind}) => element('tr', {}, element('td', {}, other), element('td', {}, force(fn, resolution)), element('td', {}, force(fs, resolution)), element('td', {}, kind))))]));
+            ...touches.map(({with: other, fn, fs, array, kind}) => element('tr', {}, element('td', {}, other), element('td', {}, force(fn, array)), element('td', {}, force(fs, array)), element('td', {}, kind))))]));
 }
 
 function touching(view: SpecimenView, frame: Frame, cell: number): Touch[] {
@@ -169,12 +169,12 @@ function touching(view: SpecimenView, frame: Frame, cell: number): Touch[] {
     for (let bond = 0; bond < bonds.count; ++bond) {
         const i = bonds.i[bond]!, j = bonds.j[bond]!, now = state?.[bond] ?? 0;
         if ((i !== cell && j !== cell) || now === bondBroken || !fn || !fs) continue;
-        touches.push({with: name(i === cell ? j : i), fn: fn[bond]!, fs: fs[bond]!, resolution: frame.resolution('fn'), kind: ['bond', 'bond, slid', '', 'broken'][now] ?? ''});
+        touches.push({with: name(i === cell ? j : i), fn: fn[bond]!, fs: fs[bond]!, array: 'fn', kind: ['bond', 'bond, slid', '', 'broken'][now] ?? ''});
     }
     const {contacts} = frame;
     for (let contact = 0; contacts && contact < contacts.count; ++contact) {
         const i = contacts.i[contact]!, j = contacts.j[contact]!;
-        if (i === cell || j === cell) touches.push({with: name(i === cell ? j : i), fn: contacts.fn[contact]!, fs: contacts.fs[contact]!, resolution: frame.resolution('contacts.fn'), kind: 'touches'});
+        if (i === cell || j === cell) touches.push({with: name(i === cell ? j : i), fn: contacts.fn[contact]!, fs: contacts.fs[contact]!, array: 'contacts.fn', kind: 'touches'});
     }
     return touches;
 }

@@ -2,7 +2,9 @@
 // The strip under the picture that says what its colours and widths mean.
 
 import type {Colouring} from './colouring';
+import {smallestForceShown} from './drawn_lines';
 import {css, paletteSize, type Rgb} from './palettes';
+import type {ForceScale} from './ranges';
 import type {Layer} from './settings';
 import type {Sheet, TextStyle} from './sheet';
 import type {Look} from './specimen_view';
@@ -18,16 +20,22 @@ export function drawLegend(sheet: Sheet, look: Look, left: number, top: number):
     let x = left;
     if (shown('particles') && colouring.quantity.key !== 'none') x += drawColours(sheet, colouring, theme, x, top) + gap;
     if (shown('cracks')) {
-        const {by} = look.crackColours;
-        x += (by === 'none' ? drawMarks(sheet, 'Bonds', [['broken', theme.picked, 2.5]], theme, x, top) : by === 'mode'
-            ? drawMarks(sheet, 'Broken in', [['tension', theme.tension, 2.5], ['shear', theme.shear, 2.5]], theme, x, top)
-            : drawBar(sheet, 'Time of first break', look.crackColours.palette, '0', quantity(look.crackColours.lastTime, 's'), theme, x, top)) + gap;
+        const {by, listed, unlisted, palette, lastTime} = look.crackColours;
+        if (listed) {
+            x += (by === 'mode' ? drawMarks(sheet, 'Broken in', [['tension', theme.tension, 2.5], ['shear', theme.shear, 2.5]], theme, x, top)
+                : drawBar(sheet, 'Time of first break', palette, '0', quantity(lastTime, 's'), theme, x, top)) + gap;
+        }
+        if (unlisted) x += drawMarks(sheet, 'Bonds', [['broken', theme.picked, 2.5]], theme, x, top) + gap;
     }
     if (shown('bonds')) x += drawMarks(sheet, 'Bonds', [['intact', theme.bond, 1.5], ['slid', theme.slid, 1.5]], theme, x, top) + gap;
     if (shown('forces')) {
-        drawMarks(sheet, `Contact force, widest ${quantity(look.largestForce, 'N', 2)}`,
-            [['compression', theme.compressive, 5], ['tension', theme.tensile, 5]], theme, x, top);
+        drawMarks(sheet, forceTitle(look.forceScale), [['compression', theme.compressive, 5], ['tension', theme.tensile, 5]], theme, x, top);
     }
+}
+
+function forceTitle({end, largest}: ForceScale): string {
+    if (end === 0) return 'Contact force: none';
+    return `Contact force, widest ${largest > end ? `≥${thinSpace}` : ''}${quantity(end, 'N', 2)}, none drawn below ${quantity(smallestForceShown * end, 'N', 2)}`;
 }
 
 const small = (theme: Theme): TextStyle => ({size: 11, colour: theme.ink});
@@ -72,6 +80,6 @@ function drawColours(sheet: Sheet, {quantity: shown, range, palette}: Colouring,
     const diverging = shown.scaling === 'diverging';
     const name = shown.key.startsWith('stress') && diverging ? `${shown.name}, compression positive` : shown.name;
     return Math.max(barWidth, drawBar(sheet, `${name} [${scale.unit}]`, palette,
-        diverging ? `${range.beyond ? `≤${thinSpace}` : ''}${end(range.low)}` : '0', `${range.beyond ? `≥${thinSpace}` : ''}${end(range.high)}`,
+        diverging ? `${range.least < range.low ? `≤${thinSpace}` : ''}${end(range.low)}` : '0', `${range.most > range.high ? `≥${thinSpace}` : ''}${end(range.high)}`,
         theme, x, top, diverging ? '0' : end(range.high / 2)), sheet.widthOf(`${name} [${scale.unit}]`, small(theme)));
 }

@@ -17,7 +17,7 @@ export function paneAsSvg(pane: Pane, placing: Placing, shown: readonly {view: S
     const svg = svgElement('svg', {x, y, width, height, viewBox: `0 0 ${width} ${height}`});
     for (const {view, frame, look} of shown) {
         view.fillLines(frame, look);
-        const group = svgElement('g', {'data-test': view.test.name, ...(look.opacity < 1 ? {opacity: look.opacity} : {})});
+        const group = svgElement('g', {'data-test': view.test.name});
         if (look.settings.layers.particles) group.append(particles(view, frame, look, placing));
         group.append(lines(view.lines, placing, lineScale(view.meanSize * placing.scale)), lines(view.forces, placing, view.widestForce(placing.scale)));
         svg.append(group);
@@ -28,7 +28,7 @@ export function paneAsSvg(pane: Pane, placing: Placing, shown: readonly {view: S
 function particles(view: SpecimenView, frame: Frame, look: Look, placing: Placing): SVGElement {
     const {cells} = view.test, {magnification, layers} = look.settings;
     const edge = layers.outlines ? outlineWidth(view.meanSize * placing.scale) : 0;
-    const group = svgElement('g', {class: 'particles', ...(edge > 0 ? {stroke: look.theme.grainEdge, 'stroke-width': edge.toFixed(2), 'stroke-linejoin': 'round'} : {})});
+    const group = svgElement('g', {class: 'particles', ...(look.opacity < 1 ? {opacity: look.opacity} : {}), ...(edge > 0 ? {stroke: look.theme.grainEdge, 'stroke-width': edge.toFixed(2), 'stroke-linejoin': 'round'} : {})});
     const index = paletteIndices(look.colouring, frame, cells);
     const x = (value: number) => (placing.x + (value - view.origin.x) * placing.scale).toFixed(2);
     const y = (value: number) => (placing.y - (value - view.origin.y) * placing.scale).toFixed(2);

@@ -12,6 +12,7 @@ import {extentAtStart, type Extent} from './extent';
 import {Frames, type Frame} from './frames';
 import type {Styled} from './grouping';
 import {ParticleLayer} from './particle_layer';
+import type {ForceScale} from './ranges';
 import {SegmentLayer} from './segment_layer';
 import {Segments} from './segments';
 import {layerNames, type Layer, type Settings} from './settings';
@@ -22,7 +23,7 @@ export interface Look {
     settings: Settings;
     colouring: Colouring;
     crackColours: CrackColours;
-    largestForce: number; // N, end of the scale
+    forceScale: ForceScale;
     picked: number | undefined; // cell
     opacity: number;
     offered: ReadonlySet<Layer>; // layers that have something to show
@@ -89,6 +90,11 @@ export class SpecimenView {
         return (Object.keys(layerNames) as Layer[]).filter((layer) => !missing[layer]);
     }
 
+    /// Whether it has a list of breaks: a run of a deck may have none, a test has, be it empty.
+    get listsBreaks(): boolean {
+        return this.test.events.count > 0 || this.test.source === 'test';
+    }
+
     get cracks(): Crack[] {
         return this.found ??= findCracks(this.test.cells, this.test.events);
     }
@@ -103,7 +109,7 @@ export class SpecimenView {
         if (layers.platens) addChains(this.lines, this.test, frame, magnification, theme);
         if (layers.cracks) addCracks(this.lines, this.test, this.cracks, frame, magnification, look.crackColours, theme);
         if (look.picked !== undefined) addPicked(this.lines, this.test.cells, frame, look.picked, magnification, theme);
-        if (layers.forces) addForces(this.forces, this.test, frame, magnification, look.largestForce, theme);
+        if (layers.forces) addForces(this.forces, this.test, frame, magnification, look.forceScale, theme);
     }
 
     /// Width of the line of the largest force, px: thinner where the lines of a face's points fan out side by side.

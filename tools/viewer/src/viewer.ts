@@ -3,8 +3,9 @@
 
 import {axesFor, Clock, type Axis} from './clock';
 import {colouring, type Colouring} from './colouring';
-import type {TestData} from './data';
+import {lastTimeOf, type TestData} from './data';
 import {element} from './dom';
+import type {CrackColours} from './drawn_lines';
 import type {Frame} from './frames';
 import {movedCentre} from './motion';
 import {Navigation} from './navigation';
@@ -12,7 +13,7 @@ import {categoricalPalette, sequentialPalette} from './palettes';
 import {Picking} from './picking';
 import {Picture, type Shown} from './picture';
 import {plain, quantitiesOf, type Quantity} from './quantities';
-import {categories, joined, largestForceOf, largestForceOfAll, rangeOfAll, rangeOfFrames, type Range} from './ranges';
+import {categories, forceScaleOf, forceScaleOfAll, joined, joinedForces, rangeOfAll, rangeOfFrames, type ForceScale, type Range} from './ranges';
 import {initialSettings, type Layer, type Settings} from './settings';
 import {SpecimenView, type Look} from './specimen_view';
 import {currentTheme} from './theme';
@@ -36,7 +37,7 @@ export class Viewer {
     onShown: () => void = () => {}; // after each change of moment or look
     private readonly pickings = new Map<SpecimenView, Picking>();
     private readonly ranges = new Map<string, Range>();
-    private readonly forces = new Map<TestData, number>();
+    private readonly forces = new Map<TestData, ForceScale>();
     private paneElements: HTMLElement[] = [];
     private latest = 0; // request for a moment
     private settling: Promise<void> = Promise.resolve();
@@ -80,6 +81,7 @@ export class Viewer {
     /// To be called after a change of layout or test.
     choose(change: Partial<Pick<Settings, 'layout' | 'test' | 'other'>>): void {
         Object.assign(this.settings, change);
+        if (this.picked && !this.chosen.includes(this.picked.view)) this.picked = undefined;
         const axes = this.axes;
         this.clock.setTests(this.chosen.map(({test}) => test), axes.includes(this.clock.axis) ? this.clock.axis : axes[0]!);
         this.layOut();
@@ -186,13 +188,13 @@ export class Viewer {
         const theme = currentTheme(), {settings} = this;
         const over = settings.layout === 'over' && frames.length > 1;
         const colours = this.colours(frames);
-        const largestForce = settings.layers.forces ? this.largestForce(frames) : 1;
+        const forceScale = settings.layers.forces ? this.forceScale(frames) : {end: 0, largest: 0};
+        const crackColours = this.crackColours(frames.map(({view}) => view));
         const offered = this.layers;
         const shown = frames.map(({view, frame}, at): Shown => {
             const look: Look = {
-                settings, theme, largestForce, offered,
+                settings, theme, forceScale, offered, crackColours,
                 colouring: over && colours.quantity.key === 'none' ? {...colours, palette: categoricalPalette(theme.overlaid[at % 2]!)} : colours,
-                crackColours: {by: view.test.events.count > 0 ? settings.crackColour : 'none', palette: sequentialPalette('cividis'), lastTime: view.test.frames[view.test.frames.length - 1]!.time},
                 picked: this.picked?.view === view ? this.picked.cell : undefined,
                 opacity: over ? 0.5 : 1,
             };
@@ -201,6 +203,15 @@ export class Viewer {
         this.picture.show(shown, theme);
         for (const {view, frame} of frames) view.frames.prefetch(frame.index);
         this.onShown();
+    }
+
+    /// One time scale for all tests shown: the legend has but one bar.
+    private crackColours(views: readonly SpecimenView[]): CrackColours {
+        return {
+            by: this.settings.crackColour, listed: views.some((view) => view.listsBreaks),
+            unlisted: views.some((view) => !view.listsBreaks && view.frames.has('state')),
+            palette: sequentialPalette('cividis'), lastTime: Math.max(...views.map(({test}) => lastTimeOf(test))),
+        };
     }
 
     private colours(frames: {view: SpecimenView; frame: Frame}[]): Colouring {
@@ -221,13 +232,13 @@ export class Viewer {
         return rangeOfFrames(frames.map(({view, frame}) => ({frame, cells: view.test.cells})), quantity);
     }
 
-    private largestForce(frames: {view: SpecimenView; frame: Frame}[]): number {
+    private forceScale(frames: {view: SpecimenView; frame: Frame}[]): ForceScale {
         const known = frames.map(({view}) => this.forces.get(view.test));
-        if (known.every((force) => force !== undefined)) return Math.max(...known as number[]);
+        if (known.every((force) => force)) return joinedForces(known as ForceScale[]);
         this.inBackground(frames.filter(({view}) => !this.forces.has(view.test)).map(({view}) => async () => {
-            if (!this.forces.has(view.test)) this.forces.set(view.test, await largestForceOfAll(view.frames));
+            if (!this.forces.has(view.test)) this.forces.set(view.test, await forceScaleOfAll(view.frames));
         }));
-        return largestForceOf(frames.map(({frame}) => frame));
+        return forceScaleOf(frames.map(({frame}) => frame));
     }
 
     private working: Promise<void> | undefined;
