@@ -46,10 +46,10 @@ function vtkArray(text, name, nth = 0) {
     return Array.from(new {Float64: Float64Array, Float32: Float32Array, Int32: Int32Array, Int64: BigInt64Array}[type](buffer), Number);
 }
 
-/// Particles of a frame by number: place (mean of the outline) and radius. Lines (platens) stand before polygons.
+/// Particles of a frame by number: place (mean of the outline), radius, velocity and shear stress. Lines (platens) stand before polygons.
 export function particles(file) {
     const text = readFileSync(file, 'utf8');
-    const points = vtkArray(text, 'points'), ids = vtkArray(text, 'id'), radii = vtkArray(text, 'radius');
+    const points = vtkArray(text, 'points'), ids = vtkArray(text, 'id'), radii = vtkArray(text, 'radius'), velocity = vtkArray(text, 'velocity'), shear = vtkArray(text, 'stress_xy');
     const found = new Map();
     let cell = 0;
     for (const part of [0, 1]) {
@@ -58,7 +58,7 @@ export function particles(file) {
         for (const end of vtkArray(text, 'offsets', part)) {
             const corners = connectivity.slice(first, end);
             const mean = (axis) => corners.reduce((sum, corner) => sum + points[3 * corner + axis], 0) / corners.length;
-            found.set(ids[cell], {x: mean(0), y: mean(1), radius: radii[cell]});
+            found.set(ids[cell], {x: mean(0), y: mean(1), radius: radii[cell], velocity: Math.hypot(velocity[3 * cell], velocity[3 * cell + 1]), shear: shear[cell]});
             first = end;
             ++cell;
         }

@@ -27,6 +27,10 @@ before(async () => {
     crackle('report', ...sixFolders.map((folder) => join(root, folder)), '-o', join(root, 'six.html'));
     crackle('test', join(process.env.SPECIMENS, 'guide_rock', 'circles_tension.toml'), '-o', join(root, 'pulled'));
     crackle('view', join(root, 'pulled'), '-o', join(root, 'pulled.html'));
+    const tension = readFileSync(join(process.env.SPECIMENS, 'guide_rock', 'circles_tension.toml'), 'utf8');
+    writeFileSync(join(root, 'many.toml'), `${tension.replace('"rock.toml"', `"${join(process.env.SPECIMENS, 'guide_rock', 'rock.toml')}"`)}\n[output]\nframes = 1200\n`);
+    crackle('test', join(root, 'many.toml'), '-o', join(root, 'many'));
+    crackle('view', join(root, 'many'), '-o', join(root, 'many.html'));
     crackle('view', join(process.env.SPECIMENS, 'demseg', 'embankment', 'in_gm.dat'), '-o', join(root, 'particles.html'));
     crackle('run', join(process.env.SPECIMENS, 'demseg', 'embankment'), '--steps', '2000', '-o', join(root, 'deck'));
     crackle('view', join(root, 'deck'), '-o', join(root, 'deck.html'));
@@ -144,6 +148,12 @@ test('a picked particle tells the values of the file', async () => {
         assert.ok(Math.abs(got - expected) < 0.01 * expected + 2e-6, `particle ${id}: displacement: expected ${expected}, got ${got}`);
         const radius = Number(await page.locator('[data-value="radius"]').getAttribute('data-number'));
         assert.ok(Math.abs(radius - a.radius) < 1e-6 * a.radius, `particle ${id}: radius: expected ${a.radius}, got ${radius}`);
+        // Told to 0.4 % of themselves, however small.
+        for (const [key, value] of [['velocity', b.velocity], ['stress_shear', b.shear]]) {
+            const told = Number(await page.locator(`[data-value="${key}"]`).getAttribute('data-number'));
+            console.log(`  particle ${id}: ${key} expected ${value}, got ${told}`);
+            assert.ok(Math.abs(told - value) <= 0.005 * Math.abs(value), `particle ${id}: ${key}: expected ${value}, got ${told}`);
+        }
     }
     await page.locator('.history svg path[stroke-width="1.4"]').waitFor({state: 'attached', timeout: 10000});
     await page.locator('.stage').press('Escape');
@@ -183,10 +193,44 @@ test('saves the animation as GIF, a frame a moment, and as a video', {timeout: 2
     const found = await pixels(page, gif.file, 'image/gif');
     assert.deepEqual([found.width, found.height], [width, height]);
     assert.ok(found.colours > 5 && found.drawn > 0.05, `GIF: expected a picture, got ${JSON.stringify(found)}`);
+    await page.locator('.busy:empty').waitFor({state: 'attached'});
     if (await page.locator('button[data-save="video"]').count() > 0) {
         const video = await saved(page, 'video');
         console.log(`  video: ${video.name}, ${(statSync(video.file).size / 1e3).toFixed(0)} kB`);
         assert.ok(statSync(video.file).size > 10000, 'a video of more than nothing');
+    }
+    await close();
+});
+
+test('a GIF of more than 200 moments has 200, evenly chosen, the last among them', {timeout: 240000}, async () => {
+    const {page, close} = await open('many.html', {viewport: {width: 480, height: 400}});
+    const moments = Number(await page.locator('.scrub').getAttribute('max')) + 1;
+    assert.ok(moments > 200 && moments < 400, `expected some more than 200 moments, got ${moments}`);
+    await page.evaluate(() => {
+        window.said = [];
+        new MutationObserver(() => window.said.push(document.querySelector('.busy').textContent)).observe(document.querySelector('.busy'), {childList: true, characterData: true, subtree: true});
+    });
+    const saving = saved(page, 'gif');
+    await page.waitForFunction(() => window.said.length > 0);
+    assert.ok(await page.locator('button[data-save="png"]').isDisabled(), 'one saving at a time');
+    const {frames} = gifSize(readFileSync((await saving).file));
+    await page.locator('button[data-save="png"]:enabled').waitFor();
+    const taken = (await page.evaluate(() => window.said)).filter((text) => text !== '').map((text) => Number(text.match(/Frame (\d+) of/)[1]));
+    const steps = new Set(taken.slice(1).map((frame, at) => frame - taken[at]));
+    console.log(`  ${moments} moments: ${frames} frames, from ${taken[0]} to ${taken.at(-1)}, ${[...steps].join(' or ')} apart`);
+    assert.deepEqual([frames, taken.length, taken[0], taken.at(-1)], [200, 200, 1, moments]);
+    assert.deepEqual([...steps].sort(), [1, 2]);
+    assert.equal(await frameNow(page), 0, 'the clock stands where it stood');
+    await close();
+});
+
+test('the map of breaks shows every one of them', async () => {
+    const {page, close} = await open('six.html');
+    for (const name of sixFolders) {
+        const {events} = results(join(root, name));
+        const got = await page.locator(`.card.breaks[data-test="${name}"] .map svg path[fill-opacity="0.6"]`).count();
+        console.log(`  ${name}: ${events.length} breaks, ${got} drawn`);
+        assert.equal(got, events.length, name);
     }
     await close();
 });
@@ -288,8 +332,21 @@ test('several tests side by side and overlaid, by one clock', async () => {
     await choose(page, 'other', '3');
     assert.notEqual(await picture(page), pair, 'another second test');
     assert.notEqual(await picture(page), apart);
+    // One time for the colours of all cracks on the screen: the later of the two ends.
+    const last = Math.max(...(await shown(page)).map(({test: name}) => results(join(root, name)).curve.at(-1).time));
+    await choose(page, 'cracks-by', 'time');
+    const legend = (await page.locator('.stage').textContent()).match(/Time of first break\s*0\s*([\d.]+)\s*(µs|ms|s)/);
+    const told = Number(legend[1]) * {s: 1, ms: 1e-3, µs: 1e-6}[legend[2]];
+    console.log(`  legend's end: expected ${last} s, got ${told} s`);
+    assert.ok(Math.abs(told - last) < 0.006 * last, `expected ${last}, got ${told}`);
     await choose(page, 'layout', 'one');
     await choose(page, 'test', '4');
+    const [{test: only}] = await shown(page);
+    const at = await page.evaluate(([name, id]) => window.crackle.place(name, id), [only, results(join(root, only)).events[0].body_i]);
+    await page.mouse.click(at.x, at.y);
+    assert.equal((await page.evaluate(() => window.crackle.picked())).test, only);
+    await choose(page, 'test', '3');
+    assert.ok(await page.locator('.inspector').isHidden(), 'a hidden test has no picked particle');
     assert.equal((await shown(page)).length, 1);
     await close();
 });
@@ -347,7 +404,14 @@ test("a deck's run moves, within its walls", async () => {
 test('on paper: the drawings at start, peak and end, light, without buttons', async () => {
     const {page, close} = await open('pulled.html', {colorScheme: 'dark'});
     await page.emulateMedia({media: 'print', colorScheme: 'dark'});
-    await page.evaluate(() => dispatchEvent(new Event('beforeprint')));
+    const paper = await page.evaluate(() => {
+        dispatchEvent(new Event('beforeprint'));
+        const stage = document.querySelector('.stage canvas'), probe = new OffscreenCanvas(1, 1).getContext('2d');
+        probe.drawImage(stage, 0, 0); // in the same turn, before the browser paints: what paper would show
+        return [...probe.getImageData(0, 0, 1, 1).data];
+    });
+    console.log(`  corner of the printed picture: ${paper}`);
+    assert.ok(Math.min(...paper) > 240, `expected white paper, got ${paper}`);
     assert.deepEqual(await page.locator('#specimens svg').evaluateAll((all) => all.map((one) => one.dataset.roles)), ['start', 'peak', 'end']);
     assert.ok(await page.locator('.transport').isHidden());
     assert.equal(await page.evaluate(() => document.documentElement.dataset.shown), 'light');

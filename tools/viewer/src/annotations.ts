@@ -17,6 +17,9 @@ export function momentText(frame: Frame): string {
     return `ε = ${strain(frame.strain)}${stress === undefined ? '' : `\u2003σ = ${quantity(stress, 'N/m')}`}`;
 }
 
+/// To be said in every picture of which it is true.
+export const magnified = (magnification: number): string => (magnification === 1 ? '' : `\u2003displacements ×${magnification}`);
+
 /// Where the clock of several tests stands; what each of them shows stands over its pane.
 export function clockText({axis, moment}: Clock): string {
     switch (axis) {

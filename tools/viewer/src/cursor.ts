@@ -16,6 +16,7 @@ export class Cursor {
 
     constructor(private readonly chart: ECharts, private readonly top: number, private readonly bottom: number, onClick: (value: number) => void) {
         chart.getZr().on('click', ({offsetX, offsetY}) => {
+            if (!chart.containPixel({gridIndex: 0}, [offsetX, offsetY])) return; // a legend, an axis
             const [value] = chart.convertFromPixel({gridIndex: 0}, [offsetX, offsetY]) as [number, number];
             if (Number.isFinite(value)) onClick(value);
         });
@@ -29,7 +30,8 @@ export class Cursor {
         }
         this.lines.forEach((line, at) => {
             const mark = marks[at], x = mark && (this.chart.convertToPixel({xAxisIndex: 0}, mark.value) as number);
-            line.hidden = x === undefined || !Number.isFinite(x);
+            // Zoomed charts have places outside their grid.
+            line.hidden = x === undefined || !Number.isFinite(x) || !this.chart.containPixel({gridIndex: 0}, [x, this.top + 1]);
             if (mark && x !== undefined) {
                 line.style.left = `${x}px`;
                 line.style.background = mark.colour;

@@ -56,7 +56,7 @@ export class Inspector {
             void this.drawHistory(picked, key);
         }
         const frame = this.viewer.shownOf(picked.view.test);
-        if (frame) this.values.replaceChildren(valueTable(picked, frame), contactTable(picked.view, frame, picked.cell));
+        if (frame) this.values.replaceChildren(valueTable(picked, frame), contactTable(picked.view, frame, picked.cell, this.values.querySelector('details')?.open ?? true));
         if (frame) this.cursor?.show([{value: this.onAxis(picked.view, frame.index), colour: theme.picked}]);
     }
 
@@ -151,11 +151,11 @@ function areaText(value: number): string {
     return `${significant(value / side.factor ** 2)}${thinSpace}${side.unit}${side.unit.endsWith('m') ? '²' : ''}`;
 }
 
-function contactTable(view: SpecimenView, frame: Frame, cell: number): HTMLElement {
+function contactTable(view: SpecimenView, frame: Frame, cell: number, open: boolean): HTMLElement {
     const touches = touching(view, frame, cell).sort((a, b) => Math.hypot(b.fn, b.fs) - Math.hypot(a.fn, a.fs));
     const scale = scaleFor(touches.flatMap(({fn, fs}) => [fn, fs]), 'N');
     const force = (value: number, array: string) => significant(value / scale.factor, 3, frame.resolution(array, value) / scale.factor);
-    return element('details', {open: ''},
+    return element('details', open ? {open: ''} : {},
         element('summary', {}, `${touches.length} contact ${touches.length === 1 ? 'point' : 'points'}`),
         ...(touches.length === 0 ? [] : [element('table', {class: 'touches'},
             element('tr', {}, element('th', {scope: 'col'}, 'with'), element('th', {scope: 'col', title: 'compression positive'}, `Fn [${scale.unit}]`), element('th', {scope: 'col'}, `Fs [${scale.unit}]`), element('th', {scope: 'col'}, '')),

@@ -27,7 +27,7 @@ export function listen(viewer: Viewer, controls: ViewerControls, within: HTMLEle
         if (target.matches('select, input[type="text"]')) return;
         // A slider moves by its own keys, a button is pressed by the space bar.
         if (target.matches('input[type="range"]') && /^(Arrow|Home|End|Page)/.test(event.key)) return;
-        if (target.matches('button, input[type="checkbox"]') && event.key === ' ') return;
+        if (target.matches('button, summary, input[type="checkbox"]') && event.key === ' ') return;
         if (act(event, viewer, controls)) event.preventDefault();
     });
 }

@@ -249,8 +249,17 @@ class Page {
 
     private goToStrain(panel: Panel, strain: number): void {
         const {viewer} = this;
-        const view = viewer?.chosen.find(({test}) => panel.members.some((member) => member.test === test));
-        if (viewer && view) viewer.clock.goTo(momentOfStrain(view.test, viewer.clock.axis, strain));
+        if (!viewer) return;
+        const ofPanel = ({test}: SpecimenView) => panel.members.some((member) => member.test === test);
+        let view = viewer.chosen.find(ofPanel);
+        if (!view) {
+            // None of the panel's tests is shown: then its first one is.
+            view = viewer.tests.find(ofPanel);
+            if (!view) return;
+            viewer.choose({test: viewer.tests.indexOf(view)});
+            this.controls?.build();
+        }
+        viewer.clock.goTo(momentOfStrain(view.test, viewer.clock.axis, strain));
     }
 
     private drawSpecimens(): void {
@@ -267,6 +276,7 @@ class Page {
             if (printing) document.documentElement.dataset['printing'] = 'true';
             else delete document.documentElement.dataset['printing'];
             this.redraw();
+            this.viewer?.picture.stage.drawStill(); // paper takes what stands there now
         };
         addEventListener('beforeprint', () => paper(true));
         addEventListener('afterprint', () => paper(false));

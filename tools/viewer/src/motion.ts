@@ -7,7 +7,7 @@
 import type {Cells, Point} from './cells';
 import type {Frame} from './frames';
 
-const largestMagnifiedAngle = 0.5; // rad
+export const largestMagnifiedAngle = 0.5; // rad
 
 export function magnifiedAngle(angle: number, magnification: number): number {
     const size = Math.abs(angle);

@@ -3,7 +3,7 @@
 // files. On the page these are SVG: a transparent canvas of the picture's size would cost a browser without a graphics card
 // more than all particles.
 
-import {drawNumbers, drawScaleBar, drawTitles, momentText} from './annotations';
+import {drawNumbers, drawScaleBar, drawTitles, magnified, momentText} from './annotations';
 import {element, svgElement} from './dom';
 import type {Frame} from './frames';
 import {drawLegend, legendHeight} from './legend';
@@ -116,8 +116,8 @@ export class Picture {
 
     private writeTitle(sheet: Sheet, pane: Pane): void {
         const theme = this.theme!, inPane = this.shownIn(pane);
-        drawTitles(sheet, pane, inPane.map(({view, frame}, at) => ({
-            label: view.styled.label, moment: momentText(frame), colour: inPane.length > 1 ? theme.overlaid[at % 2]! : theme.ink,
+        drawTitles(sheet, pane, inPane.map(({view, frame, look}, at) => ({
+            label: view.styled.label, moment: momentText(frame) + magnified(look.settings.magnification), colour: inPane.length > 1 ? theme.overlaid[at % 2]! : theme.ink,
         })), theme);
     }
 

@@ -7,7 +7,7 @@ import {element, saveFile, svgText} from './dom';
 import type {Viewer} from './viewer';
 
 const gifWidth = 800; // px at most
-const gifFrames = 200; // at most
+export const gifFrames = 200; // at most
 const frameTime = 70; // ms
 
 type Report = (text: string) => void;
@@ -29,14 +29,19 @@ export function saveSvg(viewer: Viewer): void {
 async function film(viewer: Viewer, most: number, report: Report, take: () => Promise<void>): Promise<void> {
     const {clock} = viewer, stood = clock.index;
     clock.pause();
-    const stride = Math.max(1, Math.ceil(clock.count / most));
-    for (let index = 0; index < clock.count; index += stride) {
-        clock.go(index);
-        await viewer.settled();
-        report(`Frame ${index + 1} of ${clock.count}`);
-        await take();
+    const count = Math.min(clock.count, most);
+    try {
+        for (let at = 0; at < count; ++at) {
+            // Evenly, the first and the last among them.
+            const index = count > 1 ? Math.round(at * (clock.count - 1) / (count - 1)) : 0;
+            clock.go(index);
+            await viewer.settled();
+            report(`Frame ${index + 1} of ${clock.count}`);
+            await take();
+        }
+    } finally {
+        clock.go(stood);
     }
-    clock.go(stood);
 }
 
 export async function saveGif(viewer: Viewer, report: Report): Promise<void> {
@@ -52,7 +57,6 @@ export async function saveGif(viewer: Viewer, report: Report): Promise<void> {
     });
     encoder.finish();
     saveFile(`${nameOf(viewer)}.gif`, 'image/gif', encoder.bytes());
-    report('');
 }
 
 /// Type of the videos that this browser records; undefined if none.
@@ -72,14 +76,16 @@ export async function saveAnimation(viewer: Viewer, report: Report): Promise<voi
     const stopped = new Promise((resolve) => recorder.addEventListener('stop', resolve));
     const pause = (time: number) => new Promise((resume) => setTimeout(resume, time));
     recorder.start();
-    await film(viewer, Infinity, report, async () => {
-        picture.compose(1, canvas);
-        await pause(frameTime / viewer.clock.speed);
-    });
-    await pause(300);
-    recorder.stop();
+    try {
+        await film(viewer, Infinity, report, async () => {
+            picture.compose(1, canvas);
+            await pause(frameTime / viewer.clock.speed);
+        });
+        await pause(300);
+    } finally {
+        recorder.stop();
+    }
     await stopped;
     const [plainType] = type.split(';') as [string];
     saveFile(`${nameOf(viewer)}.${plainType.split('/')[1]}`, plainType, new Blob(parts));
-    report('');
 }

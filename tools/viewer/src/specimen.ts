@@ -2,6 +2,7 @@
 // One specimen at one moment, as SVG: particles, platens, and the faces of broken bonds coloured by mode.
 // Bodies move as rigid bodies from the first frame; displacements may be drawn magnified.
 
+import {magnified} from './annotations';
 import {outline, type Point} from './cells';
 import {crackState, type Crack} from './cracks';
 import type {TestData} from './data';
@@ -107,7 +108,7 @@ export function drawSpecimen(drawing: Drawing, theme: Theme): SVGElement {
         svg.append(
             svgElement('path', {d: `M${margin} ${low - 3}v6M${margin} ${low}h${(length * scale).toFixed(2)}m0-3v6`, stroke: theme.ink, fill: 'none'}),
             svgElement('text', {x: (margin + length * scale + 6).toFixed(2), y: low + 4, fill: theme.ink, 'font-size': 11, 'font-family': 'system-ui, Arial, sans-serif'},
-                quantity(length, 'm', 2)));
+                quantity(length, 'm', 2) + magnified(drawing.magnification)));
     }
     return svg;
 }

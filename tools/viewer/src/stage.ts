@@ -89,6 +89,14 @@ export class Stage {
         }, restTime);
     }
 
+    /// Draws at once and finely.
+    drawStill(): void {
+        cancelAnimationFrame(this.wanted);
+        this.wanted = 0;
+        this.draw(this.stillRatio());
+        this.onDrawn();
+    }
+
     /// The picture at a number of picture pixels a CSS pixel: readable until the browser next paints.
     draw(ratio: number, moving = false): void {
         const {renderer} = this;

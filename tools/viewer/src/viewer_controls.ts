@@ -6,8 +6,9 @@ import {axisNames, type Axis} from './clock';
 import {button, checkbox, element, select} from './dom';
 import {icon} from './icons';
 import {keyList} from './keyboard';
+import {largestMagnifiedAngle} from './motion';
 import {sequentialNames, type SequentialName} from './palettes';
-import {saveAnimation, saveGif, savePng, saveSvg, videoType} from './saving';
+import {gifFrames, saveAnimation, saveGif, savePng, saveSvg, videoType} from './saving';
 import {layerNames, type Layout} from './settings';
 import type {Viewer} from './viewer';
 
@@ -91,7 +92,7 @@ export class ViewerControls {
             ...(viewer.clock.count > 1 ? [select('Displacements', magnifications.map((value) => ({value, text: `×${value}`})), String(settings.magnification), (value) => {
                 settings.magnification = Number(value);
                 refresh();
-            }, {class: 'magnification'})] : [])));
+            }, {class: 'magnification', title: `Turns are magnified up to ${largestMagnifiedAngle} rad`})] : [])));
     }
 
     private testList(which: 'test' | 'other', label: string): HTMLElement {
@@ -120,12 +121,30 @@ export class ViewerControls {
     private saving(): HTMLElement {
         const {viewer} = this;
         const report = (text: string) => { this.busy.textContent = text; };
+        const buttons: HTMLButtonElement[] = [];
+        const saver = (name: string, title: string, save: () => Promise<void> | void, key: string) => {
+            const one = button(name, title, () => void run(save), {'data-save': key});
+            buttons.push(one);
+            return one;
+        };
+        // One at a time: each leads the clock through all frames.
+        const run = async (save: () => Promise<void> | void) => {
+            for (const one of buttons) one.disabled = true;
+            try {
+                await save();
+                report('');
+            } catch (error) {
+                report(`Not saved: ${error instanceof Error ? error.message : String(error)}`);
+            } finally {
+                for (const one of buttons) one.disabled = false;
+            }
+        };
         return group('Save as', element('div', {class: 'saves'},
-            button('PNG', 'The picture as PNG', () => void savePng(viewer), {'data-save': 'png'}),
-            button('SVG', 'The picture as SVG', () => saveSvg(viewer), {'data-save': 'svg'}),
+            saver('PNG', 'The picture as PNG', () => savePng(viewer), 'png'),
+            saver('SVG', 'The picture as SVG', () => saveSvg(viewer), 'svg'),
             ...(viewer.clock.count > 1 || viewer.tests.some(({test}) => test.frames.length > 1) ? [
-                button('GIF', 'All frames as an animated GIF', () => void saveGif(viewer, report), {'data-save': 'gif'}),
-                ...(videoType() ? [button('Video', 'All frames as a video', () => void saveAnimation(viewer, report), {'data-save': 'video'})] : []),
+                saver('GIF', `All frames as an animated GIF; of more than ${gifFrames} so many, evenly chosen`, () => saveGif(viewer, report), 'gif'),
+                ...(videoType() ? [saver('Video', 'All frames as a video', () => saveAnimation(viewer, report), 'video')] : []),
             ] : []),
             button('?', 'Keys (?)', () => this.help.showModal(), {'aria-label': 'Keys'})));
     }
