@@ -24,7 +24,7 @@ constexpr Term files[] = {
     {"curve.csv", "one row an observed step: strain, stress, energies"},
     {"events.csv", "one row a broken bonded point"},
     {"summary.json", "figures of the whole test, with their units"},
-    {"frames/", "frames.pvd for ParaView: particles and bonds at start, peak, end and in between"},
+    {"frames/", "frames.pvd for ParaView: particles, contacts and cracks at start, peak, end and in between"},
     {"checkpoint", "the complete state, for --resume"},
 };
 

@@ -135,7 +135,10 @@ Panel drawings_of(const Recording& test, const fs::path& folder, const Words& mo
     for (const std::string& at : moments) {
         const std::size_t frame = frame_at(test, at);
         const FrameHead& head = test.frames[frame];
-        const std::string roles = head.roles.empty() ? "" : fmt::format("{}\n", fmt::join(head.roles, ", "));
+        Words names = head.roles;
+        if (!test.results.summary.value("failed", false))
+            std::replace(names.begin(), names.end(), std::string("peak"), std::string("peak so far"));
+        const std::string roles = names.empty() ? "" : fmt::format("{}\n", fmt::join(names, ", "));
         drawn.push_back({&test, frame, roles + strain_text(head.axial_strain.value_or(0.0))});
     }
     return drawings(drawn, std::vector<fs::path>(drawn.size(), folder), style);

@@ -26,7 +26,7 @@ CommandLine describe_view() {
                           "page to write; default: IN/view.html of a folder, IN with .html of a file, view.html of "
                           "several")  //
         ("title", po::value<std::string>()->value_name("TEXT")->default_value("", ""),
-         "heading; default: the name of IN")  //
+         "heading; default: the test's title or the name of what is shown; of several 'Virtual rock tests'")  //
         ("frames", po::value<std::size_t>()->value_name("N")->default_value(default_page_frames),
          "show at most so many frames of each, evenly chosen")  //
         ("seed", po::value<std::uint64_t>()->value_name("N")->default_value(1),

@@ -108,22 +108,36 @@ std::vector<Legend::Entry> entries_of(const std::vector<PlottedTest>& tests) {
     return entries;
 }
 
-/// Breaks in equal intervals of strain.
+constexpr double small_text = 0.75;  // of the font size
+
+/// Breaks in equal intervals of strain: k width < strain <= (k + 1) width in the one of number k, as in the report.
 struct Histogram {
-    double width = 0.0;  // strain
+    double width = 0.0;  // strain, a round number
     std::vector<int> tension, shear;
     int most = 0;
+
+    std::string interval() const { return fmt::format("Δε = {:.6g}·10⁻³", width / strain_unit); }
 };
 
+/// 1, 2 or 5 times a power of ten that cuts the range into at most 60 intervals.
+double interval_width(double range) {
+    const double least = range / 60.0, power = std::pow(10.0, std::floor(std::log10(least)));
+    for (const double step : {1.0, 2.0, 5.0}) {
+        if (step * power >= least * (1.0 - 1e-9)) return step * power;
+    }
+    return 10.0 * power;
+}
+
 Histogram count_breaks(const TestResults& results, double range) {
-    constexpr int intervals = 60;
     Histogram histogram;
-    histogram.width = std::max(range, 1e-12) / intervals;
+    histogram.width = interval_width(std::max(range, 1e-12));
+    const auto intervals = static_cast<std::size_t>(std::max(1.0, std::ceil(range / histogram.width - 1e-9)));
     histogram.tension.resize(intervals);
     histogram.shear.resize(intervals);
     const std::vector<double>&strain = *results.events.find("axial_strain"), &shear = *results.events.find("mode");
     for (std::size_t k = 0; k < strain.size(); ++k) {
-        const auto at = static_cast<std::size_t>(std::clamp(strain[k] / histogram.width, 0.0, intervals - 1.0));
+        const double last = static_cast<double>(intervals - 1);
+        const auto at = static_cast<std::size_t>(std::clamp(std::ceil(strain[k] / histogram.width) - 1.0, 0.0, last));
         ++(shear[k] != 0.0 ? histogram.shear : histogram.tension)[at];
     }
     for (std::size_t k = 0; k < intervals; ++k)
@@ -134,10 +148,11 @@ Histogram count_breaks(const TestResults& results, double range) {
 void draw_bars(Canvas& canvas, const Axes& axes, const Histogram& histogram) {
     for (std::size_t k = 0; k < histogram.tension.size(); ++k) {
         const double left = static_cast<double>(k) * histogram.width / strain_unit;
+        const double right = std::min(left + histogram.width / strain_unit, axes.x.high);
         double below = 0.0;
         const auto bar = [&](int count, const Colour& fill) {
             if (count == 0) return;
-            const Point foot = axes.at(left, below), top = axes.at(left + histogram.width / strain_unit, below + count);
+            const Point foot = axes.at(left, below), top = axes.at(right, below + count);
             canvas.rectangle({foot.x, top.y, 0.9 * (top.x - foot.x), foot.y - top.y}, fill);
             below += count;
         };
@@ -182,21 +197,21 @@ void mark_peak(Canvas& canvas, const Axes& axes, const PlottedTest& test, double
 }  // namespace
 
 Panel stress_strain(const std::vector<PlottedTest>& tests) {
-    const auto strip = [](double width) { return 0.2 * width; };
+    const bool single = tests.size() == 1;
+    const auto strip = [single](double width) { return (single ? 0.23 : 0.2) * width; };
     Panel panel;
     panel.height = [strip](double width) { return 0.62 * width + strip(width); };
-    panel.draw = [tests, strip](Canvas& canvas, const Rect& place) {
+    panel.draw = [tests, strip, single](Canvas& canvas, const Rect& place) {
         const Unit unit = unit_for(largest_of(tests, "axial_stress"), "N/m");
         Axes upper, lower;
         upper.x = lower.x = strain_scale(tests, place.width);
         upper.y = scale_for(smallest_of(tests, "axial_stress") / unit.factor,
                             largest_of(tests, "axial_stress") / unit.factor, 6);
-        const bool single = tests.size() == 1;
         const Histogram histogram = single ? count_breaks(*tests.front().results, total_strain(tests)) : Histogram{};
         lower.y = count_scale(single ? histogram.most : largest_of(tests, "bonds_broken"), 2);
         const double left = std::max(Axes::room_left(canvas, upper.y), Axes::room_left(canvas, lower.y));
         const Legend legend(canvas, entries_of(tests), place.width - left - 24.0);
-        const double gap = 0.8 * canvas.style().font_size;
+        const double gap = (single ? 1.7 : 0.8) * canvas.style().font_size;  // of one: room for the interval
         const double top = place.y + std::max(legend.height(), 0.6 * canvas.style().font_size);
         const double bottom = place.bottom() - Axes::room_below(canvas);
         lower.frame = {place.x + left, bottom - strip(place.width) + gap, place.width - left - 4.0,
@@ -215,6 +230,8 @@ Panel stress_strain(const std::vector<PlottedTest>& tests) {
         upper.draw(canvas, "", fmt::format("axial stress, {}", unit.name));
         if (single) {
             draw_bars(canvas, lower, histogram);
+            canvas.text({lower.frame.right() - 2.0, lower.frame.y - 1.5}, "in " + histogram.interval(), Across::right,
+                        Down::bottom, small_text);
         } else {
             draw_so_far(canvas, lower, tests);
         }
@@ -236,6 +253,7 @@ Panel breaks(const std::vector<PlottedTest>& tests) {
         std::vector<Legend::Entry> entries = entries_of(tests);
         if (single) {
             entries = {{"tension", tension_colour, false, true}, {"so far", ink, false, false}};
+            entries.front().label += ", in " + histogram.interval();
             const bool any_shear =
                 std::any_of(histogram.shear.begin(), histogram.shear.end(), [](int n) { return n > 0; });
             if (any_shear) entries.insert(entries.begin() + 1, {"shear", shear_colour, false, true});

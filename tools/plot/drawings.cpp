@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Specimens as they lie at a moment: particles, platens, cracks.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include "specimens/observers/read_frames.hpp"
+#include "tools/plot/axes.hpp"
 #include "tools/plot/panels.hpp"
 
 namespace crackle::plot {
@@ -64,6 +68,19 @@ struct Moment {
     Extent extent;
 };
 
+/// Makes room for what displacements larger than true carry away: for fragments of a twentieth of all cells or more.
+void include_magnified(Moment& moment, const RecordedFrame& frame, double magnify) {
+    if (magnify <= 1.0) return;
+    const std::vector<RecordedCell>& cells = *moment.cells;
+    std::map<double, std::size_t> cells_of;
+    const auto fragment = [&](std::size_t k) { return frame.fragment.empty() ? 0.0 : frame.fragment[k]; };
+    for (std::size_t k = 0; k < cells.size(); ++k) ++cells_of[fragment(k)];
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+        if (cells[k].platen || 20 * cells_of[fragment(k)] < cells.size()) continue;
+        for (const Vec2 place : moment.outlines[k]) moment.extent.include(place, cells[k].radius);
+    }
+}
+
 Moment prepared(const DrawnMoment& drawn, const fs::path& folder, const DrawingStyle& style) {
     const Recording& recording = *drawn.recording;
     const RecordedFrame frame = recording.frame(drawn.frame);
@@ -88,6 +105,7 @@ Moment prepared(const DrawnMoment& drawn, const fs::path& folder, const DrawingS
         }
         moment.outlines.push_back(std::move(outline));
     }
+    include_magnified(moment, frame, style.magnify);
     // Cracks lie where the solver says: only true displacements have them.
     if (style.magnify == 1.0) moment.cracks = cracks_of(folder, recording.frames[drawn.frame]);
     return moment;
@@ -96,6 +114,8 @@ Moment prepared(const DrawnMoment& drawn, const fs::path& folder, const DrawingS
 /// Room around a specimen for what bulges and moves out, of its width.
 constexpr double surroundings = 0.18;
 constexpr double between_drawings = 6.0;  // pt
+constexpr double key_height = 13.0;       // pt, of the line under the captions
+constexpr double key_text = 0.85;         // of the font size
 
 Extent common_extent(const std::vector<Moment>& moments) {
     Extent all;
@@ -140,6 +160,49 @@ void draw_moment(Canvas& canvas, const Rect& place, const Moment& moment, const 
     canvas.unclip();
 }
 
+/// 1, 2 or 5 times a power of ten, at most the length.
+double round_length(double most) {
+    const double power = std::pow(10.0, std::floor(std::log10(most)));
+    return (most >= 5.0 * power ? 5.0 : most >= 2.0 * power ? 2.0 : 1.0) * power;
+}
+
+struct Key {
+    bool tension = false, shear = false;
+    double magnify = 1.0;
+};
+
+/// Scale bar, what the cracks' colours mean and by how much displacements are magnified, in one line.
+void draw_key(Canvas& canvas, const Rect& place, const Key& key, double points_a_metre) {
+    const double middle = place.y + 0.5 * place.height, gap = 1.2 * canvas.style().font_size;
+    const double length = round_length(60.0 / points_a_metre), bar = length * points_a_metre;
+    const Unit unit = unit_for(length, "m");
+    struct Item {
+        std::string text;
+        const Colour* line;  // nullptr: text alone
+        double length;       // pt
+    };
+    std::vector<Item> items{{fmt::format("{:.6g} {}", length / unit.factor, unit.name), &ink, bar}};
+    if (key.tension) items.push_back({"broken in tension", &tension_colour, 10.0});
+    if (key.shear) items.push_back({"in shear", &shear_colour, 10.0});
+    if (key.magnify != 1.0) items.push_back({fmt::format("displacements ×{:.6g}", key.magnify), nullptr, 0.0});
+    double width = -gap;
+    for (const Item& item : items)
+        width += item.length + (item.line != nullptr ? 3.0 : 0.0) + canvas.size_of(item.text, key_text).width + gap;
+    double x = place.x + 0.5 * (place.width - width);
+    for (const Item& item : items) {
+        if (item.line != nullptr) {
+            canvas.line({{x, middle}, {x + item.length, middle}}, *item.line, item.line == &ink ? 0.8 : 1.2);
+            if (item.line == &ink) {
+                for (const double end : {x, x + item.length})
+                    canvas.line({{end, middle - 2.0}, {end, middle + 2.0}}, ink, 0.8);
+            }
+            x += item.length + 3.0;
+        }
+        canvas.text({x, middle}, item.text, Across::left, Down::middle, key_text);
+        x += canvas.size_of(item.text, key_text).width + gap;
+    }
+}
+
 }  // namespace
 
 Panel drawings(const std::vector<DrawnMoment>& drawn, const std::vector<fs::path>& folders, const DrawingStyle& style) {
@@ -155,20 +218,27 @@ Panel drawings(const std::vector<DrawnMoment>& drawn, const std::vector<fs::path
         return moment.caption.find('\n') != std::string::npos;
     });
     const double caption = two_lines ? 25.0 : 14.0;  // pt
+    Key key;
+    key.magnify = style.magnify;
+    for (const Moment& moment : moments) {
+        for (const CrackLine& crack : moment.cracks) (crack.shear ? key.shear : key.tension) = true;
+    }
     Panel panel;
     panel.letter_above = true;
     panel.height = [extent, each, caption](double width) {
-        return each(width) * extent.height() / extent.width() + caption;
+        return each(width) * extent.height() / extent.width() + caption + key_height;
     };
-    panel.draw = [moments, extent, each, caption](Canvas& canvas, const Rect& place) {
+    panel.draw = [moments, extent, each, caption, key](Canvas& canvas, const Rect& place) {
         const double width = each(place.width);
         const auto count = static_cast<double>(moments.size());
         double x = place.x + 0.5 * (place.width - count * width - between_drawings * (count - 1.0));
         for (const Moment& moment : moments) {
-            draw_moment(canvas, {x, place.y, width, place.height - caption}, moment, extent);
-            canvas.text({x + 0.5 * width, place.bottom() - caption + 3.0}, moment.caption, Across::centre, Down::top);
+            draw_moment(canvas, {x, place.y, width, place.height - caption - key_height}, moment, extent);
+            canvas.text({x + 0.5 * width, place.bottom() - key_height - caption + 3.0}, moment.caption, Across::centre,
+                        Down::top);
             x += width + between_drawings;
         }
+        draw_key(canvas, {place.x, place.bottom() - key_height, place.width, key_height}, key, width / extent.width());
     };
     return panel;
 }
