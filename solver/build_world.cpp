@@ -261,6 +261,7 @@ World build_world(Scene scene) {
     world.integrator = scene.integrator;
     world.gravity = scene.gravity;
     world.safety_factor = scene.safety_factor;
+    world.step_scale = scene.step_scale;
     world.allow_unstable = scene.allow_unstable;
     world.ledger_on = scene.ledger;
     world.intact = scene.intact;

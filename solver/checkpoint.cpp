@@ -21,7 +21,7 @@
 namespace crackle {
 
 // Raise when the fields below change.
-constexpr std::uint32_t checkpoint_version = 14;
+constexpr std::uint32_t checkpoint_version = 15;
 constexpr std::uint64_t checkpoint_magic = 0x454c4b4341524321ULL;  // "!CRACKLE"
 
 // NOLINTBEGIN(bugprone-macro-parentheses)
@@ -127,7 +127,7 @@ void serialize(Archive& a, World& w) {
     a(w.skin, w.widest_skin, w.half_skins, w.list_reference, w.turning_reach, w.some_turn, w.size_rank,
       w.largest_smaller, w.travelled, w.free_way, w.fastest, w.fastest_allowed_move, w.list_valid, w.list_step,
       w.list_builds);
-    a(w.domain, w.thick, w.segment_law, w.integrator, w.gravity, w.time_step, w.drift, w.automatic_step,
+    a(w.domain, w.thick, w.segment_law, w.integrator, w.gravity, w.time_step, w.drift, w.automatic_step, w.step_scale,
       w.safety_factor, w.step_bound, w.limiting_body, w.step_weights, w.weighed_bound, w.weighed_points, w.exact_step,
       w.exact_step_proved, w.step_goal, w.allow_unstable, w.has_bonds, w.ledger_on, w.intact);
     a(w.step, w.time, w.forces_current, w.kick_share, w.events, w.bonds_initial, w.bonds_broken, w.interfaces_initial,

@@ -286,6 +286,7 @@ void validate(Scene& scene) {
     require_finite("gravity y", scene.gravity.y);
     require_not_negative("time step", scene.time_step, "s");
     require_not_negative("skin", scene.skin, "m");
+    if (!(scene.step_scale > 0.0 && scene.step_scale <= 1.0)) refuse("step scale", scene.step_scale, "0 < f <= 1");
     if (!(scene.safety_factor > 0.0 && scene.safety_factor <= 1.0))
         refuse("safety factor", scene.safety_factor, "0 < f <= 1");
     if (scene.threads < 1 || scene.threads > 1024) refuse("threads", scene.threads, "1 to 1024");

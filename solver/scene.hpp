@@ -133,6 +133,7 @@ struct Scene {
     Vec2 gravity;  ///< m/s2
 
     double time_step = 0.0;       ///< s; 0: derived from the stiffness bound times safety_factor
+    double step_scale = 1.0;      ///< of derived steps, whatever rules them: a comparison at half the step
     double safety_factor = 0.8;   ///< share of the bound taken when the step is derived (without bonds: at most
                                   ///< loose_step_share)
     bool allow_unstable = false;  ///< run a given time step above the bound, and beyond runaway energy

@@ -367,7 +367,7 @@ constexpr double consistent_step_share = 0.2;
 double derived_step_share(const World& world) {
     const bool bonded = world.has_bonds && world.bonds_initial > 0;
     const double loose = world.integrator == Integrator::consistent ? consistent_step_share : loose_step_share;
-    return bonded ? world.safety_factor : std::min(world.safety_factor, loose);
+    return world.step_scale * (bonded ? world.safety_factor : std::min(world.safety_factor, loose));
 }
 
 double stable_step_bound(const World& world, BodyIndex* limiting) {
@@ -441,7 +441,8 @@ void count_new_points(World& world) {
     }
     if (uncounted > 0) return evaluate_step_bound(world);
     if (least.bound >= world.step_bound) return;
-    if (least.bound < world.time_step) return evaluate_step_bound(world);  // with weights that suit the new points
+    if (world.step_scale * least.bound < world.time_step)
+        return evaluate_step_bound(world);  // with weights that suit the new points
     world.step_bound = least.bound;
     world.limiting_body = least.body;
 }
@@ -450,7 +451,7 @@ void keep_step_below_bound(World& world) {
     if (world.automatic_step) {
         const bool bonded = world.has_bonds && world.bonds_initial > 0;
         if (bonded && world.step_goal > 0.0) {
-            world.time_step = std::min(world.step_goal, world.step_bound);
+            world.time_step = world.step_scale * std::min(world.step_goal, world.step_bound);
         } else {
             const double share = derived_step_share(world);
             if (world.time_step > share / world.safety_factor * world.step_bound)

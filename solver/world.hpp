@@ -334,6 +334,7 @@ struct World {
     double time_step = 0.0;       // s
     double drift = 0.0;           // s, length of the drift that led to the present positions (0 before the first)
     bool automatic_step = false;  // may be lowered when the list is rebuilt
+    double step_scale = 1.0;      // of derived steps
     double safety_factor = 0.8;
     double step_bound = std::numeric_limits<double>::infinity();  // s, guaranteed stable below, of the counted points
     BodyIndex limiting_body = 0;                                  // sets step_bound
@@ -476,7 +477,8 @@ void keep_step_below_bound(World& world);
 /// Takes a given step in place of a derived one, up to the exact limit of the points that carry load now.
 /// @throws UnstableRun if it lies above (not with allow_unstable)
 void set_time_step(World& world, double time_step);
-/// Share of the bound that a derived step takes: safety_factor, without bonds at most loose_step_share.
+/// Share of the bound that a derived step takes: step_scale times safety_factor, without bonds at most
+/// loose_step_share.
 double derived_step_share(const World& world);
 
 // ---- checkpoint (solver/checkpoint.cpp)

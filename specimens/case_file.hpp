@@ -101,6 +101,7 @@ struct TestCase {
 
     /// No key: the companions of a test are made with it. Times the damping of every material, after packing.
     double damping_scale = 1.0;
+    double step_scale = 1.0;  ///< of a derived time step
 
     std::filesystem::path source;                 ///< the case file
     std::map<std::string, std::string> position;  ///< "table.key" → "file:line", for keys that somebody wrote

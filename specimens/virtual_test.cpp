@@ -90,6 +90,7 @@ Bonded bond_specimen(const Specimen& specimen, const TestCase& test, const TestC
     scene.integrator = integrator_named("numerics.integrator", test.numerics.integrator);
     scene.time_step = 0.0;  // a particle file's own is of its packing
     scene.safety_factor = test.numerics.safety_factor;
+    scene.step_scale = test.step_scale;
     scene.allow_unstable = test.numerics.allow_unstable;
     scene.first_kick = FirstKick::half;
     scene.threads = static_cast<int>(test.numerics.threads);
@@ -370,6 +371,8 @@ TestOutcome resume_test(const TestOptions& options, const TestHooks& hooks) {
     set_threads(test.world,
                 options.threads > 0 ? options.threads : static_cast<int>(test.description.numerics.threads));
     if (!test.state.ended_by.empty()) return finished_test(test, options, hooks, folder);
+    // That of the interrupt: curve and frames go beyond it from here.
+    fs::remove(folder.path() / "summary.json", error);
     TestFiles files(folder, checkpoint.case_hash, test.state);
     say(hooks,
         fmt::format("resumed at step {}, axial strain {:.4g}", test.world.step, test.setup.axial_strain(test.world)));

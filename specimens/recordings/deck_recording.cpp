@@ -118,21 +118,27 @@ class DeckMotion {
   private:
     double time(std::size_t k) const { return frames_.heads()[chosen_[k]].time; }
 
-    /// Fills places_ up to frame k. Angles of chains, which are known but for whole turns, are taken near those before.
+    /// Fills places_ up to chosen frame k. Angles of chains, which are known but for whole turns, are taken near those
+    /// of the output before, chosen or not: between chosen ones a body may turn by more than half a turn.
     void unwind(std::size_t k) {
         constexpr double turn = 2.0 * std::numbers::pi;
         while (places_.size() <= k) {
-            std::vector<Place> now = places(places_.size());
-            for (std::size_t cell = 0; cell < now.size() && !places_.empty(); ++cell) {
-                if (finder_.is_circle(ids_[cell])) continue;
-                now[cell].angle -= turn * std::round((now[cell].angle - places_.back()[cell].angle) / turn);
+            const std::size_t wanted = chosen_[places_.size()];
+            for (std::size_t output = places_.empty() ? wanted : chosen_[places_.size() - 1] + 1; output <= wanted;
+                 ++output) {
+                std::vector<Place> now = places(output);
+                for (std::size_t cell = 0; cell < now.size() && !last_.empty(); ++cell) {
+                    if (finder_.is_circle(ids_[cell])) continue;
+                    now[cell].angle -= turn * std::round((now[cell].angle - last_[cell].angle) / turn);
+                }
+                last_ = std::move(now);
             }
-            places_.push_back(std::move(now));
+            places_.push_back(last_);
         }
     }
 
-    std::vector<Place> places(std::size_t k) const {
-        const DeckFrames::Positions positions = frames_.positions(chosen_[k]);
+    std::vector<Place> places(std::size_t output) const {
+        const DeckFrames::Positions positions = frames_.positions(output);
         std::vector<Place> all;
         std::vector<int> ids;
         for (const DeckCircle& circle : positions.circles) {
@@ -144,7 +150,7 @@ class DeckMotion {
             ids.push_back(chain.id);
         }
         if (ids != ids_) {
-            const DeckFrameFile::Head& head = frames_.heads()[chosen_[k]];
+            const DeckFrameFile::Head& head = frames_.heads()[output];
             throw InputError(fmt::format(
                 "output.dat:{}: found other bodies in the frame of step {} than in the first one; the outputs of "
                 "different runs cannot be shown as one",
@@ -216,7 +222,8 @@ class DeckMotion {
     std::vector<int> ids_;  // of cells
     std::unordered_map<int, double> area_of_body_;
     CellFinder finder_{{}};
-    std::vector<std::vector<Place>> places_;  // by frame, as far as they have been asked for
+    std::vector<Place> last_;                 // of the output that was unwound last
+    std::vector<std::vector<Place>> places_;  // by chosen frame, as far as they have been asked for
 };
 
 }  // namespace

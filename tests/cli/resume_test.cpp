@@ -181,6 +181,24 @@ TEST_P(Resume, AfterOneKillUponTheOtherEndsWithTheBytesOfAnUninterruptedTest) {
     expect_the_whole("killed again and again");
 }
 
+TEST_P(Resume, ATestThatWentOnLeavesNoSummaryOfWhereItWasInterrupted) {
+    const int code = stop(start({"case.toml", "-o", "out", "-q"}), SIGINT, 0.3 * seconds_);
+    if (code != 130) GTEST_SKIP() << "it ended before the signal, or had not begun";
+    ASSERT_TRUE(exists("cut/out/summary.json"));
+    const auto before = fs::file_size(folder_ / "cut/out/curve.csv");
+    const pid_t child = start({"--resume", "out", "-q"});
+    int status = 0;
+    while (fs::file_size(folder_ / "cut/out/curve.csv") <= before && waitpid(child, &status, WNOHANG) == 0) {
+    }
+    kill(child, SIGKILL);
+    waitpid(child, &status, 0);
+    if (exists("cut/out/summary.json")) {
+        EXPECT_FALSE(nlohmann::json::parse(read("cut/out/summary.json"))["interrupted"].get<bool>());
+    }
+    EXPECT_EQ(go_on(), "resumed");
+    expect_the_whole("interrupted, gone on and killed");
+}
+
 /// A window of a few milliseconds, met by waiting for the file that opens it.
 TEST_P(Resume, AfterAKillWhileAFileIsWrittenEndsWithTheBytesOfAnUninterruptedTest) {
     for (const char* file : {"probe.tmp", "case.toml", "curve.csv", "checkpoint.tmp", "frames/frames.pvd.tmp",

@@ -163,6 +163,10 @@ TEST_F(ViewCommand, ATurningPolygonIsCountedInWholeTurns) {
                expected / (2.0 * std::numbers::pi), got);
     EXPECT_GT(got, 49.0);
     EXPECT_NEAR(got, expected, 1e-5);
+    // Also where whole turns lie between the frames that are shown.
+    const PageContents few = page("run --frames 4");
+    ASSERT_EQ(few.test()["frames"].size(), 4U);
+    EXPECT_NEAR(few.row("angle", 3)[0], 40.0 * few.test()["frames"][3]["time"].get<double>(), 1e-5);
     EXPECT_NEAR(shown.row("rate", last)[0], 40.0, 0.02 + 0.5 * growth * (1.0 + growth) * 40.0);
 }
 

@@ -229,6 +229,26 @@ TEST_F(VirtualRock, NoTermOfTheAccountOfEnergyCouldBeMissing) {
     }
 }
 
+TEST_F(VirtualRock, HalfTheStepIsHalfAlsoWhereTheBoundRulesIt) {
+    for (const char* share : {"0.4", "1.0"}) {
+        SmallCase wanted;
+        wanted.mesh = "voronoi";
+        wanted.numerics = std::string("safety_factor = ") + share;
+        TestCase description = read_case(write_small_case(scratch_ / "", wanted));
+        VirtualTest whole = prepare_test(description);
+        description.step_scale = 0.5;
+        VirtualTest half = prepare_test(description);
+        for (VirtualTest* test : {&whole, &half}) {
+            for (int k = 0; k < 20; ++k) step(test->world);
+        }
+        const bool bound_rules = whole.world.step_bound < whole.world.step_goal;
+        fmt::print("  safety factor {}, {} rules: {:.4g} s, half of it expected, got {:.4g} s\n", share,
+                   bound_rules ? "the bound" : "the goal", whole.world.time_step, half.world.time_step);
+        EXPECT_EQ(bound_rules, share == std::string("1.0"));
+        EXPECT_NEAR(half.world.time_step, 0.5 * whole.world.time_step, 1e-3 * whole.world.time_step);
+    }
+}
+
 TEST_F(VirtualRock, TooLargeATimeStepIsRefusedWithTheBound) {
     SmallCase wanted;
     wanted.numerics = "time_step = 1.0e-2";
