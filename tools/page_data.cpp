@@ -75,6 +75,10 @@ struct Code {
 /// Tables of whole numbers, as the header describes them.
 class CodedBlock {
   public:
+    /// @param where  for messages: whose frames
+    explicit CodedBlock(std::string where) : where_(std::move(where)) {}
+    const std::string& where() const { return where_; }
+
     /// @param rows  all of one length; nothing is stored of empty ones
     void add(const std::string& name, const std::vector<std::vector<double>>& rows, Code code) {
         const std::size_t columns = rows.front().size();
@@ -113,11 +117,12 @@ class CodedBlock {
         return (static_cast<std::uint64_t>(difference) << 1) ^ static_cast<std::uint64_t>(difference >> 63);
     }
 
-    static std::int64_t whole(const std::string& name, double value, Code code) {
+    std::int64_t whole(const std::string& name, double value, Code code) const {
         constexpr double most = 1ULL << 50;  // exact in a double, which is what the page adds up in
         const double number = code.number(value);
         if (!(std::abs(number) < most))
-            throw InputError(fmt::format("frames: {}: found {}, expected a finite number of common size", name, value));
+            throw InputError(
+                fmt::format("{}: {}: found {}, expected a finite number of common size", where_, name, value));
         return static_cast<std::int64_t>(number);
     }
 
@@ -137,6 +142,7 @@ class CodedBlock {
         }
     }
 
+    std::string where_;
     std::vector<unsigned char> bytes_;
     Json places_ = Json::object();
 };
@@ -170,8 +176,8 @@ void add_field(CodedBlock& block, const std::string& name, const std::vector<Rec
     for (const RecordedFrame& frame : frames) {
         rows.push_back(frame.*field);
         if (rows.back().size() != rows.front().size())
-            throw InputError(fmt::format("frames: {}: found {} values in one frame and {} in another, expected as many",
-                                         name, rows.front().size(), rows.back().size()));
+            throw InputError(fmt::format("{}: {}: found {} values in one frame and {} in another, expected as many",
+                                         block.where(), name, rows.front().size(), rows.back().size()));
     }
     block.add(name, rows, code_for(rows));
 }
@@ -328,7 +334,8 @@ PageData pack_recording(const Recording& recording, const std::function<void(std
             frames.push_back(recording.frame(k));
             if (packed_frames) packed_frames(k);
         }
-        CodedBlock block;
+        const FrameHead &from = recording.frames[begin], &to = recording.frames[end - 1];
+        CodedBlock block(fmt::format("{}: {} to {}", recording.name, from.file, to.file));
         const auto evenly = [](double quantum) { return [=](const auto&) { return Code{quantum}; }; };
         const auto by_size = [](double with_growth) {
             return [=](const auto& rows) { return code_of(rows, with_growth); };

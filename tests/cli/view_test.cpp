@@ -257,6 +257,10 @@ TEST_F(ViewCommand, NamesFileAndLineOfADamagedOutput) {
     const std::size_t body = damaged.find('\n', second_frame + 1) + 1;
     write("run/output.dat", damaged.insert(body, 1, 'x'));
     expect_refused("run", fmt::format("run/output.dat:{}: body: found 'x", line));
+    damaged = whole;
+    write("run/output.dat",
+          damaged.insert(damaged.find(' ', damaged.find(" 4.98") + 1), "e250"));  // finite, but nowhere
+    expect_refused("run", "run: output.dat:2 to output.dat:");
     write("run/output.dat", whole.substr(0, second_frame + 30));  // a killed run
     EXPECT_EQ(page("run").test()["frames"].size(), 1U);
 }
