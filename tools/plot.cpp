@@ -255,7 +255,7 @@ CommandLine describe_plot() {
         ("font-size", po::value<double>()->value_name("PT")->default_value(SheetStyle{}.font_size), "pt")        //
         ("dpi", po::value<double>()->value_name("N")->default_value(SheetStyle{}.dpi), "dots an inch, of PNG")   //
         ("magnify", po::value<double>()->value_name("FACTOR")->default_value(1.0),
-         "draw displacements so many times as large; not 1: without cracks")                                //
+         "draw displacements so many times as large")                                                       //
         ("title", po::value<std::string>()->value_name("TEXT")->default_value("", ""), "above the figure")  //
         ("labels", po::value<Words>()->multitoken()->value_name("NAME"),
          "names of the tests in legends, in their order")  //

@@ -11,6 +11,7 @@
 
 #include "tests/support/program_call.hpp"
 #include "tests/support/sample_results.hpp"
+#include "tests/support/small_rock.hpp"
 
 namespace crackle {
 namespace {
@@ -40,6 +41,30 @@ std::uint32_t png_number(const std::string& bytes, std::size_t at) {
     std::uint32_t number = 0;
     for (std::size_t k = at; k < at + 4; ++k) number = 256 * number + static_cast<unsigned char>(bytes.at(k));
     return number;
+}
+
+/// Numbers of a path as they stand in it, pairs of x and y.
+std::vector<Vec2> corners_of(const std::string& path) {
+    std::vector<double> numbers;
+    for (const char* at = path.c_str(); *at != '\0';) {
+        char* end = nullptr;
+        const double value = std::strtod(at, &end);
+        if (end == at) {
+            ++at;
+            continue;
+        }
+        numbers.push_back(value);
+        at = end;
+    }
+    std::vector<Vec2> corners;
+    for (std::size_t k = 0; k + 1 < numbers.size(); k += 2) corners.push_back({numbers[k], numbers[k + 1]});
+    return corners;
+}
+
+double distance_from(Vec2 point, Vec2 a, Vec2 b) {
+    const Vec2 along = b - a;
+    const double square = dot(along, along), share = square > 0.0 ? dot(point - a, along) / square : 0.0;
+    return norm(point - a - std::clamp(share, 0.0, 1.0) * along);
 }
 
 /// Shapes of an SVG that are filled with a colour, as Cairo writes it.
@@ -107,17 +132,7 @@ TEST_F(PlotCommand, BarsOfBreaksAddUpToTheEventsOfEachMode) {
         const bool shear = style.find("fill:rgb(83.5") != std::string::npos;
         if (!tension && !shear) continue;
         std::vector<double> y;
-        const char* at = path.c_str();
-        for (int number = 0; *at != '\0';) {
-            char* end = nullptr;
-            const double value = std::strtod(at, &end);
-            if (end == at) {
-                ++at;
-                continue;
-            }
-            if (number++ % 2 == 1) y.push_back(value);
-            at = end;
-        }
+        for (const Vec2 corner : corners_of(path)) y.push_back(corner.y);
         const auto [low, high] = std::minmax_element(y.begin(), y.end());
         sums[shear ? 1 : 0] += *high - *low;
     }
@@ -126,6 +141,47 @@ TEST_F(PlotCommand, BarsOfBreaksAddUpToTheEventsOfEachMode) {
     const double got = (sums[1] - sample) / (sums[0] - sample);
     fmt::print("  shear over tension: expected {:.4f}, got {:.4f}\n", expected, got);
     EXPECT_NEAR(got, expected, 0.01 * expected);
+}
+
+TEST_F(PlotCommand, CracksLieOnTheFacesThatTheyParted) {
+    write_small_case(folder_, {.mesh = "voronoi", .output = "curve_rows = 2000\nframes = 5"});
+    ASSERT_EQ(
+        std::system(
+            fmt::format("cd '{}' && '{}' test case.toml -o parted -q", folder_.string(), CRACKLE_PROGRAM).c_str()),
+        0);
+    // Magnified, so that parted faces are far from each other, and from their mean.
+    const std::string svg = drawn("parted --what specimen --at end --magnify 50 --width 150", "figure.svg");
+    pugi::xml_document document;
+    ASSERT_TRUE(document.load_string(svg.c_str()));
+    std::vector<std::vector<Vec2>> surfaces, cracks;
+    for (const pugi::xpath_node& node : document.select_nodes("//*[local-name()='path']")) {
+        const std::string style = node.node().attribute("style").value();
+        std::vector<Vec2> corners = corners_of(node.node().attribute("d").value());
+        const bool closed = std::string(node.node().attribute("d").value()).find('Z') != std::string::npos;
+        if (closed && style.find("fill:rgb(89") != std::string::npos) {  // a grain
+            corners.push_back(corners.front());
+            surfaces.push_back(corners);
+        } else if (style.find("stroke:rgb(29.4") != std::string::npos) {  // a platen
+            surfaces.push_back(corners);
+        } else if (style.find("stroke:rgb(0%,44.7") != std::string::npos && corners.size() == 2) {
+            cracks.push_back(corners);
+        }
+    }
+    cracks.pop_back();  // the key's
+    double worst = 0.0;
+    for (const std::vector<Vec2>& crack : cracks) {
+        const Vec2 middle = 0.5 * (crack[0] + crack[1]);
+        double nearest = 1e300;
+        for (const std::vector<Vec2>& surface : surfaces) {
+            for (std::size_t k = 0; k + 1 < surface.size(); ++k)
+                nearest = std::min(nearest, distance_from(middle, surface[k], surface[k + 1]));
+        }
+        worst = std::max(worst, nearest);
+    }
+    fmt::print("  {} faces of cracks, {} surfaces: at most {:.3f} pt from one\n", cracks.size(), surfaces.size(),
+               worst);
+    EXPECT_GT(cracks.size(), 10U);
+    EXPECT_LT(worst, 0.5);  // half the gap of 1.08 mm at some 600 pt a metre, and single precision
 }
 
 TEST_F(PlotCommand, TheSameResultsGiveTheSameBytes) {

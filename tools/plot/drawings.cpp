@@ -7,7 +7,10 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
+#include <unordered_map>
 
+#include "solver/errors.hpp"
 #include "specimens/observers/read_frames.hpp"
 #include "tools/plot/axes.hpp"
 #include "tools/plot/panels.hpp"
@@ -40,8 +43,31 @@ struct CrackLine {
     bool shear = false;
 };
 
-/// The cracks of a frame, where its test wrote them.
-std::vector<CrackLine> cracks_of(const fs::path& folder, const FrameHead& head) {
+/// How a cell has moved since the first frame: place' = centre + displacement + R(angle) (place - centre).
+struct Motion {
+    Vec2 centre, displacement;
+    double cosine = 1.0, sine = 0.0;
+
+    Vec2 turned(Vec2 arm) const { return {cosine * arm.x - sine * arm.y, sine * arm.x + cosine * arm.y}; }
+    Vec2 of(Vec2 place) const { return centre + displacement + turned(place - centre); }
+    Motion with(double magnify) const { return {centre, magnify * displacement, cosine, sine}; }
+};
+
+/// The place of the first frame whose two moved places have this mean: both motions are linear, and so is their mean.
+/// @return nothing where the bodies have turned so far against each other that the mean does not tell
+std::optional<Vec2> held_place(const Motion& a, const Motion& b, Vec2 mean) {
+    constexpr double least = 0.05;  // of the length of a mean arm: points in frames are in single precision
+    const double cosine = 0.5 * (a.cosine + b.cosine), sine = 0.5 * (a.sine + b.sine);
+    const double square = cosine * cosine + sine * sine;
+    if (square < least * least) return std::nullopt;
+    const Vec2 of_origin = 0.5 * (a.of({}) + b.of({})), rest = mean - of_origin;
+    return (1.0 / square) * Vec2{cosine * rest.x + sine * rest.y, cosine * rest.y - sine * rest.x};
+}
+
+/// The cracks of a frame, where its test wrote them: each on both faces that the bond held together, as they have
+/// moved. Frames hold the mean of the two, which lies in the open where fragments have parted.
+std::vector<CrackLine> cracks_of(const fs::path& folder, const FrameHead& head,
+                                 const std::unordered_map<int, Motion>& motion_of, double magnify) {
     fs::path file = folder / head.file;
     std::string name = file.filename().string();
     const std::string from = "particles_";
@@ -50,11 +76,20 @@ std::vector<CrackLine> cracks_of(const fs::path& folder, const FrameHead& head) 
     if (!fs::exists(file)) return {};
     const PolyData data = read_polydata(file);
     const auto mode = data.cell_data.find("mode");
+    const std::vector<double>&body_i = cell_values(file, data, "body_i"), &body_j = cell_values(file, data, "body_j");
     std::vector<CrackLine> cracks;
     for (std::size_t k = 0; k < data.cells.size(); ++k) {
         const std::vector<std::size_t>& ends = data.cells[k].points;
         const bool shear = mode != data.cell_data.end() && mode->second.at(k) != 0.0;
-        cracks.push_back({data.points.at(ends.front()), data.points.at(ends.back()), shear});
+        const auto i = motion_of.find(static_cast<int>(body_i[k])), j = motion_of.find(static_cast<int>(body_j[k]));
+        if (i == motion_of.end() || j == motion_of.end())
+            throw InputError(fmt::format("{}: crack {}: found bodies {} and {}, of which one is not drawn",
+                                         file.string(), k, body_i[k], body_j[k]));
+        const auto begin = held_place(i->second, j->second, data.points.at(ends.front())),
+                   end = held_place(i->second, j->second, data.points.at(ends.back()));
+        if (!begin || !end) continue;
+        for (const Motion& motion : {i->second.with(magnify), j->second.with(magnify)})
+            cracks.push_back({motion.of(*begin), motion.of(*end), shear});
     }
     return cracks;
 }
@@ -68,7 +103,7 @@ struct Moment {
     Extent extent;
 };
 
-/// Makes room for what displacements larger than true carry away: for fragments of a twentieth of all cells or more.
+/// Makes room for what displacements larger than true carry away: for fragments of a fifth of all cells or more.
 void include_magnified(Moment& moment, const RecordedFrame& frame, double magnify) {
     if (magnify <= 1.0) return;
     const std::vector<RecordedCell>& cells = *moment.cells;
@@ -76,7 +111,7 @@ void include_magnified(Moment& moment, const RecordedFrame& frame, double magnif
     const auto fragment = [&](std::size_t k) { return frame.fragment.empty() ? 0.0 : frame.fragment[k]; };
     for (std::size_t k = 0; k < cells.size(); ++k) ++cells_of[fragment(k)];
     for (std::size_t k = 0; k < cells.size(); ++k) {
-        if (cells[k].platen || 20 * cells_of[fragment(k)] < cells.size()) continue;
+        if (cells[k].platen || 5 * cells_of[fragment(k)] < cells.size()) continue;
         for (const Vec2 place : moment.outlines[k]) moment.extent.include(place, cells[k].radius);
     }
 }
@@ -87,16 +122,15 @@ Moment prepared(const DrawnMoment& drawn, const fs::path& folder, const DrawingS
     Moment moment;
     moment.cells = &recording.cells;
     moment.caption = drawn.caption;
+    std::unordered_map<int, Motion> motion_of;  // of bodies; of a clump that of one of its circles
     for (std::size_t k = 0; k < recording.cells.size(); ++k) {
         const RecordedCell& cell = recording.cells[k];
-        const Vec2 centre = cell.centre + style.magnify * Vec2{frame.ux[k], frame.uy[k]};
-        const double cosine = std::cos(frame.angle[k]), sine = std::sin(frame.angle[k]);
+        const Motion moved{cell.centre, {frame.ux[k], frame.uy[k]}, std::cos(frame.angle[k]), std::sin(frame.angle[k])};
+        motion_of.emplace(cell.id, moved);
+        const Motion motion = moved.with(style.magnify);
         std::vector<Vec2> outline;
-        if (cell.radius > 0.0) outline.push_back(centre);
-        for (const Vec2 corner : cell.outline) {
-            const Vec2 arm = corner - cell.centre;
-            outline.push_back(centre + Vec2{cosine * arm.x - sine * arm.y, sine * arm.x + cosine * arm.y});
-        }
+        if (cell.radius > 0.0) outline.push_back(motion.of(cell.centre));
+        for (const Vec2 corner : cell.outline) outline.push_back(motion.of(corner));
         // What has flown off would make the specimen small: the sheet shows it as it was, with its surroundings.
         if (cell.platen) {
             moment.extent.include_height(outline.front().y);
@@ -106,8 +140,7 @@ Moment prepared(const DrawnMoment& drawn, const fs::path& folder, const DrawingS
         moment.outlines.push_back(std::move(outline));
     }
     include_magnified(moment, frame, style.magnify);
-    // Cracks lie where the solver says: only true displacements have them.
-    if (style.magnify == 1.0) moment.cracks = cracks_of(folder, recording.frames[drawn.frame]);
+    moment.cracks = cracks_of(folder, recording.frames[drawn.frame], motion_of, style.magnify);
     return moment;
 }
 
@@ -173,21 +206,29 @@ struct Key {
 
 /// Scale bar, what the cracks' colours mean and by how much displacements are magnified, in one line.
 void draw_key(Canvas& canvas, const Rect& place, const Key& key, double points_a_metre) {
-    const double middle = place.y + 0.5 * place.height, gap = 1.2 * canvas.style().font_size;
-    const double length = round_length(60.0 / points_a_metre), bar = length * points_a_metre;
+    const double middle = place.y + 0.5 * place.height;
+    const double length = round_length(std::min(60.0, 0.15 * place.width) / points_a_metre);
     const Unit unit = unit_for(length, "m");
     struct Item {
         std::string text;
         const Colour* line;  // nullptr: text alone
         double length;       // pt
     };
-    std::vector<Item> items{{fmt::format("{:.6g} {}", length / unit.factor, unit.name), &ink, bar}};
+    std::vector<Item> items{{fmt::format("{:.6g} {}", length / unit.factor, unit.name), &ink, length * points_a_metre}};
     if (key.tension) items.push_back({"broken in tension", &tension_colour, 10.0});
     if (key.shear) items.push_back({"in shear", &shear_colour, 10.0});
     if (key.magnify != 1.0) items.push_back({fmt::format("displacements ×{:.6g}", key.magnify), nullptr, 0.0});
-    double width = -gap;
-    for (const Item& item : items)
-        width += item.length + (item.line != nullptr ? 3.0 : 0.0) + canvas.size_of(item.text, key_text).width + gap;
+    double lines = 0.0, texts = 0.0;  // pt
+    for (const Item& item : items) {
+        lines += item.length;
+        texts += (item.line != nullptr ? 3.0 : 0.0) + canvas.size_of(item.text, key_text).width;
+    }
+    double gap = 1.2 * canvas.style().font_size;
+    texts += gap * (static_cast<double>(items.size()) - 1.0);
+    // All of it on a narrow sheet: in smaller letters.
+    const double shrunk = std::min(1.0, (0.97 * place.width - lines) / texts), size = shrunk * key_text;
+    gap *= shrunk;
+    const double width = lines + shrunk * texts;
     double x = place.x + 0.5 * (place.width - width);
     for (const Item& item : items) {
         if (item.line != nullptr) {
@@ -196,10 +237,10 @@ void draw_key(Canvas& canvas, const Rect& place, const Key& key, double points_a
                 for (const double end : {x, x + item.length})
                     canvas.line({{end, middle - 2.0}, {end, middle + 2.0}}, ink, 0.8);
             }
-            x += item.length + 3.0;
+            x += item.length + 3.0 * shrunk;
         }
-        canvas.text({x, middle}, item.text, Across::left, Down::middle, key_text);
-        x += canvas.size_of(item.text, key_text).width + gap;
+        canvas.text({x, middle}, item.text, Across::left, Down::middle, size);
+        x += canvas.size_of(item.text, size).width + gap;
     }
 }
 

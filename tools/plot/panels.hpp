@@ -41,7 +41,7 @@ struct DrawnMoment {
 struct DrawingStyle {
     double magnify = 1.0;  ///< displacements
 };
-/// Specimens side by side at one scale, cracks coloured by mode.
+/// Specimens side by side at one scale, cracks coloured by mode, each on the two faces that it parted.
 /// @param folders  of the moments' tests, which hold the frames' cracks
 Panel drawings(const std::vector<DrawnMoment>& moments, const std::vector<std::filesystem::path>& folders,
                const DrawingStyle& style);
