@@ -137,7 +137,8 @@ Histogram count_breaks(const TestResults& results, double range) {
     const std::vector<double>&strain = *results.events.find("axial_strain"), &shear = *results.events.find("mode");
     for (std::size_t k = 0; k < strain.size(); ++k) {
         const double last = static_cast<double>(intervals - 1);
-        const auto at = static_cast<std::size_t>(std::clamp(std::ceil(strain[k] / histogram.width) - 1.0, 0.0, last));
+        const auto at =
+            static_cast<std::size_t>(std::clamp(std::ceil(strain[k] / histogram.width - 1e-9) - 1.0, 0.0, last));
         ++(shear[k] != 0.0 ? histogram.shear : histogram.tension)[at];
     }
     for (std::size_t k = 0; k < intervals; ++k)
@@ -212,7 +213,8 @@ Panel stress_strain(const std::vector<PlottedTest>& tests) {
         const double left = std::max(Axes::room_left(canvas, upper.y), Axes::room_left(canvas, lower.y));
         const Legend legend(canvas, entries_of(tests), place.width - left - 24.0);
         const double gap = (single ? 1.7 : 0.8) * canvas.style().font_size;  // of one: room for the interval
-        const double top = place.y + std::max(legend.height(), 0.6 * canvas.style().font_size);
+        // The letter of a panel stands beside the frame, where the uppermost number could be.
+        const double top = place.y + std::max(legend.height(), 1.6 * canvas.style().font_size);
         const double bottom = place.bottom() - Axes::room_below(canvas);
         lower.frame = {place.x + left, bottom - strip(place.width) + gap, place.width - left - 4.0,
                        strip(place.width) - gap};
