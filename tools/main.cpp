@@ -8,8 +8,8 @@
 #include <new>
 #include <span>
 
-#include "solver/errors.hpp"
-#include "tools/commands.hpp"
+#include "solver/base/errors.hpp"
+#include "tools/commands/commands.hpp"
 
 int main(int argc, char** argv) {
     using namespace crackle::tools;

@@ -11,8 +11,8 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "solver/base/errors.hpp"
 #include "solver/demseg/deck_reader.hpp"
-#include "solver/errors.hpp"
 
 namespace crackle {
 namespace {

@@ -7,7 +7,7 @@
 #include <iosfwd>
 #include <vector>
 
-#include "solver/scene.hpp"
+#include "solver/scene/scene.hpp"
 
 namespace crackle {
 

@@ -15,8 +15,8 @@
 #include <unordered_set>
 #include <vector>
 
+#include "solver/base/errors.hpp"
 #include "solver/demseg/deck_reader.hpp"
-#include "solver/errors.hpp"
 
 namespace crackle {
 namespace {

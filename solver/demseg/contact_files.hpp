@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <iosfwd>
 
-#include "solver/world.hpp"
+#include "solver/world/world.hpp"
 
 namespace crackle {
 

@@ -15,7 +15,7 @@
 #include <system_error>
 #include <utility>
 
-#include "solver/errors.hpp"
+#include "solver/base/errors.hpp"
 
 namespace crackle {
 namespace {

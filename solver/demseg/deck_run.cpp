@@ -9,13 +9,13 @@
 #include <unordered_map>
 #include <utility>
 
+#include "solver/base/errors.hpp"
+#include "solver/base/replace_file.hpp"
 #include "solver/demseg/contact_files.hpp"
 #include "solver/demseg/deck_reader.hpp"
 #include "solver/demseg/deck_state.hpp"
 #include "solver/demseg/outputs.hpp"
 #include "solver/demseg/random_circles.hpp"
-#include "solver/errors.hpp"
-#include "solver/replace_file.hpp"
 
 namespace crackle {
 namespace {

@@ -15,7 +15,7 @@
 
 #include "solver/demseg/boundary.hpp"
 #include "solver/demseg/geometry.hpp"
-#include "solver/world.hpp"
+#include "solver/world/world.hpp"
 
 namespace crackle {
 

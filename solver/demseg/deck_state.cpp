@@ -10,8 +10,8 @@
 #include <cstring>
 #include <string_view>
 
+#include "solver/base/errors.hpp"
 #include "solver/demseg/deck_reader.hpp"
-#include "solver/errors.hpp"
 
 namespace crackle {
 namespace {

@@ -11,7 +11,7 @@
 #include <filesystem>
 #include <iosfwd>
 
-#include "solver/scene.hpp"
+#include "solver/scene/scene.hpp"
 
 namespace crackle {
 

@@ -12,9 +12,9 @@
 #include <system_error>
 #include <utility>
 
+#include "solver/base/errors.hpp"
+#include "solver/base/replace_file.hpp"
 #include "solver/demseg/contact_files.hpp"
-#include "solver/errors.hpp"
-#include "solver/replace_file.hpp"
 
 namespace crackle {
 namespace {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/world.hpp"
+#include "solver/world/world.hpp"
 
 namespace crackle {
 

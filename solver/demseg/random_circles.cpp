@@ -12,7 +12,7 @@
 #include <random>
 #include <vector>
 
-#include "solver/errors.hpp"
+#include "solver/base/errors.hpp"
 
 namespace crackle {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "solver/vec2.hpp"
+#include "solver/base/vec2.hpp"
 
 namespace crackle {
 

@@ -5,8 +5,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "solver/contact_geometry.hpp"
-#include "solver/point_order.hpp"
+#include "solver/contact/geometry.hpp"
+#include "solver/world/point_order.hpp"
 
 namespace crackle {
 

@@ -10,8 +10,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "solver/world.hpp"
-#include "specimens/test_setup.hpp"
+#include "solver/world/world.hpp"
+#include "specimens/setup/setup.hpp"
 
 namespace crackle {
 

@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "specimens/test_setup.hpp"
+#include "specimens/setup/setup.hpp"
 
 namespace crackle {
 

@@ -8,7 +8,7 @@
 
 #include <string>
 
-#include "solver/world.hpp"
+#include "solver/world/world.hpp"
 
 namespace crackle {
 

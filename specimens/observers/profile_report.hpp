@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "solver/world.hpp"
+#include "solver/world/world.hpp"
 
 namespace crackle {
 

@@ -13,9 +13,9 @@
 #include <numbers>
 #include <unordered_map>
 
+#include "solver/base/errors.hpp"
 #include "solver/demseg/geometry.hpp"
 #include "solver/demseg/read_outputs.hpp"
-#include "solver/errors.hpp"
 #include "specimens/recordings/cell_finder.hpp"
 #include "specimens/recordings/recording.hpp"
 

@@ -7,7 +7,7 @@
 #include <numeric>
 #include <set>
 
-#include "solver/errors.hpp"
+#include "solver/base/errors.hpp"
 
 namespace crackle {
 

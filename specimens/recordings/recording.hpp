@@ -15,8 +15,8 @@
 #include <string>
 #include <vector>
 
-#include "solver/vec2.hpp"
-#include "specimens/results.hpp"
+#include "solver/base/vec2.hpp"
+#include "specimens/recordings/test_results.hpp"
 
 namespace crackle {
 

@@ -8,9 +8,9 @@
 #include <cmath>
 #include <memory>
 
-#include "solver/errors.hpp"
-#include "specimens/observers/frames.hpp"
-#include "specimens/observers/read_frames.hpp"
+#include "solver/base/errors.hpp"
+#include "specimens/frames/frame.hpp"
+#include "specimens/frames/read_frames.hpp"
 #include "specimens/recordings/cell_finder.hpp"
 #include "specimens/recordings/recording.hpp"
 

@@ -13,11 +13,11 @@
 #include <string>
 #include <vector>
 
-#include "solver/world.hpp"
-#include "specimens/catalogue/lattices.hpp"
-#include "specimens/catalogue/materials.hpp"
-#include "specimens/throughput/least_step.hpp"
-#include "specimens/throughput/walls.hpp"
+#include "solver/world/world.hpp"
+#include "specimens/making/lattices.hpp"
+#include "specimens/making/materials.hpp"
+#include "tools/bench/throughput/least_step.hpp"
+#include "tools/bench/throughput/walls.hpp"
 
 namespace crackle {
 namespace {

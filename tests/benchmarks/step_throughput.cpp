@@ -6,9 +6,9 @@
 
 #include <random>
 
-#include "solver/world.hpp"
-#include "specimens/catalogue/lattices.hpp"
-#include "specimens/catalogue/materials.hpp"
+#include "solver/world/world.hpp"
+#include "specimens/making/lattices.hpp"
+#include "specimens/making/materials.hpp"
 
 namespace crackle {
 namespace {

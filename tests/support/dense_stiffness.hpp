@@ -2,5 +2,5 @@
 // The dense stiffness that verification claims use, under the tests' name.
 #pragma once
 
-#include "specimens/verification/dense_stiffness.hpp"
 #include "tests/support/measures.hpp"
+#include "tools/bench/verify/scenes/dense_stiffness.hpp"

@@ -17,9 +17,9 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
-#include "solver/errors.hpp"
-#include "specimens/checkpointing/test_checkpoint.hpp"
-#include "specimens/observers/read_frames.hpp"
+#include "solver/base/errors.hpp"
+#include "specimens/frames/read_frames.hpp"
+#include "specimens/results/checkpoint.hpp"
 
 namespace {
 

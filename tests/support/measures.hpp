@@ -2,7 +2,7 @@
 // The measures that verification claims use, under the tests' name.
 #pragma once
 
-#include "specimens/verification/measures.hpp"
+#include "tools/bench/verify/scenes/measures.hpp"
 
 namespace crackle::testing {
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Takes a page of `crackle report` or `crackle view` apart, by the rules of tools/page_data.hpp and without its code.
+// Takes a page of `crackle report` or `crackle view` apart, by the rules of tools/page/page_data.hpp and without its
+// code.
 #pragma once
 
 #include <fmt/format.h>
@@ -15,7 +16,7 @@
 #include <vector>
 
 #include "solver/demseg/deck_reader.hpp"
-#include "specimens/observers/base64.hpp"
+#include "specimens/frames/base64.hpp"
 
 namespace crackle::testing {
 

@@ -6,7 +6,7 @@
 #include <cstring>
 #include <vector>
 
-#include "solver/world.hpp"
+#include "solver/world/world.hpp"
 
 namespace crackle::testing {
 

@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
-#include "solver/vec2.hpp"
-#include "specimens/observers/frame_painter.hpp"
+#include "solver/base/vec2.hpp"
+#include "specimens/frames/frame_painter.hpp"
 #include "tests/support/vtp_data.hpp"
 
 namespace crackle::testing {

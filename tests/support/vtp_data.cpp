@@ -3,7 +3,7 @@
 
 #include <sstream>
 
-#include "specimens/observers/vtk_polydata.hpp"
+#include "specimens/frames/vtk_polydata.hpp"
 
 namespace crackle::testing {
 namespace {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "solver/vec2.hpp"
+#include "solver/base/vec2.hpp"
 
 namespace crackle::testing {
 

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
-#include "solver/world.hpp"
-#include "specimens/catalogue/disordered.hpp"
+#include "solver/world/world.hpp"
+#include "specimens/making/disordered.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/measures.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every claim of specimens/verification as a test of its name; `crackle bench verify` shows the same rows on a page.
+// Every claim of tools/bench/verify as a test of its name; `crackle bench verify` shows the same rows on a page.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "specimens/verification/claim.hpp"
-#include "specimens/verification/rows.hpp"
+#include "tools/bench/verify/claim.hpp"
+#include "tools/bench/verify/rows.hpp"
 
 namespace crackle::verification {
 

@@ -10,7 +10,7 @@
 #include <fstream>
 #include <numbers>
 
-#include "solver/errors.hpp"
+#include "solver/base/errors.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/deck_files.hpp"
 

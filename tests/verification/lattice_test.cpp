@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The bound on the stable step of a triangular lattice as its derivation has it. Closed forms of lattices and chains:
-// specimens/verification.
+// tools/bench/verify.
 
 #include <algorithm>
 #include <cmath>
 
-#include "specimens/catalogue/lattices.hpp"
+#include "specimens/making/lattices.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/measures.hpp"
 

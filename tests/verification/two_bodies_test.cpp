@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The account of energy, driven bodies and derived steps of one or two bodies. Closed forms: specimens/verification.
+// The account of energy, driven bodies and derived steps of one or two bodies. Closed forms: tools/bench/verify.
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "solver/controls.hpp"
-#include "solver/world.hpp"
+#include "solver/stepping/controls.hpp"
+#include "solver/world/world.hpp"
 #include "tests/support/claim.hpp"
 
 namespace crackle {

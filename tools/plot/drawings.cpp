@@ -10,8 +10,8 @@
 #include <optional>
 #include <unordered_map>
 
-#include "solver/errors.hpp"
-#include "specimens/observers/read_frames.hpp"
+#include "solver/base/errors.hpp"
+#include "specimens/frames/read_frames.hpp"
 #include "tools/plot/axes.hpp"
 #include "tools/plot/panels.hpp"
 

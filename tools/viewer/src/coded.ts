@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Coded arrays (tools/page_data.hpp): numbers n stand for values quantum · n, or with a growth g for
+// Coded arrays (tools/page/page_data.hpp): numbers n stand for values quantum · n, or with a growth g for
 // quantum / g · sinh(g · n), so that small values are told as well as large ones. n are whole numbers stored as differences down the rows, zigzag coded, one plane
 // of bytes after the other (the lowest first). Slow changes give planes of noughts, which zlib packs to almost nothing.
 

@@ -1,0 +1,356 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The contact kernels: one loop over a block of points, compiled for each kind and set of features, picked once a pass.
+
+#include "solver/contact/pass.hpp"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include "solver/contact/batch.hpp"
+#include "solver/contact/geometry.hpp"
+#include "solver/contact/law.hpp"
+#include "solver/contact/opening.hpp"
+
+namespace crackle {
+namespace {
+
+/// Work of the drift that ended here, by the spring's force before it and after it (`now` along the normal, N).
+inline void store_work(SpringWork& work, const World& world, const ContactPoint& point, double now, double closing) {
+    const BodyState &i = world.bodies[point.body_i], &j = world.bodies[point.body_j];
+    const double given_back = work.last.fx * (i.vx - j.vx) + work.last.fy * (i.vy - j.vy) +
+                              work.last.torque_i * i.omega + work.last.torque_j * j.omega;
+    work.stored += 0.5 * world.drift * (now * closing - given_back);
+}
+
+/// Out of contact: no force; what the shear spring still held is lost to the slider.
+template <bool Friction, bool Ledger>
+inline void release(World& world, PointIndex k, BlockLosses& loss, double shear_move) {
+    PointState& state = world.point_states[k];
+    if constexpr (Ledger && Friction)
+        loss.friction += shear_force(world.laws[state.law], world.shear_forces[k], shear_move, 0.0).friction;
+    world.shear_forces[k] = 0.0;
+    state.flags = static_cast<std::uint16_t>(state.flags & ~(point_touching | point_sliding | point_slid));
+}
+
+/// Inverse mass along the normal at the contact position, 1/kg, and the acceleration there in the last kick (closing,
+/// m/s2). A driving force is no part of it: what that costs is in the point's defect.
+template <PointKind K>
+inline void feel_bodies(const World& world, const ContactPoint& point, const ContactGeometry& g, Approach& approach) {
+    const auto add = [&](BodyIndex b, double arm_x, double arm_y, double sense) {
+        const BodyInertia& inertia = world.inertia[b];
+        const BodyForce& force = world.last_forces[b];
+        const double turn = arm_x * g.ny - arm_y * g.nx;
+        approach.inverse_mass += inertia.inverse_mass_x * g.nx * g.nx + inertia.inverse_mass_y * g.ny * g.ny +
+                                 inertia.inverse_moment * turn * turn;
+        approach.acceleration += sense * ((force.fx + inertia.mass * world.gravity.x) * inertia.inverse_mass_x * g.nx +
+                                          (force.fy + inertia.mass * world.gravity.y) * inertia.inverse_mass_y * g.ny +
+                                          force.torque * inertia.inverse_moment * turn);
+    };
+    add(point.body_i, g.aix, g.aiy, 1.0);
+    if constexpr (K != PointKind::element_wall) add(point.body_j, g.ajx, g.ajy, -1.0);
+}
+
+/// Lengths of the arms of two single circles, which lie along the normal, m.
+struct Arms {
+    double i, j;
+};
+inline Arms arms_of_circles(const BodyState& i, const BodyState& j, const ContactGeometry& g) {
+    return {i.shape[0] - 0.5 * g.overlap, j.shape[0] - 0.5 * g.overlap};
+}
+
+/// Slip that ω × a at the end of the drift misses, where the arm is not along the normal: the chord of its turn,
+/// ½ω²Δt·a, in m/s. Left out, a bonded specimen that turns as a whole would collect shear, first order in Δt.
+inline double chord(const World& world, const BodyState& body, double arm_x, double arm_y, const ContactGeometry& g) {
+    return 0.5 * world.drift * body.omega * body.omega * (arm_y * g.nx - arm_x * g.ny);
+}
+
+/// How i moves against j at the contact position, m/s.
+struct Motion {
+    double closing, slipping;  // along the normal and the tangent
+};
+
+template <PointKind K>
+inline Motion relative_motion(const World& world, const ContactPoint& point, const ContactGeometry& g) {
+    const BodyState& i = world.bodies[point.body_i];
+    if constexpr (K == PointKind::element_wall) {
+        const double rx = i.vx - i.omega * g.aiy, ry = i.vy + i.omega * g.aix;
+        return {rx * g.nx + ry * g.ny, ry * g.nx - rx * g.ny + chord(world, i, g.aix, g.aiy, g)};
+    } else {
+        const BodyState& j = world.bodies[point.body_j];
+        double rx = i.vx - j.vx, ry = i.vy - j.vy;
+        if constexpr (K == PointKind::circle_circle) {
+            const Arms arms = arms_of_circles(i, j, g);
+            return {rx * g.nx + ry * g.ny, (ry * g.nx - rx * g.ny) + (i.omega * arms.i + j.omega * arms.j)};
+        }
+        rx -= i.omega * g.aiy - j.omega * g.ajy;
+        ry += i.omega * g.aix - j.omega * g.ajx;
+        double slipping = ry * g.nx - rx * g.ny;
+        slipping += chord(world, i, g.aix, g.aiy, g);
+        slipping -= chord(world, j, g.ajx, g.ajy, g);
+        return {rx * g.nx + ry * g.ny, slipping};
+    }
+}
+
+/// Force of one point into `out`, with all that can happen to it. @param place in its block
+template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Ledger, bool Consistent>
+inline void force_point(World& world, PointIndex k, PointIndex place, PointForce& out, BlockLosses& loss) {
+    const double dt = world.drift;
+    [[maybe_unused]] const double kick = kick_before(world) + 0.5 * world.time_step;
+    ContactPoint& point = world.points[k];
+    PointState& state = world.point_states[k];
+    const ContactGeometry g = contact_geometry<K>(world, point, point.feature_j);
+    const ContactLaw& law = world.laws[state.law];
+    bool bonded = false;
+    if constexpr (Bonds) bonded = (state.flags & point_bonded) != 0;
+
+    const bool holds = bonded ? g.overlap > law.break_overlap : g.overlap > 0.0;
+    if (!holds && !bonded && (state.flags & point_touching) == 0) {
+        if constexpr (Consistent) world.openings[k].overlap = g.overlap;
+        out = {0.0, 0.0, 0.0, 0.0};
+        return;
+    }
+
+    const auto [closing, slipping] = relative_motion<K>(world, point, g);
+
+    [[maybe_unused]] Approach approach{};
+    [[maybe_unused]] double before = 0.0;
+    // A point that overlaps before anything has moved has not been seen to close.
+    [[maybe_unused]] const bool touched = (state.flags & point_touching) != 0 || dt == 0.0;
+    if constexpr (Consistent) {
+        approach = {g.overlap, closing, 0.0, 0.0, law.normal_stiffness, 0.0, dt, kick, world.time_step};
+        if (!bonded) before = settle_opening(world.openings[k], touched, approach);
+    }
+
+    if (!holds) {
+        if constexpr (Consistent) rest_opening(world.openings[k]);
+        if constexpr (Ledger && Damping) {
+            loss.dashpot[place % BlockLosses::places] +=
+                0.5 * dt * (world.normal_dashpot[k] * closing + world.shear_dashpot[k] * slipping);
+            world.normal_dashpot[k] = world.shear_dashpot[k] = 0.0F;
+        }
+        if constexpr (Ledger && by_guide(K)) {
+            SpringWork& work = world.spring_work[k];
+            store_work(work, world, point, 0.0, closing);
+            work.last = {0.0, 0.0, 0.0, 0.0};
+            if (!bonded) {
+                loss.law += work.stored;
+                work.stored = 0.0;
+            }
+        }
+        if (bonded) {
+            state.flags = static_cast<std::uint16_t>((state.flags & ~point_bonded) | point_just_broken);
+            ++loss.broken;
+            // The event needs the springs as they were; record_breaks() releases the point.
+        } else {
+            release<Friction, Ledger>(world, k, loss, slipping * dt);
+        }
+        out = {0.0, 0.0, 0.0, 0.0};
+        return;
+    }
+
+    double normal = law.normal_stiffness * g.overlap;
+    double compression = g.overlap;  // m, what Coulomb's limit goes by
+    if constexpr (Consistent) {
+        if (!bonded) {
+            feel_bodies<K>(world, point, g, approach);
+            if constexpr (Damping) approach.dashpot = normal_damping(law, world.root_masses[k]) * closing;
+            normal = opening_force(world.openings[k], touched, before, approach);
+            compression = normal / law.normal_stiffness;
+        }
+    }
+    if constexpr (Bonds) normal -= law.normal_stiffness * world.bond_overlaps[k];
+    if constexpr (Ledger && by_guide(K)) {
+        SpringWork& work = world.spring_work[k];
+        if (world.initial_energy_taken) {
+            store_work(work, world, point, normal, closing);
+        } else {
+            work.stored = 0.5 * normal * normal / law.normal_stiffness;  // the account begins
+        }
+        const double fx = -normal * g.nx, fy = -normal * g.ny;
+        work.last = {fx, fy, g.aix * fy - g.aiy * fx, g.ajy * fx - g.ajx * fy};
+    }
+    double tangential = 0.0;
+    std::uint16_t flags = static_cast<std::uint16_t>((state.flags | point_touching) & ~point_sliding);
+    bool sliding = !Friction;
+    if constexpr (Friction) {
+        const ShearUpdate shear = shear_force(law, world.shear_forces[k], slipping * dt, compression);
+        sliding = shear.sliding;
+        if (sliding) flags |= point_sliding | point_slid;
+        if constexpr (Ledger) loss.friction += shear.friction;
+        world.shear_forces[k] = shear.force;
+        tangential = shear.force;
+    }
+    state.flags = flags;
+    if constexpr (Bonds) {
+        loss.gained += (flags & point_counted) == 0 ? 1u : 0u;
+        if (bonded) {
+            const double half_strength = 0.5 * law.normal_stiffness * world.bond_overlaps[k];
+            if (normal * normal + tangential * tangential >= half_strength * half_strength) {
+                world.strong_normal[k] = static_cast<float>(normal);
+                world.strong_shear[k] = static_cast<float>(tangential);
+            }
+        }
+    }
+    if constexpr (Damping) {
+        const double normal_dashpot = normal_damping(law, world.root_masses[k]) * closing;
+        const double shear_damper = sliding ? 0.0 : shear_dashpot(law, world.root_masses[k], slipping, compression);
+        if constexpr (Ledger) {
+            loss.dashpot[place % BlockLosses::places] += 0.5 * dt *
+                                                         ((world.normal_dashpot[k] + normal_dashpot) * closing +
+                                                          (world.shear_dashpot[k] + shear_damper) * slipping);
+            world.normal_dashpot[k] = static_cast<float>(normal_dashpot);
+            world.shear_dashpot[k] = static_cast<float>(shear_damper);
+        }
+        normal += normal_dashpot;
+        tangential -= shear_damper;
+    }
+
+    // Force on i: -f_n along the normal (pushed away from j), f_t along the tangent.
+    const double fx = -normal * g.nx - tangential * g.ny;
+    const double fy = -normal * g.ny + tangential * g.nx;
+    if constexpr (K == PointKind::circle_circle) {
+        const Arms arms = arms_of_circles(world.bodies[point.body_i], world.bodies[point.body_j], g);
+        out = {fx, fy, arms.i * tangential, arms.j * tangential};
+    } else {
+        out = {fx, fy, g.aix * fy - g.aiy * fx, g.ajy * fx - g.ajx * fy};
+    }
+}
+
+/// Whether points of a kind are looked at eight at a time.
+template <PointKind K, bool Consistent>
+inline constexpr bool in_batches = (K == PointKind::circle_circle || K == PointKind::element_outline) && !Consistent;
+
+/// Points of a block from k on, as far as batches go. @return the first point left
+template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Ledger, bool Fours>
+CRACKLE_INLINE PointIndex force_batches(World& world, const PointBlock& block, PointIndex k, PointIndex end,
+                                        BlockLosses& loss) {
+    // Geometry first: its roots and divisions then overlap those of the next batches.
+    constexpr PointIndex ahead = 64 / lane_count;
+    if (k + lane_count > end) return k;
+    BatchGeometry geometry[ahead];
+    LawLanes law(world, world.point_states[k].law);
+    while (k + lane_count <= end) {
+        const PointIndex batches = std::min<PointIndex>(ahead, (end - k) / lane_count);
+        geometry_batches<K, Fours>(world, k, batches, geometry);
+        for (PointIndex b = 0; b < batches; ++b, k += lane_count) {
+            const PointIndex place = k - block.begin;
+            PointForce* const out = block.forces + place;
+            if (force_batch<K, Friction, Damping, Bonds, Ledger>(world, k, place, geometry[b], law, out, loss))
+                continue;
+            for (PointIndex l = 0; l < lane_count; ++l)
+                force_point<K, Friction, Damping, Bonds, Ledger, false>(world, k + l, place + l, out[l], loss);
+        }
+    }
+    return k;
+}
+
+template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Ledger, bool Consistent>
+void force_block(World& world, const PointBlock& block) {
+    BlockLosses loss;
+    PointIndex k = block.begin;
+    if constexpr (in_batches<K, Consistent>) {
+        if constexpr (K == PointKind::element_outline)
+            k = force_batches<K, Friction, Damping, Bonds, Ledger, true>(
+                world, block, k, std::min(block.end, std::max(k, world.fours_end)), loss);
+        k = force_batches<K, Friction, Damping, Bonds, Ledger, false>(world, block, k, block.end, loss);
+    }
+    for (; k < block.end; ++k) {
+        const PointIndex place = k - block.begin;
+        force_point<K, Friction, Damping, Bonds, Ledger, Consistent>(world, k, place, block.forces[place], loss);
+    }
+    world.loss_blocks[block.number] = loss.total();
+}
+
+/// Geometry alone, for profiles.
+template <PointKind K>
+void geometry_block(World& world, const PointBlock& block) {
+    PointIndex k = block.begin;
+    if constexpr (in_batches<K, false>) {
+        for (; k + lane_count <= block.end; k += lane_count) {
+            BatchGeometry g[1];
+            geometry_batches<K, false>(world, k, 1, g);
+            asm volatile("" : : "m"(g));
+        }
+    }
+    for (; k < block.end; ++k) {
+        ContactPoint& point = world.points[k];
+        const ContactGeometry g = contact_geometry<K>(world, point, point.feature_j);
+        asm volatile("" : : "m"(g));
+    }
+}
+
+/// The kernel of a set of features, numbered by their bits as force_kernel() does.
+template <PointKind K, std::size_t Features>
+constexpr ForceKernel kernel_of() {
+    constexpr bool friction = (Features & 1) != 0, damping = (Features & 2) != 0, bonds = (Features & 4) != 0;
+    constexpr bool ledger = (Features & 8) != 0, consistent = (Features & 16) != 0 && !by_guide(K);
+    return &force_block<K, friction, damping, bonds, ledger, consistent>;
+}
+
+template <PointKind K, std::size_t... Features>
+constexpr std::array<ForceKernel, 32> kernels_of(std::index_sequence<Features...>) {
+    return {kernel_of<K, Features>()...};
+}
+
+constexpr std::array<std::array<ForceKernel, 32>, point_kinds> kernels{
+    kernels_of<PointKind::circle_circle>(std::make_index_sequence<32>{}),
+    kernels_of<PointKind::element_element>(std::make_index_sequence<32>{}),
+    kernels_of<PointKind::element_outline>(std::make_index_sequence<32>{}),
+    kernels_of<PointKind::disc_segment>(std::make_index_sequence<32>{}),
+    kernels_of<PointKind::segment_segment>(std::make_index_sequence<32>{}),
+    kernels_of<PointKind::element_wall>(std::make_index_sequence<32>{}),
+};
+
+constexpr std::array<ForceKernel, point_kinds> geometry_kernels{
+    &geometry_block<PointKind::circle_circle>,   &geometry_block<PointKind::element_element>,
+    &geometry_block<PointKind::element_outline>, &geometry_block<PointKind::disc_segment>,
+    &geometry_block<PointKind::segment_segment>, &geometry_block<PointKind::element_wall>,
+};
+
+}  // namespace
+
+ContactFeatures features_of(const World& world) {
+    ContactFeatures features{false, false, world.has_bonds, world.ledger_on, !world.openings.empty()};
+    for (const ContactLaw& law : world.laws) {
+        features.friction = features.friction || law.friction > 0.0;
+        features.damping = features.damping || law.normal_damping > 0.0 || law.shear_damping > 0.0 ||
+                           law.normal_damping_ratio_term > 0.0 || law.shear_damping_ratio_term > 0.0;
+    }
+    return features;
+}
+
+PointIndex blocks_of_kind(const World& world, std::size_t kind) {
+    return (world.kind_begin[kind + 1] - world.kind_begin[kind] + block_points - 1) / block_points;
+}
+
+std::size_t first_block_of(const World& world, std::size_t kind) {
+    std::size_t before = 0;
+    for (std::size_t other = 0; other < kind; ++other) before += blocks_of_kind(world, other);
+    return before;
+}
+
+std::size_t block_count(const World& world) { return first_block_of(world, point_kinds); }
+
+PointBlock block_of(const World& world, std::size_t kind, PointIndex block, PointForce* forces) {
+    const PointIndex begin = world.kind_begin[kind] + block * block_points;
+    return {begin, std::min(begin + block_points, world.kind_begin[kind + 1]), first_block_of(world, kind) + block,
+            forces};
+}
+
+ForceKernel force_kernel(const ContactFeatures& features, std::size_t kind) {
+    const std::size_t choice = (features.friction ? 1u : 0u) + (features.damping ? 2u : 0u) +
+                               (features.bonds ? 4u : 0u) + (features.ledger ? 8u : 0u) +
+                               (features.consistent ? 16u : 0u);
+    return kernels[kind][choice];
+}
+
+void geometry_pass(World& world) {
+    for (std::size_t kind = 0; kind < point_kinds; ++kind) {
+        const PointIndex blocks = blocks_of_kind(world, kind);
+#pragma omp for schedule(static) nowait
+        for (PointIndex b = 0; b < blocks; ++b) geometry_kernels[kind](world, block_of(world, kind, b, nullptr));
+    }
+}
+
+}  // namespace crackle

@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/linear/elastic.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/SparseCholesky>
+#include <Eigen/SparseCore>
+#include <Eigen/SparseLU>
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "solver/base/errors.hpp"
+
+namespace crackle {
+namespace {
+
+using Matrix = Eigen::SparseMatrix<double>;
+using Vector = Eigen::VectorXd;
+using Factor = Eigen::SimplicialLDLT<Matrix, Eigen::Lower>;
+
+// In those units; far below the softest mode that carries load, far above rounding.
+constexpr double shift = 1e-12;
+constexpr double free_energy = 1e-9;
+constexpr double residual_goal = 1e-9;
+constexpr int refinements = 20;
+// Projections of random vectors on the free motions: a body that takes part in one is missed by none but by chance.
+constexpr int probes = 3;
+constexpr double taking_part = 1e-6;
+
+/// The free degrees of freedom and the stiffness over them, in units of the bodies' own springs: entries of 1 or less.
+class ScaledSystem {
+  public:
+    ScaledSystem(const World& world, const std::vector<Spring>& springs, const std::vector<bool>& held) {
+        number_.assign(3 * world.bodies.size(), -1);
+        int rows = 0;
+        for (std::size_t b = 0; b < held.size(); ++b) {
+            if (held[b]) continue;
+            for (std::size_t d = 0; d < 3; ++d) number_[3 * b + d] = rows++;
+        }
+        // The diagonal itself would not do: a frictionless disc's own is rounding, and scaled up would pass for
+        // stiffness.
+        std::vector<double> stiffness(world.bodies.size(), 0.0);
+        for (const Spring& s : springs) {
+            stiffness[s.i] += s.stiffness;
+            stiffness[s.j] += s.stiffness;
+        }
+        scale_ = Vector::Ones(rows);
+        for (std::size_t b = 0; b < held.size(); ++b) {
+            if (held[b] || stiffness[b] == 0.0) continue;
+            const double root = std::sqrt(stiffness[b]);
+            scale_[number(b, 0)] = scale_[number(b, 1)] = 1.0 / root;
+            scale_[number(b, 2)] = 1.0 / (root * world.info[b].reach);
+        }
+        assemble(springs, rows);
+    }
+
+    int number(const Spring& s, std::size_t a) const { return number_[3 * std::size_t{a < 3 ? s.i : s.j} + a % 3]; }
+    int number(std::size_t body, int dof) const { return number_[3 * body + static_cast<std::size_t>(dof)]; }
+    double scale(int row) const { return scale_[row]; }
+    bool symmetric() const { return symmetric_; }
+    const Matrix& stiffness() const { return stiffness_; }  // lower triangle where it is symmetric
+    Matrix shifted(double by) const {
+        Matrix identity(stiffness_.rows(), stiffness_.rows());
+        identity.setIdentity();
+        return stiffness_ + by * identity;
+    }
+
+  private:
+    void assemble(const std::vector<Spring>& springs, int rows) {
+        symmetric_ = std::ranges::all_of(springs, &Spring::symmetric);
+        std::vector<Eigen::Triplet<double>> entries;
+        entries.reserve(springs.size() * (symmetric_ ? 21 : 36));
+        for (const Spring& s : springs) {
+            for (std::size_t a = 0; a < 6; ++a) {
+                const int row = number(s, a);
+                if (row < 0) continue;
+                for (std::size_t b = 0; b < 6; ++b) {
+                    const int column = number(s, b);
+                    if (column < 0 || (symmetric_ && column > row)) continue;
+                    entries.emplace_back(row, column,
+                                         s.stiffness * s.push[a] * scale_[row] * s.gradient[b] * scale_[column]);
+                }
+            }
+        }
+        stiffness_.resize(rows, rows);
+        stiffness_.setFromTriplets(entries.begin(), entries.end());
+    }
+
+    std::vector<int> number_;  // per body and degree of freedom: row, -1 where held
+    Vector scale_;             // per row: displacement for a unit of the scaled unknown
+    Matrix stiffness_;
+    bool symmetric_ = true;
+};
+
+template <class Solver>
+void require_factor(const Solver& factor) {
+    if (factor.info() != Eigen::Success)
+        throw InputError("elastic solve: the stiffness matrix could not be factorised; is any body bonded?");
+}
+
+/// @param full K as it acts on a vector
+template <class Solver, class Full>
+Vector refine(const Solver& factor, const Full& full, const Vector& load, double& residual) {
+    require_factor(factor);
+    const double size = load.norm();
+    Vector u = factor.solve(load);
+    Vector rest = load - full * u;
+    for (int k = 0; k < refinements && rest.norm() > 1e-3 * residual_goal * size; ++k) {
+        const Vector better = u + factor.solve(rest);
+        const Vector after = load - full * better;
+        if (!(after.norm() < rest.norm())) break;
+        u = better;
+        rest = after;
+    }
+    residual = size > 0.0 ? rest.norm() / size : 0.0;
+    if (!(residual <= residual_goal)) {
+        throw InputError(
+            fmt::format("elastic solve: found a residual of {:.3g}, expected at most {:.3g}; the specimen's stiffness "
+                        "is too ill-conditioned",
+                        residual, residual_goal));
+    }
+    return u;
+}
+
+Vector solve(const ScaledSystem& system, const Vector& load, double& residual) {
+    const Matrix& stiffness = system.stiffness();
+    if (system.symmetric()) {
+        const Factor factor(system.shifted(shift));
+        return refine(factor, stiffness.selfadjointView<Eigen::Lower>(), load, residual);
+    }
+    Eigen::SparseLU<Matrix> factor;
+    factor.compute(system.shifted(shift));
+    return refine(factor, stiffness, load, residual);
+}
+
+}  // namespace
+
+ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>& prescribed,
+                              const std::vector<Motion>& loads) {
+    if (prescribed.empty()) throw InputError("elastic solve: found no prescribed body, expected at least one platen");
+    ElasticSolution solution;
+    solution.displacement.assign(world.bodies.size(), Motion{});
+    std::vector<bool> held(world.bodies.size(), false);
+    for (const Prescribed& p : prescribed) {
+        held[p.body] = true;
+        solution.displacement[p.body] = p.motion;
+    }
+    const std::vector<Spring> springs = springs_of(world, ClosedPoints::bonded);
+    const ScaledSystem system(world, springs, held);
+    solution.unknowns = system.stiffness().rows();
+    if (solution.unknowns > 0) {
+        Vector load = Vector::Zero(system.stiffness().rows());
+        for (const Spring& s : springs) {
+            const double imposed = times(s, s.gradient, solution.displacement);
+            for (std::size_t a = 0; a < 6; ++a) {
+                const int row = system.number(s, a);
+                if (row >= 0) load[row] -= s.stiffness * imposed * s.push[a] * system.scale(row);
+            }
+        }
+        for (std::size_t b = 0; b < loads.size(); ++b) {
+            const double force[3] = {loads[b].x, loads[b].y, loads[b].rotation};
+            for (int d = 0; d < 3; ++d) {
+                const int row = system.number(b, d);
+                if (row >= 0) load[row] += force[d] * system.scale(row);
+            }
+        }
+        const Vector u = solve(system, load, solution.residual);
+        for (std::size_t b = 0; b < held.size(); ++b) {
+            for (int d = 0; d < 3; ++d) {
+                const int row = system.number(b, d);
+                if (row >= 0) component(solution.displacement[b], d) = u[row] * system.scale(row);
+            }
+        }
+    }
+    std::vector<Motion> force(world.bodies.size());
+    for (const Spring& s : springs) {
+        const double a = times(s, s.gradient, solution.displacement);
+        solution.energy += 0.5 * s.stiffness * a * times(s, s.push, solution.displacement);
+        for (int d = 0; d < 3; ++d) {
+            const auto k = static_cast<std::size_t>(d);
+            component(force[s.i], d) += s.stiffness * a * s.push[k];
+            component(force[s.j], d) += s.stiffness * a * s.push[k + 3];
+        }
+    }
+    for (const Prescribed& p : prescribed) solution.reaction.push_back(force[p.body]);
+    return solution;
+}
+
+FreeMotions find_free_motions(const World& world, const std::vector<BodyIndex>& held_bodies) {
+    std::vector<bool> held(world.bodies.size(), false);
+    for (const BodyIndex b : held_bodies) held[b] = true;
+    const ScaledSystem system(world, symmetric_majorant(world, springs_of(world, ClosedPoints::bonded)), held);
+    FreeMotions free;
+    if (system.stiffness().rows() == 0) return free;
+    Factor factor(system.shifted(-free_energy));
+    require_factor(factor);
+    free.count = (factor.vectorD().array() < 0.0).count();
+    if (free.count == 0) return free;
+    factor.compute(system.shifted(shift));
+    require_factor(factor);
+    std::vector<bool> takes_part(world.bodies.size(), false);
+    std::minstd_rand random(1);
+    for (int n = 0; n < probes; ++n) {
+        Vector z(system.stiffness().rows());
+        for (double& value : z) value = 2.0 * static_cast<double>(random()) / std::minstd_rand::max() - 1.0;
+        z = shift * factor.solve(z);  // leaves what has no energy, and 1e-12 over its energy of the rest
+        z = shift * factor.solve(z);
+        for (std::size_t b = 0; b < held.size(); ++b) {
+            for (int d = 0; d < 3; ++d) {
+                const int row = system.number(b, d);
+                if (row >= 0 && std::abs(z[row]) > taking_part) takes_part[b] = true;
+            }
+        }
+    }
+    for (std::size_t b = 0; b < takes_part.size(); ++b) {
+        if (takes_part[b]) free.bodies.push_back(static_cast<BodyIndex>(b));
+    }
+    return free;
+}
+
+}  // namespace crackle

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/linear/mass_scaled.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace crackle {
+
+MassScaled::MassScaled(const World& world, ClosedPoints which)
+    : springs_(symmetric_majorant(world, springs_of(world, which))) {
+    number_.resize(3 * world.bodies.size(), -1);
+    const auto take = [&](std::size_t dof, double inverse) {
+        if (inverse == 0.0) return;
+        number_[dof] = static_cast<int>(root_.size());
+        root_.push_back(std::sqrt(inverse));
+    };
+    for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+        take(3 * b, world.inertia[b].inverse_mass_x);
+        take(3 * b + 1, world.inertia[b].inverse_mass_y);
+        take(3 * b + 2, world.inertia[b].inverse_moment);
+    }
+}
+
+bool MassScaled::damped() const {
+    return std::any_of(springs_.begin(), springs_.end(), [](const Spring& s) { return s.damping > 0.0; });
+}
+
+MassScaled::Row MassScaled::row_of(const Spring& s) const {
+    Row row{};
+    for (int a = 0; a < 6; ++a) {
+        const BodyIndex body = a < 3 ? s.i : s.j;
+        row.number[a] = body == no_body ? -1 : number_[3 * std::size_t{body} + static_cast<std::size_t>(a % 3)];
+        if (row.number[a] >= 0)
+            row.value[a] = s.push[static_cast<std::size_t>(a)] * root_[static_cast<std::size_t>(row.number[a])];
+    }
+    return row;
+}
+
+MassScaled::Matrix MassScaled::matrix(double damping_share, double stiffness_share) const {
+    std::vector<Eigen::Triplet<double>> entries;
+    entries.reserve(springs_.size() * 21);
+    for (const Spring& s : springs_) {
+        const Row row = row_of(s);
+        const double weight = damping_share * s.damping + stiffness_share * s.stiffness;
+        for (int a = 0; a < 6; ++a) {
+            for (int b = 0; b < 6; ++b) {
+                if (row.number[a] < 0 || row.number[b] < 0 || row.number[b] > row.number[a]) continue;
+                entries.emplace_back(row.number[a], row.number[b], weight * row.value[a] * row.value[b]);
+            }
+        }
+    }
+    Matrix matrix(size(), size());
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    return matrix;
+}
+
+MassScaled::Quotient MassScaled::quotient(const Vector& x) const {
+    Quotient q{0.0, 0.0};
+    for (const Spring& s : springs_) {
+        const Row row = row_of(s);
+        double stretch = 0.0;
+        for (int a = 0; a < 6; ++a) stretch += row.number[a] < 0 ? 0.0 : row.value[a] * x[row.number[a]];
+        q.damping += s.damping * stretch * stretch;
+        q.stiffness += s.stiffness * stretch * stretch;
+    }
+    const double length = x.squaredNorm();
+    return {q.damping / length, q.stiffness / length};
+}
+
+std::vector<Motion> MassScaled::motion(const Vector& x) const {
+    std::vector<Motion> motions(number_.size() / 3);
+    const double largest = x.cwiseAbs().maxCoeff();
+    const auto component = [&](std::size_t dof) {
+        const int n = number_[dof];
+        return n < 0 ? 0.0 : x[n] * root_[static_cast<std::size_t>(n)] / largest;
+    };
+    for (std::size_t b = 0; b < motions.size(); ++b)
+        motions[b] = {component(3 * b), component(3 * b + 1), component(3 * b + 2)};
+    return motions;
+}
+
+}  // namespace crackle

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Springs and dashpots of a world in mass-scaled coordinates x = M^½ u: M^-½ K M^-½ and M^-½ C M^-½, held degrees of
+// freedom left out (under the guide's law K by its symmetric majorant). What the exact stable step and the vibration
+// modes are found from.
+#pragma once
+
+#include <Eigen/SparseCore>
+#include <vector>
+
+#include "solver/linear/elastic.hpp"
+#include "solver/linear/springs.hpp"
+
+namespace crackle {
+
+class MassScaled {
+  public:
+    using Matrix = Eigen::SparseMatrix<double>;
+    using Vector = Eigen::VectorXd;
+
+    MassScaled(const World& world, ClosedPoints which);
+
+    Eigen::Index size() const { return static_cast<Eigen::Index>(root_.size()); }
+    bool damped() const;
+
+    /// damping_share·M^-½CM^-½ + stiffness_share·M^-½KM^-½, lower triangle.
+    Matrix matrix(double damping_share, double stiffness_share) const;
+
+    struct Quotient {
+        double damping, stiffness;  ///< xᵀM^-½CM^-½x/xᵀx, 1/s; the same of K, 1/s2
+    };
+    Quotient quotient(const Vector& x) const;
+
+    /// u = M^-½ x per body, the largest component of x taken for 1.
+    std::vector<Motion> motion(const Vector& x) const;
+
+  private:
+    struct Row {
+        int number[6];
+        double value[6];
+    };
+    Row row_of(const Spring& spring) const;
+
+    std::vector<Spring> springs_;
+    std::vector<int> number_;   // per body and degree of freedom: row, -1 where held
+    std::vector<double> root_;  // per row: M^-½
+};
+
+}  // namespace crackle

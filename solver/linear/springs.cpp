@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/linear/springs.hpp"
+
+#include <cmath>
+
+#include "solver/contact/law.hpp"
+
+namespace crackle {
+namespace {
+
+bool closed(const World& world, const PointView& view, ClosedPoints which) {
+    switch (which) {
+        case ClosedPoints::bonded:
+            return world.has_bonds ? view.bonded : view.touching;
+        case ClosedPoints::touching:
+            return view.touching;
+        case ClosedPoints::listed:
+            break;
+    }
+    return true;
+}
+
+}  // namespace
+
+double times(const Spring& s, const OverlapGradient& row, const std::vector<Motion>& u) {
+    double sum = 0.0;
+    for (int d = 0; d < 3; ++d) {
+        const auto k = static_cast<std::size_t>(d);
+        sum += row[k] * component(u[s.i], d);
+        if (s.j != no_body) sum += row[k + 3] * component(u[s.j], d);
+    }
+    return sum;
+}
+
+double scaled_square(const World& world, const OverlapGradient& row, BodyIndex i, BodyIndex j) {
+    const auto half = [&](BodyIndex body, std::size_t d) {
+        if (body == no_body) return 0.0;
+        const BodyInertia& m = world.inertia[body];
+        return m.inverse_mass_x * row[d] * row[d] + m.inverse_mass_y * row[d + 1] * row[d + 1] +
+               m.inverse_moment * row[d + 2] * row[d + 2];
+    };
+    return half(i, 0) + half(j, 3);
+}
+
+std::vector<Spring> symmetric_majorant(const World& world, const std::vector<Spring>& springs) {
+    std::vector<Spring> result;
+    result.reserve(springs.size());
+    for (const Spring& s : springs) {
+        const double push = scaled_square(world, s.push, s.i, s.j),
+                     gradient = scaled_square(world, s.gradient, s.i, s.j);
+        if (s.symmetric() || push == 0.0 || gradient == 0.0) {
+            result.push_back(s);  // a product with a motion that cannot be is nothing
+            result.back().gradient = s.push;
+            continue;
+        }
+        const double share = std::sqrt(gradient / push);
+        Spring half = s;
+        half.stiffness = 0.5 * s.stiffness * share;
+        half.gradient = s.push;
+        result.push_back(half);
+        half.stiffness = 0.5 * s.stiffness / share;
+        half.damping = 0.0;
+        half.push = half.gradient = s.gradient;
+        result.push_back(half);
+    }
+    return result;
+}
+
+std::vector<Spring> springs_of(const World& world, ClosedPoints which) {
+    std::vector<Spring> springs;
+    const PointIndex walls = world.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
+    const auto count = which == ClosedPoints::bonded ? walls : static_cast<PointIndex>(world.points.size());
+    for (PointIndex k = 0; k < count; ++k) {
+        const PointView v = view_point(world, k);
+        if (!closed(world, v, which)) continue;
+        const ContactLaw& law = world.laws[world.point_states[k].law];
+        const double root_mass = world.root_masses[k];
+        const auto add = [&](bool shear, double stiffness, double damping, const OverlapGradient& push,
+                             const OverlapGradient& gradient) {
+            if (stiffness == 0.0 && damping == 0.0) return;
+            springs.push_back({v.body_i, k < walls ? v.body_j : no_body, k, shear, stiffness, damping, push, gradient});
+        };
+        const OverlapGradient along = approach(v.normal, v.arm_i, v.arm_j),
+                              across = approach(perpendicular(v.normal), v.arm_i, v.arm_j);
+        add(false, v.normal_stiffness, normal_damping(law, root_mass), along, v.overlap_gradient);
+        // A frictionless point slides at once: neither its shear spring nor its dashpot ever acts.
+        if (v.friction > 0.0) add(true, v.shear_stiffness, shear_damping(law, root_mass), across, across);
+    }
+    return springs;
+}
+
+}  // namespace crackle

@@ -1,0 +1,493 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Guaranteed bound on the stable step, from per-body blocks.
+//
+// Leapfrog with the lagged dashpot is stable while 4M - 2Δt·C - Δt²·K is positive definite. Every point contributes
+// ½k(a_i - a_j)² to the energy, a the displacement of each body's material at the point, and for any α > 0
+// (a_i - a_j)² <= (1 + α)a_i² + (1 + 1/α)a_j² (<= a_i² where the partner is held), so K and C are bounded by
+// block-diagonal matrices K_b and C_b. For K, α = w_j/w_i, the ratio of two weights; for C its root, as dashpots go by
+// the root of stiffness. With the bodies' own scaled stiffnesses for weights a light sliver pays hardly anything for
+// its heavy neighbours and equal bodies share by halves; a few rounds that raise the weight of the bodies that limit
+// bring the bound nearer to the exact step. With κ and γ the largest eigenvalues of M^-½ K_b M^-½ and M^-½ C_b M^-½,
+// body b is stable below (sqrt(γ² + 4κ) - γ)/κ; the bound is the least of these. One spring and dashpot against a wall
+// gives the guide's 2 sqrt(m/k)(sqrt(h²+1) - h) exactly.
+//
+// Under the guide's law a point pushes along b (its resultant at its place) while its overlap answers to g = ∇δ, so its
+// stiffness is k b gᵀ: unsymmetric, and up to four times k. Every eigenvalue λ of such a sum obeys |λ| <= max |u*Ku| <=
+// that of Σ ½k(s bbᵀ + ggᵀ/s), any s > 0, taken as |g|/|b| in the scaled norm. That sum enters the bound, and every
+// listed disc not yet in contact as a spring of its own. So the bound holds for all real eigenvalues; a complex pair
+// would be flutter, energy that the law itself makes, which no step is short enough for (on the guide's rock such pairs
+// grow by at most 40 a second, dashpots of ratio 0.2 take 9000). Slopes are those of the present: deep on (iii),
+// |α| < t/4, a disc's may grow to 1.5 times what an idle one counts, against the share a derived step leaves.
+//
+// In a bonded world those points count that carry load; one that comes to carry load later is found by the contact
+// pass, and only its two bodies are looked at again. In a world without bonds all points within the common skin count,
+// under the guide's law all listed ones, and a body without points counts one against a wall. Geometry is that of the
+// last evaluation, at the latest when the list was built: since then nothing has moved by more than its half skin.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "solver/base/errors.hpp"
+#include "solver/contact/geometry.hpp"
+#include "solver/contact/law.hpp"
+#include "solver/linear/critical_step.hpp"
+#include "solver/linear/springs.hpp"
+#include "solver/world/world.hpp"
+
+namespace crackle {
+namespace {
+
+/// Symmetric 3 by 3 matrix of a body's scaled degrees of freedom (x, y, rotation).
+struct Block {
+    double xx = 0.0, yy = 0.0, rr = 0.0, xy = 0.0, xr = 0.0, yr = 0.0;
+
+    /// Adds s·vvᵀ.
+    void add(double s, double x, double y, double r) {
+        if (s == 0.0) return;  // no damping, say
+        xx += s * x * x;
+        yy += s * y * y;
+        rr += s * r * r;
+        xy += s * x * y;
+        xr += s * x * r;
+        yr += s * y * r;
+    }
+};
+
+/// Largest eigenvalue by Cardano's formula for symmetric matrices (Smith 1961), raised by its rounding.
+double largest_eigenvalue(const Block& m) {
+    const double off = m.xy * m.xy + m.xr * m.xr + m.yr * m.yr;
+    const double mean = (m.xx + m.yy + m.rr) / 3.0;
+    const double dx = m.xx - mean, dy = m.yy - mean, dr = m.rr - mean;
+    const double p = std::sqrt((dx * dx + dy * dy + dr * dr + 2.0 * off) / 6.0);
+    if (p == 0.0) return mean;
+    const double half_det =
+        (dx * (dy * dr - m.yr * m.yr) - m.xy * (m.xy * dr - m.yr * m.xr) + m.xr * (m.xy * m.yr - dy * m.xr)) /
+        (2.0 * p * p * p);
+    const double angle = std::acos(std::clamp(half_det, -1.0, 1.0)) / 3.0;
+    return (mean + 2.0 * p * std::cos(angle)) * (1.0 + 1e-12);
+}
+
+/// Largest eigenvalue from above, at the price of one square root: the formula's cosine is at most 1.
+double eigenvalue_at_most(const Block& m) {
+    const double off = m.xy * m.xy + m.xr * m.xr + m.yr * m.yr;
+    const double mean = (m.xx + m.yy + m.rr) / 3.0;
+    const double dx = m.xx - mean, dy = m.yy - mean, dr = m.rr - mean;
+    return (mean + 2.0 * std::sqrt((dx * dx + dy * dy + dr * dr + 2.0 * off) / 6.0)) * (1.0 + 1e-11);
+}
+
+struct BodyBlocks {
+    Block stiffness, damping;
+};
+
+/// Square roots of a body's inverse masses.
+struct Roots {
+    double x, y, r;
+};
+
+Roots roots_of(const BodyInertia& inertia) {
+    return {std::sqrt(inertia.inverse_mass_x), std::sqrt(inertia.inverse_mass_y), std::sqrt(inertia.inverse_moment)};
+}
+
+/// Where a point acts.
+struct PointArms {
+    Vec2 normal, arm_i, arm_j;
+};
+
+/// One side of a point, scaled by the roots: rows of its normal n and of the tangent, at `arm` from the centroid.
+struct Side {
+    double nx, ny, nr, tx, ty, tr;
+};
+
+Side side_of(const Roots& roots, Vec2 n, Vec2 arm) {
+    const Vec2 t = perpendicular(n);
+    return {roots.x * n.x, roots.y * n.y, roots.r * cross(arm, n),
+            roots.x * t.x, roots.y * t.y, roots.r * cross(arm, t)};
+}
+
+/// @param normal false where the normal stiffness comes by rows (the guide's law)
+void add_stiffness(Block& block, const Side& side, const ContactLaw& law, double share, bool normal) {
+    if (normal) block.add(share * law.normal_stiffness, side.nx, side.ny, side.nr);
+    if (law.friction > 0.0) block.add(share * law.shear_stiffness, side.tx, side.ty, side.tr);
+}
+
+void add_damping(Block& block, const Side& side, const ContactLaw& law, double root_mass, double share) {
+    block.add(share * normal_damping(law, root_mass), side.nx, side.ny, side.nr);
+    if (law.friction > 0.0) block.add(share * shear_damping(law, root_mass), side.tx, side.ty, side.tr);
+}
+
+void add_side(BodyBlocks& blocks, const Side& side, const ContactLaw& law, double root_mass, double share,
+              bool normal = true) {
+    add_stiffness(blocks.stiffness, side, law, share, normal);
+    add_damping(blocks.damping, side, law, root_mass, 1.0 + std::sqrt(share - 1.0));
+}
+
+bool held(const BodyInertia& inertia) {
+    return inertia.inverse_mass_x == 0.0 && inertia.inverse_mass_y == 0.0 && inertia.inverse_moment == 0.0;
+}
+
+/// (sqrt(c² + 4k) - c)/k, written without the cancellation.
+double stable_step_of(double k, double c) {
+    return k > 0.0 ? 4.0 / (std::sqrt(c * c + 4.0 * k) + c) : std::numeric_limits<double>::infinity();
+}
+
+/// The least stable step so far and its body.
+struct Least {
+    double bound = std::numeric_limits<double>::infinity();
+    BodyIndex body = 0;
+
+    /// Most bodies are let off after the cheap estimate.
+    void lower_to(const BodyBlocks& blocks, BodyIndex b) {
+        if (stable_step_of(eigenvalue_at_most(blocks.stiffness), eigenvalue_at_most(blocks.damping)) >= bound) return;
+        const double exact = stable_step_of(largest_eigenvalue(blocks.stiffness), largest_eigenvalue(blocks.damping));
+        if (exact < bound) *this = {exact, b};
+    }
+};
+
+/// 1 + α for a side of weight w against that of its partner (0: held); a side that cannot move along the point adds
+/// nothing.
+double share_of(double own, double partner) { return own > 0.0 ? 1.0 + partner / own : 1.0; }
+
+bool with_wall(const World& world, PointIndex k) {
+    return k >= world.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
+}
+
+PointArms arms_of(const ContactGeometry& g) { return {{g.nx, g.ny}, {g.aix, g.aiy}, {g.ajx, g.ajy}}; }
+
+bool has_rows(const World& world, PointIndex k) {
+    return k >= world.kind_begin[static_cast<std::size_t>(PointKind::disc_segment)] && !with_wall(world, k);
+}
+
+/// Normal stiffness of points under the guide's law.
+std::vector<Spring> guide_rows(const World& world) {
+    std::vector<Spring> touching;
+    std::vector<Spring> rows;
+    const PointIndex walls = world.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
+    for (PointIndex k = world.kind_begin[static_cast<std::size_t>(PointKind::disc_segment)]; k < walls; ++k) {
+        const PointView v = view_point(world, k);
+        if (v.touching) {
+            touching.push_back({v.body_i, v.body_j, k, false, v.normal_stiffness, 0.0,
+                                approach(v.normal, v.arm_i, v.arm_j), v.overlap_gradient});
+        }
+        for (const OverlapGradient& row : idle_discs(world, v.kind, world.points[k]))
+            rows.push_back({v.body_i, v.body_j, k, false, v.normal_stiffness, 0.0, row, row});
+    }
+    for (const Spring& row : symmetric_majorant(world, touching)) rows.push_back(row);
+    return rows;
+}
+
+void add_row(Block& block, const Roots& roots, const Spring& row, bool second, double share) {
+    const std::size_t d = second ? 3 : 0;
+    block.add(share * row.stiffness, roots.x * row.push[d], roots.y * row.push[d + 1], roots.r * row.push[d + 2]);
+}
+
+/// Adds a point's share to body b, one of its two.
+void add_point(BodyBlocks& blocks, const World& world, const std::vector<double>& weights, PointIndex k, BodyIndex b,
+               const Roots& roots, const PointArms& arms) {
+    const ContactPoint& point = world.points[k];
+    const bool first = b == point.body_i;
+    const double partner = first && with_wall(world, k) ? 0.0 : weights[first ? point.body_j : point.body_i];
+    add_side(blocks, side_of(roots, arms.normal, first ? arms.arm_i : arms.arm_j),
+             world.laws[world.point_states[k].law], world.root_masses[k], share_of(weights[b], partner),
+             !has_rows(world, k));
+}
+
+/// What a body without points is stable with: the first thing it meets, a circle head-on or a corner at the longest
+/// lever it has.
+void lower_to_first_meeting(Least& least, const World& world, BodyIndex b) {
+    const BodyInfo& info = world.info[b];
+    const Roots roots = roots_of(world.inertia[b]);
+    const ContactLaw& law = world.laws[world.materials.size() * world.materials.size() + info.material];
+    const Vec2 along{info.reach, 0.0};
+    const double root_mass = std::sqrt(world.inertia[b].mass);
+    BodyBlocks head_on;
+    add_side(head_on, side_of(roots, {1.0, 0.0}, along), law, root_mass, 1.0);
+    least.lower_to(head_on, b);
+    if (info.single_circle) return;
+    BodyBlocks corner;
+    add_side(corner, side_of(roots, {0.0, 1.0}, along), law, root_mass, 1.0);
+    least.lower_to(corner, b);
+}
+
+/// What does not change from round to round.
+struct Surroundings {
+    std::vector<Spring> rows;
+    std::vector<bool> met;  // by body: has a point
+};
+
+Surroundings surroundings_of(const World& world) {
+    Surroundings all{guide_rows(world), std::vector<bool>(world.bodies.size())};
+    for (PointIndex k = 0; k < world.points.size(); ++k) {
+        all.met[world.points[k].body_i] = true;
+        if (!with_wall(world, k)) all.met[world.points[k].body_j] = true;
+    }
+    return all;
+}
+
+/// Blocks of all bodies from the points that count. Geometry is found anew in each round: kept, it would be as much
+/// memory as all that points remember. @param counts  asked with each point and its overlap, m
+template <class Counts>
+std::vector<BodyBlocks> blocks_of(const World& world, const std::vector<double>& weights,
+                                  const std::vector<Spring>& rows, Counts counts) {
+    std::vector<BodyBlocks> blocks(world.bodies.size());
+    visit_kinds(world.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
+        for (PointIndex k = begin; k < end; ++k) {
+            const ContactPoint& point = world.points[k];
+            std::uint32_t feature = point.feature_j;
+            const ContactGeometry g = contact_geometry<K>(world, point, feature);
+            if (!counts(k, g.overlap)) continue;
+            const auto add = [&](BodyIndex b) {
+                if (held(world.inertia[b])) return;
+                add_point(blocks[b], world, weights, k, b, roots_of(world.inertia[b]), arms_of(g));
+            };
+            add(point.body_i);
+            if constexpr (K != PointKind::element_wall) add(point.body_j);
+        }
+    });
+    for (const Spring& row : rows) {
+        const auto add = [&](BodyIndex b, BodyIndex partner, bool second) {
+            if (held(world.inertia[b])) return;
+            add_row(blocks[b].stiffness, roots_of(world.inertia[b]), row, second,
+                    share_of(weights[b], weights[partner]));
+        };
+        add(row.i, row.j, false);
+        add(row.j, row.i, true);
+    }
+    return blocks;
+}
+
+constexpr auto every_point = [](PointIndex, double) { return true; };
+
+/// Every free body's own scaled stiffness over all listed points, held bodies 0.
+std::vector<double> first_weights(const World& world, const std::vector<Spring>& rows) {
+    const std::vector<double> alone(world.bodies.size(), 0.0);  // every share 1
+    std::vector<double> weights;
+    weights.reserve(alone.size());
+    for (const BodyBlocks& block : blocks_of(world, alone, rows, every_point))
+        weights.push_back(largest_eigenvalue(block.stiffness));
+    return weights;
+}
+
+Least least_of(const World& world, const std::vector<BodyBlocks>& blocks, const std::vector<bool>& met) {
+    Least least;
+    for (BodyIndex b = 0; b < blocks.size(); ++b) {
+        if (held(world.inertia[b])) continue;
+        least.lower_to(blocks[b], b);
+        if (!met[b]) lower_to_first_meeting(least, world, b);
+    }
+    return least;
+}
+
+// On the guide's three specimens more rounds raise the bound by less than 1 %.
+constexpr int weight_rounds = 12;
+// Rounds go on while three of them raise the bound by this share of it.
+constexpr double worth_three_rounds = 5e-4;
+// By how much a bound may differ from that of the last search and count as the same.
+constexpr double unchanged = 2e-3;
+// No weight falls below this share of its first value: a point that comes to carry load later between a body that was
+// let off and one that was not would cost the latter all the more.
+constexpr double lowest_weight_share = 0.125;
+// How far a list may differ in length from the one that weights were found for.
+constexpr double like_list = 0.01;
+
+/// Whether there are weights from before for all bodies that can move and meet something: without, they would count as
+/// held.
+bool weighed_before(const World& world, const std::vector<bool>& met) {
+    if (world.step_weights.size() != met.size()) return false;
+    for (std::size_t b = 0; b < met.size(); ++b)
+        if (met[b] && !held(world.inertia[b]) && !(world.step_weights[b] > 0.0)) return false;
+    return true;
+}
+
+/// What a derived step asks of the bound, or a given one.
+double enough_for(const World& world) {
+    if (!world.automatic_step) return world.time_step;
+    return world.has_bonds ? world.step_goal : world.time_step * world.safety_factor / derived_step_share(world);
+}
+
+/// Whether the last search for weights, on a list like this one, has not reached what the step asks for: then
+/// another one is worth its time only where the bound has changed.
+bool searched_in_vain(const World& world, double enough) {
+    const auto listed = static_cast<double>(world.points.size()), then = static_cast<double>(world.weighed_points);
+    return world.weighed_bound < enough && std::abs(listed - then) <= like_list * then;
+}
+
+/// Raises the weight of the bodies that limit against those that do not, until the bound is enough; keeps the best
+/// round in World::step_weights. The first round has the weights found last, which as a rule do.
+template <class Counts>
+Least raised(World& world, const Surroundings& all, Counts counts) {
+    const double enough = enough_for(world);
+    const bool warm = enough > 0.0 && weighed_before(world, all.met);
+    const bool in_vain = warm && searched_in_vain(world, enough);
+    std::vector<double> first;
+    if (!warm) first = first_weights(world, all.rows);
+    std::vector<double> trial = warm ? world.step_weights : first;
+    Least best;
+    best.bound = 0.0;
+    std::array<double, weight_rounds> reached{};
+    for (int round = 0; round < weight_rounds; ++round) {
+        const std::vector<BodyBlocks> blocks = blocks_of(world, trial, all.rows, counts);
+        const Least least = least_of(world, blocks, all.met);
+        if (least.bound > best.bound) {
+            best = least;
+            world.step_weights = trial;
+        }
+        const auto now = static_cast<std::size_t>(round);
+        reached[now] = best.bound;
+        if (best.bound >= enough) break;
+        if (!world.has_bonds) {  // they take a small share of it anyway: their own weights do
+            if (round > 0 || !warm) break;
+            trial = first = first_weights(world, all.rows);
+            continue;
+        }
+        if (in_vain && round == 0 && std::abs(best.bound - world.weighed_bound) <= unchanged * best.bound) return best;
+        if (round >= 3 && best.bound < (1.0 + worth_three_rounds) * reached[now - 3]) break;
+        if (first.empty()) first = first_weights(world, all.rows);
+        for (std::size_t b = 0; b < trial.size(); ++b) {
+            const double step =
+                stable_step_of(eigenvalue_at_most(blocks[b].stiffness), eigenvalue_at_most(blocks[b].damping));
+            trial[b] = std::max(trial[b] * least.bound / step, lowest_weight_share * first[b]);
+        }
+    }
+    world.weighed_bound = best.bound;
+    world.weighed_points = world.has_bonds ? world.points.size() : 0;
+    return best;
+}
+
+}  // namespace
+
+/// As loose_step_share, of the consistent integrator: ten discs among walls have a largest closing error of 1.9 %, most
+/// of it what the ledger's mean velocities miss in closed contacts and give back. It is stable up to the bound.
+constexpr double consistent_step_share = 0.2;
+
+double derived_step_share(const World& world) {
+    const bool bonded = world.has_bonds && world.bonds_initial > 0;
+    const double loose = world.integrator == Integrator::consistent ? consistent_step_share : loose_step_share;
+    return world.step_scale * (bonded ? world.safety_factor : std::min(world.safety_factor, loose));
+}
+
+double stable_step_bound(const World& world, BodyIndex* limiting) {
+    const Surroundings all = surroundings_of(world);
+    const std::vector<double> weights = first_weights(world, all.rows);
+    const Least least = least_of(world, blocks_of(world, weights, all.rows, every_point), all.met);
+    if (limiting != nullptr && std::isfinite(least.bound)) *limiting = least.body;
+    return least.bound;
+}
+
+void evaluate_step_bound(World& world) {
+    const PhaseTimer timer(world.profile, Phase::step_bound);
+    // Of loose bodies those that the common skin lists: a fast body's own is wider, but that is no reason for a lower
+    // step.
+    const bool by_guide = world.segment_law != SegmentLaw::rounded;
+    const double least_overlap = by_guide || (!world.has_bonds && world.widest_skin == 0.0)
+                                     ? -std::numeric_limits<double>::infinity()
+                                 : world.has_bonds ? 0.0
+                                                   : -world.widest_skin;
+    const auto counts = [&](PointIndex k, double overlap) {
+        std::uint16_t& flags = world.point_states[k].flags;
+        const bool counted = (flags & point_bonded) != 0 || overlap > least_overlap;
+        flags = static_cast<std::uint16_t>(counted ? flags | point_counted : flags & ~point_counted);
+        return counted;
+    };
+    const Least least = raised(world, surroundings_of(world), counts);
+    world.step_bound = least.bound;
+    world.limiting_body = least.body;
+    keep_step_below_bound(world);
+}
+
+void count_new_points(World& world) {
+    const PhaseTimer timer(world.profile, Phase::step_bound);
+    constexpr std::size_t most = 64;
+    static_assert(most < std::numeric_limits<decltype(world.marks)::value_type>::max());
+    std::array<BodyIndex, most> gaining{};  // their marks are 1 and on
+    std::size_t count = 0, uncounted = 0;
+    const auto gains = [&](BodyIndex b) {
+        if (held(world.inertia[b]) || world.marks[b] != 0) return;
+        if (count == most) {
+            ++uncounted;
+            return;
+        }
+        gaining[count++] = b;
+        world.marks[b] = static_cast<std::uint8_t>(count);
+    };
+    for (PointIndex k = 0; k < world.points.size(); ++k) {
+        std::uint16_t& flags = world.point_states[k].flags;
+        if ((flags & (point_touching | point_counted)) != point_touching) continue;
+        flags = static_cast<std::uint16_t>(flags | point_counted);
+        gains(world.points[k].body_i);
+        if (!with_wall(world, k)) gains(world.points[k].body_j);
+    }
+
+    // Blocks of these bodies from all their counted points.
+    std::array<BodyBlocks, most> blocks{};
+    const auto add = [&](PointIndex k, BodyIndex b) {
+        if (world.marks[b] == 0) return;
+        add_point(blocks[world.marks[b] - std::size_t{1}], world, world.step_weights, k, b, roots_of(world.inertia[b]),
+                  arms_of(geometry_at(world, k)));
+    };
+    for (PointIndex k = 0; k < world.points.size(); ++k) {
+        if ((world.point_states[k].flags & point_counted) == 0) continue;
+        add(k, world.points[k].body_i);
+        if (!with_wall(world, k)) add(k, world.points[k].body_j);
+    }
+    Least least{world.step_bound, world.limiting_body};
+    for (std::size_t n = 0; n < count; ++n) {
+        least.lower_to(blocks[n], gaining[n]);
+        world.marks[gaining[n]] = 0;
+    }
+    if (uncounted > 0) return evaluate_step_bound(world);
+    if (least.bound >= world.step_bound) return;
+    if (world.step_scale * least.bound < world.time_step)
+        return evaluate_step_bound(world);  // with weights that suit the new points
+    world.step_bound = least.bound;
+    world.limiting_body = least.body;
+}
+
+void keep_step_below_bound(World& world) {
+    if (world.automatic_step) {
+        const bool bonded = world.has_bonds && world.bonds_initial > 0;
+        if (bonded && world.step_goal > 0.0) {
+            world.time_step = world.step_scale * std::min(world.step_goal, world.step_bound);
+        } else {
+            const double share = derived_step_share(world);
+            if (world.time_step > share / world.safety_factor * world.step_bound)
+                world.time_step = share * world.step_bound;
+        }
+        return;
+    }
+    if (world.allow_unstable || world.time_step <= world.step_bound) return;
+    // Among bonds a given step may lie between the bound and the exact limit: of all listed points if that reaches, so
+    // that nothing more is asked until the list is rebuilt, or of those that touch. Loose bodies in collision would not
+    // bear it.
+    for (const ClosedPoints which : {ClosedPoints::listed, ClosedPoints::touching}) {
+        if (!world.has_bonds) break;
+        if (!stable_at(world, which, world.time_step)) continue;
+        world.step_bound = world.time_step;
+        if (which == ClosedPoints::listed) {
+            for (PointState& point : world.point_states)
+                point.flags = static_cast<std::uint16_t>(point.flags | point_counted);
+        }
+        return;
+    }
+    if (world.has_bonds)
+        world.step_bound = std::max(world.step_bound, critical_step(world, ClosedPoints::touching).step);
+    throw UnstableRun(
+        world.step, world.info[world.limiting_body].id,
+        fmt::format("the time step, {:.6g} s, is above the stable bound, which fell to {:.6g} s as contacts came "
+                    "about at this body; give a smaller one, leave it out (0 in a deck) to have it chosen, or run "
+                    "with --allow-unstable",
+                    world.time_step, world.step_bound));
+}
+
+void set_time_step(World& world, double time_step) {
+    world.automatic_step = false;
+    world.step_goal = 0.0;
+    world.time_step = time_step;
+    keep_step_below_bound(world);
+}
+
+}  // namespace crackle

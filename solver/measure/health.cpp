@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Stops a run that has gone wrong, naming the step, the body and the likely cause.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solver/base/errors.hpp"
+#include "solver/world/outside.hpp"
+#include "solver/world/world.hpp"
+
+namespace crackle {
+namespace {
+
+bool finite(const BodyState& b) {
+    return std::isfinite(b.x) && std::isfinite(b.y) && std::isfinite(b.vx) && std::isfinite(b.vy) &&
+           std::isfinite(b.omega) && std::isfinite(b.angle);
+}
+
+void check_bodies(const World& world) {
+    for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+        const BodyState& body = world.bodies[b];
+        const int id = world.info[b].id;
+        if (!finite(body)) {
+            throw UnstableRun(
+                world.step, id,
+                "its position or velocity is not a number; the time step is likely too large for its contacts");
+        }
+        const double move = world.time_step * std::hypot(body.vx, body.vy);
+        if (move > world.fastest_allowed_move && !world.allow_unstable) {
+            throw UnstableRun(world.step, id,
+                              fmt::format("it moves {:.3g} m a step, more than half the smallest body ({:.3g} m), so "
+                                          "that contacts would be missed; "
+                                          "the time step is too large or the impact too fast",
+                                          move, world.fastest_allowed_move));
+        }
+        if (outside_domain(world, b)) {
+            throw UnstableRun(world.step, id,
+                              fmt::format("it left the domain at ({:.6g}, {:.6g}) through a wall; the time step is too "
+                                          "large or the impact too fast",
+                                          body.x, body.y));
+        }
+    }
+}
+
+/// Energy that rounding alone can bring about, J: every spring strained by 64 units in the last place of the largest
+/// coordinate (as many roundings go into an overlap, or have gathered over a few steps), and as much of the large
+/// energies that the account takes from each other. A bonded specimen at rest has no other energy to be judged by.
+double rounding_energy(const World& world, const Ledger& ledger) {
+    constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
+    double farthest = 0.0, stiffness = 0.0;
+    for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+        farthest = std::max(farthest,
+                            std::max(std::abs(world.bodies[b].x), std::abs(world.bodies[b].y)) + world.info[b].reach);
+    }
+    for (const PointState& point : world.point_states) {
+        const ContactLaw& law = world.laws[point.law];
+        stiffness += law.normal_stiffness + law.shear_stiffness;
+    }
+    const double strain = rounding * farthest;
+    return stiffness * strain * strain + rounding * (std::abs(world.initial_energy) + std::abs(ledger.potential));
+}
+
+/// Energy that has come from nowhere: more than all that was there, put in, or fallen.
+void check_energy(World& world) {
+    if (world.allow_unstable || !world.forces_current) return;
+    const Ledger ledger = measure_ledger(world);
+    const double mechanical = ledger.kinetic + ledger.strain;
+    const double supply = world.initial_energy - ledger.potential + ledger.displacement_work + ledger.force_work;
+    world.largest_supply = std::max({world.largest_supply, std::abs(supply), mechanical * 1e-3});
+    if (mechanical <= supply + world.largest_supply + rounding_energy(world, ledger)) return;
+    std::size_t fastest = 0;
+    double most = -1.0;
+    for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+        const double energy =
+            world.inertia[b].mass * (world.bodies[b].vx * world.bodies[b].vx + world.bodies[b].vy * world.bodies[b].vy);
+        if (energy > most) most = energy, fastest = b;
+    }
+    throw UnstableRun(world.step, world.info[fastest].id,
+                      fmt::format("runaway energy, {:.4g} J kinetic and stored where {:.4g} J were put in (this body "
+                                  "carries most); the time step "
+                                  "({:.4g} s, bound {:.4g} s) is likely too large",
+                                  mechanical, supply, world.time_step, world.step_bound));
+}
+
+}  // namespace
+
+void check_health(World& world) {
+    check_bodies(world);
+    check_energy(world);
+}
+
+}  // namespace crackle

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/neighbours/pierced.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "solver/base/errors.hpp"
+#include "solver/contact/geometry.hpp"
+
+namespace crackle {
+namespace {
+
+/// A body's place: centroid, and its frame's axes.
+struct Place {
+    Vec2 centre;
+    double c, s;
+
+    Vec2 outwards(Vec2 p) const { return centre + Vec2{c * p.x - s * p.y, s * p.x + c * p.y}; }
+    Vec2 inwards(Vec2 p) const {
+        const Vec2 d = p - centre;
+        return {c * d.x + s * d.y, c * d.y - s * d.x};
+    }
+};
+
+Place place_now(const World& world, BodyIndex b) {
+    const BodyState& body = world.bodies[b];
+    if (world.info[b].single_circle) return {{body.x, body.y}, 1.0, 0.0};
+    return {{body.x, body.y}, body.shape[0], body.shape[1]};
+}
+
+/// Where it was when the list was built.
+Place place_then(const World& world, BodyIndex b) {
+    const ListReference& then = world.list_reference[b];
+    const Place now = place_now(world, b);
+    const double back = then.angle - world.bodies[b].angle, c = std::cos(back), s = std::sin(back);
+    return {{then.x, then.y}, c * now.c - s * now.s, s * now.c + c * now.s};
+}
+
+/// Distance from the edge's line, positive outwards; 0 beyond its ends, where one may pass.
+double side_of(const Edge& edge, Vec2 p) {
+    const double dx = p.x - edge.x, dy = p.y - edge.y;
+    const double along = dx * edge.tx + dy * edge.ty;
+    return along <= 0.0 || along >= edge.length ? 0.0 : dx * edge.ty - dy * edge.tx;
+}
+
+bool inside(const World& world, const BodyInfo& outline, Vec2 p) {
+    for (std::uint32_t n = outline.first_piece; n < outline.first_piece + outline.piece_count; ++n) {
+        const Piece& piece = world.pieces[n];
+        bool in = true;
+        for (std::uint32_t e = piece.first_edge; in && e < piece.first_edge + piece.edge_count; ++e) {
+            const Edge& edge = world.edges[e];
+            in = (p.x - edge.x) * edge.ty - (p.y - edge.y) * edge.tx < 0.0;
+        }
+        if (in) return true;
+    }
+    return false;
+}
+
+/// Number of the segment of an open chain that lies between the two places, from 1; 0: none.
+std::uint32_t segment_between(const World& world, const BodyInfo& chain, Vec2 then, Vec2 now) {
+    for (std::uint32_t n = 0; n < chain.piece_count; ++n) {
+        const Edge& edge = world.edges[world.pieces[chain.first_piece + n].first_edge];
+        if (side_of(edge, now) * side_of(edge, then) < 0.0) return n + 1;
+    }
+    return 0;
+}
+
+/// A body's outline or circle bulges outwards all round, so that its centroid is in its midst.
+bool convex(const BodyInfo& body) { return body.single_circle || (body.closed && body.piece_count == 1); }
+
+}  // namespace
+
+void refuse_piercing(const World& world) {
+    if (world.allow_unstable || world.segment_law != SegmentLaw::rounded) return;
+    constexpr const char* cause = "; the impact is too fast or the load too high for its stiffness and thickness";
+    const auto outlines = static_cast<std::size_t>(PointKind::element_outline);
+    for (PointIndex k = world.kind_begin[outlines]; k < world.kind_begin[outlines + 1]; ++k) {
+        const ContactPoint& point = world.points[k];
+        const BodyIndex i = point.body_i, j = point.body_j;
+        const BodyInfo& target = world.info[j];
+        const bool first_of_pair =
+            k == world.kind_begin[outlines] || world.points[k - 1].body_i != i || world.points[k - 1].body_j != j;
+        if (target.closed && !(first_of_pair && convex(world.info[i]))) continue;
+        const Place i_now = place_now(world, i), j_now = place_now(world, j);
+        if (target.closed) {
+            if (!inside(world, target, j_now.inwards(i_now.centre))) continue;
+            if (inside(world, target, place_then(world, j).inwards(place_then(world, i).centre))) continue;
+            throw UnstableRun(world.step, world.info[i].id,
+                              fmt::format("its centroid has got inside body {}{}", target.id, cause));
+        }
+        const Element& element = world.elements[point.element_i];
+        const Vec2 at{element.x, element.y};
+        const std::uint32_t segment =
+            segment_between(world, target, place_then(world, j).inwards(place_then(world, i).outwards(at)),
+                            j_now.inwards(i_now.outwards(at)));
+        if (segment == 0) continue;
+        throw UnstableRun(world.step, world.info[i].id,
+                          fmt::format("it went through segment {} of body {}{}", segment, target.id, cause));
+    }
+}
+
+}  // namespace crackle

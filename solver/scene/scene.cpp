@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Mass properties of bodies and the one place where a scene is judged; everything after it relies on what passed here.
+
+#include "solver/scene/scene.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <span>
+#include <unordered_set>
+
+#include "solver/base/errors.hpp"
+
+namespace crackle {
+namespace {
+
+[[noreturn]] void refuse(const std::string& where, double found, const std::string& expected) {
+    throw InputError(fmt::format("{}: found {}, expected {}", where, found, expected));
+}
+
+void require_positive(const std::string& where, double value, const char* unit) {
+    if (!(value > 0.0) || !std::isfinite(value)) refuse(where, value, fmt::format("a finite number > 0 in {}", unit));
+}
+
+void require_not_negative(const std::string& where, double value, const char* unit) {
+    if (!(value >= 0.0) || !std::isfinite(value)) refuse(where, value, fmt::format("a finite number >= 0 in {}", unit));
+}
+
+void require_finite(const std::string& where, double value) {
+    if (!std::isfinite(value)) refuse(where, value, "a finite number");
+}
+
+double signed_area(std::span<const Vec2> corners) {
+    // Relative to the first corner, so that a body far from the origin loses no digits.
+    double twice = 0.0;
+    for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
+        twice += cross(corners[k] - corners[0], corners[k + 1] - corners[0]);
+    }
+    return 0.5 * twice;
+}
+
+bool segments_cross(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+    const double abc = cross(b - a, c - a), abd = cross(b - a, d - a);
+    const double cda = cross(d - c, a - c), cdb = cross(d - c, b - c);
+    return ((abc > 0.0 && abd < 0.0) || (abc < 0.0 && abd > 0.0)) &&
+           ((cda > 0.0 && cdb < 0.0) || (cda < 0.0 && cdb > 0.0));
+}
+
+MassProperties polygon_properties(std::span<const Vec2> corners, double density) {
+    const Vec2 origin = corners[0];
+    double area = 0.0, second_moment = 0.0;
+    Vec2 first_moment;
+    for (std::size_t k = 1; k + 1 < corners.size(); ++k) {
+        const Vec2 a = corners[k] - origin, b = corners[k + 1] - origin;
+        const double twice = cross(a, b);
+        area += 0.5 * twice;
+        first_moment = first_moment + (twice / 6.0) * (a + b);
+        second_moment += twice / 12.0 * (dot(a, a) + dot(a, b) + dot(b, b));
+    }
+    const Vec2 offset = (1.0 / area) * first_moment;
+    return {density * area, origin + offset, density * (second_moment - area * dot(offset, offset))};
+}
+
+MassProperties open_chain_properties(std::span<const Vec2> joints, double mass_per_length) {
+    MassProperties result;
+    for (std::size_t k = 0; k + 1 < joints.size(); ++k) {
+        const double mass = mass_per_length * norm(joints[k + 1] - joints[k]);
+        result.mass += mass;
+        result.centroid = result.centroid + (0.5 * mass) * (joints[k] + joints[k + 1] - 2.0 * joints[0]);
+    }
+    result.centroid = joints[0] + (1.0 / result.mass) * result.centroid;
+    for (std::size_t k = 0; k + 1 < joints.size(); ++k) {
+        const double length = norm(joints[k + 1] - joints[k]);
+        const Vec2 offset = 0.5 * (joints[k] + joints[k + 1]) - result.centroid;
+        result.moment += mass_per_length * length * (length * length / 12.0 + dot(offset, offset));
+    }
+    return result;
+}
+
+MassProperties clump_properties(std::span<const CircleElement> circles, double density) {
+    MassProperties result;
+    for (const CircleElement& circle : circles) {
+        const double mass = density * std::numbers::pi * circle.radius * circle.radius;
+        result.mass += mass;
+        result.centroid = result.centroid + mass * (circle.centre - circles[0].centre);
+    }
+    result.centroid = circles[0].centre + (1.0 / result.mass) * result.centroid;
+    for (const CircleElement& circle : circles) {
+        const double mass = density * std::numbers::pi * circle.radius * circle.radius;
+        const Vec2 offset = circle.centre - result.centroid;
+        result.moment += mass * (0.5 * circle.radius * circle.radius + dot(offset, offset));
+    }
+    return result;
+}
+
+void validate_material(const Material& material, std::size_t index) {
+    const std::string name = fmt::format("material {}: ", index + 1);
+    require_positive(name + "density", material.density, "kg/m2");
+    require_positive(name + "normal stiffness", material.normal_stiffness, "N/m");
+    require_not_negative(name + "shear stiffness", material.shear_stiffness, "N/m");
+    require_not_negative(name + "normal damping", material.normal_damping, "N s/m");
+    require_not_negative(name + "shear damping", material.shear_damping, "N s/m");
+    if (material.damping_ratio) require_not_negative(name + "damping ratio", *material.damping_ratio, "-");
+    if (!(material.friction_angle >= 0.0 && material.friction_angle < 90.0)) {
+        refuse(name + "friction angle", material.friction_angle, "degrees in 0 <= φ < 90");
+    }
+}
+
+void validate_chain(Scene& scene, const Body& body) {
+    const std::string name = fmt::format("body {}: ", body.id);
+    const std::span<Vec2> corners(scene.vertices.data() + body.first_vertex, body.vertex_count);
+    if (corners.size() < (body.closed ? 3u : 2u)) {
+        refuse(name + "corners", static_cast<double>(corners.size()),
+               body.closed ? "at least 3 of a closed chain" : "at least 2 of an open chain");
+    }
+    for (const Vec2 corner : corners) {
+        require_finite(name + "corner x", corner.x);
+        require_finite(name + "corner y", corner.y);
+    }
+    const std::size_t edges = body.closed ? corners.size() : corners.size() - 1;
+    for (std::size_t k = 0; k < edges; ++k) {
+        if (!(norm(corners[(k + 1) % corners.size()] - corners[k]) > 0.0)) {
+            throw InputError(fmt::format(
+                "{}segment {}: found length 0, expected two different end points; remove the segment", name, k + 1));
+        }
+    }
+    if (!body.closed) return;
+    const double area = signed_area(corners);
+    double perimeter = 0.0;
+    for (std::size_t k = 0; k < edges; ++k) perimeter += norm(corners[(k + 1) % corners.size()] - corners[k]);
+    // Below this the centroid of a sliver has lost half its digits.
+    if (std::abs(area) < 1e-10 * perimeter * perimeter)
+        refuse(name + "area of the closed chain", area, "more than 1e-10 of its perimeter squared");
+    if (area < 0.0) std::reverse(corners.begin(), corners.end());
+    for (std::size_t a = 0; a < edges; ++a) {
+        for (std::size_t b = a + 2; b < edges; ++b) {
+            if (a == 0 && b + 1 == edges) continue;
+            if (segments_cross(corners[a], corners[a + 1], corners[b], corners[(b + 1) % edges])) {
+                throw InputError(
+                    fmt::format("{}segments {} and {} cross, expected a simple outline", name, a + 1, b + 1));
+            }
+        }
+    }
+}
+
+/// Far from the origin neighbouring numbers lie so far apart that a body would move in jerks, or not at all.
+void require_room_to_move(const Scene& scene, const Body& body) {
+    constexpr double largest_share = 1e-9;  // of the body's size; contact overlaps are 1e-6 of it and more
+    double farthest = 0.0, size = std::numeric_limits<double>::infinity();
+    const auto visit = [&](Vec2 p) { farthest = std::max({farthest, std::abs(p.x), std::abs(p.y)}); };
+    for (std::uint32_t k = 0; k < body.circle_count; ++k) {
+        const CircleElement& circle = scene.circles[body.first_circle + k];
+        visit(circle.centre);
+        size = std::min(size, circle.radius);
+    }
+    if (body.vertex_count > 0) {
+        size = 0.0;  // of the whole outline: meshes may have edges of any shortness
+        for (std::uint32_t k = 0; k < body.vertex_count; ++k) {
+            visit(scene.vertices[body.first_vertex + k]);
+            size = std::max(size, norm(scene.vertices[body.first_vertex + k] - scene.vertices[body.first_vertex]));
+        }
+    }
+    const double gap = std::nextafter(farthest, std::numeric_limits<double>::infinity()) - farthest;
+    if (gap <= largest_share * size) return;
+    throw InputError(fmt::format(
+        "body {}: found coordinates up to {:.6g} m, where numbers lie {:.2g} m apart, expected at most {} of "
+        "the body's size, {:.4g} m; shift the origin towards the bodies",
+        body.id, farthest, gap, largest_share, size));
+}
+
+void validate_body(Scene& scene, const Body& body) {
+    const std::string name = fmt::format("body {}: ", body.id);
+    if (body.material < 0 || static_cast<std::size_t>(body.material) >= scene.materials.size()) {
+        refuse(name + "material", body.material + 1, fmt::format("1 to {}", scene.materials.size()));
+    }
+    require_finite(name + "velocity x", body.velocity.x);
+    require_finite(name + "velocity y", body.velocity.y);
+    require_finite(name + "spin", body.spin);
+    if ((body.circle_count == 0) == (body.vertex_count == 0)) {
+        throw InputError(name + "found " + (body.circle_count == 0 ? "no elements" : "circles and segments together") +
+                         ", expected either circles or segments");
+    }
+    for (std::uint32_t k = 0; k < body.circle_count; ++k) {
+        const CircleElement& circle = scene.circles[body.first_circle + k];
+        require_positive(name + "radius", circle.radius, "m");
+        require_finite(name + "centre x", circle.centre.x);
+        require_finite(name + "centre y", circle.centre.y);
+    }
+    if (body.vertex_count > 0) validate_chain(scene, body);
+    require_room_to_move(scene, body);
+    if (body.mass) require_positive(name + "mass", *body.mass, "kg");
+    const bool bare = body.vertex_count > 0 && !body.closed && scene.thick == 0.0;
+    if (bare && !body.mass && !(scene.bare_segment_width > 0.0)) {
+        throw InputError(name +
+                         "found an open chain of thickness 0 without a mass, expected a thickness or an explicit mass");
+    }
+}
+
+}  // namespace
+
+const char* name_of(SegmentLaw law) {
+    switch (law) {
+        case SegmentLaw::rounded:
+            return "rounded";
+        case SegmentLaw::demseg:
+            return "demseg";
+        case SegmentLaw::demseg_mean:
+            break;
+    }
+    return "demseg_mean";
+}
+
+SegmentLaw segment_law_named(const std::string& where, const std::string& word) {
+    for (const SegmentLaw law : {SegmentLaw::rounded, SegmentLaw::demseg, SegmentLaw::demseg_mean}) {
+        if (word == name_of(law)) return law;
+    }
+    throw InputError(fmt::format("{}: found \"{}\", expected \"rounded\", \"demseg\" or \"demseg_mean\"", where, word));
+}
+
+const char* name_of(Integrator integrator) { return integrator == Integrator::consistent ? "consistent" : "leapfrog"; }
+
+Integrator integrator_named(const std::string& where, const std::string& word) {
+    for (const Integrator integrator : {Integrator::leapfrog, Integrator::consistent}) {
+        if (word == name_of(integrator)) return integrator;
+    }
+    throw InputError(fmt::format("{}: found \"{}\", expected \"leapfrog\" or \"consistent\"", where, word));
+}
+
+std::uint32_t Scene::add_circle_body(int id, int material, const CircleElement& circle) {
+    Body body;
+    body.id = id;
+    body.material = material;
+    body.first_circle = static_cast<std::uint32_t>(circles.size());
+    body.circle_count = 1;
+    circles.push_back(circle);
+    bodies.push_back(body);
+    return static_cast<std::uint32_t>(bodies.size() - 1);
+}
+
+std::uint32_t Scene::add_chain_body(int id, int material, const std::vector<Vec2>& outline, bool closed) {
+    Body body;
+    body.id = id;
+    body.material = material;
+    body.first_vertex = static_cast<std::uint32_t>(vertices.size());
+    body.vertex_count = static_cast<std::uint32_t>(outline.size());
+    body.closed = closed;
+    vertices.insert(vertices.end(), outline.begin(), outline.end());
+    bodies.push_back(body);
+    return static_cast<std::uint32_t>(bodies.size() - 1);
+}
+
+MassProperties mass_properties(const Scene& scene, const Body& body) {
+    const double density = scene.materials[static_cast<std::size_t>(body.material)].density;
+    if (body.circle_count > 0) {
+        return clump_properties(std::span(scene.circles).subspan(body.first_circle, body.circle_count), density);
+    }
+    const auto corners = std::span(scene.vertices).subspan(body.first_vertex, body.vertex_count);
+    if (body.closed) return polygon_properties(corners, density);
+    const double width = scene.thick > 0.0 ? 2.0 * scene.thick : scene.bare_segment_width;
+    if (!body.mass) return open_chain_properties(corners, density * width);
+    MassProperties result = open_chain_properties(corners, 1.0);
+    const double scale = *body.mass / result.mass;
+    result.mass *= scale;
+    result.moment *= scale;
+    return result;
+}
+
+void validate(Scene& scene) {
+    if (scene.materials.empty()) throw InputError("materials: found none, expected at least one");
+    for (std::size_t k = 0; k < scene.materials.size(); ++k) validate_material(scene.materials[k], k);
+    const auto by_ratio = [](const Material& m) { return m.damping_ratio && *m.damping_ratio > 0.0; };
+    const auto by_value = [](const Material& m) {
+        return !m.damping_ratio && (m.normal_damping > 0.0 || m.shear_damping > 0.0);
+    };
+    if (std::ranges::any_of(scene.materials, by_ratio) && std::ranges::any_of(scene.materials, by_value)) {
+        throw InputError(
+            "materials: found damping by ratio in one and by value in another, expected one way for all; two such "
+            "dashpots in series have no common form");
+    }
+    if (scene.bodies.empty()) throw InputError("bodies: found none, expected at least one particle");
+    require_not_negative("thick", scene.thick, "m");
+    require_finite("gravity x", scene.gravity.x);
+    require_finite("gravity y", scene.gravity.y);
+    require_not_negative("time step", scene.time_step, "s");
+    require_not_negative("skin", scene.skin, "m");
+    if (!(scene.step_scale > 0.0 && scene.step_scale <= 1.0)) refuse("step scale", scene.step_scale, "0 < f <= 1");
+    if (!(scene.safety_factor > 0.0 && scene.safety_factor <= 1.0))
+        refuse("safety factor", scene.safety_factor, "0 < f <= 1");
+    if (scene.threads < 1 || scene.threads > 1024) refuse("threads", scene.threads, "1 to 1024");
+    const Domain& domain = scene.domain;
+    const auto& walls = domain.wall_present;
+    if (walls[0]) require_finite("domain x1", domain.x1);
+    if (walls[1]) require_finite("domain x2", domain.x2);
+    if (walls[2]) require_finite("domain y1", domain.y1);
+    if (walls[3]) require_finite("domain y2", domain.y2);
+    if (walls[0] && walls[1] && !(domain.x2 > domain.x1))
+        refuse("domain x2", domain.x2, fmt::format("more than x1 = {}", domain.x1));
+    if (walls[2] && walls[3] && !(domain.y2 > domain.y1))
+        refuse("domain y2", domain.y2, fmt::format("more than y1 = {}", domain.y1));
+
+    std::unordered_set<int> ids;
+    ids.reserve(scene.bodies.size());
+    for (const Body& body : scene.bodies) {
+        if (!ids.insert(body.id).second)
+            throw InputError(fmt::format("body {}: found its number twice, expected unique numbers", body.id));
+        validate_body(scene, body);
+    }
+    for (const Control& control : scene.controls) {
+        if (control.body < 0 || static_cast<std::size_t>(control.body) >= scene.bodies.size()) {
+            refuse("controlled body", control.body, fmt::format("an index below {}", scene.bodies.size()));
+        }
+        for (const DofControl& dof : {control.x, control.y, control.rotation}) {
+            require_finite("control value", dof.value);
+            if (dof.drive == Drive::displacement && control.ramp_steps < 1) {
+                refuse("steps of a displacement control", static_cast<double>(control.ramp_steps), "at least 1");
+            }
+        }
+    }
+}
+
+std::vector<std::string> scene_notices(const Scene& scene) {
+    std::vector<std::string> notices;
+    const auto chain = [](const Body& body) { return body.vertex_count > 0; };
+    const auto open = [&](const Body& body) { return chain(body) && !body.closed; };
+    const auto segment = std::ranges::find_if(scene.bodies, open);
+    if (scene.thick == 0.0 && segment != scene.bodies.end() && std::ranges::count_if(scene.bodies, chain) > 1) {
+        notices.push_back(
+            fmt::format("thick: found 0 with open segments (body {}) and corners of other bodies; neither has an "
+                        "inside, so they never touch each other; give a thickness > 0 if they should",
+                        segment->id));
+    }
+    return notices;
+}
+
+}  // namespace crackle

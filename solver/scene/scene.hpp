@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A scene: what is to be simulated, as plain data, before any number is derived from it.
+// Readers fill it, validate() judges it, build_world() turns it into the flat arrays that a step touches.
+//
+// Units: any consistent set (SI in what we ship, cgs in the guide's decks). Strictly 2D: masses and stiffnesses are per
+// unit thickness (density kg/m2, mass kg, stiffness N/m, force N, stress N/m).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "solver/base/vec2.hpp"
+
+namespace crackle {
+
+/// A number that nobody has set yet; validate() refuses it.
+inline constexpr double unset = std::numeric_limits<double>::quiet_NaN();
+
+struct Material {
+    double density = unset;           ///< kg/m2, > 0
+    double normal_stiffness = unset;  ///< k_n, N/m, > 0
+    double shear_stiffness = unset;   ///< k_s, N/m, >= 0
+    double normal_damping = 0.0;      ///< c_n, N s/m, >= 0
+    double shear_damping = 0.0;       ///< c_s, N s/m, >= 0
+    /// h, >= 0: where given, c_n = 2h·sqrt(k_n·m_eff) and c_s = 2h·sqrt(k_s·m_eff) take the place of the two above.
+    std::optional<double> damping_ratio;
+    double friction_angle = 0.0;  ///< φ, degrees, 0 <= φ < 90; μ = tan φ
+
+    friend bool operator==(const Material&, const Material&) = default;
+};
+
+struct CircleElement {
+    Vec2 centre;            ///< m
+    double radius = unset;  ///< m, > 0
+    double angle = 0.0;     ///< rad, carried along, no meaning for the physics
+};
+
+/// A rigid body: circles (one, or several as a clump), or a chain of segments (open, or closed = polygon), never both.
+struct Body {
+    int id = 0;         ///< the input's number; unique
+    int material = 0;   ///< index into Scene::materials
+    Vec2 velocity;      ///< m/s
+    double spin = 0.0;  ///< rad/s, counter-clockwise
+
+    std::uint32_t first_circle = 0;  ///< into Scene::circles
+    std::uint32_t circle_count = 0;
+    std::uint32_t first_vertex = 0;  ///< into Scene::vertices
+    std::uint32_t vertex_count = 0;  ///< 0 for circles; a closed chain lists each corner once
+    bool closed = false;             ///< polygon (counter-clockwise once validated)
+
+    /// kg; only for an open chain of thickness 0 outside decks, whose mass cannot be derived.
+    std::optional<double> mass;
+};
+
+/// How one degree of freedom of a body is driven.
+enum class Drive : std::uint8_t {
+    free,          ///< equation of motion alone
+    force,         ///< value = force (N) or moment (N m) added to gravity and contacts
+    velocity,      ///< value = velocity (m/s, rad/s), held
+    displacement,  ///< value = displacement (m, rad) reached after Control::ramp_steps steps, linear in the step
+};
+
+struct DofControl {
+    Drive drive = Drive::free;
+    double value = 0.0;
+
+    friend bool operator==(const DofControl&, const DofControl&) = default;
+};
+
+struct Control {
+    int body = 0;  ///< index into Scene::bodies
+    DofControl x, y, rotation;
+    std::int64_t ramp_steps = 0;  ///< for Drive::displacement
+};
+
+/// Half-planes that close the domain. They touch bodies but are never bonded to them.
+enum class Wall : std::uint8_t { left = 0, right = 1, bottom = 2, top = 3 };
+
+struct Domain {
+    double x1 = unset, x2 = unset, y1 = unset, y2 = unset;     ///< m
+    std::array<bool, 4> wall_present{true, true, true, true};  ///< by Wall
+};
+
+/// Contact law of segments and polygons; circles among themselves and walls are the same in all.
+enum class SegmentLaw : std::uint8_t {
+    rounded,     ///< vertex against the other's outline as a whole (contact_geometry.hpp)
+    demseg,      ///< the guide's: element by element, the disc cases of a pair added up (segment_contact.hpp)
+    demseg_mean  ///< the same with the mean of the cases in contact
+};
+
+/// "rounded", "demseg" or "demseg_mean". @throws InputError on another word, naming `where`.
+SegmentLaw segment_law_named(const std::string& where, const std::string& word);
+const char* name_of(SegmentLaw law);
+
+/// How the contacts' first and last steps are taken.
+enum class Integrator : std::uint8_t {
+    leapfrog,   ///< like all others, as the guide does
+    consistent  ///< so that opening and closing conserve energy (contact_opening.hpp); unbonded points, but not the
+                ///< segment kinds of the guide's law, which have no energy to conserve
+};
+
+/// "leapfrog" or "consistent". @throws InputError on another word, naming `where`.
+Integrator integrator_named(const std::string& where, const std::string& word);
+const char* name_of(Integrator integrator);
+
+/// First kick of leapfrog: decks start with a full one (the guide's n(n+1)/2), everything else with a half one.
+enum class FirstKick : std::uint8_t { half, full };
+
+/// Switches for comparing a run with the linear solve: everything stays as it was at bonding.
+struct IntactOptions {
+    bool no_breaking = false;      ///< bonds hold at any opening
+    bool no_sliding = false;       ///< no Coulomb limit
+    bool no_new_contacts = false;  ///< only bonded points act
+
+    friend bool operator==(const IntactOptions&, const IntactOptions&) = default;
+};
+
+struct Scene {
+    std::vector<Material> materials;
+    std::vector<Body> bodies;
+    std::vector<CircleElement> circles;
+    std::vector<Vec2> vertices;
+    std::vector<Control> controls;
+    Domain domain;
+    double thick =
+        0.0;  ///< segment thickness t, m, >= 0: a disc of radius t at each vertex against the other's bare outline
+    SegmentLaw segment_law = SegmentLaw::rounded;
+    Integrator integrator = Integrator::leapfrog;
+    Vec2 gravity;  ///< m/s2
+
+    double time_step = 0.0;       ///< s; 0: derived from the stiffness bound times safety_factor
+    double step_scale = 1.0;      ///< of derived steps, whatever rules them: a comparison at half the step
+    double safety_factor = 0.8;   ///< share of the bound taken when the step is derived (without bonds: at most
+                                  ///< loose_step_share)
+    bool allow_unstable = false;  ///< run a given time step above the bound, and beyond runaway energy
+    FirstKick first_kick = FirstKick::half;
+    bool ledger = true;  ///< keep the account of dissipated energy
+    IntactOptions intact;
+    int threads = 1;
+    double skin = 0.0;  ///< m; Verlet skin, 0: derived from the body sizes
+
+    /// Open chains of thickness 0: width that gives them mass (decks: 0.1 deck units); unset elsewhere.
+    double bare_segment_width = unset;
+
+    std::uint32_t add_circle_body(int id, int material, const CircleElement& circle);
+    /// @param outline corners of a polygon (closed) or joints of an open chain.
+    std::uint32_t add_chain_body(int id, int material, const std::vector<Vec2>& outline, bool closed);
+};
+
+/// Mass, centroid and polar moment of one body of the scene (per unit thickness).
+struct MassProperties {
+    double mass = 0.0;    ///< kg
+    Vec2 centroid;        ///< m
+    double moment = 0.0;  ///< kg m2 about the centroid
+};
+
+/// Circle m = ρπr², I = ½mr²; clump: sum with parallel-axis terms, overlaps counted twice; closed chain: Green's
+/// theorem; open chain: m = ρ·L·w, w = 2·thick (bare_segment_width where thick = 0), I = Σ m_k(L_k²/12 + d_k²).
+MassProperties mass_properties(const Scene& scene, const Body& body);
+
+/// Checks every value and turns clockwise polygons. @throws InputError naming body, key, what was found and expected.
+void validate(Scene& scene);
+
+/// What is allowed but may surprise, one sentence each.
+std::vector<std::string> scene_notices(const Scene& scene);
+
+}  // namespace crackle

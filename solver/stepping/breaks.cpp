@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Breaking of bonds: bookkeeping after the force pass, in the order of the points, so that events never depend on
+// threads.
+//
+// A break found at time n lets the forces go between n-1 and n: by the trapezoidal rule, as every other work and loss
+// is taken, they still do half their work over that drift. What is left of the stored energy goes to the account of
+// fracture: ½k_n(δ-δ0)' (δ-δ0) + ½f_t' f_t/k_s, the primed values those of n-1; ½k_n(δ-δ0)² + ½f_t²/k_s as Δt → 0. A
+// break is `shear` if the point had been at its Coulomb limit since bonding and |f_t| > |f_n| in the last step in which
+// it carried at least half its strength; else `tension`. Source: model.md 3.
+
+#include "solver/stepping/breaks.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "solver/contact/law.hpp"
+
+namespace crackle {
+namespace {
+
+/// Direction of a normal without its sense, in (-π/2, π/2].
+double orientation_of(Vec2 normal) {
+    double angle = std::atan2(normal.y, normal.x);
+    if (angle > 0.5 * std::numbers::pi) angle -= std::numbers::pi;
+    if (angle <= -0.5 * std::numbers::pi) angle += std::numbers::pi;
+    return angle;
+}
+
+/// Energy that a break takes, J (see above). Under the guide's law the normal spring's work has been added up just so.
+double fracture_energy(const World& world, PointIndex k, const PointView& view) {
+    const ContactPoint& point = world.points[k];
+    const ContactLaw& law = world.laws[world.point_states[k].law];
+    const BodyState &i = world.bodies[point.body_i], &j = world.bodies[point.body_j];
+    const Vec2 speed{i.vx - i.omega * view.arm_i.y - (j.vx - j.omega * view.arm_j.y),
+                     i.vy + i.omega * view.arm_i.x - (j.vy + j.omega * view.arm_j.x)};
+    const double opening = view.overlap - world.bond_overlaps[k];
+    const double before = opening - world.drift * dot(speed, view.normal);
+    const double normal = by_guide(view.kind) && !world.spring_work.empty()
+                              ? world.spring_work[k].stored
+                              : 0.5 * law.normal_stiffness * before * opening;
+    if (law.shear_stiffness == 0.0) return normal;
+    const double shear =
+        world.shear_forces[k] - law.shear_stiffness * world.drift * dot(speed, perpendicular(view.normal));
+    return normal + 0.5 * world.shear_forces[k] * shear / law.shear_stiffness;
+}
+
+/// Whether a bond is left between the two bodies of a point; one found broken in the same pass but not yet recorded
+/// still counts, so that an interface that loses several at once is lost once. Points of two bodies lie together.
+bool interface_holds(const World& world, PointIndex k) {
+    const auto has_bond = [&](PointIndex other) {
+        return (world.point_states[other].flags & (point_bonded | point_just_broken)) != 0;
+    };
+    const auto [begin, end] = points_between(world, k);
+    for (PointIndex other = begin; other < end; ++other)
+        if (has_bond(other)) return true;
+    return false;
+}
+
+}  // namespace
+
+void record_breaks(World& world) {
+    for (PointIndex k = 0; k < world.kind_begin[static_cast<std::size_t>(PointKind::element_wall)]; ++k) {
+        ContactPoint& point = world.points[k];
+        if ((world.point_states[k].flags & point_just_broken) == 0) continue;
+        const PointView view = view_point(world, k);
+        const ContactLaw& law = world.laws[world.point_states[k].law];
+        BreakEvent event{};
+        event.step = world.step;
+        event.time = world.time;
+        event.body_i = world.info[point.body_i].id;
+        event.body_j = world.info[point.body_j].id;
+        event.position = view.position;
+        event.orientation = orientation_of(view.normal);
+        event.energy = fracture_energy(world, k, view);
+        event.strength = law.normal_stiffness * world.bond_overlaps[k];
+        event.normal_force = world.strong_normal[k];
+        event.shear_force = world.strong_shear[k];
+        event.slid = (world.point_states[k].flags & point_slid) != 0;
+        event.shear_mode = event.slid && std::abs(event.shear_force) > std::abs(event.normal_force);
+        world.shear_forces[k] = 0.0;
+        world.bond_overlaps[k] = 0.0;
+        world.point_states[k].flags =
+            static_cast<std::uint16_t>(world.point_states[k].flags & point_counted);  // until the bound is found anew
+        if (!world.spring_work.empty()) world.spring_work[k] = {};
+        if (!world.openings.empty()) world.openings[k] = {};
+        event.last_of_interface = !interface_holds(world, k);
+        event.kind = view.kind;
+        event.point = point;
+        world.fracture_loss += event.energy;
+        world.bonds_broken += 1;
+        world.interfaces_lost += event.last_of_interface ? 1 : 0;
+        world.events.push_back(event);
+    }
+}
+
+}  // namespace crackle

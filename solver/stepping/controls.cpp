@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/stepping/controls.hpp"
+
+#include <algorithm>
+
+namespace crackle {
+namespace {
+
+double& velocity_of(BodyState& body, int dof) { return dof == 0 ? body.vx : dof == 1 ? body.vy : body.omega; }
+double& position_of(BodyState& body, int dof) { return dof == 0 ? body.x : dof == 1 ? body.y : body.angle; }
+double& inverse_of(BodyInertia& inertia, int dof) {
+    return dof == 0 ? inertia.inverse_mass_x : dof == 1 ? inertia.inverse_mass_y : inertia.inverse_moment;
+}
+
+bool held(const DofControl& dof) { return dof.drive == Drive::velocity || dof.drive == Drive::displacement; }
+
+double ramp_velocity(const ControlState& control, int dof, std::int64_t step, double time_step) {
+    const bool over = step >= control.first_step + control.ramp_steps;
+    return over ? 0.0 : control.dof[dof].value / (static_cast<double>(control.ramp_steps) * time_step);
+}
+
+/// Position a ramp asks for after `step` steps: x_0 + value·n/N.
+double ramp_position(const ControlState& control, int dof, std::int64_t step) {
+    const std::int64_t n = std::min(step - control.first_step, control.ramp_steps);
+    return control.start[dof] +
+           control.dof[dof].value * static_cast<double>(n) / static_cast<double>(control.ramp_steps);
+}
+
+/// Sets a held velocity. The drive brings the kinetic energy at once, so it is displacement work: its force is
+/// infinitely large for no time and shows in no reaction.
+void set_velocity(World& world, BodyIndex b, int dof, double velocity) {
+    double& now = velocity_of(world.bodies[b], dof);
+    const double weight = dof < 2 ? world.inertia[b].mass : world.info[b].moment;
+    if (world.initial_energy_taken) world.displacement_work += 0.5 * weight * (velocity * velocity - now * now);
+    now = velocity;
+}
+
+void enter(World& world, ControlState& control) {
+    BodyState& body = world.bodies[control.body];
+    BodyInertia& inertia = world.inertia[control.body];
+    const BodyInfo& info = world.info[control.body];
+    for (int d = 0; d < 3; ++d) {
+        control.start[d] = position_of(body, d);
+        control.last_force[d] = 0.0;
+        control.last_move[d] = 0.0;
+        inverse_of(inertia, d) = held(control.dof[d]) ? 0.0 : d < 2 ? 1.0 / inertia.mass : 1.0 / info.moment;
+        if (control.dof[d].drive == Drive::velocity) set_velocity(world, control.body, d, control.dof[d].value);
+        if (control.dof[d].drive == Drive::displacement) {
+            set_velocity(world, control.body, d, ramp_velocity(control, d, world.step, world.time_step));
+        }
+    }
+}
+
+}  // namespace
+
+void build_controls(World& world, const Scene& scene, const std::vector<BodyIndex>& internal_of) {
+    for (const Control& control : scene.controls) {
+        const DofControl dof[3] = {control.x, control.y, control.rotation};
+        set_control(world, internal_of[static_cast<std::size_t>(control.body)], dof, control.ramp_steps);
+    }
+}
+
+void set_control(World& world, BodyIndex body, const DofControl (&dof)[3], std::int64_t ramp_steps) {
+    ControlState fresh{};
+    fresh.body = body;
+    std::copy(std::begin(dof), std::end(dof), std::begin(fresh.dof));
+    fresh.first_step = world.step;
+    fresh.ramp_steps = ramp_steps;
+    auto place = std::find_if(world.controls.begin(), world.controls.end(),
+                              [&](const ControlState& c) { return c.body == body; });
+    if (place == world.controls.end())
+        place = world.controls.insert(world.controls.end(), fresh);
+    else
+        *place = fresh;
+    enter(world, *place);
+    world.sweep.valid = false;
+    world.forces_clear = false;
+}
+
+void change_velocity(World& world, BodyIndex body, int dof, double velocity) {
+    for (ControlState& control : world.controls) {
+        if (control.body != body) continue;
+        control.dof[dof].value = velocity;
+        set_velocity(world, body, dof, velocity);
+    }
+}
+
+void account_controls(World& world) {
+    for (ControlState& control : world.controls) {
+        const BodyForce& contact = world.forces[control.body];
+        const double mass = world.inertia[control.body].mass;
+        const double load[3] = {contact.fx + mass * world.gravity.x, contact.fy + mass * world.gravity.y,
+                                contact.torque};
+        for (int d = 0; d < 3; ++d) {
+            if (control.dof[d].drive == Drive::free) continue;
+            const bool reacts = held(control.dof[d]);
+            const double force = reacts ? -load[d] : control.dof[d].value;
+            const double work = 0.5 * (control.last_force[d] + force) * control.last_move[d];
+            (reacts ? world.displacement_work : world.force_work) += work;
+            control.last_force[d] = force;
+        }
+    }
+}
+
+void kick_controls(World& world, double kick) {
+    for (ControlState& control : world.controls) {
+        BodyState& body = world.bodies[control.body];
+        for (int d = 0; d < 3; ++d) {
+            if (control.dof[d].drive == Drive::force) {
+                velocity_of(body, d) += kick * control.dof[d].value * inverse_of(world.inertia[control.body], d);
+            } else if (control.dof[d].drive == Drive::displacement) {
+                set_velocity(world, control.body, d, ramp_velocity(control, d, world.step, world.time_step));
+            }
+        }
+    }
+}
+
+void place_controls(World& world) {
+    for (ControlState& control : world.controls) {
+        BodyState& body = world.bodies[control.body];
+        for (int d = 0; d < 3; ++d) {
+            // A ramp's end is met to the last digit; the outline has turned by the same angle up to rounding.
+            if (control.dof[d].drive == Drive::displacement)
+                position_of(body, d) = ramp_position(control, d, world.step);
+            control.last_move[d] = velocity_of(body, d) * world.drift;
+        }
+    }
+}
+
+}  // namespace crackle

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One step of the simulation, readable from top to bottom.
+//
+// compute_forces() brings the neighbour list up to date, lets every contact point compute its force from x(n) and
+// v(n-½), adds up each body's forces in a fixed order, and records broken bonds. Observers may look now: everything is
+// known at time n. advance() is leapfrog: v(n+½) = v(n-½) + a(n)Δt, x(n+1) = x(n) + v(n+½)Δt, driven bodies as their
+// controls say. step() does both, in one sweep where nobody looks between (solver/stepping/sweep.hpp).
+
+#include <omp.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/stepping/breaks.hpp"
+#include "solver/stepping/controls.hpp"
+#include "solver/stepping/motion.hpp"
+#include "solver/stepping/sweep.hpp"
+#include "solver/world/world.hpp"
+
+namespace crackle {
+namespace {
+
+constexpr std::int64_t block_bodies = 512;
+
+/// s, of the kick that joins the middles of two drifts.
+double kick_now(const World& world) { return kick_before(world) + 0.5 * world.time_step; }
+
+/// Kick and drift of all bodies.
+Speeds move_bodies(World& world, double kick) {
+    const auto count = static_cast<std::int64_t>(world.bodies.size());
+    const auto move = world.gravity == Vec2{} ? (world.some_turn ? &move_range<false, true> : &move_range<false, false>)
+                                              : (world.some_turn ? &move_range<true, true> : &move_range<true, false>);
+    if (world.threads == 1) return move(world, kick, 0, count);
+    double fastest = 0.0, excess = 0.0;
+#pragma omp parallel for num_threads(world.threads) schedule(static) reduction(max : fastest) reduction(+ : excess)
+    for (std::int64_t begin = 0; begin < count; begin += block_bodies) {
+        const Speeds here = move(world, kick, begin, std::min(begin + block_bodies, count));
+        excess += here.sum_of_excess;
+        fastest = std::max(fastest, here.fastest);
+    }
+    return {fastest, excess};
+}
+
+/// The move of lists of bodies that suits the world.
+template <bool Clear>
+MoveListed move_of_lists(const World& world) {
+    return world.gravity == Vec2{}
+               ? (world.some_turn ? &move_listed<false, true, Clear> : &move_listed<false, false, Clear>)
+               : (world.some_turn ? &move_listed<true, true, Clear> : &move_listed<true, false, Clear>);
+}
+
+/// Adds up what the blocks of the force pass report, in their order.
+void sum_blocks(World& world) {
+    std::uint32_t broken = 0, gained = 0;
+    for (const World::LossBlock& block : world.loss_blocks) {
+        world.dashpot_loss += block.dashpot;
+        world.friction_loss += block.friction;
+        world.law_loss += block.law;
+        broken += block.broken;
+        gained += block.gained;
+    }
+    if (broken > 0) record_breaks(world);
+    world.points_gained = gained > 0;
+}
+
+void sample_geometry(World& world) {
+    world.profile->force_passes += 1;
+    world.profile->point_steps += static_cast<std::int64_t>(world.points.size());
+    if (world.step % geometry_interval != 0) return;
+    const PhaseTimer timer(world.profile, &world.profile->geometry_sampled);
+#pragma omp parallel num_threads(world.threads) if (world.threads > 1)
+    geometry_pass(world);
+}
+
+/// What the force pass needs to be up to date.
+void prepare_forces(World& world) {
+    if (world.points_gained) {
+        count_new_points(world);
+        world.points_gained = false;
+    }
+    refresh_neighbours(world);
+    plan_sweep(world);
+    clear_forces(world);
+    if (world.profile != nullptr) sample_geometry(world);
+}
+
+/// Breaks, losses, driven bodies: what the force pass has left to be written down at time n.
+void account_forces(World& world) {
+    const PhaseTimer timer(world.profile, Phase::bookkeeping);
+    sum_blocks(world);
+    account_controls(world);
+}
+
+/// All but the motion of bodies itself. @param speeds of all bodies
+void end_step(World& world, const Speeds& speeds) {
+    world.fastest = std::sqrt(speeds.checked());
+    world.drift = world.time_step;
+    world.step += 1;
+    world.time += world.time_step;
+    world.kick_share = 1.0;
+    world.travelled += world.fastest * world.time_step;
+    world.forces_current = false;
+    place_controls(world);
+    if (!(world.fastest * world.time_step < world.fastest_allowed_move)) check_health(world);
+}
+
+}  // namespace
+
+void compute_forces(World& world) {
+    if (world.forces_current) return;
+    prepare_forces(world);
+    sweep(world, features_of(world), nullptr, 0.0);
+    world.forces_clear = false;
+    account_forces(world);
+    world.forces_current = true;
+    if (!world.initial_energy_taken) {
+        world.initial_energy_taken = true;
+        world.initial_energy = 0.0;
+        world.initial_energy = measure_ledger(world).closing_error;
+    }
+}
+
+void advance(World& world) {
+    const PhaseTimer timer(world.profile, Phase::integrate);
+    const double kick = kick_now(world);
+    kick_controls(world, kick);
+    end_step(world, move_bodies(world, kick));
+}
+
+void step(World& world) {
+    if (world.forces_current || !world.initial_energy_taken) {
+        compute_forces(world);
+        advance(world);
+        return;
+    }
+    prepare_forces(world);
+    const bool clear = world.integrator != Integrator::consistent;  // it looks at the last pass's forces
+    const MoveListed move = clear ? move_of_lists<true>(world) : move_of_lists<false>(world);
+    const double kick = kick_now(world);
+    sweep(world, features_of(world), move, kick);
+    world.forces_clear = clear;
+    account_forces(world);
+    const PhaseTimer timer(world.profile, Phase::integrate);
+    Speeds speeds = move_the_rest(world, move, kick);
+    kick_controls(world, kick);
+    for (const ControlState& control : world.controls)
+        speeds.add(move_of_lists<false>(world)(world, kick, &control.body, 1));
+    end_step(world, speeds);
+}
+
+}  // namespace crackle

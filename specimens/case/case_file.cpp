@@ -1,0 +1,450 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Reads a case with toml++ against the declared parameters, and judges what keys say together.
+
+#include "specimens/case/case_file.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <toml++/toml.h>
+#include <algorithm>
+#include <ostream>
+#include <sstream>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "solver/base/errors.hpp"
+#include "specimens/case/parameters.hpp"
+
+namespace crackle {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string line_of(const fs::path& file, const toml::node& node) {
+    return fmt::format("{}:{}", file.string(), node.source().begin.line);
+}
+
+std::string kind_name(const toml::node& node) {
+    switch (node.type()) {
+        case toml::node_type::string:
+            return "a text";
+        case toml::node_type::integer:
+            return "a whole number";
+        case toml::node_type::floating_point:
+            return "a number";
+        case toml::node_type::boolean:
+            return "true or false";
+        case toml::node_type::table:
+            return "a table";
+        case toml::node_type::array:
+            return "an array";
+        default:
+            return "a date or time";
+    }
+}
+
+std::string shown(const toml::node& node) {
+    if (const auto* text = node.as_string()) return fmt::format("\"{}\"", text->get());
+    if (const auto* number = node.as_integer()) return fmt::format("{}", number->get());
+    if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
+    if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
+    return kind_name(node);
+}
+
+/// The value of a node as the parameter wants it. @throws InputError
+CaseValue value_of(const Parameter& p, const toml::node& node, const std::string& where) {
+    const auto refuse = [&](const std::string& found) {
+        throw InputError(fmt::format("{}: {}: found {}, expected {}", where, p.full_key(), found, p.expected()));
+    };
+    switch (p.kind) {
+        case ValueKind::flag:
+            if (const auto* flag = node.as_boolean()) return CaseValue(flag->get());
+            break;
+        case ValueKind::integer:
+            if (const auto* number = node.as_integer()) {
+                if (!p.accepts(static_cast<double>(number->get()))) refuse(shown(node));
+                return CaseValue(number->get());
+            }
+            break;
+        case ValueKind::real:
+            if (node.is_number()) {
+                const double number = *node.value<double>();
+                if (!p.accepts(number)) refuse(shown(node));
+                return CaseValue(number);
+            }
+            break;
+        case ValueKind::text:
+            if (const auto* text = node.as_string()) {
+                if (!p.choices.empty() &&
+                    std::find(p.choices.begin(), p.choices.end(), text->get()) == p.choices.end()) {
+                    refuse(shown(node));
+                }
+                if (p.is_path && text->get().empty()) refuse("an empty text");
+                return CaseValue(text->get());
+            }
+            break;
+    }
+    const bool scalar = node.is_value();
+    refuse(scalar ? fmt::format("{} ({})", shown(node), kind_name(node)) : kind_name(node));
+    return {};
+}
+
+toml::table parse(const fs::path& path) {
+    std::error_code error;
+    if (!fs::is_regular_file(path, error)) {
+        throw InputError(fmt::format("{}: found no such file, expected a case file; check the path", path.string()));
+    }
+    try {
+        return toml::parse_file(path.string());
+    } catch (const toml::parse_error& problem) {
+        throw InputError(fmt::format("{}:{}: not valid TOML: {}", path.string(), problem.source().begin.line,
+                                     problem.description()));
+    }
+}
+
+const Parameter* find_parameter(const std::string& table, const std::string& key) {
+    for (const Parameter& p : case_parameters()) {
+        if (p.table == table && p.key == key) return &p;
+    }
+    return nullptr;
+}
+
+[[noreturn]] void refuse_unknown(const std::string& where, const std::string& table, const std::string& key) {
+    std::vector<std::string> known;
+    for (const Parameter& p : case_parameters()) {
+        if (p.table == table) known.push_back(p.key);
+    }
+    if (table.empty()) {
+        known.push_back("include");
+        for (const TableDescription& t : case_tables()) {
+            if (!t.name.empty()) known.push_back("[" + t.name + "]");
+        }
+    }
+    throw InputError(fmt::format("{}: {}: found an unknown key, expected one of {}; correct or remove it", where,
+                                 table.empty() ? key : table + "." + key, fmt::join(known, ", ")));
+}
+
+void take_value(TestCase& test, const fs::path& file, const std::string& table, const std::string& key,
+                const toml::node& node) {
+    const std::string where = line_of(file, node);
+    const Parameter* p = find_parameter(table, key);
+    if (p == nullptr) refuse_unknown(where, table, key);
+    p->set(test, value_of(*p, node, where));
+    test.position[p->full_key()] = where;
+}
+
+/// Of ways of saying the same thing, the one that a file takes stands over those that came before it.
+void forget_other_ways(TestCase& test, const toml::table& content) {
+    const auto writes = [&](const std::string& key) { return static_cast<bool>(content.at_path(key)); };
+    for (const Alternatives& ways : case_alternatives()) {
+        for (const auto& taken : ways) {
+            if (std::none_of(taken.begin(), taken.end(), writes)) continue;
+            for (const auto& other : ways) {
+                if (&other == &taken) continue;
+                for (const std::string& full_key : other) {
+                    const std::size_t dot = full_key.find('.');
+                    find_parameter(full_key.substr(0, dot), full_key.substr(dot + 1))->forget(test);
+                    test.position.erase(full_key);
+                }
+            }
+        }
+    }
+}
+
+/// Puts what the file says into the case, over what is there.
+void take_file(TestCase& test, const fs::path& file, const toml::table& content) {
+    forget_other_ways(test, content);
+    for (const auto& [name, node] : content) {
+        const std::string key(name.str());
+        if (key == "include") continue;
+        const toml::table* inner = node.as_table();
+        if (inner == nullptr) {
+            take_value(test, file, "", key, node);
+            continue;
+        }
+        const auto& tables = case_tables();
+        if (std::none_of(tables.begin(), tables.end(), [&](const auto& t) { return t.name == key; })) {
+            refuse_unknown(line_of(file, node), "", key);
+        }
+        test.table_present[key] = true;
+        test.position[key] = line_of(file, node);
+        for (const auto& [inner_name, inner_node] : *inner) {
+            take_value(test, file, key, std::string(inner_name.str()), inner_node);
+        }
+    }
+}
+
+/// Takes a file after what it includes, so that its own keys stand over it.
+/// @param within the files that include this one, the case first: none may come again
+void take_with_includes(TestCase& test, const fs::path& path, std::vector<fs::path> within) {
+    const toml::table content = parse(path);
+    test.inputs.push_back(path);
+    if (const toml::node* include = content.get("include")) {
+        const std::string where = line_of(path, *include);
+        const auto* text = include->as_string();
+        if (text == nullptr) {
+            throw InputError(
+                fmt::format("{}: include: found {}, expected a file name in quotes", where, shown(*include)));
+        }
+        const fs::path other = (path.parent_path() / text->get()).lexically_normal();
+        std::error_code error;
+        if (!fs::is_regular_file(other, error)) {
+            throw InputError(fmt::format("{}: include: found no file {}, expected a case file; check the path", where,
+                                         other.string()));
+        }
+        within.push_back(path);
+        if (std::any_of(within.begin(), within.end(),
+                        [&](const fs::path& file) { return fs::equivalent(file, other, error); })) {
+            throw InputError(
+                fmt::format("{}: include: found {}, which includes this file, expected no ring; remove one", where,
+                            other.string()));
+        }
+        take_with_includes(test, other, std::move(within));
+    }
+    take_file(test, path, content);
+}
+
+/// Whether the case takes another way of saying what this key says.
+bool said_otherwise(const TestCase& test, const std::string& full_key) {
+    const auto is_written = [&](const std::string& key) { return test.position.contains(key); };
+    for (const Alternatives& ways : case_alternatives()) {
+        const auto has_key = [&](const auto& way) { return std::find(way.begin(), way.end(), full_key) != way.end(); };
+        if (std::none_of(ways.begin(), ways.end(), has_key)) continue;
+        return std::any_of(ways.begin(), ways.end(), [&](const auto& way) {
+            return !has_key(way) && std::any_of(way.begin(), way.end(), is_written);
+        });
+    }
+    return false;
+}
+
+void fill_defaults(TestCase& test) {
+    for (const Parameter& p : case_parameters()) {
+        const bool written = test.position.contains(p.full_key());
+        if (written) continue;
+        if (p.presence == Presence::defaulted) {
+            if (said_otherwise(test, p.full_key())) continue;
+            p.set(test, *p.default_value);
+        } else if (p.presence == Presence::required ||
+                   (p.presence == Presence::required_with_table && test.has_table(p.table))) {
+            const auto table = test.position.find(p.table);
+            throw InputError(fmt::format("{}: {}: found nothing, expected {}; add it to [{}]",
+                                         table == test.position.end() ? test.source.string() : table->second,
+                                         p.full_key(), p.expected(), p.table));
+        }
+    }
+    if (test.title.empty()) test.title = test.source.stem().string();
+}
+
+/// What keys say together.
+class Judge {
+  public:
+    explicit Judge(const TestCase& test) : test_(test) {}
+
+    void judge() const {
+        specimen();
+        if (test_.has_table("packing")) packing();
+        material();
+        mesh();
+        loading();
+        if (test_.output.frames.value_or(0) > test_.output.curve_rows) {
+            refuse("output.frames", fmt::format("{}", *test_.output.frames),
+                   fmt::format("at most output.curve_rows = {}", test_.output.curve_rows),
+                   "frames are taken at rows of the curve");
+        }
+    }
+
+  private:
+    [[noreturn]] void refuse(const std::string& key, const std::string& found, const std::string& expected,
+                             const std::string& remedy) const {
+        throw InputError(fmt::format("{}: found {}, expected {}; {}", test_.at(key), found, expected, remedy));
+    }
+    bool written(const std::string& key) const { return test_.position.contains(key); }
+
+    void need(const std::string& key, const std::string& because) const {
+        if (written(key)) return;
+        const std::string table = key.substr(0, key.find('.'));
+        const Parameter* p = find_parameter(table, key.substr(table.size() + 1));
+        refuse(key, "nothing", p->expected(), because);
+    }
+    void exclude(const std::string& key, const std::string& because) const {
+        if (written(key)) refuse(key, "a value", "none", because);
+    }
+
+    void specimen() const {
+        const bool file = test_.has_table("particles");
+        const bool pack = test_.has_table("packing");
+        if (file && pack) refuse("packing", "[particles] beside it", "one of them", "remove one");
+        if (!file && !pack)
+            refuse("particles", "neither [particles] nor [packing]", "one of them",
+                   "say where the specimen comes from");
+    }
+
+    void packing() const {
+        const auto& p = test_.packing;
+        if (p.count) {
+            exclude("packing.width", "count and height_to_width give the box its size");
+            exclude("packing.height", "count and height_to_width give the box its size");
+        } else {
+            need("packing.width", "or write count");
+            need("packing.height", "or write count");
+            exclude("packing.height_to_width", "width and height give the box its shape");
+        }
+        if (p.mean_overlap && p.void_ratio)
+            exclude("packing.void_ratio", "a packing has one target: remove mean_overlap or void_ratio");
+        if (!p.mean_overlap && !p.void_ratio) need("packing.mean_overlap", "or write void_ratio");
+        if (p.sizes == "sieve") {
+            need("packing.sieve", "sizes = \"sieve\" needs a curve");
+            for (const char* key : {"radius_min", "radius_max", "radius_median", "radius_log_deviation"}) {
+                exclude(std::string("packing.") + key, "the sieve curve gives the sizes");
+            }
+            return;
+        }
+        exclude("packing.sieve", "only sizes = \"sieve\" reads it");
+        if (p.sizes == "uniform") {
+            need("packing.radius_min", "sizes = \"uniform\" needs both ends");
+            need("packing.radius_max", "sizes = \"uniform\" needs both ends");
+            exclude("packing.radius_median", "only sizes = \"lognormal\" has it");
+            exclude("packing.radius_log_deviation", "only sizes = \"lognormal\" has it");
+        } else {
+            need("packing.radius_median", "sizes = \"lognormal\" needs it");
+            need("packing.radius_log_deviation", "sizes = \"lognormal\" needs it");
+        }
+        if (p.radius_min && p.radius_max && *p.radius_min > *p.radius_max) {
+            refuse("packing.radius_min", fmt::format("{} m", *p.radius_min),
+                   fmt::format("at most radius_max = {} m", *p.radius_max), "exchange them");
+        }
+    }
+
+    void material() const {
+        const auto& m = test_.material;
+        if (m.damping_ratio && (m.normal_damping || m.shear_damping)) {
+            refuse("material.damping_ratio", "a ratio and dashpots", "one way of damping",
+                   "remove damping_ratio or the dashpots");
+        }
+        if (!test_.has_table("packing")) return;
+        for (const char* key : {"density", "normal_stiffness", "shear_stiffness", "friction_angle"}) {
+            need(std::string("material.") + key, "a packing has no file to take it from");
+        }
+        if (!m.normal_damping && !m.shear_damping) return;  // a ratio, or the default one
+        need("material.normal_damping", "dashpots come in pairs");
+        need("material.shear_damping", "dashpots come in pairs");
+    }
+
+    void mesh() const {
+        if (!test_.has_table("mesh")) return;
+        if (*test_.mesh.kind == "voronoi" && test_.mesh.boundary == "seeds") {
+            refuse("mesh.boundary", "\"seeds\"", "\"domain\" with kind = \"voronoi\"", "Voronoi cells always fill it");
+        }
+        need("bond.thick", "polygons bond at the excess of bond.thick over mesh.thick");
+        const double gap = test_.mesh.inset ? 2.0 * *test_.mesh.inset : *test_.mesh.thick;
+        if (*test_.bond.thick <= gap) {
+            refuse("bond.thick", fmt::format("{} m", *test_.bond.thick),
+                   fmt::format("more than {} = {} m", test_.mesh.inset ? "twice mesh.inset" : "mesh.thick", gap),
+                   "the excess is the overlap that bonds the polygons");
+        }
+    }
+
+    void loading() const {
+        if (test_.loading.axial_strain_rate && test_.loading.rate_tolerance) {
+            refuse("loading.rate_tolerance", "a tolerance besides axial_strain_rate", "one of them",
+                   "remove axial_strain_rate to have the rate chosen, or rate_tolerance");
+        }
+        if (test_.loading.platens == "frictional") {
+            if (test_.loading.kind == "tension") {
+                refuse("loading.platens", "\"frictional\"", "\"bonded\" in tension",
+                       "a platen that is not bonded cannot pull");
+            }
+            need("loading.platen_friction_angle", "frictional platens need it");
+            if (test_.numerics.intact)
+                refuse("numerics.intact", "true", "false with frictional platens", "they touch only what comes anew");
+        } else {
+            exclude("loading.platen_friction_angle",
+                    "only platens = \"frictional\" has it: bonded platens take the specimen's");
+        }
+    }
+
+    const TestCase& test_;
+};
+
+}  // namespace
+
+std::string TestCase::at(const std::string& key) const {
+    const auto found = position.find(key);
+    if (found != position.end()) return found->second + ": " + key;
+    const auto table = position.find(key.substr(0, key.find('.')));
+    return (table == position.end() ? source.string() : table->second) + ": " + key;
+}
+
+fs::path TestCase::resolve_path(const std::string& key, const std::string& written) const {
+    const std::string& where = position.at(key);
+    return (fs::path(where.substr(0, where.rfind(':'))).parent_path() / written).lexically_normal();
+}
+
+TestCase read_case(const fs::path& path) {
+    TestCase test;
+    test.source = path;
+    take_with_includes(test, path, {});
+    fill_defaults(test);
+    Judge(test).judge();
+    return test;
+}
+
+void write_resolved_case(std::ostream& out, const TestCase& test, const fs::path& folder) {
+    for (const TableDescription& table : case_tables()) {
+        std::ostringstream lines;
+        for (const Parameter& p : case_parameters()) {
+            if (p.table != table.name) continue;
+            const bool alternative_absent = (p.table == "packing" || p.table == "mesh") && !test.has_table(p.table);
+            std::optional<CaseValue> value = p.get(test);
+            if (!value || alternative_absent) continue;
+            std::string text;
+            if (const auto* flag = std::get_if<bool>(&*value)) text = *flag ? "true" : "false";
+            if (const auto* number = std::get_if<std::int64_t>(&*value)) text = fmt::format("{}", *number);
+            if (const auto* number = std::get_if<double>(&*value)) {
+                text = fmt::format("{}", *number);
+                if (text.find_first_of(".e") == std::string::npos) text += ".0";
+            }
+            if (auto* words = std::get_if<std::string>(&*value)) {
+                std::string written = *words;
+                if (p.is_path) {
+                    const fs::path target = test.resolve_path(p.full_key(), written);
+                    written = fs::absolute(target)
+                                  .lexically_normal()
+                                  .lexically_proximate(fs::absolute(folder).lexically_normal())
+                                  .generic_string();
+                }
+                std::ostringstream quoted;
+                quoted << toml::value<std::string>(written);
+                text = quoted.str();
+            }
+            lines << fmt::format("{} = {}  # {}{}\n", p.key, text, p.unit.empty() ? "" : p.unit + ": ", p.sentence);
+        }
+        const std::string text = lines.str();
+        if (text.empty()) continue;
+        if (!table.name.empty()) out << "\n[" << table.name << "]  # " << table.sentence << '\n';
+        out << text;
+    }
+}
+
+void describe_case_keys(std::ostream& out) {
+    out << "include = \"FILE\" at the top: values of FILE hold wherever the case is silent; FILE may include "
+           "another.\n";
+    for (const TableDescription& table : case_tables()) {
+        if (!table.name.empty()) out << "\n[" << table.name << "]  " << table.sentence << '\n';
+        for (const Parameter& p : case_parameters()) {
+            if (p.table != table.name) continue;
+            std::string presence = "optional";
+            if (p.presence == Presence::required) presence = "required";
+            if (p.presence == Presence::required_with_table) presence = "required with the table";
+            if (p.presence == Presence::defaulted && p.full_key() != "title") {
+                const CaseValue& value = *p.default_value;
+                presence = "default " + std::visit([](const auto& v) { return fmt::format("{}", v); }, value);
+            }
+            out << fmt::format("  {:24} {}; {}. {}\n", p.key, p.expected(), presence, p.sentence);
+        }
+    }
+}
+
+}  // namespace crackle

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The declarations of all case keys: one line a key. New keys are added here and nowhere else.
+
+#include "specimens/case/parameters.hpp"
+
+#include "specimens/packing/packing.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <utility>
+
+namespace crackle {
+namespace {
+
+template <class T>
+struct Unwrap {
+    using type = T;
+    static constexpr bool optional = false;
+};
+template <class T>
+struct Unwrap<std::optional<T>> {
+    using type = T;
+    static constexpr bool optional = true;
+};
+
+/// Declares a parameter held by the member that `member` returns; its type gives the kind of value.
+template <class Member>
+Parameter declare(std::string table, std::string key, std::string unit, Member member, std::string sentence) {
+    using Held = std::remove_cvref_t<decltype(member(std::declval<TestCase&>()))>;
+    using T = typename Unwrap<Held>::type;
+    Parameter p;
+    p.table = std::move(table);
+    p.key = std::move(key);
+    p.unit = std::move(unit);
+    p.sentence = std::move(sentence);
+    p.kind = std::is_same_v<T, bool>           ? ValueKind::flag
+             : std::is_same_v<T, std::int64_t> ? ValueKind::integer
+             : std::is_same_v<T, double>       ? ValueKind::real
+                                               : ValueKind::text;
+    p.presence = Unwrap<Held>::optional ? Presence::optional : Presence::required;
+    p.set = [member](TestCase& c, const CaseValue& value) { member(c) = std::get<T>(value); };
+    p.get = [member](const TestCase& c) -> std::optional<CaseValue> {
+        const Held& held = member(const_cast<TestCase&>(c));  // member() only reaches in; nothing is written
+        if constexpr (Unwrap<Held>::optional) {
+            if (!held) return std::nullopt;
+            return CaseValue(*held);
+        } else {
+            return CaseValue(held);
+        }
+    };
+    if constexpr (Unwrap<Held>::optional) p.forget = [member](TestCase& c) { member(c).reset(); };
+    return p;
+}
+
+/// Refinements of a declaration, chained behind it.
+struct With {
+    Parameter p;
+    With above(double low) && { return p.lowest = low, p.lowest_allowed = false, std::move(*this); }
+    With at_least(double low) && { return p.lowest = low, std::move(*this); }
+    With below(double high) && { return p.highest = high, p.highest_allowed = false, std::move(*this); }
+    With at_most(double high) && { return p.highest = high, std::move(*this); }
+    With one_of(std::vector<std::string> choices) && { return p.choices = std::move(choices), std::move(*this); }
+    With path() && { return p.is_path = true, std::move(*this); }
+    With needed_with_table() && { return p.presence = Presence::required_with_table, std::move(*this); }
+    With otherwise(CaseValue value) && {
+        return p.default_value = std::move(value), p.presence = Presence::defaulted, std::move(*this);
+    }
+    operator Parameter() && { return std::move(p); }
+};
+
+// NOLINTBEGIN(bugprone-macro-parentheses): names of members and lists of calls
+// Its versions differ on a lambda in a macro.
+// clang-format off
+#define CRACKLE_MEMBER(path) [](TestCase& c) -> auto& { return c.path; }
+// clang-format on
+#define CRACKLE_KEY(table, key, unit, sentence) \
+    With { declare(#table, #key, unit, CRACKLE_MEMBER(table.key), sentence) }
+// NOLINTEND(bugprone-macro-parentheses)
+
+std::vector<Parameter> all_parameters() {
+    using Text = std::string;
+    const auto whole = [](std::int64_t n) { return CaseValue(n); };
+    return {
+        With{declare("", "title", "", CRACKLE_MEMBER(title), "Heading of the report; the file's name if not given.")}
+            .otherwise(Text()),
+
+        CRACKLE_KEY(particles, file, "", "Particle file in the layout of DEMseg's in_gm.dat (mode 1).")
+            .path()
+            .needed_with_table(),
+
+        CRACKLE_KEY(packing, width, "m", "Width of the box.").above(0),
+        CRACKLE_KEY(packing, height, "m", "Height of the box.").above(0),
+        CRACKLE_KEY(packing, count, "", "Number of circles, in place of width and height.")
+            .at_least(static_cast<double>(min_packing_circles))
+            .at_most(static_cast<double>(max_packing_circles)),
+        CRACKLE_KEY(packing, height_to_width, "", "Height over width of the box, with count; 2 if not given.").above(0),
+        CRACKLE_KEY(packing, sizes, "", "Distribution of the radii.")
+            .one_of({"uniform", "lognormal", "sieve"})
+            .otherwise(Text("uniform")),
+        CRACKLE_KEY(packing, radius_min, "m", "Smallest radius (uniform; cut-off of lognormal).").above(0),
+        CRACKLE_KEY(packing, radius_max, "m", "Largest radius (uniform; cut-off of lognormal).").above(0),
+        CRACKLE_KEY(packing, radius_median, "m", "Median radius (lognormal).").above(0),
+        CRACKLE_KEY(packing, radius_log_deviation, "", "Standard deviation of ln(radius) (lognormal).").above(0),
+        CRACKLE_KEY(packing, sieve, "", "Sieve curve: CSV with columns size,passing_by_mass.").path(),
+        CRACKLE_KEY(packing, mean_overlap, "m", "Mean overlap of all contacts to compress to.").above(0),
+        CRACKLE_KEY(packing, void_ratio, "", "Void ratio to compress to, in place of mean_overlap.").above(0),
+        CRACKLE_KEY(packing, seed, "", "Seed of the random numbers; the same seed gives the same packing.")
+            .at_least(0)
+            .otherwise(whole(1)),
+
+        CRACKLE_KEY(mesh, kind, "", "Polygons made from the circles' centres.")
+            .one_of({"delaunay", "voronoi"})
+            .needed_with_table(),
+        CRACKLE_KEY(mesh, thick, "m", "Gap between neighbouring polygons.").above(0).needed_with_table(),
+        CRACKLE_KEY(mesh, inset, "m", "Depth by which each polygon is inset; thick/2 if not given.").at_least(0),
+        CRACKLE_KEY(mesh, boundary, "", "Outer faces: flat on the domain, or where the outermost centres lie.")
+            .one_of({"domain", "seeds"})
+            .otherwise(Text("domain")),
+        CRACKLE_KEY(mesh, merge_destroyed, "", "Merge a cell that the inset destroys into a neighbour.")
+            .otherwise(false),
+
+        CRACKLE_KEY(material, density, "kg/m2", "Density, per unit thickness.").above(0),
+        CRACKLE_KEY(material, normal_stiffness, "N/m", "Normal stiffness k_n of a contact point.").above(0),
+        CRACKLE_KEY(material, shear_stiffness, "N/m", "Shear stiffness k_s of a contact point.").at_least(0),
+        CRACKLE_KEY(material, friction_angle, "deg", "Friction angle; mu = tan(angle).").at_least(0).below(90),
+        CRACKLE_KEY(material, damping_ratio, "",
+                    "Damping ratio h of every contact point; of a packing without any damping key 0.2384, with which a "
+                    "particle ringing on its contacts loses 95 % of its energy a period.")
+            .at_least(0),
+        CRACKLE_KEY(material, normal_damping, "N s/m", "Normal dashpot, in place of damping_ratio.").at_least(0),
+        CRACKLE_KEY(material, shear_damping, "N s/m", "Shear dashpot, in place of damping_ratio.").at_least(0),
+
+        CRACKLE_KEY(bond, thick, "m",
+                    "Segment thickness at bonding: polygons need more than mesh.thick, the excess is the overlap that "
+                    "bonds them; circles bond at the overlaps they have (a tenth of the mean radius if not given, "
+                    "which changes nothing but where the platens' centre lines are drawn).")
+            .above(0),
+
+        CRACKLE_KEY(loading, kind, "", "What the platens do.").one_of({"compression", "tension"}),
+        CRACKLE_KEY(loading, axial_strain_rate, "1/s",
+                    "Platen speed over the specimen's height, in place of rate_tolerance.")
+            .above(0)
+            .below(1e6),
+        CRACKLE_KEY(
+            loading, rate_tolerance, "",
+            "Sets the platen's largest speed, by sqrt(rate_tolerance), and slows it down to 0.15 of that while the "
+            "inertia error (out-of-balance of the platens, kinetic over strain energy) is above this.")
+            .otherwise(0.01)
+            .above(0)
+            .at_most(1),
+        CRACKLE_KEY(loading, max_axial_strain, "", "The test ends here if the specimen has not failed before.")
+            .above(0)
+            .below(1),
+        CRACKLE_KEY(loading, stop_at_share_of_peak, "",
+                    "Failure: stress below this share of its peak for a tenth of the strain at peak.")
+            .above(0)
+            .below(1)
+            .otherwise(0.5),
+        CRACKLE_KEY(loading, platens, "", "Bonded to the specimen, or touching it with friction (compression only).")
+            .one_of({"bonded", "frictional"})
+            .otherwise(Text("bonded")),
+        CRACKLE_KEY(loading, platen_friction_angle, "deg", "Friction angle of frictional platens.")
+            .at_least(0)
+            .below(90),
+
+        CRACKLE_KEY(numerics, time_step, "s", "Time step; derived from the stiffness bound if not given.").above(0),
+        CRACKLE_KEY(numerics, safety_factor, "",
+                    "Share of the exact stable step that a derived step takes, if the guaranteed bound allows it.")
+            .above(0)
+            .at_most(1)
+            .otherwise(0.8),
+        CRACKLE_KEY(numerics, threads, "", "Threads; results do not depend on them.")
+            .at_least(1)
+            .at_most(1024)
+            .otherwise(whole(1)),
+        CRACKLE_KEY(numerics, contact_law, "",
+                    "Contact law of polygons: corner against outline, or the guide's segment against segment (with the "
+                    "sum or the mean of its disc cases).")
+            .one_of({"rounded", "demseg", "demseg_mean"})
+            .otherwise(Text("rounded")),
+        CRACKLE_KEY(numerics, integrator, "",
+                    "How unbonded contacts open and close: leapfrog, as the guide does, or consistent with the energy.")
+            .one_of({"leapfrog", "consistent"})
+            .otherwise(Text("leapfrog")),
+        CRACKLE_KEY(numerics, intact, "",
+                    "Nothing breaks, slides or comes into contact: for comparing a run with the linear solve.")
+            .otherwise(false),
+        CRACKLE_KEY(numerics, allow_unstable, "", "Run a time step above the stable bound, to show the limit.")
+            .otherwise(false),
+
+        CRACKLE_KEY(output, curve_rows, "",
+                    "Rows of curve.csv over max_axial_strain; peak and failure are judged by at least 2000 whatever is "
+                    "written.")
+            .at_least(10)
+            .at_most(99998)
+            .otherwise(whole(2000)),
+        CRACKLE_KEY(output, frames, "",
+                    "Frames over max_axial_strain, besides start, peak and end; if not given 100 up to 2000 bodies, "
+                    "beyond that 200,000 over their number, at least 20 (never more than curve_rows).")
+            .at_least(1)
+            .at_most(99998),
+        CRACKLE_KEY(output, checkpoint_interval, "s", "Wall-clock time between checkpoints.").above(0).otherwise(60.0),
+        CRACKLE_KEY(output, out_of_plane_thickness, "m",
+                    "Only converts what is reported: stresses in N/m over this give the _pa values.")
+            .above(0)
+            .otherwise(1.0),
+    };
+}
+
+}  // namespace
+
+const std::vector<Parameter>& case_parameters() {
+    static const std::vector<Parameter> all = all_parameters();
+    return all;
+}
+
+const std::vector<Alternatives>& case_alternatives() {
+    static const std::vector<Alternatives> all{
+        {{"packing.count", "packing.height_to_width"}, {"packing.width", "packing.height"}},
+        {{"packing.mean_overlap"}, {"packing.void_ratio"}},
+        {{"material.damping_ratio"}, {"material.normal_damping", "material.shear_damping"}},
+        {{"loading.axial_strain_rate"}, {"loading.rate_tolerance"}},
+    };
+    return all;
+}
+
+const std::vector<TableDescription>& case_tables() {
+    static const std::vector<TableDescription> all{
+        {"", "Top of the file."},
+        {"particles", "A specimen from a file; the alternative is [packing]."},
+        {"packing", "A specimen made here; the alternative is [particles]."},
+        {"mesh", "Turns the circles into polygons; without it they stay circles."},
+        {"material", "Of the specimen; with [particles], each key overrides the file's."},
+        {"bond", "Back-tension bonding."},
+        {"loading", "Platens: the lower one is fixed, the upper one moves."},
+        {"numerics", "How it is computed."},
+        {"output", "What is written."},
+    };
+    return all;
+}
+
+bool Parameter::accepts(double value) const {
+    if (!std::isfinite(value)) return false;
+    if (lowest_allowed ? value < lowest : value <= lowest) return false;
+    return highest_allowed ? value <= highest : value < highest;
+}
+
+std::string Parameter::expected() const {
+    switch (kind) {
+        case ValueKind::flag:
+            return "true or false";
+        case ValueKind::text:
+            if (choices.empty()) return is_path ? "a file name in quotes" : "a text in quotes";
+            return fmt::format("\"{}\"", fmt::join(choices, "\" or \""));
+        case ValueKind::integer:
+        case ValueKind::real:
+            break;
+    }
+    std::string text = kind == ValueKind::integer ? "a whole number" : "a number";
+    if (std::isfinite(lowest)) text += fmt::format(" {} {:g}", lowest_allowed ? ">=" : ">", lowest);
+    if (std::isfinite(highest))
+        text += fmt::format("{} {} {:g}", std::isfinite(lowest) ? " and" : "", highest_allowed ? "<=" : "<", highest);
+    if (!unit.empty()) text += " in " + unit;
+    return text;
+}
+
+}  // namespace crackle

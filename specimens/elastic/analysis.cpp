@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/elastic/analysis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "solver/linear/vibration.hpp"
+
+namespace crackle {
+namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// Strain at which something that is `now` and grows by `slope` a unit of strain has gone; infinite where it grows.
+double strain_of_loss(double now, double slope) { return slope < 0.0 ? -now / slope : infinite; }
+
+/// Overlap growth and slip of every bonded point per unit of strain, from their springs.
+struct PointRates {
+    double closing = 0.0, slipping = 0.0;
+};
+
+std::vector<PointRates> rates_of(const World& world, const std::vector<Motion>& displacement) {
+    std::vector<PointRates> rates(world.points.size());
+    for (const Spring& spring : springs_of(world, ClosedPoints::bonded)) {
+        PointRates& rate = rates[spring.point];
+        (spring.shear ? rate.slipping : rate.closing) = times(spring, spring.gradient, displacement);
+    }
+    return rates;
+}
+
+LinearBond linear_bond(const World& world, PointIndex k, const PointRates& rate, double strain) {
+    const PointView view = view_point(world, k);
+    LinearBond bond;
+    bond.body_i = world.info[view.body_i].id;
+    bond.body_j = world.info[view.body_j].id;
+    bond.position = view.position;
+    bond.strength = view.normal_stiffness * view.bond_overlap;
+    bond.normal_force = view.normal_stiffness * rate.closing * strain;
+    bond.shear_force = view.shear_stiffness * std::abs(rate.slipping) * strain;
+    bond.break_strain = strain_of_loss(bond.strength, view.normal_stiffness * rate.closing);
+    // Limit less shear force; without a shear spring or a limit nothing ever slides.
+    const double shear = view.shear_stiffness * std::abs(rate.slipping);
+    bond.slip_strain = shear > 0.0 && std::isfinite(view.friction)
+                           ? strain_of_loss(view.friction * bond.strength,
+                                            view.friction * view.normal_stiffness * rate.closing - shear)
+                           : infinite;
+    return bond;
+}
+
+template <double LinearBond::*Strain>
+std::optional<FirstEvent> first_of(const std::vector<LinearBond>& bonds, double modulus) {
+    std::optional<FirstEvent> first;
+    for (std::size_t k = 0; k < bonds.size(); ++k) {
+        const double strain = bonds[k].*Strain;
+        if (std::isfinite(strain) && (!first || strain < first->strain)) first = {strain, modulus * strain, k};
+    }
+    return first;
+}
+
+std::vector<LinearBond> linear_bonds(const World& world, const TestSetup& setup, const Moduli& moduli, double strain) {
+    // The solution is for unit strain in tension.
+    const double sense = setup.compression ? -1.0 : 1.0;
+    const std::vector<PointRates> rates = rates_of(world, moduli.solution.displacement);
+    std::vector<LinearBond> bonds;
+    for (PointIndex k = 0; k < world.points.size(); ++k) {
+        if ((world.point_states[k].flags & point_bonded) == 0) continue;
+        bonds.push_back(linear_bond(world, k, {sense * rates[k].closing, rates[k].slipping}, strain));
+    }
+    return bonds;
+}
+
+}  // namespace
+
+double yield_strain(const World& world, const TestSetup& setup, const Moduli& moduli, double share) {
+    std::vector<double> strains;
+    for (const LinearBond& bond : linear_bonds(world, setup, moduli, 0.0))
+        strains.push_back(std::min(bond.slip_strain, bond.break_strain));
+    if (strains.empty()) return infinite;
+    const auto nth = strains.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(strains.size()));
+    std::nth_element(strains.begin(), nth, strains.end());
+    return *nth;
+}
+
+ElasticAnalysis analyse_elastic(const VirtualTest& test, double strain, int modes) {
+    const World& world = test.world;
+    const TestSetup& setup = test.setup;
+    const Moduli moduli = test.small_strain ? test.small_strain->moduli : solve_moduli(world, setup);
+    ElasticAnalysis result;
+    result.youngs_modulus = moduli.youngs_modulus;
+    result.poissons_ratio = moduli.poissons_ratio;
+    result.residual = moduli.solution.residual;
+    result.unknowns = moduli.solution.unknowns;
+    result.strain = strain;
+    result.bonds = linear_bonds(world, setup, moduli, strain);
+    result.first_break = first_of<&LinearBond::break_strain>(result.bonds, result.youngs_modulus);
+    result.first_slip = first_of<&LinearBond::slip_strain>(result.bonds, result.youngs_modulus);
+    result.stable_time_step = setup.stable_time_step;
+    result.stable_time_step_proved = setup.stable_time_step_proved;
+    result.time_step_bound = setup.time_step_bound;
+    result.time_step = world.time_step;
+    result.free = find_free_motions(world, {setup.bottom, setup.top});
+    for (const BodyIndex b : result.free.bodies) result.free_ids.push_back(world.info[b].id);
+    if (modes > 0) {
+        for (const VibrationMode& mode : lowest_modes(world, modes, result.free.count))
+            result.frequencies.push_back(mode.frequency);
+    }
+    return result;
+}
+
+}  // namespace crackle

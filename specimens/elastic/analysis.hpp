@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the linear solution says of a bonded specimen between its platens: moduli, the bonds that give way first, the
+// stable time step, free motions, vibration modes. No time stepping.
+//
+// With ε the axial strain in the sense of the test and a_n, a_t a point's growth of overlap and slip per unit of it,
+//     break:  δ0 + ε a_n = 0                         (linear, no slip)
+//     slip:   k_s |a_t| ε = μ k_n (δ0 + ε a_n)       (Coulomb limit of model.md 3)
+// A point that opens slips before it breaks unless it does not shear at all, for its limit goes with its overlap.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "solver/linear/elastic.hpp"
+#include "specimens/elastic/moduli.hpp"
+#include "specimens/loading/virtual_test.hpp"
+
+namespace crackle {
+
+/// A bonded point under the linear solution; forces at `ElasticAnalysis::strain`.
+struct LinearBond {
+    int body_i = 0, body_j = 0;  ///< input ids
+    Vec2 position;               // m
+    double strength = 0.0;       // N, k_n δ0
+    double normal_force = 0.0;   // N, compression positive
+    double shear_force = 0.0;    // N, magnitude
+    double break_strain = 0.0;   ///< infinite where the point is squeezed
+    double slip_strain = 0.0;    ///< infinite where it sticks for ever
+};
+
+struct FirstEvent {
+    double strain = 0.0;  ///< axial, positive in the sense of the test
+    double stress = 0.0;  // N/m
+    std::size_t bond = 0;
+};
+
+struct ElasticAnalysis {
+    double youngs_modulus = 0.0, poissons_ratio = 0.0;  // N/m, -
+    double residual = 0.0;                              ///< of the solve, over its load
+    double strain = 0.0;                                ///< of the bond forces
+    std::vector<LinearBond> bonds;
+    std::optional<FirstEvent> first_break, first_slip;
+    double stable_time_step = 0.0;  // s, exact
+    bool stable_time_step_proved = false;
+    double time_step_bound = 0.0, time_step = 0.0;  // s, guaranteed without an eigenvalue solve; what a test would take
+    FreeMotions free;
+    std::vector<int> free_ids;        ///< input ids of the bodies that can move without resistance
+    std::vector<double> frequencies;  // rad/s, lowest modes that store energy
+    std::int64_t unknowns = 0;
+};
+
+/// Axial strain at which a share of the bonded points (at least one) slide or, where they do not slide, break by the
+/// linear solution; infinite where they never do. @param moduli of a world with bonded platens, `world` itself or its
+/// twin with the same bodies
+double yield_strain(const World& world, const TestSetup& setup, const Moduli& moduli, double share);
+
+/// @param test prepared, not yet loaded; its platens bonded
+/// @param strain at which bond forces are given (sense of the test)
+/// @param modes lowest vibration modes to find, platens held
+/// @throws InputError where there is no linear solution
+ElasticAnalysis analyse_elastic(const VirtualTest& test, double strain, int modes);
+
+}  // namespace crackle

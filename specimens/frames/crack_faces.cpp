@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/frames/crack_faces.hpp"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+namespace crackle {
+namespace {
+
+/// Part of a face when loading begins: along a unit vector, m from where its point is held.
+struct Stretch {
+    Vec2 along;
+    double begin, end;
+};
+
+double smaller_radius(const World& world, PointKind kind, const ContactPoint& point) {
+    const double radius = world.elements[point.element_i].radius;
+    if (!is_circles(world, point.body_j)) return radius;
+    const bool named = kind == PointKind::element_element;
+    return std::min(radius, world.elements[named ? point.feature_j : world.info[point.body_j].first_element].radius);
+}
+
+Vec2 middle_of(const Facing& facing) { return 0.5 * (facing.on_i + facing.on_j); }
+
+/// Of these the one farthest away.
+Vec2 farthest(const std::vector<Vec2>& places, Vec2 from) {
+    return *std::max_element(places.begin(), places.end(),
+                             [&](Vec2 a, Vec2 b) { return norm(a - from) < norm(b - from); });
+}
+
+/// The part of a bond in the face of its interface: bonds of two bodies lie together.
+template <PointKind K>
+Stretch interface_share(const PlacedFrame& placed, PointIndex bond, const Facing& held) {
+    const TestSetup& setup = placed.setup();
+    const auto belongs = [&](PointIndex k) { return same_pair(setup.bonds[k].point, setup.bonds[bond].point); };
+    const auto number = static_cast<std::size_t>(K);
+    PointIndex first = bond, last = bond + 1;
+    while (first > setup.bond_kind_begin[number] && belongs(first - 1)) --first;
+    while (last < setup.bond_kind_begin[number + 1] && belongs(last)) ++last;
+    std::vector<Vec2> places;
+    for (PointIndex k = first; k < last; ++k)
+        places.push_back(middle_of(facing_at_start<K>(placed.world(), setup, setup.bonds[k].point)));
+    const Vec2 from = middle_of(held), one = farthest(places, from), other = farthest(places, one);
+    // A corner before a corner has a normal of its own, which is not that of the face.
+    const double length = norm(other - one), least = setup.bond_thick;
+    const Vec2 along = length > least ? (1.0 / length) * (other - one) : perpendicular(held.normal);
+    double begin = 0.0, end = 0.0;
+    int before = 0;
+    for (PointIndex k = first; k < last; ++k) {
+        const double place = dot(places[k - first] - from, along);
+        begin = std::min(begin, place);
+        end = std::max(end, place);
+        if (std::pair(place, k) < std::pair(0.0, bond)) ++before;
+    }
+    const double lacking = std::max(0.0, least - (end - begin));
+    begin -= 0.5 * lacking;
+    const double share = (end + 0.5 * lacking - begin) / (last - first);
+    return {along, begin + before * share, begin + (before + 1) * share};
+}
+
+template <PointKind K>
+CrackFace face_of(const PlacedFrame& placed, PointIndex bond) {
+    const TestSetup& setup = placed.setup();
+    const ContactPoint& point = setup.bonds[bond].point;
+    const Facing held = facing_at_start<K>(placed.world(), setup, point);
+    Stretch part{};
+    if (is_circles(placed.world(), point.body_i)) {
+        const double radius = smaller_radius(placed.world(), K, point);
+        part = {perpendicular(held.normal), -radius, radius};
+    } else {
+        part = interface_share<K>(placed, bond, held);
+    }
+    const auto carried = [&](double place) {
+        return 0.5 * (placed.carried(point.body_i, held.on_i + place * part.along) +
+                      placed.carried(point.body_j, held.on_j + place * part.along));
+    };
+    const Vec2 normal =
+        rotated(placed.turn(point.body_i), held.normal) + rotated(placed.turn(point.body_j), held.normal);
+    const Vec2 apart = placed.carried(point.body_j, held.on_j) - placed.carried(point.body_i, held.on_i);
+    const double length = norm(normal);
+    const double now = length > 0.0 ? dot(apart, normal) / length : norm(apart);
+    const double touching = setup.polygons ? setup.bond_thick : setup.bonds[bond].overlap;  // as far as that apart
+    return {carried(part.begin), carried(part.end), now - touching};
+}
+
+}  // namespace
+
+CrackFace find_crack_face(const PlacedFrame& placed, PointIndex bond) {
+    CrackFace face{};
+    visit_kinds(placed.setup().bond_kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
+        if constexpr (K != PointKind::element_wall) {
+            if (bond >= begin && bond < end) face = face_of<K>(placed, bond);
+        }
+    });
+    return face;
+}
+
+}  // namespace crackle

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/frames/frame.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+#include "solver/contact/geometry.hpp"
+#include "solver/world/point_order.hpp"
+#include "specimens/observers/curve.hpp"
+
+namespace crackle {
+namespace {
+
+/// Points that touch without a bond: those that lost one to it, the others to the frame's own.
+void take_loose(const TestSetup& setup, const LooseContacts& loose, Frame& frame) {
+    frame.loose.contacts.clear();
+    for (std::size_t kind = 0; kind < point_kinds; ++kind) {
+        for (PointIndex k = loose.kind_begin[kind]; k < loose.kind_begin[kind + 1]; ++k) {
+            const LooseContact& contact = loose.contacts[k];
+            const PointIndex bond = bond_of(setup, static_cast<PointKind>(kind), contact.point);
+            if (bond == setup.bonds.size()) {
+                frame.loose.contacts.push_back(contact);
+            } else {
+                frame.shear_force[bond] = contact.shear_force;
+                frame.states[bond] = ContactState::broken_touching;
+            }
+        }
+        frame.loose.kind_begin[kind + 1] = static_cast<PointIndex>(frame.loose.contacts.size());
+    }
+}
+
+constexpr std::array<const char*, 3> pictures{"particles_", "contacts_", "cracks_"};
+
+std::string picture(std::size_t which, std::int64_t row) { return fmt::format("{}{:05}.vtp", pictures[which], row); }
+
+}  // namespace
+
+void take_frame(const World& world, const TestSetup& setup, const ContactHistory& history, const CurveRow& row,
+                std::int64_t row_index, Frame& frame) {
+    frame.row = row_index;
+    frame.axial_strain = row.axial_strain;
+    frame.axial_stress = row.axial_stress;
+    frame.time = row.time;
+    frame.cracks = history.cracks.size();
+    frame.bodies.resize(world.bodies.size());
+    std::transform(world.bodies.begin(), world.bodies.end(), frame.bodies.begin(), [](const BodyState& body) {
+        return Frame::Body{body.x, body.y, body.angle, body.vx, body.vy, body.omega};
+    });
+    // Bonds are never made anew: what the walk along the list does not meet is broken.
+    const std::vector<Bond>& bonds = setup.bonds;
+    frame.shear_force.assign(bonds.size(), 0.0);
+    frame.states.assign(bonds.size(), ContactState::broken);
+    visit_kinds(world.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
+        const PointIndex first = setup.bond_kind_begin[static_cast<std::size_t>(K)];
+        const PointIndex last = setup.bond_kind_begin[static_cast<std::size_t>(K) + 1];
+        PointIndex next = first;
+        for (PointIndex k = begin; k < end; ++k) {
+            if (k == world.fours_end) next = first;  // here the order of a kind begins anew
+            const ContactPoint& point = world.points[k];
+            const auto flags = world.point_states[k].flags;
+            if ((flags & point_bonded) == 0) continue;
+            while (next < last && !same_point(K, bonds[next].point, point)) ++next;
+            if (next == last) throw std::logic_error("a bonded point is not where the start of loading listed it");
+            frame.shear_force[next] = world.shear_forces[k];
+            frame.states[next] = (flags & point_slid) != 0 ? ContactState::bonded_slid : ContactState::bonded;
+        }
+    });
+    take_loose(setup, history.loose, frame);
+}
+
+std::int64_t default_frames(std::int64_t bodies, std::int64_t curve_rows) {
+    constexpr std::int64_t most = 100, fewest = 20, bodies_drawn = 200'000;
+    const std::int64_t shared = bodies_drawn / std::max<std::int64_t>(1, bodies);
+    return std::min(std::clamp(shared, fewest, most), curve_rows);
+}
+
+std::string particles_file(std::int64_t row) { return picture(0, row); }
+std::string contacts_file(std::int64_t row) { return picture(1, row); }
+std::string cracks_file(std::int64_t row) { return picture(2, row); }
+
+bool is_picture(const std::string& name) {
+    return name.ends_with(".vtp") &&
+           std::any_of(pictures.begin(), pictures.end(), [&](const char* begin) { return name.starts_with(begin); });
+}
+
+}  // namespace crackle

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/frames/frame_forces.hpp"
+
+namespace crackle {
+namespace {
+
+/// Adds up what one contact contributes: normal and shear force, N, as PointView's.
+void add_contact(std::vector<ParticleStress>& sums, const ContactPoint& point, const ContactGeometry& g, double normal,
+                 double shear) {
+    const Vec2 on_i = shear * Vec2{-g.ny, g.nx} - normal * Vec2{g.nx, g.ny};
+    const auto add = [](ParticleStress& sum, Vec2 force, Vec2 arm) {
+        sum.xx -= arm.x * force.x;
+        sum.yy -= arm.y * force.y;
+        sum.xy -= 0.5 * (arm.x * force.y + arm.y * force.x);
+    };
+    add(sums[point.body_i], on_i, {g.aix, g.aiy});
+    add(sums[point.body_j], -on_i, {g.ajx, g.ajy});
+}
+
+}  // namespace
+
+double area_of(const World& world, BodyIndex b) {
+    return world.inertia[b].mass / world.materials[world.info[b].material].density;
+}
+
+FrameForces find_forces(const PlacedFrame& placed) {
+    const World& world = placed.world();
+    const TestSetup& setup = placed.setup();
+    const Frame& frame = placed.frame();
+    FrameForces forces;
+    forces.normal.reserve(setup.bonds.size() + frame.loose.contacts.size());
+    forces.stress.resize(frame.bodies.size());
+    const auto add = [&]<PointKind K>(const ContactPoint& point, double bond_overlap, double shear) {
+        std::uint32_t feature = point.feature_j;
+        const ContactGeometry g =
+            contact_geometry<K>(world, point, placed.body(point.body_i), placed.body(point.body_j), feature);
+        const ContactLaw& law = world.laws[law_between(world, point.body_i, point.body_j)];
+        const double normal = law.normal_stiffness * (g.overlap - bond_overlap);
+        forces.normal.push_back(normal);
+        add_contact(forces.stress, point, g, normal, shear);
+    };
+    visit_kinds(setup.bond_kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
+        for (PointIndex k = begin; k < end; ++k) {
+            if (frame.states[k] == ContactState::broken) {
+                forces.normal.push_back(0.0);
+                continue;
+            }
+            const Bond& bond = setup.bonds[k];
+            add.template operator()<K>(bond.point, holds(frame.states[k]) ? bond.overlap : 0.0, frame.shear_force[k]);
+        }
+    });
+    visit_kinds(frame.loose.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
+        for (PointIndex k = begin; k < end; ++k) {
+            const LooseContact& contact = frame.loose.contacts[k];
+            add.template operator()<K>(contact.point, 0.0, contact.shear_force);
+        }
+    });
+    for (BodyIndex b = 0; b < forces.stress.size(); ++b) {
+        ParticleStress& stress = forces.stress[b];
+        if (setup.is_platen(b)) {
+            stress = {};
+            continue;
+        }
+        const double share = 1.0 / area_of(world, b);
+        stress = {share * stress.xx, share * stress.yy, share * stress.xy};
+    }
+    return forces;
+}
+
+}  // namespace crackle

@@ -1,0 +1,366 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/frames/frame_painter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <ostream>
+#include <sstream>
+#include <utility>
+
+#include "solver/contact/geometry.hpp"
+#include "specimens/frames/crack_faces.hpp"
+#include "specimens/frames/fragments.hpp"
+
+namespace crackle {
+namespace {
+
+/// Platens first, as VTK counts lines before polygons, then by id.
+std::vector<BodyIndex> drawing_order(const World& world, const TestSetup& setup) {
+    std::vector<BodyIndex> order(world.bodies.size());
+    std::iota(order.begin(), order.end(), BodyIndex{0});
+    const auto rank = [&](BodyIndex b) { return std::pair(!setup.is_platen(b), world.info[b].id); };
+    std::sort(order.begin(), order.end(), [&](BodyIndex a, BodyIndex b) { return rank(a) < rank(b); });
+    return order;
+}
+
+void add_point(PackedArray<float>& points, Vec2 place) {
+    points.add(static_cast<float>(place.x));
+    points.add(static_cast<float>(place.y));
+    points.add(0.0F);
+}
+
+void add_vector(PackedArray<double>& vectors, Vec2 value) {
+    vectors.add(value.x);
+    vectors.add(value.y);
+    vectors.add(0.0);
+}
+
+/// A whole array. @param add  calls its argument with each value
+template <class T, class Add>
+void write_array(std::ostream& out, const char* name, std::size_t values, const Add& add) {
+    PackedArray<T> array(out, name, 1, values);
+    add([&](auto value) { array.add(static_cast<T>(value)); });
+    array.finish();
+}
+
+/// The same of indices, Int32 where they are small enough.
+template <class Add>
+void write_indices(std::ostream& out, const char* name, std::size_t values, std::size_t largest, const Add& add) {
+    constexpr std::size_t most_in_int32 = std::numeric_limits<std::int32_t>::max();
+    largest <= most_in_int32 ? write_array<std::int32_t>(out, name, values, add)
+                             : write_array<std::int64_t>(out, name, values, add);
+}
+
+void write_head(std::ostream& out, const Frame& frame, const VtpCounts& counts) {
+    write_vtp_head(out,
+                   {{"axial_strain", frame.axial_strain}, {"axial_stress", frame.axial_stress}, {"time", frame.time}},
+                   counts);
+}
+
+constexpr std::int64_t most_kept = 2000;  // particles whose constant arrays are kept packed
+
+}  // namespace
+
+int circle_corners(std::int64_t particles) {
+    constexpr std::int64_t most_seen_closely = 2000;
+    return particles <= most_seen_closely ? 24 : 12;
+}
+
+std::vector<Vec2> unit_circle_outline(int corners) {
+    const double sector = 2.0 * std::numbers::pi / corners;
+    const double radius = std::sqrt(sector / std::sin(sector));  // of n triangles, each ½ radius² sin(sector)
+    std::vector<Vec2> outline;
+    outline.reserve(static_cast<std::size_t>(corners));
+    for (int k = 0; k < corners; ++k) outline.push_back(radius * Vec2{std::cos(k * sector), std::sin(k * sector)});
+    return outline;
+}
+
+FramePainter::FramePainter(const World& world, const TestSetup& setup)
+    : world_(world),
+      setup_(setup),
+      order_(drawing_order(world, setup)),
+      outline_(unit_circle_outline(circle_corners(setup.particles))) {
+    visit_cells([&](BodyIndex b, std::uint32_t, std::size_t corners, double) {
+        particle_counts_.points += corners;
+        ++(setup.is_platen(b) ? particle_counts_.lines : particle_counts_.polygons);
+    });
+    for (BodyIndex b = 0; b < world.bodies.size() && !setup.polygons; ++b) centres_ += is_circles(world, b);
+    if (setup.particles > most_kept) return;
+    std::ostringstream particles, bonds;
+    write_particle_cells(particles);
+    write_contact_cells(bonds, LooseContacts{});
+    particle_cells_ = std::move(particles).str();
+    bond_cells_ = std::move(bonds).str();
+}
+
+/// Each drawn cell to visit(body, its first element, number of corners, radius or 0): of a circle one of its elements,
+/// of a platen its face, which is all that touches.
+template <class Visit>
+void FramePainter::visit_cells(const Visit& visit) const {
+    for (const BodyIndex b : order_) {
+        const BodyInfo& info = world_.info[b];
+        if (!is_circles(world_, b)) {
+            visit(b, info.first_element, setup_.is_platen(b) ? std::size_t{2} : std::size_t{info.element_count}, 0.0);
+            continue;
+        }
+        for (std::uint32_t e = info.first_element; e < info.first_element + info.element_count; ++e)
+            visit(b, e, outline_.size(), world_.elements[e].radius);
+    }
+}
+
+/// From the cells on to the last array that never changes.
+void FramePainter::write_particle_cells(std::ostream& out) const {
+    const VtpCounts& counts = particle_counts_;
+    const std::size_t cells = counts.lines + counts.polygons;
+    std::size_t line_points = 0;
+    visit_cells([&](BodyIndex b, std::uint32_t, std::size_t corners, double) {
+        if (setup_.is_platen(b)) line_points += corners;
+    });
+    // Corners are numbered as they come, and lines come first.
+    const auto write_cells = [&](const char* name, bool lines) {
+        const std::size_t first = lines ? 0 : line_points, end = lines ? line_points : counts.points;
+        begin_element(out, name);
+        write_indices(out, "connectivity", end - first, counts.points, [&](const auto& add) {
+            for (std::size_t point = first; point < end; ++point) add(point);
+        });
+        write_indices(out, "offsets", lines ? counts.lines : counts.polygons, counts.points, [&](const auto& add) {
+            std::size_t offset = 0;
+            visit_cells([&](BodyIndex b, std::uint32_t, std::size_t corners, double) {
+                if (setup_.is_platen(b) == lines) add(offset += corners);
+            });
+        });
+        end_element(out, name);
+    };
+    write_cells("Lines", true);
+    write_cells("Polys", false);
+    begin_element(out, "CellData");
+    write_array<std::int32_t>(out, "id", cells, [&](const auto& add) {
+        visit_cells([&](BodyIndex b, std::uint32_t, std::size_t, double) { add(world_.info[b].id); });
+    });
+    write_array<double>(out, "radius", cells, [&](const auto& add) {
+        visit_cells([&](BodyIndex, std::uint32_t, std::size_t, double radius) { add(radius); });
+    });
+    write_array<std::int32_t>(out, "material", cells, [&](const auto& add) {
+        visit_cells([&](BodyIndex b, std::uint32_t, std::size_t, double) {
+            add(world_.info[b].material + 1);  // as decks number them
+        });
+    });
+}
+
+void FramePainter::write_particles(std::ostream& out, const PlacedFrame& placed, const FrameForces& forces) const {
+    const Frame& frame = placed.frame();
+    write_head(out, frame, particle_counts_);
+    begin_element(out, "Points");
+    PackedArray<float> points(out, "points", 3, 3 * particle_counts_.points);
+    visit_cells([&](BodyIndex b, std::uint32_t element, std::size_t corners, double radius) {
+        const Frame::Body& body = frame.bodies[b];
+        const Vec2 centroid{body.x, body.y}, turn = placed.turn(b);
+        const auto place_of = [&](std::uint32_t e) {
+            return centroid + rotated(turn, {world_.elements[e].x, world_.elements[e].y});
+        };
+        if (radius == 0.0) {
+            for (std::uint32_t e = element; e < element + corners; ++e) add_point(points, place_of(e));
+            return;
+        }
+        const Vec2 centre = place_of(element);
+        const Vec2 scaled = radius * turn;
+        for (const Vec2 corner : outline_) add_point(points, centre + rotated(scaled, corner));
+    });
+    points.finish();
+    end_element(out, "Points");
+    particle_cells_.empty() ? write_particle_cells(out) : void(out << particle_cells_);
+
+    const std::size_t cells = particle_counts_.lines + particle_counts_.polygons;
+    const auto write_scalars = [&](const char* name, const auto& value_of) {
+        write_array<double>(out, name, cells, [&](const auto& add) {
+            visit_cells([&](BodyIndex b, std::uint32_t, std::size_t, double) { add(value_of(b)); });
+        });
+    };
+    const auto write_vectors = [&](const char* name, const auto& value_of) {
+        PackedArray<double> array(out, name, 3, 3 * cells);
+        visit_cells([&](BodyIndex b, std::uint32_t, std::size_t, double) { add_vector(array, value_of(b)); });
+        array.finish();
+    };
+    const auto& bodies = frame.bodies;
+    const auto& start = setup_.start;
+    write_scalars("angle", [&](BodyIndex b) { return bodies[b].angle - start[b].angle; });
+    write_vectors("displacement", [&](BodyIndex b) {
+        return Vec2{bodies[b].x - start[b].x, bodies[b].y - start[b].y};
+    });
+    write_vectors("velocity", [&](BodyIndex b) { return Vec2{bodies[b].vx, bodies[b].vy}; });
+    write_scalars("rotation_rate", [&](BodyIndex b) { return bodies[b].omega; });
+    write_scalars("stress_xx", [&](BodyIndex b) { return forces.stress[b].xx; });
+    write_scalars("stress_yy", [&](BodyIndex b) { return forces.stress[b].yy; });
+    write_scalars("stress_xy", [&](BodyIndex b) { return forces.stress[b].xy; });
+    write_array<std::int32_t>(out, "fragment", cells, [&](const auto& add) {
+        const std::vector<std::int32_t> fragments = find_fragments(world_, setup_, frame);
+        visit_cells([&](BodyIndex b, std::uint32_t, std::size_t, double) { add(fragments[b]); });
+    });
+    end_element(out, "CellData");
+    write_vtp_end(out);
+}
+
+/// Each contact to visit(its point): bonds, then loose ones.
+template <class Visit>
+void FramePainter::visit_contacts(const LooseContacts& loose, const Visit& visit) const {
+    for (const Bond& bond : setup_.bonds) visit(bond.point);
+    for (const LooseContact& contact : loose.contacts) visit(contact.point);
+}
+
+/// As write_particle_cells(); without loose contacts it never changes.
+void FramePainter::write_contact_cells(std::ostream& out, const LooseContacts& loose) const {
+    std::vector<std::uint32_t> centre(setup_.polygons ? 0 : world_.bodies.size());
+    std::size_t centres = 0;
+    for (BodyIndex b = 0; b < centre.size(); ++b) {
+        if (is_circles(world_, b)) centre[b] = static_cast<std::uint32_t>(centres++);
+    }
+    const auto corners = [&](const ContactPoint& point) {
+        if (setup_.polygons) return std::size_t{2};
+        return std::size_t{1} + is_circles(world_, point.body_i) + is_circles(world_, point.body_j);
+    };
+    std::size_t all_corners = 0;
+    visit_contacts(loose, [&](const ContactPoint& point) { all_corners += corners(point); });
+    const std::size_t contacts = setup_.bonds.size() + loose.contacts.size();
+    begin_element(out, "Lines");
+    write_indices(out, "connectivity", all_corners, all_corners, [&](const auto& add) {
+        std::size_t next = centres;
+        visit_contacts(loose, [&](const ContactPoint& point) {
+            if (!setup_.polygons && is_circles(world_, point.body_i)) add(centre[point.body_i]);
+            add(next++);
+            if (setup_.polygons) add(next++);
+            if (!setup_.polygons && is_circles(world_, point.body_j)) add(centre[point.body_j]);
+        });
+    });
+    write_indices(out, "offsets", contacts, all_corners, [&](const auto& add) {
+        std::size_t offset = 0;
+        visit_contacts(loose, [&](const ContactPoint& point) { add(offset += corners(point)); });
+    });
+    end_element(out, "Lines");
+    begin_element(out, "CellData");
+    write_array<std::int32_t>(out, "body_i", contacts, [&](const auto& add) {
+        visit_contacts(loose, [&](const ContactPoint& point) { add(world_.info[point.body_i].id); });
+    });
+    write_array<std::int32_t>(out, "body_j", contacts, [&](const auto& add) {
+        visit_contacts(loose, [&](const ContactPoint& point) { add(world_.info[point.body_j].id); });
+    });
+}
+
+void FramePainter::write_contacts(std::ostream& out, const PlacedFrame& placed, const FrameForces& forces,
+                                  std::span<const Crack> cracks) const {
+    const Frame& frame = placed.frame();
+    const auto& loose = frame.loose.contacts;
+    const std::size_t contacts = setup_.bonds.size() + loose.size();
+    // Between circles the centres, each once, then a point a contact; between polygons two points a contact.
+    const VtpCounts counts{setup_.polygons ? 2 * contacts : centres_ + contacts, contacts, 0};
+    write_head(out, frame, counts);
+    begin_element(out, "Points");
+    PackedArray<float> points(out, "points", 3, 3 * counts.points);
+    for (BodyIndex b = 0; b < frame.bodies.size() && !setup_.polygons; ++b) {
+        if (is_circles(world_, b)) add_point(points, {frame.bodies[b].x, frame.bodies[b].y});
+    }
+    const auto add_places = [&](Vec2 on_i, Vec2 on_j) {
+        if (setup_.polygons) {
+            add_point(points, on_i);
+            add_point(points, on_j);
+        } else {
+            add_point(points, 0.5 * (on_i + on_j));
+        }
+    };
+    visit_kinds(setup_.bond_kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
+        for (PointIndex k = begin; k < end; ++k) {
+            const ContactPoint& point = setup_.bonds[k].point;
+            const Facing held = facing_at_start<K>(world_, setup_, point);
+            add_places(placed.carried(point.body_i, held.on_i), placed.carried(point.body_j, held.on_j));
+        }
+    });
+    visit_kinds(frame.loose.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
+        for (PointIndex k = begin; k < end; ++k) {
+            const ContactPoint& point = loose[k].point;
+            std::uint32_t feature = point.feature_j;
+            const BodyState i = placed.body(point.body_i), j = placed.body(point.body_j);
+            const Facing now = facing_at(setup_, K, i, contact_geometry<K>(world_, point, i, j, feature));
+            add_places(now.on_i, now.on_j);
+        }
+    });
+    points.finish();
+    end_element(out, "Points");
+    loose.empty() && !bond_cells_.empty() ? void(out << bond_cells_) : write_contact_cells(out, frame.loose);
+
+    write_array<double>(out, "normal_force", contacts, [&](const auto& add) {
+        for (const double force : forces.normal) add(force);
+    });
+    write_array<double>(out, "shear_force", contacts, [&](const auto& add) {
+        for (const double force : frame.shear_force) add(force);
+        for (const LooseContact& contact : loose) add(contact.shear_force);
+    });
+    write_array<std::uint8_t>(out, "state", contacts, [&](const auto& add) {
+        for (const ContactState state : frame.states) add(static_cast<std::uint8_t>(state));
+        for (std::size_t k = 0; k < loose.size(); ++k) add(static_cast<std::uint8_t>(ContactState::loose));
+    });
+    write_array<double>(out, "age", contacts, [&](const auto& add) {
+        std::vector<std::pair<PointIndex, double>> breaks;  // bond, time
+        for (const Crack& crack : cracks) breaks.emplace_back(crack.bond, crack.time);
+        std::sort(breaks.begin(), breaks.end());
+        auto broken = breaks.begin();
+        for (PointIndex bond = 0; bond < setup_.bonds.size(); ++bond) {
+            const bool breaks_here = broken != breaks.end() && broken->first == bond;
+            add(breaks_here ? frame.time - (broken++)->second : frame.time);
+        }
+        for (const LooseContact& contact : loose) add(frame.time - contact.since);
+    });
+    end_element(out, "CellData");
+    write_vtp_end(out);
+}
+
+void FramePainter::write_cracks(std::ostream& out, const PlacedFrame& placed, std::span<const Crack> cracks) const {
+    write_head(out, placed.frame(), {2 * cracks.size(), cracks.size(), 0});
+    std::vector<double> openings;
+    openings.reserve(cracks.size());
+    begin_element(out, "Points");
+    PackedArray<float> points(out, "points", 3, 6 * cracks.size());
+    for (const Crack& crack : cracks) {
+        const CrackFace face = find_crack_face(placed, crack.bond);
+        add_point(points, face.begin);
+        add_point(points, face.end);
+        openings.push_back(face.opening);
+    }
+    points.finish();
+    end_element(out, "Points");
+    begin_element(out, "Lines");
+    write_indices(out, "connectivity", 2 * cracks.size(), 2 * cracks.size(), [&](const auto& add) {
+        for (std::size_t point = 0; point < 2 * cracks.size(); ++point) add(point);
+    });
+    write_indices(out, "offsets", cracks.size(), 2 * cracks.size(), [&](const auto& add) {
+        for (std::size_t crack = 1; crack <= cracks.size(); ++crack) add(2 * crack);
+    });
+    end_element(out, "Lines");
+    begin_element(out, "CellData");
+    const auto write_values = [&]<class T>(const char* name, T, const auto& value_of) {
+        write_array<T>(out, name, cracks.size(), [&](const auto& add) {
+            for (const Crack& crack : cracks) add(value_of(crack));
+        });
+    };
+    const auto point_of = [&](const Crack& crack) { return setup_.bonds[crack.bond].point; };
+    const auto strength = [&](const Crack& crack) {
+        const ContactPoint point = point_of(crack);
+        const ContactLaw& law = world_.laws[law_between(world_, point.body_i, point.body_j)];
+        return law.normal_stiffness * setup_.bonds[crack.bond].overlap;
+    };
+    write_values("body_i", std::int32_t{}, [&](const Crack& crack) { return world_.info[point_of(crack).body_i].id; });
+    write_values("body_j", std::int32_t{}, [&](const Crack& crack) { return world_.info[point_of(crack).body_j].id; });
+    write_values("time", double{}, [](const Crack& crack) { return crack.time; });
+    write_values("mode", std::uint8_t{}, [](const Crack& crack) { return crack.shear_mode ? 1 : 0; });
+    write_values("energy", double{}, [](const Crack& crack) { return crack.energy; });
+    write_values("orientation", double{}, [](const Crack& crack) { return crack.orientation; });
+    write_values("strength", double{}, strength);
+    write_array<double>(out, "opening", cracks.size(), [&](const auto& add) {
+        for (const double opening : openings) add(opening);
+    });
+    end_element(out, "CellData");
+    write_vtp_end(out);
+}
+
+}  // namespace crackle

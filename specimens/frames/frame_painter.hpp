@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Frames as files for ParaView and the report: particles_, contacts_ and cracks_NNNNN.vtp, NNNNN the row of the curve
+// (from 0) in which they were taken, and frames.pvd over all of them (parts 0, 1, 2).
+//
+// Particles: platens as lines, polygons by their corners, circles as regular polygons of the circle's own area: 24
+// corners up to 2,000 particles, 12 beyond, where they are looked at from farther away (outlines share 0.98 of what
+// they cover together; 0.996 with 24). True circles are drawn about the mean of the corners with `radius`. All circles
+// of a clump have the values of the clump.
+// Cell data: id, radius [m, 0 for polygons], material, angle [rad, turned since loading began], displacement [m],
+// velocity [m/s], rotation_rate [rad/s], stress_xx, stress_yy, stress_xy [N/m, mean of the particle, compression
+// positive, of springs only: frame_forces.hpp; 0 for platens], fragment [0 the largest: fragments.hpp; -1 platens].
+// Contacts: all bonds that loading began with, always in the same order and where they were held, then what else
+// touches at the moment; as lines centre-point-centre between circles and point-point between polygons.
+// Cell data: body_i, body_j, normal_force [N, elastic, compression positive], shear_force [N, elastic, on body_i along
+// the normal from i to j turned by +90°], state [0 bond, 1 bond that has slid, 2 broken, 3 broken and touching again,
+// whose forces are those of the touch, 4 contact without a bond], age [s: of a bond since loading began, of a broken
+// one since its break, of a contact since it was first seen: contact_history.hpp].
+// Cracks: a line for each bonded point that has broken so far, in the order of events.csv: crack_faces.hpp says where.
+// Cell data: body_i, body_j, time [s, of the break], mode [0 tension, 1 shear], energy [J], orientation [rad, of the
+// contact normal at the break], strength [N], opening [m, present gap].
+//
+// Points are Float32 (a hundred-millionth of the specimen), what was computed Float64, ids and indices Int32 (indices
+// Int64 beyond 2³¹), state and mode UInt8. What never changes is packed once and put into every file again, up to 2,000
+// particles; beyond it would be a quarter of all memory, and packing it is little beside the steps between two frames.
+#pragma once
+
+#include <iosfwd>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "solver/base/vec2.hpp"
+#include "specimens/frames/frame.hpp"
+#include "specimens/frames/frame_forces.hpp"
+#include "specimens/frames/placed_frame.hpp"
+#include "specimens/frames/vtk_polydata.hpp"
+
+namespace crackle {
+
+/// Corners of a circle drawn among so many particles.
+int circle_corners(std::int64_t particles);
+/// Corners of the regular polygon with the area of the unit circle, the first to the right.
+std::vector<Vec2> unit_circle_outline(int corners);
+
+/// Draws the frames of one test.
+class FramePainter {
+  public:
+    /// Both must outlive the painter.
+    FramePainter(const World& world, const TestSetup& setup);
+    bool paints(const World& world, const TestSetup& setup) const { return &world == &world_ && &setup == &setup_; }
+
+    void write_particles(std::ostream& out, const PlacedFrame& placed, const FrameForces& forces) const;
+    /// @param cracks  those that had come at the moment of the frame, here and below
+    void write_contacts(std::ostream& out, const PlacedFrame& placed, const FrameForces& forces,
+                        std::span<const Crack> cracks) const;
+    void write_cracks(std::ostream& out, const PlacedFrame& placed, std::span<const Crack> cracks) const;
+
+  private:
+    template <class Visit>
+    void visit_cells(const Visit& visit) const;
+    template <class Visit>
+    void visit_contacts(const LooseContacts& loose, const Visit& visit) const;
+    void write_particle_cells(std::ostream& out) const;
+    void write_contact_cells(std::ostream& out, const LooseContacts& loose) const;
+
+    const World& world_;
+    const TestSetup& setup_;
+    std::vector<BodyIndex> order_;  // in which bodies are drawn
+    std::vector<Vec2> outline_;     // of a circle
+    VtpCounts particle_counts_;
+    std::size_t centres_ = 0;  // of circles, from which contacts are drawn
+    std::string particle_cells_,
+        bond_cells_;  // what write_..._cells() write (without loose contacts), where it is kept
+};
+
+}  // namespace crackle

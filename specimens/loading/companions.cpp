@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/loading/companions.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <future>
+#include <limits>
+#include <thread>
+#include <utility>
+
+#include "solver/base/errors.hpp"
+
+namespace crackle {
+namespace {
+
+constexpr double student_two = 2.920;      // 95 % point, two degrees of freedom
+constexpr double convergence_index = 3.0;  // two grids, first order
+constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
+
+struct Plan {
+    std::string name;
+    TestCase description;
+};
+
+std::vector<Plan> plans_for(const TestCase& asked, int threads) {
+    std::vector<Plan> plans;
+    const auto plan = [&](const char* name) -> TestCase& {
+        plans.push_back({name, asked});
+        plans.back().description.numerics.threads = threads;
+        return plans.back().description;
+    };
+    TestCase& step = plan("half_time_step");
+    if (step.numerics.time_step) *step.numerics.time_step *= 0.5;
+    step.step_scale = 0.5;  // a smaller safety factor would leave alone a step that the bound holds below it
+    TestCase& rate = plan("half_rate");
+    rate.loading.scale_rate(0.5);
+    plan("half_damping").damping_scale = 0.5;
+    TestCase& doubled = plan("double_damping");
+    doubled.damping_scale = 2.0;
+    doubled.numerics.time_step.reset();  // more damping needs a smaller step
+    return plans;
+}
+
+/// Stress at a strain, between rows; the last row's beyond them.
+double stress_at(const std::vector<CurveRow>& rows, double strain) {
+    const auto after =
+        std::find_if(rows.begin(), rows.end(), [&](const CurveRow& r) { return r.axial_strain >= strain; });
+    if (after == rows.begin()) return rows.front().axial_stress;
+    if (after == rows.end()) return rows.back().axial_stress;
+    const CurveRow &a = *(after - 1), &b = *after;
+    return a.axial_stress +
+           (b.axial_stress - a.axial_stress) * (strain - a.axial_strain) / (b.axial_strain - a.axial_strain);
+}
+
+double post_peak_difference(const VirtualTest& test, const VirtualTest& other) {
+    const double end = std::min(test.state.rows.back().axial_strain, other.state.rows.back().axial_strain);
+    double sum = 0.0;
+    std::int64_t count = 0;
+    for (const CurveRow& row : test.state.rows) {
+        if (row.axial_strain < test.state.failure.peak_strain || row.axial_strain > end) continue;
+        sum += std::abs(stress_at(other.state.rows, row.axial_strain) - row.axial_stress);
+        ++count;
+    }
+    return count > 0 ? sum / static_cast<double>(count) / test.state.failure.peak_stress : 0.0;
+}
+
+/// @return nothing if interrupted
+std::optional<Companion> run_one(const Plan& plan, const VirtualTest& test, const TestHooks& hooks) {
+    TestHooks quiet;
+    quiet.interrupted = hooks.interrupted;
+    VirtualTest other;
+    try {
+        other = prepare_test(plan.description, quiet);
+        load_specimen(other, quiet);
+    } catch (const TestInterrupted&) {
+        return std::nullopt;
+    } catch (const UnstableRun&) {
+        return Companion{plan.name, undefined, undefined, ended_by_instability, other.world.step, undefined};
+    }
+    if (other.state.ended_by.empty()) return std::nullopt;
+    const FailureTracker& f = other.state.failure;
+    return Companion{plan.name,        f.peak_stress,
+                     f.peak_strain,    other.state.ended_by,
+                     other.world.step, post_peak_difference(test, other)};
+}
+
+NumberError error_of(double asked, double resolution, const std::vector<Companion>& companions,
+                     double Companion::*value) {
+    NumberError error;
+    error.resolution = resolution;
+    std::vector<double> draws{asked};
+    for (const Companion& c : companions) {
+        const double change = std::abs(c.*value - asked) / std::abs(asked);
+        if (c.name == "half_time_step") error.time_step = change;
+        if (c.name == "half_rate") error.rate = change;
+        if (c.name.ends_with("damping"))
+            error.damping = std::isnan(change) ? change : std::max(error.damping, change);
+        else
+            draws.push_back(c.*value);
+    }
+    double mean = 0.0, square = 0.0;
+    for (const double x : draws) mean += x / static_cast<double>(draws.size());
+    for (const double x : draws) square += (x - mean) * (x - mean) / static_cast<double>(draws.size() - 1);
+    const double chance = student_two * std::sqrt(2.0 * square) / std::abs(asked);
+    error.stated = std::hypot(resolution, std::max(chance, convergence_index * error.rate));
+    if (std::isnan(chance)) error.stated = undefined;
+    return error;
+}
+
+/// How far the largest of the rows may lie from the peak between them: a spacing in strain, and in stress what the last
+/// row before it rose by.
+double resolved_stress(const VirtualTest& test) {
+    const FailureTracker& f = test.state.failure;
+    if (f.peak_row < 1) return 0.0;
+    const CurveRow& before = test.state.rows[static_cast<std::size_t>(f.peak_row - 1)];
+    return std::abs(f.peak_stress - before.axial_stress) / f.peak_stress;
+}
+double resolved_strain(const VirtualTest& test) {
+    const FailureTracker& f = test.state.failure;
+    if (f.peak_row < 1) return 0.0;
+    const CurveRow& before = test.state.rows[static_cast<std::size_t>(f.peak_row - 1)];
+    return (f.peak_strain - before.axial_strain) / f.peak_strain;
+}
+
+/// Whether companions by step and rate keep the peak. Comparisons with a value that is not a number are false.
+bool on_one_branch(const NumberError& stress, const NumberError& strain) {
+    return stress.time_step <= branch_stress_change && stress.rate <= branch_stress_change &&
+           strain.time_step <= branch_strain_change && strain.rate <= branch_strain_change;
+}
+
+}  // namespace
+
+std::optional<NumericalErrors> run_companions(const VirtualTest& test, const TestHooks& hooks) {
+    if (test.state.failure.peak_row < 0) return std::nullopt;
+    const std::vector<Plan> plans = plans_for(test.description, test.world.threads);
+    if (hooks.stage) hooks.stage(fmt::format("verifying: {} companions of the test", plans.size()));
+    std::vector<std::optional<Companion>> done(plans.size());
+    const std::size_t at_once =
+        std::max(1U, std::thread::hardware_concurrency() / static_cast<unsigned>(std::max(1, test.world.threads)));
+    for (std::size_t first = 0; first < plans.size(); first += at_once) {
+        std::vector<std::future<std::optional<Companion>>> running;
+        for (std::size_t k = first; k < std::min(plans.size(), first + at_once); ++k)
+            running.push_back(std::async(std::launch::async, [&, k] { return run_one(plans[k], test, hooks); }));
+        for (std::size_t k = 0; k < running.size(); ++k) {
+            std::optional<Companion>& companion = done[first + k];
+            companion = running[k].get();
+            if (companion && hooks.stage) {
+                hooks.stage(fmt::format("  {}: {:.4g} N/m at strain {:.4g}, {} steps ({} of {})", companion->name,
+                                        companion->peak_stress, companion->peak_strain, companion->steps, first + k + 1,
+                                        plans.size()));
+            }
+        }
+    }
+    NumericalErrors errors;
+    for (const auto& companion : done) {
+        if (!companion) return std::nullopt;
+        errors.companions.push_back(*companion);
+    }
+    const FailureTracker& f = test.state.failure;
+    errors.peak_stress = error_of(f.peak_stress, resolved_stress(test), errors.companions, &Companion::peak_stress);
+    errors.peak_strain = error_of(f.peak_strain, resolved_strain(test), errors.companions, &Companion::peak_strain);
+    if (f.failed) errors.peak_converged = on_one_branch(errors.peak_stress, errors.peak_strain);
+    return errors;
+}
+
+}  // namespace crackle

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How far the numbers of a test depend on how it was computed: the same test again at half the time step, half the
+// loading rate, half and double the damping.
+//
+// A specimen that breaks follows one of many branches, and which one a rounding decides; so the peaks of companions
+// differ by chance as well as by the error of step and rate. The stated error is the larger of
+//   - chance, t·sqrt(2)·s, s the sample standard deviation of x (as asked), x at half the step and x at half the
+//     rate, t = 2.920 the 95 % point of Student's distribution with two degrees of freedom: were they
+//     independent draws, 90 of 100 further runs would lie within;
+//   - rate, 3 |x - x at half the rate|, the grid convergence index of two grids at first order (Roache, J. Fluids Eng.
+//     116, 1994): inertia and dashpots act in proportion to the rate, the step's error is of second order;
+// and what the rows of the curve resolve, added as independent errors are: the root of the sum of squares. What the
+// damping changes is physics as much as error and stands apart.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "specimens/loading/virtual_test.hpp"
+
+namespace crackle {
+
+struct Companion {
+    std::string name;  ///< "half_time_step", "half_rate", "half_damping", "double_damping"
+    double peak_stress = 0.0, peak_strain = 0.0;
+    std::string ended_by;  ///< as the test's own; "instability": it has no numbers worth comparing
+    std::int64_t steps = 0;
+    double post_peak_difference = 0.0;  ///< mean |stress - the test's| from the peak on, over the peak
+};
+
+/// Relative errors of one number.
+struct NumberError {
+    double time_step = 0.0, rate = 0.0, damping = 0.0;  ///< largest change by the companions; NaN: that one is unstable
+    double resolution = 0.0;                            ///< by the spacing of the rows it was judged by
+    double stated = 0.0;                                ///< NaN where a companion by step or rate is unstable
+};
+
+struct NumericalErrors {
+    std::vector<Companion> companions;
+    NumberError peak_stress, peak_strain;
+    std::optional<bool> peak_converged;  ///< no companion by step or rate is on another branch; none: no failure yet
+};
+
+/// A companion whose peak moved by more than this is on another branch.
+inline constexpr double branch_stress_change = 0.03, branch_strain_change = 0.1;
+
+/// Runs the companions of a finished test in memory, as many at a time as there are processors for its threads. One
+/// that becomes unstable is reported as such.
+/// @return nothing if interrupted, or the test has no peak
+std::optional<NumericalErrors> run_companions(const VirtualTest& test, const TestHooks& hooks);
+
+}  // namespace crackle

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The loading loop: forces, observers, step; until failure, the largest strain, or an interrupt.
+
+#include <malloc.h>
+
+#include <algorithm>
+#include <chrono>
+
+#include "solver/base/errors.hpp"
+#include "solver/stepping/controls.hpp"
+#include "specimens/loading/virtual_test.hpp"
+#include "specimens/results/files.hpp"
+
+namespace crackle {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::int64_t steps_between_health_checks = 100;
+constexpr std::int64_t steps_between_clock_looks =
+    64;  // reading the clock and asking for interrupts stay off the profile
+constexpr double seconds_between_progress = 0.2;
+// Rows that peak, failure and moduli are judged by, at least, however few of them are written: what is reported must
+// not depend on how much of it is looked at.
+constexpr std::int64_t min_judged_rows = 2000;
+
+class LoadingLoop {
+  public:
+    LoadingLoop(VirtualTest& test, const TestHooks& hooks, TestFiles* files)
+        : world_(test.world),
+          setup_(test.setup),
+          state_(test.state),
+          hooks_(hooks),
+          files_(files),
+          max_strain_(test.description.loading.max_axial_strain),
+          judged_per_written_((min_judged_rows - 1) / test.description.output.curve_rows + 1),
+          row_spacing_(max_strain_ / static_cast<double>(test.description.output.curve_rows * judged_per_written_)),
+          frame_spacing_(max_strain_ / static_cast<double>(test.description.output.frames.value())),
+          checkpoint_interval_(test.description.output.checkpoint_interval),
+          begun_(Clock::now()),
+          last_checkpoint_(begun_),
+          last_progress_(begun_),
+          first_step_(test.world.step),
+          step_seconds_before_(test.state.step_seconds) {}
+
+    void run() {
+        try {
+            load();
+        } catch (const UnstableRun&) {
+            record_breaks();  // of the step that went wrong
+            state_.step_seconds = step_seconds();
+            throw;
+        }
+        state_.step_seconds = step_seconds();
+    }
+
+  private:
+    void load() {
+        if (files_ != nullptr && state_.rows.empty()) files_->write_checkpoint(setup_, state_, world_);
+        while (true) {
+            if (world_.step % steps_between_clock_looks == 0 && look_at_clock()) break;
+            // Platens stand where the last step has put them, whether the forces are known or not.
+            strain_ = setup_.axial_strain(world_);
+            const bool at_end = strain_ >= max_strain_;
+            const bool row_due = at_end || strain_ >= row_spacing_ * static_cast<double>(state_.rows.size());
+            const bool check_due = world_.step % steps_between_health_checks == 0;
+            const bool by_tolerance = setup_.rate_rule.tolerance > 0.0;
+            const bool rate_due = by_tolerance && world_.time >= state_.rate.next_look;
+            if (!row_due && !check_due && !rate_due) {
+                const double drift = world_.drift;
+                step(world_);
+                if (by_tolerance) watch_platens(drift);
+                record_breaks();
+                continue;
+            }
+            compute_forces(world_);
+            record_breaks();
+            if (row_due) record_row(at_end);
+            const bool ended = !state_.ended_by.empty();
+            // An end that instability brought about is none.
+            if (ended || check_due) check();
+            if (ended) break;
+            if (by_tolerance) watch_platens(world_.drift);
+            if (rate_due) set_rate();
+            advance(world_);
+        }
+    }
+
+    double step_seconds() const { return step_seconds_before_ + seconds(begun_, Clock::now()); }
+    static double seconds(Clock::time_point from, Clock::time_point to) {
+        return std::chrono::duration<double>(to - from).count();
+    }
+
+    void check() {
+        const PhaseTimer timer(world_.profile, Phase::check);
+        check_health(world_);
+    }
+
+    /// The inertia error of the last force pass. @param drift s, that led to its positions
+    void watch_platens(double drift) {
+        const PhaseTimer timer(world_.profile, Phase::set_the_rate);
+        const double top = world_.forces[setup_.top].fy, bottom = world_.forces[setup_.bottom].fy;
+        watch_balance(state_.rate, setup_.rate_rule, top / setup_.width, -bottom / setup_.width, drift);
+    }
+
+    /// The platen's speed by the inertia error.
+    void set_rate() {
+        const PhaseTimer timer(world_.profile, Phase::set_the_rate);
+        const Ledger ledger = measure_ledger(world_);
+        choose_rate(state_.rate, setup_.rate_rule, ledger.kinetic, ledger.strain, world_.time);
+        const double speed = state_.rate.rate * setup_.height;
+        change_velocity(world_, setup_.top, 1, setup_.compression ? -speed : speed);
+    }
+
+    void record_breaks() {
+        if (world_.events.size() == events_counted_) return;
+        const PhaseTimer timer(world_.profile, Phase::observe);
+        for (std::size_t k = events_counted_; k < world_.events.size(); ++k) {
+            const BreakEvent& event = world_.events[k];
+            ++(event.shear_mode ? state_.breaks_in_shear : state_.breaks_in_tension);
+            state_.breaks_after_sliding += event.slid ? 1 : 0;
+            note_break(setup_, event, state_.history);
+            if (files_ != nullptr) files_->add_event(event, strain_);
+        }
+        if (files_ != nullptr) world_.events.clear();
+        events_counted_ = world_.events.size();
+    }
+
+    void record_row(bool at_end) {
+        const PhaseTimer timer(world_.profile, Phase::observe);
+        const auto index = static_cast<std::int64_t>(state_.rows.size());
+        const CurveRow row = observe_row(world_, setup_);
+        state_.rows.push_back(row);
+        const bool new_peak = state_.failure.update(index, row.axial_strain, row.axial_stress);
+        if (state_.failure.failed) {
+            state_.ended_by = ended_by_failure;
+        } else if (at_end) {
+            state_.ended_by = ended_by_strain;
+        }
+        const bool loose = row.contacts_gained > 0 || !state_.history.loose.contacts.empty();
+        if (loose) look_at_contacts(world_, state_.history);
+        if (files_ == nullptr) return;
+        const PhaseTimer writing(world_.profile, Phase::write);
+        if (index % judged_per_written_ == 0 || !state_.ended_by.empty()) files_->add_row(row);
+        const bool frame_due = row.axial_strain >= frame_spacing_ * static_cast<double>(state_.next_frame);
+        while (row.axial_strain >= frame_spacing_ * static_cast<double>(state_.next_frame)) ++state_.next_frame;
+        const bool frame_wanted = frame_due || !state_.ended_by.empty();
+        if (!frame_wanted && !new_peak) return;
+        Frame& frame = new_peak ? state_.peak_frame : frame_;
+        take_frame(world_, setup_, state_.history, row, index, frame);
+        if (frame_wanted) files_->add_frame(frame, setup_, state_, world_);
+    }
+
+    /// Between steps: progress, checkpoint, interrupt. @return whether to stop
+    bool look_at_clock() {
+        if (hooks_.interrupted && hooks_.interrupted()) return true;
+        const Clock::time_point now = Clock::now();
+        if (hooks_.progress && seconds(last_progress_, now) >= seconds_between_progress) {
+            last_progress_ = now;
+            report_progress(seconds(begun_, now));
+        }
+        if (files_ != nullptr && seconds(last_checkpoint_, now) >= checkpoint_interval_) {
+            const PhaseTimer timer(world_.profile, Phase::write);
+            state_.step_seconds = step_seconds();
+            files_->write_checkpoint(setup_, state_, world_);
+            last_checkpoint_ = Clock::now();
+        }
+        return false;
+    }
+
+    void report_progress(double elapsed) const {
+        TestProgress p;
+        p.axial_strain = setup_.axial_strain(world_);
+        p.share_done = p.axial_strain / max_strain_;
+        p.axial_stress = state_.rows.empty() ? 0.0 : state_.rows.back().axial_stress;
+        p.peak_stress = state_.failure.peak_stress;
+        p.bonds_broken = world_.bonds_broken;
+        p.step = world_.step;
+        p.steps_per_second = static_cast<double>(world_.step - first_step_) / elapsed;
+        const double strain_per_step = p.axial_strain / static_cast<double>(std::max<std::int64_t>(1, world_.step));
+        p.seconds_left = (max_strain_ - p.axial_strain) / (strain_per_step * p.steps_per_second);
+        hooks_.progress(p);
+    }
+
+    World& world_;
+    const TestSetup& setup_;
+    TestState& state_;
+    const TestHooks& hooks_;
+    TestFiles* files_;
+    double max_strain_;
+    std::int64_t judged_per_written_;
+    double row_spacing_, frame_spacing_, checkpoint_interval_;
+    Clock::time_point begun_, last_checkpoint_, last_progress_;
+    std::int64_t first_step_;
+    double step_seconds_before_;
+    double strain_ = 0.0;  // axial, of the last force pass
+    std::size_t events_counted_ = 0;
+    Frame frame_;
+};
+
+}  // namespace
+
+void load_specimen(VirtualTest& test, const TestHooks& hooks, TestFiles* files) {
+    malloc_trim(0);  // what packing, meshing and bonding needed: a third of all there is at 200,000 discs
+    LoadingLoop(test, hooks, files).run();
+}
+
+}  // namespace crackle

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A material for scenes made in memory.
+#pragma once
+
+#include "solver/scene/scene.hpp"
+
+namespace crackle {
+
+/// The guide's rock but for its stiffness: density 2500 kg/m2, no dashpots. @param normal_stiffness k_n, N/m
+/// @param friction_angle degrees @param shear_share k_s over k_n
+inline Material undamped_rock(double normal_stiffness, double friction_angle, double shear_share = 0.25) {
+    Material material;
+    material.density = 2500.0;
+    material.normal_stiffness = normal_stiffness;
+    material.shear_stiffness = shear_share * normal_stiffness;
+    material.friction_angle = friction_angle;
+    return material;
+}
+
+}  // namespace crackle

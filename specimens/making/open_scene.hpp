@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "solver/scene/scene.hpp"
+
+namespace crackle {
+
+/// No bodies and no walls; all that is added is of one material.
+inline Scene open_scene(const Material& material) {
+    Scene scene;
+    scene.materials = {material};
+    scene.domain.wall_present = {false, false, false, false};
+    return scene;
+}
+
+}  // namespace crackle

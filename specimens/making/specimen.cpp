@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Case → packing or particle file → circles or polygons, with the bodies of the side faces marked.
+
+#include "specimens/making/specimen.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <span>
+
+#include "mesher/mesher.hpp"
+#include "solver/base/errors.hpp"
+#include "solver/demseg/geometry.hpp"
+#include "specimens/making/cell_bodies.hpp"
+#include "specimens/packing/packing.hpp"
+
+namespace crackle {
+namespace {
+
+void say(const TestHooks& hooks, const std::string& line) {
+    if (hooks.stage) hooks.stage(line);
+}
+
+void apply_material(const TestCase::MaterialKeys& keys, Material& material) {
+    if (keys.density) material.density = *keys.density;
+    if (keys.normal_stiffness) material.normal_stiffness = *keys.normal_stiffness;
+    if (keys.shear_stiffness) material.shear_stiffness = *keys.shear_stiffness;
+    if (keys.friction_angle) material.friction_angle = *keys.friction_angle;
+    if (keys.damping_ratio) material.damping_ratio = *keys.damping_ratio;
+    if (keys.normal_damping || keys.shear_damping) material.damping_ratio.reset();
+    if (keys.normal_damping) material.normal_damping = *keys.normal_damping;
+    if (keys.shear_damping) material.shear_damping = *keys.shear_damping;
+}
+
+void scale_damping(Material& material, double by) {
+    if (material.damping_ratio) *material.damping_ratio *= by;
+    material.normal_damping *= by;
+    material.shear_damping *= by;
+}
+
+SizeDistribution sizes_of(const TestCase& test) {
+    const auto& keys = test.packing;
+    if (keys.sizes == "sieve") return read_sieve_curve(test.resolve_path("packing.sieve", *keys.sieve));
+    if (keys.sizes == "lognormal") {
+        return LognormalRadii{*keys.radius_median, *keys.radius_log_deviation, keys.radius_min.value_or(0.0),
+                              keys.radius_max.value_or(0.0)};
+    }
+    return UniformRadii{*keys.radius_min, *keys.radius_max};
+}
+
+/// Packing errors begin with the key; the case knows where that was written.
+InputError located(const TestCase& test, const std::string& text) {
+    const std::string key = text.substr(0, text.find_first_of(": ,"));
+    const bool known = test.position.contains("packing." + key);
+    return InputError(known ? test.at("packing." + key) + text.substr(key.size()) : test.at("packing") + ": " + text);
+}
+
+Scene packed_scene(const TestCase& test, const TestHooks& hooks, Specimen& specimen) {
+    const auto& keys = test.packing;
+    PackingRequest request;
+    request.width = keys.width;
+    request.height = keys.height;
+    request.count = keys.count;
+    request.height_to_width = keys.height_to_width;
+    request.sizes = sizes_of(test);
+    request.mean_overlap = keys.mean_overlap;
+    request.void_ratio = keys.void_ratio;
+    request.seed = static_cast<std::uint64_t>(keys.seed);
+    request.threads = static_cast<int>(test.numerics.threads);
+    request.material.damping_ratio = default_damping_ratio;
+    apply_material(test.material, request.material);
+    Packing packing;
+    try {
+        packing = make_packing(request, [&](const PackingProgress& p) {
+            if (hooks.interrupted && hooks.interrupted()) throw TestInterrupted();
+            if (hooks.working)
+                hooks.working(fmt::format("{} (draw {}): unbalanced by {:.1e} of the mean contact force", p.stage,
+                                          p.attempt, p.residual));
+        });
+    } catch (const InputError& error) {
+        throw located(test, error.what());
+    }
+    const PackingReport& report = packing.report;
+    specimen.notices = packing_notices(report);
+    specimen.packing = {{"void_ratio", report.void_ratio},
+                        {"mean_overlap", report.mean_overlap},
+                        {"coordination", report.coordination},
+                        {"coordination_of_carrying", report.coordination_of_carrying},
+                        {"floating", static_cast<double>(report.floating)},
+                        {"stress_x", report.stress_x},
+                        {"stress_y", report.stress_y},
+                        {"anisotropy", report.anisotropy},
+                        {"unbalanced", report.residual},
+                        {"radius_scale", report.radius_scale}};
+    say(hooks,
+        fmt::format("packed {} circles into {:.4g} m x {:.4g} m: void ratio {:.4g}, mean overlap {:.4g} m, seed {}",
+                    packing.report.circles, packing.report.width, packing.report.height, packing.report.void_ratio,
+                    packing.report.mean_overlap, keys.seed));
+    return std::move(packing.scene);
+}
+
+Scene read_particles(const TestCase& test, const TestHooks& hooks) {
+    const auto path = test.resolve_path("particles.file", *test.particles.file);
+    Scene scene = read_geometry(path);
+    for (Material& material : scene.materials) apply_material(test.material, material);
+    say(hooks, fmt::format("read {} bodies from {}", scene.bodies.size(), path.string()));
+    return scene;
+}
+
+/// A test starts from bodies at rest in a world without gravity, whatever the file was made for.
+void quieten(Scene& scene, std::vector<std::string>& notices) {
+    if (scene.gravity.x != 0.0 || scene.gravity.y != 0.0) {
+        notices.push_back("the particle file's gravity is left out: tests run without");
+    }
+    scene.gravity = {};
+    scene.controls.clear();
+    for (Body& body : scene.bodies) {
+        body.velocity = {};
+        body.spin = 0.0;
+    }
+}
+
+double distance_to_side(const Domain& domain, Wall side, Vec2 at) {
+    return side == Wall::left ? at.x - domain.x1 : domain.x2 - at.x;
+}
+
+bool circle_overlaps_side(const Scene& scene, const Body& body, Wall side) {
+    const auto circles = std::span(scene.circles).subspan(body.first_circle, body.circle_count);
+    return std::any_of(circles.begin(), circles.end(), [&](const CircleElement& circle) {
+        return distance_to_side(scene.domain, side, circle.centre) < circle.radius;
+    });
+}
+
+/// Polygons from a file say nothing of faces: an edge lies on a face when both its ends are as near as the nearest
+/// corner of all.
+std::vector<int> polygons_on_side(const Scene& scene, Wall side) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Vec2 v : scene.vertices) nearest = std::min(nearest, distance_to_side(scene.domain, side, v));
+    const double tolerance =
+        1e-6 * (scene.domain.x2 - scene.domain.x1);  // far below an edge, far above rounding in the file
+    std::vector<int> ids;
+    for (const Body& body : scene.bodies) {
+        const auto corners = std::span(scene.vertices).subspan(body.first_vertex, body.vertex_count);
+        const auto on_face = [&](Vec2 v) { return distance_to_side(scene.domain, side, v) <= nearest + tolerance; };
+        if (std::count_if(corners.begin(), corners.end(), on_face) >= 2) ids.push_back(body.id);
+    }
+    return ids;
+}
+
+/// Bodies are circles (or clumps) throughout, or polygons throughout: the two bond with different platens.
+void classify(Specimen& specimen, const TestCase& test) {
+    std::size_t circles = 0, polygons = 0, triangles = 0;
+    for (const Body& body : specimen.scene.bodies) {
+        if (body.circle_count > 0) ++circles;
+        if (body.vertex_count > 0 && !body.closed) {
+            throw InputError(
+                fmt::format("{}: found body {}, an open chain, expected circles, clumps or polygons; remove it",
+                            test.at("particles.file"), body.id));
+        }
+        if (body.closed) ++polygons;
+        if (body.closed && body.vertex_count == 3) ++triangles;
+    }
+    if (circles + polygons == 0) {
+        throw InputError(
+            fmt::format("{}: found no particles, expected at least one; check the file", test.at("particles.file")));
+    }
+    if (circles > 0 && polygons > 0) {
+        throw InputError(fmt::format("{}: found {} circle bodies and {} polygons, expected one kind",
+                                     test.at("particles.file"), circles, polygons));
+    }
+    specimen.polygons = polygons > 0;
+    specimen.kind = circles > 0 ? "circles" : triangles == polygons ? "delaunay" : "voronoi";
+}
+
+void measure_circles(Specimen& specimen) {
+    if (specimen.scene.circles.empty()) return;
+    double sum = 0.0;
+    for (const CircleElement& circle : specimen.scene.circles) sum += circle.radius;
+    specimen.mean_radius = sum / static_cast<double>(specimen.scene.circles.size());
+    for (const Body& body : specimen.scene.bodies) {
+        if (circle_overlaps_side(specimen.scene, body, Wall::left)) specimen.left_ids.push_back(body.id);
+        if (circle_overlaps_side(specimen.scene, body, Wall::right)) specimen.right_ids.push_back(body.id);
+    }
+}
+
+/// Triangles between seeds have no edge on the domain: they count as side particles where two of their circles touched
+/// the wall.
+bool cell_on_side(const Cell& cell, Wall side, bool domain_boundary, const std::vector<char>& seed_touches) {
+    if (domain_boundary) return side == Wall::left ? cell.on_left() : cell.on_right();
+    const auto touches = [&](int seed) { return seed >= 0 && seed_touches[static_cast<std::size_t>(seed)] != 0; };
+    return std::count_if(cell.seeds.begin(), cell.seeds.end(), touches) >= 2;
+}
+
+/// Replaces the circles by the polygons of their centres; ids count from 1 in the mesh's order.
+void mesh_specimen(Specimen& specimen, const TestCase& test, const TestHooks& hooks) {
+    const Scene circles = specimen.scene;
+    std::vector<Seed> seeds;
+    std::vector<int> materials;
+    std::vector<char> touches_left, touches_right;
+    for (const Body& body : circles.bodies) {
+        const Vec2 centre = mass_properties(circles, body).centroid;
+        seeds.push_back({centre.x, centre.y});
+        materials.push_back(body.material);
+        touches_left.push_back(circle_overlaps_side(circles, body, Wall::left) ? 1 : 0);
+        touches_right.push_back(circle_overlaps_side(circles, body, Wall::right) ? 1 : 0);
+    }
+    MeshRequest request;
+    const bool voronoi = *test.mesh.kind == "voronoi";
+    request.kind = voronoi ? MeshKind::voronoi : MeshKind::delaunay;
+    request.boundary = test.mesh.boundary == "seeds" ? Boundary::seeds : Boundary::domain;
+    request.thick = *test.mesh.thick;
+    request.inset = test.mesh.inset;
+    request.merge_destroyed = test.mesh.merge_destroyed;
+    const Domain& domain = circles.domain;
+    Mesh mesh;
+    if (hooks.working) hooks.working(fmt::format("meshing {} seeds", seeds.size()));
+    try {
+        mesh = make_mesh(seeds, {domain.x1, domain.x2, domain.y1, domain.y2}, request);
+    } catch (const MeshError& error) {
+        throw InputError(fmt::format("{}: {}", test.at("mesh.thick"), error.what()));
+    }
+
+    Scene scene = circles;
+    scene.bodies.clear();
+    scene.circles.clear();
+    scene.vertices.clear();
+    specimen.left_ids.clear();
+    specimen.right_ids.clear();
+    const bool domain_boundary = voronoi || request.boundary == Boundary::domain;
+    add_cell_bodies(scene, mesh, materials);
+    int id = 0;
+    for (const Cell& cell : mesh.cells) {
+        ++id;
+        if (cell_on_side(cell, Wall::left, domain_boundary, touches_left)) specimen.left_ids.push_back(id);
+        if (cell_on_side(cell, Wall::right, domain_boundary, touches_right)) specimen.right_ids.push_back(id);
+    }
+    specimen.scene = std::move(scene);
+    specimen.polygons = true;
+    specimen.kind = *test.mesh.kind;
+    specimen.thick = request.inset ? 2.0 * *request.inset : request.thick;
+    specimen.seeds = static_cast<std::int64_t>(seeds.size());
+    specimen.segments = mesh.report.segments;
+    say(hooks, fmt::format("meshed into {} {} cells with {} segments", mesh.report.cells, specimen.kind,
+                           mesh.report.segments));
+}
+
+void measure_polygons(Specimen& specimen, const TestCase& test) {
+    specimen.thick = specimen.scene.thick;
+    if (!test.bond.thick || *test.bond.thick <= specimen.thick) {
+        throw InputError(
+            fmt::format("{}: found {}, expected more than the particle file's thick = {} m; the excess is the "
+                        "overlap that bonds the polygons",
+                        test.at("bond.thick"), test.bond.thick ? fmt::format("{} m", *test.bond.thick) : "nothing",
+                        specimen.thick));
+    }
+    for (const Body& body : specimen.scene.bodies) specimen.segments += body.vertex_count;
+    specimen.left_ids = polygons_on_side(specimen.scene, Wall::left);
+    specimen.right_ids = polygons_on_side(specimen.scene, Wall::right);
+}
+
+}  // namespace
+
+Specimen make_specimen(const TestCase& test, const TestHooks& hooks) {
+    Specimen specimen;
+    specimen.scene = test.has_table("packing") ? packed_scene(test, hooks, specimen) : read_particles(test, hooks);
+    classify(specimen, test);
+    quieten(specimen.scene, specimen.notices);
+    measure_circles(specimen);
+    if (test.has_table("mesh")) {
+        if (specimen.polygons) {
+            throw InputError(fmt::format(
+                "{}: found a particle file of polygons, expected circles to mesh; remove [mesh]", test.at("mesh")));
+        }
+        mesh_specimen(specimen, test, hooks);
+    } else if (specimen.polygons) {
+        measure_polygons(specimen, test);
+    }
+    for (Material& material : specimen.scene.materials) scale_damping(material, test.damping_scale);
+    specimen.width = specimen.scene.domain.x2 - specimen.scene.domain.x1;
+    specimen.height = specimen.scene.domain.y2 - specimen.scene.domain.y1;
+    return specimen;
+}
+
+}  // namespace crackle

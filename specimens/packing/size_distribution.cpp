@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Quantiles and cumulative curves in closed form, so that a sample is one formula a circle. See the header for the
+// model.
+
+#include "specimens/packing/size_distribution.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/special_functions/erf.hpp>
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <sstream>
+#include <string>
+
+#include "solver/base/errors.hpp"
+#include "specimens/packing/random_numbers.hpp"
+
+namespace crackle {
+namespace {
+
+template <typename... T>
+struct overloaded : T... {
+    using T::operator()...;
+};
+template <typename... T>
+overloaded(T...) -> overloaded<T...>;
+
+bool positive(double value) { return value > 0.0 && std::isfinite(value); }
+
+[[noreturn]] void refuse(const std::string& key, double found, const std::string& expected) {
+    throw InputError(fmt::format("{}: found {}, expected {}", key, found, expected));
+}
+
+double normal_share_below(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
+
+/// Inverse of normal_share_below; ±infinity has no circle, so the ends stay where doubles still tell shares apart.
+double normal_quantile(double probability) {
+    const double share = std::clamp(probability, std::numeric_limits<double>::min(), 1.0 - 0x1p-53);
+    return -std::sqrt(2.0) * boost::math::erfc_inv(2.0 * share);
+}
+
+/// Shares of the untruncated distribution below its two cut-offs.
+struct CutOff {
+    double below_min, below_max;
+};
+CutOff cut_off(const LognormalRadii& sizes) {
+    const auto share = [&](double radius) {
+        return normal_share_below(std::log(radius / sizes.median) / sizes.log_deviation);
+    };
+    return {sizes.radius_min > 0.0 ? share(sizes.radius_min) : 0.0,
+            sizes.radius_max > 0.0 ? share(sizes.radius_max) : 1.0};
+}
+
+/// Number of circles between the lower end of a sieve interval and `size`, for a unit of mass density: slope is the
+/// mass share per ln(size); N = slope/2·(a⁻² - size⁻²).
+double number_in_interval(const SievePoint& a, const SievePoint& b, double size) {
+    const double slope = (b.passing_by_mass - a.passing_by_mass) / std::log(b.size / a.size);
+    return 0.5 * slope * (1.0 / (a.size * a.size) - 1.0 / (size * size));
+}
+
+double total_number(const SieveCurve& curve) {
+    double total = 0.0;
+    for (std::size_t k = 0; k + 1 < curve.points.size(); ++k) {
+        total += number_in_interval(curve.points[k], curve.points[k + 1], curve.points[k + 1].size);
+    }
+    return total;
+}
+
+double sieve_radius(const SieveCurve& curve, double probability) {
+    double left = probability * total_number(curve);
+    for (std::size_t k = 0; k + 1 < curve.points.size(); ++k) {
+        const SievePoint &a = curve.points[k], &b = curve.points[k + 1];
+        const double here = number_in_interval(a, b, b.size);
+        if (here > 0.0 && left <= here) {
+            const double slope = (b.passing_by_mass - a.passing_by_mass) / std::log(b.size / a.size);
+            return 0.5 * std::clamp(1.0 / std::sqrt(1.0 / (a.size * a.size) - 2.0 * left / slope), a.size, b.size);
+        }
+        left -= here;
+    }
+    return 0.5 * curve.points.back().size;
+}
+
+double sieve_share_below(const SieveCurve& curve, double radius) {
+    const double size = 2.0 * radius;
+    double number = 0.0;
+    for (std::size_t k = 0; k + 1 < curve.points.size(); ++k) {
+        const SievePoint &a = curve.points[k], &b = curve.points[k + 1];
+        if (size > a.size) number += number_in_interval(a, b, std::min(size, b.size));
+    }
+    return number / total_number(curve);
+}
+
+void validate_sieve(const SieveCurve& curve) {
+    if (curve.points.size() < 2)
+        throw InputError("sieve curve: found fewer than two points, expected at least the sizes with shares 0 and 1");
+    for (std::size_t k = 0; k < curve.points.size(); ++k) {
+        const SievePoint& point = curve.points[k];
+        const std::string where = fmt::format("sieve curve: point {}", k + 1);
+        if (!positive(point.size)) refuse(where + ": size", point.size, "a diameter > 0 in m");
+        if (!(point.passing_by_mass >= 0.0 && point.passing_by_mass <= 1.0)) {
+            refuse(where + ": passing_by_mass", point.passing_by_mass, "a share from 0 to 1");
+        }
+        if (k == 0) continue;
+        if (!(point.size > curve.points[k - 1].size))
+            refuse(where + ": size", point.size, "sizes that increase from row to row");
+        if (point.passing_by_mass < curve.points[k - 1].passing_by_mass) {
+            refuse(where + ": passing_by_mass", point.passing_by_mass, "shares that do not decrease from row to row");
+        }
+    }
+    if (curve.points.front().passing_by_mass != 0.0) {
+        refuse("sieve curve: first passing_by_mass", curve.points.front().passing_by_mass,
+               "0: the curve begins at the size below which there is nothing");
+    }
+    if (curve.points.back().passing_by_mass != 1.0) {
+        refuse("sieve curve: last passing_by_mass", curve.points.back().passing_by_mass,
+               "1: the curve ends at the size that everything passes");
+    }
+}
+
+double parse_number(const std::string& text, const std::string& where, const char* name) {
+    std::size_t used = 0;
+    double value = 0.0;
+    try {
+        value = std::stod(text, &used);
+    } catch (const std::logic_error&) {  // invalid_argument, out_of_range
+        used = 0;
+    }
+    if (used == 0 || text.find_first_not_of(" \t\r", used) != std::string::npos) {
+        throw InputError(fmt::format("{}: {}: found '{}', expected a number", where, name, text));
+    }
+    return value;
+}
+
+std::string trimmed(const std::string& text) {
+    const std::size_t first = text.find_first_not_of(" \t\r");
+    if (first == std::string::npos) return "";
+    return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
+}
+
+}  // namespace
+
+void validate(const SizeDistribution& sizes) {
+    std::visit(overloaded{[](const UniformRadii& uniform) {
+                              if (!positive(uniform.radius_min))
+                                  refuse("radius_min", uniform.radius_min, "a length > 0 in m");
+                              if (!positive(uniform.radius_max) || uniform.radius_max < uniform.radius_min) {
+                                  refuse("radius_max", uniform.radius_max,
+                                         fmt::format("a length of at least radius_min = {} m", uniform.radius_min));
+                              }
+                          },
+                          [](const LognormalRadii& lognormal) {
+                              if (!positive(lognormal.median))
+                                  refuse("lognormal median radius", lognormal.median, "a length > 0 in m");
+                              if (!positive(lognormal.log_deviation) || lognormal.log_deviation > 2.0) {
+                                  refuse("lognormal deviation of ln(radius)", lognormal.log_deviation,
+                                         "a number > 0 and at most 2 (radii from a 2000th to 2000 times the median)");
+                              }
+                              if (!(lognormal.radius_min >= 0.0))
+                                  refuse("radius_min", lognormal.radius_min, "a length >= 0 in m");
+                              if (lognormal.radius_max != 0.0 && !(lognormal.radius_max > lognormal.radius_min)) {
+                                  refuse("radius_max", lognormal.radius_max,
+                                         fmt::format("a length above radius_min = {} m", lognormal.radius_min));
+                              }
+                              const CutOff cut = cut_off(lognormal);
+                              if (cut.below_max - cut.below_min < 1e-3) {
+                                  refuse("radius_min to radius_max: share of the lognormal distribution",
+                                         cut.below_max - cut.below_min,
+                                         "at least 0.001; move the cut-offs to where the distribution is");
+                              }
+                          },
+                          [](const SieveCurve& curve) { validate_sieve(curve); }},
+               sizes);
+}
+
+double radius_at(const SizeDistribution& sizes, double probability) {
+    return std::visit(
+        overloaded{[&](const UniformRadii& uniform) {
+                       return uniform.radius_min + probability * (uniform.radius_max - uniform.radius_min);
+                   },
+                   [&](const LognormalRadii& lognormal) {
+                       const CutOff cut = cut_off(lognormal);
+                       const double z = normal_quantile(cut.below_min + probability * (cut.below_max - cut.below_min));
+                       return lognormal.median * std::exp(lognormal.log_deviation * z);
+                   },
+                   [&](const SieveCurve& curve) { return sieve_radius(curve, probability); }},
+        sizes);
+}
+
+double share_below(const SizeDistribution& sizes, double radius) {
+    return std::visit(
+        overloaded{[&](const UniformRadii& uniform) {
+                       if (radius >= uniform.radius_max) return 1.0;
+                       if (radius <= uniform.radius_min) return 0.0;
+                       return (radius - uniform.radius_min) / (uniform.radius_max - uniform.radius_min);
+                   },
+                   [&](const LognormalRadii& lognormal) {
+                       const CutOff cut = cut_off(lognormal);
+                       if (radius <= 0.0) return 0.0;
+                       const double below =
+                           normal_share_below(std::log(radius / lognormal.median) / lognormal.log_deviation);
+                       return std::clamp((below - cut.below_min) / (cut.below_max - cut.below_min), 0.0, 1.0);
+                   },
+                   [&](const SieveCurve& curve) { return sieve_share_below(curve, radius); }},
+        sizes);
+}
+
+std::vector<double> sample_radii(const SizeDistribution& sizes, std::size_t count, std::mt19937_64& generator) {
+    std::vector<double> radii(count);
+    for (std::size_t k = 0; k < count; ++k) {
+        const double share = (static_cast<double>(k) + uniform_number(generator)) / static_cast<double>(count);
+        radii[k] = radius_at(sizes, share);
+    }
+    shuffle(radii, generator);
+    return radii;
+}
+
+double kolmogorov_distance(const SizeDistribution& sizes, std::vector<double> radii) {
+    std::sort(radii.begin(), radii.end());
+    const double count = static_cast<double>(radii.size());
+    double distance = 0.0;
+    for (std::size_t k = 0; k < radii.size();) {
+        std::size_t end = k;
+        while (end < radii.size() && radii[end] == radii[k]) ++end;
+        // Just below and at a value; a distribution of one size jumps there itself.
+        const double below = share_below(sizes, std::nextafter(radii[k], 0.0)), at = share_below(sizes, radii[k]);
+        distance = std::max({distance, std::abs(below - static_cast<double>(k) / count),
+                             std::abs(at - static_cast<double>(end) / count)});
+        k = end;
+    }
+    return distance;
+}
+
+SieveCurve read_sieve_curve(const std::filesystem::path& path) {
+    std::ifstream in(path);
+    if (!in)
+        throw InputError(
+            fmt::format("{}: cannot be read; expected a CSV with the columns size,passing_by_mass", path.string()));
+    SieveCurve curve;
+    std::string line;
+    bool header = false;
+    for (int number = 1; std::getline(in, line); ++number) {
+        const std::string where = fmt::format("{}:{}", path.string(), number);
+        const std::string text = trimmed(line);
+        if (text.empty() || text[0] == '#') continue;
+        const std::size_t comma = text.find(',');
+        const std::string first = trimmed(text.substr(0, comma));
+        const std::string second = comma == std::string::npos ? "" : trimmed(text.substr(comma + 1));
+        if (!header) {
+            if (first != "size" || second != "passing_by_mass") {
+                throw InputError(
+                    fmt::format("{}: found '{}', expected the column names size,passing_by_mass", where, text));
+            }
+            header = true;
+            continue;
+        }
+        if (comma == std::string::npos || second.find(',') != std::string::npos) {
+            throw InputError(fmt::format("{}: found '{}', expected two values: size,passing_by_mass", where, text));
+        }
+        curve.points.push_back({parse_number(first, where, "size"), parse_number(second, where, "passing_by_mass")});
+    }
+    if (!curve.points.empty() && curve.points.back().passing_by_mass == 100.0) {
+        for (SievePoint& point : curve.points) point.passing_by_mass /= 100.0;
+    }
+    try {
+        validate_sieve(curve);
+    } catch (const InputError& error) {
+        throw InputError(fmt::format("{}: {}", path.string(), error.what()));
+    }
+    return curve;
+}
+
+}  // namespace crackle

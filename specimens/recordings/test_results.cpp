@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/recordings/test_results.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include "solver/base/errors.hpp"
+
+namespace crackle {
+namespace {
+
+std::string read_text(const std::filesystem::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    if (!in || std::filesystem::is_directory(file)) {
+        throw InputError(
+            fmt::format("{}: file not found, expected the results of a finished test; make them with "
+                        "`crackle test CASE.toml -o {}`",
+                        file.string(), file.parent_path().string()));
+    }
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+std::vector<std::string_view> split(std::string_view line) {
+    std::vector<std::string_view> fields;
+    while (true) {
+        const std::size_t comma = line.find(',');
+        fields.push_back(line.substr(0, comma));
+        if (comma == std::string_view::npos) return fields;
+        line.remove_prefix(comma + 1);
+    }
+}
+
+void require_columns(const std::filesystem::path& file, const NumberTable& table,
+                     const std::vector<const char*>& names) {
+    for (const char* name : names) {
+        if (!table.find(name))
+            throw InputError(fmt::format(
+                "{}:1: found no column '{}'; write the results anew with `crackle test --force`", file.string(), name));
+    }
+}
+
+void require_whole_numbers(const std::filesystem::path& file, const NumberTable& table,
+                           const std::vector<const char*>& names) {
+    for (const char* name : names) {
+        const std::vector<double>& values = *table.find(name);
+        const auto wrong = std::find_if(values.begin(), values.end(), [](double value) {
+            return !(std::abs(value) < 2e9 && value == std::round(value));
+        });
+        if (wrong != values.end()) {
+            throw InputError(fmt::format("{}:{}: {}: found {}, expected a whole number", file.string(),
+                                         wrong - values.begin() + 2, name, *wrong));
+        }
+    }
+}
+
+nlohmann::ordered_json read_summary(const std::filesystem::path& file) {
+    nlohmann::ordered_json summary;
+    try {
+        summary = nlohmann::ordered_json::parse(read_text(file));
+    } catch (const nlohmann::json::parse_error& error) {
+        throw InputError(
+            fmt::format("{}: found broken JSON at byte {}; write the results anew with `crackle test --force`",
+                        file.string(), error.byte));
+    }
+    const auto expect = [&](const char* key, bool right, const char* expected) {
+        if (right) return;
+        const std::string found = summary.is_object() && summary.contains(key) ? summary[key].dump() : "nothing";
+        throw InputError(fmt::format("{}: {}: found {}, expected {}", file.string(), key, found, expected));
+    };
+    const auto text = [&](const char* key) {
+        return summary.is_object() && summary.contains(key) && summary[key].is_string()
+                   ? summary[key].get<std::string>()
+                   : std::string();
+    };
+    expect("kind", text("kind") == "compression" || text("kind") == "tension", "\"compression\" or \"tension\"");
+    expect("specimen", !text("specimen").empty(), "\"circles\", \"delaunay\" or \"voronoi\"");
+    expect("failed", summary.contains("failed") && summary["failed"].is_boolean(), "true or false");
+    return summary;
+}
+
+}  // namespace
+
+bool is_report_page(const std::filesystem::path& file) {
+    std::error_code error;
+    if (!std::filesystem::is_regular_file(file, error)) return false;
+    std::ifstream in(file);
+    std::string first, second;
+    return std::getline(in, first) && std::getline(in, second) && second == report_mark;
+}
+
+const std::vector<double>* NumberTable::find(std::string_view name) const {
+    const auto found = std::find(names.begin(), names.end(), name);
+    return found == names.end() ? nullptr : &columns[static_cast<std::size_t>(found - names.begin())];
+}
+
+NumberTable read_number_table(const std::filesystem::path& file, std::string_view word_column,
+                              const std::vector<std::string>& words) {
+    const std::string text = read_text(file);
+    NumberTable table;
+    std::string_view rest = text;
+    for (int line_number = 1; !rest.empty(); ++line_number) {
+        const std::size_t line_end = rest.find('\n');
+        std::string_view line = rest.substr(0, line_end);
+        rest.remove_prefix(line_end == std::string_view::npos ? rest.size() : line_end + 1);
+        if (line.ends_with('\r')) line.remove_suffix(1);
+        const std::vector<std::string_view> fields = split(line);
+        if (line_number == 1) {
+            table.names.assign(fields.begin(), fields.end());
+            table.columns.resize(fields.size());
+            continue;
+        }
+        if (fields.size() != table.names.size()) {
+            throw InputError(fmt::format("{}:{}: found {} values, expected {} as in the first line", file.string(),
+                                         line_number, fields.size(), table.names.size()));
+        }
+        for (std::size_t k = 0; k < fields.size(); ++k) {
+            double value = 0.0;
+            if (!word_column.empty() && table.names[k] == word_column) {
+                const auto word = std::find(words.begin(), words.end(), fields[k]);
+                if (word == words.end()) {
+                    throw InputError(fmt::format("{}:{}: {}: found '{}', expected one of: {}", file.string(),
+                                                 line_number, word_column, fields[k], fmt::join(words, ", ")));
+                }
+                value = static_cast<double>(word - words.begin());
+            } else {
+                const auto [end, error] = std::from_chars(fields[k].data(), fields[k].data() + fields[k].size(), value);
+                if (error != std::errc() || end != fields[k].data() + fields[k].size()) {
+                    throw InputError(fmt::format("{}:{}: {}: found '{}', expected a number", file.string(), line_number,
+                                                 table.names[k], fields[k]));
+                }
+            }
+            table.columns[k].push_back(value);
+        }
+    }
+    return table;
+}
+
+TestResults read_results(const std::filesystem::path& folder) {
+    if (!std::filesystem::is_directory(folder)) {
+        throw InputError(fmt::format(
+            "{}: found no such folder, expected the results of a test; make them with `crackle test CASE.toml -o {}`",
+            folder.string(), folder.string()));
+    }
+    TestResults results;
+    results.name = std::filesystem::weakly_canonical(folder).filename().string();
+    results.summary = read_summary(folder / "summary.json");
+    results.curve = read_number_table(folder / "curve.csv");
+    require_columns(folder / "curve.csv", results.curve, {"axial_strain", "axial_stress", "bonds_broken", "time"});
+    results.events = read_number_table(folder / "events.csv", "mode", {"tension", "shear"});
+    require_columns(folder / "events.csv", results.events,
+                    {"time", "axial_strain", "x", "y", "body_i", "body_j", "mode", "last_of_interface"});
+    require_whole_numbers(folder / "events.csv", results.events, {"body_i", "body_j", "last_of_interface"});
+    return results;
+}
+
+}  // namespace crackle

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The checkpoint of a test: complete state as bytes. A resumed test ends with the bytes of an uninterrupted one.
+//
+// Layout: the line "crackle test checkpoint 10", cereal's binary archive of the resolved case's SHA-256, setup, state
+// and world, and the SHA-256 of all that. The hash is checked first, so that damage never reaches the archive. Written
+// as it comes, for the whole is as large as the world.
+#pragma once
+
+#include <iosfwd>
+#include <string>
+
+#include "specimens/results/state.hpp"
+#include "specimens/setup/setup.hpp"
+
+namespace crackle {
+
+struct TestCheckpoint {
+    std::string case_hash;  ///< SHA-256 of OUT/case.toml
+    TestSetup setup;
+    TestState state;
+    World world;
+};
+
+void save_test(std::ostream& out, const std::string& case_hash, const TestSetup& setup, const TestState& state,
+               const World& world);
+
+/// @throws InputError on foreign, damaged, truncated or newer data; `name` is used in the message.
+TestCheckpoint load_test(const std::string& bytes, const std::string& name);
+
+}  // namespace crackle

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/results/files.hpp"
+
+#include <algorithm>
+#include <set>
+#include <span>
+#include <system_error>
+#include <vector>
+
+#include "specimens/observers/events.hpp"
+#include "specimens/results/checkpoint.hpp"
+
+namespace crackle {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::chrono::seconds collection_interval{1};
+
+/// Pictures that the state does not know of were taken after its checkpoint, and may not be taken again.
+void remove_unlisted_frames(const fs::path& frames, const TestState& state) {
+    std::set<std::string> listed;
+    for (const FrameEntry& entry : state.frames)
+        listed.insert({particles_file(entry.row), contacts_file(entry.row), cracks_file(entry.row)});
+    std::vector<fs::path> unlisted;
+    std::error_code error;
+    for (const auto& file : fs::directory_iterator(frames, error)) {
+        const std::string name = file.path().filename().string();
+        if (is_picture(name) && !listed.contains(name)) unlisted.push_back(file.path());
+    }
+    for (const fs::path& file : unlisted) fs::remove(file, error);
+}
+
+}  // namespace
+
+TestFiles::TestFiles(const OutputFolder& folder, std::string case_hash, const TestState& state)
+    : folder_(folder),
+      case_hash_(std::move(case_hash)),
+      curve_(folder.path() / "curve.csv", state.curve_bytes),
+      events_(folder.path() / "events.csv", state.events_bytes),
+      collection_due_(!state.frames.empty()) {
+    if (state.curve_bytes == 0) curve_.write(curve_header());
+    if (state.events_bytes == 0) events_.write(events_header());
+    remove_unlisted_frames(folder.path() / "frames", state);
+}
+
+void TestFiles::add_row(const CurveRow& row) { curve_.write(curve_line(row)); }
+
+void TestFiles::add_event(const BreakEvent& event, double axial_strain) {
+    events_.write(event_line(event, axial_strain));
+}
+
+void TestFiles::add_frame(const Frame& frame, const TestSetup& setup, TestState& state, const World& world) {
+    const auto later = std::lower_bound(state.frames.begin(), state.frames.end(), frame.row,
+                                        [](const FrameEntry& entry, std::int64_t row) { return entry.row < row; });
+    if (later != state.frames.end() && later->row == frame.row) return;
+    state.frames.insert(later, {frame.row, frame.axial_strain, frame.time});
+    if (!painter_ || !painter_->paints(world, setup)) painter_.emplace(world, setup);
+    const PlacedFrame placed(world, setup, frame);
+    const FrameForces forces = find_forces(placed);
+    const auto cracks = std::span(state.history.cracks).first(frame.cracks);
+    folder_.write("frames/" + particles_file(frame.row),
+                  [&](std::ostream& out) { painter_->write_particles(out, placed, forces); });
+    folder_.write("frames/" + contacts_file(frame.row),
+                  [&](std::ostream& out) { painter_->write_contacts(out, placed, forces, cracks); });
+    folder_.write("frames/" + cracks_file(frame.row),
+                  [&](std::ostream& out) { painter_->write_cracks(out, placed, cracks); });
+    collection_due_ = true;
+    if (std::chrono::steady_clock::now() - collected_ >= collection_interval) write_collection(state);
+}
+
+void TestFiles::write_collection(const TestState& state) {
+    if (!collection_due_) return;
+    std::vector<CollectionEntry> entries;
+    for (const FrameEntry& frame : state.frames) {
+        entries.push_back({frame.time, 0, particles_file(frame.row)});
+        entries.push_back({frame.time, 1, contacts_file(frame.row)});
+        entries.push_back({frame.time, 2, cracks_file(frame.row)});
+    }
+    folder_.write("frames/frames.pvd", pvd_text(entries));
+    collection_due_ = false;
+    collected_ = std::chrono::steady_clock::now();
+}
+
+void TestFiles::write_checkpoint(const TestSetup& setup, TestState& state, const World& world) {
+    flush();
+    write_collection(state);
+    state.curve_bytes = curve_.bytes();
+    state.events_bytes = events_.bytes();
+    folder_.write("checkpoint", [&](std::ostream& out) { save_test(out, case_hash_, setup, state, world); });
+}
+
+void TestFiles::flush() {
+    curve_.flush();
+    events_.flush();
+}
+
+void TestFiles::write_summary(const nlohmann::ordered_json& summary, const TestState& state) {
+    write_collection(state);
+    folder_.write("summary.json", summary.dump(2) + '\n');
+}
+
+}  // namespace crackle

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The files that grow while a test runs: curve.csv, events.csv, frames/, checkpoint, and summary.json at the end.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+
+#include "specimens/frames/frame_painter.hpp"
+#include "specimens/results/output_folder.hpp"
+#include "specimens/results/summary.hpp"
+
+namespace crackle {
+
+class TestFiles {
+  public:
+    /// Begins afresh (state without rows) or goes on where the state says, taking away what came after it.
+    TestFiles(const OutputFolder& folder, std::string case_hash, const TestState& state);
+
+    void add_row(const CurveRow& row);
+    void add_event(const BreakEvent& event, double axial_strain);
+    /// Writes the pictures of a frame and lists it in state.frames, in the order of rows. frames.pvd follows within
+    /// a second, or with the checkpoint or the summary: replacing a file costs more than a small specimen's frame.
+    void add_frame(const Frame& frame, const TestSetup& setup, TestState& state, const World& world);
+    /// Flushes the growing files, notes their lengths in the state, and writes the checkpoint.
+    void write_checkpoint(const TestSetup& setup, TestState& state, const World& world);
+    /// Without a checkpoint: for a run that has gone wrong, whose last good checkpoint stays.
+    void flush();
+    void write_summary(const nlohmann::ordered_json& summary, const TestState& state);
+
+  private:
+    void write_collection(const TestState& state);
+
+    const OutputFolder& folder_;
+    std::string case_hash_;
+    GrowingFile curve_, events_;
+    std::optional<FramePainter> painter_;  // once there is a frame
+    bool collection_due_;                  // frames.pvd is not of the state
+    std::chrono::steady_clock::time_point collected_;
+};
+
+}  // namespace crackle

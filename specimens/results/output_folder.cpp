@@ -1,0 +1,361 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/results/output_folder.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <optional>
+#include <set>
+#include <system_error>
+
+#include "solver/base/errors.hpp"
+#include "specimens/frames/frame.hpp"
+#include "specimens/recordings/test_results.hpp"
+
+namespace crackle {
+namespace {
+
+namespace fs = std::filesystem;
+
+// In the order in which staged results take the old ones' place: the summary, which readers look for, comes last.
+constexpr std::array<const char*, 6> result_names{"case.toml", "curve.csv",  "events.csv",
+                                                  "frames",    "checkpoint", "summary.json"};
+constexpr const char* report_name =
+    "report.html";  // made of the results by another command; stale once they are replaced
+constexpr const char* temporary_suffix = ".tmp";
+constexpr const char* staged_mark = "replaces-older-results";  // in OUT.new: a forced test's own, to be begun anew
+constexpr const char* staging_suffix = ".new";
+// First line of the mark once the results are complete and take the old ones' place; names of their frames follow.
+constexpr const char* moving_line = "complete, being moved";
+
+[[noreturn]] void cannot_write(const fs::path& path, const std::string& why) {
+    throw InputError(
+        fmt::format("{}: cannot be written ({}), expected a writable folder with free space; earlier results are as "
+                    "they were",
+                    path.string(), why));
+}
+
+std::string last_error() { return std::strerror(errno); }
+
+bool holds_results(const fs::path& folder) {
+    std::error_code error;
+    return std::any_of(result_names.begin(), result_names.end(),
+                       [&](const char* name) { return fs::exists(folder / name, error); });
+}
+
+bool begins_with(const fs::path& file, const std::string& mark) {
+    std::ifstream in(file, std::ios::binary);
+    std::string begin(mark.size(), '\0');
+    return in.read(begin.data(), static_cast<std::streamsize>(begin.size())) && begin == mark;
+}
+
+/// Whether a text file holds a heading at most. One that is not there does.
+bool is_heading_alone(const fs::path& file) {
+    std::ifstream in(file, std::ios::binary);
+    std::string heading, row;
+    std::getline(in, heading);
+    return !std::getline(in, row);
+}
+
+/// Of a test that was stopped before its first checkpoint: headings without a row, and a case that is still elsewhere.
+bool has_only_begun(const fs::path& folder) {
+    std::error_code error;
+    for (const char* name : {"checkpoint", "summary.json", "frames"}) {
+        if (fs::exists(folder / name, error)) return false;
+    }
+    const fs::path own_case = folder / "case.toml";
+    return fs::exists(folder / "curve.csv", error) && is_heading_alone(folder / "curve.csv") &&
+           is_heading_alone(folder / "events.csv") &&
+           (!fs::exists(own_case, error) || begins_with(own_case, resolved_case_mark));
+}
+
+/// A case.toml or a frames/ alone may be anybody's.
+bool are_of_a_test(const fs::path& folder) {
+    std::error_code error;
+    return fs::exists(folder / "summary.json", error) || fs::exists(folder / "checkpoint", error) ||
+           begins_with(folder / "case.toml", resolved_case_mark);
+}
+
+bool is_frame(const std::string& name) { return name == "frames.pvd" || is_picture(name); }
+
+void remove_results(const fs::path& folder) {
+    std::error_code ignored;
+    for (const char* name : result_names) fs::remove_all(folder / name, ignored);
+}
+
+/// What a process that was stopped while it wrote has left behind.
+void remove_temporaries(const fs::path& folder) {
+    std::vector<fs::path> files{folder / "probe.tmp", folder / (std::string(staged_mark) + temporary_suffix)};
+    for (const std::string name : result_names) files.push_back(folder / (name + temporary_suffix));
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(folder / "frames", error)) {
+        const fs::path& file = entry.path();
+        if (file.extension() == temporary_suffix && is_frame(file.stem().string())) files.push_back(file);
+    }
+    for (const fs::path& file : files) fs::remove(file, error);
+}
+
+/// Names of the frames that are being moved out of a folder of staged results; none: nothing is.
+std::optional<std::set<std::string>> frames_being_moved(const fs::path& working) {
+    std::ifstream in(working / staged_mark, std::ios::binary);
+    std::string line;
+    if (!std::getline(in, line) || line != moving_line) return std::nullopt;
+    std::set<std::string> names;
+    while (std::getline(in, line)) names.insert(line);
+    return names;
+}
+
+/// Puts the frames in `from` in the place of those in `to`; other files there stay. Stopped at any moment and done
+/// again, it ends the same. @param names of the new ones
+void replace_frames(const fs::path& from, const fs::path& to, const std::set<std::string>& names,
+                    std::error_code& error) {
+    std::vector<fs::path> old_frames, new_frames;
+    fs::create_directories(to, error);
+    if (error) return;
+    for (const auto& entry : fs::directory_iterator(from, error)) new_frames.push_back(entry.path());
+    for (const fs::path& file : new_frames) {
+        fs::rename(file, to / file.filename(), error);
+        if (error) return;
+    }
+    for (const auto& entry : fs::directory_iterator(to, error)) {
+        const std::string name = entry.path().filename().string();
+        if (is_frame(name) && !names.contains(name)) old_frames.push_back(entry.path());
+    }
+    for (const fs::path& file : old_frames) fs::remove(file, error);
+    fs::remove(from, error);
+}
+
+/// Puts complete results in the place of the old ones, or goes on with that. @param names of the new frames
+void move_staged(const fs::path& working, const fs::path& target, const std::set<std::string>& names) {
+    std::error_code error;
+    if (is_report_page(target / report_name)) fs::remove(target / report_name, error);
+    for (const std::string name : result_names) {
+        if (!fs::exists(working / name, error)) continue;
+        if (name == "frames") {
+            replace_frames(working / name, target / name, names, error);
+        } else {
+            fs::rename(working / name, target / name, error);
+        }
+        if (error) cannot_write(target / name, error.message());
+    }
+    fs::remove(working / staged_mark, error);
+    fs::remove(working, error);
+}
+
+void refuse_inputs_among_results(const fs::path& target, std::span<const fs::path> inputs) {
+    std::error_code error;
+    for (const fs::path& input : inputs) {
+        for (const char* name : result_names) {
+            if (!fs::equivalent(input, target / name, error) || error) continue;
+            throw InputError(
+                fmt::format("{}: is an input of the test, expected a folder where no result takes its place; choose "
+                            "another -o",
+                            (target / name).string()));
+        }
+    }
+}
+
+fs::path without_trailing_slash(const fs::path& path) { return path.has_filename() ? path : path.parent_path(); }
+
+/// Making a file tells more than permission bits: full discs and read-only mounts show, too.
+void probe(const fs::path& folder) {
+    const fs::path file = folder / "probe.tmp";
+    errno = 0;
+    std::ofstream out(file);
+    out << "probe\n";
+    out.close();
+    const std::string why = out ? "" : last_error();
+    std::error_code ignored;
+    fs::remove(file, ignored);
+    if (!why.empty()) cannot_write(folder, why);
+}
+
+}  // namespace
+
+FolderLock::FolderLock(const fs::path& folder)
+    : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    if (descriptor_ < 0) cannot_write(folder, last_error());
+    if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
+    const bool taken = errno == EWOULDBLOCK;
+    const std::string why = last_error();
+    ::close(descriptor_);
+    if (!taken) cannot_write(folder, why);
+    throw InputError(fmt::format(
+        "{}: another crackle is writing here, expected a folder of one's own; wait for it, or choose another -o",
+        folder.string()));
+}
+
+FolderLock::~FolderLock() {
+    if (descriptor_ >= 0) ::close(descriptor_);  // which unlocks
+}
+
+namespace {
+
+/// Ends a move of results into `target` that was stopped. @throws InputError if another process is at it
+void complete_move(const fs::path& target) {
+    const fs::path working = target.string() + staging_suffix;
+    const auto names = frames_being_moved(working);
+    if (!names) return;
+    const FolderLock working_lock(working), target_lock(target);
+    remove_temporaries(target);
+    move_staged(working, target, *names);
+}
+
+}  // namespace
+
+bool holds_test_results(const fs::path& folder) { return holds_results(folder) && !has_only_begun(folder); }
+
+bool is_result_name(const std::string& name) {
+    return std::find(result_names.begin(), result_names.end(), name) != result_names.end();
+}
+
+OutputFolder OutputFolder::create(const fs::path& wanted, bool force, std::span<const fs::path> inputs) {
+    const fs::path target = without_trailing_slash(wanted);
+    std::error_code error;
+    if (fs::exists(target, error) && !fs::is_directory(target, error)) {
+        throw InputError(
+            fmt::format("{}: found a file, expected a folder or nothing; choose another -o", target.string()));
+    }
+    refuse_inputs_among_results(target, inputs);
+    complete_move(target);
+    fs::path working = target;
+    const bool staged = holds_test_results(target);
+    if (staged) {
+        if (!force) {
+            throw InputError(
+                fmt::format("{}: found results, expected an empty or new folder; --force replaces them, --resume goes "
+                            "on with them",
+                            target.string()));
+        }
+        if (!are_of_a_test(target)) {
+            throw InputError(
+                fmt::format("{}: found files with names of results that no test wrote, expected a test's results to "
+                            "replace; choose another -o",
+                            target.string()));
+        }
+        working = fs::path(target.string() + staging_suffix);
+        if (holds_results(working) && !fs::exists(working / staged_mark, error)) {
+            throw InputError(
+                fmt::format("{}: found results, expected nothing where the new ones grow before they replace those in "
+                            "{}; move or remove them",
+                            working.string(), target.string()));
+        }
+    }
+    OutputFolder folder(target, working);
+    folder.made_ = !fs::exists(working, error);
+    fs::create_directories(working, error);
+    if (error) cannot_write(working, error.message());
+    folder.locks_.emplace_back(working);
+    remove_temporaries(working);
+    if (!staged && has_only_begun(working)) remove_results(working);
+    if (staged) {
+        folder.locks_.emplace_back(target);
+        remove_results(working);  // of a forced test that was never finished; those in the target stay
+        folder.write(staged_mark, "");
+    }
+    probe(working);
+    return folder;
+}
+
+OutputFolder OutputFolder::reopen(const fs::path& wanted) {
+    fs::path target = without_trailing_slash(wanted);
+    // Their place is no longer here, and what has been moved is missing.
+    if (target.extension() == staging_suffix && frames_being_moved(target)) target.replace_extension();
+    complete_move(target);
+    std::error_code error;
+    if (!fs::is_directory(target, error)) {
+        throw InputError(fmt::format("{}: found no such folder, expected one that a test was writing; check the path",
+                                     target.string()));
+    }
+    OutputFolder folder(target, target);
+    folder.locks_.emplace_back(target);
+    remove_temporaries(target);
+    probe(target);
+    fs::remove(target / staged_mark, error);  // gone on with, they are results to keep
+    return folder;
+}
+
+OutputFolder::~OutputFolder() {
+    std::error_code ignored;  // not empty: results are kept
+    if (staged() && !holds_results(working_)) fs::remove(working_ / staged_mark, ignored);
+    if (made_) fs::remove(working_, ignored);
+}
+
+void OutputFolder::write(const std::string& name, const std::string& bytes) const {
+    write(name, [&](std::ostream& out) { out.write(bytes.data(), static_cast<std::streamsize>(bytes.size())); });
+}
+
+void OutputFolder::write(const std::string& name, const std::function<void(std::ostream&)>& write_to) const {
+    const fs::path file = working_ / name;
+    const fs::path temporary = file.string() + temporary_suffix;
+    std::error_code error;
+    fs::create_directories(file.parent_path(), error);
+    if (error) cannot_write(file.parent_path(), error.message());
+    errno = 0;
+    std::vector<char> buffer(std::size_t{1} << 18);
+    std::ofstream out;
+    out.rdbuf()->pubsetbuf(buffer.data(), static_cast<std::streamsize>(buffer.size()));
+    out.open(temporary, std::ios::binary);
+    write_to(out);
+    out.close();
+    if (!out) {
+        const std::string why = last_error();
+        fs::remove(temporary, error);
+        cannot_write(file, why);
+    }
+    fs::rename(temporary, file, error);
+    if (error) cannot_write(file, error.message());
+}
+
+void OutputFolder::finish() {
+    if (!staged()) return;
+    std::string mark = std::string(moving_line) + '\n';
+    std::set<std::string> names;
+    std::error_code error;
+    for (const auto& entry : fs::directory_iterator(working_ / "frames", error))
+        names.insert(entry.path().filename().string());
+    for (const std::string& name : names) mark += name + '\n';
+    write(staged_mark, mark);  // whoever finds it ends the move
+    move_staged(working_, target_, names);
+    working_ = target_;
+    made_ = false;
+}
+
+GrowingFile::GrowingFile(fs::path path, std::uint64_t bytes) : path_(std::move(path)), bytes_(bytes) {
+    std::error_code error;
+    if (bytes == 0) {
+        fs::remove(path_, error);
+    } else {
+        const auto there = fs::file_size(path_, error);
+        if (error || there < bytes) {
+            throw InputError(
+                fmt::format("{}: found {} bytes, expected at least the {} of the checkpoint; the file was changed, run "
+                            "the test again with --force",
+                            path_.string(), error ? 0 : there, bytes));
+        }
+        fs::resize_file(path_, bytes, error);
+        if (error) cannot_write(path_, error.message());
+    }
+    errno = 0;
+    out_.open(path_, std::ios::binary | std::ios::app);
+    if (!out_) cannot_write(path_, last_error());
+}
+
+void GrowingFile::write(const std::string& text) {
+    out_ << text;
+    bytes_ += text.size();
+}
+
+void GrowingFile::flush() {
+    errno = 0;
+    out_.flush();
+    if (!out_) cannot_write(path_, last_error());
+}
+
+}  // namespace crackle

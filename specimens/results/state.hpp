@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a running test knows besides its world: the curve so far, the peak, the frames taken, where its files end.
+// Together with the world and the setup this is all that a checkpoint holds.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "specimens/frames/frame.hpp"
+#include "specimens/observers/contact_history.hpp"
+#include "specimens/observers/curve.hpp"
+#include "specimens/observers/failure.hpp"
+#include "specimens/setup/loading_rate.hpp"
+
+namespace crackle {
+
+/// A frame on disc.
+struct FrameEntry {
+    std::int64_t row = 0;
+    double axial_strain = 0.0;
+    double time = 0.0;  // s
+};
+
+/// How a test ended; words as in summary.json.
+inline constexpr const char* ended_by_failure = "failure";
+inline constexpr const char* ended_by_strain = "max_axial_strain";
+inline constexpr const char* ended_by_interrupt = "interrupt";
+inline constexpr const char* ended_by_instability = "instability";
+
+struct TestState {
+    std::vector<CurveRow> rows;
+    FailureTracker failure;
+    ContactHistory history;
+    Frame peak_frame;                ///< waits in memory until the peak is known
+    std::vector<FrameEntry> frames;  ///< written so far
+    std::int64_t next_frame = 0;     ///< due at this multiple of the strain between frames
+    RateState rate;                  ///< loading by tolerance
+    std::int64_t breaks_in_shear = 0, breaks_in_tension = 0, breaks_after_sliding = 0;
+    std::string ended_by;  ///< empty while the test runs
+
+    // Of the specimen with all bonds intact and sticking (sparse solve); not a number where there is no solution.
+    double youngs_modulus = std::numeric_limits<double>::quiet_NaN();  // N/m
+    double poissons_ratio = std::numeric_limits<double>::quiet_NaN();
+    double modulus_residual = std::numeric_limits<double>::quiet_NaN();  ///< of the solve, its relative error
+
+    std::uint64_t curve_bytes = 0, events_bytes = 0;  ///< lengths of the files at the checkpoint
+    double wall_seconds = 0.0, step_seconds = 0.0;    ///< spent before this process
+    std::string command;                              ///< that began the test
+};
+
+}  // namespace crackle

@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/results/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "specimens/loading/companions.hpp"
+#include "specimens/observers/curve_analysis.hpp"
+#include "specimens/observers/profile_report.hpp"
+
+namespace crackle {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// JSON has no NaN: what is not defined is null.
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+struct Writer {
+    Json& json;
+    Json& units;
+    double out_of_plane_thickness;
+
+    void put(const std::string& key, Json value, const std::string& unit) {
+        json[key] = std::move(value);
+        units[key] = unit;
+    }
+    /// A stress or modulus, with its conversion beside it.
+    void stress(const std::string& key, double value, const std::string& meaning) {
+        put(key, number(value), "N/m, " + meaning);
+        put(key + "_pa", number(value / out_of_plane_thickness), "Pa, the same over out_of_plane_thickness");
+    }
+};
+
+void describe(Writer& w, const TestCase& test, const TestSetup& setup, const TestState& state) {
+    w.json["title"] = test.title;
+    w.json["kind"] = test.loading.kind;
+    w.json["specimen"] = setup.specimen;
+    w.json["platens"] = test.loading.platens;
+    w.json["failed"] = state.failure.failed;
+    w.json["interrupted"] = state.ended_by == ended_by_interrupt;
+    w.json["ended_by"] = state.ended_by.empty() ? Json(nullptr) : Json(state.ended_by);
+    if (!state.failure.failed) {
+        w.json["note"] =
+            fmt::format("the specimen has not failed (ended by {}): peak and moduli refer to the largest stress so far",
+                        state.ended_by.empty() ? "nothing yet" : state.ended_by);
+    }
+}
+
+void strength(Writer& w, const TestSetup& setup, const TestState& state) {
+    const FailureTracker& f = state.failure;
+    const std::string so_far = f.failed ? "" : "_so_far";
+    w.stress("peak_stress" + so_far, f.peak_row < 0 ? NAN : f.peak_stress, "positive in the sense of the test");
+    w.put("peak_strain" + so_far, number(f.peak_row < 0 ? NAN : f.peak_strain), "-, positive in the sense of the test");
+    w.stress("youngs_modulus", state.youngs_modulus,
+             "small strain, all bonds intact and sticking, platens bonded (sparse solve)");
+    w.put("poissons_ratio", number(state.poissons_ratio), "-, small strain, as youngs_modulus");
+
+    const Tangent initial = initial_tangent(state.rows, f.peak_row, setup.compression);
+    w.stress("initial_tangent_modulus", initial.modulus, "regression over the first twentieth of the strain at peak");
+    w.put("initial_poissons_ratio", number(initial.poissons_ratio), "-, over the same rows");
+    w.put("initial_tangent_window",
+          {{"rows", initial.rows},
+           {"strain_to", initial.strain_to},
+           {"bonds_broken", initial.bonds_broken},
+           {"points_sliding", initial.points_sliding},
+           {"contacts_gained", initial.contacts_gained}},
+          "counts within the window; points_sliding at its end");
+    const Tangent half = tangent_at_half_peak(state.rows, f.peak_row, setup.compression);
+    w.stress("tangent_modulus_50", half.modulus, "regression from 40 % to 60 % of the peak");
+    w.put("tangent_50_poissons_ratio", number(half.poissons_ratio), "-, over the same rows");
+}
+
+void counts(Writer& w, const TestSetup& setup, const TestState& state, const World& world) {
+    w.put("initial_width", setup.width, "m");
+    w.put("initial_height", setup.height, "m");
+    w.put("particles", setup.particles, "bodies without platens");
+    if (setup.seeds > 0) w.put("seeds", setup.seeds, "circles the polygons were meshed from");
+    if (setup.polygons) w.put("segments", setup.segments, "edges of all polygons");
+    w.put("bond_thick", setup.bond_thick, "m, segment thickness at bonding");
+    w.put("contacts_initial", setup.contacts_initial, "contact points when loading begins");
+    w.put("bonds_initial", world.bonds_initial, "bonded points");
+    w.put("bonds_broken", world.bonds_broken, "bonded points");
+    w.put("bonds_broken_after_sliding", state.breaks_after_sliding,
+          "bonded points that had been at their Coulomb limit before they broke");
+    w.put("bonds_broken_in_shear", state.breaks_in_shear,
+          "bonded points, by the larger force in the last step at half their strength or more: hardly any, for a bond "
+          "breaks where its overlap is gone and its Coulomb limit with it; see bonds_broken_after_sliding");
+    w.put("bonds_broken_in_tension", state.breaks_in_tension, "bonded points, the others");
+    w.put("interfaces_initial", world.interfaces_initial, "bonded pairs of bodies");
+    w.put("interfaces_lost", world.interfaces_lost, "pairs whose last bond has broken");
+    w.put("mean_back_tension", setup.mean_back_tension, "N, over bonded points");
+    w.put("mean_back_tension_interface", setup.mean_back_tension_interface,
+          "N, summed over the points of an interface");
+    w.put("mean_bond_overlap", setup.mean_bond_overlap, "m, over bonded points");
+    w.put("platen_bottom_id", setup.bottom_id, "id in events.csv and frames");
+    w.put("platen_top_id", setup.top_id, "id in events.csv and frames");
+}
+
+/// Stress that the dashpots bear when loading by tolerance begins, over the largest one.
+double viscous_share(const TestCase& test, const TestState& state) {
+    if (!test.loading.rate_tolerance || state.rows.empty()) return NAN;
+    return state.rows.front().axial_stress / state.failure.peak_stress;
+}
+
+void numerics(Writer& w, const TestCase& test, const TestSetup& setup, const TestState& state, const World& world) {
+    const CurveRow last = state.rows.empty() ? CurveRow{} : state.rows.back();
+    if (test.loading.rate_tolerance) {
+        const RateState& rate = state.rate;
+        w.put("rate_tolerance", *test.loading.rate_tolerance,
+              "-, of out-of-balance and kinetic over strain energy: sets the largest rate, and what slows it down");
+        w.put("axial_strain_rate", last.axial_strain / last.time, "1/s, mean of the test");
+        w.put("axial_strain_rate_range", {rate.slowest, rate.fastest}, "1/s, slowest and fastest");
+        w.put("strain_share_above_tolerance", rate.strain_above / last.axial_strain,
+              "-, share of the strain gone through while the inertia error was above the tolerance");
+        w.put("wave_transit_time", setup.rate_rule.transit_time, "s, height/sqrt(E/density)");
+    } else {
+        w.put("axial_strain_rate", *test.loading.axial_strain_rate, "1/s");
+    }
+    w.put("viscous_stress_share", number(viscous_share(test, state)),
+          "-, stress of the dashpots when loading by tolerance begins, over the largest stress");
+    w.put("axial_strain_end", last.axial_strain, "-, positive in the sense of the test");
+    w.put("energy_closing_error", number(last.energy_error / last.platen_work),
+          "-, over the platens' work, at the end");
+    if (world.segment_law != SegmentLaw::rounded) {
+        w.put(
+            "energy_lost_to_contact_law", number(world.law_loss / last.platen_work),
+            "-, over the platens' work: left in springs of the guide's law when contacts ended (negative: made by it)");
+    }
+    w.put("platen_out_of_balance", number(platen_out_of_balance(state.rows, state.failure.peak_row)),
+          "-, largest difference of the platens' stresses up to the peak, over the peak");
+    w.put("time_step", world.time_step, "s, at the end; shorter where new contacts need it");
+    w.put("time_step_mean", number(world.time / static_cast<double>(world.step)), "s, over the test");
+    w.put("stable_time_step", number(setup.stable_time_step),
+          world.segment_law != SegmentLaw::rounded
+              ? "s, a bound when bonds were made: exact for the symmetric majorant of the law's unsymmetric stiffness"
+          : setup.stable_time_step_proved
+              ? "s, exact limit when bonds were made: 4M - 2dt C - dt^2 K positive definite, by Cholesky"
+              : "s, when bonds were made; a bound, too large a specimen for the exact limit");
+    w.put(
+        "time_step_over_stable", number(world.time_step / setup.stable_time_step),
+        "-, share of it taken at the end; at most numerics.safety_factor, less where the guaranteed bound is smaller");
+    w.put("time_step_bound", setup.time_step_bound,
+          "s, guaranteed stable below without an eigenvalue solve, kept up as contacts open and close; when loading "
+          "began");
+    w.put("steps", world.step, "time steps");
+    w.put("simulated_time", world.time, "s");
+    w.put("list_builds", world.list_builds, "times the neighbour list was built");
+    w.put("seed", test.has_table("packing") ? Json(test.packing.seed) : Json(nullptr), "of the packing");
+}
+
+void packing(Writer& w, const TestSetup& setup) {
+    if (setup.packing.empty()) return;
+    Json figures;
+    for (const auto& [name, value] : setup.packing) figures[name] = number(value);
+    w.put("packing", figures,
+          "before bonding: mean_overlap in m over circles, bottom and top wall; stress_x, stress_y in N/m; anisotropy "
+          "|sx - sy|/(sx + sy); unbalanced: largest force on a circle over the mean contact force; the rest counts and "
+          "ratios");
+}
+
+Json error_of(const NumberError* measured, double closing) {
+    const auto value = [&](double NumberError::*part) {
+        return measured != nullptr ? number(measured->*part) : Json(nullptr);
+    };
+    return {{"time_step", value(&NumberError::time_step)},
+            {"rate", value(&NumberError::rate)},
+            {"energy_closing", number(closing)},
+            {"damping", value(&NumberError::damping)},
+            {"resolution", value(&NumberError::resolution)},
+            {"stated", value(&NumberError::stated)}};
+}
+
+void numerical_errors(Writer& w, const TestState& state, const NumericalErrors* errors) {
+    const CurveRow last = state.rows.empty() ? CurveRow{} : state.rows.back();
+    const double closing = std::abs(last.energy_error / last.platen_work);
+    // A solve, not a run: neither step nor rate enters.
+    const NumberError solved{};
+    Json all{{"youngs_modulus", error_of(&solved, NAN)},
+             {"peak_stress", error_of(errors != nullptr ? &errors->peak_stress : nullptr, closing)},
+             {"peak_strain", error_of(errors != nullptr ? &errors->peak_strain : nullptr, closing)}};
+    all["youngs_modulus"]["stated"] = number(state.modulus_residual);
+    if (errors != nullptr) {
+        for (const Companion& c : errors->companions) {
+            all["companions"][c.name] = {{"peak_stress", number(c.peak_stress)},
+                                         {"peak_strain", number(c.peak_strain)},
+                                         {"ended_by", c.ended_by},
+                                         {"steps", c.steps},
+                                         {"post_peak_difference", number(c.post_peak_difference)}};
+        }
+    }
+    w.put("numerical_errors", all,
+          "-, relative. time_step, rate, damping: change at half the step, half the rate, half or double the damping "
+          "(crackle test --verify; null: not run, or unstable); energy_closing: over the platens' work; resolution: by "
+          "the spacing of the rows; stated: of resolution and the larger of 3 rate and 2.92 sqrt(2) standard "
+          "deviations of the test, its half step and its half rate, the root of the sum of squares (90 of 100, were "
+          "they independent); youngs_modulus: a sparse "
+          "solve, its residual. post_peak_difference: mean difference of stress from the peak on, over the peak; "
+          "breaks there are chaotic, so it is no error of step or rate");
+    const bool judged = errors != nullptr && errors->peak_converged.has_value();
+    w.put("peak_converged", judged ? Json(*errors->peak_converged) : Json(nullptr),
+          "whether the peak at half the step and half the rate lies on the same branch; null: not run, or no failure");
+}
+
+/// Those of the start, and what the curve turned out to resolve badly.
+std::vector<std::string> notices_of(const TestCase& test, const TestSetup& setup, const TestState& state,
+                                    const World& world) {
+    constexpr std::int64_t rows_that_resolve = 100;
+    constexpr double closing_error_to_mention = 2e-3;  // twice the most that the guide's rock leaves by default
+    constexpr double share_above_to_mention = 0.25;
+    std::vector<std::string> notices = setup.notices;
+    const FailureTracker& f = state.failure;
+    if (f.failed && f.peak_row < rows_that_resolve) {
+        notices.push_back(
+            fmt::format("only {} rows of the curve lie before the peak: peak and moduli are coarse; lower "
+                        "loading.max_axial_strain = {} "
+                        "towards {:.2g}",
+                        f.peak_row, test.loading.max_axial_strain, 10.0 * f.peak_strain));
+    }
+    if (world.time_step > setup.stable_time_step) {
+        notices.push_back(
+            fmt::format("the time step of {:.3g} s lies above the stable bound of {:.3g} s: this shows the limit, its "
+                        "numbers are no "
+                        "results",
+                        world.time_step, setup.stable_time_step));
+    }
+    const CurveRow last = state.rows.empty() ? CurveRow{} : state.rows.back();
+    if (std::abs(last.energy_error) > closing_error_to_mention * std::abs(last.platen_work)) {
+        notices.push_back(
+            fmt::format("the energy balance misses {:.3g} of the platens' work: halve numerics.safety_factor, or load "
+                        "more slowly, and "
+                        "compare",
+                        last.energy_error / last.platen_work));
+    }
+    if (!test.loading.rate_tolerance) return notices;
+    const double above = state.rate.strain_above / last.axial_strain;
+    if (above > share_above_to_mention) {
+        notices.push_back(
+            fmt::format("the inertia error lay above rate_tolerance = {} over {:.0f} % of the strain: breaks set the "
+                        "specimen moving faster than it can be waited for; --verify shows what half the rate changes",
+                        *test.loading.rate_tolerance, 100.0 * above));
+    }
+    if (viscous_share(test, state) > *test.loading.rate_tolerance) {
+        notices.push_back(
+            fmt::format("the dashpots bear {:.2g} of the largest stress when loading begins, more than "
+                        "rate_tolerance = {}: lower it, or the damping",
+                        viscous_share(test, state), *test.loading.rate_tolerance));
+    }
+    return notices;
+}
+
+/// What the companions say of the peak, in words; empty where they agree, or have not run.
+std::string notice_of(const FailureTracker& failure, const NumericalErrors& errors) {
+    for (const Companion& c : errors.companions) {
+        if (c.ended_by == ended_by_instability)
+            return fmt::format("the companion {} became unstable: no error is stated where it enters", c.name);
+    }
+    if (!failure.failed) return "the specimen has not failed: the errors are those of the largest stress so far";
+    if (*errors.peak_converged) return "";
+    const auto changes = [](const NumberError& e) {
+        return fmt::format("{:.2g} % at half the step and {:.2g} % at half the rate", 100.0 * e.time_step,
+                           100.0 * e.rate);
+    };
+    return fmt::format(
+        "the peak jumps between branches: it moves by {}, its strain by {}; report the stated error with "
+        "it, or the mean of several packings",
+        changes(errors.peak_stress), changes(errors.peak_strain));
+}
+
+void frames(Writer& w, const TestState& state) {
+    const auto name = [](std::int64_t row) { return "frames/" + particles_file(row); };
+    const auto& list = state.frames;
+    w.json["frame_start"] = list.empty() ? Json(nullptr) : Json(name(list.front().row));
+    w.json["frame_peak"] =
+        list.empty() || state.failure.peak_row < 0 ? Json(nullptr) : Json(name(state.failure.peak_row));
+    w.json["frame_end"] = list.empty() ? Json(nullptr) : Json(name(list.back().row));
+}
+
+}  // namespace
+
+nlohmann::ordered_json make_summary(const TestCase& test, const TestSetup& setup, const TestState& state,
+                                    const World& world, const TestTiming& timing, const NumericalErrors* errors) {
+    Json json, units;
+    Writer w{json, units, test.output.out_of_plane_thickness};
+    describe(w, test, setup, state);
+    strength(w, setup, state);
+    counts(w, setup, state, world);
+    numerics(w, test, setup, state, world);
+    numerical_errors(w, state, errors);
+    packing(w, setup);
+    frames(w, state);
+    w.put("out_of_plane_thickness", test.output.out_of_plane_thickness,
+          "m, converts what is reported and nothing else");
+    json["notices"] = notices_of(test, setup, state, world);
+    if (errors != nullptr) {
+        const std::string notice = notice_of(state.failure, *errors);
+        if (!notice.empty()) json["notices"].push_back(notice);
+    }
+    json["version"] = CRACKLE_VERSION;
+    json["compiler"] = __VERSION__;
+    json["command"] = state.command;
+    w.put("threads", timing.threads, "");
+    w.put("wall_seconds", timing.wall_seconds, "s, whole process");
+    w.put("step_seconds", timing.step_seconds, "s, stepping loop with rebuilds, breaks and observers");
+    w.put("particle_steps_per_second",
+          number(static_cast<double>(setup.particles) * static_cast<double>(world.step) / timing.step_seconds),
+          "1/s, particles times steps over step_seconds");
+    if (world.profile != nullptr) {
+        w.put("profile", profile_report(*world.profile, setup.particles, world.step, timing.step_seconds),
+              "where the stepping loop's time went, s of wall clock; force_ns_per_point over listed points");
+    }
+    for (const CurveColumn& column : curve_columns()) json["columns"][column.name] = column.unit_and_sign;
+    json["units"] = units;
+    return json;
+}
+
+}  // namespace crackle

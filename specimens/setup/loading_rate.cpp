@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/setup/loading_rate.hpp"
+
+#include <cmath>
+
+namespace crackle {
+namespace {
+
+// Changes of ln(rate) a transit, over sqrt(tolerance): for an error of e times the tolerance, and at most.
+constexpr double gain = 1.0, fastest_rise = 1.0, fastest_fall = 4.0;
+// The rate never falls below this share of its limit: after a break a specimen rings on for a while at any rate.
+constexpr double slowest_share = 0.15;
+// Errors far below the tolerance say nothing more.
+constexpr double least_error_share = 1e-6;
+
+}  // namespace
+
+double largest_rate(const RateRule& rule) { return std::sqrt(rule.tolerance) * rule.first_strain / rule.transit_time; }
+
+void choose_rate(RateState& state, const RateRule& rule, double kinetic, double stored, double time) {
+    const double loading = state.rate * state.rate * rule.kinetic_per_rate;
+    const double share = std::max(0.0, kinetic - loading) / std::max(stored, rule.energy_floor);
+    state.kinetic_share += (share - state.kinetic_share) / looks_per_transit;
+    const double error = std::max(std::abs(state.out_of_balance), state.kinetic_share);
+    const double steps = rule.transit_time / looks_per_transit;
+    const double push = -std::log(std::max(error / rule.tolerance, least_error_share));
+    const double root = std::sqrt(rule.tolerance);
+    const double change = std::clamp(gain * root * push, -fastest_fall * root, fastest_rise * root) / looks_per_transit;
+    const double limit = largest_rate(rule);
+    const double before = state.rate;
+    state.rate = std::clamp(before * std::exp(change), slowest_share * limit, limit);
+    state.slowest = std::min(state.slowest, state.rate);
+    state.fastest = std::max(state.fastest, state.rate);
+    if (error > rule.tolerance) state.strain_above += before * steps;
+    state.next_look = time + steps;
+}
+
+}  // namespace crackle

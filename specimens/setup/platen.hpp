@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Loading platens: two flat rigid blocks, wider than the specimen, above and below it.
+//
+// Where their faces lie (t = segment thickness at bonding):
+//   - circles: t outside the domain's face, so that a circle overlaps its platen by what it overlapped the wall it was
+//     packed against;
+//   - polygons: half the meshing thickness outside the face, so that the gap is the meshing thickness as everywhere;
+//   - ragged polygons (no corner within the meshing thickness of the face): the meshing thickness outside the outermost
+//     corner;
+//   - frictional platens: just touching the outermost particle. Nothing bonds them, the test starts without force.
+// A block and not one segment: behind a single segment a corner pressed in by more than t would be through, and pushed
+// on. Before that, both carry the same force.
+// The lower platen is fixed, the upper one moves at constant velocity; both are held laterally and in rotation.
+#pragma once
+
+#include "solver/scene/scene.hpp"
+#include "solver/world/world.hpp"
+#include "specimens/making/specimen.hpp"
+
+namespace crackle {
+
+struct Platens {
+    int bottom_id = 0, top_id = 0;       ///< numbers after the input's largest
+    double bottom_y = 0.0, top_y = 0.0;  ///< m, faces at the start of loading
+    double velocity = 0.0;               ///< m/s of the upper one, upwards
+    double parked = 0.0;                 ///< m, how far outside its face each waits while the specimen is bonded
+    bool bonded = true;
+};
+
+/// How far apart platens wait while a specimen with frictional platens is bonded, in specimen heights.
+inline constexpr double platen_parking_distance = 1.0;
+
+/// Width of a platen over the specimen's: room for a specimen that bulges and sheds pieces.
+inline constexpr double platen_width_ratio = 2.0;
+
+/// Depth of a platen over the specimen's height: more than any corner is ever pressed in.
+inline constexpr double platen_depth_ratio = 0.05;
+
+/// Adds both platens and their controls to the specimen's scene, takes the walls away and gives every particle the
+/// velocity that grows linearly from the lower to the upper platen, so that loading sends no shock.
+/// @param thick segment thickness at bonding, m
+Platens add_platens(Scene& scene, const Specimen& specimen, const TestCase::Loading& loading, double thick);
+
+/// Brings frictional platens from where they waited to where loading starts; bonded ones are there already.
+void place_platens(World& world, const Platens& platens);
+
+}  // namespace crackle

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/setup/platen_hold.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/pending/disjoint_sets.hpp>
+#include <limits>
+
+#include "solver/base/errors.hpp"
+
+namespace crackle {
+namespace {
+
+struct Hold {
+    int bonds = 0;
+    double from = std::numeric_limits<double>::infinity(), to = -from;  // m, extent of the particles held
+
+    double length() const { return bonds > 0 ? to - from : 0.0; }
+};
+
+Hold hold_of(const World& world, const TestSetup& setup, BodyIndex platen) {
+    Hold hold;
+    for (const auto& [bond, overlap] : setup.bonds) {
+        if (bond.body_i != platen && bond.body_j != platen) continue;
+        ++hold.bonds;
+        const BodyIndex particle = bond.body_i == platen ? bond.body_j : bond.body_i;
+        const std::vector<Vec2> places = element_positions(world, particle);
+        for (std::size_t e = 0; e < places.size(); ++e) {
+            const double radius = setup.polygons ? 0.0 : world.elements[world.info[particle].first_element + e].radius;
+            hold.from = std::min(hold.from, places[e].x - radius);
+            hold.to = std::max(hold.to, places[e].x + radius);
+        }
+    }
+    return hold;
+}
+
+bool connected(const TestSetup& setup, std::size_t bodies) {
+    boost::disjoint_sets_with_storage<> pieces(bodies);
+    for (const auto& [bond, overlap] : setup.bonds) pieces.union_set(bond.body_i, bond.body_j);
+    return pieces.find_set(setup.bottom) == pieces.find_set(setup.top);
+}
+
+}  // namespace
+
+void check_platen_hold(const World& world, const TestSetup& setup, const Platens& platens, const TestCase& test) {
+    for (const BodyIndex platen : {setup.bottom, setup.top}) {
+        const Hold hold = hold_of(world, setup, platen);
+        if (hold.length() >= min_platen_hold * setup.width) continue;
+        const bool lower = platen == setup.bottom;
+        throw InputError(
+            fmt::format("{}: found {} bonded points over {:.3g} m of the {:.3g} m wide specimen at the {} platen (face "
+                        "at y = {:.6g} "
+                        "m), expected them to reach over half of it; circles must overlap the domain's face, polygons "
+                        "end flat half "
+                        "the meshing thickness inside it (mesh.boundary = \"domain\")",
+                        test.at("bond.thick"), hold.bonds, hold.length(), setup.width, lower ? "lower" : "upper",
+                        lower ? platens.bottom_y : platens.top_y));
+    }
+    if (!connected(setup, world.bodies.size())) {
+        throw InputError(fmt::format(
+            "{}: found {} bonds, none of which join the lower and the upper platen, expected a specimen in one "
+            "piece; polygons bond where bond.thick is larger than the gap between them",
+            test.at("bond.thick"), setup.bonds.size()));
+    }
+}
+
+}  // namespace crackle

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/setup/setup.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <unordered_map>
+#include <utility>
+
+#include "solver/contact/geometry.hpp"
+#include "solver/world/point_order.hpp"
+
+namespace crackle {
+namespace {
+
+double mean_x(const World& world, const std::vector<BodyIndex>& bodies) {
+    double sum = 0.0;
+    for (const BodyIndex b : bodies) sum += world.bodies[b].x;
+    return sum / static_cast<double>(bodies.size());
+}
+
+/// Side particles with centres in the middle half of the height, away from what the platens hold.
+std::vector<BodyIndex> gauge(const World& world, const std::vector<int>& ids, const Domain& domain) {
+    std::unordered_map<int, BodyIndex> index;
+    for (std::size_t b = 0; b < world.info.size(); ++b) index[world.info[b].id] = static_cast<BodyIndex>(b);
+    const double middle = 0.5 * (domain.y1 + domain.y2);
+    const double quarter = 0.25 * (domain.y2 - domain.y1);
+    std::vector<BodyIndex> bodies;
+    for (const int id : ids) {
+        const BodyIndex b = index.at(id);
+        if (std::abs(world.bodies[b].y - middle) <= quarter) bodies.push_back(b);
+    }
+    return bodies;
+}
+
+void record_bonds(TestSetup& setup, const World& world) {
+    std::map<std::pair<BodyIndex, BodyIndex>, double> interfaces;  // ordered: the sum must not depend on hashing
+    double overlap = 0.0, tension = 0.0;
+    setup.bonds.reserve(static_cast<std::size_t>(world.bonds_initial));
+    visit_kinds(world.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
+        for (PointIndex k = begin; k < end; ++k) {
+            const ContactPoint& point = world.points[k];
+            const PointState& state = world.point_states[k];
+            if ((state.flags & point_touching) != 0) ++setup.contacts_initial;
+            if ((state.flags & point_bonded) == 0) continue;
+            setup.bonds.push_back({point, world.bond_overlaps[k]});
+            const double back_tension = world.laws[state.law].normal_stiffness * world.bond_overlaps[k];
+            overlap += world.bond_overlaps[k];
+            tension += back_tension;
+            interfaces[std::minmax(point.body_i, point.body_j)] += back_tension;
+        }
+        const PointIndex first = setup.bond_kind_begin[static_cast<std::size_t>(K)];
+        std::sort(setup.bonds.begin() + first, setup.bonds.end(),
+                  [](const Bond& a, const Bond& b) { return key_of(K, a.point) < key_of(K, b.point); });
+        setup.bond_kind_begin[static_cast<std::size_t>(K) + 1] = static_cast<PointIndex>(setup.bonds.size());
+    });
+    if (setup.bonds.empty()) return;
+    setup.mean_bond_overlap = overlap / static_cast<double>(setup.bonds.size());
+    setup.mean_back_tension = tension / static_cast<double>(setup.bonds.size());
+    setup.mean_back_tension_interface = tension / static_cast<double>(interfaces.size());
+}
+
+}  // namespace
+
+BodyState placed_body(const World& world, const TestSetup& setup, BodyIndex b, double x, double y, double angle) {
+    BodyState body{x, y, 0.0, 0.0, 0.0, {world.bodies[b].shape[0], 0.0}, angle};
+    if (world.info[b].single_circle) return body;
+    const double turn = angle - setup.start[b].angle;
+    body.shape[0] = std::cos(turn);
+    body.shape[1] = std::sin(turn);
+    return body;
+}
+
+double TestSetup::axial_strain(const World& world) const {
+    const double now = world.bodies[top].y;
+    return (compression ? top_start - now : now - top_start) / height;  // not -0 at the start
+}
+
+double TestSetup::lateral_strain(const World& world) const {
+    if (gauge_length == 0.0) return std::numeric_limits<double>::quiet_NaN();
+    return (mean_x(world, right) - mean_x(world, left)) / gauge_length - 1.0;
+}
+
+TestSetup record_setup(const World& world, const Specimen& specimen, const Platens& platens, bool compression) {
+    TestSetup setup;
+    setup.compression = compression;
+    setup.specimen = specimen.kind;
+    setup.polygons = specimen.polygons;
+    setup.width = specimen.width;
+    setup.height = specimen.height;
+    setup.bond_thick = world.thick;
+    setup.mesh_thick = specimen.thick;
+    setup.bottom_id = platens.bottom_id;
+    setup.top_id = platens.top_id;
+    setup.bottom = body_of_id(world, platens.bottom_id);
+    setup.top = body_of_id(world, platens.top_id);
+    setup.top_start = world.bodies[setup.top].y;
+    setup.particles = static_cast<std::int64_t>(specimen.scene.bodies.size());
+    setup.segments = specimen.segments;
+    setup.seeds = specimen.seeds;
+    setup.stable_time_step = world.exact_step;
+    setup.stable_time_step_proved = world.exact_step_proved && world.segment_law == SegmentLaw::rounded;
+    setup.time_step_bound = world.step_bound;
+    setup.notices = specimen.notices;
+    setup.packing = specimen.packing;
+    for (const BodyState& body : world.bodies) setup.start.push_back({body.x, body.y, body.angle});
+    setup.left = gauge(world, specimen.left_ids, world.domain);
+    setup.right = gauge(world, specimen.right_ids, world.domain);
+    if (setup.left.empty() || setup.right.empty()) {
+        setup.notices.push_back("no particles at both side faces in the middle half of the height: no lateral strain");
+    } else {
+        setup.gauge_length = mean_x(world, setup.right) - mean_x(world, setup.left);
+    }
+    record_bonds(setup, world);
+    return setup;
+}
+
+}  // namespace crackle

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a loaded specimen was when loading began: everything that a measurement refers back to.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "solver/world/world.hpp"
+#include "specimens/making/specimen.hpp"
+#include "specimens/setup/loading_rate.hpp"
+#include "specimens/setup/platen.hpp"
+
+namespace crackle {
+
+/// Where a body was when loading began.
+struct StartPlace {
+    double x = 0.0, y = 0.0, angle = 0.0;
+};
+
+/// A point bonded when loading began.
+struct Bond {
+    ContactPoint point;
+    double overlap = 0.0;  ///< δ0, m
+};
+
+struct TestSetup {
+    bool compression = true;
+    std::string specimen;  ///< circles, delaunay, voronoi
+    bool polygons = false;
+    double width = 0.0, height = 0.0;    // m, initial
+    double bond_thick = 0.0;             // m
+    double mesh_thick = 0.0;             // m
+    int bottom_id = 0, top_id = 0;       // as in outputs
+    BodyIndex bottom = 0, top = 0;       // in the world
+    double top_start = 0.0;              // m, y of the upper platen's centroid
+    std::vector<BodyIndex> left, right;  ///< side particles in the middle half of the height
+    double gauge_length = 0.0;           ///< m, initial distance of their mean x; 0 if a side has none
+
+    std::int64_t particles = 0, segments = 0, seeds = 0;
+    std::int64_t contacts_initial = 0;         ///< contact points that touch when loading begins
+    double mean_bond_overlap = 0.0;            // m, over bonded points
+    double mean_back_tension = 0.0;            // N, over bonded points
+    double mean_back_tension_interface = 0.0;  // N, over pairs of bodies
+    double stable_time_step = 0.0;             // s, exact, when bonds were made
+    bool stable_time_step_proved = false;      ///< by factorisation; else it is a bound
+    double time_step_bound = 0.0;              // s, kept up during the run; when loading began
+
+    RateRule rate_rule;
+
+    std::vector<StartPlace> start;  ///< by body
+    std::vector<Bond> bonds;        ///< by kind and in the order in which a world lists its points (point_order.hpp)
+    std::array<PointIndex, point_kinds + 1> bond_kind_begin{};  ///< into bonds
+    std::vector<std::string> notices;
+    std::vector<std::pair<std::string, double>> packing;  ///< figures of the packing by name; empty for a particle file
+
+    bool is_platen(BodyIndex body) const { return body == bottom || body == top; }
+    double axial_strain(const World& world) const;
+    /// Not a number if the specimen has no side particles in the middle half of its height.
+    double lateral_strain(const World& world) const;
+};
+
+/// Takes down the start of loading. Needs a bonded world with its platens in place and compute_forces() done.
+TestSetup record_setup(const World& world, const Specimen& specimen, const Platens& platens, bool compression);
+
+/// A body where only its place is known. @param angle rad, as BodyState's
+BodyState placed_body(const World& world, const TestSetup& setup, BodyIndex body, double x, double y, double angle);
+
+}  // namespace crackle

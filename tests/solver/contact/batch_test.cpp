@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Points side by side give the bytes of points one by one. A batch of points of different laws goes the scalar way, so
+// a scene of one material is run against the same scene with two that are alike.
+
+#include "solver/contact/batch.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+#include "solver/world/world.hpp"
+#include "specimens/making/lattices.hpp"
+#include "specimens/making/materials.hpp"
+#include "tests/support/same_bytes.hpp"
+
+namespace crackle {
+namespace {
+
+using testing::same_bytes;
+
+Material damped_rock() {
+    Material material = undamped_rock(1e7, 27.0);
+    material.damping_ratio = 0.2;
+    return material;
+}
+
+struct Trial {
+    Scene scene;
+    double thick = 0.0;  // m, bonds at this; 0: no bonds
+    double speed = 0.0;  // m/s, of the bodies to begin with, at random
+    bool slides = true;  // some point comes to slide
+};
+
+World made(Trial trial, bool two_materials) {
+    std::mt19937_64 random(7);
+    const auto any = [&] { return static_cast<double>(random() >> 11) * 0x1p-52 - 1.0; };
+    for (Body& body : trial.scene.bodies) {
+        body.velocity = {trial.speed * any(), trial.speed * any()};
+        body.spin = 10.0 * trial.speed * any();
+    }
+    if (two_materials) {
+        trial.scene.materials.push_back(trial.scene.materials[0]);
+        for (std::size_t b = 0; b < trial.scene.bodies.size(); b += 2) trial.scene.bodies[b].material = 1;
+    }
+    World world = build_world(trial.scene);
+    if (trial.thick > 0.0) bond_all(world, trial.thick);
+    return world;
+}
+
+/// Of all points, whatever their laws are numbered.
+std::vector<std::uint16_t> flags_of(const World& world) {
+    std::vector<std::uint16_t> flags;
+    for (const PointState& state : world.point_states) flags.push_back(state.flags);
+    return flags;
+}
+
+void expect_the_same(const Trial& trial, int steps, bool breaks) {
+    World together = made(trial, false), apart = made(trial, true);
+    for (int n = 0; n < steps; ++n) {
+        step(together);
+        step(apart);
+    }
+    compute_forces(together);
+    compute_forces(apart);
+    testing::expect_same_run(together, apart);
+    EXPECT_TRUE(same_bytes(flags_of(together), flags_of(apart)));
+    EXPECT_EQ(together.friction_loss > 0.0, trial.slides);
+    EXPECT_EQ(together.bonds_broken > 0, breaks);
+    EXPECT_LE(together.bonds_broken, together.bonds_initial * 9 / 10) << "some hold";
+}
+
+TEST(PointBatch, BondedDiscsThatBreak) {
+    expect_the_same({triangular_lattice(9, 9, 0.02, 8e-5, damped_rock()), 0.01, 0.3}, 400, true);
+}
+
+TEST(PointBatch, BondedPolygonsThatBreak) {
+    expect_the_same({honeycomb(7, 7, 0.02, 1e-3, damped_rock()), 1.08e-3, 2.0}, 400, true);
+}
+
+TEST(PointBatch, LooseDiscs) {
+    expect_the_same({triangular_lattice(9, 9, 0.02, 0.0, damped_rock()), 0.0, 1.0}, 2000, false);
+}
+
+TEST(PointBatch, LoosePolygons) {
+    expect_the_same({honeycomb(7, 7, 0.02, 1e-3, damped_rock()), 0.0, 1.0}, 2000, false);
+}
+
+TEST(PointBatch, WithoutFriction) {
+    Material smooth = damped_rock();
+    smooth.friction_angle = 0.0;
+    expect_the_same({triangular_lattice(9, 9, 0.02, 0.0, smooth), 0.0, 1.0, false}, 2000, false);
+    expect_the_same({honeycomb(7, 7, 0.02, 1e-3, smooth), 0.0, 1.0, false}, 2000, false);
+    expect_the_same({honeycomb(7, 7, 0.02, 1e-3, smooth), 1.08e-3, 2.0, false}, 400, true);
+}
+
+TEST(PointBatch, WithoutShearSprings) {
+    Material slippery = undamped_rock(1e7, 27.0, 0.0);
+    slippery.damping_ratio = 0.2;
+    expect_the_same({triangular_lattice(9, 9, 0.02, 0.0, slippery), 0.0, 1.0, false}, 2000, false);
+    expect_the_same({honeycomb(7, 7, 0.02, 1e-3, slippery), 0.0, 1.0, false}, 2000, false);
+}
+
+TEST(PointBatch, BondsThatCannotBreak) {
+    Trial discs{triangular_lattice(9, 9, 0.02, 8e-5, damped_rock()), 0.01, 0.3, false};
+    discs.scene.intact = {true, true, true};
+    expect_the_same(discs, 400, false);
+    Trial polygons{honeycomb(7, 7, 0.02, 1e-3, damped_rock()), 1.08e-3, 0.3, false};
+    polygons.scene.intact = {true, true, true};
+    expect_the_same(polygons, 400, false);
+}
+
+TEST(PointBatch, DiscsAmongPolygons) {
+    // A layer of discs falls onto a honeycomb.
+    Scene scene = honeycomb(7, 4, 0.02, 1e-3, damped_rock());
+    const Scene discs = triangular_lattice(7, 3, 0.02, 0.0, damped_rock());
+    double top = 0.0;
+    for (const Vec2 vertex : scene.vertices) top = std::max(top, vertex.y);
+    for (Body body : discs.bodies) {
+        CircleElement circle = discs.circles[body.first_circle];
+        circle.centre.y += top + 0.021;
+        body.id += 1000;
+        body.first_circle = static_cast<std::uint32_t>(scene.circles.size());
+        scene.circles.push_back(circle);
+        scene.bodies.push_back(body);
+    }
+    scene.gravity = {0.0, -2000.0};
+    expect_the_same({scene, 0.0, 1.0}, 2000, false);
+}
+
+TEST(PointBatch, DiscsOnOneAndTheSameSpot) {
+    // Their normal is no direction: whatever the scalar way makes of it, the batch makes the same.
+    Scene scene = triangular_lattice(9, 9, 0.02, 0.0, damped_rock());
+    scene.circles[scene.bodies[40].first_circle].centre = scene.circles[scene.bodies[41].first_circle].centre;
+    World together = made({scene}, false), apart = made({scene}, true);
+    compute_forces(together);
+    compute_forces(apart);
+    EXPECT_TRUE(same_bytes(together.forces, apart.forces));
+    EXPECT_TRUE(same_bytes(together.point_forces, apart.point_forces));
+}
+
+TEST(PointBatch, WithoutDampingOrAccount) {
+    Material plain = damped_rock();
+    plain.damping_ratio = 0.0;
+    Trial trial{honeycomb(7, 7, 0.02, 1e-3, plain), 1.08e-3, 0.3};
+    trial.scene.ledger = false;
+    World together = made(trial, false), apart = made(trial, true);
+    for (int n = 0; n < 300; ++n) {
+        step(together);
+        step(apart);
+    }
+    EXPECT_TRUE(same_bytes(together.bodies, apart.bodies));
+    EXPECT_GT(together.bonds_broken, 0);
+}
+
+}  // namespace
+}  // namespace crackle

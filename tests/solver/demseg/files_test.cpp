@@ -1,0 +1,480 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// in_bc.dat, in_cf.dat, in_cf0.dat and the state file: layouts, round trips, refusals.
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <sstream>
+#include <utility>
+
+#include "solver/base/errors.hpp"
+#include "solver/demseg/boundary.hpp"
+#include "solver/demseg/contact_files.hpp"
+#include "solver/demseg/deck_reader.hpp"
+#include "solver/demseg/random_circles.hpp"
+#include "tests/support/claim.hpp"
+#include "tests/support/deck_files.hpp"
+
+namespace crackle {
+namespace {
+
+using namespace testing;
+
+std::string refusal(const std::function<void()>& act) {
+    try {
+        act();
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "accepted";
+}
+
+BoundaryConditions boundary_of(const std::string& text) {
+    DeckReader reader("in_bc.dat", text);
+    return read_boundary(reader);
+}
+
+TEST(Boundary, ReadsAndWritesTheGuidesForceControl) {
+    const BoundaryConditions boundary = boundary_of("0 0 20000 100 10\n1\n2\n1\n2 0 1.0d4 1 0.0d0 1 0.0d0\n");
+    EXPECT_EQ(boundary.start, DeckStart::fresh);
+    EXPECT_EQ(boundary.steps, 20000);
+    EXPECT_EQ(boundary.watched, std::vector<int>{2});
+    EXPECT_EQ(boundary.controls[0].x, (DofControl{Drive::force, 1e4}));
+    EXPECT_EQ(boundary.controls[0].y, (DofControl{Drive::displacement, 0.0}));
+    std::ostringstream out;
+    write_boundary(out, boundary);
+    EXPECT_EQ(out.str(), "0 0 20000 100 10\n1\n2\n1\n2 0 10000 1 0 1 0\n");
+}
+
+TEST(Boundary, RefusalsNameTheKey) {
+    EXPECT_EQ(refusal([] { boundary_of("2 0 1 1 1 0 0"); }),
+              "in_bc.dat:1: jclid: found '2', expected 0 (new), 1 (continued with in_cf.dat) or 3 (bonded)");
+    EXPECT_EQ(refusal([] { boundary_of("0 0 10\n0 1 0 0"); }),
+              "in_bc.dat:2: nprn1: found '0', expected a whole number from 1 to 1000000000000");
+    EXPECT_EQ(refusal([] { boundary_of("0 0 10 1 1 2 5 5 0"); }),
+              "in_bc.dat:1: id 2 of npfd: found 5 a second time, expected each body once");
+    EXPECT_EQ(refusal([] { boundary_of("0 0 10 1 1 0 1\n2 2 0 1 0 1 0"); }),
+              "in_bc.dat:2: body 2: fx: found '2', expected a whole number from 0 to 1");
+    Scene scene = read_geometry(shipped_deck("circle") / "in_gm.dat");
+    EXPECT_EQ(refusal([&] { apply_controls(boundary_of("0 0 10 1 1 0 1 7 0 0 0 0 0 0"), scene); }),
+              "in_bc.dat: npbd: found body 7, expected one of the 1 bodies of in_gm.dat");
+}
+
+/// Two touching squares and a clump of two circles that touches both a square and a single circle.
+Scene mixed_scene() {
+    Scene scene;
+    Material material;
+    material.density = 1.0;
+    material.normal_stiffness = 1e4;
+    material.shear_stiffness = 5e3;
+    material.friction_angle = 30.0;
+    scene.materials.push_back(material);
+    scene.domain = {0.0, 10.0, 1.0, 10.0, {true, true, true, true}};
+    scene.thick = 0.1;
+    scene.bare_segment_width = deck_bare_segment_width;
+    scene.add_circle_body(1, 0, {{2.0, 3.05}, 0.5, 0.0});
+    Body clump;
+    clump.id = 2;
+    clump.first_circle = static_cast<std::uint32_t>(scene.circles.size());
+    clump.circle_count = 2;
+    scene.circles.push_back({{2.9, 3.05}, 0.5, 0.0});
+    scene.circles.push_back({{3.5, 3.05}, 0.5, 0.0});
+    scene.bodies.push_back(clump);
+    scene.add_chain_body(3, 0, {{2, 1}, {4, 1}, {4, 2.5}, {2, 2.5}}, true);
+    scene.add_chain_body(4, 0, {{4.06, 1}, {6, 1}, {6, 2.5}, {4.06, 2.5}}, true);
+    return scene;
+}
+
+TEST(ContactFiles, BackTensionsOfEveryKindOfPointComeBack) {
+    const Scene scene = mixed_scene();
+    World world = build_world(scene);
+    std::ostringstream unbonded, bonded, again;
+    write_back_tensions(unbonded, scene, world);
+    const std::int64_t bonds = bond_all(world, scene.thick);
+    EXPECT_EQ(bonds, 8) << "circle on clump, three circles on the square, four corners between the squares";
+    write_back_tensions(bonded, scene, world);
+    EXPECT_EQ(unbonded.str(), bonded.str()) << "without bonds the file says what the overlaps would give";
+
+    World copy = build_world(scene);
+    DeckReader reader("in_cf0.dat", bonded.str());
+    read_back_tensions(reader, scene, copy);
+    EXPECT_EQ(copy.bonds_initial, bonds);
+    EXPECT_EQ(copy.interfaces_initial, 4);
+    write_back_tensions(again, scene, copy);
+    EXPECT_EQ(bonded.str(), again.str());
+    for (std::size_t k = 0; k < world.points.size(); ++k) {
+        EXPECT_NEAR(copy.bond_overlaps[k], world.bond_overlaps[k], 1e-17);
+        EXPECT_EQ(copy.point_states[k].flags, world.point_states[k].flags);
+    }
+}
+
+TEST(ContactFiles, SegmentsUnderTheGuidesLawComeBackByTheirNumbers) {
+    Scene scene = mixed_scene();
+    scene.segment_law = SegmentLaw::demseg;
+    scene.gravity = {3.0, -10.0};
+    World world = build_world(scene);
+    const std::int64_t bonds = bond_all(world, scene.thick);
+    // The single circle stands over a corner, the end of two segments. Bodies 3 and 4 face each other with edges 2 and
+    // 4, whose ends lie opposite each other and are ends of edges 1 and 3 as well: three more pairs at either end.
+    EXPECT_EQ(bonds, 5 + 1 + 6) << "circles, the facing pair, pairs at its ends";
+    std::ostringstream tensions, again;
+    write_back_tensions(tensions, scene, world);
+    EXPECT_NE(tensions.str().find(" 2 4\n"), std::string::npos) << tensions.str();
+    EXPECT_NE(tensions.str().find(" 4 2\n"), std::string::npos) << tensions.str();
+    World copy = build_world(scene);
+    DeckReader reader("in_cf0.dat", tensions.str());
+    read_back_tensions(reader, scene, copy);
+    EXPECT_EQ(copy.bonds_initial, bonds);
+    write_back_tensions(again, scene, copy);
+    EXPECT_EQ(again.str(), tensions.str());
+
+    for (int n = 0; n < 50; ++n) step(world);
+    std::ostringstream contacts, contacts_again;
+    write_contacts(contacts, scene, world);
+    DeckReader contact_reader("in_cf.dat", contacts.str());
+    World other = build_world(scene);
+    read_contacts(contact_reader, scene, other);
+    write_contacts(contacts_again, scene, other);
+    EXPECT_EQ(contacts_again.str(), contacts.str());
+
+    scene.segment_law = SegmentLaw::rounded;
+    World rounded = build_world(scene);
+    DeckReader foreign("in_cf0.dat", tensions.str());
+    EXPECT_NE(refusal([&] { read_back_tensions(foreign, scene, rounded); }).find("found no contact there"),
+              std::string::npos);
+}
+
+TEST(ContactFiles, GuidesChainListsBothDirections) {
+    const Scene scene = read_geometry(shipped_deck("chain_pulled") / "in_gm.dat");
+    World world = build_world(scene);
+    bond_all(world, 0.0);
+    std::ostringstream out;
+    write_back_tensions(out, scene, world);
+    DeckReader ours("new_in_cf0.dat", out.str()),
+        guides = DeckReader::open(shipped_deck("chain_pulled") / "in_cf0.dat");
+    while (!guides.at_end()) ASSERT_NEAR(ours.number("value"), guides.number("value"), 1e-4);
+    EXPECT_TRUE(ours.at_end());
+}
+
+TEST(ContactFiles, SpringsBondsAndFlagsComeBack) {
+    Scene scene = mixed_scene();
+    scene.gravity = {3.0, -10.0};
+    World world = build_world(scene);
+    bond_all(world, scene.thick);
+    for (int n = 0; n < 50; ++n) step(world);
+    std::ostringstream out, again;
+    write_contacts(out, scene, world);
+    EXPECT_NE(out.str().find("\n-3 "), std::string::npos) << "a contact with the floor or:\n" << out.str();
+    // The scene of a continued run is that of the end; here only the names matter.
+    World copy = build_world(scene);
+    DeckReader reader("in_cf.dat", out.str());
+    read_contacts(reader, scene, copy);
+    write_contacts(again, scene, copy);
+    EXPECT_EQ(out.str(), again.str());
+}
+
+TEST(ContactFiles, RefuseWhatCannotBe) {
+    const Scene scene = read_geometry(shipped_deck("chain_pulled") / "in_gm.dat");
+    const auto tensions = [&](const std::string& text) {
+        return refusal([&] {
+            World world = build_world(scene);
+            DeckReader reader("in_cf0.dat", text);
+            read_back_tensions(reader, scene, world);
+        });
+    };
+    std::string rest;
+    for (int id = 3; id <= 20; ++id) rest += std::to_string(id) + " 0\n";
+    EXPECT_EQ(tensions("1 1\n2 -2e7\n2 1\n1 -2e7\n" + rest), "accepted");
+    EXPECT_EQ(tensions("1 1\n2 2e7\n"),
+              "in_cf0.dat:2: body 1: back-tension 1: value: found '2e7', expected a back-tension, 0 or less (tension "
+              "is negative)");
+    EXPECT_EQ(tensions("1 1\n2 -2e7\n2 0\n" + rest),
+              "in_cf0.dat:2: bodies 1 and 2: found the back-tension -20000000 in one list and none in the other, "
+              "expected the same in both");
+    EXPECT_EQ(tensions("1 1\n99 -2e7\n"),
+              "in_cf0.dat:2: body 1: back-tension 1: other body: found '99', expected another body of in_gm.dat");
+    EXPECT_EQ(tensions("2 1\n"), "in_cf0.dat:1: body id: found '2', expected 1, in the order of in_gm.dat");
+    std::string far = "1 1\n3 -2e7\n2 0\n3 1\n1 -2e7\n";
+    for (int id = 4; id <= 20; ++id) far += std::to_string(id) + " 0\n";
+    EXPECT_EQ(tensions(far),
+              "in_cf0.dat:2: bodies 1 and 3: found no contact there, expected bonded bodies to touch; are in_gm.dat "
+              "and in_cf0.dat of one run?");
+}
+
+/// Message about an in_cf.dat for the mixed scene: bodies 1 (circle), 2 (clump), 3 and 4 (squares).
+std::string contacts_refusal(const std::string& text, World* world = nullptr, double speed = 0.0) {
+    return refusal([&] {
+        Scene scene = mixed_scene();
+        for (Body& body : scene.bodies) {
+            if (body.id == 4) body.velocity = {speed, 0.0};
+        }
+        World fresh = build_world(scene);
+        DeckReader reader("in_cf.dat", text);
+        read_contacts(reader, scene, fresh);
+        if (world != nullptr) *world = std::move(fresh);
+    });
+}
+
+TEST(ContactFiles, AContactListedFromItsOtherBodyIsTheSame) {
+    World from_one, from_other;
+    ASSERT_EQ(contacts_refusal("1 0\n2 0\n3 1\n4 2 0 5.5 -2e3 1\n4 0\n", &from_one), "accepted");
+    ASSERT_EQ(contacts_refusal("1 0\n2 0\n3 0\n4 1\n3 0 2 5.5 -2e3 1\n", &from_other), "accepted");
+    EXPECT_EQ(from_one.bonds_initial, 1);
+    EXPECT_TRUE(save_world(from_one) == save_world(from_other));
+    ASSERT_EQ(contacts_refusal("1 0\n2 0\n3 0\n4 1\n3 0 2 5.5 0 1\n", &from_other), "accepted");
+    double shear = 0.0;
+    for (const double force : from_other.shear_forces) shear += force;
+    EXPECT_EQ(shear, 5.5) << "a spring without a bond";
+}
+
+TEST(ContactFiles, UnknownContactsDuplicatesAndBondedWallsAreRefusedWithTheirLine) {
+    EXPECT_EQ(contacts_refusal("1 0\n2 0\n3 1\n4 1 0 5.5 0 0\n4 0\n"),
+              "in_cf.dat:4: body 3: contact 1: found no contact of its element 1 with element 0 of body 4, expected "
+              "them to touch; are in_gm.dat and in_cf.dat of one run?")
+        << "corner 1 is on the far side";
+    EXPECT_EQ(contacts_refusal("1 0\n2 0\n3 1\n4 2 1 5.5 0 0\n4 0\n"),
+              "in_cf.dat:4: body 3: contact 1: found no contact of its element 2 with element 1 of body 4, expected "
+              "them to touch; are in_gm.dat and in_cf.dat of one run?");
+    EXPECT_EQ(contacts_refusal("1 0\n2 0\n3 1\n3 2 0 5.5 0 0\n4 0\n"),
+              "in_cf.dat:4: body 3: contact 1: other body: found '3', expected another body of in_gm.dat, or -1 to -4 "
+              "for a wall");
+    EXPECT_EQ(contacts_refusal("1 0\n2 0\n3 2\n4 2 0 5.5 0 0\n4 2 0 5.5 0 0\n4 0\n"),
+              "in_cf.dat:5: body 3: contact 2: found the contact with body 4 a second time, expected every contact "
+              "point once");
+    EXPECT_EQ(contacts_refusal("1 0\n2 0\n3 1\n4 2 0 5.5 0 0\n4 1\n3 0 2 5.5 0 0\n"),
+              "in_cf.dat:6: body 4: contact 1: found the contact with body 3 a second time, expected every contact "
+              "point once");
+    EXPECT_EQ(contacts_refusal("1 0\n2 0\n3 1\n-3 2 0 5.5 -1e3 0\n4 0\n"),
+              "in_cf.dat:4: body 3: contact 1: back-tension: found '-1e3', expected 0; domain walls are never bonded");
+}
+
+TEST(ContactFiles, AContactThatOpenedBeyondTheListInItsLastStepIsOver) {
+    EXPECT_EQ(contacts_refusal("1 0\n2 0\n3 1\n4 1 0 5.5 0 0\n4 0\n", nullptr, 1e6), "accepted");
+}
+
+TEST(RandomCircles, CountIsTheGuidesAndSeedsRepeat) {
+    const RandomGeometry guide = read_random_geometry(shipped_deck("repose") / "in_gm.dat");
+    EXPECT_EQ(random_circle_count(guide), 582);
+    const auto text = [&](std::uint64_t seed) {
+        std::ostringstream out;
+        write_geometry(out, make_random_circles(guide, seed).scene);
+        return out.str();
+    };
+    EXPECT_EQ(text(5), text(5));
+    EXPECT_NE(text(5), text(6));
+    double mean = 0.0;
+    const Scene scene = make_random_circles(guide, 1).scene;
+    for (const CircleElement& circle : scene.circles) {
+        EXPECT_GE(circle.radius, 1.0);
+        EXPECT_LT(circle.radius, 2.0);
+        EXPECT_GE(circle.centre.x, circle.radius);
+        EXPECT_LE(circle.centre.y, 80.0 - circle.radius);
+        mean += circle.radius / 582.0;
+    }
+    EXPECT_TRUE(within("mean radius (3 standard errors)", mean, 1.5, 3.0 * 0.2887 / std::sqrt(582.0)));
+}
+
+class DeckFolder : public ::testing::Test {
+  protected:
+    DeckFolder() : folder_(scratch_ / "deck") {
+        std::filesystem::create_directories(folder_);
+        for (const char* name : {"in_gm.dat", "in_bc.dat"})
+            std::filesystem::copy_file(shipped_deck("chain_pulled") / name, folder_ / name);
+    }
+    DeckOptions options(bool goes_on = false) const {
+        DeckOptions result;
+        result.folder = folder_;
+        result.goes_on = goes_on;
+        result.steps = 100;
+        return result;
+    }
+    void edit(const std::string& name, const std::string& what, const std::string& by) const {
+        std::string text = read_text_file(folder_ / name);
+        const std::size_t at = text.find(what);
+        ASSERT_NE(at, std::string::npos);
+        std::ofstream(folder_ / name) << text.replace(at, what.size(), by);
+    }
+
+    ScratchFolder scratch_;
+    std::filesystem::path folder_;
+};
+
+TEST_F(DeckFolder, BondsFromPresentOverlapsWhereBackTensionsAreAbsent) {
+    DeckRun run(options());
+    EXPECT_EQ(run.world().bonds_initial, 19);
+    ASSERT_EQ(run.notices().size(), 1u);
+    EXPECT_NE(run.notices()[0].find("19 bonds were made from the present overlaps"), std::string::npos);
+}
+
+TEST_F(DeckFolder, OutputsAreNeverOverwrittenUnasked) {
+    DeckRun(options()).run();
+    const std::string before = read_text_file(folder_ / "energy.dat");
+    EXPECT_NE(refusal([&] { DeckRun{options()}; }).find("found the output of an earlier run"), std::string::npos);
+    EXPECT_EQ(read_text_file(folder_ / "energy.dat"), before);
+    DeckOptions forced = options();
+    forced.overwrite = true;
+    DeckRun(forced).run();
+    EXPECT_EQ(read_text_file(folder_ / "energy.dat"), before);
+}
+
+TEST_F(DeckFolder, GoingOnInPlaceAppends) {
+    DeckRun(options()).run();
+    DeckRun(options(true)).run();
+    const Rows rows = read_rows(folder_ / "energy.dat");
+    ASSERT_EQ(rows.size(), 21u);
+    EXPECT_EQ(rows[10][0], 100.0);
+    EXPECT_EQ(rows[20][0], 200.0);
+}
+
+TEST_F(DeckFolder, GoingOnDropsWhatAFailedPartHadWrittenBeyondItsBeginning) {
+    const std::array<const char*, 6> outputs{"output.dat", "cont.dat",      "cont2.dat",
+                                             "energy.dat", "f-d_curve.dat", "velocity_y.dat"};
+    edit("in_bc.dat", "3 0 20000 200 10", "3 0 20000 50 10");
+    DeckOptions whole = options();
+    whole.output = scratch_ / "whole";
+    whole.steps = 200;
+    DeckRun(whole).run();
+    for (const bool with_state : {true, false}) {
+        DeckOptions first = options(), second = options(true);
+        first.output = scratch_ / (with_state ? "state" : "text");
+        second.folder = first.output;
+        DeckRun(first).run();
+        std::map<std::string, std::string> left;
+        for (const char* name : {"new_in_gm.dat", "new_in_bc.dat", "new_in_cf.dat", "new_in_cf0.dat", "new_state.bin"})
+            left[name] = read_text_file(first.output / name);
+        DeckRun(second).run();  // the part that is lost: rows and frames to step 200, the last of them cut short
+        for (const auto& [name, text] : left) std::ofstream(first.output / name, std::ios::binary) << text;
+        if (!with_state) std::filesystem::remove(first.output / "new_state.bin");
+        for (const char* name : outputs) {
+            std::filesystem::resize_file(first.output / name, std::filesystem::file_size(first.output / name) - 7);
+            std::ofstream(first.output / name, std::ios::app) << "\n2";
+        }
+        DeckRun(second).run();
+        for (const char* name : outputs) {
+            if (with_state) {
+                EXPECT_TRUE(read_text_file(first.output / name) == read_text_file(whole.output / name)) << name;
+                continue;
+            }
+            const Rows expected = read_rows(whole.output / name), got = read_rows(first.output / name);
+            ASSERT_EQ(got.size(), expected.size()) << name;
+            for (std::size_t k = 0; k < got.size(); ++k) EXPECT_EQ(got[k][0], expected[k][0]) << name << ", row " << k;
+        }
+    }
+}
+
+TEST_F(DeckFolder, ARunInterruptedBeforeItsFirstStepHasTheRowOfItsBeginning) {
+    DeckOptions whole = options();
+    whole.output = scratch_ / "whole";
+    DeckRun(whole).run();
+    DeckRun(options()).run([](const World&) { return false; });
+    DeckRun(options(true)).run([](const World&) { return false; });
+    DeckRun(options(true)).run();
+    for (const char* name : {"output.dat", "cont.dat", "cont2.dat", "energy.dat", "f-d_curve.dat", "velocity_y.dat"})
+        EXPECT_TRUE(read_text_file(folder_ / name) == read_text_file(whole.output / name)) << name;
+}
+
+TEST_F(DeckFolder, AForeignOutputIsRefusedBeforeAnythingIsAppended) {
+    DeckRun(options()).run();
+    std::ofstream(folder_ / "energy.dat") << "once upon a time\n";
+    DeckRun next(options(true));
+    EXPECT_NE(refusal([&] { next.run(); }).find("energy.dat:1: found 'once"), std::string::npos);
+    EXPECT_EQ(read_text_file(folder_ / "energy.dat"), "once upon a time\n");
+}
+
+TEST_F(DeckFolder, ADerivedStepIsHandedOnAsTheStepInUse) {
+    edit("in_gm.dat", "2.0d-5", "0");
+    DeckRun run(options());
+    run.run();
+    EXPECT_EQ(read_geometry(folder_ / "new_in_gm.dat").time_step, run.world().time_step);
+    EXPECT_GT(run.world().time_step, 0.0);
+}
+
+TEST_F(DeckFolder, AStepThatThePileOutgrowsStopsTheRunWithItsOutputs) {
+    // Two discs come within each other's reach: the bound of a pair is 1/sqrt(2) of that of a disc alone, 1.12e-3 s.
+    std::ofstream(folder_ / "in_gm.dat") << "1 0 0\n0.9e-3 0 0\n1\n2.5 1e8 0 0 0 0\n-10 10 -10 10 0\n2 0 0\n"
+                                            "1 1 1\n1 0 0\n1 2\n-2.125 0 0\n2 1 1\n-1 0 0\n1 2\n2.125 0 0\n";
+    std::ofstream(folder_ / "in_bc.dat") << "0 0 200 100 10\n0\n0\n";
+    DeckOptions longer = options();
+    longer.steps = 200;
+    DeckRun run(longer);
+    try {
+        run.run();
+        FAIL() << "expected the run to be stopped";
+    } catch (const UnstableRun& error) {
+        const std::string text = error.what();
+        fmt::print("  {}\n", text);
+        EXPECT_NE(text.find("0.0009 s"), std::string::npos);
+        EXPECT_NE(text.find("0.000792"), std::string::npos);
+        EXPECT_EQ(error.step, run.world().step);
+    }
+    const Rows rows = read_rows(folder_ / "energy.dat");
+    ASSERT_GE(rows.size(), 2u);
+    EXPECT_GT(rows.back()[0], static_cast<double>(run.world().step) - 11.0);
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "new_in_gm.dat"));
+    longer.overwrite = true;
+    longer.allow_unstable = true;
+    EXPECT_NO_THROW(DeckRun(longer).run());
+}
+
+TEST_F(DeckFolder, BareSegmentsThatNoCornerCanTouchAreTold) {
+    std::ofstream(folder_ / "in_gm.dat") << "1 0 0\n1e-5 0 0\n1\n2.5 1e8 0 0 0 0\n-10 10 -10 10 0\n0 2 0\n"
+                                            "1 1 1\n0 0 0\n1 0 0\n5 0\n2 1 1\n0 0 0\n1 0 1\n5 1\n";
+    std::ofstream(folder_ / "in_bc.dat") << "0 0 200 100 10\n0\n0\n";
+    DeckRun run(options());
+    ASSERT_EQ(run.notices().size(), 1u);
+    EXPECT_NE(run.notices()[0].find("thick: found 0"), std::string::npos) << run.notices()[0];
+}
+
+TEST_F(DeckFolder, RenamedFilesGoOnWithTheStateUnlessTheyWereEdited) {
+    DeckRun(options()).run();
+    for (const char* name : {"in_gm.dat", "in_bc.dat", "in_cf.dat", "in_cf0.dat"}) {
+        std::filesystem::rename(folder_ / (std::string("new_") + name), folder_ / name);
+    }
+    DeckOptions next = options();
+    next.output = scratch_ / "next";
+    EXPECT_TRUE(DeckRun(next).notices().empty());
+    edit("in_gm.dat", "0 0\n1\n", "0 -980\n1\n");
+    DeckRun edited(next);
+    ASSERT_EQ(edited.notices().size(), 1u);
+    EXPECT_NE(edited.notices()[0].find("new_state.bin: ignored, because it does not belong to in_gm.dat as it is now"),
+              std::string::npos);
+    EXPECT_EQ(edited.first_step(), 100);
+    EXPECT_EQ(edited.world().bonds_initial, 19);
+}
+
+TEST_F(DeckFolder, DamagedStateIsRefusedWithARemedy) {
+    DeckRun(options()).run();
+    const std::string bytes = read_text_file(folder_ / "new_state.bin");
+    std::ofstream(folder_ / "new_state.bin") << bytes.substr(0, bytes.size() / 2);
+    EXPECT_NE(refusal([&] { DeckRun{options(true)}; }).find("found a truncated state"), std::string::npos);
+}
+
+TEST_F(DeckFolder, ContinuingWithoutContactsIsRefused) {
+    edit("in_bc.dat", "3 0 ", "1 0 ");
+    EXPECT_NE(refusal([&] { DeckRun{options()}; }).find("in_cf.dat: not found, expected it because jclid is 1"),
+              std::string::npos);
+}
+
+TEST_F(DeckFolder, AnUnstableRunKeepsItsOutputsAndEndsThere) {
+    edit("in_bc.dat", "20 1 4.2", "20 0 3e7");
+    edit("in_bc.dat", "3 0 20000 200 10", "0 0 20000 200 1");
+    DeckOptions longer = options();
+    longer.steps = 300;  // the last disc, not bonded, goes 0.2 a step after 180 and shoots through the wall
+    EXPECT_THROW(DeckRun(longer).run(), UnstableRun);
+    EXPECT_GT(read_rows(folder_ / "energy.dat").size(), 101u);
+    EXPECT_FALSE(std::filesystem::exists(folder_ / "new_in_gm.dat"));
+}
+
+TEST_F(DeckFolder, AnUnwritableFolderIsOneClearError) {
+    std::ofstream(scratch_ / "occupied") << "a file";
+    DeckOptions next = options();
+    next.output = scratch_ / "occupied";
+    DeckRun run(next);
+    EXPECT_NE(refusal([&] { run.run(); }).find("expected a writable folder"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace crackle

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Damaged decks: whatever the bytes, a reader returns or throws InputError. The sanitizers see to the rest.
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <random>
+
+#include "solver/base/errors.hpp"
+#include "solver/demseg/boundary.hpp"
+#include "solver/demseg/contact_files.hpp"
+#include "solver/demseg/deck_reader.hpp"
+#include "solver/demseg/geometry.hpp"
+#include "tests/support/claim.hpp"
+#include "tests/support/deck_files.hpp"
+
+namespace crackle {
+namespace {
+
+using namespace testing;
+
+constexpr int rounds = 3000;
+
+std::string damaged(std::string text, std::mt19937_64& random) {
+    static const std::string letters = " \n\t0123456789.-+eEdDxn\xff";
+    const auto below = [&](std::size_t n) { return static_cast<std::size_t>(random() % n); };
+    for (std::size_t k = 1 + below(4); k > 0 && !text.empty(); --k) {
+        const std::size_t at = below(text.size());
+        switch (below(4)) {
+            case 0:
+                text[at] = letters[below(letters.size())];
+                break;
+            case 1:
+                text.insert(at, 1, letters[below(letters.size())]);
+                break;
+            case 2:
+                text.erase(at, 1 + below(8));
+                break;
+            default:
+                text.resize(at);
+                break;
+        }
+    }
+    return text;
+}
+
+/// @return share of the damaged texts that were refused
+double refused(const std::string& text, const std::function<void(DeckReader&)>& read) {
+    std::mt19937_64 random(text.size());
+    int count = 0;
+    for (int n = 0; n < rounds; ++n) {
+        DeckReader reader("damaged", damaged(text, random));
+        try {
+            read(reader);
+        } catch (const InputError& error) {
+            EXPECT_TRUE(std::string(error.what()).starts_with("damaged")) << error.what();
+            ++count;
+        }
+    }
+    return static_cast<double>(count) / rounds;
+}
+
+TEST(DamagedDecks, AreReadOrRefusedWithFileAndLine) {
+    for (const char* name : {"circle", "clump", "triangle", "controlled_segment_force", "slope_k1", "embankment"}) {
+        const std::string text = read_text_file(shipped_deck(name) / "in_gm.dat");
+        EXPECT_GT(refused(text, [](DeckReader& reader) { read_deck_geometry(reader); }), 0.3) << name;
+    }
+    EXPECT_GT(refused(read_text_file(shipped_deck("repose") / "in_gm.dat"),
+                      [](DeckReader& reader) { read_random_geometry(reader); }),
+              0.3);
+    EXPECT_GT(refused(read_text_file(shipped_deck("wave_chain") / "in_bc.dat"),
+                      [](DeckReader& reader) { read_boundary(reader); }),
+              0.3);
+    EXPECT_GT(refused(read_text_file(shipped_deck("controlled_segment_force") / "in_bc.dat"),
+                      [](DeckReader& reader) { read_boundary(reader); }),
+              0.3);
+}
+
+TEST(DamagedContactFiles, AreReadOrRefusedWithFileAndLine) {
+    const Scene scene = read_geometry(shipped_deck("chain_pulled") / "in_gm.dat");
+    const World fresh = build_world(scene);
+    EXPECT_GT(refused(read_text_file(shipped_deck("chain_pulled") / "in_cf0.dat"),
+                      [&](DeckReader& reader) {
+                          World world = fresh;
+                          read_back_tensions(reader, scene, world);
+                      }),
+              0.3);
+    World bonded = fresh;
+    bond_all(bonded, 0.0);
+    std::ostringstream contacts;
+    write_contacts(contacts, scene, bonded);
+    EXPECT_GT(refused(contacts.str(),
+                      [&](DeckReader& reader) {
+                          World world = fresh;
+                          read_contacts(reader, scene, world);
+                      }),
+              0.3);
+}
+
+}  // namespace
+}  // namespace crackle

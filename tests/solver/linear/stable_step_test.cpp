@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The bound on the stable step that is kept up while a bonded world moves lies below the exact limit at every moment,
+// whatever weights it starts from and however many points come to carry load at once.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "solver/linear/critical_step.hpp"
+#include "specimens/making/disordered.hpp"
+#include "specimens/making/lattices.hpp"
+#include "tests/support/claim.hpp"
+#include "tests/support/measures.hpp"
+
+namespace crackle {
+namespace {
+
+using testing::rock;
+
+/// The bound over the exact limit of the points that touch now; at most 1.
+double share_of_exact(World& world) {
+    compute_forces(world);
+    return world.step_bound / critical_step(world, ClosedPoints::touching).root;
+}
+
+TEST(StepBound, StaysBelowTheExactLimitWhileBondsBreakAndContactsCome) {
+    Material material = rock();
+    material.damping_ratio = 0.1;
+    DisorderedDiscs discs;
+    discs.columns = discs.rows = 10;
+    ShakenCells cells;
+    cells.columns = cells.rows = 6;
+    for (const bool polygons : {false, true}) {
+        Scene scene = polygons ? shaken_cells(cells, material) : disordered_discs(discs, material);
+        World world = build_world(std::move(scene));
+        bond_all(world, polygons ? 1.5 * world.thick : 0.0);
+        testing::shake(world, 1.0 * testing::breaking_energy(world), 3);
+        double largest = 0.0, smallest = 1.0;
+        for (int look = 0; look < 60; ++look) {
+            const double share = share_of_exact(world);
+            largest = std::max(largest, share);
+            smallest = std::min(smallest, share);
+            for (int n = 0; n < 40; ++n) step(world);
+        }
+        fmt::print("  {}: bound over exact limit {:.4f} to {:.4f}; {} lists, {} bonds broken\n",
+                   polygons ? "polygons" : "discs", smallest, largest, world.list_builds, world.bonds_broken);
+        EXPECT_LE(largest, 1.0);
+        EXPECT_GT(smallest, 0.3);
+        EXPECT_GT(world.list_builds, 5);
+        EXPECT_GT(world.bonds_broken, 5);
+    }
+}
+
+TEST(StepBound, CountsAHundredContactsThatCloseAtOnce) {
+    // Two bonded columns side by side, one of which is thrown at the other. Light discs, which limit the step, are at
+    // one end of it, and among the first or the last to be counted.
+    const double radius = 0.02, overlap = 8e-5, gap = 1e-5;
+    const int rows = 100, light = 10;
+    for (const bool at_top : {false, true}) {
+        Scene scene = square_lattice(1, rows, radius, overlap, rock());
+        scene.materials.push_back(rock());
+        scene.materials[1].density *= 0.5;
+        const double spacing = 2.0 * radius - overlap;
+        for (int row = 0; row < rows; ++row) {
+            const bool is_light = at_top ? row >= rows - light : row < light;
+            scene.add_circle_body(rows + row + 1, is_light ? 1 : 0, {{2.0 * radius + gap, spacing * row}, radius, 0.0});
+        }
+        for (std::size_t b = rows; b < scene.bodies.size(); ++b) scene.bodies[b].velocity = {-0.5, 0.0};
+        World world = build_world(std::move(scene));
+        bond_all(world, 0.0);
+        const double before = share_of_exact(world);
+        const auto touching = [&] {
+            return std::count_if(world.point_states.begin(), world.point_states.end(),
+                                 [](const PointState& state) { return (state.flags & point_touching) != 0; });
+        };
+        const auto bonded = touching();
+        const std::int64_t built = world.list_builds;
+        for (int n = 0; n < 1000 && touching() == bonded; ++n) {
+            step(world);
+            compute_forces(world);
+        }
+        const auto gained = touching() - bonded;
+        step(world);  // they are counted before the next force pass
+        const double after = share_of_exact(world);
+        fmt::print("  {} contacts at once: bound over exact limit {:.4f} before, {:.4f} after\n", gained, before,
+                   after);
+        EXPECT_EQ(gained, rows);
+        EXPECT_EQ(world.list_builds, built) << "the list was rebuilt, so this shows nothing";
+        EXPECT_LE(before, 1.0);
+        EXPECT_LE(after, 1.0);
+        EXPECT_GT(after, 0.3);
+    }
+}
+
+}  // namespace
+}  // namespace crackle

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// step() moves bodies while forces are still being found; compute_forces() and advance() do one after the other.
+
+#include "solver/stepping/sweep.hpp"
+
+#include <gtest/gtest.h>
+#include <omp.h>
+
+#include "specimens/making/disordered.hpp"
+#include "tests/support/claim.hpp"
+#include "tests/support/measures.hpp"
+#include "tests/support/same_bytes.hpp"
+
+namespace crackle {
+namespace {
+
+using testing::same_bytes;
+
+struct SweptScene {
+    const char* name;
+    Scene scene;
+    double thick;
+    double share;  // of the energy that breaks every bond, as kinetic energy
+    bool breaks;
+};
+
+Material lightly_damped_rock() {
+    Material material = testing::rock();
+    material.damping_ratio = 0.05;
+    return material;
+}
+
+/// Discs in a box, many enough for several threads to have blocks of their own; one is driven, one pushed.
+Scene driven_discs(Integrator integrator) {
+    DisorderedDiscs request;
+    request.columns = 24, request.rows = 24;
+    Scene scene = disordered_discs(request, lightly_damped_rock());
+    scene.domain = {-0.021, 10.0, -0.021, 10.0, {true, true, true, true}};
+    scene.integrator = integrator;
+    scene.controls.push_back({40, {Drive::velocity, 0.0}, {Drive::displacement, 1e-4}, {}, 300});
+    scene.controls.push_back({300, {Drive::force, 10.0}, {}, {Drive::force, 0.01}, 0});
+    return scene;
+}
+
+Scene driven_cells() {
+    ShakenCells request;
+    request.columns = 12, request.rows = 12;
+    Scene scene = shaken_cells(request, lightly_damped_rock());
+    scene.controls.push_back({0, {Drive::velocity, 0.0}, {Drive::displacement, -1e-5}, {}, 300});
+    return scene;
+}
+
+World bonded_and_shaken(const SweptScene& swept_scene, int threads) {
+    World world = build_world(swept_scene.scene);
+    bond_all(world, swept_scene.thick);
+    testing::shake(world, swept_scene.share * testing::breaking_energy(world), 3);
+    set_threads(world, threads);
+    return world;
+}
+
+TEST(Sweep, HasTheBytesOfForcesThenMotionOnAnyNumberOfThreads) {
+    const SweptScene scenes[] = {
+        {"discs that break", driven_discs(Integrator::leapfrog), 0.0, 1.0, true},
+        {"discs under the consistent integrator", driven_discs(Integrator::consistent), 0.0, 1.0, true},
+        {"cells that break", driven_cells(), 1.08e-3, 1.0, true},
+        {"cells that hold", driven_cells(), 1.08e-3, 1e-6, false},
+    };
+    for (const SweptScene& swept_scene : scenes) {
+        World apart = bonded_and_shaken(swept_scene, 1);
+        for (int n = 0; n < 600; ++n) {
+            compute_forces(apart);
+            advance(apart);
+        }
+        compute_forces(apart);
+        EXPECT_EQ(apart.bonds_broken > 0, swept_scene.breaks) << swept_scene.name;
+        EXPECT_GT(apart.list_builds, 1) << swept_scene.name;
+        for (const int threads : {1, 2, 3, 7}) {
+            World swept = bonded_and_shaken(swept_scene, threads);
+            for (int n = 0; n < 600; ++n) step(swept);
+            compute_forces(swept);
+            SCOPED_TRACE(std::string(swept_scene.name) + ", " + std::to_string(threads) + " threads");
+            testing::expect_same_run(swept, apart);
+            ASSERT_EQ(swept.events.size(), apart.events.size());
+            for (std::size_t e = 0; e < swept.events.size(); ++e) {
+                EXPECT_EQ(swept.events[e].step, apart.events[e].step);
+                EXPECT_EQ(swept.events[e].position.x, apart.events[e].position.x);
+                EXPECT_EQ(swept.events[e].energy, apart.events[e].energy);
+            }
+        }
+    }
+}
+
+// As under OMP_THREAD_LIMIT or OMP_DYNAMIC: within a parallel region of ours a team is one thread, whatever is asked
+// for.
+TEST(Sweep, HasTheSameBytesWhereFewerThreadsAreGivenThanAskedFor) {
+    const SweptScene scenes[] = {{"discs", driven_discs(Integrator::leapfrog), 0.0, 1.0, true},
+                                 {"cells", driven_cells(), 1.08e-3, 1.0, true}};
+    for (const SweptScene& swept_scene : scenes) {
+        World alone = bonded_and_shaken(swept_scene, 1), given_one = bonded_and_shaken(swept_scene, 3);
+        for (int n = 0; n < 300; ++n) step(alone);
+        int team = 0;
+#pragma omp parallel num_threads(2)
+#pragma omp single
+        {
+            for (int n = 0; n < 300; ++n) step(given_one);
+#pragma omp parallel num_threads(3)
+#pragma omp single
+            team = omp_get_num_threads();
+        }
+        ASSERT_EQ(team, 1);
+        compute_forces(alone);
+        compute_forces(given_one);
+        EXPECT_GT(alone.bonds_broken, 0);
+        testing::expect_same_run(given_one, alone);
+    }
+}
+
+TEST(Sweep, FindsTheSameForcesWhetherThoseOfPointsAreKept) {
+    World kept = bonded_and_shaken({"", driven_discs(Integrator::leapfrog), 0.0, 1.0, true}, 2);
+    World forgotten = kept;
+    forget_point_forces(forgotten);
+    for (int n = 0; n < 300; ++n) {
+        step(kept);
+        step(forgotten);
+    }
+    EXPECT_FALSE(kept.point_forces.empty());
+    EXPECT_TRUE(forgotten.point_forces.empty());
+    EXPECT_TRUE(same_bytes(kept.bodies, forgotten.bodies));
+    EXPECT_THROW(measure_wall_forces(forgotten), std::logic_error);
+}
+
+}  // namespace
+}  // namespace crackle

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Cases are read whole or refused with file, line, key, what was found and what was expected.
+
+#include "specimens/case/case_file.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <sstream>
+
+#include "solver/base/errors.hpp"
+#include "specimens/case/parameters.hpp"
+#include "tests/support/deck_files.hpp"
+
+namespace crackle {
+namespace {
+
+using testing::ScratchFolder;
+
+constexpr const char* good_case =
+    "[packing]\n"
+    "count = 50\n"
+    "radius_min = 0.01\n"
+    "radius_max = 0.02\n"
+    "mean_overlap = 1e-4\n"
+    "[material]\n"
+    "density = 2500\n"
+    "normal_stiffness = 1e7\n"
+    "shear_stiffness = 2.5e6\n"
+    "friction_angle = 27\n"
+    "damping_ratio = 0.2\n"
+    "[loading]\n"
+    "kind = \"tension\"\n"
+    "axial_strain_rate = 0.01\n"
+    "max_axial_strain = 0.02\n";
+
+class CaseFile : public ::testing::Test {
+  protected:
+    TestCase read(const std::string& text, const std::string& name = "case.toml") const {
+        std::ofstream(scratch_ / name) << text;
+        return read_case(scratch_ / name);
+    }
+    std::string refusal(const std::string& text) const {
+        try {
+            read(text);
+        } catch (const InputError& error) {
+            fmt::print("  {}\n", error.what());
+            return error.what();
+        }
+        return "read without complaint";
+    }
+    static std::string with(const std::string& old_text, const std::string& new_text) {
+        std::string text = good_case;
+        const std::size_t at = text.find(old_text);
+        EXPECT_NE(at, std::string::npos) << old_text;
+        return text.replace(at, old_text.size(), new_text);
+    }
+
+    ScratchFolder scratch_;
+};
+
+TEST_F(CaseFile, ReadsWhatIsWrittenAndFillsInDefaults) {
+    const TestCase test = read(good_case);
+    EXPECT_EQ(test.packing.count, 50);
+    EXPECT_EQ(test.material.density, 2500.0) << "a whole number is a number";
+    EXPECT_EQ(test.loading.kind, "tension");
+    EXPECT_EQ(test.loading.platens, "bonded");
+    EXPECT_EQ(test.loading.stop_at_share_of_peak, 0.5);
+    EXPECT_EQ(test.output.curve_rows, 2000);
+    EXPECT_EQ(test.output.checkpoint_interval, 60.0);
+    EXPECT_FALSE(test.numerics.time_step.has_value());
+    EXPECT_EQ(test.title, "case") << "the file's name";
+}
+
+TEST_F(CaseFile, ResolvedCaseReadsBackToTheSameResolvedCase) {
+    const TestCase test = read(with("density = 2500", "density = 2500.1234567890123"));
+    std::ostringstream once, twice;
+    write_resolved_case(once, test, scratch_ / "out");
+    write_resolved_case(twice, read(once.str(), "resolved.toml"), scratch_ / "out");
+    EXPECT_EQ(once.str(), twice.str());
+    EXPECT_NE(once.str().find("density = 2500.123456789012"), std::string::npos) << once.str();
+}
+
+TEST_F(CaseFile, EveryKeyHasASentenceAndEveryDefaultIsInItsRange) {
+    for (const Parameter& p : case_parameters()) {
+        EXPECT_FALSE(p.sentence.empty()) << p.full_key();
+        if (p.kind != ValueKind::integer && p.kind != ValueKind::real) continue;
+        if (!p.default_value) continue;
+        const double value = p.kind == ValueKind::real ? std::get<double>(*p.default_value)
+                                                       : static_cast<double>(std::get<std::int64_t>(*p.default_value));
+        EXPECT_TRUE(p.accepts(value)) << p.full_key() << " = " << value;
+    }
+}
+
+TEST_F(CaseFile, IncludedFileHoldsWhereTheCaseIsSilent) {
+    std::ofstream(scratch_ / "rock.toml") << good_case;
+    const TestCase test = read("include = \"rock.toml\"\n[loading]\nkind = \"compression\"\n");
+    EXPECT_EQ(test.loading.kind, "compression") << "the case's own";
+    EXPECT_EQ(test.loading.axial_strain_rate, 0.01) << "the included file's";
+    EXPECT_EQ(test.inputs.size(), 2u);
+    EXPECT_NE(refusal("include = \"rocks.toml\"\n").find(":1: include: found no file"), std::string::npos);
+}
+
+TEST_F(CaseFile, IncludesNestButNotInARing) {
+    std::ofstream(scratch_ / "rock.toml") << good_case;
+    std::ofstream(scratch_ / "faster.toml") << "include = \"rock.toml\"\n[loading]\naxial_strain_rate = 0.5\n";
+    const TestCase test = read("include = \"faster.toml\"\n[packing]\nseed = 8\n");
+    EXPECT_EQ(test.loading.axial_strain_rate, 0.5) << "the nearer file's";
+    EXPECT_EQ(test.inputs.size(), 3u);
+    std::ofstream(scratch_ / "rock.toml") << "include = \"faster.toml\"\n";
+    EXPECT_NE(refusal("include = \"faster.toml\"\n").find("expected no ring"), std::string::npos);
+}
+
+TEST_F(CaseFile, OwnWayOfSayingItStandsOverTheIncludedFiles) {
+    std::ofstream(scratch_ / "rock.toml") << good_case;
+    const TestCase test = read("include = \"rock.toml\"\n[loading]\nrate_tolerance = 0.01\n");
+    EXPECT_EQ(test.loading.rate_tolerance, 0.01);
+    EXPECT_FALSE(test.loading.axial_strain_rate.has_value()) << "the included file's";
+    EXPECT_FALSE(test.position.contains("loading.axial_strain_rate"));
+    EXPECT_NE(refusal("include = \"rock.toml\"\n[loading]\nrate_tolerance = 0.01\naxial_strain_rate = 1\n")
+                  .find("expected one of them"),
+              std::string::npos)
+        << "both in one file";
+}
+
+TEST_F(CaseFile, EveryOtherWayIsAKeyThatCanBeAbsent) {
+    for (const Alternatives& ways : case_alternatives()) {
+        for (const auto& way : ways) {
+            for (const std::string& full_key : way) {
+                const auto& all = case_parameters();
+                const auto p =
+                    std::find_if(all.begin(), all.end(), [&](const auto& q) { return q.full_key() == full_key; });
+                ASSERT_NE(p, all.end()) << full_key;
+                EXPECT_TRUE(p->forget) << full_key;
+            }
+        }
+    }
+}
+
+TEST_F(CaseFile, PathsAreRelativeToTheFileThatWritesThem) {
+    std::filesystem::create_directories(scratch_ / "shared");
+    std::ofstream(scratch_ / "shared/rock.toml") << "[particles]\nfile = \"../in_gm.dat\"\n";
+    const TestCase test = read(
+        "include = \"shared/rock.toml\"\n[loading]\nkind = \"tension\"\naxial_strain_rate = 1\nmax_axial_strain = "
+        "0.1\n");
+    EXPECT_EQ(test.resolve_path("particles.file", *test.particles.file), scratch_ / "in_gm.dat");
+}
+
+struct Refusal {
+    const char* name;
+    const char* old_text;
+    const char* new_text;
+    const char* says;
+};
+
+class CaseRefusal : public CaseFile, public ::testing::WithParamInterface<Refusal> {};
+
+TEST_P(CaseRefusal, NamesFileLineKeyFindingAndExpectation) {
+    const std::string message = refusal(with(GetParam().old_text, GetParam().new_text));
+    EXPECT_NE(message.find("case.toml:"), std::string::npos) << message;
+    EXPECT_NE(message.find(GetParam().says), std::string::npos) << message << "\nexpected: " << GetParam().says;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Cases, CaseRefusal,
+    ::testing::Values(
+        Refusal{"UnknownKey", "density", "densitee",
+                ":7: material.densitee: found an unknown key, expected one of density"},
+        Refusal{"UnknownTable", "[material]", "[materials]", ":6: materials: found an unknown key"},
+        Refusal{"WrongType", "density = 2500", "density = \"heavy\"",
+                ":7: material.density: found \"heavy\" (a text), expected a number > 0 in kg/m2"},
+        Refusal{"TableForAValue", "count = 50", "count = {a = 1}", ":2: packing.count: found a table"},
+        Refusal{"NegativeRadius", "radius_min = 0.01", "radius_min = -0.01",
+                ":3: packing.radius_min: found -0.01, expected a number > 0 in m"},
+        Refusal{"NotANumber", "density = 2500", "density = nan",
+                ":7: material.density: found nan, expected a number > 0"},
+        Refusal{"Infinite", "density = 2500", "density = inf", ":7: material.density: found inf"},
+        Refusal{"FractionOfACircle", "count = 50", "count = 50.5",
+                ":2: packing.count: found 50.5 (a number), expected a whole number"},
+        Refusal{"RadiiExchanged", "radius_min = 0.01", "radius_min = 0.05",
+                ":3: packing.radius_min: found 0.05 m, expected at most radius_max"},
+        Refusal{"Word", "\"tension\"", "\"torsion\"",
+                ":13: loading.kind: found \"torsion\", expected \"compression\" or \"tension\""},
+        Refusal{"FrictionalPull", "kind = \"tension\"", "kind = \"tension\"\nplatens = \"frictional\"",
+                ":14: loading.platens: found \"frictional\", expected \"bonded\" in tension"},
+        Refusal{"MissingKey", "kind = \"tension\"\n", "",
+                ":12: loading.kind: found nothing, expected \"compression\" or \"tension\"; add it to [loading]"},
+        Refusal{"MissingMaterial", "density = 2500\n", "", ":6: material.density: found nothing"},
+        Refusal{"HalfADashpot", "damping_ratio = 0.2\n", "normal_damping = 10\n",
+                ":6: material.shear_damping: found nothing"},
+        Refusal{"TwoSpecimens", "[packing]", "[particles]\nfile = \"x\"\n[packing]",
+                ":3: packing: found [particles] beside it"},
+        Refusal{"TwoTargets", "mean_overlap = 1e-4", "mean_overlap = 1e-4\nvoid_ratio = 0.2",
+                ":6: packing.void_ratio: found a value, expected none"},
+        Refusal{"MeshWithoutBond", "[loading]", "[mesh]\nkind = \"voronoi\"\nthick = 1e-3\n[loading]",
+                "bond.thick: found nothing"},
+        Refusal{"BondWithinTheGap", "[loading]",
+                "[mesh]\nkind = \"voronoi\"\nthick = 1e-3\n[bond]\nthick = 1e-3\n[loading]",
+                "bond.thick: found 0.001 m, expected more than mesh.thick = 0.001 m"},
+        Refusal{"NotToml", "[packing]", "[packing", ":1: not valid TOML"},
+        Refusal{"Twice", "count = 50", "count = 50\ncount = 51", ":3: not valid TOML"}),
+    [](const auto& refused) { return refused.param.name; });
+
+TEST_F(CaseFile, MissingFileIsNamed) {
+    try {
+        read_case(scratch_ / "nowhere.toml");
+        FAIL() << "read without complaint";
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("nowhere.toml: found no such file"), std::string::npos)
+            << error.what();
+    }
+}
+
+}  // namespace
+}  // namespace crackle

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The linear analysis of a specimen between its platens: first events against the linear solution itself and against a
+// run, free motions, vibration modes.
+
+#include "specimens/elastic/analysis.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "solver/linear/vibration.hpp"
+#include "specimens/making/lattices.hpp"
+#include "tests/support/claim.hpp"
+#include "tests/support/deck_files.hpp"
+#include "tests/support/measures.hpp"
+#include "tests/support/small_rock.hpp"
+
+namespace crackle {
+namespace {
+
+using testing::agrees;
+using testing::SmallCase;
+
+class ElasticAnalysisOf : public ::testing::Test {
+  protected:
+    VirtualTest prepared(const SmallCase& wanted) const {
+        return prepare_test(read_case(testing::write_small_case(scratch_ / "", wanted)));
+    }
+    testing::ScratchFolder scratch_;
+};
+
+TEST_F(ElasticAnalysisOf, BondForcesOfAllPointsHoldThePlatens) {
+    for (const char* mesh : {"", "voronoi"}) {
+        SmallCase wanted;
+        wanted.mesh = mesh;
+        const VirtualTest test = prepared(wanted);
+        const double strain = 1e-5;
+        const ElasticAnalysis a = analyse_elastic(test, strain, 0);
+        double pull = 0.0;
+        std::size_t k = 0;
+        for (PointIndex p = 0; p < test.world.points.size(); ++p) {
+            const PointView view = view_point(test.world, p);
+            if (!view.bonded) continue;
+            const LinearBond& bond = a.bonds.at(k++);
+            // Tension: what the upper platen's points carry across, normal parts alone where they are vertical.
+            if (view.body_i == test.setup.top || view.body_j == test.setup.top)
+                pull -= bond.normal_force * std::abs(view.normal.y);
+        }
+        EXPECT_EQ(k, a.bonds.size());
+        EXPECT_TRUE(agrees(fmt::format("force on the upper platen from the bonds, {}", mesh), pull,
+                           a.youngs_modulus * strain * test.setup.width, 1e-6));
+    }
+}
+
+TEST_F(ElasticAnalysisOf, FirstSlipAndBreakAreWhereARunHasThem) {
+    // Discs pulled so slowly that the run follows the linear solution until the first point slides.
+    SmallCase wanted;
+    wanted.rate = 2e-4;
+    VirtualTest test = prepared(wanted);
+    const ElasticAnalysis a = analyse_elastic(test, 1e-5, 0);
+    ASSERT_TRUE(a.first_slip && a.first_break);
+    EXPECT_LE(a.first_slip->strain, a.first_break->strain);
+    const LinearBond& bond = a.bonds[a.first_slip->bond];
+    const auto slid = [&](PointIndex k) { return (test.world.point_states[k].flags & point_slid) != 0; };
+    PointIndex found = 0;
+    while (test.setup.axial_strain(test.world) < 2.0 * a.first_slip->strain) {
+        step(test.world);
+        for (found = 0; found < test.world.points.size() && !slid(found); ++found) {
+        }
+        if (found < test.world.points.size()) break;
+    }
+    ASSERT_LT(found, test.world.points.size());
+    // The run's own rate error: the wave still rings by rate·height/c over the strain, below a per cent here.
+    EXPECT_TRUE(agrees("strain at the first slip", test.setup.axial_strain(test.world), a.first_slip->strain, 0.02));
+    const ContactPoint& point = test.world.points[found];
+    const auto [low, high] = std::minmax(test.world.info[point.body_i].id, test.world.info[point.body_j].id);
+    EXPECT_EQ(low, std::min(bond.body_i, bond.body_j));
+    EXPECT_EQ(high, std::max(bond.body_i, bond.body_j));
+}
+
+TEST_F(ElasticAnalysisOf, FirstBreakIsTheLeastOfAllBondsAndNoneBreaksBeforeItSlips) {
+    SmallCase wanted;
+    const ElasticAnalysis a = analyse_elastic(prepared(wanted), 1e-5, 0);
+    double least = std::numeric_limits<double>::infinity();
+    for (const LinearBond& bond : a.bonds) {
+        if (bond.normal_force >= 0.0) continue;
+        least = std::min(least, -bond.strength / bond.normal_force * a.strain);
+        EXPECT_LE(bond.slip_strain, bond.break_strain * (1.0 + 1e-12));
+    }
+    EXPECT_TRUE(agrees("strain at the first break", a.first_break->strain, least, 1e-12));
+    EXPECT_TRUE(agrees("stress at the first break", a.first_break->stress, a.youngs_modulus * least, 1e-12));
+}
+
+TEST(FreeMotions, AreCountedAndNamedAndDoNotSpoilTheSolution) {
+    // A held chain of three discs, one hanging on its end by one contact, one floating, two floating together.
+    const Material material = testing::rock();
+    Scene scene = disc_chain(4, 0.02, 0.0399, material);
+    scene.add_circle_body(10, 0, {{0.5, 0.5}, 0.02, 0.0});
+    scene.add_circle_body(11, 0, {{0.7, 0.5}, 0.02, 0.0});
+    scene.add_circle_body(12, 0, {{0.7399, 0.5}, 0.02, 0.0});
+    World world = build_world(std::move(scene));
+    bond_all(world, 0.0);
+    const BodyIndex low = body_of_id(world, 1), high = body_of_id(world, 3);
+    const FreeMotions free = find_free_motions(world, {low, high});
+    // The pendant disc rolls about its contact: 1. The floating one: 3. The pair: 3 as a whole, and it hinges: 1.
+    EXPECT_EQ(free.count, 8);
+    std::vector<int> ids;
+    for (const BodyIndex b : free.bodies) ids.push_back(world.info[b].id);
+    std::sort(ids.begin(), ids.end());
+    EXPECT_EQ(ids, (std::vector<int>{4, 10, 11, 12}));
+    const ElasticSolution solution = solve_elastic(world, {{low, {}}, {high, {1e-6, 0.0, 0.0}}});
+    EXPECT_TRUE(agrees("force of two springs in series", solution.reaction[1].x, 0.5 * 1e7 * 1e-6, 1e-9));
+    EXPECT_TRUE(
+        testing::within("the pendant disc goes along", solution.displacement[body_of_id(world, 4)].x, 1e-6, 1e-14));
+}
+
+TEST(VibrationModes, OfAHeldChainAreTheClosedForm) {
+    constexpr int count = 17;
+    Scene scene = disc_chain(count, 0.02, 0.0399, testing::rock(45.0, 0.0));  // no shear: the discs move along alone
+    const DofControl held{Drive::velocity, 0.0}, loose{};
+    for (int k = 0; k < count; ++k)
+        scene.controls.push_back({k, k == 0 || k == count - 1 ? held : loose, held, held, 0});
+    World world = build_world(std::move(scene));
+    bond_all(world, 0.0);
+    const double mass = world.inertia[0].mass;
+    const std::vector<VibrationMode> modes = lowest_modes(world, 4, 0);
+    for (int n = 1; n <= 4; ++n) {
+        const double expected = 2.0 * std::sqrt(1e7 / mass) * std::sin(0.5 * std::numbers::pi * n / (count - 1));
+        EXPECT_TRUE(
+            agrees(fmt::format("mode {}, rad/s", n), modes[static_cast<std::size_t>(n - 1)].frequency, expected, 1e-7));
+    }
+}
+
+}  // namespace
+}  // namespace crackle

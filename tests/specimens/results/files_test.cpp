@@ -1,0 +1,388 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The folder of a test: complete, the same bytes however often it was interrupted and whatever the threads, and never
+// at the expense of earlier results.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "solver/base/errors.hpp"
+#include "specimens/frames/frame.hpp"
+#include "specimens/frames/read_frames.hpp"
+#include "specimens/loading/virtual_test.hpp"
+#include "specimens/recordings/recording.hpp"
+#include "specimens/results/output_folder.hpp"
+#include "tests/support/claim.hpp"
+#include "tests/support/deck_files.hpp"
+#include "tests/support/folder_contents.hpp"
+#include "tests/support/small_rock.hpp"
+
+namespace crackle {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::contents;
+using testing::expect_same;
+using testing::ScratchFolder;
+using testing::SmallCase;
+using testing::write_small_case;
+
+std::string refusal(const std::function<void()>& act) {
+    try {
+        act();
+    } catch (const InputError& error) {
+        fmt::print("  {}\n", error.what());
+        return error.what();
+    }
+    return "went through";
+}
+
+class TestFolder : public ::testing::Test {
+  protected:
+    TestOptions options(const std::string& name) const {
+        TestOptions wanted;
+        wanted.folder = scratch_ / name;
+        wanted.command = "crackle test";
+        return wanted;
+    }
+    TestCase small_case(const SmallCase& wanted = {}) const {
+        return read_case(write_small_case(scratch_ / "", wanted));
+    }
+    /// Stops when asked for the nth time; the loop asks every 64 steps.
+    static TestHooks stopping_at(int questions) {
+        TestHooks hooks;
+        hooks.interrupted = [left = questions]() mutable { return --left < 0; };
+        return hooks;
+    }
+
+    ScratchFolder scratch_;
+};
+
+TEST_F(TestFolder, HoldsWhatReadersLookFor) {
+    const TestOutcome outcome = run_test(small_case(), options("out"));
+    const Recording recording = read_test_recording(scratch_ / "out", 3);
+    const TestResults& results = recording.results;
+    EXPECT_TRUE(results.summary["failed"].get<bool>());
+    ASSERT_EQ(recording.frames.size(), 3u);
+    std::vector<std::string> roles;
+    for (const FrameHead& head : recording.frames) roles.insert(roles.end(), head.roles.begin(), head.roles.end());
+    EXPECT_EQ(roles, (std::vector<std::string>{"start", "peak", "end"}));
+    EXPECT_EQ(recording.cells.size(), 79u) << "77 discs and two platens";
+    const std::string curve = read_text_file(scratch_ / "out/curve.csv");
+    EXPECT_EQ(static_cast<std::ptrdiff_t>(results.curve.rows()), std::count(curve.begin(), curve.end(), '\n') - 1);
+    EXPECT_EQ(results.events.rows(), results.summary["bonds_broken"].get<std::size_t>());
+    const std::vector<double>& stress = *results.curve.find("axial_stress");
+    EXPECT_EQ(*std::max_element(stress.begin(), stress.end()), results.summary["peak_stress"].get<double>())
+        << "the same number in both files";
+    const std::vector<double>& ids = *results.events.find("body_i");
+    EXPECT_GT(*std::min_element(ids.begin(), ids.end()), 100.0) << "ids of the input";
+    for (const char* key : {"title",
+                            "kind",
+                            "specimen",
+                            "failed",
+                            "initial_width",
+                            "initial_height",
+                            "particles",
+                            "contacts_initial",
+                            "bonds_initial",
+                            "bonds_broken",
+                            "interfaces_initial",
+                            "interfaces_lost",
+                            "mean_back_tension",
+                            "mean_bond_overlap",
+                            "youngs_modulus",
+                            "initial_tangent_modulus",
+                            "tangent_modulus_50",
+                            "poissons_ratio",
+                            "peak_stress",
+                            "peak_stress_pa",
+                            "peak_strain",
+                            "energy_closing_error",
+                            "platen_out_of_balance",
+                            "time_step",
+                            "time_step_bound",
+                            "steps",
+                            "seed",
+                            "version",
+                            "command",
+                            "wall_seconds",
+                            "axial_strain_rate",
+                            "step_seconds",
+                            "particle_steps_per_second",
+                            "frame_start",
+                            "frame_peak",
+                            "frame_end",
+                            "columns"}) {
+        EXPECT_TRUE(outcome.summary.contains(key)) << key;
+    }
+    EXPECT_NE(
+        curve.find("axial_strain,axial_stress,stress_top,stress_bottom,lateral_strain,bonds_broken,kinetic_energy,"
+                   "strain_energy,time,"
+                   "step,interfaces_lost,points_sliding,dashpot_loss,friction_loss,fracture_loss,platen_work,"
+                   "energy_error\n"),
+        std::string::npos);
+    EXPECT_NE(read_text_file(scratch_ / "out/case.toml").find("rock.dat"), std::string::npos)
+        << "inputs and their hashes";
+}
+
+TEST_F(TestFolder, EndsBeforeFailureWithAPeakSoFar) {
+    SmallCase wanted;
+    wanted.max_strain = 2e-4;
+    const TestOutcome outcome = run_test(small_case(wanted), options("out"));
+    EXPECT_FALSE(outcome.summary["failed"].get<bool>());
+    EXPECT_TRUE(outcome.summary.contains("peak_stress_so_far"));
+    EXPECT_FALSE(outcome.summary.contains("peak_stress"));
+    EXPECT_EQ(outcome.summary["ended_by"], "max_axial_strain");
+}
+
+TEST_F(TestFolder, ResolvedCaseRunsToTheSameCurve) {
+    run_test(small_case(), options("out"));
+    run_test(read_case(scratch_ / "out/case.toml"), options("again"));
+    EXPECT_EQ(read_text_file(scratch_ / "out/curve.csv"), read_text_file(scratch_ / "again/curve.csv"));
+}
+
+TEST_F(TestFolder, HasTheSameBytesForAnyNumberOfThreads) {
+    SmallCase wanted;
+    wanted.mesh = "voronoi";
+    wanted.rate = 0.05;
+    const TestCase test = small_case(wanted);
+    const TestOutcome first = run_test(test, options("one"));
+    ASSERT_TRUE(first.summary["failed"].get<bool>());
+    const auto one = contents(scratch_ / "one");
+    for (const int threads : {2, 3, 7}) {
+        TestOptions several = options("several");
+        several.threads = threads;
+        several.force = true;
+        run_test(test, several);
+        expect_same(contents(scratch_ / "several"), one, fmt::format("{} threads", threads));
+    }
+}
+
+TEST_F(TestFolder, ResumedEndsWithTheBytesOfAnUninterruptedTest) {
+    for (const char* mesh : {"", "voronoi", "voronoi demseg"}) {
+        SmallCase wanted;
+        wanted.kind = *mesh == '\0' ? "compression" : "tension";
+        wanted.mesh = *mesh == '\0' ? "" : "voronoi";
+        if (std::string(mesh).ends_with("demseg")) wanted.numerics = "contact_law = \"demseg\"";
+        wanted.max_strain = 7e-3;
+        const TestCase test = small_case(wanted);
+        TestOptions straight = options("straight"), broken = options("broken");
+        straight.force = broken.force = true;
+        const TestOutcome whole = run_test(test, straight);
+        ASSERT_GT(whole.summary["bonds_broken"].get<int>(), 0);
+
+        TestOutcome outcome = run_test(test, broken, stopping_at(2));
+        int interrupts = 0;
+        while (outcome.interrupted) {
+            ++interrupts;
+            EXPECT_EQ(outcome.summary["ended_by"], "interrupt");
+            broken.folder = outcome.folder;
+            outcome = resume_test(broken, stopping_at(1 + 3 * interrupts));
+        }
+        fmt::print("  {} interrupts in {} steps\n", interrupts, whole.summary["steps"].get<int>());
+        EXPECT_GE(interrupts, 3);
+        expect_same(contents(outcome.folder), contents(scratch_ / "straight"), fmt::format("resumed {}", mesh));
+        fs::remove_all(outcome.folder);
+        fs::remove_all(scratch_ / "straight");
+    }
+}
+
+/// Since when a contact without a bond has touched, no file tells but the checkpoint.
+TEST_F(TestFolder, ResumedKnowsHowOldItsContactsAre) {
+    SmallCase wanted;
+    wanted.kind = "compression";
+    wanted.mesh = "delaunay";
+    wanted.rate = 0.2;
+    wanted.max_strain = 0.012;
+    wanted.loading = "stop_at_share_of_peak = 0.05";
+    wanted.output = "curve_rows = 2000\nframes = 20";
+    const TestCase test = small_case(wanted);
+    run_test(test, options("straight"));
+    TestOutcome outcome = run_test(test, options("broken"), stopping_at(2));
+    std::set<double> interrupts;  // s
+    while (outcome.interrupted) {
+        interrupts.insert(outcome.summary["simulated_time"].get<double>());
+        outcome = resume_test(options("broken"), stopping_at(4));
+    }
+    expect_same(contents(scratch_ / "broken"), contents(scratch_ / "straight"), "resumed");
+    int old = 0;  // contacts that an interrupt came across
+    for (const auto& entry : fs::directory_iterator(scratch_ / "straight/frames")) {
+        if (!entry.path().filename().string().starts_with("contacts_")) continue;
+        const PolyData data = read_polydata(entry.path());
+        const double time = data.field_values.at("time");
+        for (std::size_t k = 0; k < data.cells.size(); ++k) {
+            const auto next = interrupts.upper_bound(time - data.cell_data.at("age")[k]);
+            const bool loose = data.cell_data.at("state")[k] == static_cast<double>(ContactState::loose);
+            old += loose && next != interrupts.end() && *next < time;
+        }
+    }
+    fmt::print("  {} interrupts, {} times a contact from before one\n", interrupts.size(), old);
+    EXPECT_GT(old, 0);
+}
+
+TEST_F(TestFolder, ResumingTakesAwayWhatCameAfterTheCheckpoint) {
+    const TestCase test = small_case();
+    run_test(test, options("straight"));
+    run_test(test, options("broken"), stopping_at(4));
+    // As after a kill: the files have grown beyond the checkpoint.
+    std::ofstream(scratch_ / "broken/curve.csv", std::ios::app) << "1,2,3\n";
+    std::ofstream(scratch_ / "broken/events.csv", std::ios::app) << "1,2,3\n";
+    for (const char* picture : {"particles_99999.vtp", "contacts_99999.vtp", "cracks_99999.vtp"})
+        std::ofstream(scratch_ / "broken/frames" / picture) << "later\n";
+    EXPECT_FALSE(resume_test(options("broken")).interrupted);
+    expect_same(contents(scratch_ / "broken"), contents(scratch_ / "straight"), "resumed after a kill");
+    EXPECT_TRUE(resume_test(options("broken")).was_finished);
+}
+
+TEST_F(TestFolder, ResumingRefusesWhatDoesNotFit) {
+    const auto refused = [&](const std::string& says) {
+        const std::string message = refusal([&] { resume_test(options("out")); });
+        EXPECT_NE(message.find(says), std::string::npos) << message;
+    };
+    refused("out: found no such folder");
+    run_test(small_case(), options("out"), stopping_at(3));
+    const std::string checkpoint = read_text_file(scratch_ / "out/checkpoint");
+    const auto put = [&](const std::string& bytes) {
+        std::ofstream(scratch_ / "out/checkpoint", std::ios::binary) << bytes;
+    };
+    put(checkpoint.substr(0, checkpoint.size() / 2));
+    refused("truncated or damaged checkpoint");
+    std::string flipped = checkpoint;
+    flipped[checkpoint.size() / 2] = static_cast<char>(flipped[checkpoint.size() / 2] ^ 1);
+    put(flipped);
+    refused("truncated or damaged checkpoint");
+    put("crackle test checkpoint 999\n");
+    refused("found checkpoint version 999");
+    put("hello");
+    refused("found other data");
+    put(checkpoint);
+    std::ofstream(scratch_ / "out/case.toml", std::ios::app) << "# edited\n";
+    refused("found another case than the one the checkpoint belongs to");
+    fs::remove(scratch_ / "out/checkpoint");
+    refused("found no checkpoint");
+}
+
+TEST_F(TestFolder, KeepsEarlierResultsUntilNewOnesAreComplete) {
+    SmallCase wanted;
+    run_test(small_case(wanted), options("out"));
+    std::ofstream(scratch_ / "out/notes.txt") << "mine\n";
+    const auto earlier = contents(scratch_ / "out");
+
+    EXPECT_NE(refusal([&] { run_test(small_case(wanted), options("out")); }).find("--force"), std::string::npos);
+    expect_same(contents(scratch_ / "out"), earlier, "after a refusal");
+
+    TestOptions forced = options("out");
+    forced.force = true;
+    wanted.max_strain = 4e-3;
+    const TestOutcome stopped = run_test(small_case(wanted), forced, stopping_at(3));
+    EXPECT_TRUE(stopped.interrupted);
+    EXPECT_EQ(stopped.folder, scratch_ / "out.new");
+    expect_same(contents(scratch_ / "out"), earlier, "after an interrupt");
+
+    run_test(small_case(wanted), forced);
+    EXPECT_FALSE(fs::exists(scratch_ / "out.new"));
+    EXPECT_NE(contents(scratch_ / "out")["case.toml"], earlier.at("case.toml")) << "replaced";
+    EXPECT_EQ(read_text_file(scratch_ / "out/notes.txt"), "mine\n") << "what is not ours stays";
+}
+
+TEST_F(TestFolder, PeakAndFailureDoNotDependOnTheRowsWritten) {
+    SmallCase wanted;
+    wanted.output = "curve_rows = 10\nframes = 5";
+    const auto few = run_test(small_case(wanted), options("few")).summary;
+    wanted.output = "curve_rows = 2000\nframes = 5";
+    const auto many = run_test(small_case(wanted), options("many")).summary;
+    for (const char* key :
+         {"failed", "peak_stress", "peak_strain", "initial_tangent_modulus", "platen_out_of_balance"}) {
+        EXPECT_EQ(few[key], many[key]) << key;
+    }
+    EXPECT_LT(read_results(scratch_ / "few").curve.rows(), 13U);
+    EXPECT_GT(read_results(scratch_ / "many").curve.rows(), 400U);
+}
+
+TEST_F(TestFolder, IsRefusedWhereAnInputOrForeignFilesWouldBeReplaced) {
+    write_small_case(scratch_ / "", {});
+    TestOptions here = options("");
+    here.folder = scratch_ / "";
+    here.force = true;
+    const auto before = contents(scratch_ / "");
+    EXPECT_NE(refusal([&] { run_test(read_case(scratch_ / "case.toml"), here); }).find("is an input of the test"),
+              std::string::npos);
+    expect_same(contents(scratch_ / ""), before, "an input in the way");
+
+    fs::create_directories(scratch_ / "mine/frames");
+    std::ofstream(scratch_ / "mine/frames/holiday.png") << "mine\n";
+    TestOptions mine = options("mine");
+    mine.force = true;
+    EXPECT_NE(refusal([&] { run_test(small_case(), mine); }).find("that no test wrote"), std::string::npos);
+
+    run_test(small_case(), options("out"));
+    run_test(small_case(), options("out.new"));
+    TestOptions forced = options("out");
+    forced.force = true;
+    EXPECT_NE(refusal([&] { run_test(small_case(), forced); }).find("out.new: found results"), std::string::npos);
+    fs::remove_all(scratch_ / "out.new");
+    std::ofstream(scratch_ / "out/frames/holiday.png") << "mine\n";
+    std::ofstream(scratch_ / "out/report.html") << "my own page\n";
+    run_test(small_case(), forced);
+    EXPECT_EQ(read_text_file(scratch_ / "out/frames/holiday.png"), "mine\n");
+    EXPECT_EQ(read_text_file(scratch_ / "out/report.html"), "my own page\n");
+}
+
+TEST_F(TestFolder, IsRefusedWhileAnotherTestWritesIntoIt) {
+    const TestCase test = small_case();
+    int asked = 0;
+    TestHooks hooks;
+    hooks.interrupted = [&] {
+        if (asked++ != 3) return false;
+        EXPECT_NE(refusal([&] { resume_test(options("out")); }).find("another crackle is writing here"),
+                  std::string::npos);
+        return false;
+    };
+    EXPECT_FALSE(run_test(test, options("out"), hooks).interrupted);
+    EXPECT_GT(asked, 3);
+}
+
+TEST_F(TestFolder, OfAnUnstableRunIsNamedInItsMessage) {
+    SmallCase wanted;
+    wanted.rate = 3000.0;  // the platen moves farther in a step than a particle is large
+    try {
+        run_test(small_case(wanted), options("out"));
+        ADD_FAILURE() << "ran to its end";
+    } catch (const UnstableRun& error) {
+        fmt::print("  {}\n", error.what());
+        EXPECT_NE(std::string(error.what()).find("output so far in " + (scratch_ / "out").string()), std::string::npos);
+    }
+    EXPECT_TRUE(fs::exists(scratch_ / "out/summary.json"));
+}
+
+TEST_F(TestFolder, SaysWhereItsNumbersAreNoResults) {
+    SmallCase wanted;
+    wanted.numerics = "time_step = 1.0e-2\nallow_unstable = true";
+    wanted.rate = 1e-4;
+    const std::string notices = run_test(small_case(wanted), options("out")).summary["notices"].dump();
+    fmt::print("  {}\n", notices);
+    EXPECT_NE(notices.find("above the stable bound"), std::string::npos);
+    EXPECT_NE(notices.find("energy balance misses"), std::string::npos);
+}
+
+TEST_F(TestFolder, IsNotMadeForACaseThatCannotBeTested) {
+    SmallCase wanted;
+    wanted.numerics = "time_step = 1.0";
+    refusal([&] { run_test(small_case(wanted), options("out")); });
+    EXPECT_FALSE(fs::exists(scratch_ / "out"));
+}
+
+TEST_F(TestFolder, FullDiscIsOneErrorThatNamesTheFile) {
+    const OutputFolder folder = OutputFolder::create(scratch_ / "out", false, {});
+    fs::create_symlink("/dev/full", scratch_ / "out/case.toml.tmp");
+    const std::string message = refusal([&] { folder.write("case.toml", std::string(100000, 'x')); });
+    EXPECT_NE(message.find("case.toml: cannot be written (No space left on device)"), std::string::npos) << message;
+    EXPECT_FALSE(fs::exists(scratch_ / "out/case.toml"));
+}
+
+}  // namespace
+}  // namespace crackle

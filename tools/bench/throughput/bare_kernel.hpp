@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A contact step stripped to its arithmetic: what the engine's rate is measured against.
+//
+// Discs of one material touch with normal spring and dashpot, incremental shear spring and dashpot under a Coulomb
+// limit; every point writes one record of 32 bytes, every body adds up its own in a fixed order and is kicked and
+// drifted. No neighbour search, walls, bonds, ledger, controls or observers. A body's state fills a cache line, points
+// are looked at lane_count at a time (solver/contact/lanes.hpp). On one thread.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "solver/world/world.hpp"
+
+namespace crackle::throughput {
+
+class BareKernel {
+  public:
+    /// Takes over the discs of an unbonded world and its circle-circle points that touch, bonded or not: they go by the
+    /// contact law of the first body's material, with the dashpots of a ratio at the first point's effective mass.
+    /// Bodies that are no single circles (platens) are left out.
+    explicit BareKernel(const World& world);
+
+    void step();
+    void compute_forces();
+
+    std::size_t bodies() const { return bodies_.size(); }
+    std::size_t points() const { return points_.size(); }
+
+    /// A point with its two bodies of the world and the force on i, as World::point_forces has it.
+    struct Contact {
+        BodyIndex i, j;
+        PointForce force;
+    };
+    std::vector<Contact> contacts() const;
+
+  private:
+    struct alignas(64) Body {
+        double x, y, vx, vy, omega, angle, radius, padding;
+    };
+    struct Inertia {
+        double inverse_mass, inverse_moment;
+    };
+    struct Point {
+        std::uint32_t i, j;
+        double shear_force;
+    };
+
+    void move_bodies();
+
+    std::vector<Body> bodies_;
+    std::vector<Inertia> inertia_;
+    std::vector<Point> points_;  // padded to a multiple of lane_count with points of a lone pair
+    std::size_t real_points_ = 0;
+    std::vector<PointForce> forces_;
+    std::vector<std::uint32_t> begin_, slots_;
+    std::vector<BodyIndex> world_body_;
+    double normal_stiffness_, shear_stiffness_, normal_damping_, shear_damping_, friction_;
+    double time_step_;
+};
+
+}  // namespace crackle::throughput

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "solver/scene/scene.hpp"
+
+namespace crackle::throughput {
+
+/// Four walls around all discs and corners of the scene. @param room m, between the outermost of them and the walls
+void wall_in(Scene& scene, double room);
+
+}  // namespace crackle::throughput

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The subcommands of `crackle`, one file each. A command says how it is called; commands.cpp parses its words, answers
+// --help, and runs it. It prints to stdout (results) and stderr (by Talk: progress, notices), and returns the exit
+// code; errors are thrown and turned into messages by main().
+#pragma once
+
+#include <vector>
+
+#include "tools/commands/command_line.hpp"
+
+namespace crackle::tools {
+
+/// One subcommand: a line for `crackle --help`, how it is called, and the function that runs it.
+struct Command {
+    const char* name;
+    const char* summary;
+    CommandLine (*describe)();
+    int (*run)(const Invocation& given);                 ///< absent: one of its studies is run
+    const std::vector<Command>& (*studies)() = nullptr;  ///< named by the next word
+};
+
+/// In the order of a user's work.
+const std::vector<Command>& commands();
+
+CommandLine describe_pack();
+int pack(const Invocation& given);
+CommandLine describe_mesh();
+int mesh(const Invocation& given);
+CommandLine describe_run();
+int run_deck(const Invocation& given);
+CommandLine describe_test();
+int test(const Invocation& given);
+CommandLine describe_elastic();
+int elastic(const Invocation& given);
+CommandLine describe_report();
+int report(const Invocation& given);
+CommandLine describe_view();
+int view(const Invocation& given);
+CommandLine describe_plot();
+int plot(const Invocation& given);
+CommandLine describe_bench();
+const std::vector<Command>& bench_studies();
+CommandLine describe_doctor();
+int doctor(const Invocation& given);
+CommandLine describe_completion();
+int completion(const Invocation& given);
+CommandLine describe_manual();
+int manual(const Invocation& given);
+
+void print_version();  // crackle --version
+
+// Exit codes of the program; exit_codes() says what they mean.
+inline constexpr int exit_done = 0;
+inline constexpr int exit_claim_fails = 1;
+inline constexpr int exit_bad_input = 2;      // InputError, wrong options
+inline constexpr int exit_unstable = 3;       // UnstableRun
+inline constexpr int exit_interrupted = 130;  // as a shell's own of SIGINT
+
+struct ExitCode {
+    int code;
+    const char* meaning;
+};
+const std::vector<ExitCode>& exit_codes();
+
+/// Runs what the words behind `crackle` ask for. @return exit code @throws what the command does
+int call_command(const Arguments& words);
+
+}  // namespace crackle::tools

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `crackle completion SHELL`: a script by which a shell completes commands, options, the words they take, and files.
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <iostream>
+
+#include "solver/base/errors.hpp"
+#include "tools/commands/build_info.hpp"
+#include "tools/commands/commands.hpp"
+
+namespace crackle::tools {
+namespace {
+
+/// A command or a study with what can follow it.
+struct Completed {
+    std::string name;  ///< "mesh", "bench verify"
+    std::string summary;
+    CommandLine line;
+    Arguments studies;
+};
+
+std::vector<Completed> completed_commands() {
+    std::vector<Completed> all;
+    for (const Command& command : commands()) {
+        Completed one{command.name, command.summary, command.describe(), {}};
+        std::vector<Completed> studies;
+        if (command.studies != nullptr) {
+            for (const Command& study : command.studies()) {
+                one.studies.emplace_back(study.name);
+                studies.push_back({one.name + ' ' + study.name, study.summary, study.describe(), {}});
+            }
+        }
+        all.push_back(std::move(one));
+        for (Completed& study : studies) all.push_back(std::move(study));
+    }
+    return all;
+}
+
+Arguments command_names() {
+    Arguments names;
+    for (const Command& command : commands()) names.emplace_back(command.name);
+    return names;
+}
+
+std::vector<OptionFacts> options_of(const CommandLine& line) {
+    std::vector<OptionFacts> all;
+    for (const OptionGroup& group : option_groups(line))
+        all.insert(all.end(), group.options.begin(), group.options.end());
+    return all;
+}
+
+std::string pattern_of(const std::string& command, const OptionFacts& option) {
+    std::string pattern = fmt::format("'{} --{}'", command, option.name);
+    if (option.letter != '\0') pattern += fmt::format(" | '{} -{}'", command, option.letter);
+    return pattern;
+}
+
+// Names hold neither quotes nor blanks: they stand between quotes as they are.
+constexpr const char* bash_script =
+    R"(# Completion of crackle {version} for {shell}, made by `crackle completion {shell}`.
+{prelude}_crackle() {{
+    local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}} called=${{COMP_WORDS[1]}}
+    local IFS=$' \n' option= words= k=
+    COMPREPLY=()
+    if [ "$word" = = ]; then  # --option=: the line is cut there, too
+        word=
+    elif [ "$before" = = ]; then
+        before=${{COMP_WORDS[COMP_CWORD-2]}}
+    fi
+    for ((k = COMP_CWORD - 1; k > 1; --k)); do  # whose arguments may be going on
+        case ${{COMP_WORDS[k]}} in -*) option=${{COMP_WORDS[k]}}; break ;; esac
+    done
+    if [ "$COMP_CWORD" -eq 1 ]; then
+        COMPREPLY=($(compgen -W '{commands}' -- "$word"))
+        return
+    fi
+    case $called in
+{studies}    esac
+    case $word in
+        -*)
+            case $called in
+{options}            esac ;;
+        *)
+            case "$called $before" in
+{arguments}                *)
+                    case "$called $option" in
+{lists}                    esac ;;
+            esac ;;
+    esac
+    if [ -n "$words" ]; then
+        COMPREPLY=($(compgen -W "$words" -- "$word"))
+    else
+        IFS=$'\n'
+        compopt -o filenames 2>/dev/null
+        COMPREPLY=($(compgen -f -- "$word"))
+    fi
+}}
+complete -F _crackle crackle
+)";
+
+std::string joined(const Arguments& words) { return fmt::format("{}", fmt::join(words, " ")); }
+
+std::string bash_completion(const std::string& shell) {
+    std::string studies, arguments, lists, options;
+    for (const Completed& command : completed_commands()) {
+        if (!command.studies.empty()) {
+            studies += fmt::format(
+                "        {0})\n"
+                "            if [ \"$COMP_CWORD\" -eq 2 ]; then\n"
+                "                COMPREPLY=($(compgen -W '{1}' -- \"$word\"))\n"
+                "                return\n"
+                "            fi\n"
+                "            called=\"{0} ${{COMP_WORDS[2]}}\" ;;\n",
+                command.name, joined(command.studies));
+            continue;
+        }
+        Arguments names;
+        for (const OptionFacts& option : options_of(command.line)) {
+            names.push_back("--" + option.name);
+            if (option.words.empty()) continue;
+            const std::string words = fmt::format(") words='{}' ;;\n", joined(option.words));
+            if (option.several) lists += "                        " + pattern_of(command.name, option) + words;
+            if (!option.several) arguments += "                " + pattern_of(command.name, option) + words;
+        }
+        options += fmt::format("                '{}') words='{}' ;;\n", command.name, joined(names));
+        if (!command.line.operand_words.empty()) {
+            lists += fmt::format("                        '{} ') words='{}' ;;\n", command.name,
+                                 joined(command.line.operand_words));
+        }
+    }
+    Arguments first = command_names();
+    first.insert(first.end(), {"--help", "--version"});
+    const std::string prelude = shell == "zsh" ? "autoload -U +X bashcompinit && bashcompinit\n" : "";
+    return fmt::format(bash_script, fmt::arg("version", build_info::version), fmt::arg("shell", shell),
+                       fmt::arg("prelude", prelude), fmt::arg("commands", joined(first)), fmt::arg("studies", studies),
+                       fmt::arg("arguments", arguments), fmt::arg("lists", lists), fmt::arg("options", options));
+}
+
+/// Between single quotes, as fish reads them.
+std::string quoted(const std::string& text) {
+    std::string out = "'";
+    for (const char letter : text) {
+        if (letter == '\'' || letter == '\\') out += '\\';
+        out += letter;
+    }
+    return out + '\'';
+}
+
+std::string first_sentence(const std::string& text) { return text.substr(0, text.find_first_of(";:(\n")); }
+
+std::string fish_completion() {
+    std::string text = fmt::format(
+        "# Completion of crackle {} for fish, made by `crackle completion fish`.\n"
+        "function __crackle_calls\n"
+        "    set -l words (commandline -opc)\n"
+        "    test \"$words[2..(math 1 + (count $argv))]\" = \"$argv\"\n"
+        "end\n"
+        "complete -c crackle -n 'test (count (commandline -opc)) -eq 1' -f -l help -d 'commands'\n"
+        "complete -c crackle -n 'test (count (commandline -opc)) -eq 1' -f -l version\n",
+        build_info::version);
+    for (const Completed& command : completed_commands()) {
+        const std::size_t blank = command.name.find(' ');
+        const std::string before = blank == std::string::npos ? "" : command.name.substr(0, blank);
+        const std::string name = blank == std::string::npos ? command.name : command.name.substr(blank + 1);
+        text += fmt::format("complete -c crackle -n 'test (count (commandline -opc)) -eq {}{}' -f -a {} -d {}\n",
+                            before.empty() ? 1 : 2, before.empty() ? "" : "; and __crackle_calls " + before, name,
+                            quoted(command.summary));
+        if (!command.studies.empty()) continue;
+        for (const OptionFacts& option : options_of(command.line)) {
+            text += fmt::format("complete -c crackle -n '__crackle_calls {}' -l {}", command.name, option.name);
+            if (option.letter != '\0') text += fmt::format(" -s {}", option.letter);
+            if (!option.argument.empty()) text += " -r";
+            if (!option.words.empty()) text += fmt::format(" -f -a {}", quoted(joined(option.words)));
+            text += fmt::format(" -d {}\n", quoted(first_sentence(option.description)));
+        }
+        if (!command.line.operand_words.empty()) {
+            text += fmt::format("complete -c crackle -n '__crackle_calls {}' -f -a {}\n", command.name,
+                                quoted(joined(command.line.operand_words)));
+        }
+    }
+    return text;
+}
+
+}  // namespace
+
+CommandLine describe_completion() {
+    return {.synopses = {"crackle completion bash|zsh|fish"},
+            .description =
+                "Prints a script by which the shell completes commands, options, the words that options "
+                "take, and files. cmake --install puts it where shells look by themselves.",
+            .operand = "SHELL",
+            .operand_words = {"bash", "zsh", "fish"},
+            .examples = {{"source <(crackle completion bash)", "in this shell"},
+                         {"crackle completion bash >> ~/.bash_completion", "in every one from now on"},
+                         {"crackle completion zsh >> ~/.zshrc", "zsh, likewise"},
+                         {"crackle completion fish > ~/.config/fish/completions/crackle.fish"}}};
+}
+
+int completion(const Invocation& given) {
+    const std::string shell = given.operands.empty() ? "nothing" : given.operands.front();
+    if (shell == "fish") {
+        std::cout << fish_completion();
+    } else if (shell == "bash" || shell == "zsh") {
+        std::cout << bash_completion(shell);
+    } else {
+        throw InputError(fmt::format("crackle completion: found {}, expected bash, zsh or fish", shell));
+    }
+    return exit_done;
+}
+
+}  // namespace crackle::tools

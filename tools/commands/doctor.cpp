@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `crackle doctor` and `crackle --version`: what this build is made of, what it can do, and what is missing.
+
+#include <fmt/format.h>
+#include <isa-l.h>
+#include <unistd.h>
+#include <xxhash.h>
+
+#include <Spectra/Util/Version.h>
+#include <cereal/version.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <iostream>
+#include <sstream>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "solver/contact/lanes.hpp"
+#include "tools/commands/build_info.hpp"
+#include "tools/commands/commands.hpp"
+#include "tools/page/page_template.hpp"
+#include "tools/terminal/terminal.hpp"
+
+namespace crackle::tools {
+namespace {
+
+/// Instruction sets beyond the compiler's default that the code was compiled for; another processor may lack them.
+std::string vector_instructions() {
+    std::string sets;
+#ifdef __AVX2__
+    sets += " AVX2";
+#endif
+#ifdef __FMA__
+    sets += " FMA";
+#endif
+#ifdef __AVX512F__
+    sets += " AVX-512F";
+#endif
+#ifdef __ARM_FEATURE_SVE
+    sets += " SVE";
+#endif
+    return sets.empty() ? " the processor family's baseline, runs on all of them"
+                        : sets + ", those of the building machine";
+}
+
+/// Where a program is on the PATH; empty: nowhere.
+std::string found_program(const std::string& name) {
+    const char* path = std::getenv("PATH");
+    std::istringstream folders(path != nullptr ? path : "");
+    for (std::string folder; std::getline(folders, folder, ':');) {
+        std::string file = (std::filesystem::path(folder) / name).string();
+        if (access(file.c_str(), X_OK) == 0) return file;
+    }
+    return "";
+}
+
+void line(const char* what, const std::string& text) { fmt::print("{:<14}{}\n", what, text); }
+
+/// What would do more, and how to get it.
+std::vector<std::string> missing_parts(bool page, bool gnuplot) {
+    std::vector<std::string> missing;
+    if (!page) {
+        missing.emplace_back(
+            "the report page: configure with -DCRACKLE_VIEWER=ON; that takes Node 18 or later, and npm");
+    }
+    if (!gnuplot) missing.emplace_back("gnuplot: apt-get install gnuplot-nox; pictures of crackle bench want it");
+    if (build_info::sanitizers)
+        missing.emplace_back("speed: build the preset `release`, this one has the sanitizers in");
+    if (std::string(build_info::build_type) != "Release" && !build_info::sanitizers)
+        missing.emplace_back("speed: build the preset `release`, this one is not optimised");
+    return missing;
+}
+
+}  // namespace
+
+void print_version() { fmt::print("crackle {}\n", build_info::version); }
+
+CommandLine describe_doctor() {
+    return {.synopses = {"crackle doctor"},
+            .description = "What this build is made of, what it can do, and what is missing and how to get it.",
+            .verbose = "the flags it was compiled with",
+            .examples = {{"crackle doctor"}}};
+}
+
+int doctor(const Invocation& given) {
+    const std::size_t page = page_template().size();
+    const std::string gnuplot = found_program("gnuplot");
+    line("crackle", build_info::version);
+    line("build", fmt::format("{}, {}", build_info::build_type, build_info::compiler));
+    if (given.talk.verbose()) line("flags", build_info::flags);
+    line("instructions", vector_instructions().substr(1));
+    line("lanes", fmt::format("{} doubles side by side in the contact kernels", lane_count));
+    line("sanitizers", build_info::sanitizers ? "address and undefined behaviour: slow, for tests" : "none");
+    line("threads", fmt::format("{} on this machine; OpenMP {}; results are the same for any number",
+                                std::thread::hardware_concurrency(), _OPENMP));
+    for (const build_info::Library& library : build_info::libraries) {
+        line("library", fmt::format("{} {}: {}", library.name, library.version, library.serves));
+    }
+    // Those whose version CMake is not told.
+    line("library", fmt::format("Spectra {}.{}.{}: vibration modes", SPECTRA_MAJOR_VERSION, SPECTRA_MINOR_VERSION,
+                                SPECTRA_PATCH_VERSION));
+    line("library",
+         fmt::format("cereal {}.{}.{}: checkpoints", CEREAL_VERSION_MAJOR, CEREAL_VERSION_MINOR, CEREAL_VERSION_PATCH));
+    line("library",
+         fmt::format("xxHash {}.{}.{}: hash of a state", XXH_VERSION_MAJOR, XXH_VERSION_MINOR, XXH_VERSION_RELEASE));
+    line("library",
+         fmt::format("ISA-L {}.{}.{}: frames written", ISAL_MAJOR_VERSION, ISAL_MINOR_VERSION, ISAL_PATCH_VERSION));
+    line("report page", page == 0
+                            ? "absent: `crackle report` and `crackle view` can write none"
+                            : fmt::format("embedded, {} KiB: `crackle report` works without a network", page / 1024));
+    line("gnuplot", gnuplot.empty() ? "found none on the PATH: `crackle bench` leaves tables and scripts, no pictures"
+                                    : gnuplot + ": draws the pictures of `crackle bench`");
+    const bool coloured = !styled("", Style::heading, Stream::out).empty();
+    line("terminal", !is_terminal(Stream::out) ? "none: no colours, no progress line"
+                     : coloured                ? "colours and a progress line"
+                                               : "a progress line, no colours (NO_COLOR)");
+    const std::vector<std::string> missing = missing_parts(page > 0, !gnuplot.empty());
+    if (missing.empty()) line("missing", "nothing");
+    for (const std::string& part : missing) line("missing", part);
+    return exit_done;
+}
+
+}  // namespace crackle::tools

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `crackle elastic CASE.toml`: what the linear solution says of a specimen, without time stepping.
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <fstream>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "solver/base/errors.hpp"
+#include "specimens/elastic/analysis.hpp"
+#include "tools/commands/commands.hpp"
+
+namespace crackle::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+using Clock = std::chrono::steady_clock;
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json event(const ElasticAnalysis& a, const std::optional<FirstEvent>& first) {
+    if (!first) return nullptr;
+    const LinearBond& bond = a.bonds[first->bond];
+    return {{"strain", first->strain},       {"stress", first->stress}, {"body_i", bond.body_i},
+            {"body_j", bond.body_j},         {"x", bond.position.x},    {"y", bond.position.y},
+            {"bond_strength", bond.strength}};
+}
+
+Json stress_of(const std::optional<FirstEvent>& first) { return first ? Json(first->stress) : Json(nullptr); }
+
+Json as_json(const VirtualTest& test, const ElasticAnalysis& a, double seconds) {
+    Json json{{"title", test.description.title},
+              {"kind", test.description.loading.kind},
+              {"platens", test.description.loading.platens},
+              {"specimen", test.setup.specimen},
+              {"particles", test.setup.particles},
+              {"bonds", a.bonds.size()},
+              {"youngs_modulus", number(a.youngs_modulus)},
+              {"poissons_ratio", number(a.poissons_ratio)},
+              {"stable_time_step", number(a.stable_time_step)},
+              {"stable_time_step_proved", a.stable_time_step_proved},
+              {"time_step_bound", number(a.time_step_bound)},
+              {"time_step", a.time_step},
+              {"first_break_stress", stress_of(a.first_break)},
+              {"first_break", event(a, a.first_break)},
+              {"first_slip_stress", stress_of(a.first_slip)},
+              {"first_slip", event(a, a.first_slip)},
+              {"zero_energy_modes", a.free.count},
+              {"zero_energy_bodies", a.free_ids},
+              {"unknowns", a.unknowns},
+              {"residual", a.residual},
+              {"seconds", seconds}};
+    if (!a.frequencies.empty()) json["angular_frequencies"] = a.frequencies;
+    json["units"] = {
+        {"youngs_modulus", "N/m, small strain, all bonds intact and sticking"},
+        {"poissons_ratio", "-, by the definition of the curve's lateral strain"},
+        {"stable_time_step", "s, exact: 4M - 2dt C - dt^2 K positive definite below it, checked by Cholesky if proved"},
+        {"time_step_bound", "s, guaranteed stable below, found without an eigenvalue solve"},
+        {"time_step", "s, what crackle test takes"},
+        {"first_break_stress", "N/m, axial, when the first bond opens by its overlap (linear, no slip); null: none"},
+        {"first_slip_stress", "N/m, axial, when the first point reaches its Coulomb limit; null: none"},
+        {"bond_strength", "N"},
+        {"x", "m"},
+        {"y", "m"},
+        {"zero_energy_modes", "motions that store no energy: floating particles, particles on one circle contact"},
+        {"zero_energy_bodies", "ids of those that take part"},
+        {"residual", "|f - Ku| over |f|, the numerical error of the solve"},
+        {"angular_frequencies", "rad/s, lowest modes that store energy, platens held"},
+        {"seconds", "bonding, exact step, assembly, solves and eigenvalues, without making the specimen"}};
+    return json;
+}
+
+std::string event_text(const ElasticAnalysis& a, const std::optional<FirstEvent>& first) {
+    if (!first) return "none";
+    const LinearBond& bond = a.bonds[first->bond];
+    return fmt::format("{:.4g} N/m at strain {:.3e}, bodies {} and {}", first->stress, first->strain, bond.body_i,
+                       bond.body_j);
+}
+
+void print(const VirtualTest& test, const ElasticAnalysis& a, double seconds) {
+    fmt::print("{}, {}: {} particles, {} bonds, {} unknowns, {:.0f} ms\n", test.setup.specimen,
+               test.description.loading.kind, test.setup.particles, a.bonds.size(), a.unknowns, 1e3 * seconds);
+    fmt::print("  Young's modulus   {:.6g} N/m, Poisson's ratio {:.4g} (residual {:.1e})\n", a.youngs_modulus,
+               a.poissons_ratio, a.residual);
+    fmt::print("  first slip        {}\n", event_text(a, a.first_slip));
+    fmt::print("  first break       {} (linear, no slip)\n", event_text(a, a.first_break));
+    fmt::print("  stable time step  {:.6g} s{}; bound {:.3f} of it; a test takes {:.3f} of it\n", a.stable_time_step,
+               a.stable_time_step_proved                       ? ", proved"
+               : test.world.segment_law != SegmentLaw::rounded ? " (a bound: the law's stiffness is unsymmetric)"
+                                                               : " (the bound: too many particles for the exact one)",
+               a.time_step_bound / a.stable_time_step, a.time_step / a.stable_time_step);
+    if (a.free.count > 0) {
+        std::string ids;
+        constexpr std::size_t shown = 12;
+        for (std::size_t k = 0; k < a.free_ids.size() && k < shown; ++k) ids += fmt::format(" {}", a.free_ids[k]);
+        fmt::print("  {} motions store no energy; bodies{}{}\n", a.free.count, ids,
+                   a.free_ids.size() > shown
+                       ? fmt::format(" and {} more (--json lists them)", a.free_ids.size() - shown)
+                       : "");
+    }
+    for (std::size_t k = 0; k < a.frequencies.size(); ++k)
+        fmt::print("  mode {:<3} {:.6g} rad/s\n", k + 1, a.frequencies[k]);
+}
+
+void write_bonds(const std::string& path, const ElasticAnalysis& a) {
+    std::ofstream out(path);
+    out << "body_i,body_j,x_m,y_m,strength_N,normal_force_N,shear_force_N,break_strain,slip_strain\n";
+    for (const LinearBond& b : a.bonds) {
+        out << fmt::format("{},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", b.body_i, b.body_j,
+                           b.position.x, b.position.y, b.strength, b.normal_force, b.shear_force, b.break_strain,
+                           b.slip_strain);
+    }
+    out.flush();
+    if (!out) throw InputError(fmt::format("{}: cannot be written, expected a writable path with free space", path));
+}
+
+}  // namespace
+
+CommandLine describe_elastic() {
+    po::options_description options;
+    options.add_options()("json", "print one JSON object")  //
+        ("strain", po::value<double>()->value_name("X")->default_value(1e-4, "1e-4"),
+         "axial strain at which --bonds gives forces")  //
+        ("bonds", po::value<std::string>()->value_name("FILE"),
+         "CSV file to write: forces in all bonds, compression positive; strains of break and slip, inf: never")  //
+        ("force", "replace that file")                                                                           //
+        ("modes", po::value<int>()->value_name("N")->default_value(0), "lowest vibration modes to find");
+    return {
+        .synopses = {"crackle elastic CASE.toml [OPTIONS]"},
+        .description =
+            "Makes and bonds the specimen of CASE.toml with its platens, assembles its sparse stiffness and solves "
+            "it: small-strain Young's modulus and Poisson's ratio, the bond that breaks first (linear, no slip) and "
+            "the one that slips first, the exact stable time step, motions without energy. Takes no time step; "
+            "writes nothing unless asked.",
+        .options = {{"options", options}},
+        .operand = "CASE.toml",
+        .verbose = "seconds of each stage, bodies and contacts, unknowns",
+        .examples = {{"crackle elastic specimens/guide_rock/circles_tension.toml"},
+                     {"crackle elastic case.toml --json --modes 5"},
+                     {"crackle elastic case.toml --strain 1e-4 --bonds bonds.csv"}}};
+}
+
+int elastic(const Invocation& given) {
+    const po::variables_map& values = given.values;
+    Talk& talk = given.talk;
+    if (given.operands.empty())
+        throw InputError("crackle elastic: found no CASE.toml, expected one (see crackle elastic --help)");
+    const double strain = values["strain"].as<double>();
+    if (!(strain > 0.0) || !(strain < 1.0))
+        throw InputError(fmt::format("crackle elastic: --strain: found {}, expected a number > 0 and < 1", strain));
+    const int modes = values["modes"].as<int>();
+    if (modes < 0) throw InputError(fmt::format("crackle elastic: --modes: found {}, expected a number >= 0", modes));
+    if (values.contains("bonds") && !values.contains("force") &&
+        std::filesystem::exists(values["bonds"].as<std::string>())) {
+        throw InputError(fmt::format("{}: exists already, expected a new file; choose another name, or --force",
+                                     values["bonds"].as<std::string>()));
+    }
+    TestCase description = read_case(given.operands.front());
+    TestHooks hooks;
+    if (!values.contains("json") || talk.verbose())
+        hooks.stage = [&talk](const std::string& text) { talk.stage(text); };
+    if (talk.verbose()) hooks.detail = [&talk](const std::string& text) { talk.detail(text); };
+    if (talk.progress().shown())
+        hooks.working = [&talk](const std::string& what) { talk.progress().draw({.detail = what}); };
+    if (description.loading.platens != "bonded") {
+        talk.notice("the linear solution knows bonded platens alone: taken in place of " + description.loading.platens);
+        description.loading.platens = "bonded";
+    }
+    const Clock::time_point start = Clock::now();
+    const VirtualTest test = bond_test(description, hooks);
+    talk.progress().begin("solving the linear system", 2.0, "");
+    if (modes > 0) talk.progress().step(0.0, fmt::format("solving the linear system, {} modes", modes));
+    const ElasticAnalysis analysis = analyse_elastic(test, strain, modes);
+    const double seconds = std::chrono::duration<double>(Clock::now() - start).count() - test.specimen_seconds;
+    talk.make_room();
+    talk.detail(fmt::format("solved for {} unknowns, residual {:.1e}", analysis.unknowns, analysis.residual));
+    if (hooks.stage)
+        for (const std::string& notice : test.setup.notices) hooks.stage("notice: " + notice);
+    if (values.contains("bonds")) write_bonds(values["bonds"].as<std::string>(), analysis);
+    if (values.contains("json"))
+        std::cout << as_json(test, analysis, seconds).dump(2) << '\n';
+    else
+        print(test, analysis, seconds);
+    return exit_done;
+}
+
+}  // namespace crackle::tools

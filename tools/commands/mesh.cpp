@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `crackle mesh IN`: polygon particles from a packing of circles or a list of seeds.
+
+#include "mesher/mesher.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <sstream>
+#include <string>
+
+#include "solver/base/errors.hpp"
+#include "solver/base/replace_file.hpp"
+#include "solver/demseg/deck_reader.hpp"
+#include "solver/demseg/geometry.hpp"
+#include "specimens/making/cell_bodies.hpp"
+#include "tools/commands/commands.hpp"
+#include "tools/commands/seed_list.hpp"
+
+namespace crackle::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The four numbers after --domain as one value: a negative one would be taken for an option.
+Arguments join_domain(Arguments words) {
+    const auto found = std::find(words.begin(), words.end(), "--domain");
+    if (found == words.end()) return words;
+    std::string joined = "--domain=";
+    auto word = found + 1;
+    double number = 0.0;
+    for (int k = 0; k < 4 && word != words.end() && parse_number(*word, number); ++k, ++word)
+        joined += (k > 0 ? " " : "") + *word;
+    *found = joined;
+    words.erase(found + 1, word);
+    return words;
+}
+
+Domain parse_domain(const std::string& text) {
+    std::istringstream words(text);
+    Domain domain;
+    for (double* value : {&domain.x1, &domain.x2, &domain.y1, &domain.y2}) {
+        std::string word;
+        if (!(words >> word) || !parse_number(word, *value)) {
+            throw InputError(fmt::format("--domain: found '{}', expected four numbers x1 x2 y1 y2 in m", text));
+        }
+    }
+    return domain;
+}
+
+/// What is to be meshed.
+struct Source {
+    Scene scene;  ///< materials and domain of the result; no bodies
+    std::vector<Seed> seeds;
+    std::vector<int> materials;       ///< of each seed
+    std::vector<std::string> origin;  ///< of each seed, as the user knows it
+};
+
+Source seeds_of_list(const std::string& name, const std::string& text, const po::variables_map& values) {
+    const SeedList list = parse_seed_list(name, text);
+    Source source;
+    for (std::size_t k = 0; k < list.places.size(); ++k) {
+        source.seeds.push_back({list.places[k].x, list.places[k].y});
+        source.origin.push_back(fmt::format("{}:{}", name, list.lines[k]));
+    }
+    Domain& domain = source.scene.domain;
+    if (values.contains("domain") == values.contains("bounding-box")) {
+        throw InputError(
+            fmt::format("crackle mesh: found {}, expected one of --domain x1 x2 y1 y2 and --bounding-box for "
+                        "the list of seeds {}",
+                        values.contains("domain") ? "both" : "neither", name));
+    }
+    if (values.contains("domain")) {
+        domain = parse_domain(values["domain"].as<std::string>());
+    } else {
+        const auto by_x = [](Seed a, Seed b) { return a.x < b.x; };
+        const auto by_y = [](Seed a, Seed b) { return a.y < b.y; };
+        const auto [left, right] = std::minmax_element(source.seeds.begin(), source.seeds.end(), by_x);
+        const auto [bottom, top] = std::minmax_element(source.seeds.begin(), source.seeds.end(), by_y);
+        domain = {left->x, right->x, bottom->y, top->y};
+    }
+    Material material;
+    material.density = values["density"].as<double>();
+    material.normal_stiffness = values["normal-stiffness"].as<double>();
+    material.shear_stiffness = values["shear-stiffness"].as<double>();
+    material.friction_angle = values["friction-angle"].as<double>();
+    source.scene.materials = {material};
+    source.materials.assign(source.seeds.size(), 0);
+    return source;
+}
+
+Source seeds_of_deck(const std::string& name, const std::string& text, const po::variables_map& values) {
+    for (const char* option :
+         {"domain", "bounding-box", "density", "normal-stiffness", "shear-stiffness", "friction-angle"}) {
+        if (values.contains(option) && !values[option].defaulted()) {
+            throw InputError(fmt::format(
+                "crackle mesh: found --{} with the deck {}, which states its own; leave it out", option, name));
+        }
+    }
+    DeckReader reader(name, text);
+    const Scene circles = read_deck_geometry(reader).scene;
+    Source source;
+    for (const Body& body : circles.bodies) {
+        if (body.circle_count != 1) {
+            throw InputError(fmt::format(
+                "{}: found body {}, a {}, expected bodies of one circle each to take their centres", name, body.id,
+                body.circle_count > 1 ? "clump"
+                : body.closed         ? "polygon"
+                                      : "chain of segments"));
+        }
+        const Vec2 centre = circles.circles[body.first_circle].centre;
+        source.seeds.push_back({centre.x, centre.y});
+        source.materials.push_back(body.material);
+        source.origin.push_back(fmt::format("circle {} of {}", body.id, name));
+    }
+    source.scene = circles;
+    source.scene.bodies.clear();
+    source.scene.circles.clear();
+    // The circles' step means nothing to polygons: 0 has it derived from their stiffness bound.
+    source.scene.time_step = 0.0;
+    return source;
+}
+
+Mesh mesh_source(const Source& source, const MeshRequest& request) {
+    const Domain& domain = source.scene.domain;
+    try {
+        return make_mesh(source.seeds, {domain.x1, domain.x2, domain.y1, domain.y2}, request);
+    } catch (const MeshError& error) {
+        std::string named;
+        for (const int seed : error.seeds) {
+            named += fmt::format("{}seed {} is {}", named.empty() ? " (" : ", ", seed,
+                                 source.origin[static_cast<std::size_t>(seed)]);
+        }
+        throw InputError(error.what() + named + (named.empty() ? "" : ")"));
+    }
+}
+
+Scene scene_of(Source source, const Mesh& mesh, double thick) {
+    Scene scene = std::move(source.scene);
+    scene.thick = thick;
+    add_cell_bodies(scene, mesh, source.materials);
+    validate(scene);
+    return scene;
+}
+
+MeshRequest request_of(const po::variables_map& values) {
+    const auto choice = [&values](const char* option, const char* first, const char* second) {
+        const std::string word = values.contains(option) ? values[option].as<std::string>() : "nothing";
+        if (word != first && word != second) {
+            throw InputError(fmt::format("--{}: found {}, expected {} or {}", option, word, first, second));
+        }
+        return word == first;
+    };
+    MeshRequest request;
+    request.kind = choice("kind", "delaunay", "voronoi") ? MeshKind::delaunay : MeshKind::voronoi;
+    request.boundary = choice("boundary", "domain", "seeds") ? Boundary::domain : Boundary::seeds;
+    if (request.kind == MeshKind::voronoi && request.boundary == Boundary::seeds) {
+        throw InputError("--boundary: found seeds with --kind voronoi, expected domain: Voronoi cells always fill it");
+    }
+    if (!values.contains("thick"))
+        throw InputError("--thick: found nothing, expected the gap between facing edges in m");
+    request.thick = values["thick"].as<double>();
+    if (values.contains("inset")) request.inset = values["inset"].as<double>();
+    request.merge_destroyed = values.contains("merge");
+    return request;
+}
+
+fs::path output_path(const po::variables_map& values, MeshKind kind, const fs::path& input) {
+    const char* usual = kind == MeshKind::delaunay ? "in_gm_tri.dat" : "in_gm_volo.dat";
+    fs::path path = values.contains("output") ? values["output"].as<std::string>() : std::string(usual);
+    if (fs::is_directory(path)) path /= usual;
+    std::error_code missing;
+    if (fs::equivalent(path, input, missing)) {
+        throw InputError(fmt::format("--output: found {}, the input itself, expected another file", path.string()));
+    }
+    if (fs::exists(path) && !values.contains("force")) {
+        throw InputError(fmt::format("--output: found {} there already, expected a new file; add --force to replace it",
+                                     path.string()));
+    }
+    return path;
+}
+
+void print_report(const Source& source, const Mesh& mesh, const MeshRequest& request, const fs::path& output) {
+    const MeshReport& report = mesh.report;
+    const Domain& domain = source.scene.domain;
+    std::cout << fmt::format("seeds            {} in x {:.6g} to {:.6g}, y {:.6g} to {:.6g}\n", source.seeds.size(),
+                             domain.x1, domain.x2, domain.y1, domain.y2)
+              << fmt::format("cells            {} ({})\n", report.cells,
+                             request.kind == MeshKind::delaunay ? "delaunay" : "voronoi")
+              << fmt::format("segments         {}\n", report.segments)
+              << fmt::format("shortest edge    {:.6g} m\n", report.shortest_edge)
+              << fmt::format("smallest angle   {:.4g} degrees\n", report.smallest_angle)
+              << fmt::format("cells destroyed  {}{}\n", report.cells_destroyed,
+                             report.cells_destroyed > 0 ? " (merged)" : "")
+              << fmt::format("area             {:.9g} m2, {:.9g} m2 after the inset\n", report.area_before_inset,
+                             report.area_after_inset)
+              << fmt::format("written          {}\n", output.string());
+}
+
+}  // namespace
+
+CommandLine describe_mesh() {
+    const Material usual{2500.0, 1.0e7, 2.5e6, 0.0, 0.0, {}, 27.0};
+    const auto number = [] { return po::value<double>()->value_name("X"); };
+    const auto word = [](const char* name) { return po::value<std::string>()->value_name(name); };
+    po::options_description options, plain;
+    options.add_options()("kind", word("KIND"), "delaunay or voronoi")                   //
+        ("thick", number(), "gap between facing edges, m")                               //
+        ("inset", number(), "move edges inwards by so much instead of half the gap, m")  //
+        ("boundary", word("WHICH")->default_value("domain"),
+         "of triangles. domain: flat faces, made by projecting the outer seeds; seeds: between seeds only")  //
+        ("merge", "give the place of cells that the inset destroys to neighbours, instead of an error")      //
+        ("output,o", word("FILE"), "file to write, or folder (default: in_gm_tri.dat or in_gm_volo.dat)")    //
+        ("force", "replace the output if it is there");
+    plain.add_options()("domain", word("X1 X2 Y1 Y2"), "the domain, m")               //
+        ("bounding-box", "take the seeds' bounding box as the domain")                //
+        ("density", number()->default_value(usual.density), "kg/m2")                  //
+        ("normal-stiffness", number()->default_value(usual.normal_stiffness), "N/m")  //
+        ("shear-stiffness", number()->default_value(usual.shear_stiffness), "N/m")    //
+        ("friction-angle", number()->default_value(usual.friction_angle), "degrees");
+    return {.synopses = {"crackle mesh IN --kind delaunay|voronoi --thick T [OPTIONS]"},
+            .description =
+                "Makes polygons of the centres of the circles in IN, an in_gm.dat, or of a list of seeds, one x y a "
+                "line. Each polygon is inset along every edge, so that facing edges stand T apart, and T/2 from the "
+                "domain's faces. Writes a particle file of polygons (in_gm_tri.dat or in_gm_volo.dat). Lengths in the "
+                "units of IN.",
+            .options = {{"options", options}, {"options for a list of seeds", plain}},
+            .operand = "IN",
+            .choices = {{"kind", {"delaunay", "voronoi"}}, {"boundary", {"domain", "seeds"}}},
+            .verbose = "seconds of each stage, counts",
+            .examples = {{"crackle mesh in_gm.dat --kind voronoi --thick 1e-3", "the cells of a packing"},
+                         {"crackle mesh in_gm.dat --kind delaunay --thick 1e-3 --boundary seeds",
+                          "triangles between circles only"},
+                         {"crackle mesh seeds.txt --kind voronoi --thick 0 --domain 0 1 0 2",
+                          "cells of your own seeds, no gaps"}},
+            .prepared = join_domain};
+}
+
+int mesh(const Invocation& given) {
+    const po::variables_map& values = given.values;
+    if (given.operands.empty()) {
+        throw InputError(
+            "crackle mesh: found no IN, expected an in_gm.dat or a list of seeds (see crackle mesh --help)");
+    }
+    const MeshRequest request = request_of(values);
+    const std::string& name = given.operands.front();
+    const fs::path output = output_path(values, request.kind, name);
+    Talk& talk = given.talk;
+    talk.progress().begin("reading " + name, 3.0, "");
+    const std::string text = read_text_file(name);
+    Source source = looks_like_seed_list(text) ? seeds_of_list(name, text, values) : seeds_of_deck(name, text, values);
+    talk.detail(fmt::format("read {} seeds from {}, {} bytes", source.seeds.size(), name, text.size()));
+    talk.progress().step(1.0, fmt::format("meshing {} seeds", source.seeds.size()));
+    const Mesh made = mesh_source(source, request);
+    talk.detail(fmt::format("meshed {} cells of {} segments", made.report.cells, made.report.segments));
+    talk.progress().step(2.0, fmt::format("writing {} cells", made.report.cells));
+    std::ostringstream deck;
+    write_geometry(deck, scene_of(source, made, request.thick));
+    replace_file(output, deck.str());
+    talk.make_room();
+    talk.detail(fmt::format("wrote {} bytes", deck.str().size()));
+    if (!talk.quiet()) print_report(source, made, request, output);
+    return exit_done;
+}
+
+}  // namespace crackle::tools

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `crackle pack`: random circles in a box, compressed to equilibrium, as an in_gm.dat.
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <iostream>
+#include <sstream>
+#include <string>
+
+#include "solver/base/errors.hpp"
+#include "solver/base/replace_file.hpp"
+#include "solver/demseg/geometry.hpp"
+#include "specimens/packing/packing.hpp"
+#include "tools/commands/commands.hpp"
+
+namespace crackle::tools {
+namespace {
+
+template <typename T>
+std::optional<T> optional_value(const po::variables_map& values, const char* name) {
+    if (!values.contains(name)) return std::nullopt;
+    return values[name].as<T>();
+}
+
+SizeDistribution sizes_of(const po::variables_map& values) {
+    const auto low = optional_value<double>(values, "radius-min"), high = optional_value<double>(values, "radius-max");
+    const auto median = optional_value<double>(values, "lognormal-median");
+    const auto deviation = optional_value<double>(values, "lognormal-deviation");
+    if (values.contains("sieve")) {
+        if (low || high || median || deviation)
+            throw InputError("--sieve: found other sizes beside it, expected the curve alone");
+        return read_sieve_curve(values["sieve"].as<std::string>());
+    }
+    if (median || deviation) {
+        if (!median || !deviation)
+            throw InputError("--lognormal-median and --lognormal-deviation: found one, expected both");
+        return LognormalRadii{*median, *deviation, low.value_or(0.0), high.value_or(0.0)};
+    }
+    if (!low || !high)
+        throw InputError("sizes: found none, expected --radius-min and --radius-max, a lognormal, or --sieve FILE");
+    return UniformRadii{*low, *high};
+}
+
+PackingRequest packing_request(const po::variables_map& values) {
+    PackingRequest request;
+    request.count = optional_value<std::int64_t>(values, "count");
+    request.height_to_width = optional_value<double>(values, "height-to-width");
+    request.width = optional_value<double>(values, "width");
+    request.height = optional_value<double>(values, "height");
+    request.sizes = sizes_of(values);
+    request.mean_overlap = optional_value<double>(values, "mean-overlap");
+    request.void_ratio = optional_value<double>(values, "void-ratio");
+    const auto seed = values["seed"].as<std::int64_t>();
+    if (seed < 0) throw InputError(fmt::format("--seed: found {}, expected a whole number >= 0", seed));
+    request.seed = static_cast<std::uint64_t>(seed);
+    request.threads = values["threads"].as<int>();
+    request.material.density = values["density"].as<double>();
+    request.material.normal_stiffness = values["normal-stiffness"].as<double>();
+    request.material.shear_stiffness = values["shear-stiffness"].as<double>();
+    request.material.friction_angle = values["friction-angle"].as<double>();
+    return request;
+}
+
+void print_report(const PackingReport& r, const std::string& output) {
+    std::cout << fmt::format("circles          {}, radii {:.6g} to {:.6g} m\n", r.circles, r.radius_min, r.radius_max)
+              << fmt::format("box              {:.9g} m x {:.9g} m\n", r.width, r.height)
+              << fmt::format("void ratio       {:.6g}\n", r.void_ratio)
+              << fmt::format("mean overlap     {:.6g} m (circles, bottom and top)\n", r.mean_overlap)
+              << fmt::format("contacts         {} between circles; walls {} left, {} right, {} bottom, {} top\n",
+                             r.circle_contacts, r.wall_contacts[0], r.wall_contacts[1], r.wall_contacts[2],
+                             r.wall_contacts[3])
+              << fmt::format(
+                     "coordination     {:.4g} of all circles, {:.4g} of those that carry load, walls included\n",
+                     r.coordination, r.coordination_of_carrying)
+              << fmt::format("floating         {} circles without contact\n", r.floating)
+              << fmt::format("stress           x {:.6g}, y {:.6g} N/m; anisotropy {:.2g}\n", r.stress_x, r.stress_y,
+                             r.anisotropy)
+              << fmt::format("unbalanced       {:.2g} of the mean contact force {:.6g} N, at most\n", r.residual,
+                             r.mean_contact_force);
+    if (r.radius_scale != 1.0)
+        std::cout << fmt::format("radii            drawn sizes times {:.6f}, to fill the box\n", r.radius_scale);
+    for (const std::string& notice : packing_notices(r)) std::cout << "notice           " << notice << '\n';
+    std::cout << "written          " << output << '\n';
+}
+
+}  // namespace
+
+CommandLine describe_pack() {
+    const Material usual{2500.0, 1.0e7, 2.5e6, 0.0, 0.0, {}, 27.0};
+    const auto number = [] { return po::value<double>()->value_name("X"); };
+    po::options_description options, material;
+    options.add_options()("count", po::value<std::int64_t>()->value_name("N"), "number of circles; the box follows")  //
+        ("height-to-width", number(), "shape of the box, with --count (2 if not given)")                              //
+        ("width", number(), "of the box, m; met exactly, by scaling the radii within 0.5 %")                          //
+        ("height", number(), "of the box, m; likewise")                                                               //
+        ("radius-min", number(), "smallest radius, m (alone with --radius-max: uniform)")                             //
+        ("radius-max", number(), "largest radius, m")                                                                 //
+        ("lognormal-median", number(), "median radius, m")                                                            //
+        ("lognormal-deviation", number(), "standard deviation of ln(radius)")                                         //
+        ("sieve", po::value<std::string>()->value_name("FILE"),
+         "grading curve, CSV with the columns size (diameter, m),passing_by_mass")                               //
+        ("mean-overlap", number(), "target: mean over circles and bottom and top wall, m")                       //
+        ("void-ratio", number(), "target: (box - circles) / circles")                                            //
+        ("seed", po::value<std::int64_t>()->value_name("N")->default_value(1), "of the random numbers")          //
+        ("threads", po::value<int>()->value_name("N")->default_value(1), "never change a byte")                  //
+        ("output,o", po::value<std::string>()->value_name("FILE")->default_value("in_gm.dat"), "file to write")  //
+        ("force", "replace the output if it is there");
+    material.add_options()("density", number()->default_value(usual.density), "kg/m2")  //
+        ("normal-stiffness", number()->default_value(usual.normal_stiffness), "N/m")    //
+        ("shear-stiffness", number()->default_value(usual.shear_stiffness), "N/m")      //
+        ("friction-angle", number()->default_value(usual.friction_angle), "degrees");
+    return {
+        .synopses = {"crackle pack (--count N | --width W --height H) SIZES (--mean-overlap D | --void-ratio E) "
+                     "[OPTIONS]"},
+        .description =
+            "Packs random circles between four smooth walls to mechanical equilibrium and writes them as an "
+            "in_gm.dat.",
+        .options = {{"options", options}, {"material of the file", material}},
+        .verbose = "seconds of each stage, draws of the packing",
+        .examples = {
+            {"crackle pack --count 304 --radius-min 1.333e-2 --radius-max 2.667e-2 --mean-overlap 7.74e-5 -o "
+             "in_gm.dat"},
+            {"crackle pack --width 0.5 --height 1 --radius-min 0.01 --radius-max 0.02 --void-ratio 0.19 -o dense.dat"},
+            {"crackle pack --count 1000 --lognormal-median 0.01 --lognormal-deviation 0.3 --mean-overlap 2e-5"},
+            {"crackle pack --count 500 --sieve curve.csv --mean-overlap 2e-5", "CSV: size,passing_by_mass"}}};
+}
+
+int pack(const Invocation& given) {
+    const po::variables_map& values = given.values;
+    const std::string output = values["output"].as<std::string>();
+    std::error_code unreadable;  // writing says what cannot be written
+    if (std::filesystem::exists(output, unreadable) && !values.contains("force")) {
+        throw InputError(
+            fmt::format("--output: found {} there already, expected a new file; add --force to replace it", output));
+    }
+    const PackingRequest request = packing_request(values);
+    Talk& talk = given.talk;
+    std::string stage;
+    const Packing packing = make_packing(request, [&](const PackingProgress& p) {
+        if (talk.verbose() && p.stage != stage) {
+            stage = p.stage;
+            talk.detail(fmt::format("draw {}: {}", p.attempt, stage));
+        }
+        if (!talk.progress().shown()) return;
+        talk.progress().draw({.detail = fmt::format("{} (draw {}): unbalanced by {:.1e} of the mean contact force",
+                                                    p.stage, p.attempt, p.residual)});
+    });
+    talk.make_room();
+    talk.detail(fmt::format("packed {} circles, {} contacts, in {} draws", packing.report.circles,
+                            packing.report.circle_contacts, packing.report.attempts));
+    std::ostringstream deck;
+    write_geometry(deck, packing.scene);
+    const std::filesystem::path folder = std::filesystem::path(output).parent_path();
+    std::error_code refused;  // replace_file() says what cannot be written
+    if (!folder.empty()) std::filesystem::create_directories(folder, refused);
+    replace_file(output, deck.str());
+    if (!talk.quiet()) print_report(packing.report, output);
+    return exit_done;
+}
+
+}  // namespace crackle::tools

@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `crackle plot OUT... -o FILE`: figures for papers from the results of tests.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <limits>
+#include <map>
+#include <optional>
+
+#include "solver/base/errors.hpp"
+#include "solver/base/replace_file.hpp"
+#include "specimens/recordings/recording.hpp"
+#include "tools/commands/commands.hpp"
+#include "tools/page/report_page.hpp"
+#include "tools/plot/panels.hpp"
+
+namespace crackle::tools {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace plot;
+using Words = std::vector<std::string>;
+
+constexpr double column_width = 85.0, page_width = 180.0;  // mm, of most journals
+
+Format format_named(const std::string& where, const std::string& name) {
+    const std::map<std::string, Format> formats{{"svg", Format::svg}, {"pdf", Format::pdf}, {"png", Format::png}};
+    const auto found = formats.find(name);
+    if (found == formats.end())
+        throw InputError(fmt::format("plot: {}: found '{}', expected svg, pdf or png", where, name));
+    return found->second;
+}
+
+double number_between(const po::variables_map& given, const char* option, double low, double high, const char* unit) {
+    const double value = given[option].as<double>();
+    if (!(value >= low && value <= high))
+        throw InputError(fmt::format("plot: --{}: found {}, expected {} to {}{}{}", option, value, low, high,
+                                     *unit ? " " : "", unit));
+    return value;
+}
+
+/// How the figure looks, of whatever it is.
+struct Look {
+    double width = 0.0;  // pt
+    SheetStyle sheet;
+    DrawingStyle drawing;
+};
+
+Look look_of(const po::variables_map& given) {
+    const int columns = given["columns"].as<int>();
+    if (columns != 1 && columns != 2)
+        throw InputError(fmt::format("plot: --columns: found {}, expected 1 or 2", columns));
+    Look look;
+    const double width = given.contains("width") ? number_between(given, "width", 30.0, 1000.0, "mm")
+                         : columns == 1          ? column_width
+                                                 : page_width;
+    look.width = width * points_of_mm;
+    look.sheet.font = given["font"].as<std::string>();
+    look.sheet.font_size = number_between(given, "font-size", 3.0, 72.0, "pt");
+    look.sheet.dpi = number_between(given, "dpi", 20.0, 2400.0, "dots an inch");
+    look.drawing.magnify = number_between(given, "magnify", 0.0, 1e6, "");
+    return look;
+}
+
+std::string capitalised(std::string word) {
+    if (!word.empty() && word.front() >= 'a' && word.front() <= 'z')
+        word.front() = static_cast<char>(word.front() - 'a' + 'A');
+    return word;
+}
+
+std::string text_of(const TestResults& results, const char* key) {
+    const auto found = results.summary.find(key);
+    return found != results.summary.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+/// «Circles, tension» where that tells the tests apart, else their folders.
+Words default_labels(const std::vector<Recording>& tests) {
+    Words labels;
+    for (const Recording& test : tests)
+        labels.push_back(
+            fmt::format("{}, {}", capitalised(text_of(test.results, "specimen")), text_of(test.results, "kind")));
+    Words sorted = labels;
+    std::sort(sorted.begin(), sorted.end());
+    if (std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end()) return labels;
+    labels.clear();
+    for (const Recording& test : tests) labels.push_back(test.name);
+    return labels;
+}
+
+Recording read_whole(const fs::path& folder) {
+    return read_test_recording(folder, std::numeric_limits<std::size_t>::max());
+}
+
+std::string strain_text(double strain) {
+    return strain == 0.0 ? "ε = 0" : fmt::format("ε = {:.3g}·10⁻³", 1e3 * strain);
+}
+
+/// The frame of a word (start, peak, end) or nearest to a strain.
+std::size_t frame_at(const Recording& test, const std::string& at) {
+    if (test.frames.empty())
+        throw InputError(
+            fmt::format("plot: {}: found no frames, expected those of a test (output.frames of its case)", test.name));
+    const auto has_role = [&](const FrameHead& head) {
+        return std::find(head.roles.begin(), head.roles.end(), at) != head.roles.end();
+    };
+    if (const auto found = std::find_if(test.frames.begin(), test.frames.end(), has_role); found != test.frames.end())
+        return static_cast<std::size_t>(found - test.frames.begin());
+    double strain = 0.0;
+    const auto [end, error] = std::from_chars(at.data(), at.data() + at.size(), strain);
+    if (error != std::errc() || end != at.data() + at.size()) {
+        const bool role = at == "start" || at == "peak" || at == "end";
+        throw InputError(fmt::format("plot: --at: found '{}', {}", at,
+                                     role ? fmt::format("which {} has no frame of", test.name)
+                                          : std::string("expected a strain, start, peak or end")));
+    }
+    const double last = test.frames.back().axial_strain.value_or(0.0);
+    if (!(strain >= 0.0 && strain <= last * (1.0 + 1e-9))) {
+        throw InputError(
+            fmt::format("plot: --at: found {}, expected 0 to {:.6g}, the last strain of {}", at, last, test.name));
+    }
+    const auto farther = [&](const FrameHead& a, const FrameHead& b) {
+        return std::abs(a.axial_strain.value_or(0.0) - strain) < std::abs(b.axial_strain.value_or(0.0) - strain);
+    };
+    return static_cast<std::size_t>(std::min_element(test.frames.begin(), test.frames.end(), farther) -
+                                    test.frames.begin());
+}
+
+Panel drawings_of(const Recording& test, const fs::path& folder, const Words& moments, const DrawingStyle& style) {
+    std::vector<DrawnMoment> drawn;
+    for (const std::string& at : moments) {
+        const std::size_t frame = frame_at(test, at);
+        const FrameHead& head = test.frames[frame];
+        Words names = head.roles;
+        if (!test.results.summary.value("failed", false))
+            std::replace(names.begin(), names.end(), std::string("peak"), std::string("peak so far"));
+        const std::string roles = names.empty() ? "" : fmt::format("{}\n", fmt::join(names, ", "));
+        drawn.push_back({&test, frame, roles + strain_text(head.axial_strain.value_or(0.0))});
+    }
+    return drawings(drawn, std::vector<fs::path>(drawn.size(), folder), style);
+}
+
+void plot_tests(const po::variables_map& given, const Words& folders, const Look& look, Talk& talk) {
+    const fs::path output = given["output"].as<std::string>();
+    const std::string extension = output.extension().string();
+    const Format format =
+        format_named(fmt::format("--output {}", output.string()), extension.empty() ? "" : extension.substr(1));
+    Words what = given.contains("what") ? given["what"].as<Words>() : Words{"all"};
+    for (const std::string& word : what) {
+        if (word != "curve" && word != "ae" && word != "specimen" && word != "all")
+            throw InputError(fmt::format("plot: --what: found '{}', expected curve, ae, specimen or all", word));
+    }
+    std::vector<Recording> tests;
+    for (const std::string& folder : folders) {
+        tests.push_back(read_whole(folder));
+        tell_recording(talk, tests.back());
+    }
+    // All of what there is: a test without frames has no drawing.
+    const bool have_frames =
+        std::none_of(tests.begin(), tests.end(), [](const Recording& t) { return t.frames.empty(); });
+    if (std::find(what.begin(), what.end(), "all") != what.end())
+        what = have_frames ? Words{"curve", "ae", "specimen"} : Words{"curve", "ae"};
+    Words labels = given.contains("labels") ? given["labels"].as<Words>() : default_labels(tests);
+    if (labels.size() != tests.size())
+        throw InputError(
+            fmt::format("plot: --labels: found {} names, expected {}, one a test", labels.size(), tests.size()));
+    std::vector<PlottedTest> plotted;
+    for (std::size_t k = 0; k < tests.size(); ++k) plotted.push_back({&tests[k].results, labels[k], k, false});
+
+    const Words moments = given.contains("at") ? given["at"].as<Words>() : Words{"start", "peak", "end"};
+    std::vector<Panel> panels;
+    for (const std::string& word : what) {
+        if (word == "curve") panels.push_back(stress_strain(plotted));
+        if (word == "ae") panels.push_back(breaks(plotted));
+        if (word != "specimen") continue;
+        for (std::size_t k = 0; k < tests.size(); ++k)
+            panels.push_back(drawings_of(tests[k], folders[k], moments, look.drawing));
+    }
+    replace_file(output, figure(panels, given["title"].as<std::string>(), look.width, format, look.sheet));
+    if (!talk.quiet()) std::cout << output.string() << '\n';
+}
+
+/// Figures 26 to 29 of the guide: its circles, the partitions made of them, and what these bear.
+void plot_guide(const po::variables_map& given, const Look& look, Talk& talk) {
+    const fs::path folder = given["guide"].as<std::string>(), output = given["output"].as<std::string>();
+    const std::string extension = given["format"].as<std::string>();
+    const Format format = format_named("--format", extension);
+    if (fs::exists(output) && !fs::is_directory(output))
+        throw InputError(fmt::format("plot: --output: found {}, a file, expected a folder for the guide's figures",
+                                     output.string()));
+    std::map<std::string, Recording> tests;
+    for (const char* specimen : {"circles", "delaunay", "voronoi"}) {
+        for (const char* kind : {"tension", "compression"}) {
+            const std::string name = fmt::format("{}_{}", specimen, kind);
+            tests.emplace(name, read_whole(folder / name));
+            tell_recording(talk, tests.at(name));
+        }
+    }
+    const auto at = [&](const std::string& name, const char* role, const char* caption) {
+        return std::pair(DrawnMoment{&tests.at(name), frame_at(tests.at(name), role), caption}, folder / name);
+    };
+    const auto row = [&](std::initializer_list<std::pair<DrawnMoment, fs::path>> moments) {
+        std::vector<DrawnMoment> drawn;
+        std::vector<fs::path> folders;
+        for (const auto& [moment, path] : moments) {
+            drawn.push_back(moment);
+            folders.push_back(path);
+        }
+        return drawings(drawn, folders, look.drawing);
+    };
+    const auto curves = [&](const std::string& specimen) {
+        return stress_strain({{&tests.at(specimen + "_tension").results, "tension", 0, true},
+                              {&tests.at(specimen + "_compression").results, "compression", 0, false}});
+    };
+    const auto loaded = [&](const std::string& specimen) {
+        return row({at(specimen + "_tension", "end", "pulled"), at(specimen + "_compression", "end", "squeezed")});
+    };
+    const std::map<int, std::vector<Panel>> figures{
+        {26,
+         {row({at("circles_tension", "start", "packing"), at("circles_tension", "end", "pulled"),
+               at("circles_compression", "end", "squeezed")}),
+          curves("circles"), breaks({{&tests.at("circles_tension").results, "tension", 0, false}})}},
+        {27,
+         {row({at("circles_tension", "start", "circles"), at("delaunay_tension", "start", "Delaunay"),
+               at("voronoi_tension", "start", "Voronoi")})}},
+        {28, {loaded("delaunay"), curves("delaunay")}},
+        {29, {loaded("voronoi"), curves("voronoi")}}};
+    std::error_code error;
+    fs::create_directories(output, error);  // replace_file() says what cannot be written
+    for (const auto& [number, panels] : figures) {
+        const fs::path file = output / fmt::format("figure{}.{}", number, extension);
+        replace_file(file, figure(panels, given["title"].as<std::string>(), look.width, format, look.sheet));
+        if (!talk.quiet()) std::cout << file.string() << '\n';
+    }
+}
+
+}  // namespace
+
+CommandLine describe_plot() {
+    po::options_description options;
+    options.add_options()("output,o", po::value<std::string>()->value_name("FIGURE"),
+                          "figure to write: .svg, .pdf or .png; with --guide a folder")  //
+        ("what", po::value<Words>()->multitoken()->value_name("WORD"),
+         "curve, ae, specimen, or all, one below the other (default: all)")  //
+        ("at", po::value<Words>()->multitoken()->value_name("STRAIN"),
+         "strains of the specimens, or start, peak, end (default: start peak end); the nearest frame is drawn")  //
+        ("columns", po::value<int>()->value_name("N")->default_value(1),
+         "of a journal: 1 (85 mm wide) or 2 (180 mm)")                                                           //
+        ("width", po::value<double>()->value_name("MM"), "of the figure, mm, in place of --columns")             //
+        ("font", po::value<std::string>()->value_name("NAME")->default_value(SheetStyle{}.font), "of all text")  //
+        ("font-size", po::value<double>()->value_name("PT")->default_value(SheetStyle{}.font_size), "pt")        //
+        ("dpi", po::value<double>()->value_name("N")->default_value(SheetStyle{}.dpi), "dots an inch, of PNG")   //
+        ("magnify", po::value<double>()->value_name("FACTOR")->default_value(1.0),
+         "draw displacements so many times as large")                                                       //
+        ("title", po::value<std::string>()->value_name("TEXT")->default_value("", ""), "above the figure")  //
+        ("labels", po::value<Words>()->multitoken()->value_name("NAME"),
+         "names of the tests in legends, in their order")  //
+        ("guide", po::value<std::string>()->value_name("FOLDER"),
+         "folder of the six tests of tools/quickstart: figures 26 to 29 of DEMseg's guide")  //
+        ("format", po::value<std::string>()->value_name("FORMAT")->default_value("pdf"),
+         "of the guide's figures: svg, pdf or png");
+    return {
+        .synopses = {"crackle plot OUT... -o FIGURE [OPTIONS]", "crackle plot --guide FOLDER -o FOLDER [OPTIONS]"},
+        .description =
+            "Figures for a paper from the folders that `crackle test` wrote: axial stress over axial strain with "
+            "the breaks beneath, bonds broken along the loading (what acoustic emission hears), specimens at given "
+            "strains with their cracks.",
+        .options = {{"options", options}},
+        .operand = "OUT",
+        .several_operands = true,
+        .choices = {{"what", {"curve", "ae", "specimen", "all"}},
+                    {"at", {"start", "peak", "end"}},
+                    {"format", {"svg", "pdf", "png"}}},
+        .verbose = "cells, bonds and frames read",
+        .examples = {{"crackle plot out/pulled out/squeezed -o curves.pdf --what curve"},
+                     {"crackle plot out/squeezed -o squeezed.svg --at start 0.001 peak end"},
+                     {"crackle plot out/squeezed -o specimen.png --what specimen --at peak end --dpi 600 --width 120"},
+                     {"crackle plot --guide out/guide_rock -o out/figures",
+                      "figures 26 to 29 of DEMseg's guide, from the tests of tools/quickstart"}}};
+}
+
+int plot(const Invocation& given) {
+    const po::variables_map& values = given.values;
+    if (given.operands.empty() != values.contains("guide")) {
+        throw InputError(
+            values.contains("guide")
+                ? "plot: found folders of tests and --guide, expected one of them"
+                : "plot: found no folder of results, expected at least one: crackle plot OUT... (see --help)");
+    }
+    if (!values.contains("output"))
+        throw InputError("plot: found no -o, expected the figure's name: -o figure.pdf, .svg or .png");
+    const Look look = look_of(values);
+    values.contains("guide") ? plot_guide(values, look, given.talk)
+                             : plot_tests(values, given.operands, look, given.talk);
+    return exit_done;
+}
+
+}  // namespace crackle::tools

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `crackle report OUT... -o report.html`: the results of one or several tests on one self-contained page.
+
+#include <filesystem>
+#include <iostream>
+
+#include "solver/base/errors.hpp"
+#include "tools/commands/commands.hpp"
+#include "tools/page/report_page.hpp"
+
+namespace crackle::tools {
+
+CommandLine describe_report() {
+    po::options_description options;
+    options.add_options()("output,o", po::value<std::string>()->value_name("FILE"),
+                          "page to write; default: OUT/report.html for one test, else report.html")  //
+        ("title", po::value<std::string>()->value_name("TEXT")->default_value("", ""),
+         "heading; default: the test's title")  //
+        ("frames", po::value<std::size_t>()->value_name("N")->default_value(default_page_frames),
+         "show at most so many frames of a test, evenly chosen; start, peak and end always");
+    return {.synopses = {"crackle report OUT... [-o report.html]"},
+            .description =
+                "One self-contained page from the folders that `crackle test` wrote: stress-strain curves with bond "
+                "breaks beneath, each specimen in motion and at start, peak and end, a table of the summaries. Opens "
+                "in any browser, needs no network.",
+            .options = {{"options", options}},
+            .operand = "OUT",
+            .several_operands = true,
+            .verbose = "cells, bonds and frames read, bytes written",
+            .examples = {{"crackle report out/voronoi-compression"},
+                         {"crackle report out/*-tension out/*-compression -o report.html --title \"Six tests\""}}};
+}
+
+int report(const Invocation& given) {
+    const Arguments& folders = given.operands;
+    if (folders.empty()) {
+        throw InputError(
+            "report: found no folder of results, expected at least one: crackle report OUT... (see --help)");
+    }
+    Talk& talk = given.talk;
+    std::vector<Recording> tests;
+    for (const std::string& folder : folders) {
+        tests.push_back(read_test_recording(folder, given.values["frames"].as<std::size_t>()));
+        tell_recording(talk, tests.back());
+    }
+    const std::filesystem::path output = given.values.contains("output")
+                                             ? std::filesystem::path(given.values["output"].as<std::string>())
+                                         : folders.size() == 1 ? std::filesystem::path(folders.front()) / "report.html"
+                                                               : std::filesystem::path("report.html");
+    write_page(output, {given.values["title"].as<std::string>(), PageView::report}, tests, talk);
+    if (!talk.quiet()) std::cout << output.string() << '\n';
+    return exit_done;
+}
+
+}  // namespace crackle::tools

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `crackle run DIR`: runs a DEMseg deck.
+
+#include <fmt/format.h>
+
+#include <iostream>
+#include <string>
+
+#include "solver/base/errors.hpp"
+#include "solver/demseg/deck_run.hpp"
+#include "tools/commands/commands.hpp"
+#include "tools/terminal/interrupt.hpp"
+
+namespace crackle::tools {
+namespace {
+
+DeckOptions deck_options(const Invocation& given) {
+    const po::variables_map& values = given.values;
+    DeckOptions options;
+    options.folder = given.operands.front();
+    if (values.contains("output")) options.output = values["output"].as<std::string>();
+    options.goes_on = values.contains("continue");
+    options.overwrite = values.contains("force");
+    if (values.contains("steps")) options.steps = values["steps"].as<std::int64_t>();
+    if (values.contains("seed")) options.seed = values["seed"].as<std::uint64_t>();
+    if (values.contains("law")) options.law = segment_law_named("--law", values["law"].as<std::string>());
+    if (values.contains("integrator"))
+        options.integrator = integrator_named("--integrator", values["integrator"].as<std::string>());
+    options.allow_unstable = values.contains("allow-unstable");
+    options.threads = values["threads"].as<int>();
+    return options;
+}
+
+/// What -v tells of a run that has ended.
+void tell_details(Talk& talk, const World& world) {
+    talk.detail(fmt::format("{} contact points, {} of them bonded; {} threads", world.points.size(),
+                            world.bonds_initial - world.bonds_broken, world.threads));
+}
+
+}  // namespace
+
+CommandLine describe_run() {
+    po::options_description options;
+    options.add_options()("output,o", po::value<std::string>()->value_name("DIR"),
+                          "folder for the outputs (default: that of the deck)")                              //
+        ("continue", "go on from new_in_*.dat of DIR; without -o the outputs are appended to those in DIR")  //
+        ("steps", po::value<std::int64_t>()->value_name("N"),
+         "do so many steps instead of nstep; displacements still take nstep")                                  //
+        ("force", "replace the outputs of an earlier run")                                                     //
+        ("seed", po::value<std::uint64_t>()->value_name("N"), "of the random circles of mode 0 (default: 1)")  //
+        ("law", po::value<std::string>()->value_name("LAW"),
+         "contact law of segments: rounded, or the guide's demseg (demseg_mean: mean of its disc cases); default: "
+         "rounded, or that of the run that goes on")  //
+        ("integrator", po::value<std::string>()->value_name("NAME"),
+         "how contacts open and close: leapfrog, the guide's, or consistent with the energy; default: leapfrog, or "
+         "that of the run that goes on")                                                     //
+        ("allow-unstable", "accept a time step above the stable bound, and runaway energy")  //
+        ("threads", po::value<int>()->value_name("N")->default_value(1), "threads; the results do not depend on them");
+    return {.synopses = {"crackle run DIR [OPTIONS]"},
+            .description =
+                "Runs the DEMseg deck in DIR (in_gm.dat, in_bc.dat; in_cf.dat with jclid 1, in_cf0.dat with jclid 3) "
+                "and writes output.dat, cont.dat, cont2.dat, energy.dat, f-d_curve.dat, velocity_y.dat, and "
+                "new_in_gm.dat, new_in_bc.dat, new_in_cf.dat, new_in_cf0.dat and new_state.bin, with which the run "
+                "can be continued.",
+            .options = {{"options", options}},
+            .operand = "DIR",
+            .choices = {{"law", {"rounded", "demseg", "demseg_mean"}}, {"integrator", {"leapfrog", "consistent"}}},
+            .verbose = "bodies, time step and its bound, contacts",
+            .examples = {
+                {"crackle run specimens/demseg/circle -o out/circle", "the guide's bouncing circle"},
+                {"crackle run specimens/demseg/circle -o out/half --steps 10000", "half of it"},
+                {"crackle run specimens/demseg/triangle -o out/t --law demseg",
+                 "a polygon under the guide's own contact law"},
+                {"crackle run out/half --continue", "the rest, outputs appended"},
+                {"crackle run out/half --continue --steps 5000 -o out/more", "5000 steps more, outputs of their own"}}};
+}
+
+int run_deck(const Invocation& given) {
+    if (given.operands.empty())
+        throw InputError("crackle run: found no DIR, expected the folder of a deck (see crackle run --help)");
+    DeckRun deck(deck_options(given));
+    Talk& talk = given.talk;
+    for (const std::string& notice : deck.notices()) talk.notice(notice);
+    const World& world = deck.world();
+    if (talk.verbose()) {
+        talk.detail(fmt::format("read {} bodies", world.bodies.size()));
+        talk.detail(fmt::format("time step {:.6g}, stable below {:.6g} as the contacts are", world.time_step,
+                                world.step_bound));
+    }
+    watch_interrupts();
+    talk.progress().begin("", static_cast<double>(deck.last_step() - deck.first_step()), "steps");
+    deck.run([&](const World& now) {
+        // The clock costs as much as a small step.
+        if ((now.step & 15) == 0) talk.progress().count(static_cast<double>(now.step - deck.first_step()));
+        return !interrupted();
+    });
+    talk.make_room();
+    tell_details(talk, world);
+    if (!talk.quiet()) {
+        std::cout << fmt::format("{} bodies, steps {} to {}: outputs in {}\n", world.bodies.size(), deck.first_step(),
+                                 world.step, deck.output_folder().string());
+    }
+    if (!interrupted()) return exit_done;
+    tell_error(fmt::format("interrupted; go on with `crackle run {} --continue`", deck.output_folder().string()));
+    return exit_interrupted;
+}
+
+}  // namespace crackle::tools

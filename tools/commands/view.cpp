@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `crackle view IN...`: a page in which particles, a deck's run or tests can be looked at.
+
+#include <filesystem>
+#include <iostream>
+
+#include "solver/base/errors.hpp"
+#include "tools/commands/commands.hpp"
+#include "tools/page/report_page.hpp"
+
+namespace crackle::tools {
+namespace {
+
+std::filesystem::path default_output(const std::vector<std::string>& inputs) {
+    const std::filesystem::path input = inputs.front();
+    if (inputs.size() > 1) return "view.html";
+    if (std::filesystem::is_directory(input)) return input / "view.html";
+    return std::filesystem::path(input).replace_extension(".html");
+}
+
+}  // namespace
+
+CommandLine describe_view() {
+    po::options_description options;
+    options.add_options()("output,o", po::value<std::string>()->value_name("FILE"),
+                          "page to write; default: IN/view.html of a folder, IN with .html of a file, view.html of "
+                          "several")  //
+        ("title", po::value<std::string>()->value_name("TEXT")->default_value("", ""),
+         "heading; default: the test's title or the name of what is shown; of several 'Virtual rock tests'")  //
+        ("frames", po::value<std::size_t>()->value_name("N")->default_value(default_page_frames),
+         "show at most so many frames of each, evenly chosen")  //
+        ("seed", po::value<std::uint64_t>()->value_name("N")->default_value(1),
+         "of the circles that a particle file of mode 0 leaves to chance");
+    return {.synopses = {"crackle view IN... [-o view.html]"},
+            .description =
+                "A page to look at particles, moving or not: IN is a particle file (in_gm.dat, in_gm_volo.dat, ...), "
+                "the folder of a deck's run, or that of a test. Opens in any browser, needs no network.",
+            .options = {{"options", options}},
+            .operand = "IN",
+            .several_operands = true,
+            .verbose = "cells, bonds and frames read, bytes written",
+            .examples = {{"crackle view out/in_gm_volo.dat -o out/cells.html"},
+                         {"crackle view out/slope -o out/slope.html"},
+                         {"crackle view out/pulled out/squeezed -o out/both.html"}}};
+}
+
+int view(const Invocation& given) {
+    const Arguments& inputs = given.operands;
+    if (inputs.empty()) {
+        throw InputError(
+            "view: found nothing to look at, expected a particle file or the folder of a run or test: crackle view IN "
+            "(see --help)");
+    }
+    const po::variables_map& values = given.values;
+    Talk& talk = given.talk;
+    std::vector<Recording> recordings;
+    for (const std::string& input : inputs) {
+        recordings.push_back(
+            read_recording(input, values["frames"].as<std::size_t>(), values["seed"].as<std::uint64_t>()));
+        tell_recording(talk, recordings.back());
+    }
+    const std::filesystem::path output =
+        values.contains("output") ? std::filesystem::path(values["output"].as<std::string>()) : default_output(inputs);
+    write_page(output, {values["title"].as<std::string>(), PageView::view}, recordings, talk);
+    if (!talk.quiet()) std::cout << output.string() << '\n';
+    return exit_done;
+}
+
+}  // namespace crackle::tools

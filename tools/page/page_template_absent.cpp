@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// For builds with CRACKLE_VIEWER=OFF.
+#include "tools/page/page_template.hpp"
+
+namespace crackle::tools {
+
+std::string_view page_template() { return {}; }
+
+}  // namespace crackle::tools

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/page/report_page.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <system_error>
+
+#include "solver/base/errors.hpp"
+#include "solver/base/replace_file.hpp"
+#include "tools/page/page_data.hpp"
+#include "tools/page/page_template.hpp"
+
+namespace crackle::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Where the manifest goes, the blocks of the first picture, and all others.
+constexpr std::array<std::string_view, 3> markers{"@CRACKLE_DATA@", "@CRACKLE_FIRST@", "@CRACKLE_REST@"};
+
+/// Inside a script element only `<` can do harm (</script>, <!--); in JSON it stands in strings alone.
+std::string safe_in_script(const std::string& json) {
+    std::string out;
+    out.reserve(json.size());
+    for (const char letter : json) {
+        if (letter == '<') {
+            out += "\\u003c";
+        } else {
+            out += letter;
+        }
+    }
+    return out;
+}
+
+std::string default_title(const std::vector<Recording>& recordings) {
+    if (recordings.size() != 1) return "Virtual rock tests";
+    const Recording& recording = recordings.front();
+    const auto& summary = recording.results.summary;
+    if (const auto title = summary.find("title");
+        title != summary.end() && title->is_string() && !title->get<std::string>().empty()) {
+        return title->get<std::string>();
+    }
+    return recording.name;
+}
+
+void append_block(std::string& out, std::size_t recording, std::size_t block, const std::string& text) {
+    out += fmt::format("<script type=\"application/octet-stream\" id=\"crackle-{}-{}\">", recording, block);
+    out += text;
+    out += "</script>\n";
+}
+
+void refuse_foreign_file(const std::filesystem::path& output) {
+    std::error_code error;  // replace_file() says what cannot be written
+    if (!std::filesystem::exists(output, error) || is_report_page(output)) return;
+    throw InputError(fmt::format(
+        "{}: found something that is not a page of crackle, expected a new name or an earlier page; choose another "
+        "name with -o",
+        output.string()));
+}
+
+}  // namespace
+
+std::string filled_page(std::string_view page, const PageHead& head, const std::vector<Recording>& recordings,
+                        Talk& talk) {
+    if (page.empty()) {
+        throw InputError(
+            "this build of crackle holds no page; configure with -DCRACKLE_VIEWER=ON (needs Node 18 or later and npm)");
+    }
+    Json manifest{{"format", "crackle-report 2"},
+                  {"title", head.title.empty() ? default_title(recordings) : head.title},
+                  {"version", CRACKLE_VERSION},
+                  {"view", head.view == PageView::report ? "report" : "view"},
+                  {"tests", Json::array()}};
+    std::array<std::string, 3> texts;
+    std::size_t all_frames = 0, frames_before = 0;
+    for (const Recording& recording : recordings) all_frames += recording.frames.size();
+    talk.progress().begin("packing frames", static_cast<double>(all_frames), "frames");
+    for (std::size_t k = 0; k < recordings.size(); ++k) {
+        PageData data = pack_recording(recordings[k], [&](std::size_t frames) {
+            talk.progress().count(static_cast<double>(frames_before + frames), recordings[k].name);
+        });
+        frames_before += recordings[k].frames.size();
+        manifest["tests"].push_back(std::move(data.manifest));
+        for (std::size_t block = 0; block < data.blocks.size(); ++block)
+            append_block(texts[block == 0 ? 1 : 2], k, block, data.blocks[block]);
+    }
+    // Names from file systems may not be UTF-8: shown with replacement characters rather than refused.
+    texts[0] = safe_in_script(manifest.dump(-1, ' ', false, Json::error_handler_t::replace));
+
+    std::string out;
+    for (std::size_t k = 0; k < markers.size(); ++k) {
+        const std::size_t at = page.find(markers[k]);
+        if (at == std::string_view::npos) throw std::logic_error("the bundled page lacks a marker");
+        out += page.substr(0, at);
+        out += texts[k];
+        page.remove_prefix(at + markers[k].size());
+    }
+    return out += page;
+}
+
+void write_page(const std::filesystem::path& output, const PageHead& head, const std::vector<Recording>& recordings,
+                Talk& talk) {
+    refuse_foreign_file(output);
+    const std::string page = filled_page(page_template(), head, recordings, talk);
+    replace_file(output, page);
+    talk.make_room();
+    talk.detail(fmt::format("{}: {} bytes", output.string(), page.size()));
+}
+
+void tell_recording(Talk& talk, const Recording& recording) {
+    talk.detail(fmt::format("{}: {} cells, {} bonds, {} frames to show", recording.name, recording.cells.size(),
+                            recording.bonds.size(), recording.frames.size()));
+}
+
+}  // namespace crackle::tools

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the program says on stderr beside its results: stages, notices, how far it is, and errors.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <string>
+
+#include "tools/terminal/progress.hpp"
+
+namespace crackle::tools {
+
+enum class Loudness : std::uint8_t { quiet, usual, verbose };
+
+class Talk {
+  public:
+    explicit Talk(Loudness loudness);
+
+    bool quiet() const { return loudness_ == Loudness::quiet; }
+    bool verbose() const { return loudness_ == Loudness::verbose; }
+    ProgressLine& progress() { return progress_; }
+
+    /// One line a stage that is done; not with -q. With -v it begins with the seconds since the command began, and
+    /// since the line before.
+    void stage(const std::string& text);
+    /// What only -v tells, likewise.
+    void detail(const std::string& text);
+    /// What the user should know, one sentence; not with -q.
+    void notice(const std::string& text);
+    /// Beside results on stdout: takes the progress line away first.
+    void make_room() { progress_.clear(); }
+
+  private:
+    void line(const std::string& text);
+
+    Loudness loudness_;
+    std::chrono::steady_clock::time_point begun_, last_line_;
+    ProgressLine progress_;
+};
+
+/// "crackle: TEXT", also with -q. A text that begins with "crackle COMMAND:" keeps that as its beginning.
+void tell_error(const std::string& text);
+
+}  // namespace crackle::tools
