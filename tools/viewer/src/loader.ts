@@ -2,7 +2,7 @@
 // The page's script is packed like its data, to a third of its size. This part alone is readable as it stands: it unpacks
 // the rest and runs it.
 
-import {unpacked} from './blocks';
+import {unpacked} from './data/blocks';
 
 async function load(): Promise<void> {
     const script = document.createElement('script');

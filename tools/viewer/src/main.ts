@@ -4,26 +4,26 @@
 
 import type {ECharts} from 'echarts/core';
 
-import {breakCard, type MapColour} from './breaks';
-import {particleCount} from './cells';
-import {momentOfStrain} from './clock';
-import type {Cursor} from './cursor';
-import {drawPanel, panelAsSvg, panelCursor} from './curves';
-import {readReport, type CurvedTest, type Report} from './data';
-import {button, choice, element, saveFile} from './dom';
-import {drawings, momentsOf, type Moments, magnifications} from './drawings';
-import {fragmentCard} from './fragments';
-import {panels, sortedBy, style, viewsFor, withCurve, type Panel, type Styled, type View} from './grouping';
-import {expose} from './hook';
-import {Inspector} from './inspector';
-import {listen} from './keyboard';
-import {directionWidth} from './rose';
-import {SpecimenView} from './specimen_view';
-import {summaryTable} from './table';
-import {currentTheme} from './theme';
-import {counted, forgetUnits, strainFactor} from './units';
-import {Viewer} from './viewer';
-import {ViewerControls} from './viewer_controls';
+import {breakCard, type MapColour} from './panels/breaks';
+import {particleCount} from './data/cells';
+import {momentOfStrain} from './controls/clock';
+import type {Cursor} from './elements/chart_cursor';
+import {drawPanel, panelAsSvg, panelCursor} from './panels/curves';
+import {readReport, type CurvedTest, type Report} from './data/report';
+import {button, choice, element, saveFile} from './elements/dom';
+import {drawings, momentsOf, type Moments, magnifications} from './panels/specimen_cards';
+import {fragmentCard} from './panels/fragments';
+import {panels, sortedBy, style, viewsFor, withCurve, type Panel, type Styled, type View} from './panels/grouping';
+import {expose} from './controls/test_access';
+import {Inspector} from './controls/inspector';
+import {listen} from './controls/keyboard';
+import {directionWidth} from './panels/crack_directions';
+import {SpecimenView} from './drawing/specimen_view';
+import {summaryTable} from './panels/summary_table';
+import {currentTheme} from './colours/theme';
+import {counted, forgetUnits, strainFactor} from './quantities/units';
+import {Viewer} from './controls/viewer';
+import {ViewerControls} from './controls/viewer_controls';
 
 const viewNames: Record<View, string> = {kind: 'Kind of test', specimen: 'Specimen', test: 'Each test'};
 

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Keys of the viewer. In a report they count while the viewer has the focus, on a page that is all viewer always.
+
+import {layerNames, type Layer} from '../drawing/settings';
+import type {Viewer} from './viewer';
+import type {ViewerControls} from './viewer_controls';
+
+const layerKeys: Record<string, Layer> = {p: 'particles', o: 'outlines', w: 'platens', k: 'cracks', b: 'bonds', f: 'forces', n: 'numbers'};
+
+export const keyList: readonly (readonly [string, string])[] = [
+    ['Space', 'play, pause'],
+    ['← →', 'a frame back, on; ten with Shift'],
+    ['Home End', 'first, last frame'],
+    ['+ − 0', 'zoom in, out, fit (also a double click)'],
+    ['c', 'colour by the next quantity; by the one before with Shift'],
+    ['m', 'magnify displacements: ×1, ×10, ×100'],
+    ...Object.entries(layerKeys).map(([key, layer]) => [key, `${layerNames[layer].toLowerCase()} on, off`] as const),
+    ['Esc', 'let go of the picked particle'],
+    ['?', 'this list'],
+];
+
+export function listen(viewer: Viewer, controls: ViewerControls, within: HTMLElement, everywhere: boolean): void {
+    document.addEventListener('keydown', (event) => {
+        const target = event.target as HTMLElement;
+        if (event.ctrlKey || event.metaKey || event.altKey || controls.help.open) return;
+        if (!everywhere && !within.contains(target)) return;
+        if (target.matches('select, input[type="text"]')) return;
+        // A slider moves by its own keys, a button is pressed by the space bar.
+        if (target.matches('input[type="range"]') && /^(Arrow|Home|End|Page)/.test(event.key)) return;
+        if (target.matches('button, summary, input[type="checkbox"]') && event.key === ' ') return;
+        if (act(event, viewer, controls)) event.preventDefault();
+    });
+}
+
+function act(event: KeyboardEvent, viewer: Viewer, controls: ViewerControls): boolean {
+    const {clock, settings, navigation} = viewer;
+    const far = event.shiftKey ? 10 : 1;
+    switch (event.key) {
+        case ' ':
+            if (clock.playing) clock.pause();
+            else clock.play();
+            return true;
+        case 'ArrowRight': clock.step(far); return true;
+        case 'ArrowLeft': clock.step(-far); return true;
+        case 'Home': clock.step(-clock.count); return true;
+        case 'End': clock.step(clock.count); return true;
+        case '+': case '=': navigation.scaleBy(1.25); return true;
+        case '-': navigation.scaleBy(0.8); return true;
+        case '0': navigation.fit(); return true;
+        case '?': controls.help.showModal(); return true;
+        case 'Escape': viewer.pick(undefined); return true;
+        case 'm': settings.magnification = {1: 10, 10: 100}[settings.magnification] ?? 1; break;
+        case 'c': case 'C': {
+            const keys = viewer.quantities.map(({key}) => key), by = event.key === 'c' ? 1 : keys.length - 1;
+            settings.quantity = keys[(keys.indexOf(viewer.quantity.key) + by) % keys.length]!;
+            break;
+        }
+        default: {
+            const layer = layerKeys[event.key];
+            if (!layer) return false;
+            settings.layers[layer] = !settings.layers[layer];
+        }
+    }
+    controls.build();
+    viewer.refresh();
+    return true;
+}
