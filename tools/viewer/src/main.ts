@@ -4,26 +4,27 @@
 
 import type {ECharts} from 'echarts/core';
 
-import {breakCard, type MapColour} from './panels/breaks';
-import {particleCount} from './data/cells';
+import {currentTheme} from './colours/theme';
 import {momentOfStrain} from './controls/clock';
-import type {Cursor} from './elements/chart_cursor';
-import {drawPanel, panelAsSvg, panelCursor} from './panels/curves';
-import {readReport, type CurvedTest, type Report} from './data/report';
-import {button, choice, element, saveFile} from './elements/dom';
-import {drawings, momentsOf, type Moments, magnifications} from './panels/specimen_cards';
-import {fragmentCard} from './panels/fragments';
-import {panels, sortedBy, style, viewsFor, withCurve, type Panel, type Styled, type View} from './panels/grouping';
-import {expose} from './controls/test_access';
 import {Inspector} from './controls/inspector';
 import {listen} from './controls/keyboard';
-import {directionWidth} from './panels/crack_directions';
-import {SpecimenView} from './drawing/specimen_view';
-import {summaryTable} from './panels/summary_table';
-import {currentTheme} from './colours/theme';
-import {counted, forgetUnits, strainFactor} from './quantities/units';
+import {expose} from './controls/test_access';
 import {Viewer} from './controls/viewer';
 import {ViewerControls} from './controls/viewer_controls';
+import {particleCount} from './data/cells';
+import {readReport, type CurvedTest, type Report} from './data/report';
+import {labelTests, sortedBy, withCurve, type LabelledTest} from './data/test_labels';
+import {SpecimenView} from './drawing/specimen_view';
+import type {Cursor} from './elements/chart_cursor';
+import {button, choice, element, saveFile} from './elements/dom';
+import {breakCard, type MapColour} from './panels/breaks';
+import {directionWidth} from './panels/crack_directions';
+import {drawPanel, panelAsSvg, panelCursor} from './panels/curves';
+import {fragmentCard} from './panels/fragments';
+import {panels, viewsFor, type Panel, type View} from './panels/grouping';
+import {drawings, momentsOf, type Moments, magnifications} from './panels/specimen_cards';
+import {summaryTable} from './panels/summary_table';
+import {counted, forgetUnits, strainFactor} from './quantities/units';
 
 const viewNames: Record<View, string> = {kind: 'Kind of test', specimen: 'Specimen', test: 'Each test'};
 
@@ -41,7 +42,7 @@ interface Chart {
 class Page {
     private charts: Chart[] = [];
     private readonly state: State = {view: 'kind', magnification: 1};
-    private readonly tests: Styled[];
+    private readonly tests: LabelledTest[];
     private readonly views: SpecimenView[];
     private viewer: Viewer | undefined;
     private controls: ViewerControls | undefined;
@@ -55,8 +56,8 @@ class Page {
     private readonly cardHolder = element('div', {class: 'cards'});
 
     constructor(private readonly report: Report, private readonly root: HTMLElement) {
-        this.tests = style(report.tests);
-        this.views = this.tests.map((styled) => new SpecimenView(styled));
+        this.tests = labelTests(report.tests);
+        this.views = this.tests.map((labelled) => new SpecimenView(labelled));
         document.title = report.title;
         document.documentElement.dataset['view'] = report.view;
         this.layOut();
@@ -97,7 +98,7 @@ class Page {
             element('footer', {}, `Made by crackle ${this.report.version}. Strictly 2D: stresses and moduli are forces per unit length, N/m.`));
     }
 
-    private curveSection(curved: Styled<CurvedTest>[]): HTMLElement {
+    private curveSection(curved: LabelledTest<CurvedTest>[]): HTMLElement {
         const views = viewsFor(curved.map(({test}) => test)).map((value) => ({value, text: viewNames[value]}));
         return element('section', {id: 'curves'},
             element('h2', {}, 'Stress, strain and bond breaks'),
@@ -155,7 +156,7 @@ class Page {
     private drawBreaks(): void {
         for (const chart of this.breakCharts) chart.dispose();
         const theme = currentTheme();
-        const cards = sortedBy('specimen', this.tests.filter(({test}) => test.events.count > 0)).map((styled) => breakCard(styled, this.mapColour, theme));
+        const cards = sortedBy('specimen', this.tests.filter(({test}) => test.events.count > 0)).map((labelled) => breakCard(labelled, this.mapColour, theme));
         this.breakHolder.replaceChildren(...cards.map(({element: card}) => card));
         this.breakCharts = cards.flatMap(({draw}) => draw());
     }

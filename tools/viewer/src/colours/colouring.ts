@@ -3,9 +3,9 @@
 
 import type {Cells} from '../data/cells';
 import type {Frame} from '../data/frames';
-import {categoricalPalette, categoryColour, divergingPalette, paletteSize, sequentialPalette, type Rgb, type SequentialName} from './palettes';
 import type {Quantity} from '../quantities/quantities';
 import type {Range} from '../quantities/ranges';
+import {categoricalPalette, categoryColour, divergingPalette, paletteSize, sequentialPalette, type Rgb, type SequentialName} from './palettes';
 import type {Theme} from './theme';
 
 export interface Colouring {

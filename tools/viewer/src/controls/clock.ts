@@ -3,6 +3,7 @@
 // time or the frame's number; each test then shows its last frame at or before that moment.
 
 import {peakOf, type TestData} from '../data/report';
+import {quantity, significant, strain} from '../quantities/units';
 
 export type Axis = 'strain' | 'share' | 'time' | 'frame';
 
@@ -131,6 +132,16 @@ export class Clock {
     private nearest(value: number): number {
         const before = this.indexOf(value), after = Math.min(this.moments.length - 1, before + 1);
         return Math.abs(this.moments[after]! - value) < Math.abs(this.moments[before]! - value) ? after : before;
+    }
+}
+
+/// Where the clock of several tests stands; what each of them shows stands over its pane.
+export function clockText({axis, moment}: Clock): string {
+    switch (axis) {
+        case 'strain': return `ε = ${strain(moment)}`;
+        case 'share': return `ε = ${significant(moment)} of that at peak`;
+        case 'time': return `t = ${quantity(moment, 's')}`;
+        case 'frame': return `Frame ${moment + 1}`;
     }
 }
 

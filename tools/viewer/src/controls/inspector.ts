@@ -4,17 +4,17 @@
 import * as echarts from 'echarts/core';
 import type {ECharts} from 'echarts/core';
 
+import {currentTheme} from '../colours/theme';
 import {area} from '../data/cells';
-import {momentsOf} from './clock';
+import type {Frame} from '../data/frames';
+import type {SpecimenView} from '../drawing/specimen_view';
 import {Cursor} from '../elements/chart_cursor';
 import {button, element, select} from '../elements/dom';
-import type {Frame} from '../data/frames';
+import {fontFamily} from '../elements/sheet';
 import {movedCentre} from '../geometry/rigid_motion';
 import {quantitiesOf, type Quantity} from '../quantities/quantities';
-import {fontFamily} from '../elements/sheet';
-import type {SpecimenView} from '../drawing/specimen_view';
-import {currentTheme} from '../colours/theme';
 import {missing, quantity as withUnit, scaleFor, significant, strainFactor, thinSpace} from '../quantities/units';
+import {momentsOf} from './clock';
 import type {Picked, Viewer} from './viewer';
 
 const chartTop = 22, chartBottom = 34; // px
@@ -66,7 +66,7 @@ export class Inspector {
         if (!choices.some(({key}) => key === this.shown)) this.shown = choices[0]?.key ?? '';
         this.element.replaceChildren(
             element('legend', {}, `Particle ${cells.id[cell]}`),
-            element('div', {class: 'picked-head'}, element('span', {}, view.styled.label), button('×', 'Let go (Esc)', () => this.viewer.pick(undefined), {'aria-label': 'Let go of the particle'})),
+            element('div', {class: 'picked-head'}, element('span', {}, view.labelled.label), button('×', 'Let go (Esc)', () => this.viewer.pick(undefined), {'aria-label': 'Let go of the particle'})),
             this.values,
             ...(view.frames.count > 1 && choices.length > 0 ? [
                 select('History of', choices.map(({key, name}) => ({value: key, text: name})), this.shown, (key) => {

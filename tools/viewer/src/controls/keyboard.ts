@@ -1,23 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Keys of the viewer. In a report they count while the viewer has the focus, on a page that is all viewer always.
 
-import {layerNames, type Layer} from '../drawing/settings';
+import {layerKeys} from './keys';
 import type {Viewer} from './viewer';
 import type {ViewerControls} from './viewer_controls';
-
-const layerKeys: Record<string, Layer> = {p: 'particles', o: 'outlines', w: 'platens', k: 'cracks', b: 'bonds', f: 'forces', n: 'numbers'};
-
-export const keyList: readonly (readonly [string, string])[] = [
-    ['Space', 'play, pause'],
-    ['← →', 'a frame back, on; ten with Shift'],
-    ['Home End', 'first, last frame'],
-    ['+ − 0', 'zoom in, out, fit (also a double click)'],
-    ['c', 'colour by the next quantity; by the one before with Shift'],
-    ['m', 'magnify displacements: ×1, ×10, ×100'],
-    ...Object.entries(layerKeys).map(([key, layer]) => [key, `${layerNames[layer].toLowerCase()} on, off`] as const),
-    ['Esc', 'let go of the picked particle'],
-    ['?', 'this list'],
-];
 
 export function listen(viewer: Viewer, controls: ViewerControls, within: HTMLElement, everywhere: boolean): void {
     document.addEventListener('keydown', (event) => {

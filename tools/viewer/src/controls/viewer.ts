@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The viewer: tests in motion. Holds what the reader has chosen, and makes picture, clock and controls follow.
 
-import {axesFor, Clock, type Axis} from './clock';
 import {colouring, type Colouring} from '../colours/colouring';
-import {lastTimeOf, type TestData} from '../data/report';
-import {element} from '../elements/dom';
-import type {CrackColours} from '../drawing/drawn_lines';
-import type {Frame} from '../data/frames';
-import {movedCentre} from '../geometry/rigid_motion';
-import {Navigation} from './navigation';
 import {categoricalPalette, sequentialPalette} from '../colours/palettes';
-import {Picking} from '../geometry/picking';
+import {currentTheme} from '../colours/theme';
+import type {Frame} from '../data/frames';
+import {lastTimeOf, type TestData} from '../data/report';
+import type {CrackColours} from '../drawing/drawn_lines';
 import {Picture, type Shown} from '../drawing/picture';
-import {plain, quantitiesOf, type Quantity} from '../quantities/quantities';
-import {categories, forceScaleOf, forceScaleOfAll, joined, joinedForces, rangeOfAll, rangeOfFrames, type ForceScale, type Range} from '../quantities/ranges';
 import {initialSettings, type Layer, type Settings} from '../drawing/settings';
 import {SpecimenView, type Look} from '../drawing/specimen_view';
-import {currentTheme} from '../colours/theme';
+import {element} from '../elements/dom';
+import {Picking} from '../geometry/picking';
+import {movedCentre} from '../geometry/rigid_motion';
+import {plain, quantitiesOf, type Quantity} from '../quantities/quantities';
+import {categories, forceScaleOf, forceScaleOfAll, joined, joinedForces, rangeOfAll, rangeOfFrames, type ForceScale, type Range} from '../quantities/ranges';
+import {axesFor, Clock, type Axis} from './clock';
+import {Navigation} from './navigation';
 
 /// Side by side from the start only as long as that draws quickly anywhere.
 const cellsSideBySide = 20000;

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The viewer's buttons: transport under the picture, a panel beside it.
 
-import {clockText, momentText} from '../drawing/annotations';
-import {axisNames, type Axis} from './clock';
+import {sequentialNames, type SequentialName} from '../colours/palettes';
+import {momentText} from '../drawing/annotations';
+import {layerNames, type Layout} from '../drawing/settings';
 import {button, checkbox, element, select} from '../elements/dom';
 import {icon} from '../elements/icons';
-import {keyList} from './keyboard';
 import {largestMagnifiedAngle} from '../geometry/rigid_motion';
-import {sequentialNames, type SequentialName} from '../colours/palettes';
+import {axisNames, clockText, type Axis} from './clock';
+import {keyList} from './keys';
 import {gifFrames, saveAnimation, saveGif, savePng, saveSvg, videoType} from './saving';
-import {layerNames, type Layout} from '../drawing/settings';
 import type {Viewer} from './viewer';
 
 const speeds = ['0.1', '0.25', '0.5', '1', '2', '4', '8'] as const;
@@ -97,7 +97,7 @@ export class ViewerControls {
 
     private testList(which: 'test' | 'other', label: string): HTMLElement {
         const {viewer} = this;
-        return select(label, viewer.tests.map(({styled}, at) => ({value: String(at), text: styled.label})), String(viewer.settings[which]), (test) => {
+        return select(label, viewer.tests.map(({labelled}, at) => ({value: String(at), text: labelled.label})), String(viewer.settings[which]), (test) => {
             viewer.choose({[which]: Number(test)});
             this.build();
         }, {class: which});

@@ -2,7 +2,7 @@
 // What is drawn of the bodies: circles, polygons and open chains (platens, wall segments), as they were in the first frame.
 // A clump has a cell for each of its circles, all with its id.
 
-import type {NumberArray} from './report';
+import type {NumberArray} from './plain_arrays';
 
 export interface Point {
     x: number;

@@ -7,15 +7,10 @@
 import {readBlock} from './blocks';
 import type {Cells} from './cells';
 import type {CodedEntry} from './coded_arrays';
+import {plainArray, type ArrayEntry, type NumberArray} from './plain_arrays';
 
 /// Sense of a test.
 export type Kind = 'compression' | 'tension';
-
-interface ArrayEntry {
-    type: 'f64' | 'f32' | 'i32' | 'u8';
-    offset: number; // bytes into block 0
-    length: number; // elements
-}
 
 export type Role = 'start' | 'peak' | 'end';
 
@@ -57,8 +52,6 @@ interface Manifest {
 
 /// summary.json as the test wrote it; keys and units are listed in the README.
 export type Summary = Record<string, unknown>;
-
-export type NumberArray = Float64Array | Float32Array | Int32Array | Uint8Array;
 
 export interface Curve {
     strain: NumberArray; // -, positive for the test's own kind
@@ -117,28 +110,15 @@ export interface Report {
     tests: TestData[];
 }
 
-const bytesPerElement = {f64: 8, f32: 4, i32: 4, u8: 1} as const;
 const none = new Uint8Array(0);
-
-function view(buffer: ArrayBuffer, name: string, entry: ArrayEntry): NumberArray {
-    if (entry.offset + entry.length * bytesPerElement[entry.type] > buffer.byteLength) {
-        throw new Error(`the page's array '${name}' reaches beyond its data`);
-    }
-    switch (entry.type) {
-        case 'f64': return new Float64Array(buffer, entry.offset, entry.length);
-        case 'f32': return new Float32Array(buffer, entry.offset, entry.length);
-        case 'i32': return new Int32Array(buffer, entry.offset, entry.length);
-        case 'u8': return new Uint8Array(buffer, entry.offset, entry.length);
-    }
-}
 
 async function unpackTest(entry: TestEntry, index: number): Promise<TestData> {
     const buffer = await readBlock(index, 0);
-    const optional = (name: string) => (entry.arrays[name] ? view(buffer, name, entry.arrays[name]) : none);
+    const optional = (name: string) => (entry.arrays[name] ? plainArray(buffer, name, entry.arrays[name]) : none);
     const array = (name: string) => {
         const found = entry.arrays[name];
         if (!found) throw new Error(`the page's data lack the array '${name}'`);
-        return view(buffer, name, found);
+        return plainArray(buffer, name, found);
     };
     return {
         index,

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is written over a pane: the tests' names and moments, a scale bar, particle numbers where they fit.
 
-import type {Clock} from '../controls/clock';
+import type {Theme} from '../colours/theme';
 import type {Frame} from '../data/frames';
-import {movedCentre} from '../geometry/rigid_motion';
 import type {Sheet} from '../elements/sheet';
+import {movedCentre} from '../geometry/rigid_motion';
+import {quantity, strain} from '../quantities/units';
 import type {SpecimenView} from './specimen_view';
 import type {Pane, Placing} from './stage';
-import type {Theme} from '../colours/theme';
-import {quantity, significant, strain} from '../quantities/units';
 
 /// "ε = 1.94×10⁻³ σ = 67.2 kN/m", or the time where there is no strain.
 export function momentText(frame: Frame): string {
@@ -19,16 +18,6 @@ export function momentText(frame: Frame): string {
 
 /// To be said in every picture of which it is true.
 export const magnified = (magnification: number): string => (magnification === 1 ? '' : `\u2003displacements ×${magnification}`);
-
-/// Where the clock of several tests stands; what each of them shows stands over its pane.
-export function clockText({axis, moment}: Clock): string {
-    switch (axis) {
-        case 'strain': return `ε = ${strain(moment)}`;
-        case 'share': return `ε = ${significant(moment)} of that at peak`;
-        case 'time': return `t = ${quantity(moment, 's')}`;
-        case 'frame': return `Frame ${moment + 1}`;
-    }
-}
 
 /// The name, and where the pane is too narrow for both, the moment under it.
 export function drawTitles(sheet: Sheet, pane: Pane, names: readonly {label: string; colour: string; moment: string}[], theme: Theme): void {

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The lines over the particles at one moment: platens and walls, cracks, bonds, contact forces, the picked particle.
 
-import {outline, type Cells, type Point} from '../data/cells';
-import {crackState, facesOf, type Crack, type CrackFace} from '../geometry/cracks';
-import type {TestData} from '../data/report';
-import type {Contacts, Frame} from '../data/frames';
-import {movedCentre, moverOf} from '../geometry/rigid_motion';
 import {paletteSize, rgb, type Rgb} from '../colours/palettes';
+import type {Theme} from '../colours/theme';
+import {outline, type Cells, type Point} from '../data/cells';
+import type {Contacts, Frame} from '../data/frames';
+import type {TestData} from '../data/report';
+import {crackState, facesOf, type Crack, type CrackFace} from '../geometry/cracks';
+import {movedCentre, moverOf} from '../geometry/rigid_motion';
 import type {ForceScale} from '../quantities/ranges';
 import type {Segments} from './segments';
-import type {Theme} from '../colours/theme';
 
 const bondBroken = 2; // states from here on
 const bondSlid = 1;

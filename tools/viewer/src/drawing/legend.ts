@@ -2,14 +2,14 @@
 // The strip under the picture that says what its colours and widths mean.
 
 import type {Colouring} from '../colours/colouring';
-import {smallestForceShown} from './drawn_lines';
 import {css, paletteSize, type Rgb} from '../colours/palettes';
-import type {ForceScale} from '../quantities/ranges';
-import type {Layer} from './settings';
-import type {Sheet, TextStyle} from '../elements/sheet';
-import type {Look} from './specimen_view';
 import type {Theme} from '../colours/theme';
+import type {Sheet, TextStyle} from '../elements/sheet';
+import type {ForceScale} from '../quantities/ranges';
 import {quantity, scaleFor, significant, thinSpace} from '../quantities/units';
+import {smallestForceShown} from './drawn_lines';
+import type {Layer} from './settings';
+import type {Look} from './specimen_view';
 
 export const legendHeight = 44; // px
 const barWidth = 190, barHeight = 9, gap = 24;

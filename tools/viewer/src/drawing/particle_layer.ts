@@ -14,12 +14,12 @@ import {
     Vector2, Vector3,
 } from 'three';
 
-import {area, outline, reach, type Cells, type Point} from '../data/cells';
 import {paletteIndices, type Colouring} from '../colours/colouring';
-import type {Extent} from '../geometry/extent';
-import type {Frame} from '../data/frames';
-import {magnifiedAngle} from '../geometry/rigid_motion';
 import {paletteSize, rgb, type Rgb} from '../colours/palettes';
+import {area, outline, reach, type Cells, type Point} from '../data/cells';
+import type {Frame} from '../data/frames';
+import type {Extent} from '../geometry/extent';
+import {magnifiedAngle} from '../geometry/rigid_motion';
 
 const textureWidth = 512; // cells a row
 const batchSize = 500; // cells

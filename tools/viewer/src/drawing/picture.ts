@@ -3,16 +3,16 @@
 // files. On the page these are SVG: a transparent canvas of the picture's size would cost a browser without a graphics card
 // more than all particles.
 
-import {drawNumbers, drawScaleBar, drawTitles, magnified, momentText} from './annotations';
-import {element, svgElement} from '../elements/dom';
+import type {Theme} from '../colours/theme';
 import type {Frame} from '../data/frames';
-import {drawLegend, legendHeight} from './legend';
-import {Note} from '../elements/text_overlay';
-import {paneAsSvg} from './picture_svg';
+import {element, svgElement} from '../elements/dom';
 import {CanvasSheet, SvgSheet, type Sheet} from '../elements/sheet';
+import {TextOverlay} from '../elements/text_overlay';
+import {drawNumbers, drawScaleBar, drawTitles, magnified, momentText} from './annotations';
+import {drawLegend, legendHeight} from './legend';
+import {paneAsSvg} from './picture_svg';
 import type {Look, SpecimenView} from './specimen_view';
 import {fit, footRoom, grid, Stage, titleRoom, type Pane} from './stage';
-import type {Theme} from '../colours/theme';
 
 export interface Shown {
     view: SpecimenView;
@@ -27,9 +27,9 @@ export class Picture {
     width = 0;
     height = 0;
     private theme: Theme | undefined;
-    private notes: {title: Note; foot: Note}[] = []; // of each pane
-    private readonly legend = new Note();
-    private readonly numbers = new Note();
+    private overlays: {title: TextOverlay; foot: TextOverlay}[] = []; // of each pane
+    private readonly legend = new TextOverlay();
+    private readonly numbers = new TextOverlay();
 
     constructor() {
         this.stage.onDrawn = () => this.place();
@@ -46,8 +46,8 @@ export class Picture {
         const smallest = Math.min(...scales), shared = Math.max(...scales) < 2 * smallest;
         this.stage.panes = panes.map((pane, at) => ({rectangle: rectangles[at]!, views: pane, pixelsPerMetre: shared ? smallest : scales[at]!}));
         this.stage.resize(width, height);
-        this.notes = panes.map(() => ({title: new Note(), foot: new Note()}));
-        this.element.replaceChildren(this.stage.canvas, this.numbers.svg, ...this.notes.flatMap(({title, foot}) => [title.svg, foot.svg]), this.legend.svg);
+        this.overlays = panes.map(() => ({title: new TextOverlay(), foot: new TextOverlay()}));
+        this.element.replaceChildren(this.stage.canvas, this.numbers.svg, ...this.overlays.flatMap(({title, foot}) => [title.svg, foot.svg]), this.legend.svg);
     }
 
     show(shown: Shown[], theme: Theme): void {
@@ -89,7 +89,7 @@ export class Picture {
     private write(): void {
         for (const [at, pane] of this.stage.panes.entries()) {
             const {x, y, width} = pane.rectangle;
-            this.notes[at]!.title.write({x, y, width, height: titleRoom}, (sheet) => this.writeTitle(sheet, pane));
+            this.overlays[at]!.title.write({x, y, width, height: titleRoom}, (sheet) => this.writeTitle(sheet, pane));
         }
         this.legend.write({x: 0, y: this.height - legendHeight, width: this.width, height: legendHeight}, (sheet) => this.writeLegend(sheet));
     }
@@ -98,7 +98,7 @@ export class Picture {
     private place(): void {
         for (const [at, pane] of this.stage.panes.entries()) {
             const {x, y, width, height} = pane.rectangle;
-            this.notes[at]!.foot.write({x, y: y + height - footRoom, width: Math.min(width, 260), height: footRoom}, (sheet) => this.writeScale(sheet, pane));
+            this.overlays[at]!.foot.write({x, y: y + height - footRoom, width: Math.min(width, 260), height: footRoom}, (sheet) => this.writeScale(sheet, pane));
         }
         const numbered = [...this.shown.values()].some(({look}) => look.settings.layers.numbers);
         this.numbers.svg.toggleAttribute('hidden', !numbered);
@@ -117,7 +117,7 @@ export class Picture {
     private writeTitle(sheet: Sheet, pane: Pane): void {
         const theme = this.theme!, inPane = this.shownIn(pane);
         drawTitles(sheet, pane, inPane.map(({view, frame, look}, at) => ({
-            label: view.styled.label, moment: momentText(frame) + magnified(look.settings.magnification), colour: inPane.length > 1 ? theme.overlaid[at % 2]! : theme.ink,
+            label: view.labelled.label, moment: momentText(frame) + magnified(look.settings.magnification), colour: inPane.length > 1 ? theme.overlaid[at % 2]! : theme.ink,
         })), theme);
     }
 

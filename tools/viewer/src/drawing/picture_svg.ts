@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The view as an SVG file: the same particles, lines, titles and legend as on the screen, each particle a shape of its own.
 
-import {outline} from '../data/cells';
 import {paletteIndices} from '../colours/colouring';
-import {svgElement} from '../elements/dom';
-import type {Frame} from '../data/frames';
-import {movedCentre, moverOf} from '../geometry/rigid_motion';
 import {css, type Rgb} from '../colours/palettes';
+import {outline} from '../data/cells';
+import type {Frame} from '../data/frames';
+import {svgElement} from '../elements/dom';
+import {movedCentre, moverOf} from '../geometry/rigid_motion';
 import type {Segments} from './segments';
 import {lineScale, outlineWidth, type Look, type SpecimenView} from './specimen_view';
 import type {Pane, Placing} from './stage';

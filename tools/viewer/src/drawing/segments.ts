@@ -2,8 +2,8 @@
 // Straight lines of given width and colour: platens, walls, cracks, bonds, forces. Filled on the processor for each frame, drawn
 // by WebGL (segment_layer.ts) or written to SVG (picture_svg.ts).
 
-import type {Point} from '../data/cells';
 import type {Rgb} from '../colours/palettes';
+import type {Point} from '../data/cells';
 
 export class Segments {
     count = 0;

@@ -2,16 +2,16 @@
 // One specimen at one moment, as SVG: particles, platens, and the faces of broken bonds coloured by mode.
 // Bodies move as rigid bodies from the first frame; displacements may be drawn magnified.
 
-import {magnified} from './annotations';
+import type {Theme} from '../colours/theme';
 import {outline, type Point} from '../data/cells';
-import {crackState, type Crack} from '../geometry/cracks';
+import type {Frame} from '../data/frames';
 import type {TestData} from '../data/report';
 import {svgElement} from '../elements/dom';
+import {crackState, type Crack} from '../geometry/cracks';
 import {extentOf, type Extent} from '../geometry/extent';
-import type {Frame} from '../data/frames';
 import {movedCentre, moverOf} from '../geometry/rigid_motion';
-import type {Theme} from '../colours/theme';
 import {quantity} from '../quantities/units';
+import {magnified} from './annotations';
 
 /// The box that holds all drawn frames, and of the platens a little more than the specimen's width. Fragments that flew off
 /// are followed sideways for three tenths of the width, so that they do not make the specimen small (all the way where

@@ -3,20 +3,20 @@
 
 import {Scene} from 'three';
 
-import {jaggedCells, reach, type Point} from '../data/cells';
 import type {Colouring} from '../colours/colouring';
-import {findCracks, type Crack} from '../geometry/cracks';
-import type {Bonds, TestData} from '../data/report';
-import {addBonds, addChains, addCracks, addForces, addOutlines, addPicked, type CrackColours} from './drawn_lines';
-import {extentAtStart, type Extent} from '../geometry/extent';
+import type {Theme} from '../colours/theme';
+import {jaggedCells, reach, type Point} from '../data/cells';
 import {Frames, type Frame} from '../data/frames';
-import type {Styled} from '../panels/grouping';
-import {ParticleLayer} from './particle_layer';
+import type {Bonds, TestData} from '../data/report';
+import type {LabelledTest} from '../data/test_labels';
+import {findCracks, type Crack} from '../geometry/cracks';
+import {extentAtStart, type Extent} from '../geometry/extent';
 import type {ForceScale} from '../quantities/ranges';
+import {addBonds, addChains, addCracks, addForces, addOutlines, addPicked, type CrackColours} from './drawn_lines';
+import {ParticleLayer} from './particle_layer';
 import {SegmentLayer} from './segment_layer';
 import {Segments} from './segments';
 import {layerNames, type Layer, type Settings} from './settings';
-import type {Theme} from '../colours/theme';
 
 /// Everything that decides how a test looks at one moment.
 export interface Look {
@@ -45,8 +45,8 @@ export class SpecimenView {
     private readonly forceLayer = new SegmentLayer(2);
     private found: Crack[] | undefined;
 
-    constructor(readonly styled: Styled) {
-        const {test} = styled;
+    constructor(readonly labelled: LabelledTest) {
+        const {test} = labelled;
         this.frames = new Frames(test);
         this.extent = extentAtStart(test);
         this.origin = {x: (this.extent.x1 + this.extent.x2) / 2, y: (this.extent.y1 + this.extent.y2) / 2};
@@ -66,7 +66,7 @@ export class SpecimenView {
     }
 
     get test(): TestData {
-        return this.styled.test;
+        return this.labelled.test;
     }
 
     /// Made when first shown: not every test of a report is looked at.

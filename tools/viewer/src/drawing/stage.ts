@@ -4,15 +4,9 @@
 
 import {ColorManagement, OrthographicCamera, WebGLRenderer} from 'three';
 
+import type {Rectangle} from '../elements/sheet';
 import type {Extent} from '../geometry/extent';
 import type {SpecimenView} from './specimen_view';
-
-export interface Rectangle { // CSS pixels from the canvas's upper left corner
-    x: number;
-    y: number;
-    width: number;
-    height: number;
-}
 
 /// Pan and zoom, as d3-zoom gives it: shown = k · fitted + (x, y), in pixels of a pane.
 export interface PanZoom {

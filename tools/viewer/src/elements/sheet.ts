@@ -13,6 +13,13 @@ export interface TextStyle {
     halo?: string; // colour around the letters
 }
 
+export interface Rectangle { // CSS pixels from the picture's upper left corner
+    x: number;
+    y: number;
+    width: number;
+    height: number;
+}
+
 export interface Sheet {
     text(x: number, y: number, text: string, style: TextStyle): void;
     line(x1: number, y1: number, x2: number, y2: number, width: number, colour: string): void;

@@ -3,11 +3,10 @@
 // without a graphics card pays for every pixel that lies over another.
 
 import {svgElement} from './dom';
-import {SvgSheet, type Sheet} from './sheet';
-import type {Rectangle} from '../drawing/stage';
+import {SvgSheet, type Rectangle, type Sheet} from './sheet';
 
-export class Note {
-    readonly svg = svgElement('svg', {class: 'note', 'aria-hidden': 'true'});
+export class TextOverlay {
+    readonly svg = svgElement('svg', {class: 'text-overlay', 'aria-hidden': 'true'});
     private last = '';
 
     /// Writes what falls into a rectangle of the picture.

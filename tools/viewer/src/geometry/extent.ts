@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Boxes around specimens.
 
-import type {TestData} from '../data/report';
 import {outline} from '../data/cells';
 import type {Frame} from '../data/frames';
+import type {TestData} from '../data/report';
 import {moverOf, movedCentre} from './rigid_motion';
 
 export interface Extent {

@@ -4,8 +4,8 @@
 import Flatbush from 'flatbush';
 
 import {outline, reach, type Point} from '../data/cells';
-import type {TestData} from '../data/report';
 import type {Frame} from '../data/frames';
+import type {TestData} from '../data/report';
 import {movedCentre, moverOf} from './rigid_motion';
 
 export class Picking {

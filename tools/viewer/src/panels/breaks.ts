@@ -7,15 +7,15 @@ import {PolarComponent} from 'echarts/components';
 import * as echarts from 'echarts/core';
 import type {ECharts} from 'echarts/core';
 
-import {lastTimeOf, type TestData} from '../data/report';
-import {element, saveFile} from '../elements/dom';
-import {extentOfBreaks} from '../geometry/extent';
-import type {Styled} from './grouping';
 import {css, sequentialPalette} from '../colours/palettes';
-import {countDirections} from './crack_directions';
-import {fontFamily} from '../elements/sheet';
 import type {Theme} from '../colours/theme';
+import {lastTimeOf, type TestData} from '../data/report';
+import type {LabelledTest} from '../data/test_labels';
+import {element, saveFile} from '../elements/dom';
+import {fontFamily} from '../elements/sheet';
+import {extentOfBreaks} from '../geometry/extent';
 import {counted, quantity, scaleFor, significant} from '../quantities/units';
+import {countDirections} from './crack_directions';
 
 echarts.use([BarChart, PolarComponent]);
 
@@ -50,7 +50,7 @@ function saveButton(name: string, chart: () => ECharts): HTMLElement {
 }
 
 /// The card; its charts are drawn once it stands in the page.
-export function breakCard({test, label}: Styled, colour: MapColour, theme: Theme): {element: HTMLElement; draw: () => ECharts[]} {
+export function breakCard({test, label}: LabelledTest, colour: MapColour, theme: Theme): {element: HTMLElement; draw: () => ECharts[]} {
     const map = element('div', {class: 'map', role: 'img', 'aria-label': `Places of ${test.events.count} breaks in ${label}`});
     const rose = element('div', {class: 'rose', role: 'img', 'aria-label': `Directions of the cracks in ${label}`});
     const charts: ECharts[] = [];

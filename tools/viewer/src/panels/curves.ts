@@ -12,13 +12,13 @@ import type {ECharts} from 'echarts/core';
 import {SVGRenderer} from 'echarts/renderers';
 import type {CustomSeriesRenderItemAPI, CustomSeriesRenderItemParams} from 'echarts/types/dist/shared';
 
-import {Cursor} from '../elements/chart_cursor';
-import {peakOf, type TestData} from '../data/report';
-import {element} from '../elements/dom';
-import type {Member, Panel} from './grouping';
-import {countBreaks, intervalWidth, type Histogram} from './break_histogram';
 import type {Theme} from '../colours/theme';
+import {peakOf, type TestData} from '../data/report';
+import {Cursor} from '../elements/chart_cursor';
+import {element} from '../elements/dom';
 import {counted, quantity, scaleFor, significant, strain as strainText, strainFactor, strainUnit, type Scale} from '../quantities/units';
+import {countBreaks, intervalWidth, type Histogram} from './break_histogram';
+import type {Member, Panel} from './grouping';
 
 echarts.use([
     AxisPointerComponent, CustomChart, DataZoomInsideComponent, GridComponent, LegendComponent, LineChart, ScatterChart,

@@ -2,15 +2,15 @@
 // The fragments at the end: cells joined by unbroken bonds. A drawing coloured by fragment, and how much of the specimen each
 // of the largest holds.
 
-import {area} from '../data/cells';
-import {element, saveFile, svgText} from '../elements/dom';
-import type {Moments} from './specimen_cards';
-import type {Frame} from '../data/frames';
 import {categoricalPalette, categoryColour, css} from '../colours/palettes';
+import type {Theme} from '../colours/theme';
+import {area} from '../data/cells';
+import type {Frame} from '../data/frames';
 import {drawSpecimen, extentOfMoments} from '../drawing/specimen_svg';
 import type {SpecimenView} from '../drawing/specimen_view';
-import type {Theme} from '../colours/theme';
+import {element, saveFile, svgText} from '../elements/dom';
 import {counted, significant, strain, thinSpace} from '../quantities/units';
+import type {Moments} from './specimen_cards';
 
 const drawnHeight = 330; // px
 const drawnWidth = 300;
@@ -50,7 +50,7 @@ export function fragmentCard({view, frames}: Moments, theme: Theme): HTMLElement
     save.addEventListener('click', () => saveFile(`${test.name}-fragments.svg`, 'image/svg+xml', svgText(drawing)));
     const rest = fragments.slice(listed), single = fragments.filter(({particles}) => particles === 1).length;
     return element('article', {class: 'card fragments', 'data-test': test.name},
-        element('h3', {}, view.styled.label, element('small', {}, `${counted(fragments.length)} ${fragments.length === 1 ? 'fragment' : 'fragments'} at ε = ${strain(frame.strain)}`)),
+        element('h3', {}, view.labelled.label, element('small', {}, `${counted(fragments.length)} ${fragments.length === 1 ? 'fragment' : 'fragments'} at ε = ${strain(frame.strain)}`)),
         element('div', {class: 'fragments-row'},
             element('figure', {}, drawing, element('figcaption', {}, save)),
             element('table', {class: 'shares'},

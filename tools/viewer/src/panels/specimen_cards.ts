@@ -1,23 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The figure of specimens: a card for each test with the drawings of start, peak and end side by side, all at one scale.
 
-import {brokenUntil} from '../geometry/cracks';
-import type {Role} from '../data/report';
-import {element, saveFile, svgText} from '../elements/dom';
-import type {Extent} from '../geometry/extent';
+import type {Theme} from '../colours/theme';
 import type {Frame} from '../data/frames';
-import {sortedBy, type Styled} from './grouping';
+import type {Role} from '../data/report';
+import {sortedBy, type LabelledTest} from '../data/test_labels';
 import {drawSpecimen, extentOfMoments} from '../drawing/specimen_svg';
 import type {SpecimenView} from '../drawing/specimen_view';
-import type {Theme} from '../colours/theme';
+import {element, saveFile, svgText} from '../elements/dom';
+import {brokenUntil} from '../geometry/cracks';
+import type {Extent} from '../geometry/extent';
 import {counted, quantity, strain} from '../quantities/units';
 
 export const magnifications = [1, 5, 20, 100] as const;
 const drawnHeight = 330; // px, tallest specimen
 const cardWidth = 560; // px, three drawings and their gaps
 
-function rolesText(styled: Styled, roles: readonly Role[]): string {
-    const text = roles.map((role) => (role === 'peak' && !styled.test.failed ? 'peak so far' : role)).join(', ');
+function rolesText(labelled: LabelledTest, roles: readonly Role[]): string {
+    const text = roles.map((role) => (role === 'peak' && !labelled.test.failed ? 'peak so far' : role)).join(', ');
     return text.charAt(0).toUpperCase() + text.slice(1);
 }
 
@@ -35,7 +35,7 @@ export async function momentsOf(view: SpecimenView): Promise<Moments> {
 }
 
 function card({view, frames}: Moments, extent: Extent, pixelsPerMetre: number, magnification: number, theme: Theme): HTMLElement {
-    const {styled, test, cracks} = view;
+    const {labelled, test, cracks} = view;
     const width = test.summary['initial_width'], height = test.summary['initial_height'];
     const size = typeof width === 'number' && typeof height === 'number' ? `${quantity(width, 'm')} × ${quantity(height, 'm')}` : '';
     const row = element('div', {class: 'moments'});
@@ -48,16 +48,16 @@ function card({view, frames}: Moments, extent: Extent, pixelsPerMetre: number, m
         row.append(element('figure', {},
             drawing,
             element('figcaption', {},
-                element('b', {}, rolesText(styled, roles)), ` ε = ${strain(frame.strain)}`, element('br'),
+                element('b', {}, rolesText(labelled, roles)), ` ε = ${strain(frame.strain)}`, element('br'),
                 `${counted(broken.tension + broken.shear)} broken`, save)));
     }
     return element('article', {class: 'card', 'data-test': test.name},
-        element('h3', {}, styled.label, element('small', {}, size), ...(test.failed ? [] : [element('em', {class: 'warning'}, 'not failed')])),
+        element('h3', {}, labelled.label, element('small', {}, size), ...(test.failed ? [] : [element('em', {class: 'warning'}, 'not failed')])),
         row);
 }
 
 export function drawings(moments: Moments[], magnification: number, theme: Theme): HTMLElement[] {
-    const order = sortedBy('specimen', moments.map(({view}) => view.styled)).map(({test}) => test);
+    const order = sortedBy('specimen', moments.map(({view}) => view.labelled)).map(({test}) => test);
     const drawn = moments.filter(({frames}) => frames.length > 0).sort((a, b) => order.indexOf(a.view.test) - order.indexOf(b.view.test));
     const extents = drawn.map(({view, frames}) => extentOfMoments(view.test, frames, magnification));
     const scales = extents.map((extent, index) => Math.min(drawnHeight / (extent.y2 - extent.y1),

@@ -2,10 +2,10 @@
 // The summaries side by side: a row a quantity with its unit, a column a test, values of a row in one unit.
 
 import {numberOf, type TestData} from '../data/report';
+import {capitalised, sortedBy, specimenName, type LabelledTest} from '../data/test_labels';
 import {element} from '../elements/dom';
-import {capitalised, sortedBy, specimenName, type Styled} from './grouping';
-import {modeCounts} from './break_histogram';
 import {counted, missing, scaleFor, significant, strainFactor, strainUnit} from '../quantities/units';
+import {modeCounts} from './break_histogram';
 
 type Read = (test: TestData) => number | undefined;
 
@@ -119,7 +119,7 @@ const groups: readonly {title: string; rows: readonly Row[]}[] = [
     ]},
 ];
 
-export function summaryTable(tests: Styled[]): HTMLElement {
+export function summaryTable(tests: LabelledTest[]): HTMLElement {
     const columns = sortedBy('kind', tests);
     const data = columns.map(({test}) => test);
     const kinds = [...new Set(data.map((test) => test.kind))];
