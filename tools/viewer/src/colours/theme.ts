@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Colours of the figures in light and dark. Curves keep to ink, teal and purple; the two breakage modes have blue and
-// vermilion to themselves (Okabe and Ito's pair, told apart with any colour vision), so a colour means one thing.
+// Colours of the figures in light and dark. Curves keep to ink, teal and purple; only the two breakage modes are blue
+// and vermilion (Okabe and Ito's pair, distinguishable with any colour vision), so each colour has one meaning.
 
 export interface Theme {
     name: 'light' | 'dark';

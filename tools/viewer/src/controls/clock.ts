@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The one clock of curves and pictures. It stands at a moment of its axis, which may be strain, a share of the strain at peak,
-// time or the frame's number; each test then shows its last frame at or before that moment.
+// The clock that curves and pictures share. It has a current moment on its axis, which is strain, a fraction of the strain at
+// peak, time or the frame's number; each test shows its last frame at or before that moment.
 
 import {peakOf, type TestData} from '../data/report';
 import {quantity, significant, strain} from '../quantities/units';
 
 export type Axis = 'strain' | 'share' | 'time' | 'frame';
 
-export const axisNames: Record<Axis, string> = {strain: 'Strain', share: 'Share of peak strain', time: 'Time', frame: 'Frame'};
+export const axisNames: Record<Axis, string> = {strain: 'Strain', share: 'Fraction of peak strain', time: 'Time', frame: 'Frame'};
 
 const framesPerSecond = 15; // at speed 1
 
@@ -28,7 +28,7 @@ export function momentsOf(test: TestData, axis: Axis): number[] {
     });
 }
 
-/// Where a strain of one test lies on an axis: at its frame nearest to it.
+/// The position of a strain of one test on an axis: that of the frame nearest to it.
 export function momentOfStrain(test: TestData, axis: Axis, strain: number): number {
     const strains = momentsOf(test, 'strain'), before = lastAtOrBefore(strains, strain), after = Math.min(strains.length - 1, before + 1);
     const nearest = Math.abs(strains[after]! - strain) < Math.abs(strains[before]! - strain) ? after : before;
@@ -76,7 +76,7 @@ export class Clock {
         return this.running !== 0;
     }
 
-    /// The frame a test shows now.
+    /// The frame that a test shows at the current moment.
     frameOf(test: TestData): number {
         const moments = this.perTest.get(test) ?? momentsOf(test, this.axis);
         return lastAtOrBefore(moments, this.moment);
@@ -135,11 +135,11 @@ export class Clock {
     }
 }
 
-/// Where the clock of several tests stands; what each of them shows stands over its pane.
+/// The moment of the clock, for several tests; the moment of each test is printed over its pane.
 export function clockText({axis, moment}: Clock): string {
     switch (axis) {
         case 'strain': return `ε = ${strain(moment)}`;
-        case 'share': return `ε = ${significant(moment)} of that at peak`;
+        case 'share': return `ε = ${significant(moment)} of the strain at peak`;
         case 'time': return `t = ${quantity(moment, 's')}`;
         case 'frame': return `Frame ${moment + 1}`;
     }

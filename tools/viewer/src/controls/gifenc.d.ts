@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is used of gifenc, which brings no types.
+// Types of the used part of gifenc, which has none of its own.
 declare module 'gifenc' {
     type Palette = number[][];
     interface Encoder {

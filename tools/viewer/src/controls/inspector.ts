@@ -25,7 +25,7 @@ interface Touch {
     with: string;
     fn: number;
     fs: number;
-    array: string; // that tells both
+    array: string; // that holds both
     kind: string;
 }
 
@@ -40,7 +40,7 @@ export class Inspector {
 
     constructor(private readonly viewer: Viewer) {}
 
-    /// Follows picking, clock and theme.
+    /// Updates after a change of the picked particle, the clock or the theme.
     update(): void {
         const {picked} = this.viewer;
         this.element.hidden = !picked;
@@ -66,7 +66,7 @@ export class Inspector {
         if (!choices.some(({key}) => key === this.shown)) this.shown = choices[0]?.key ?? '';
         this.element.replaceChildren(
             element('legend', {}, `Particle ${cells.id[cell]}`),
-            element('div', {class: 'picked-head'}, element('span', {}, view.labelled.label), button('×', 'Let go (Esc)', () => this.viewer.pick(undefined), {'aria-label': 'Let go of the particle'})),
+            element('div', {class: 'picked-head'}, element('span', {}, view.labelled.label), button('×', 'Deselect (Esc)', () => this.viewer.pick(undefined), {'aria-label': 'Deselect the particle'})),
             this.values,
             ...(view.frames.count > 1 && choices.length > 0 ? [
                 select('History of', choices.map(({key, name}) => ({value: key, text: name})), this.shown, (key) => {
@@ -96,7 +96,7 @@ export class Inspector {
             animation: false, grid: {left: 44, right: 8, top: chartTop, bottom: chartBottom},
             xAxis: {
                 type: 'value', max: 'dataMax', axisLine: line, splitLine: {show: false}, axisLabel: {...text, hideOverlap: true, showMaxLabel: false}, splitNumber: 3,
-                name: {strain: 'Strain [10⁻³]', share: 'Strain over that at peak', time: 'Time [s]', frame: 'Frame'}[axis], nameLocation: 'middle', nameGap: 19, nameTextStyle: text,
+                name: {strain: 'Strain [10⁻³]', share: 'Strain / strain at peak', time: 'Time [s]', frame: 'Frame'}[axis], nameLocation: 'middle', nameGap: 19, nameTextStyle: text,
             },
             yAxis: {
                 type: 'value', axisLine: line, splitLine: {lineStyle: {color: theme.grid}}, axisLabel: text, splitNumber: 3, scale: true,
@@ -146,7 +146,7 @@ function valueTable({view, cell}: Picked, frame: Frame): HTMLElement {
 }
 
 function areaText(value: number): string {
-    // Prefixes of a square are those of its side.
+    // The prefix of an area is that of its square's side.
     const side = scaleFor([Math.sqrt(value)], 'm');
     return `${significant(value / side.factor ** 2)}${thinSpace}${side.unit}${side.unit.endsWith('m') ? '²' : ''}`;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Keys of the viewer. In a report they count while the viewer has the focus, on a page that is all viewer always.
+// Keyboard control of the viewer. In a report the keys work while the viewer has the focus, on a page of `crackle view` always.
 
 import {layerKeys} from './keys';
 import type {Viewer} from './viewer';
@@ -11,7 +11,7 @@ export function listen(viewer: Viewer, controls: ViewerControls, within: HTMLEle
         if (event.ctrlKey || event.metaKey || event.altKey || controls.help.open) return;
         if (!everywhere && !within.contains(target)) return;
         if (target.matches('select, input[type="text"]')) return;
-        // A slider moves by its own keys, a button is pressed by the space bar.
+        // A slider has its own keys; the space bar presses a button.
         if (target.matches('input[type="range"]') && /^(Arrow|Home|End|Page)/.test(event.key)) return;
         if (target.matches('button, summary, input[type="checkbox"]') && event.key === ' ') return;
         if (act(event, viewer, controls)) event.preventDefault();

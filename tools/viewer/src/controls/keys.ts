@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which key does what: the layers' letters, and the list that the help shows.
+// The key bindings: the letters of the layers, and the list that the help dialog shows.
 
 import {layerNames, type Layer} from '../drawing/settings';
 
@@ -7,12 +7,12 @@ export const layerKeys: Record<string, Layer> = {p: 'particles', o: 'outlines', 
 
 export const keyList: readonly (readonly [string, string])[] = [
     ['Space', 'play, pause'],
-    ['← →', 'a frame back, on; ten with Shift'],
+    ['← →', 'previous, next frame; ten frames with Shift'],
     ['Home End', 'first, last frame'],
-    ['+ − 0', 'zoom in, out, fit (also a double click)'],
-    ['c', 'colour by the next quantity; by the one before with Shift'],
+    ['+ − 0', 'zoom in, zoom out, fit (or double-click)'],
+    ['c', 'colour by the next quantity; with Shift, by the previous one'],
     ['m', 'magnify displacements: ×1, ×10, ×100'],
-    ...Object.entries(layerKeys).map(([key, layer]) => [key, `${layerNames[layer].toLowerCase()} on, off`] as const),
-    ['Esc', 'let go of the picked particle'],
+    ...Object.entries(layerKeys).map(([key, layer]) => [key, `show, hide ${layerNames[layer].toLowerCase()}`] as const),
+    ['Esc', 'deselect the picked particle'],
     ['?', 'this list'],
 ];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The view as a file: PNG, SVG, an animated GIF (gifenc), or a video where the browser can record one.
+// The view as a file: PNG, SVG, an animated GIF (gifenc), or a video if the browser can record one.
 
 import {applyPalette, GIFEncoder, quantize} from 'gifenc';
 
@@ -25,22 +25,22 @@ export function saveSvg(viewer: Viewer): void {
     saveFile(`${nameOf(viewer)}.svg`, 'image/svg+xml', svgText(viewer.picture.asSvg()));
 }
 
-/// Calls `take` with each moment on the screen, then returns to where the clock stood.
-async function film(viewer: Viewer, most: number, report: Report, take: () => Promise<void>): Promise<void> {
-    const {clock} = viewer, stood = clock.index;
+/// Calls `record` for each moment, with the moment on the screen, then resets the clock.
+async function film(viewer: Viewer, most: number, report: Report, record: () => Promise<void>): Promise<void> {
+    const {clock} = viewer, start = clock.index;
     clock.pause();
     const count = Math.min(clock.count, most);
     try {
         for (let at = 0; at < count; ++at) {
-            // Evenly, the first and the last among them.
+            // Evenly spaced, including the first and the last.
             const index = count > 1 ? Math.round(at * (clock.count - 1) / (count - 1)) : 0;
             clock.go(index);
             await viewer.settled();
             report(`Frame ${index + 1} of ${clock.count}`);
-            await take();
+            await record();
         }
     } finally {
-        clock.go(stood);
+        clock.go(start);
     }
 }
 

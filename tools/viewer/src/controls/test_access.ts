@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// window.crackle: what tests and measurements read of the page. Nothing in the page uses it.
+// window.crackle: access to the viewer's state for browser tests and measurements. The page itself does not use it.
 
 import type {Viewer} from './viewer';
 
@@ -14,9 +14,9 @@ export function expose(viewer: Viewer): void {
         picked: () => viewer.picked && {test: viewer.picked.view.test.name, id: viewer.picked.view.test.cells.id[viewer.picked.cell]},
         zoom: () => ({...stage.panZoom}),
         settled: () => viewer.scaled(),
-        /// Where a particle of a test is on the page, CSS pixels.
+        /// Position of a particle of a test on the page, CSS pixels.
         place: (name: string, id: number) => viewer.placeOf(name, id),
-        /// Draws as while moving, and waits until the picture stands.
+        /// Draws as during motion, and waits until the picture is finished.
         draw: () => {
             stage.drawMoving();
             stage.finish();

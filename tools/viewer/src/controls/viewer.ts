@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The viewer: tests in motion. Holds what the reader has chosen, and makes picture, clock and controls follow.
+// The viewer: tests in motion. Holds the settings, and updates picture, clock and controls after each change.
 
 import {colouring, type Colouring} from '../colours/colouring';
 import {categoricalPalette, sequentialPalette} from '../colours/palettes';
@@ -18,7 +18,7 @@ import {categories, forceScaleOf, forceScaleOfAll, joined, joinedForces, rangeOf
 import {axesFor, Clock, type Axis} from './clock';
 import {Navigation} from './navigation';
 
-/// Side by side from the start only as long as that draws quickly anywhere.
+/// Side by side at the start only up to these numbers, which draw quickly on any machine.
 const cellsSideBySide = 20000;
 const testsSideBySide = 6;
 
@@ -97,12 +97,12 @@ export class Viewer {
         this.clock.setTests(this.chosen.map(({test}) => test), axis);
     }
 
-    /// To be called after a change of what colours and layers show.
+    /// To be called after a change of colours or layers.
     refresh(): void {
         this.clock.onTick();
     }
 
-    /// Resolves when the moment asked for last is on the screen.
+    /// Resolves when the moment requested last is on the screen.
     async settled(): Promise<void> {
         await this.settling;
     }
@@ -118,7 +118,7 @@ export class Viewer {
         this.refresh();
     }
 
-    /// Where a particle's centre is on the page, CSS pixels from the upper left corner of the window.
+    /// Position of a particle's centre on the page, CSS pixels from the upper left corner of the window.
     placeOf(name: string, id: number): {x: number; y: number} | undefined {
         const at = this.picture.stage.panes.findIndex((pane) => pane.views.some((view) => view.test.name === name));
         const pane = this.picture.stage.panes[at], view = pane?.views.find((one) => one.test.name === name), shown = view && this.picture.shown.get(view);
@@ -175,7 +175,7 @@ export class Viewer {
             this.show(ready as {view: SpecimenView; frame: Frame}[]);
             return;
         }
-        // The first picture need not wait for any frame: in the first one nothing has moved.
+        // The first picture is drawn without waiting for a frame: in the first frame nothing has moved.
         if (this.picture.shown.size === 0) this.show(views.map((view) => ({view, frame: view.frames.first()})));
         this.clock.held = true;
         this.settling = Promise.all(wanted.map(async ({view, index}) => ({view, frame: await view.frames.load(index)}))).then((loaded) => {
@@ -205,7 +205,7 @@ export class Viewer {
         this.onShown();
     }
 
-    /// One time scale for all tests shown: the legend has but one bar.
+    /// One time scale for all tests shown: the legend has only one bar.
     private crackColours(views: readonly SpecimenView[]): CrackColours {
         return {
             by: this.settings.crackColour, listed: views.some((view) => view.listsBreaks),
@@ -219,7 +219,7 @@ export class Viewer {
         return colouring(quantity, quantity.scaling === 'categorical' ? categories(frames.map(({view, frame}) => ({frame, cells: view.test.cells})), quantity) : this.range(frames, quantity), settings.map, currentTheme());
     }
 
-    /// Over all frames, once that is known; until then, or where asked for, of what is shown.
+    /// Over all frames, once that is known; until then, or if so set, over the shown frames.
     private range(frames: {view: SpecimenView; frame: Frame}[], quantity: Quantity): Range {
         const key = (view: SpecimenView) => `${view.test.index} ${quantity.key}`;
         const known = frames.map(({view}) => this.ranges.get(key(view)));
@@ -243,7 +243,7 @@ export class Viewer {
 
     private working: Promise<void> | undefined;
 
-    /// One pass over the frames at a time; the picture follows when it is done.
+    /// One pass over the frames at a time; then the picture is updated.
     private inBackground(tasks: (() => Promise<void>)[]): void {
         if (this.working) return;
         this.working = (async () => {

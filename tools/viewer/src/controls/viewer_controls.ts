@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The viewer's buttons: transport under the picture, a panel beside it.
+// The viewer's buttons: playback under the picture, a side panel for settings.
 
 import {sequentialNames, type SequentialName} from '../colours/palettes';
 import {momentText} from '../drawing/annotations';
@@ -17,13 +17,13 @@ const magnifications = ['1', '2', '5', '10', '20', '50', '100', '500'] as const;
 const layoutNames: Record<Layout, string> = {one: 'One test', side: 'Side by side', over: 'Overlaid'};
 
 export class ViewerControls {
-    readonly transport = element('div', {class: 'transport', role: 'group', 'aria-label': 'Playing'});
+    readonly transport = element('div', {class: 'transport', role: 'group', 'aria-label': 'Playback'});
     readonly panel = element('div', {class: 'side'});
     readonly help = element('dialog', {class: 'help', 'aria-label': 'Keys'});
     private readonly playButton: HTMLButtonElement;
     private readonly slider = element('input', {type: 'range', class: 'scrub', min: '0', step: '1', 'aria-label': 'Moment'});
     private readonly readout = element('output', {class: 'readout', 'aria-live': 'off'});
-    private readonly spoken = element('span', {class: 'unseen', 'aria-live': 'polite'});
+    private readonly announcement = element('span', {class: 'unseen', 'aria-live': 'polite'});
     private readonly busy = element('span', {class: 'busy', role: 'status'});
     private readonly choices = element('div', {class: 'choices'});
 
@@ -36,11 +36,11 @@ export class ViewerControls {
         });
         this.transport.append(
             button(icon('first'), 'First frame (Home)', () => clock.step(-clock.count), {'aria-label': 'First frame'}),
-            button(icon('back'), 'Frame back (←)', () => clock.step(-1), {'aria-label': 'Frame back'}),
+            button(icon('back'), 'Previous frame (←)', () => clock.step(-1), {'aria-label': 'Previous frame'}),
             this.playButton,
-            button(icon('on'), 'Frame on (→)', () => clock.step(1), {'aria-label': 'Frame on'}),
+            button(icon('on'), 'Next frame (→)', () => clock.step(1), {'aria-label': 'Next frame'}),
             button(icon('last'), 'Last frame (End)', () => clock.step(clock.count), {'aria-label': 'Last frame'}),
-            this.slider, this.readout, this.spoken,
+            this.slider, this.readout, this.announcement,
             select('Speed', speeds.map((value) => ({value, text: `×${value}`})), '1', (value) => { clock.speed = Number(value); }, {class: 'speed'}));
         this.help.append(
             element('h3', {}, 'Keys'),
@@ -49,7 +49,7 @@ export class ViewerControls {
         this.panel.append(this.choices, this.saving(), this.busy);
     }
 
-    /// Follows a change of what can be chosen.
+    /// Rebuilds the side panel after a change of the available choices.
     build(): void {
         const {viewer} = this, {settings, tests} = viewer;
         const refresh = () => viewer.refresh();
@@ -92,7 +92,7 @@ export class ViewerControls {
             ...(viewer.clock.count > 1 ? [select('Displacements', magnifications.map((value) => ({value, text: `×${value}`})), String(settings.magnification), (value) => {
                 settings.magnification = Number(value);
                 refresh();
-            }, {class: 'magnification', title: `Turns are magnified up to ${largestMagnifiedAngle} rad`})] : [])));
+            }, {class: 'magnification', title: `Rotations are magnified up to ${largestMagnifiedAngle} rad`})] : [])));
     }
 
     private testList(which: 'test' | 'other', label: string): HTMLElement {
@@ -103,7 +103,7 @@ export class ViewerControls {
         }, {class: which});
     }
 
-    /// Follows the clock and the picture.
+    /// Updates the playback bar after a change of the clock or the picture.
     update(): void {
         const {clock, picture} = this.viewer;
         this.playButton.replaceChildren(icon(clock.playing ? 'pause' : 'play'));
@@ -114,8 +114,8 @@ export class ViewerControls {
         const first = [...picture.shown.values()][0];
         const text = picture.shown.size > 1 ? clockText(clock) : first ? `Frame ${first.frame.index + 1}/${first.view.frames.count}\u2003${momentText(first.frame)}` : '';
         this.readout.textContent = text;
-        // Said when it stands still: no screen reader keeps up with a film.
-        if (!clock.playing) this.spoken.textContent = text;
+        // Announced only while paused: a screen reader cannot follow an animation.
+        if (!clock.playing) this.announcement.textContent = text;
     }
 
     private saving(): HTMLElement {
@@ -127,7 +127,7 @@ export class ViewerControls {
             buttons.push(one);
             return one;
         };
-        // One at a time: each leads the clock through all frames.
+        // One at a time: each of them steps the clock through all frames.
         const run = async (save: () => Promise<void> | void) => {
             for (const one of buttons) one.disabled = true;
             try {
@@ -143,7 +143,7 @@ export class ViewerControls {
             saver('PNG', 'The picture as PNG', () => savePng(viewer), 'png'),
             saver('SVG', 'The picture as SVG', () => saveSvg(viewer), 'svg'),
             ...(viewer.clock.count > 1 || viewer.tests.some(({test}) => test.frames.length > 1) ? [
-                saver('GIF', `All frames as an animated GIF; of more than ${gifFrames} so many, evenly chosen`, () => saveGif(viewer, report), 'gif'),
+                saver('GIF', `All frames as an animated GIF; at most ${gifFrames} frames, evenly spaced`, () => saveGif(viewer, report), 'gif'),
                 ...(videoType() ? [saver('Video', 'All frames as a video', () => saveAnimation(viewer, report), 'video')] : []),
             ] : []),
             button('?', 'Keys (?)', () => this.help.showModal(), {'aria-label': 'Keys'})));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Blocks: elements of the page that hold base64 of a zlib stream. Block 0 of each test stands before the script,
-// all others behind it, so that the first picture does not wait for them; they are awaited when they are needed.
+// Blocks: elements of the page that hold base64 of a zlib stream. Block 0 of each test precedes the script,
+// all others follow it, so that the first picture does not wait for them; they are awaited when needed.
 
 type WithBase64 = typeof Uint8Array & {fromBase64?: (text: string) => Uint8Array<ArrayBuffer>};
 
@@ -13,13 +13,13 @@ function bytesOf(base64: string): Uint8Array<ArrayBuffer> {
     return bytes;
 }
 
-/// The element once the parser has passed its end: until something follows it, its text may still be growing.
+/// The element, once the parser has passed its end: until then its text may be incomplete.
 async function complete(id: string): Promise<HTMLElement> {
     for (;;) {
         const parsed = document.readyState !== 'loading';
         const element = document.getElementById(id);
         if (element && (parsed || element.nextSibling)) return element;
-        if (parsed) throw new Error(`the page lacks its block '${id}'`);
+        if (parsed) throw new Error(`the page does not contain its block '${id}'`);
         await new Promise((resume) => setTimeout(resume, 20));
     }
 }

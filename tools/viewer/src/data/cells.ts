@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is drawn of the bodies: circles, polygons and open chains (platens, wall segments), as they were in the first frame.
+// The drawn elements of the bodies: circles, polygons and open chains (platens, wall segments), as in the first frame.
 // A clump has a cell for each of its circles, all with its id.
 
 import type {NumberArray} from './plain_arrays';
@@ -16,7 +16,7 @@ export interface Cells {
     open: NumberArray; // 1: an open chain
     platen: NumberArray; // 1: a platen
     material: NumberArray; // from 1
-    x: NumberArray; // m, centre: mean of the outline's corners; motion is given about it
+    x: NumberArray; // m, centre: mean of the outline's corners; reference point of the motion
     y: NumberArray;
     firstPoint: NumberArray; // count + 1 entries into the outlines; none for circles
     outlineX: NumberArray; // m
@@ -33,7 +33,7 @@ export function centre(cells: Cells, cell: number): Point {
     return {x: cells.x[cell]!, y: cells.y[cell]!};
 }
 
-/// Farthest that a cell reaches from its centre, m.
+/// Largest distance of a point of a cell from its centre, m.
 export function reach(cells: Cells, cell: number): number {
     let farthest = cells.radius[cell]!;
     for (let at = cells.firstPoint[cell]!; at < cells.firstPoint[cell + 1]!; ++at) {
@@ -53,7 +53,7 @@ export function area(cells: Cells, cell: number): number {
     }, 0));
 }
 
-/// Whether all of a polygon can be seen from its centre: its corners go round it in one sense.
+/// Whether a polygon is star-shaped about its centre: its corners go round it in one sense.
 function isStar({firstPoint, outlineX, outlineY, x, y}: Cells, cell: number): boolean {
     const begin = firstPoint[cell]!, end = firstPoint[cell + 1]!, x0 = x[cell]!, y0 = y[cell]!;
     let left = 0;
@@ -63,14 +63,14 @@ function isStar({firstPoint, outlineX, outlineY, x, y}: Cells, cell: number): bo
     return left === 0 || left === end - begin;
 }
 
-/// Closed polygons that are not.
+/// Closed polygons that are not star-shaped.
 export function jaggedCells(cells: Cells): number[] {
     const jagged: number[] = [];
     for (let cell = 0; cell < cells.count; ++cell) if (cells.open[cell] !== 1 && cells.radius[cell] === 0 && !isStar(cells, cell)) jagged.push(cell);
     return jagged;
 }
 
-/// Bodies, that is: a clump is one.
+/// Number of bodies: a clump counts as one.
 export function particleCount(cells: Cells): number {
     const ids = new Set<number>();
     for (let cell = 0; cell < cells.count; ++cell) if (cells.open[cell] !== 1) ids.add(cells.id[cell]!);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Coded arrays (tools/page_data.hpp): numbers n stand for values quantum · n, or with a growth g for
-// quantum / g · sinh(g · n), so that small values are told as well as large ones. n are whole numbers stored as differences down the rows, zigzag coded, one plane
-// of bytes after the other (the lowest first). Slow changes give planes of noughts, which zlib packs to almost nothing.
+// Coded arrays (tools/page_data.hpp): whole numbers n stand for the values quantum · n, or with a growth g for
+// quantum / g · sinh(g · n), so that small and large values have about the same relative resolution. The numbers are stored
+// as differences down the rows, zigzag coded, one plane of bytes after the other (the lowest first). Slow changes give planes
+// of zeros, which zlib compresses to almost nothing.
 
 export interface CodedEntry {
     quantum: number;
@@ -17,13 +18,13 @@ const difference = (u: number): number => (u % 2 === 0 ? u / 2 : -(u + 1) / 2);
 
 const valueOf = ({quantum, growth}: CodedEntry, n: number): number => (growth ? quantum / growth * Math.sinh(growth * n) : quantum * n);
 
-/// How far apart neighbours of a value are.
+/// Spacing of representable values at a value.
 export const resolutionAt = ({quantum, growth}: CodedEntry, value: number): number => Math.hypot(quantum, (growth ?? 0) * value);
 
-/// valueOf() for the many: a sinh a value would double the time of decoding.
+/// valueOf() for many values: a sinh for each of them would double the time of decoding.
 function valuesBy(entry: CodedEntry): (n: number) => number {
     if (!entry.growth) return (n) => entry.quantum * n;
-    const known: number[] = []; // of 0, 1, 2 …: some thousand
+    const known: number[] = []; // of 0, 1, 2 …: some thousands
     return (n) => {
         const value = known[Math.abs(n)] ??= valueOf(entry, Math.abs(n));
         return n < 0 ? -value : value;
@@ -38,7 +39,7 @@ function coded(bytes: Uint8Array, entry: CodedEntry, at: number): number {
 }
 
 function checked(bytes: Uint8Array, entry: CodedEntry): void {
-    if (entry.offset + entry.planes * entry.rows * entry.columns > bytes.length) throw new Error('a coded array reaches beyond its block');
+    if (entry.offset + entry.planes * entry.rows * entry.columns > bytes.length) throw new Error('a coded array extends beyond its block');
 }
 
 /// All values, row by row.
@@ -51,7 +52,7 @@ export function decode(bytes: Uint8Array, entry: CodedEntry): Float32Array {
     const low = entry.offset, high = low + size;
     for (let row = 0, at = 0; row < rows; ++row) {
         for (let column = 0; column < columns; ++column, ++at) {
-            // One and two planes are all but always enough.
+            // One or two planes are nearly always enough.
             const u = planes === 1 ? bytes[low + at]! : planes === 2 ? bytes[low + at]! + 256 * bytes[high + at]! : coded(bytes, entry, at);
             values[at] = valueAt(sums[column]! += difference(u));
         }

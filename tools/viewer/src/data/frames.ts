@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The frames of one test. They lie in groups, a block each; a group is unpacked when one of its frames is wanted, the next
-// one soon after, and a few are kept. Arrays of a group are decoded when first asked for.
+// The frames of one test. They are stored in groups, one block each; a group is unpacked when one of its frames is needed, the
+// next one soon after, and a few are kept. Arrays of a group are decoded at first use.
 
 import {readBlock} from './blocks';
 import {decode, decodeColumn, decodeList, resolutionAt} from './coded_arrays';
@@ -79,7 +79,7 @@ export class Frame {
         return this.group?.row(name, this.index - this.group.entry.first);
     }
 
-    /// How finely an array tells a number as large as this one.
+    /// Resolution of an array at this value.
     resolution(name: string, value: number): number {
         const entry = this.group?.entry.arrays[name];
         return entry ? resolutionAt(entry, value) : 0;
@@ -92,7 +92,7 @@ export class Frame {
 
 export class Frames {
     readonly count: number;
-    private readonly groups = new Map<GroupEntry, Group>(); // in the order of their last use
+    private readonly groups = new Map<GroupEntry, Group>(); // ordered by last use
     private readonly loading = new Map<GroupEntry, Promise<Group>>();
 
     constructor(private readonly test: TestData) {
@@ -104,7 +104,7 @@ export class Frames {
         return this.test.groups.some((group) => name in group.arrays);
     }
 
-    /// The frame at once, where its group is unpacked.
+    /// The frame, if its group is unpacked.
     ready(index: number): Frame | undefined {
         const entry = this.entryOf(index);
         const group = entry && this.groups.get(entry);
@@ -118,12 +118,12 @@ export class Frames {
         return this.frame(index, entry && await this.unpack(entry));
     }
 
-    /// The first frame before its block has come: nothing has moved in it.
+    /// The first frame, available before its block is loaded: nothing has moved in it.
     first(): Frame {
         return this.frame(0, undefined);
     }
 
-    /// Unpacks what playing on will need.
+    /// Unpacks the next group, which playing will need.
     prefetch(index: number): void {
         const entry = this.entryOf(index);
         const next = entry && this.entryOf(entry.first + entry.count);
@@ -145,12 +145,12 @@ export class Frames {
         return histories;
     }
 
-    /// A pass over frames, `stride` apart, that leaves what is kept for playing alone.
+    /// A pass over frames, `stride` apart, that does not change the groups kept for playing.
     async* pass(stride: number): AsyncGenerator<Frame> {
         for (const entry of this.test.groups) {
             const group = this.groups.get(entry) ?? new Group(entry, await readBlock(this.test.index, entry.block));
             for (let index = Math.ceil(entry.first / stride) * stride; index < entry.first + entry.count; index += stride) yield this.frame(index, group);
-            await new Promise((resume) => setTimeout(resume)); // let the page live
+            await new Promise((resume) => setTimeout(resume)); // keeps the page responsive
         }
     }
 

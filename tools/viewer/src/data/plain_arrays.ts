@@ -14,7 +14,7 @@ const bytesPerElement = {f64: 8, f32: 4, i32: 4, u8: 1} as const;
 /// The array as a view of its block. @param name  for the message where the block is too short
 export function plainArray(buffer: ArrayBuffer, name: string, entry: ArrayEntry): NumberArray {
     if (entry.offset + entry.length * bytesPerElement[entry.type] > buffer.byteLength) {
-        throw new Error(`the page's array '${name}' reaches beyond its data`);
+        throw new Error(`the page's array '${name}' extends beyond its block`);
     }
     switch (entry.type) {
         case 'f64': return new Float64Array(buffer, entry.offset, entry.length);

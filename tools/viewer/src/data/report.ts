@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What `crackle report` and `crackle view` put into the page: format "crackle-report 2".
-// A JSON manifest says what each test is, and where in the blocks its arrays lie; block 0 of a test holds its specimen, curve
-// and events as plain little-endian arrays, the others hold the frames, group by group (frames.ts). Units are SI in 2D:
+// The data that `crackle report` and `crackle view` put into the page: format "crackle-report 2".
+// A JSON manifest describes each test and gives the positions of its arrays in the blocks; block 0 of a test holds its specimen,
+// curve and events as plain little-endian arrays, the others hold the frames, group by group (frames.ts). Units are SI in 2D:
 // stress in N/m, angles in radians.
 
 import {readBlock} from './blocks';
@@ -9,12 +9,12 @@ import type {Cells} from './cells';
 import type {CodedEntry} from './coded_arrays';
 import {plainArray, type ArrayEntry, type NumberArray} from './plain_arrays';
 
-/// Sense of a test.
+/// Loading direction of a test.
 export type Kind = 'compression' | 'tension';
 
 export type Role = 'start' | 'peak' | 'end';
 
-/// One frame as the manifest tells it.
+/// One frame in the manifest.
 export interface FrameEntry {
     time: number; // s
     axial_strain?: number;
@@ -55,7 +55,7 @@ export type Summary = Record<string, unknown>;
 
 export interface Curve {
     strain: NumberArray; // -, positive for the test's own kind
-    stress: NumberArray; // N/m, likewise
+    stress: NumberArray; // N/m, same sign convention
     bondsBroken: NumberArray; // so far
 }
 
@@ -117,7 +117,7 @@ async function unpackTest(entry: TestEntry, index: number): Promise<TestData> {
     const optional = (name: string) => (entry.arrays[name] ? plainArray(buffer, name, entry.arrays[name]) : none);
     const array = (name: string) => {
         const found = entry.arrays[name];
-        if (!found) throw new Error(`the page's data lack the array '${name}'`);
+        if (!found) throw new Error(`the page's data do not contain the array '${name}'`);
         return plainArray(buffer, name, found);
     };
     return {
@@ -174,7 +174,7 @@ async function unpackTest(entry: TestEntry, index: number): Promise<TestData> {
 }
 
 export async function readReport(source: HTMLElement | null): Promise<Report> {
-    if (!source?.textContent) throw new Error('this page holds no data: make it with `crackle report` or `crackle view`');
+    if (!source?.textContent) throw new Error('this page contains no data: create it with `crackle report` or `crackle view`');
     const manifest = JSON.parse(source.textContent) as Manifest;
     if (manifest.format !== 'crackle-report 2') {
         throw new Error(`found data of format '${manifest.format}', expected 'crackle-report 2'`);
@@ -187,7 +187,7 @@ export async function readReport(source: HTMLElement | null): Promise<Report> {
     };
 }
 
-/// Time of the last frame or break, s: a run may have been kept without frames.
+/// Time of the last frame or break, s: a run may have no frames.
 export function lastTimeOf({frames, events}: TestData): number {
     let last = frames[frames.length - 1]?.time ?? 0;
     for (let event = 0; event < events.count; ++event) last = Math.max(last, events.time[event]!);
@@ -200,7 +200,7 @@ export function numberOf(summary: Summary, key: string): number | undefined {
     return typeof value === 'number' && Number.isFinite(value) ? value : undefined;
 }
 
-/// The peak, and where it lies: that of the summary, under whichever key the test's outcome gives it.
+/// Strain and stress of the peak from the summary, whose keys depend on whether the test has failed.
 export function peakOf(test: TestData): {strain: number | undefined; stress: number | undefined} {
     return {
         strain: numberOf(test.summary, 'peak_strain') ?? numberOf(test.summary, 'peak_strain_so_far'),

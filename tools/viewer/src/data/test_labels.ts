@@ -3,7 +3,7 @@
 
 import type {CurvedTest, TestData} from './report';
 
-/// How one test appears wherever it is shown.
+/// A test with the label and colour used wherever it is shown.
 export interface LabelledTest<Test extends TestData = TestData> {
     test: Test;
     colour: number; // index into Theme.series
@@ -32,14 +32,14 @@ export function ordered(values: string[], order: string[]): string[] {
     return unique(values).sort((a, b) => rank(a) - rank(b));
 }
 
-/// Tests named by specimen and kind where that tells them apart (colour = specimen), else by folder (colour = test).
+/// Tests named by specimen and kind if these names are unique (colour = specimen), else by folder (colour = test).
 export function labelTests(tests: TestData[]): LabelledTest[] {
     const name = (test: TestData) => `${specimenName(test)}, ${test.kind}`;
-    const tellsApart = unique(tests.map(name)).length === tests.length && tests.every((test) => test.curve);
+    const namesUnique = unique(tests.map(name)).length === tests.length && tests.every((test) => test.curve);
     const specimens = ordered(tests.map((test) => test.specimen), specimenOrder);
     const folders = unique(tests.map((test) => test.name));
     return tests.map((test, index) => {
-        if (tellsApart) return {test, colour: specimens.indexOf(test.specimen), label: name(test)};
+        if (namesUnique) return {test, colour: specimens.indexOf(test.specimen), label: name(test)};
         const label = folders.length === tests.length ? test.name : `${test.name} (${index + 1})`;
         return {test, colour: index, label};
     });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What is written over a pane: the tests' names and moments, a scale bar, particle numbers where they fit.
+// Text over a pane: the tests' names and moments, a scale bar, particle numbers where they fit.
 
 import type {Theme} from '../colours/theme';
 import type {Frame} from '../data/frames';
@@ -16,10 +16,10 @@ export function momentText(frame: Frame): string {
     return `ε = ${strain(frame.strain)}${stress === undefined ? '' : `\u2003σ = ${quantity(stress, 'N/m')}`}`;
 }
 
-/// To be said in every picture of which it is true.
+/// Note on magnified displacements, for every picture that shows them; else empty.
 export const magnified = (magnification: number): string => (magnification === 1 ? '' : `\u2003displacements ×${magnification}`);
 
-/// The name, and where the pane is too narrow for both, the moment under it.
+/// The name and the moment; the moment below the name where the pane is too narrow for one line.
 export function drawTitles(sheet: Sheet, pane: Pane, names: readonly {label: string; colour: string; moment: string}[], theme: Theme): void {
     let x = pane.rectangle.x + 9;
     const y = pane.rectangle.y + 17;
@@ -61,7 +61,7 @@ export function drawNumbers(sheet: Sheet, pane: Pane, placing: Placing, view: Sp
     }
 }
 
-/// A width that a number may take: the diameter, or that of a polygon's shorter side about.
+/// Width available for a number: the diameter, or about that of a polygon's shorter side.
 function sizeOf(view: SpecimenView, cell: number): number {
     const {cells} = view.test;
     if (cells.radius[cell]! > 0) return 1.8 * cells.radius[cell]!;

@@ -28,7 +28,7 @@ export function addChains(lines: Segments, test: TestData, frame: Frame, magnifi
     addPath(lines, [{x: x1, y: y1}, {x: x2, y: y1}, {x: x2, y: y2}, {x: x1, y: y2}, {x: x1, y: y1}], 1.5, colour);
 }
 
-/// Outlines of the polygons that the particle layer draws without.
+/// Outlines of the polygons that the particle layer draws without an outline.
 export function addOutlines(lines: Segments, cells: Cells, frame: Frame, jagged: readonly number[], magnification: number, theme: Theme): void {
     for (const cell of jagged) {
         const corners = outline(cells, cell);
@@ -79,14 +79,14 @@ function addBrokenBonds(lines: Segments, test: TestData, frame: Frame, magnifica
     }
 }
 
-/// Where a bonded point of the first frame has got to: the mean of where its two cells carry it.
+/// Position of a bonded point of the first frame in this frame: the mean of the positions to which its two cells move it.
 function bondedPoint(test: TestData, frame: Frame, bond: number, magnification: number): Point {
     const {bonds, cells} = test, at = {x: bonds.x[bond]!, y: bonds.y[bond]!};
     const a = moverOf(cells, frame, bonds.i[bond]!, magnification)(at), b = moverOf(cells, frame, bonds.j[bond]!, magnification)(at);
     return {x: (a.x + b.x) / 2, y: (a.y + b.y) / 2};
 }
 
-/// From centre to contact point to centre; a platen has no centre worth a line.
+/// Lines from centre to contact point to centre; none to the centre of a platen.
 function addBranches(lines: Segments, cells: Cells, frame: Frame, i: number, j: number, at: Point, magnification: number, width: number, colour: Rgb, opacity: number): void {
     for (const cell of [i, j]) {
         if (cell < 0 || cells.open[cell] === 1) continue;
@@ -125,7 +125,7 @@ export function addForces(lines: Segments, test: TestData, frame: Frame, magnifi
     }
 }
 
-/// Contact points are given where they are: a magnified displacement carries them farther by that of their cells.
+/// Contact points are given at their true positions: magnification adds the mean displacement of their cells.
 function contactPoint(contacts: Contacts, contact: number, frame: Frame, magnification: number): Point {
     const cells = [contacts.i[contact]!, contacts.j[contact]!].filter((cell) => cell >= 0);
     const mean = (values: Float32Array) => cells.reduce((sum, cell) => sum + values[cell]!, 0) / cells.length;

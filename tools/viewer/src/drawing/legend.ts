@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The strip under the picture that says what its colours and widths mean.
+// The legend under the picture: the meaning of its colours and line widths.
 
 import type {Colouring} from '../colours/colouring';
 import {css, paletteSize, type Rgb} from '../colours/palettes';
@@ -53,7 +53,7 @@ function drawMarks(sheet: Sheet, title: string, marks: readonly [string, string,
 
 function drawBar(sheet: Sheet, title: string, palette: readonly Rgb[], low: string, high: string, theme: Theme, x: number, top: number, middle = ''): number {
     sheet.text(x, top + 12, title, {...small(theme), colour: theme.muted});
-    const steps = 64; // fewer rectangles than colours: nobody sees the difference, files stay small
+    const steps = 64; // fewer rectangles than colours: no visible difference, smaller files
     for (let step = 0; step < steps; ++step) {
         const colour = palette[Math.round(step / (steps - 1) * (paletteSize - 1))]!;
         sheet.rectangle(x + step * barWidth / steps, top + 17, barWidth / steps + 0.4, barHeight, css(colour));

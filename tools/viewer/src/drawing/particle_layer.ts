@@ -6,8 +6,8 @@
 // `rim` grows from the length 0 at the centre to 1 at the outline in both, which gives circles their shape and both an outline
 // of the same width in pixels at any zoom. Other polygons are cut at their corners; their outlines are lines (drawn_lines.ts).
 // WebGL in software draws a triangle in about a microsecond whatever its size. So only what is in view is drawn, by batches of
-// neighbours, and where that is still too much while the picture moves, each cell is a point of its own area; of very many
-// an even share is drawn, larger.
+// neighbours. If that is still too slow while the picture moves, each cell is drawn as a point of its own area; of very many
+// cells only an evenly spread part is drawn, with larger points.
 
 import {
     BufferAttribute, BufferGeometry, DataTexture, FloatType, GLSL3, Group, Mesh, NearestFilter, Points, RawShaderMaterial, RGBAFormat, ShapeUtils,
@@ -70,7 +70,7 @@ void main() {
 
 const pointVertex = `${placing}
 in vec3 spot; // centre, and the side of the square of the cell's area
-uniform float pointScale; // pixels a metre, and what makes up for the cells that are left out
+uniform float pointScale; // pixels per metre, enlarged for the cells that are not drawn
 void main() {
     gl_Position = projectionMatrix * modelViewMatrix * vec4(spot.xy + placed().xy, 0.0, 1.0);
     gl_PointSize = max(1.0, spot.z * pointScale);
@@ -262,7 +262,7 @@ function fanGeometry(cells: Cells, origin: Point, jagged: readonly number[], bat
     return geometry;
 }
 
-/// In an order whose every beginning is spread over all cells.
+/// In an order of which any first part is spread evenly over all cells.
 function pointGeometry(cells: Cells, origin: Point): BufferGeometry {
     const spot = new Float32Array(3 * cells.count), owner = new Float32Array(cells.count), step = coprimeStep(cells.count);
     for (let at = 0, cell = 0; at < cells.count; ++at, cell = (cell + step) % cells.count) {
@@ -277,7 +277,7 @@ function pointGeometry(cells: Cells, origin: Point): BufferGeometry {
     return geometry;
 }
 
-/// A step by which all of `count` places are visited, in golden proportion: what is visited lies evenly among what is not.
+/// A step by which all of `count` places are visited, close to the golden ratio: the visited places are spread evenly.
 function coprimeStep(count: number): number {
     const divisor = (a: number, b: number): number => (b === 0 ? a : divisor(b, a % b));
     let step = Math.max(1, Math.round(0.618034 * count));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The picture as the reader sees it: the WebGL stage, and over it titles, legend and numbers. Made again at any resolution for
-// files. On the page these are SVG: a transparent canvas of the picture's size would cost a browser without a graphics card
-// more than all particles.
+// The complete picture: the WebGL stage, and over it titles, legend and numbers. For files it is drawn again at any resolution.
+// On the page the text is SVG: a transparent canvas of the picture's size would cost a browser without a graphics card more than
+// all particles.
 
 import type {Theme} from '../colours/theme';
 import type {Frame} from '../data/frames';
@@ -35,7 +35,7 @@ export class Picture {
         this.stage.onDrawn = () => this.place();
     }
 
-    /// Cuts the picture into panes; all specimens at one scale where their sizes allow.
+    /// Divides the picture into panes; all specimens at one scale where their sizes allow.
     layOut(panes: readonly (readonly SpecimenView[])[], width: number, height: number): void {
         this.width = width;
         this.height = height;
@@ -60,7 +60,7 @@ export class Picture {
         this.stage.request();
     }
 
-    /// The whole picture at a number of picture pixels a CSS pixel.
+    /// The whole picture at a number of picture pixels per CSS pixel.
     compose(ratio: number, into = element('canvas')): HTMLCanvasElement {
         into.width = Math.round(this.width * ratio);
         into.height = Math.round(this.height * ratio);
@@ -85,7 +85,7 @@ export class Picture {
         return pane.views.flatMap((view) => this.shown.get(view) ?? []);
     }
 
-    /// What changes with the moment.
+    /// Updates the text that changes with the moment.
     private write(): void {
         for (const [at, pane] of this.stage.panes.entries()) {
             const {x, y, width} = pane.rectangle;
@@ -94,7 +94,7 @@ export class Picture {
         this.legend.write({x: 0, y: this.height - legendHeight, width: this.width, height: legendHeight}, (sheet) => this.writeLegend(sheet));
     }
 
-    /// What changes with the view.
+    /// Updates the text that changes with pan and zoom.
     private place(): void {
         for (const [at, pane] of this.stage.panes.entries()) {
             const {x, y, width, height} = pane.rectangle;

@@ -23,7 +23,7 @@ void main() {
     vec2 way = to - from;
     float far = length(way), across = 0.5 * max(1.0, width * scale);
     vec2 along = far > 0.0 ? way / far : vec2(1.0, 0.0);
-    // Ends reach half a width farther, so that lines in a chain join.
+    // Ends extend by half a width, so that lines in a chain join.
     vec2 at = (corner.x < 0.0 ? from : to) + across * (corner.x * along + corner.y * vec2(-along.y, along.x));
     shown = colour;
     gl_Position = vec4(at / halfSize, 0.0, 1.0);
@@ -52,7 +52,7 @@ export class SegmentLayer {
     show(segments: Segments): void {
         this.mesh.visible = segments.count > 0;
         if (segments.count === 0) return;
-        if (this.capacity !== segments.widths.length) this.take(segments);
+        if (this.capacity !== segments.widths.length) this.allocate(segments);
         const {geometry} = this.mesh;
         geometry.instanceCount = segments.count;
         for (const name of ['ends', 'width', 'colour']) {
@@ -69,8 +69,8 @@ export class SegmentLayer {
         this.mesh.material.uniforms['scale']!.value = scale;
     }
 
-    /// Buffers anew over the grown arrays.
-    private take(segments: Segments): void {
+    /// Creates new buffers over the enlarged arrays.
+    private allocate(segments: Segments): void {
         this.capacity = segments.widths.length;
         const geometry = new InstancedBufferGeometry();
         geometry.setAttribute('corner', new BufferAttribute(new Float32Array([-1, -1, 1, -1, 1, 1, -1, 1]), 2));

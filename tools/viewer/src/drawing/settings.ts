@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the reader has chosen in the viewer.
+// Settings of the viewer: layers, colours, magnification, layout, tests.
 
 import type {SequentialName} from '../colours/palettes';
 

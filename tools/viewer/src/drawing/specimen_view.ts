@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One test as the viewer draws it: its frames, its cracks, its lines, and the three.js scene of all of these.
+// One test as the viewer draws it: its frames, cracks and lines, and the three.js scene that contains them.
 
 import {Scene} from 'three';
 
@@ -69,7 +69,7 @@ export class SpecimenView {
         return this.labelled.test;
     }
 
-    /// Made when first shown: not every test of a report is looked at.
+    /// Created when first shown: not every test of a report is viewed.
     private get particles(): ParticleLayer {
         if (!this.madeParticles) {
             this.madeParticles = new ParticleLayer(this.test.cells, this.origin, this.jagged);
@@ -90,7 +90,7 @@ export class SpecimenView {
         return (Object.keys(layerNames) as Layer[]).filter((layer) => !missing[layer]);
     }
 
-    /// Whether it has a list of breaks: a run of a deck may have none, a test has, be it empty.
+    /// Whether it has a list of breaks: a run of a deck may have none, a test always has one, possibly empty.
     get listsBreaks(): boolean {
         return this.test.events.count > 0 || this.test.source === 'test';
     }
@@ -99,7 +99,7 @@ export class SpecimenView {
         return this.found ??= findCracks(this.test.cells, this.test.events);
     }
 
-    /// Fills the lines for a frame; what the SVG file needs, too.
+    /// Fills the lines for a frame; also used for the SVG file.
     fillLines(frame: Frame, look: Look): void {
         const {settings, theme} = look, {layers, magnification} = settings;
         this.lines.clear();
@@ -147,7 +147,7 @@ export interface Drawn {
     moving: boolean;
 }
 
-/// Bonded points of a pair of cells, on average: circles have one, faces of polygons several. Those of a pair lie together.
+/// Bonded points of a pair of cells, on average: circles have one, faces of polygons several. Those of a pair are adjacent.
 function pointsOfPair({count, i, j}: Bonds): number {
     let pairs = 0;
     for (let bond = 0; bond < count; ++bond) if (bond === 0 || i[bond] !== i[bond - 1] || j[bond] !== j[bond - 1]) ++pairs;
@@ -159,7 +159,7 @@ export function lineScale(particlePixels: number): number {
     return Math.min(1, Math.max(0.4, particlePixels / 10));
 }
 
-/// Outlines of specks would hide their fill.
+/// No outlines around very small particles: they would hide the fill.
 export function outlineWidth(particlePixels: number): number {
     return particlePixels < 5 ? 0 : Math.min(1.2, 0.25 + 0.03 * particlePixels);
 }

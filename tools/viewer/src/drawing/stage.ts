@@ -28,11 +28,11 @@ export interface Pane {
     pixelsPerMetre: number; // fitted
 }
 
-ColorManagement.enabled = false; // colours pass as they are
+ColorManagement.enabled = false; // colours are passed unchanged
 
 const restTime = 180; // ms without a change
 const largestPicture = 9e6; // picture pixels, still
-export const titleRoom = 40, footRoom = 26, sideRoom = 10; // px in a pane, for what is written there
+export const titleRoom = 40, footRoom = 26, sideRoom = 10; // px in a pane, for text
 
 export class Stage {
     readonly canvas: HTMLCanvasElement;
@@ -70,14 +70,14 @@ export class Stage {
         this.wanted ||= requestAnimationFrame(() => this.drawMoving());
     }
 
-    /// Draws at once, as quickly as may be; what was requested is then done.
+    /// Draws at once, as fast as possible; this also fulfils a pending request.
     drawMoving(): void {
         cancelAnimationFrame(this.wanted);
         clearTimeout(this.resting);
         this.wanted = 0;
         this.draw(Math.min(1, devicePixelRatio), true);
         this.onDrawn();
-        // Counted from here: a slow picture must not be followed by a slower one while the hand still moves.
+        // Counted from here: a slow picture must not be followed by a slower one while the user still drags.
         this.resting = window.setTimeout(() => {
             if (!this.wanted) this.draw(this.stillRatio());
         }, restTime);
@@ -116,13 +116,13 @@ export class Stage {
         }
     }
 
-    /// Waits until the picture stands. Browsers complain of it on the console: for measurements of many pictures.
+    /// Waits until the picture is finished, blocking; browsers warn about it on the console: for measurements only.
     finish(): void {
         const gl = this.renderer.getContext();
         gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));
     }
 
-    /// When the picture stands, give or take some milliseconds.
+    /// Resolves when the picture is finished, to within some milliseconds.
     async finished(): Promise<void> {
         const gl = this.renderer.getContext() as WebGL2RenderingContext, fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
         if (!fence) return; // the context is lost
@@ -147,7 +147,7 @@ export function fit(extent: Extent, {width, height}: Rectangle): number {
     return Math.max(1e-9, Math.min((width - 2 * sideRoom) / (extent.x2 - extent.x1), (height - titleRoom - footRoom) / (extent.y2 - extent.y1)));
 }
 
-/// A grid of panes that shows specimens of this shape as large as may be.
+/// A grid of panes that shows specimens of this aspect ratio as large as possible.
 export function grid(count: number, width: number, height: number, aspect: number): Rectangle[] {
     let best = {columns: 1, size: 0};
     for (let columns = 1; columns <= count; ++columns) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The shared cursor on a chart: thin lines over it at values of its horizontal axis, moved without drawing the chart anew; a
-// click on the chart sends all to that value.
+// The shared cursor on a chart: thin lines at values of its horizontal axis, moved without redrawing the chart. A click on the
+// chart reports the value at that point.
 
 import type {ECharts} from 'echarts/core';
 

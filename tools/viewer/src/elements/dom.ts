@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Elements in one call. Text always goes in as text, never as markup: titles and names come from users' files.
+// Creates HTML and SVG elements in one call. Text is always inserted as text, never as markup: titles and names come from users'
+// files.
 
 type Child = Node | string;
 
@@ -21,7 +22,7 @@ export function svgElement(tag: string, attributes: Record<string, string | numb
     return made;
 }
 
-/// Hands the reader a file made in the page.
+/// Downloads a file made in the page.
 export function saveFile(name: string, type: string, content: BlobPart): void {
     const address = URL.createObjectURL(new Blob([content], {type}));
     element('a', {href: address, download: name}).click();
@@ -54,7 +55,7 @@ export function select<T extends string>(
     return element('label', {class: 'select'}, element('span', {}, label), list);
 }
 
-/// A row of buttons of which one is chosen.
+/// A row of buttons of which one is selected.
 export function choice<T extends string>(
     label: string, options: readonly {value: T; text: string}[], chosen: T, onChange: (value: T) => void,
 ): HTMLElement {

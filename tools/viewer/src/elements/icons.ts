@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Signs of the transport buttons; fonts do not agree on them.
+// Icons of the playback buttons, drawn as SVG because fonts differ in their symbols.
 
 import {svgElement} from './dom';
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A small piece of writing over the WebGL picture, in a layer of its own and touched only when its text changes: a browser
-// without a graphics card pays for every pixel that lies over another.
+// A small SVG with text over the WebGL picture, updated only when its content changes: in a browser without a graphics card
+// every pixel that covers another one costs time.
 
 import {svgElement} from './dom';
 import {SvgSheet, type Rectangle, type Sheet} from './sheet';
@@ -9,7 +9,7 @@ export class TextOverlay {
     readonly svg = svgElement('svg', {class: 'text-overlay', 'aria-hidden': 'true'});
     private last = '';
 
-    /// Writes what falls into a rectangle of the picture.
+    /// Draws the part of the picture's text that lies in a rectangle.
     write({x, y, width, height}: Rectangle, write: (sheet: Sheet) => void): void {
         const group = svgElement('g');
         write(new SvgSheet(group));

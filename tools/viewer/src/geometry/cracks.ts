@@ -66,7 +66,7 @@ function circleFaces(cells: Cells, circle: number, other: number): CrackFace[] {
     return [tick(circle, along(from, normal, radius), normal, 0.6 * radius), tick(other, nearest, normal, 0.6 * radius)];
 }
 
-/// The stretches of two nearly parallel edges that lie over each other, and how far apart they are.
+/// The overlapping parts of two nearly parallel edges, and the distance between them.
 function facing(a: Segment, b: Segment): {first: Segment; second: Segment; length: number; gap: number} | undefined {
     const tangent = unit(minus(a[1], a[0]));
     if (Math.abs(cross(tangent, unit(minus(b[1], b[0])))) > 0.2) return undefined;
@@ -85,7 +85,7 @@ function outlineFaces(cells: Cells, i: number, j: number): CrackFace[] {
     for (const a of edges(cells, i)) {
         for (const b of edges(cells, j)) {
             const found = facing(a, b);
-            // A long overlap counts, a wide gap counts more against it: edges on the far sides lose.
+            // A wide gap weighs more than a long overlap, so that edges on the far sides are not chosen.
             if (found && found.gap < found.length && (!best || found.length - 4 * found.gap > best.length - 4 * best.gap)) best = found;
         }
     }
@@ -111,13 +111,13 @@ export function facesOf(cells: Cells, i: number, j: number): CrackFace[] {
     return outlineFaces(cells, i, j);
 }
 
-/// How far the surfaces of two drawn elements are apart, about: tells which circles of two clumps touched.
+/// Approximate distance of the surfaces of two drawn elements: to find which circles of two clumps touched.
 function gap(cells: Cells, i: number, j: number): number {
     const a = centre(cells, i), b = centre(cells, j);
     return Math.hypot(a.x - b.x, a.y - b.y) - cells.radius[i]! - cells.radius[j]!;
 }
 
-/// One crack a pair of bodies, in the order of their first breaks.
+/// One crack for each pair of bodies, in the order of their first breaks.
 export function findCracks(cells: Cells, events: Events): Crack[] {
     const elementsOf = new Map<number, number[]>(); // several for a clump
     for (let element = 0; element < cells.count; ++element) {
@@ -142,10 +142,10 @@ export function findCracks(cells: Cells, events: Events): Crack[] {
     return [...cracks.values()];
 }
 
-/// One crack as it stands at a time; undefined before its first break.
+/// State of one crack at a time; undefined before its first break.
 export interface CrackState {
     shear: boolean; // most of its breaks were in shear mode
-    parted: boolean; // no bonded point of the interface holds any more
+    parted: boolean; // all bonded points of the interface are broken
     since: number; // s, first break
 }
 

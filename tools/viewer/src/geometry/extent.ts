@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Boxes around specimens.
+// Bounding boxes of specimens.
 
 import {outline} from '../data/cells';
 import type {Frame} from '../data/frames';
@@ -13,8 +13,8 @@ export interface Extent {
     y2: number;
 }
 
-/// The box of a frame. Platens may be far wider than the specimen: they count for its height, not for its width, and what
-/// flies off beyond them is cut off.
+/// The box of a frame. Platens may be far wider than the specimen: they set the height of the box, not its width, and particles
+/// that fly off beyond them are cut off.
 export function extentOf(test: TestData, frame: Frame, magnification: number): Extent {
     const {cells} = test, extent = {x1: Infinity, x2: -Infinity, y1: Infinity, y2: -Infinity};
     const betweenPlatens = cells.platen.includes(1);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which cell lies under a point. The boxes of the cells of one frame are indexed when the first click asks for them.
+// Finds the cell at a point. The bounding boxes of the cells of one frame are indexed at the first click.
 
 import Flatbush from 'flatbush';
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Rigid motion of the cells since the first frame, with displacements magnified.
 //   corner' = centre + m u + R(φ)(corner - centre),   φ = max(|angle|, min(m |angle|, 0.5)) in the sense of the angle
-// u displacement [m], m magnification. Angles are magnified only while they stay small: a magnified turn beyond half a
-// radian says nothing, and less than the true one would lie.
+// u displacement [m], m magnification. Angles are magnified only while they stay small: a magnified rotation beyond
+// half a radian has no meaning, and one smaller than the true rotation would be wrong.
 
 import type {Cells, Point} from '../data/cells';
 import type {Frame} from '../data/frames';
@@ -14,7 +14,7 @@ export function magnifiedAngle(angle: number, magnification: number): number {
     return Math.sign(angle) * Math.max(size, Math.min(magnification * size, largestMagnifiedAngle));
 }
 
-/// Carries points of the first frame along with one cell.
+/// Maps points of the first frame to where one cell has moved them.
 export type Mover = (point: Point) => Point;
 
 export function moverOf(cells: Cells, frame: Frame, cell: number, magnification: number): Mover {

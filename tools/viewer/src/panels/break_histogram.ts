@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bond breaks counted in equal intervals of axial strain, by mode: what an acoustic-emission monitor would show.
+// Bond breaks counted in equal intervals of axial strain, by mode, as an acoustic-emission monitor would show them.
 
 import type {Events} from '../data/report';
 

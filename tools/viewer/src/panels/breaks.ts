@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where and which way bonds broke, a card a test: the map of breaks (what an acoustic-emission array would locate) and the rose
-// of crack directions.
+// Positions and directions of bond breaks, a card for each test: the map of breaks (as an acoustic-emission array would locate
+// them) and the rose of crack directions.
 
 import {BarChart} from 'echarts/charts';
 import {PolarComponent} from 'echarts/components';
@@ -49,9 +49,9 @@ function saveButton(name: string, chart: () => ECharts): HTMLElement {
     return save;
 }
 
-/// The card; its charts are drawn once it stands in the page.
+/// The card; its charts are drawn after it has been inserted into the page.
 export function breakCard({test, label}: LabelledTest, colour: MapColour, theme: Theme): {element: HTMLElement; draw: () => ECharts[]} {
-    const map = element('div', {class: 'map', role: 'img', 'aria-label': `Places of ${test.events.count} breaks in ${label}`});
+    const map = element('div', {class: 'map', role: 'img', 'aria-label': `Positions of ${test.events.count} breaks in ${label}`});
     const rose = element('div', {class: 'rose', role: 'img', 'aria-label': `Directions of the cracks in ${label}`});
     const charts: ECharts[] = [];
     const largest = largestOf(test.events.energy);
@@ -81,7 +81,7 @@ function drawMap(container: HTMLElement, test: TestData, colour: MapColour, larg
     const inner = (extent.x2 - extent.x1) * perMetre;
     const energies = sumOf(events.energy) / (largest || 1);
     const widest = Math.min(largestMark, Math.sqrt(covered * inner * (extent.y2 - extent.y1) * perMetre * 4 / Math.PI / Math.max(1e-9, energies)));
-    // Large ones first, so that none hides behind another.
+    // Large ones first, so that they do not hide small ones.
     const order = Array.from({length: events.count}, (_, event) => event).sort((a, b) => events.energy[b]! - events.energy[a]!);
     chart.setOption({
         animation: false, grid: {left, width: inner, top, bottom},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One panel: stress-strain curves of its tests overlaid, and beneath, on the same strain axis, a strip for each test with
-// its bond breaks a strain interval (stacked by mode, left axis) and the breaks so far (line, right axis).
+// One panel: stress-strain curves of its tests overlaid, and below, on the same strain axis, a strip for each test with its bond
+// breaks per strain interval (stacked by mode, left axis) and the cumulative number of breaks (line, right axis).
 // Stresses are shown positive in a test's own sense: compression in compression tests, tension in tension tests.
 
 import {CustomChart, LineChart, ScatterChart} from 'echarts/charts';
@@ -256,7 +256,7 @@ export function panelCursor(chart: ECharts, onClick: (strain: number) => void): 
     return new Cursor(chart, top, bottom, onClick);
 }
 
-/// The panel as a file for a paper: SVG text.
+/// The panel as SVG text, for a file.
 export function panelAsSvg(chart: ECharts): string {
     const address = chart.getDataURL({type: 'svg'});
     return decodeURIComponent(address.slice(address.indexOf(',') + 1));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The fragments at the end: cells joined by unbroken bonds. A drawing coloured by fragment, and how much of the specimen each
-// of the largest holds.
+// The fragments at the end: groups of cells joined by unbroken bonds. A drawing coloured by fragment, and the share of the
+// specimen's area of each of the largest.
 
 import {categoricalPalette, categoryColour, css} from '../colours/palettes';
 import type {Theme} from '../colours/theme';
@@ -17,7 +17,7 @@ const drawnWidth = 300;
 const listed = 6;
 
 interface Fragment {
-    particles: number; // a clump is one
+    particles: number; // a clump counts as one
     area: number; // m²
 }
 

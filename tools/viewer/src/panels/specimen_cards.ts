@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The figure of specimens: a card for each test with the drawings of start, peak and end side by side, all at one scale.
+// Cards of the specimens: for each test the drawings at start, peak and end side by side, all at one scale.
 
 import type {Theme} from '../colours/theme';
 import type {Frame} from '../data/frames';
@@ -62,7 +62,7 @@ export function drawings(moments: Moments[], magnification: number, theme: Theme
     const extents = drawn.map(({view, frames}) => extentOfMoments(view.test, frames, magnification));
     const scales = extents.map((extent, index) => Math.min(drawnHeight / (extent.y2 - extent.y1),
         (cardWidth / drawn[index]!.frames.length - 16) / (extent.x2 - extent.x1)));
-    // One scale for all, unless sizes differ so much that small specimens would be lost.
+    // One scale for all, unless sizes differ so much that small specimens would be hard to see.
     const smallest = Math.min(...scales), shared = Math.max(...scales) < 2 * smallest;
     return drawn.map((one, index) => card(one, extents[index]!, shared ? smallest : scales[index]!, magnification, theme));
 }

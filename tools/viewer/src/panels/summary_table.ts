@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The summaries side by side: a row a quantity with its unit, a column a test, values of a row in one unit.
+// The table of summaries: a row for each quantity with its unit, a column for each test, all values of a row in one unit.
 
 import {numberOf, type TestData} from '../data/report';
 import {capitalised, sortedBy, specimenName, type LabelledTest} from '../data/test_labels';
@@ -11,14 +11,14 @@ type Read = (test: TestData) => number | undefined;
 
 interface Row {
     name: string;
-    note?: string; // said on hovering
+    note?: string; // shown on hovering
     cells: (tests: TestData[]) => {unit: string; values: (string | undefined)[]};
 }
 
 const key = (name: string): Read => (test) => numberOf(test.summary, name);
 const either = (...names: string[]): Read => (test) => names.map((name) => numberOf(test.summary, name)).find((value) => value !== undefined);
 
-/// In one SI prefix for the row.
+/// All values of the row with one SI prefix.
 function measured(name: string, unit: string, read: Read, note?: string): Row {
     return {
         name, ...(note ? {note} : {}),
@@ -67,7 +67,7 @@ const errorRows = (number: string, title: string): Row[] => [
     percent(`${title}: stated`, errorOf(number, 'stated'), 'covers 95 of 100 runs however slow (crackle test --verify)'),
     percent(`${title}: time step`, errorOf(number, 'time_step'), 'change at half the time step'),
     percent(`${title}: loading rate`, errorOf(number, 'rate'), 'change at half the rate'),
-    percent(`${title}: damping`, errorOf(number, 'damping'), 'largest change at half and at double the damping; physics as much as error'),
+    percent(`${title}: damping`, errorOf(number, 'damping'), 'largest change at half and at double the damping; a physical effect as well as an error'),
     percent(`${title}: energy closing`, errorOf(number, 'energy_closing'), 'of the platens’ work; of the modulus: residual of the solve'),
 ];
 
@@ -84,7 +84,7 @@ const groups: readonly {title: string; rows: readonly Row[]}[] = [
     {title: 'Stiffness', rows: [
         measured('Young’s modulus E', 'N/m', key('youngs_modulus'), 'small strain, all bonds intact and sticking: sparse solve'),
         plain('Poisson’s ratio ν', key('poissons_ratio')),
-        measured('Initial tangent modulus', 'N/m', key('initial_tangent_modulus'), 'over the first twentieth of the strain at peak'),
+        measured('Initial tangent modulus', 'N/m', key('initial_tangent_modulus'), 'over the first 5 % of the strain at peak'),
         measured('Tangent modulus at half the peak', 'N/m', key('tangent_modulus_50')),
     ]},
     {title: 'Strength', rows: [

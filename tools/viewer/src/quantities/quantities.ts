@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// By what particles may be coloured: a value a cell and frame, its unit, and the arrays it is made from.
+// Quantities by which particles can be coloured: a value for each cell and frame, its unit, and the arrays it is computed from.
 
 import type {Cells} from '../data/cells';
 import type {Frame, Frames} from '../data/frames';
 
 export type Scaling =
-    | 'sequential' // from nought up
-    | 'diverging' // two signs, nought in the middle
+    | 'sequential' // from zero up
+    | 'diverging' // two signs, zero in the middle
     | 'categorical'; // whole numbers from 0
 
 export interface Quantity {
@@ -27,7 +27,7 @@ function quantity(key: string, name: string, unit: string, scaling: Scaling, nee
         key, name, unit, scaling, needs, value,
         of: (frame) => {
             const arrays = needs.map((need) => frame.field(need));
-            if (arrays.some((array) => !array)) return () => 0; // the first frame before its block has come
+            if (arrays.some((array) => !array)) return () => 0; // the first frame, before its block is loaded
             const [a, b, c] = arrays as [Values, Values?, Values?];
             return (cell) => value(a[cell]!, b?.[cell] ?? 0, c?.[cell] ?? 0);
         },
@@ -59,8 +59,8 @@ const all: readonly Quantity[] = [
     quantity('stress_shear', 'Stress, largest shear', 'N/m', 'sequential', stress, radius),
 ];
 
-/// Those whose arrays a test has. @param meanVelocities  velocities are those between two frames
+/// The quantities whose arrays a test has. @param meanVelocities  velocities are those between two frames
 export function quantitiesOf(frames: Frames, meanVelocities: boolean): Quantity[] {
     return all.filter(({needs}) => needs.every((need) => frames.has(need)))
-        .map((one) => (meanVelocities && /^(velocity|rate)/.test(one.key) ? {...one, name: `${one.name}, mean since the frame before`} : one));
+        .map((one) => (meanVelocities && /^(velocity|rate)/.test(one.key) ? {...one, name: `${one.name}, mean since the previous frame`} : one));
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Ranges of the colour scale: of one frame, or of all frames of all shown tests. A range leaves out the farthest two per cent
-// of the values (splinters that fly off would leave one colour to all others); legends mark such ends with ≤ and ≥.
+// Ranges of the colour scale: of one frame, or of all frames of all shown tests. A range excludes the largest two per cent of
+// the values (otherwise splinters that fly off would leave a single colour for all others); legends mark such ends with ≤ and ≥.
 
 import type {Cells} from '../data/cells';
 import type {Frame, Frames} from '../data/frames';
@@ -13,7 +13,7 @@ export interface Range {
     most: number;
 }
 
-const leftOut = 0.02;
+const excluded = 0.02;
 const samplesWanted = 60000;
 const framesSampled = 60;
 
@@ -37,7 +37,7 @@ class Values {
     range(quantity: Quantity): Range {
         if (this.samples.length === 0) return {low: 0, high: 0, least: 0, most: 0};
         const largest = Math.max(Math.abs(this.least), Math.abs(this.most)), kept = upper(this.samples);
-        // A tail that hardly reaches farther is no reason to cut.
+        // A tail that is only slightly longer is not cut off.
         const high = largest > 1.3 * kept && kept > 0 ? kept : largest;
         return {low: quantity.scaling === 'diverging' ? -high : 0, high, least: this.least, most: this.most};
     }
@@ -45,7 +45,7 @@ class Values {
 
 function upper(samples: readonly number[]): number {
     const sorted = Float64Array.from(samples).sort();
-    return sorted[Math.floor((1 - leftOut) * (sorted.length - 1))] ?? 0;
+    return sorted[Math.floor((1 - excluded) * (sorted.length - 1))] ?? 0;
 }
 
 export function rangeOfFrames(frames: readonly {frame: Frame; cells: Cells}[], quantity: Quantity): Range {
@@ -76,9 +76,9 @@ export function joined(ranges: readonly Range[]): Range {
     return {low: over('low', 0, Math.min), high: over('high', 0, Math.max), least: over('least', Infinity, Math.min), most: over('most', -Infinity, Math.max)};
 }
 
-/// The scale of contact forces, N: its end leaves out the largest two per cent of the forces that are not nought.
+/// The scale of contact forces, N: its end excludes the largest two per cent of the non-zero forces.
 export interface ForceScale {
-    end: number; // 0: there are none
+    end: number; // 0: no forces
     largest: number;
 }
 

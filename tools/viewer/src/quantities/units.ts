@@ -14,18 +14,18 @@ export interface Scale {
     unit: string; // with its prefix
 }
 
-/// Units that particle files and decks leave to whoever wrote them; angles and times are told all the same.
-const unknowable = /^(m|m²|m\/s|N|N\/m)$/;
+/// Units that particle files and decks do not define; angles and times always have units.
+const undefinedUnits = /^(m|m²|m\/s|N|N\/m)$/;
 let unitsKnown = true;
 
-/// From here on lengths and forces are shown as the numbers they are: a page that has more than tests.
-export function forgetUnits(): void {
+/// From here on lengths and forces are shown as plain numbers: for a page that shows more than tests.
+export function useFileUnits(): void {
     unitsKnown = false;
 }
 
 /// The prefix that puts the largest of the values between 1 and 1000.
 export function scaleFor(values: readonly (number | undefined)[], unit: string): Scale {
-    if (!unitsKnown && unknowable.test(unit)) return {factor: 1, unit: 'file’s units'};
+    if (!unitsKnown && undefinedUnits.test(unit)) return {factor: 1, unit: 'file’s units'};
     const largest = Math.max(0, ...values.map((value) => Math.abs(value ?? 0)).filter(Number.isFinite));
     const [factor, prefix] = (largest > 0 && prefixes.find(([size]) => largest >= size * 0.9995)) || ([1, ''] as const);
     return {factor, unit: prefix + unit};
@@ -68,7 +68,7 @@ export function counted(value: number | undefined): string {
     return withMinus(Math.round(value).toString()).replace(/\B(?=(\d{3})+$)/g, thinSpace);
 }
 
-/// A quantity with its unit, prefix chosen for it alone.
+/// A quantity with its unit and a prefix chosen for this value.
 export function quantity(value: number | undefined, unit: string, digits = 3, resolution = 0): string {
     if (value === undefined) return missing;
     const scale = scaleFor([value], unit);
