@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reports of made-up results, opened in headless Chromium: what the page shows is what the files say.
+// Reports of made-up results, opened in headless Chromium: what the page shows agrees with the files.
 //   CRACKLE_PROGRAM, SAMPLE_RESULTS: the programs; CHROMIUM: the browser
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
@@ -87,7 +87,7 @@ test('bars of bond breaks add up to the events, mode by mode', async () => {
     await close();
 });
 
-test('each specimen stands at start, peak and end with all its particles, its platens and its broken bonds', async () => {
+test('each specimen is drawn at start, peak and end with all its particles, its platens and its broken bonds', async () => {
     const {page, close} = await open('six.html');
     for (const folder of sixFolders) {
         const {summary, curve, events} = results(join(root, folder));
@@ -143,7 +143,7 @@ test('the table states the summaries in one unit a row', async () => {
     await close();
 });
 
-test('a test that has not failed says so, beside the curve, in the table and by its drawings', async () => {
+test('a test that has not failed is marked as such, beside the curve, in the table and by its drawings', async () => {
     const {page, close} = await open('stopped.html');
     assert.match(await page.locator('.notice.warning').textContent(), /^Not failed: Voronoi, compression \(ended by max_axial_strain\)\. .*peak so far/);
     assert.match(await page.locator('[data-panel]').textContent(), /peak so far/);
@@ -179,7 +179,7 @@ test('light and dark, laptop and tablet width: readable, nothing runs off the si
             }
             assert.ok(overflow <= 0, `${colorScheme}, ${width} px: runs ${overflow} px off the side`);
         }
-        // The page takes a new scheme over when it draws next.
+        // The page applies a new scheme when it draws next.
         await page.waitForFunction((scheme) => document.documentElement.dataset.shown === scheme, colorScheme, {timeout: 20000});
         const [paper, ink] = await page.evaluate(() => {
             const style = getComputedStyle(document.body);

@@ -46,7 +46,7 @@ function vtkArray(text, name, nth = 0) {
     return Array.from(new {Float64: Float64Array, Float32: Float32Array, Int32: Int32Array, Int64: BigInt64Array}[type](buffer), Number);
 }
 
-/// Particles of a frame by number: place (mean of the outline), radius, velocity and shear stress. Lines (platens) stand before polygons.
+/// Particles of a frame by number: place (mean of the outline), radius, velocity and shear stress. Lines (platens) precede polygons.
 export function particles(file) {
     const text = readFileSync(file, 'utf8');
     const points = vtkArray(text, 'points'), ids = vtkArray(text, 'id'), radii = vtkArray(text, 'radius'), velocity = vtkArray(text, 'velocity'), shear = vtkArray(text, 'stress_xy');

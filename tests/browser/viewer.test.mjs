@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The viewer in headless Chromium with WebGL in software: what it shows, tells and saves is what the files say.
+// The viewer in headless Chromium with WebGL in software: what it shows, prints and saves agrees with the files.
 //   CRACKLE_PROGRAM, SAMPLE_RESULTS: the programs; SPECIMENS: folder of cases and decks; CHROMIUM: the browser
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
@@ -82,11 +82,11 @@ test('plays, pauses, steps and scrubs', async () => {
     await settled(page);
     const paused = await frameNow(page);
     await page.waitForTimeout(400);
-    assert.equal(await frameNow(page), paused, 'it stands while it is paused');
-    await page.click('button[aria-label="Frame on"]');
+    assert.equal(await frameNow(page), paused, 'the frame does not change while paused');
+    await page.click('button[aria-label="Next frame"]');
     await settled(page);
     assert.equal(await frameNow(page), paused + 1, 'a step on');
-    await page.click('button[aria-label="Frame back"]');
+    await page.click('button[aria-label="Previous frame"]');
     await settled(page);
     assert.equal(await frameNow(page), paused, 'a step back');
     const last = Number(await page.locator('.scrub').getAttribute('max'));
@@ -131,7 +131,7 @@ test('each colouring has its legend with unit, and its own picture', async () =>
     await close();
 });
 
-test('a picked particle tells the values of the file', async () => {
+test('a picked particle shows the values of the file', async () => {
     const {page, close} = await open('pulled.html');
     await page.locator('.scrub').fill(await page.locator('.scrub').getAttribute('max'));
     await settled(page);
@@ -148,11 +148,11 @@ test('a picked particle tells the values of the file', async () => {
         assert.ok(Math.abs(got - expected) < 0.01 * expected + 2e-6, `particle ${id}: displacement: expected ${expected}, got ${got}`);
         const radius = Number(await page.locator('[data-value="radius"]').getAttribute('data-number'));
         assert.ok(Math.abs(radius - a.radius) < 1e-6 * a.radius, `particle ${id}: radius: expected ${a.radius}, got ${radius}`);
-        // Told to 0.4 % of themselves, however small.
+        // Shown to 0.4 % of themselves, however small.
         for (const [key, value] of [['velocity', b.velocity], ['stress_shear', b.shear]]) {
-            const told = Number(await page.locator(`[data-value="${key}"]`).getAttribute('data-number'));
-            console.log(`  particle ${id}: ${key} expected ${value}, got ${told}`);
-            assert.ok(Math.abs(told - value) <= 0.005 * Math.abs(value), `particle ${id}: ${key}: expected ${value}, got ${told}`);
+            const printed = Number(await page.locator(`[data-value="${key}"]`).getAttribute('data-number'));
+            console.log(`  particle ${id}: ${key} expected ${value}, got ${printed}`);
+            assert.ok(Math.abs(printed - value) <= 0.005 * Math.abs(value), `particle ${id}: ${key}: expected ${value}, got ${printed}`);
         }
     }
     await page.locator('.history svg path[stroke-width="1.4"]').waitFor({state: 'attached', timeout: 10000});
@@ -202,25 +202,25 @@ test('saves the animation as GIF, a frame a moment, and as a video', {timeout: 2
     await close();
 });
 
-test('a GIF of more than 200 moments has 200, evenly chosen, the last among them', {timeout: 240000}, async () => {
+test('a GIF of more than 200 moments has 200, evenly spaced, including the last', {timeout: 240000}, async () => {
     const {page, close} = await open('many.html', {viewport: {width: 480, height: 400}});
     const moments = Number(await page.locator('.scrub').getAttribute('max')) + 1;
     assert.ok(moments > 200 && moments < 400, `expected some more than 200 moments, got ${moments}`);
     await page.evaluate(() => {
-        window.said = [];
-        new MutationObserver(() => window.said.push(document.querySelector('.busy').textContent)).observe(document.querySelector('.busy'), {childList: true, characterData: true, subtree: true});
+        window.reported = [];
+        new MutationObserver(() => window.reported.push(document.querySelector('.busy').textContent)).observe(document.querySelector('.busy'), {childList: true, characterData: true, subtree: true});
     });
     const saving = saved(page, 'gif');
-    await page.waitForFunction(() => window.said.length > 0);
+    await page.waitForFunction(() => window.reported.length > 0);
     assert.ok(await page.locator('button[data-save="png"]').isDisabled(), 'one saving at a time');
     const {frames} = gifSize(readFileSync((await saving).file));
     await page.locator('button[data-save="png"]:enabled').waitFor();
-    const taken = (await page.evaluate(() => window.said)).filter((text) => text !== '').map((text) => Number(text.match(/Frame (\d+) of/)[1]));
+    const taken = (await page.evaluate(() => window.reported)).filter((text) => text !== '').map((text) => Number(text.match(/Frame (\d+) of/)[1]));
     const steps = new Set(taken.slice(1).map((frame, at) => frame - taken[at]));
     console.log(`  ${moments} moments: ${frames} frames, from ${taken[0]} to ${taken.at(-1)}, ${[...steps].join(' or ')} apart`);
     assert.deepEqual([frames, taken.length, taken[0], taken.at(-1)], [200, 200, 1, moments]);
     assert.deepEqual([...steps].sort(), [1, 2]);
-    assert.equal(await frameNow(page), 0, 'the clock stands where it stood');
+    assert.equal(await frameNow(page), 0, 'the clock is back at its start');
     await close();
 });
 
@@ -336,9 +336,9 @@ test('several tests side by side and overlaid, by one clock', async () => {
     const last = Math.max(...(await shown(page)).map(({test: name}) => results(join(root, name)).curve.at(-1).time));
     await choose(page, 'cracks-by', 'time');
     const legend = (await page.locator('.stage').textContent()).match(/Time of first break\s*0\s*([\d.]+)\s*(µs|ms|s)/);
-    const told = Number(legend[1]) * {s: 1, ms: 1e-3, µs: 1e-6}[legend[2]];
-    console.log(`  legend's end: expected ${last} s, got ${told} s`);
-    assert.ok(Math.abs(told - last) < 0.006 * last, `expected ${last}, got ${told}`);
+    const printed = Number(legend[1]) * {s: 1, ms: 1e-3, µs: 1e-6}[legend[2]];
+    console.log(`  legend's end: expected ${last} s, got ${printed} s`);
+    assert.ok(Math.abs(printed - last) < 0.006 * last, `expected ${last}, got ${printed}`);
     await choose(page, 'layout', 'one');
     await choose(page, 'test', '4');
     const [{test: only}] = await shown(page);
@@ -361,7 +361,7 @@ test('a particle file: a still picture of all particles, no curves, nothing to p
     await close();
 });
 
-test('a polygon with a notch is filled to its outline and no farther', async () => {
+test('a polygon with a notch is filled exactly to its outline', async () => {
     const {page, close} = await open('notched.html');
     await page.click('[data-layer="outlines"]');
     await page.click('[data-layer="platens"]');

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Recordings as the text that the page carries: a manifest in JSON, and blocks of numbers, compressed with zlib and
-// written as base64. tools/viewer/src/data.ts reads the same layout.
+// written as base64. tools/viewer/src/data/report.ts reads the same layout.
 //
 // Block 0 of a recording holds plain little-endian arrays, each on a multiple of eight bytes: what never moves, the
 // curve and the breaks. Each further block holds up to 16 frames: for each quantity of cells or bonds a table of whole

@@ -19,7 +19,7 @@ struct Colour {
 /// "#rrggbb"
 Colour colour(const char* hex);
 
-// As in the report (tools/viewer/src/theme.ts): told apart with any colour vision.
+// As in the report (tools/viewer/src/colours/theme.ts): distinguishable with any colour vision.
 inline const Colour ink = colour("#1d2125"), tension_colour = colour("#0072b2"), shear_colour = colour("#d55e00");
 
 struct Point {

@@ -18,7 +18,7 @@ constexpr double strain_unit = 1e-3;
 constexpr const char* strain_title = "axial strain, 10⁻³";
 constexpr double curve_width = 0.9, thin = 0.6;  // pt
 
-// As in the report (tools/viewer/src/theme.ts): told apart with any colour vision.
+// As in the report (tools/viewer/src/colours/theme.ts): distinguishable with any colour vision.
 const std::array<Colour, 8> series{colour("#22262a"), colour("#00896b"), colour("#aa3377"), colour("#8a6d00"),
                                    colour("#6a51a3"), colour("#737a80"), colour("#a6611a"), colour("#33a3c2")};
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bundles src/ into one page template without a single outside reference: page.html with script (packed) and style inlined.
+// Bundles src/ into one page template without outside references: page.html with script (packed) and style inlined.
 // `crackle report` and `crackle view` put a manifest, the first block of each test and all further blocks at the markers.
 //   node build.mjs [output file, default dist/page.html]
 import {build} from 'esbuild';
@@ -34,7 +34,7 @@ const template = await readFile(join(here, 'src', 'page.html'), 'utf8');
 const filled = template
     .replace('@CRACKLE_STYLE@', () => style.trim())
     .replace('@CRACKLE_SCRIPT@', () => deflateSync(script, {level: 9}).toString('base64'))
-    // An HTML parser ends the script at the first such tag, wherever it stands.
+    // An HTML parser ends the script at the first such tag, even inside a string.
     .replace('@CRACKLE_LOADER@', () => loader.trim().replaceAll('</script', '<\\/script'));
 for (const marker of ['@CRACKLE_DATA@', '@CRACKLE_FIRST@', '@CRACKLE_REST@']) {
     const found = filled.split(marker).length - 1;

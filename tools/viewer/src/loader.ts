@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The page's script is packed like its data, to a third of its size. This part alone is readable as it stands: it unpacks
-// the rest and runs it.
+// The page's script is compressed like its data, to a third of its size. Only this part is plain: it unpacks the rest and runs
+// it.
 
-import {unpacked} from './blocks';
+import {unpacked} from './data/blocks';
 
 async function load(): Promise<void> {
     const script = document.createElement('script');

@@ -1,29 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Builds the page: title, curves, viewer, breaks, fragments, summaries, drawings; draws the figures anew when theme, view, size
-// or paper change.
+// Builds the page: title, curves, viewer, breaks, fragments, summaries, drawings; redraws the figures when theme, view or size
+// change and for printing.
 
 import type {ECharts} from 'echarts/core';
 
-import {breakCard, type MapColour} from './breaks';
-import {particleCount} from './cells';
-import {momentOfStrain} from './clock';
-import type {Cursor} from './cursor';
-import {drawPanel, panelAsSvg, panelCursor} from './curves';
-import {readReport, type CurvedTest, type Report} from './data';
-import {button, choice, element, saveFile} from './dom';
-import {drawings, momentsOf, type Moments, magnifications} from './drawings';
-import {fragmentCard} from './fragments';
-import {panels, sortedBy, style, viewsFor, withCurve, type Panel, type Styled, type View} from './grouping';
-import {expose} from './hook';
-import {Inspector} from './inspector';
-import {listen} from './keyboard';
-import {directionWidth} from './rose';
-import {SpecimenView} from './specimen_view';
-import {summaryTable} from './table';
-import {currentTheme} from './theme';
-import {counted, forgetUnits, strainFactor} from './units';
-import {Viewer} from './viewer';
-import {ViewerControls} from './viewer_controls';
+import {currentTheme} from './colours/theme';
+import {momentOfStrain} from './controls/clock';
+import {Inspector} from './controls/inspector';
+import {listen} from './controls/keyboard';
+import {expose} from './controls/test_access';
+import {Viewer} from './controls/viewer';
+import {ViewerControls} from './controls/viewer_controls';
+import {particleCount} from './data/cells';
+import {readReport, type CurvedTest, type Report} from './data/report';
+import {labelTests, sortedBy, withCurve, type LabelledTest} from './data/test_labels';
+import {SpecimenView} from './drawing/specimen_view';
+import type {Cursor} from './elements/chart_cursor';
+import {button, choice, element, saveFile} from './elements/dom';
+import {breakCard, type MapColour} from './panels/breaks';
+import {directionWidth} from './panels/crack_directions';
+import {drawPanel, panelAsSvg, panelCursor} from './panels/curves';
+import {fragmentCard} from './panels/fragments';
+import {panels, viewsFor, type Panel, type View} from './panels/grouping';
+import {drawings, momentsOf, type Moments, magnifications} from './panels/specimen_cards';
+import {summaryTable} from './panels/summary_table';
+import {counted, strainFactor, useFileUnits} from './quantities/units';
 
 const viewNames: Record<View, string> = {kind: 'Kind of test', specimen: 'Specimen', test: 'Each test'};
 
@@ -41,7 +42,7 @@ interface Chart {
 class Page {
     private charts: Chart[] = [];
     private readonly state: State = {view: 'kind', magnification: 1};
-    private readonly tests: Styled[];
+    private readonly tests: LabelledTest[];
     private readonly views: SpecimenView[];
     private viewer: Viewer | undefined;
     private controls: ViewerControls | undefined;
@@ -55,14 +56,14 @@ class Page {
     private readonly cardHolder = element('div', {class: 'cards'});
 
     constructor(private readonly report: Report, private readonly root: HTMLElement) {
-        this.tests = style(report.tests);
-        this.views = this.tests.map((styled) => new SpecimenView(styled));
+        this.tests = labelTests(report.tests);
+        this.views = this.tests.map((labelled) => new SpecimenView(labelled));
         document.title = report.title;
         document.documentElement.dataset['view'] = report.view;
         this.layOut();
     }
 
-    /// Draws what needs no frames, the viewer first; then what must wait for them.
+    /// Draws the parts that need no frames, the viewer first; then the parts that need them.
     async draw(): Promise<void> {
         this.applyTheme();
         if (this.viewer) {
@@ -80,7 +81,7 @@ class Page {
 
     private layOut(): void {
         this.fragmentSection.append(element('h2', {}, 'Fragments at the end'), this.fragmentHolder,
-            element('p', {class: 'caption'}, 'Particles joined by unbroken bonds share a colour; the largest fragment has the colour of grain.'));
+            element('p', {class: 'caption'}, 'Particles joined by unbroken bonds share a colour; the largest fragment is drawn in the neutral particle colour.'));
         const curved = withCurve(this.tests);
         const unfinished = curved.filter(({test}) => !test.failed);
         const curves = curved.length === 0 ? [] : [this.curveSection(curved)];
@@ -97,19 +98,19 @@ class Page {
             element('footer', {}, `Made by crackle ${this.report.version}. Strictly 2D: stresses and moduli are forces per unit length, N/m.`));
     }
 
-    private curveSection(curved: Styled<CurvedTest>[]): HTMLElement {
+    private curveSection(curved: LabelledTest<CurvedTest>[]): HTMLElement {
         const views = viewsFor(curved.map(({test}) => test)).map((value) => ({value, text: viewNames[value]}));
         return element('section', {id: 'curves'},
             element('h2', {}, 'Stress, strain and bond breaks'),
             element('div', {class: 'controls'}, ...(views.length > 1 ? [choice('One panel for each', views, this.state.view, (value) => {
                 this.state.view = value;
                 this.drawCurves();
-            })] : []), element('span', {class: 'hint'}, 'A click sends the specimens to that strain. Shift and wheel zoom the strain axis, dragging moves it, a double click shows all.')),
+            })] : []), element('span', {class: 'hint'}, 'Click to show the specimens at that strain. Shift and wheel zoom the strain axis, dragging moves it, a double click resets it.')),
             this.panelHolder,
             element('p', {class: 'caption'},
                 'Stress is the mean of the two platens’ forces over the initial width, strain the platen displacement over the initial height, both positive in ',
-                'the test’s own sense. Beneath each: bonds broken in each interval of strain, by mode (', mark('tension'), ' tension, ', mark('shear'), ' shear), ',
-                'and bonds broken so far as a line.'));
+                'the test’s own sense. Below the curves: bonds broken in each interval of strain, by mode (', mark('tension'), ' tension, ', mark('shear'), ' shear), ',
+                'and the total so far as a line.'));
     }
 
     private viewerSection(): HTMLElement {
@@ -123,7 +124,7 @@ class Page {
         try {
             this.viewer = new Viewer(shown, large);
         } catch (error) {
-            section.append(element('p', {class: 'notice warning'}, `This browser draws no WebGL 2, so the specimens do not move here: ${String(error)}`));
+            section.append(element('p', {class: 'notice warning'}, `This browser does not support WebGL 2, so the specimens in motion are not shown: ${String(error)}`));
             return section;
         }
         const {viewer} = this, controls = new ViewerControls(viewer), inspector = new Inspector(viewer);
@@ -141,21 +142,21 @@ class Page {
 
     private breakSection(): HTMLElement {
         return element('section', {id: 'breaks'},
-            element('h2', {}, 'Where bonds broke, and which way'),
+            element('h2', {}, 'Positions and directions of bond breaks'),
             element('div', {class: 'controls'}, choice('Colour by', [{value: 'mode', text: 'Mode'}, {value: 'time', text: 'Time'}], this.mapColour, (colour) => {
                 this.mapColour = colour as MapColour;
                 this.drawBreaks();
             })),
             this.breakHolder,
-            element('p', {class: 'caption'}, 'Left: each broken bond at its place, the area of its circle as its energy (', mark('tension'), ' tension, ', mark('shear'),
-                ' shear, or dark early and bright late). Right: directions in which the cracks run, that is across the contacts’ normals; breaks in each ',
-                `${directionWidth}°, counted both ways. The loading axis is at 90°.`));
+            element('p', {class: 'caption'}, 'Left: position of each broken bond, the area of its circle proportional to its energy (', mark('tension'), ' tension, ', mark('shear'),
+                ' shear; by time: dark is early, bright is late). Right: directions of the cracks, perpendicular to the contact normals; breaks in each ',
+                `${directionWidth}°, counted in both directions. The loading axis is at 90°.`));
     }
 
     private drawBreaks(): void {
         for (const chart of this.breakCharts) chart.dispose();
         const theme = currentTheme();
-        const cards = sortedBy('specimen', this.tests.filter(({test}) => test.events.count > 0)).map((styled) => breakCard(styled, this.mapColour, theme));
+        const cards = sortedBy('specimen', this.tests.filter(({test}) => test.events.count > 0)).map((labelled) => breakCard(labelled, this.mapColour, theme));
         this.breakHolder.replaceChildren(...cards.map(({element: card}) => card));
         this.breakCharts = cards.flatMap(({draw}) => draw());
     }
@@ -174,7 +175,7 @@ class Page {
                 this.state.magnification = Number(value);
                 this.drawSpecimens();
             }), element('span', {class: 'legend'}, 'Broken in ', mark('tension'), ' tension, ', mark('shear'),
-                ' shear; dotted: some bonded points of the interface still hold.')),
+                ' shear; dotted: some bonded points of the interface are still intact.')),
             this.cardHolder);
     }
 
@@ -186,7 +187,7 @@ class Page {
     }
 
     private themeButton(): HTMLElement {
-        return button('Light / dark', 'Change between light and dark', () => {
+        return button('Light / dark', 'Switch between light and dark', () => {
             document.documentElement.dataset['theme'] = currentTheme().name === 'dark' ? 'light' : 'dark';
             this.redraw();
         }, {class: 'theme'});
@@ -236,7 +237,7 @@ class Page {
         this.moveCursors();
     }
 
-    /// Each curve's cursor stands at the frame that its specimen shows.
+    /// Moves each curve's cursor to the frame that its specimen shows.
     private moveCursors(): void {
         const theme = currentTheme();
         for (const {panel, cursor} of this.charts) {
@@ -253,7 +254,7 @@ class Page {
         const ofPanel = ({test}: SpecimenView) => panel.members.some((member) => member.test === test);
         let view = viewer.chosen.find(ofPanel);
         if (!view) {
-            // None of the panel's tests is shown: then its first one is.
+            // None of the panel's tests is shown: show its first one.
             view = viewer.tests.find(ofPanel);
             if (!view) return;
             viewer.choose({test: viewer.tests.indexOf(view)});
@@ -276,7 +277,7 @@ class Page {
             if (printing) document.documentElement.dataset['printing'] = 'true';
             else delete document.documentElement.dataset['printing'];
             this.redraw();
-            this.viewer?.picture.stage.drawStill(); // paper takes what stands there now
+            this.viewer?.picture.stage.drawStill(); // the printer uses the current picture
         };
         addEventListener('beforeprint', () => paper(true));
         addEventListener('afterprint', () => paper(false));
@@ -299,7 +300,7 @@ async function start(): Promise<void> {
     const root = document.getElementById('page')!;
     try {
         const report = await readReport(document.getElementById('crackle-data'));
-        if (report.tests.some(({source}) => source !== 'test')) forgetUnits();
+        if (report.tests.some(({source}) => source !== 'test')) useFileUnits();
         const page = new Page(report, root);
         if (page.shownViewer) expose(page.shownViewer);
         await page.draw();

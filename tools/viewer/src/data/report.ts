@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The data that `crackle report` and `crackle view` put into the page: format "crackle-report 2".
+// A JSON manifest describes each test and gives the positions of its arrays in the blocks; block 0 of a test holds its specimen,
+// curve and events as plain little-endian arrays, the others hold the frames, group by group (frames.ts). Units are SI in 2D:
+// stress in N/m, angles in radians.
+
+import {readBlock} from './blocks';
+import type {Cells} from './cells';
+import type {CodedEntry} from './coded_arrays';
+import {plainArray, type ArrayEntry, type NumberArray} from './plain_arrays';
+
+/// Loading direction of a test.
+export type Kind = 'compression' | 'tension';
+
+export type Role = 'start' | 'peak' | 'end';
+
+/// One frame in the manifest.
+export interface FrameEntry {
+    time: number; // s
+    axial_strain?: number;
+    axial_stress?: number; // N/m
+    step?: number;
+    roles?: Role[];
+    file?: string;
+}
+
+export interface GroupEntry {
+    block: number;
+    first: number; // frame
+    count: number;
+    arrays: Record<string, CodedEntry>;
+}
+
+interface TestEntry {
+    name: string; // the folder's or file's
+    kind: 'test' | 'deck' | 'particles';
+    summary: Summary;
+    walls?: [number, number, number, number];
+    velocities?: 'mean'; // between two frames
+    arrays: Record<string, ArrayEntry>;
+    frames: FrameEntry[];
+    groups: GroupEntry[];
+}
+
+interface Manifest {
+    format: string;
+    title: string;
+    version: string;
+    view: 'report' | 'view';
+    tests: TestEntry[];
+}
+
+/// summary.json as the test wrote it; keys and units are listed in the README.
+export type Summary = Record<string, unknown>;
+
+export interface Curve {
+    strain: NumberArray; // -, positive for the test's own kind
+    stress: NumberArray; // N/m, same sign convention
+    bondsBroken: NumberArray; // so far
+}
+
+export interface Events {
+    count: number;
+    time: NumberArray; // s
+    strain: NumberArray;
+    x: NumberArray; // m
+    y: NumberArray;
+    orientation: NumberArray; // rad, of the contact normal, in (-π/2, π/2]
+    energy: NumberArray; // J
+    bodyI: NumberArray; // ids of the input
+    bodyJ: NumberArray;
+    shear: NumberArray; // 1: shear mode, 0: tension mode
+    last: NumberArray; // 1: the pair's last bonded point
+}
+
+/// Bonded points of the first frame.
+export interface Bonds {
+    count: number;
+    i: NumberArray; // cells
+    j: NumberArray;
+    x: NumberArray; // m, contact point
+    y: NumberArray;
+}
+
+export interface TestData {
+    index: number; // in the manifest
+    name: string;
+    source: TestEntry['kind'];
+    meanVelocities: boolean; // between two frames
+    kind: Kind;
+    specimen: string;
+    failed: boolean;
+    summary: Summary;
+    walls: TestEntry['walls'];
+    curve: Curve | undefined; // only of a test
+    events: Events;
+    cells: Cells;
+    bonds: Bonds;
+    frames: FrameEntry[];
+    groups: GroupEntry[];
+}
+
+/// A test with a curve, as the figures and the table of the report need it.
+export type CurvedTest = TestData & {curve: Curve};
+
+export interface Report {
+    title: string;
+    version: string;
+    view: Manifest['view'];
+    tests: TestData[];
+}
+
+const none = new Uint8Array(0);
+
+async function unpackTest(entry: TestEntry, index: number): Promise<TestData> {
+    const buffer = await readBlock(index, 0);
+    const optional = (name: string) => (entry.arrays[name] ? plainArray(buffer, name, entry.arrays[name]) : none);
+    const array = (name: string) => {
+        const found = entry.arrays[name];
+        if (!found) throw new Error(`the page's data do not contain the array '${name}'`);
+        return plainArray(buffer, name, found);
+    };
+    return {
+        index,
+        name: entry.name,
+        source: entry.kind,
+        meanVelocities: entry.velocities === 'mean',
+        kind: entry.summary['kind'] === 'tension' ? 'tension' : 'compression',
+        specimen: String(entry.summary['specimen'] ?? 'specimen'),
+        failed: entry.summary['failed'] === true,
+        summary: entry.summary,
+        walls: entry.walls,
+        curve: entry.arrays['curve.axial_strain'] ? {
+            strain: array('curve.axial_strain'),
+            stress: array('curve.axial_stress'),
+            bondsBroken: array('curve.bonds_broken'),
+        } : undefined,
+        events: {
+            count: optional('events.time').length,
+            time: optional('events.time'),
+            strain: optional('events.axial_strain'),
+            x: optional('events.x'),
+            y: optional('events.y'),
+            orientation: optional('events.orientation'),
+            energy: optional('events.energy'),
+            bodyI: optional('events.body_i'),
+            bodyJ: optional('events.body_j'),
+            shear: optional('events.shear'),
+            last: optional('events.last_of_interface'),
+        },
+        cells: {
+            count: array('cells.id').length,
+            id: array('cells.id'),
+            radius: array('cells.radius'),
+            open: array('cells.open'),
+            platen: array('cells.platen'),
+            material: array('cells.material'),
+            x: array('cells.x'),
+            y: array('cells.y'),
+            firstPoint: array('cells.first_point'),
+            outlineX: array('outline.x'),
+            outlineY: array('outline.y'),
+        },
+        bonds: {
+            count: optional('bonds.i').length,
+            i: optional('bonds.i'),
+            j: optional('bonds.j'),
+            x: optional('bonds.x'),
+            y: optional('bonds.y'),
+        },
+        frames: entry.frames,
+        groups: entry.groups,
+    };
+}
+
+export async function readReport(source: HTMLElement | null): Promise<Report> {
+    if (!source?.textContent) throw new Error('this page contains no data: create it with `crackle report` or `crackle view`');
+    const manifest = JSON.parse(source.textContent) as Manifest;
+    if (manifest.format !== 'crackle-report 2') {
+        throw new Error(`found data of format '${manifest.format}', expected 'crackle-report 2'`);
+    }
+    return {
+        title: manifest.title,
+        version: manifest.version,
+        view: manifest.view,
+        tests: await Promise.all(manifest.tests.map(unpackTest)),
+    };
+}
+
+/// Time of the last frame or break, s: a run may have no frames.
+export function lastTimeOf({frames, events}: TestData): number {
+    let last = frames[frames.length - 1]?.time ?? 0;
+    for (let event = 0; event < events.count; ++event) last = Math.max(last, events.time[event]!);
+    return last;
+}
+
+/// A number of summary.json, or undefined where the test does not state it.
+export function numberOf(summary: Summary, key: string): number | undefined {
+    const value = summary[key];
+    return typeof value === 'number' && Number.isFinite(value) ? value : undefined;
+}
+
+/// Strain and stress of the peak from the summary, whose keys depend on whether the test has failed.
+export function peakOf(test: TestData): {strain: number | undefined; stress: number | undefined} {
+    return {
+        strain: numberOf(test.summary, 'peak_strain') ?? numberOf(test.summary, 'peak_strain_so_far'),
+        stress: numberOf(test.summary, 'peak_stress') ?? numberOf(test.summary, 'peak_stress_so_far'),
+    };
+}

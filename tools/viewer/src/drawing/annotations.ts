@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Text over a pane: the tests' names and moments, a scale bar, particle numbers where they fit.
+
+import type {Theme} from '../colours/theme';
+import type {Frame} from '../data/frames';
+import type {Sheet} from '../elements/sheet';
+import {movedCentre} from '../geometry/rigid_motion';
+import {quantity, strain} from '../quantities/units';
+import type {SpecimenView} from './specimen_view';
+import type {Pane, Placing} from './stage';
+
+/// "ε = 1.94×10⁻³ σ = 67.2 kN/m", or the time where there is no strain.
+export function momentText(frame: Frame): string {
+    if (frame.strain === undefined) return `t = ${quantity(frame.time, 's')}`;
+    const stress = frame.entry.axial_stress;
+    return `ε = ${strain(frame.strain)}${stress === undefined ? '' : `\u2003σ = ${quantity(stress, 'N/m')}`}`;
+}
+
+/// Note on magnified displacements, for every picture that shows them; else empty.
+export const magnified = (magnification: number): string => (magnification === 1 ? '' : `\u2003displacements ×${magnification}`);
+
+/// The name and the moment; the moment below the name where the pane is too narrow for one line.
+export function drawTitles(sheet: Sheet, pane: Pane, names: readonly {label: string; colour: string; moment: string}[], theme: Theme): void {
+    let x = pane.rectangle.x + 9;
+    const y = pane.rectangle.y + 17;
+    for (const {label, colour, moment} of names) {
+        const nameStyle = {size: 13, colour, bold: true, halo: theme.background}, momentStyle = {size: 12, colour: theme.muted, halo: theme.background};
+        const nameWidth = sheet.widthOf(label, nameStyle), momentWidth = sheet.widthOf(moment, momentStyle);
+        const oneLine = names.length === 1 && nameWidth + momentWidth + 28 < pane.rectangle.width;
+        sheet.text(x, y, label, nameStyle);
+        sheet.text(oneLine ? x + nameWidth + 10 : x, oneLine ? y : y + 16, moment, momentStyle);
+        x += Math.max(nameWidth, momentWidth) + 22;
+    }
+}
+
+/// A round length of about a fifth of the pane.
+export function drawScaleBar(sheet: Sheet, pane: Pane, placing: Placing, theme: Theme): void {
+    const target = Math.min(130, pane.rectangle.width / 4) / placing.scale, power = 10 ** Math.floor(Math.log10(target));
+    const length = [5, 2, 1].map((step) => step * power).find((candidate) => candidate <= target) ?? power;
+    const x = pane.rectangle.x + 10, y = pane.rectangle.y + pane.rectangle.height - 9, end = x + length * placing.scale;
+    sheet.line(x, y, end, y, 1.5, theme.ink);
+    sheet.line(x, y - 4, x, y + 4, 1.5, theme.ink);
+    sheet.line(end, y - 4, end, y + 4, 1.5, theme.ink);
+    sheet.text(end + 7, y + 4, quantity(length, 'm', 1), {size: 11, colour: theme.ink, halo: theme.background});
+}
+
+const numberSize = 10; // px, letters
+const digitWidth = 6.2;
+
+export function drawNumbers(sheet: Sheet, pane: Pane, placing: Placing, view: SpecimenView, frame: Frame, magnification: number, theme: Theme): void {
+    const {cells} = view.test, {rectangle} = pane;
+    if (view.meanSize * placing.scale < digitWidth) return;
+    for (let cell = 0; cell < cells.count; ++cell) {
+        if (cells.open[cell] === 1) continue;
+        const number = String(cells.id[cell]), room = sizeOf(view, cell) * placing.scale;
+        if (room < digitWidth * number.length + 3) continue;
+        const centre = movedCentre(cells, frame, cell, magnification);
+        const x = placing.x + (centre.x - view.origin.x) * placing.scale, y = placing.y - (centre.y - view.origin.y) * placing.scale;
+        if (x < 0 || y < 0 || x > rectangle.width || y > rectangle.height) continue;
+        sheet.text(rectangle.x + x, rectangle.y + y + 3.5, number, {size: numberSize, colour: theme.ink, align: 'center', halo: theme.background});
+    }
+}
+
+/// Width available for a number: the diameter, or about that of a polygon's shorter side.
+function sizeOf(view: SpecimenView, cell: number): number {
+    const {cells} = view.test;
+    if (cells.radius[cell]! > 0) return 1.8 * cells.radius[cell]!;
+    let low = Infinity, high = -Infinity;
+    for (let at = cells.firstPoint[cell]!; at < cells.firstPoint[cell + 1]!; ++at) {
+        low = Math.min(low, cells.outlineX[at]!);
+        high = Math.max(high, cells.outlineX[at]!);
+    }
+    return 0.8 * (high - low);
+}

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One specimen at one moment, as SVG: particles, platens, and the faces of broken bonds coloured by mode.
+// Bodies move as rigid bodies from the first frame; displacements may be drawn magnified.
+
+import type {Theme} from '../colours/theme';
+import {outline, type Point} from '../data/cells';
+import type {Frame} from '../data/frames';
+import type {TestData} from '../data/report';
+import {svgElement} from '../elements/dom';
+import {crackState, type Crack} from '../geometry/cracks';
+import {extentOf, type Extent} from '../geometry/extent';
+import {movedCentre, moverOf} from '../geometry/rigid_motion';
+import {quantity} from '../quantities/units';
+import {magnified} from './annotations';
+
+/// The box that holds all drawn frames, and of the platens a little more than the specimen's width. Fragments that flew off
+/// are followed sideways for three tenths of the width, so that they do not make the specimen small (all the way where
+/// displacements are magnified).
+export function extentOfMoments(test: TestData, frames: readonly Frame[], magnification: number): Extent {
+    const extents = frames.map((frame) => extentOf(test, frame, magnification));
+    const first = extents[0]!, width = first.x2 - first.x1, room = magnification > 1 ? Infinity : 0.3 * width;
+    const left = Math.min(...extents.map((extent) => extent.x1)), right = Math.max(...extents.map((extent) => extent.x2));
+    return {
+        x1: Math.max(left, first.x1 - room) - 0.06 * width,
+        x2: Math.min(right, first.x2 + room) + 0.06 * width,
+        y1: Math.min(...extents.map((extent) => extent.y1)),
+        y2: Math.max(...extents.map((extent) => extent.y2)),
+    };
+}
+
+interface Drawing {
+    test: TestData;
+    cracks: Crack[];
+    frame: Frame;
+    extent: Extent;
+    pixelsPerMetre: number;
+    magnification: number;
+    scaleBar: boolean;
+    fills?: (cell: number) => string; // else all in the colour of grain
+}
+
+const margin = 4; // px around the extent
+const barRoom = 24; // px for the scale bar
+
+/// A round length of about a third of the specimen's width.
+function barLength(width: number): number {
+    const power = 10 ** Math.floor(Math.log10(width / 3));
+    return [5, 2, 1].map((step) => step * power).find((length) => length <= width / 2.5) ?? power;
+}
+
+function addTo(lists: Map<string, string[]>, key: string, path: string): void {
+    const list = lists.get(key);
+    if (list) list.push(path);
+    else lists.set(key, [path]);
+}
+
+export function drawSpecimen(drawing: Drawing, theme: Theme): SVGElement {
+    const {test, cracks, frame, extent, pixelsPerMetre: scale, magnification} = drawing;
+    const {cells} = test;
+    const x = (point: Point) => ((point.x - extent.x1) * scale + margin).toFixed(2);
+    const y = (point: Point) => ((extent.y2 - point.y) * scale + margin).toFixed(2);
+    const width = (extent.x2 - extent.x1) * scale + 2 * margin;
+    const height = (extent.y2 - extent.y1) * scale + 2 * margin;
+
+    const grains = new Map<string, string[]>(), platens: string[] = [];
+    for (let cell = 0; cell < cells.count; ++cell) {
+        const radius = cells.radius[cell]!, fill = drawing.fills?.(cell) ?? theme.grain;
+        if (radius > 0) {
+            const at = movedCentre(cells, frame, cell, magnification);
+            const r = (radius * scale).toFixed(2), d = (2 * radius * scale).toFixed(2);
+            addTo(grains, fill, `M${x(at)} ${y(at)}m-${r} 0a${r} ${r} 0 1 0 ${d} 0a${r} ${r} 0 1 0-${d} 0`);
+            continue;
+        }
+        const points = outline(cells, cell).map(moverOf(cells, frame, cell, magnification));
+        const path = `M${points.map((point) => `${x(point)} ${y(point)}`).join('L')}`;
+        if (cells.open[cell] === 1) platens.push(path);
+        else addTo(grains, fill, `${path}Z`);
+    }
+
+    const faces = {tension: [] as string[], shear: [] as string[], tensionPart: [] as string[], shearPart: [] as string[]};
+    for (const crack of cracks) {
+        const state = crackState(crack, frame.time);
+        if (!state) continue;
+        const mode = state.shear ? 'shear' : 'tension';
+        const list = state.parted ? faces[mode] : faces[`${mode}Part`];
+        for (const face of crack.faces) {
+            const move = moverOf(cells, frame, face.cell, magnification);
+            const from = move(face.from), to = move(face.to);
+            list.push(`M${x(from)} ${y(from)}L${x(to)} ${y(to)}`);
+        }
+    }
+
+    const edge = Math.min(0.8, Math.max(0.2, 40 / Math.sqrt(cells.count * 20)));
+    const line = (list: string[], name: string, colour: string, lineWidth: number, dashes = '') =>
+        svgElement('path', {class: name, d: list.join(''), fill: 'none', stroke: colour, 'stroke-width': lineWidth, 'stroke-linecap': 'round',
+            ...(dashes ? {'stroke-dasharray': dashes} : {}), 'data-count': list.length});
+    const svg = svgElement('svg', {
+        viewBox: `0 0 ${width.toFixed(2)} ${(height + barRoom).toFixed(2)}`, width: width.toFixed(2), height: (height + barRoom).toFixed(2), role: 'img',
+        'aria-label': `${test.name}, ${frame.entry.roles?.join(', ') ?? `frame ${frame.index}`}`, 'data-roles': frame.entry.roles?.join(' ') ?? '',
+    },
+        ...[...grains].map(([fill, list]) => svgElement('path', {class: 'grains', d: list.join(''), fill, stroke: theme.grainEdge, 'stroke-width': edge.toFixed(2),
+            'stroke-linejoin': 'round', 'data-count': list.length})),
+        line(platens, 'platens', theme.platen, 4),
+        line(faces.tensionPart, 'tension-part', theme.tension, 1, '1.5 2.5'), line(faces.shearPart, 'shear-part', theme.shear, 1, '1.5 2.5'),
+        line(faces.tension, 'tension', theme.tension, 1.6), line(faces.shear, 'shear', theme.shear, 1.6));
+    if (drawing.scaleBar) {
+        const length = barLength(extent.x2 - extent.x1), low = height + 8;
+        svg.append(
+            svgElement('path', {d: `M${margin} ${low - 3}v6M${margin} ${low}h${(length * scale).toFixed(2)}m0-3v6`, stroke: theme.ink, fill: 'none'}),
+            svgElement('text', {x: (margin + length * scale + 6).toFixed(2), y: low + 4, fill: theme.ink, 'font-size': 11, 'font-family': 'system-ui, Arial, sans-serif'},
+                quantity(length, 'm', 2) + magnified(drawing.magnification)));
+    }
+    return svg;
+}

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One test as the viewer draws it: its frames, cracks and lines, and the three.js scene that contains them.
+
+import {Scene} from 'three';
+
+import type {Colouring} from '../colours/colouring';
+import type {Theme} from '../colours/theme';
+import {jaggedCells, reach, type Point} from '../data/cells';
+import {Frames, type Frame} from '../data/frames';
+import type {Bonds, TestData} from '../data/report';
+import type {LabelledTest} from '../data/test_labels';
+import {findCracks, type Crack} from '../geometry/cracks';
+import {extentAtStart, type Extent} from '../geometry/extent';
+import type {ForceScale} from '../quantities/ranges';
+import {addBonds, addChains, addCracks, addForces, addOutlines, addPicked, type CrackColours} from './drawn_lines';
+import {ParticleLayer} from './particle_layer';
+import {SegmentLayer} from './segment_layer';
+import {Segments} from './segments';
+import {layerNames, type Layer, type Settings} from './settings';
+
+/// Everything that decides how a test looks at one moment.
+export interface Look {
+    settings: Settings;
+    colouring: Colouring;
+    crackColours: CrackColours;
+    forceScale: ForceScale;
+    picked: number | undefined; // cell
+    opacity: number;
+    offered: ReadonlySet<Layer>; // layers that have something to show
+    theme: Theme;
+}
+
+export class SpecimenView {
+    readonly frames: Frames;
+    readonly scene = new Scene();
+    readonly extent: Extent; // m, first frame
+    readonly origin: Point;
+    readonly meanSize: number; // m, about a particle's diameter
+    private readonly jagged: readonly number[]; // cells
+    private readonly forceLines: number;
+    readonly lines: Segments; // platens, cracks, bonds, picked
+    readonly forces: Segments; // widths are shares of the widest
+    private madeParticles: ParticleLayer | undefined;
+    private readonly lineLayer = new SegmentLayer(1);
+    private readonly forceLayer = new SegmentLayer(2);
+    private found: Crack[] | undefined;
+
+    constructor(readonly labelled: LabelledTest) {
+        const {test} = labelled;
+        this.frames = new Frames(test);
+        this.extent = extentAtStart(test);
+        this.origin = {x: (this.extent.x1 + this.extent.x2) / 2, y: (this.extent.y1 + this.extent.y2) / 2};
+        this.lines = new Segments(this.origin);
+        this.forces = new Segments(this.origin);
+        this.scene.add(this.lineLayer.mesh, this.forceLayer.mesh);
+        const stride = Math.max(1, Math.floor(test.cells.count / 500));
+        let sum = 0, measured = 0;
+        for (let cell = 0; cell < test.cells.count; cell += stride) {
+            if (test.cells.open[cell] === 1) continue;
+            sum += 2 * reach(test.cells, cell);
+            measured += 1;
+        }
+        this.meanSize = measured > 0 ? sum / measured : 1;
+        this.jagged = jaggedCells(test.cells);
+        this.forceLines = Math.sqrt(pointsOfPair(test.bonds));
+    }
+
+    get test(): TestData {
+        return this.labelled.test;
+    }
+
+    /// Created when first shown: not every test of a report is viewed.
+    private get particles(): ParticleLayer {
+        if (!this.madeParticles) {
+            this.madeParticles = new ParticleLayer(this.test.cells, this.origin, this.jagged);
+            this.scene.add(this.madeParticles.group);
+        }
+        return this.madeParticles;
+    }
+
+    /// Layers that the test has data for.
+    get layers(): Layer[] {
+        const {bonds, cells, events, walls} = this.test;
+        const missing: Partial<Record<Layer, boolean>> = {
+            platens: !walls && !cells.open.includes(1),
+            cracks: events.count === 0 && !this.frames.has('state'),
+            bonds: bonds.count === 0,
+            forces: !this.frames.has('fn') && !this.frames.has('contacts.fn'),
+        };
+        return (Object.keys(layerNames) as Layer[]).filter((layer) => !missing[layer]);
+    }
+
+    /// Whether it has a list of breaks: a run of a deck may have none, a test always has one, possibly empty.
+    get listsBreaks(): boolean {
+        return this.test.events.count > 0 || this.test.source === 'test';
+    }
+
+    get cracks(): Crack[] {
+        return this.found ??= findCracks(this.test.cells, this.test.events);
+    }
+
+    /// Fills the lines for a frame; also used for the SVG file.
+    fillLines(frame: Frame, look: Look): void {
+        const {settings, theme} = look, {layers, magnification} = settings;
+        this.lines.clear();
+        this.forces.clear();
+        if (layers.particles && layers.outlines) addOutlines(this.lines, this.test.cells, frame, this.jagged, magnification, theme);
+        if (layers.bonds) addBonds(this.lines, this.test, frame, magnification, theme);
+        if (layers.platens) addChains(this.lines, this.test, frame, magnification, theme);
+        if (layers.cracks) addCracks(this.lines, this.test, this.cracks, frame, magnification, look.crackColours, theme);
+        if (look.picked !== undefined) addPicked(this.lines, this.test.cells, frame, look.picked, magnification, theme);
+        if (layers.forces) addForces(this.forces, this.test, frame, magnification, look.forceScale, theme);
+    }
+
+    /// Width of the line of the largest force, px: thinner where the lines of a face's points fan out side by side.
+    widestForce(pixelsPerMetre: number): number {
+        return Math.min(20, Math.max(1.5, (0.22 * this.meanSize * pixelsPerMetre) / this.forceLines));
+    }
+
+    show(frame: Frame, look: Look): void {
+        this.particles.group.visible = look.settings.layers.particles;
+        this.particles.setPalette(look.colouring.palette, look.theme.grainEdge);
+        this.particles.setOpacity(look.opacity);
+        this.particles.show(frame, look.settings.magnification, look.colouring);
+        this.fillLines(frame, look);
+        this.lineLayer.show(this.lines);
+        this.forceLayer.show(this.forces);
+    }
+
+    /// To be called before each drawing.
+    prepare({width, height, ratio, pixelsPerMetre, seen, outlines, moving}: Drawn): void {
+        const particlePixels = this.meanSize * pixelsPerMetre;
+        this.lineLayer.setScale(width * ratio, height * ratio, ratio * lineScale(particlePixels));
+        this.forceLayer.setScale(width * ratio, height * ratio, ratio * this.widestForce(pixelsPerMetre));
+        this.particles.prepare(seen, pixelsPerMetre * ratio, outlines ? outlineWidth(particlePixels) * ratio : 0, moving);
+    }
+}
+
+/// How a pane is about to be drawn.
+export interface Drawn {
+    width: number; // CSS pixels
+    height: number;
+    ratio: number; // picture pixels a CSS pixel
+    pixelsPerMetre: number; // CSS pixels
+    seen: Extent; // m from the specimen's origin
+    outlines: boolean;
+    moving: boolean;
+}
+
+/// Bonded points of a pair of cells, on average: circles have one, faces of polygons several. Those of a pair are adjacent.
+function pointsOfPair({count, i, j}: Bonds): number {
+    let pairs = 0;
+    for (let bond = 0; bond < count; ++bond) if (bond === 0 || i[bond] !== i[bond - 1] || j[bond] !== j[bond - 1]) ++pairs;
+    return pairs > 0 ? count / pairs : 1;
+}
+
+/// Lines grow thin where particles are small: cracks would otherwise hide the specimen.
+export function lineScale(particlePixels: number): number {
+    return Math.min(1, Math.max(0.4, particlePixels / 10));
+}
+
+/// No outlines around very small particles: they would hide the fill.
+export function outlineWidth(particlePixels: number): number {
+    return particlePixels < 5 ? 0 : Math.min(1.2, 0.25 + 0.03 * particlePixels);
+}

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Positions and directions of bond breaks, a card for each test: the map of breaks (as an acoustic-emission array would locate
+// them) and the rose of crack directions.
+
+import {BarChart} from 'echarts/charts';
+import {PolarComponent} from 'echarts/components';
+import * as echarts from 'echarts/core';
+import type {ECharts} from 'echarts/core';
+
+import {css, sequentialPalette} from '../colours/palettes';
+import type {Theme} from '../colours/theme';
+import {lastTimeOf, type TestData} from '../data/report';
+import type {LabelledTest} from '../data/test_labels';
+import {element, saveFile} from '../elements/dom';
+import {fontFamily} from '../elements/sheet';
+import {extentOfBreaks} from '../geometry/extent';
+import {counted, quantity, scaleFor, significant} from '../quantities/units';
+import {countDirections} from './crack_directions';
+
+echarts.use([BarChart, PolarComponent]);
+
+export type MapColour = 'mode' | 'time';
+
+const mapHeight = 380; // px
+const largestMark = 26; // px across, of the largest energy, at most
+const smallestMark = 1.5;
+const covered = 0.3; // share of the map that all circles together may cover
+
+function largestOf(values: ArrayLike<number>): number {
+    let largest = 0;
+    for (let at = 0; at < values.length; ++at) largest = Math.max(largest, values[at]!);
+    return largest;
+}
+
+function sumOf(values: ArrayLike<number>): number {
+    let sum = 0;
+    for (let at = 0; at < values.length; ++at) sum += values[at]!;
+    return sum;
+}
+
+function svgOf(chart: ECharts): string {
+    const address = chart.getDataURL({type: 'svg'});
+    return decodeURIComponent(address.slice(address.indexOf(',') + 1));
+}
+
+function saveButton(name: string, chart: () => ECharts): HTMLElement {
+    const save = element('button', {type: 'button', class: 'save', title: 'Save this figure as SVG'}, 'SVG');
+    save.addEventListener('click', () => saveFile(`${name}.svg`, 'image/svg+xml', svgOf(chart())));
+    return save;
+}
+
+/// The card; its charts are drawn after it has been inserted into the page.
+export function breakCard({test, label}: LabelledTest, colour: MapColour, theme: Theme): {element: HTMLElement; draw: () => ECharts[]} {
+    const map = element('div', {class: 'map', role: 'img', 'aria-label': `Positions of ${test.events.count} breaks in ${label}`});
+    const rose = element('div', {class: 'rose', role: 'img', 'aria-label': `Directions of the cracks in ${label}`});
+    const charts: ECharts[] = [];
+    const largest = largestOf(test.events.energy);
+    const card = element('article', {class: 'card breaks', 'data-test': test.name},
+        element('h3', {}, label, element('small', {}, `${counted(test.events.count)} breaks, largest ${quantity(largest, 'J', 2)}`)),
+        element('div', {class: 'breaks-row'},
+            element('figure', {}, map, element('figcaption', {}, saveButton(`${test.name}-breaks`, () => charts[0]!))),
+            element('figure', {}, rose, element('figcaption', {}, saveButton(`${test.name}-rose`, () => charts[1]!)))));
+    return {element: card, draw: () => {
+        charts.push(drawMap(map, test, colour, largest, theme), drawRose(rose, test, theme));
+        return charts;
+    }};
+}
+
+function drawMap(container: HTMLElement, test: TestData, colour: MapColour, largest: number, theme: Theme): ECharts {
+    const {events} = test, extent = extentOfBreaks(test);
+    const width = container.clientWidth, scale = scaleFor([extent.x2 - extent.x1, extent.y2 - extent.y1], 'm');
+    const left = 46, right = 12, top = 10, bottom = 40;
+    // Equal scales on both axes.
+    const perMetre = Math.min((mapHeight - top - bottom) / (extent.y2 - extent.y1), (width - left - right) / (extent.x2 - extent.x1));
+    container.style.height = `${(extent.y2 - extent.y1) * perMetre + top + bottom}px`;
+    const chart = echarts.init(container, null, {renderer: 'svg'});
+    const palette = sequentialPalette('cividis'), last = lastTimeOf(test);
+    const text = {color: theme.ink, fontFamily, fontSize: 11};
+    const axis = {type: 'value', axisLine: {show: true, onZero: false, lineStyle: {color: theme.ink}}, axisTick: {show: true, inside: true, lineStyle: {color: theme.ink}},
+        splitLine: {show: false}, axisLabel: {...text, hideOverlap: true, showMinLabel: false, showMaxLabel: false, formatter: (value: number) => significant(value, 4).replace(/(\.\d*?)0+$/, '$1').replace(/\.$/, '')}, nameLocation: 'middle', nameTextStyle: text};
+    const inner = (extent.x2 - extent.x1) * perMetre;
+    const energies = sumOf(events.energy) / (largest || 1);
+    const widest = Math.min(largestMark, Math.sqrt(covered * inner * (extent.y2 - extent.y1) * perMetre * 4 / Math.PI / Math.max(1e-9, energies)));
+    // Large ones first, so that they do not hide small ones.
+    const order = Array.from({length: events.count}, (_, event) => event).sort((a, b) => events.energy[b]! - events.energy[a]!);
+    chart.setOption({
+        animation: false, grid: {left, width: inner, top, bottom},
+        xAxis: {...axis, min: extent.x1 / scale.factor, max: extent.x2 / scale.factor, name: `x [${scale.unit}]`, nameGap: 24, splitNumber: 3},
+        yAxis: {...axis, min: extent.y1 / scale.factor, max: extent.y2 / scale.factor, name: `y [${scale.unit}]`, nameGap: 32},
+        series: [{
+            type: 'scatter', silent: true,
+            data: order.map((event) => ({
+                value: [events.x[event]! / scale.factor, events.y[event]! / scale.factor],
+                symbolSize: Math.max(smallestMark, widest * Math.sqrt(events.energy[event]! / (largest || 1))),
+                itemStyle: {
+                    color: colour === 'mode' ? (events.shear[event] === 1 ? theme.shear : theme.tension) : css(palette[Math.min(255, Math.floor(last > 0 ? 256 * events.time[event]! / last : 0))]!),
+                    opacity: 0.6, borderColor: theme.background, borderWidth: 0.4,
+                },
+            })),
+        }],
+    });
+    return chart;
+}
+
+function drawRose(container: HTMLElement, test: TestData, theme: Theme): ECharts {
+    container.style.height = '230px';
+    const chart = echarts.init(container, null, {renderer: 'svg'});
+    const {tension, shear, width} = countDirections(test.events);
+    const names = Array.from({length: tension.length}, (_, at) => `${at * width}`);
+    const text = {color: theme.muted, fontFamily, fontSize: 10.5};
+    const bars = (name: string, data: number[], colour: string) => ({type: 'bar', coordinateSystem: 'polar', stack: 'all', name, data, itemStyle: {color: colour}, barCategoryGap: '6%', silent: true});
+    chart.setOption({
+        animation: false, polar: {radius: '76%'},
+        angleAxis: {
+            type: 'category', data: names, startAngle: -width / 2, clockwise: false, boundaryGap: true, axisTick: {show: false}, axisLine: {lineStyle: {color: theme.grid}},
+            axisLabel: {...text, interval: 0, formatter: (name: string) => (Number(name) % 45 === 0 ? `${name}°` : '')},
+        },
+        radiusAxis: {
+            z: 10, axisLine: {show: false}, axisTick: {show: false}, splitNumber: 3, minInterval: 1, splitLine: {lineStyle: {color: theme.grid}},
+            axisLabel: {...text, color: theme.ink, showMinLabel: false, textBorderColor: theme.background, textBorderWidth: 2.5},
+        },
+        series: [bars('tension', tension, theme.tension), bars('shear', shear, theme.shear)],
+    });
+    return chart;
+}

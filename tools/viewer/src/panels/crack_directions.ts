@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Directions of cracks, counted in classes. An event's orientation is that of the contact normal; the crack is perpendicular to
+// it. Opposite directions are equivalent, so the rose repeats after half a turn.
+
+import type {Events} from '../data/report';
+
+export const directionWidth = 10; // degrees
+
+export interface Directions {
+    width: number; // degrees
+    tension: number[]; // breaks in each direction, counter-clockwise from the x axis, each break counted in both directions
+    shear: number[];
+}
+
+export function countDirections(events: Events): Directions {
+    const half = 180 / directionWidth;
+    const tension = new Array<number>(2 * half).fill(0), shear = new Array<number>(2 * half).fill(0);
+    for (let event = 0; event < events.count; ++event) {
+        const crack = events.orientation[event]! * 180 / Math.PI + 90; // 0 to 180
+        const at = Math.round(crack / directionWidth) % half; // classes are centred: each axis is the centre of a class
+        const counts = events.shear[event] === 1 ? shear : tension;
+        counts[at]! += 1;
+        counts[at + half]! += 1;
+    }
+    return {width: directionWidth, tension, shear};
+}

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which tests share a panel of curves, what each is called there, and how its curve is drawn.
+
+import type {CurvedTest, TestData} from '../data/report';
+import {capitalised, kindOrder, ordered, specimenName, specimenOrder, unique, type LabelledTest} from '../data/test_labels';
+
+export type View = 'kind' | 'specimen' | 'test';
+
+export interface Member extends LabelledTest<CurvedTest> {
+    shortLabel: string; // name inside its panel
+    dashed: boolean;
+}
+
+export interface Panel {
+    title: string;
+    members: Member[];
+}
+
+export function viewsFor(tests: TestData[]): View[] {
+    const kinds = unique(tests.map((test) => test.kind)).length;
+    const specimens = unique(tests.map((test) => test.specimen)).length;
+    const views: View[] = ['kind'];
+    if (specimens > 1 && kinds > 1) views.push('specimen');
+    if (tests.length > 1 && tests.length > kinds) views.push('test');
+    return views;
+}
+
+function shortLabel(panelView: View, labelled: LabelledTest): string {
+    const named = labelled.label !== labelled.test.name && !labelled.label.startsWith(`${labelled.test.name} (`);
+    if (!named) return labelled.label;
+    return panelView === 'kind' ? specimenName(labelled.test) : capitalised(labelled.test.kind);
+}
+
+export function panels(labelled: LabelledTest<CurvedTest>[], view: View): Panel[] {
+    if (view === 'test') {
+        return labelled.map((one) => ({title: one.label, members: [{...one, shortLabel: shortLabel('specimen', one), dashed: false}]}));
+    }
+    const keyOf = (one: LabelledTest) => (view === 'kind' ? one.test.kind : one.test.specimen);
+    const keys = ordered(labelled.map(keyOf), view === 'kind' ? kindOrder : specimenOrder);
+    return keys.map((key) => {
+        const members = labelled.filter((one) => keyOf(one) === key);
+        const mixed = unique(members.map((one) => one.test.kind)).length > 1;
+        return {
+            title: view === 'kind' ? capitalised(key) : specimenName(members[0]!.test),
+            members: members.map((one) => ({
+                ...one,
+                shortLabel: shortLabel(view, one),
+                dashed: mixed && one.test.kind === 'tension',
+            })),
+        };
+    });
+}

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Cards of the specimens: for each test the drawings at start, peak and end side by side, all at one scale.
+
+import type {Theme} from '../colours/theme';
+import type {Frame} from '../data/frames';
+import type {Role} from '../data/report';
+import {sortedBy, type LabelledTest} from '../data/test_labels';
+import {drawSpecimen, extentOfMoments} from '../drawing/specimen_svg';
+import type {SpecimenView} from '../drawing/specimen_view';
+import {element, saveFile, svgText} from '../elements/dom';
+import {brokenUntil} from '../geometry/cracks';
+import type {Extent} from '../geometry/extent';
+import {counted, quantity, strain} from '../quantities/units';
+
+export const magnifications = [1, 5, 20, 100] as const;
+const drawnHeight = 330; // px, tallest specimen
+const cardWidth = 560; // px, three drawings and their gaps
+
+function rolesText(labelled: LabelledTest, roles: readonly Role[]): string {
+    const text = roles.map((role) => (role === 'peak' && !labelled.test.failed ? 'peak so far' : role)).join(', ');
+    return text.charAt(0).toUpperCase() + text.slice(1);
+}
+
+/// The frames of a test that have a role, in their order.
+export interface Moments {
+    view: SpecimenView;
+    frames: Frame[];
+}
+
+export async function momentsOf(view: SpecimenView): Promise<Moments> {
+    const wanted = view.test.frames.flatMap(({roles}, index) => (roles ? [index] : []));
+    const frames: Frame[] = [];
+    for (const index of wanted) frames.push(await view.frames.load(index));
+    return {view, frames};
+}
+
+function card({view, frames}: Moments, extent: Extent, pixelsPerMetre: number, magnification: number, theme: Theme): HTMLElement {
+    const {labelled, test, cracks} = view;
+    const width = test.summary['initial_width'], height = test.summary['initial_height'];
+    const size = typeof width === 'number' && typeof height === 'number' ? `${quantity(width, 'm')} × ${quantity(height, 'm')}` : '';
+    const row = element('div', {class: 'moments'});
+    for (const [index, frame] of frames.entries()) {
+        const roles = frame.entry.roles ?? [];
+        const broken = brokenUntil(test.events, frame.time);
+        const drawing = drawSpecimen({test, cracks, frame, extent, pixelsPerMetre, magnification, scaleBar: index === 0}, theme);
+        const save = element('button', {type: 'button', class: 'save', title: 'Save this drawing as SVG'}, 'SVG');
+        save.addEventListener('click', () => saveFile(`${test.name}-${roles.join('-')}.svg`, 'image/svg+xml', svgText(drawing)));
+        row.append(element('figure', {},
+            drawing,
+            element('figcaption', {},
+                element('b', {}, rolesText(labelled, roles)), ` ε = ${strain(frame.strain)}`, element('br'),
+                `${counted(broken.tension + broken.shear)} broken`, save)));
+    }
+    return element('article', {class: 'card', 'data-test': test.name},
+        element('h3', {}, labelled.label, element('small', {}, size), ...(test.failed ? [] : [element('em', {class: 'warning'}, 'not failed')])),
+        row);
+}
+
+export function drawings(moments: Moments[], magnification: number, theme: Theme): HTMLElement[] {
+    const order = sortedBy('specimen', moments.map(({view}) => view.labelled)).map(({test}) => test);
+    const drawn = moments.filter(({frames}) => frames.length > 0).sort((a, b) => order.indexOf(a.view.test) - order.indexOf(b.view.test));
+    const extents = drawn.map(({view, frames}) => extentOfMoments(view.test, frames, magnification));
+    const scales = extents.map((extent, index) => Math.min(drawnHeight / (extent.y2 - extent.y1),
+        (cardWidth / drawn[index]!.frames.length - 16) / (extent.x2 - extent.x1)));
+    // One scale for all, unless sizes differ so much that small specimens would be hard to see.
+    const smallest = Math.min(...scales), shared = Math.max(...scales) < 2 * smallest;
+    return drawn.map((one, index) => card(one, extents[index]!, shared ? smallest : scales[index]!, magnification, theme));
+}

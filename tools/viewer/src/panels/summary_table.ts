@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The table of summaries: a row for each quantity with its unit, a column for each test, all values of a row in one unit.
+
+import {numberOf, type TestData} from '../data/report';
+import {capitalised, sortedBy, specimenName, type LabelledTest} from '../data/test_labels';
+import {element} from '../elements/dom';
+import {counted, missing, scaleFor, significant, strainFactor, strainUnit} from '../quantities/units';
+import {modeCounts} from './break_histogram';
+
+type Read = (test: TestData) => number | undefined;
+
+interface Row {
+    name: string;
+    note?: string; // shown on hovering
+    cells: (tests: TestData[]) => {unit: string; values: (string | undefined)[]};
+}
+
+const key = (name: string): Read => (test) => numberOf(test.summary, name);
+const either = (...names: string[]): Read => (test) => names.map((name) => numberOf(test.summary, name)).find((value) => value !== undefined);
+
+/// All values of the row with one SI prefix.
+function measured(name: string, unit: string, read: Read, note?: string): Row {
+    return {
+        name, ...(note ? {note} : {}),
+        cells: (tests) => {
+            const values = tests.map(read);
+            const scale = scaleFor(values, unit);
+            return {unit: scale.unit, values: values.map((value) => (value === undefined ? undefined : significant(value / scale.factor)))};
+        },
+    };
+}
+
+function plain(name: string, read: Read, note?: string): Row {
+    return {name, ...(note ? {note} : {}), cells: (tests) => ({unit: '–', values: tests.map(read).map((value) => (value === undefined ? undefined : significant(value)))})};
+}
+
+function strains(name: string, read: Read): Row {
+    return {name, cells: (tests) => ({unit: strainUnit, values: tests.map(read).map((value) => (value === undefined ? undefined : significant(value / strainFactor)))})};
+}
+
+function counts(name: string, read: Read, note?: string): Row {
+    return {name, ...(note ? {note} : {}), cells: (tests) => ({unit: '–', values: tests.map(read).map((value) => (value === undefined ? undefined : counted(value)))})};
+}
+
+function percent(name: string, read: Read, note?: string): Row {
+    return {name, ...(note ? {note} : {}), cells: (tests) => ({unit: '%', values: tests.map(read).map((value) => (value === undefined ? undefined : significant(value * 100, 2)))})};
+}
+
+function millions(name: string, read: Read): Row {
+    return {name, cells: (tests) => ({unit: '10⁶/s', values: tests.map(read).map((value) => (value === undefined ? undefined : significant(value / 1e6)))})};
+}
+
+function words(name: string, read: (test: TestData) => unknown): Row {
+    return {name, cells: (tests) => ({unit: '', values: tests.map(read).map((value) => (value === undefined || value === null ? undefined : String(value)))})};
+}
+
+/** A part of the relative error that the summary gives for one of its numbers; absent where it was not measured. */
+function errorOf(number: string, part: string): Read {
+    return (test) => {
+        const all = test.summary['numerical_errors'] as Record<string, Record<string, unknown>> | undefined;
+        const value = all?.[number]?.[part];
+        return typeof value === 'number' ? value : undefined;
+    };
+}
+
+const errorRows = (number: string, title: string): Row[] => [
+    percent(`${title}: stated`, errorOf(number, 'stated'), 'covers 95 of 100 runs however slow (crackle test --verify)'),
+    percent(`${title}: time step`, errorOf(number, 'time_step'), 'change at half the time step'),
+    percent(`${title}: loading rate`, errorOf(number, 'rate'), 'change at half the rate'),
+    percent(`${title}: damping`, errorOf(number, 'damping'), 'largest change at half and at double the damping; a physical effect as well as an error'),
+    percent(`${title}: energy closing`, errorOf(number, 'energy_closing'), 'of the platens’ work; of the modulus: residual of the solve'),
+];
+
+const groups: readonly {title: string; rows: readonly Row[]}[] = [
+    {title: 'Specimen', rows: [
+        measured('Width', 'm', key('initial_width')),
+        measured('Height', 'm', key('initial_height')),
+        counts('Particles', key('particles')),
+        counts('Contacts at the start', key('contacts_initial')),
+        counts('Bonds', key('bonds_initial'), 'bonded contact points'),
+        counts('Interfaces', key('interfaces_initial'), 'bonded pairs of bodies'),
+        measured('Mean back-tension', 'N', key('mean_back_tension'), 'mean tensile strength of a bond'),
+    ]},
+    {title: 'Stiffness', rows: [
+        measured('Young’s modulus E', 'N/m', key('youngs_modulus'), 'small strain, all bonds intact and sticking: sparse solve'),
+        plain('Poisson’s ratio ν', key('poissons_ratio')),
+        measured('Initial tangent modulus', 'N/m', key('initial_tangent_modulus'), 'over the first 5 % of the strain at peak'),
+        measured('Tangent modulus at half the peak', 'N/m', key('tangent_modulus_50')),
+    ]},
+    {title: 'Strength', rows: [
+        measured('Peak stress', 'N/m', either('peak_stress', 'peak_stress_so_far'), 'positive in the test’s own sense'),
+        strains('Strain at peak', either('peak_strain', 'peak_strain_so_far')),
+        {name: 'Failed', cells: (tests) => ({unit: '', values: tests.map((test) => (test.failed ? 'yes' : 'no: peak so far'))})},
+    ]},
+    {title: 'Breakage', rows: [
+        counts('Bonds broken', key('bonds_broken')),
+        counts('of these in tension', (test) => modeCounts(test.events).tension),
+        counts('of these in shear', (test) => modeCounts(test.events).shear),
+        counts('Interfaces lost', key('interfaces_lost')),
+    ]},
+    {title: 'Numerical errors', rows: [
+        ...errorRows('peak_stress', 'Peak stress'),
+        ...errorRows('peak_strain', 'Strain at peak'),
+        percent('Young’s modulus: stated', errorOf('youngs_modulus', 'stated'), 'a sparse solve, neither step nor rate: its residual'),
+        words('Peak converged', (test) => {
+            const value = test.summary['peak_converged'];
+            return typeof value === 'boolean' ? (value ? 'yes' : 'no: jumps between branches') : undefined;
+        }),
+    ]},
+    {title: 'Numerics', rows: [
+        measured('Time step', 's', key('time_step')),
+        percent('Time step over the stable one', key('time_step_over_stable'), 'exact limit when bonds were made'),
+        counts('Steps', key('steps')),
+        percent('Energy closing error', key('energy_closing_error')),
+        percent('Platens out of balance', key('platen_out_of_balance'), 'difference of the two platens’ stresses: loading-rate error'),
+        measured('Wall time', 's', key('wall_seconds')),
+        millions('Particle-steps per second', key('particle_steps_per_second')),
+        words('Seed', (test) => test.summary['seed']),
+    ]},
+];
+
+export function summaryTable(tests: LabelledTest[]): HTMLElement {
+    const columns = sortedBy('kind', tests);
+    const data = columns.map(({test}) => test);
+    const kinds = [...new Set(data.map((test) => test.kind))];
+    const named = columns.every(({test, label}) => label === `${specimenName(test)}, ${test.kind}`);
+
+    const head = element('thead', {},
+        element('tr', {}, element('td', {colspan: '2'}),
+            ...kinds.map((kind) => element('th', {colspan: String(data.filter((test) => test.kind === kind).length), scope: 'colgroup', class: 'kind'}, capitalised(kind)))),
+        element('tr', {}, element('td'), element('td', {class: 'unit'}, 'unit'),
+            ...columns.map(({test, label}, index) => element('th', {scope: 'col', class: firstOfKind(data, index)}, named ? specimenName(test) : label))));
+    const body = groups.flatMap(({title, rows}) => {
+        const filled = rows.map((row) => ({row, ...row.cells(data)})).filter(({values}) => values.some((value) => value !== undefined));
+        if (filled.length === 0) return [];
+        return [element('tbody', {},
+            element('tr', {class: 'group'}, element('th', {colspan: String(columns.length + 2), scope: 'rowgroup'}, title)),
+            ...filled.map(({row, unit, values}) => element('tr', {},
+                element('th', {scope: 'row', ...(row.note ? {title: row.note, class: 'noted'} : {})}, row.name),
+                element('td', {class: 'unit'}, unit),
+                ...values.map((value, index) => element('td', {
+                    class: [firstOfKind(data, index), !data[index]!.failed && /^(Peak stress|Strain at peak|Failed)$/.test(row.name) ? 'warning' : ''].join(' ').trim(),
+                }, value ?? missing)))))];
+    });
+    return element('div', {class: 'scroll'}, element('table', {class: columns.length < 4 ? 'summary narrow' : 'summary'}, head, ...body));
+}
+
+function firstOfKind(data: TestData[], index: number): string {
+    return index === 0 || data[index]!.kind !== data[index - 1]!.kind ? 'first' : '';
+}

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Ranges of the colour scale: of one frame, or of all frames of all shown tests. A range excludes the largest two per cent of
+// the values (otherwise splinters that fly off would leave a single colour for all others); legends mark such ends with ≤ and ≥.
+
+import type {Cells} from '../data/cells';
+import type {Frame, Frames} from '../data/frames';
+import type {Quantity} from './quantities';
+
+export interface Range {
+    low: number; // ends of the scale
+    high: number;
+    least: number; // of all values
+    most: number;
+}
+
+const excluded = 0.02;
+const samplesWanted = 60000;
+const framesSampled = 60;
+
+/// Ends from samples, marks from all values.
+class Values {
+    private readonly samples: number[] = [];
+    private least = Infinity;
+    private most = -Infinity;
+
+    add(frame: Frame, cells: Cells, quantity: Quantity, stride: number): void {
+        const value = quantity.of(frame, cells);
+        for (let cell = 0; cell < cells.count; ++cell) {
+            if (cells.open[cell] === 1) continue;
+            const one = value(cell);
+            if (one < this.least) this.least = one;
+            if (one > this.most) this.most = one;
+            if (cell % stride === 0) this.samples.push(Math.abs(one));
+        }
+    }
+
+    range(quantity: Quantity): Range {
+        if (this.samples.length === 0) return {low: 0, high: 0, least: 0, most: 0};
+        const largest = Math.max(Math.abs(this.least), Math.abs(this.most)), kept = upper(this.samples);
+        // A tail that is only slightly longer is not cut off.
+        const high = largest > 1.3 * kept && kept > 0 ? kept : largest;
+        return {low: quantity.scaling === 'diverging' ? -high : 0, high, least: this.least, most: this.most};
+    }
+}
+
+function upper(samples: readonly number[]): number {
+    const sorted = Float64Array.from(samples).sort();
+    return sorted[Math.floor((1 - excluded) * (sorted.length - 1))] ?? 0;
+}
+
+export function rangeOfFrames(frames: readonly {frame: Frame; cells: Cells}[], quantity: Quantity): Range {
+    const values = new Values();
+    for (const {frame, cells} of frames) values.add(frame, cells, quantity, 1);
+    return values.range(quantity);
+}
+
+/// Numbers of the categories that the shown frames have: low to high.
+export function categories(frames: readonly {frame: Frame; cells: Cells}[], quantity: Quantity): Range {
+    let high = 0;
+    for (const {frame, cells} of frames) {
+        const value = quantity.of(frame, cells);
+        for (let cell = 0; cell < cells.count; ++cell) high = Math.max(high, value(cell));
+    }
+    return {low: 0, high, least: 0, most: high};
+}
+
+export async function rangeOfAll(frames: Frames, cells: Cells, quantity: Quantity): Promise<Range> {
+    const values = new Values(), frameStride = Math.max(1, Math.floor(frames.count / framesSampled));
+    const stride = Math.max(1, Math.floor(cells.count * Math.ceil(frames.count / frameStride) / samplesWanted));
+    for await (const frame of frames.pass(1)) values.add(frame, cells, quantity, frame.index % frameStride === 0 ? stride : Infinity);
+    return values.range(quantity);
+}
+
+export function joined(ranges: readonly Range[]): Range {
+    const over = (which: keyof Range, start: number, choose: (...values: number[]) => number) => ranges.reduce((so, range) => choose(so, range[which]), start);
+    return {low: over('low', 0, Math.min), high: over('high', 0, Math.max), least: over('least', Infinity, Math.min), most: over('most', -Infinity, Math.max)};
+}
+
+/// The scale of contact forces, N: its end excludes the largest two per cent of the non-zero forces.
+export interface ForceScale {
+    end: number; // 0: no forces
+    largest: number;
+}
+
+class Forces {
+    private readonly samples: number[] = [];
+    private largest = 0;
+
+    add(frame: Frame, sampled: boolean): void {
+        this.addAll(frame.field('fn'), frame.field('fs'), sampled);
+        const {contacts} = frame;
+        this.addAll(contacts?.fn, contacts?.fs, sampled);
+    }
+
+    get scale(): ForceScale {
+        return {end: upper(this.samples) || this.largest, largest: this.largest};
+    }
+
+    private addAll(fn: Float32Array | undefined, fs: Float32Array | undefined, sampled: boolean): void {
+        if (!fn || !fs) return;
+        const stride = Math.max(1, Math.floor(fn.length / 4000));
+        for (let at = 0; at < fn.length; ++at) {
+            const size = Math.hypot(fn[at]!, fs[at]!);
+            if (size > this.largest) this.largest = size;
+            if (sampled && size > 0 && at % stride === 0) this.samples.push(size);
+        }
+    }
+}
+
+export async function forceScaleOfAll(frames: Frames): Promise<ForceScale> {
+    const forces = new Forces(), stride = Math.max(1, Math.floor(frames.count / framesSampled));
+    for await (const frame of frames.pass(1)) forces.add(frame, frame.index % stride === 0);
+    return forces.scale;
+}
+
+export function forceScaleOf(frames: readonly Frame[]): ForceScale {
+    const forces = new Forces();
+    for (const frame of frames) forces.add(frame, true);
+    return forces.scale;
+}
+
+export function joinedForces(scales: readonly ForceScale[]): ForceScale {
+    return {end: Math.max(...scales.map(({end}) => end)), largest: Math.max(...scales.map(({largest}) => largest))};
+}
