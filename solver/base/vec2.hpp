@@ -11,6 +11,12 @@ struct Vec2 {
     double y = 0.0;
 
     friend bool operator==(const Vec2&, const Vec2&) = default;
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("x", s.x);
+        visit("y", s.y);
+    }
 };
 
 inline Vec2 operator+(Vec2 a, Vec2 b) { return {a.x + b.x, a.y + b.y}; }

@@ -9,6 +9,7 @@
 #include "solver/contact/geometry.hpp"
 #include "solver/contact/lanes.hpp"
 #include "solver/contact/law.hpp"
+#include "solver/measure/ledger.hpp"
 #include "solver/world/world.hpp"
 
 namespace crackle {
@@ -60,7 +61,7 @@ struct PairLanes {
 
 CRACKLE_INLINE PairLanes load_any_pairs(const World& world, const ContactPoint* points) {
     static_assert(offsetof(BodyState, angle) == offsetof(BodyState, shape) + 2 * sizeof(double));
-    const BodyState* const bodies = world.bodies.data();
+    const BodyState* const bodies = world.bodies.state.data();
     BatchBodies i, j;
     for (int l = 0; l < lane_count; ++l) {
         i[l] = &bodies[points[l].body_i];
@@ -100,8 +101,8 @@ CRACKLE_INLINE PairLanes load_fours(const World& world, const ContactPoint* poin
     const BodyState *a[fours], *b[fours];
     for (std::size_t f = 0; f < fours; ++f) {
         const ContactPoint* const four = points + 4 * f;
-        a[f] = &world.bodies[four->body_i];
-        b[f] = &world.bodies[four->body_j];
+        a[f] = &world.bodies.state[four->body_i];
+        b[f] = &world.bodies.state[four->body_j];
     }
     const LaneBits swapped = swapped_lanes(points);  // i is the second of the two
     const LaneBits sign = swapped & sign_bit;
@@ -146,13 +147,13 @@ struct OutlineStage {
 /// points tell: a sixth of the step of 50,000 cells.
 CRACKLE_INLINE void prefetch_outlines(const World& world, const ContactPoint* points) {
     constexpr std::ptrdiff_t points_ahead = 128;
-    if (world.points.data() + world.fours_end - points < points_ahead + lane_count) return;
+    if (world.points.contact.data() + world.points.fours_end - points < points_ahead + lane_count) return;
     const ContactPoint* const later = points + points_ahead;
-    for (int l = 0; l < lane_count; ++l) __builtin_prefetch(&world.edges[later[l].feature_j]);
-    for (int l = 0; l < lane_count; l += 2) __builtin_prefetch(&world.elements[later[l].element_i]);
+    for (int l = 0; l < lane_count; ++l) __builtin_prefetch(&world.bodies.edges[later[l].feature_j]);
+    for (int l = 0; l < lane_count; l += 2) __builtin_prefetch(&world.bodies.elements[later[l].element_i]);
     for (int l = 0; l < lane_count; l += 4) {
-        __builtin_prefetch(&world.bodies[later[l].body_i]);
-        __builtin_prefetch(&world.bodies[later[l].body_j]);
+        __builtin_prefetch(&world.bodies.state[later[l].body_i]);
+        __builtin_prefetch(&world.bodies.state[later[l].body_j]);
     }
 }
 
@@ -168,8 +169,8 @@ CRACKLE_INLINE void outline_stage(const World& world, ContactPoint* points, cons
         *edge_lengths[lane_count], *edge_ends[lane_count];
     Lanes element_x, element_y, target_reach, edge_x, edge_y, tx, ty, length, cone_before, cone_beyond, unused;
     for (int l = 0; l < lane_count; ++l) {
-        const Element& element = world.elements[points[l].element_i];
-        const Edge& faced = world.edges[points[l].feature_j];
+        const Element& element = world.bodies.elements[points[l].element_i];
+        const Edge& faced = world.bodies.edges[points[l].feature_j];
         elements[l] = &element.x;
         element_reaches[l] = &element.radius;
         edges[l] = &faced.x;
@@ -200,15 +201,16 @@ CRACKLE_INLINE void outline_stage(const World& world, ContactPoint* points, cons
     stage.dvx = pair.dvx, stage.dvy = pair.dvy;
     stage.spin_i = pair.spin_i, stage.spin_j = pair.spin_j;
     // Whether the edge faced last is of an outline whose edges are all there is to face.
-    if (!world.convex_outlines) {
+    if (!world.bodies.convex_outlines) {
         for (int l = 0; l < lane_count; ++l)
-            if (world.edges[points[l].feature_j].outline_of != points[l].body_j) settled[l] = 0;
+            if (world.bodies.edges[points[l].feature_j].outline_of != points[l].body_j) settled[l] = 0;
     }
     if (const unsigned search = mask_of(~settled); search != 0) {
         for (int l = 0; l < lane_count; ++l) {
             if ((search >> l & 1) == 0) continue;
             ContactPoint& point = points[l];
-            const OutlineFacing facing = face_outline(world, world.info[point.body_j], point.feature_j, px[l], py[l]);
+            const OutlineFacing facing =
+                face_outline(world, world.bodies.info[point.body_j], point.feature_j, px[l], py[l]);
             point.feature_j = facing.edge;
             stage.across[l] = facing.distance;
             stage.over[l] = 0.0;
@@ -251,9 +253,9 @@ template <PointKind K, bool Fours, PointIndex Most>
 CRACKLE_INLINE void geometry_batches(World& world, PointIndex k, PointIndex batches, BatchGeometry (&geometry)[Most]) {
     static_assert(K == PointKind::circle_circle || K == PointKind::element_outline);
     if constexpr (K == PointKind::circle_circle) {
-        const BodyState* const bodies = world.bodies.data();
+        const BodyState* const bodies = world.bodies.state.data();
         for (std::size_t n = 0; n < batches; ++n) {
-            const ContactPoint* const points = world.points.data() + k + n * lane_count;
+            const ContactPoint* const points = world.points.contact.data() + k + n * lane_count;
             BatchBodies i, j;
             for (int l = 0; l < lane_count; ++l) {
                 i[l] = &bodies[points[l].body_i];
@@ -265,17 +267,17 @@ CRACKLE_INLINE void geometry_batches(World& world, PointIndex k, PointIndex batc
         OutlineStage stages[Most];
         const bool in_memory = world.points.size() > points_in_cache;
         for (std::size_t n = 0; n < batches; ++n) {
-            ContactPoint* const points = world.points.data() + k + n * lane_count;
+            ContactPoint* const points = world.points.contact.data() + k + n * lane_count;
             if (Fours && in_memory) prefetch_outlines(world, points);
             outline_stage(world, points, Fours ? load_fours(world, points) : load_any_pairs(world, points), stages[n]);
         }
-        for (PointIndex n = 0; n < batches; ++n) outline_batch(stages[n], world.drift, geometry[n]);
+        for (PointIndex n = 0; n < batches; ++n) outline_batch(stages[n], world.stepping.drift, geometry[n]);
     }
 }
 
 /// Law of a batch, each number in all lanes, where kernels have them at hand.
 struct LawLanes {
-    LawLanes(const World& world, std::uint16_t of_law) : LawLanes(world.laws[of_law], of_law) {}
+    LawLanes(const World& world, std::uint16_t of_law) : LawLanes(world.settings.laws[of_law], of_law) {}
 
     Lanes normal_stiffness, shear_stiffness, normal_damping, shear_damping, normal_damping_ratio_term,
         shear_damping_ratio_term;
@@ -318,7 +320,7 @@ struct BlockLosses {
         }
     }
 
-    World::LossBlock total() const {
+    LossBlock total() const {
         double sum = 0.0;
         for (const double one : dashpot) sum += one;
         return {sum, friction, law, broken, gained};
@@ -343,17 +345,17 @@ CRACKLE_INLINE void force_lanes(World& world, PointIndex k, PointIndex place, co
         else
             return batch.holds ? held : otherwise;
     };
-    const double dt = world.drift;
+    const double dt = world.stepping.drift;
     Lanes normal = law.normal_stiffness * g.overlap;
     [[maybe_unused]] Lanes bond_overlap;
     if constexpr (Bonds) {
-        bond_overlap = load_as<Lanes>(&world.bond_overlaps[k]);
+        bond_overlap = load_as<Lanes>(&world.points.bond_overlap[k]);
         normal -= law.normal_stiffness * bond_overlap;
     }
     Lanes tangential = zero;
     LaneBits sliding = batch.holds;
     if constexpr (Friction) {
-        double* const spring = &world.shear_forces[k];
+        double* const spring = &world.points.shear_force[k];
         const Lanes before = load_as<Lanes>(spring);
         const Lanes trial = before - law.shear_stiffness * (g.slipping * dt);
         const Lanes squeezed = g.overlap < 0.0 ? zero : g.overlap;
@@ -395,18 +397,20 @@ CRACKLE_INLINE void force_lanes(World& world, PointIndex k, PointIndex place, co
         LaneBits strong = normal * normal + tangential * tangential >= half * half;
         if constexpr (!All) strong &= batch.bonded;
         if (mask_of(strong) != 0) {  // rare: spares the memory of the others
-            float *const strong_normal = &world.strong_normal[k], *const strong_shear = &world.strong_shear[k];
+            float *const strong_normal = &world.points.strong_normal[k], *const strong_shear =
+                                                                             &world.points.strong_shear[k];
             store_floats(strong_normal, strong ? normal : load_floats(strong_normal));
             store_floats(strong_shear, strong ? tangential : load_floats(strong_shear));
         }
     }
     if constexpr (Damping) {
-        const Lanes root_mass = load_as<Lanes>(&world.root_masses[k]);
+        const Lanes root_mass = load_as<Lanes>(&world.points.root_mass[k]);
         const Lanes normal_dashpot = (law.normal_damping + law.normal_damping_ratio_term * root_mass) * g.closing;
         const Lanes shear_damper =
             sliding ? zero : (law.shear_damping + law.shear_damping_ratio_term * root_mass) * g.slipping;
         if constexpr (Ledger) {
-            float *const normal_memory = &world.normal_dashpot[k], *const shear_memory = &world.shear_dashpot[k];
+            float *const normal_memory = &world.points.normal_dashpot[k], *const shear_memory =
+                                                                              &world.points.shear_dashpot[k];
             const Lanes last_normal = load_floats(normal_memory), last_shear = load_floats(shear_memory);
             const Lanes lost =
                 0.5 * dt * ((last_normal + normal_dashpot) * g.closing + (last_shear + shear_damper) * g.slipping);
@@ -438,7 +442,7 @@ CRACKLE_INLINE bool force_batch(World& world, PointIndex k, PointIndex place, co
     constexpr auto bit_of = [](int flags) { return static_cast<LaneBit>(flags) << 16; };
     constexpr int at_rest = point_touching | (Bonds ? point_bonded | point_counted : 0);
     constexpr LaneBit of_law = 0xffff, looked_at = of_law | bit_of(at_rest | point_sliding);
-    PointState* const states = world.point_states.data() + k;
+    PointState* const states = world.points.state.data() + k;
     const LaneBits law_and_flags = widened(states);
     LaneBits unlike = law_and_flags ^ (law.number | bit_of(at_rest));
     if (!none_of(unlike & of_law)) {

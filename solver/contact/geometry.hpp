@@ -108,8 +108,8 @@ inline OutlineFacing face_convex(const Edge* edges, const Piece& piece, std::uin
 
 /// Closest feature of a body's outline (minimum over its convex pieces and segments); `hint` is the edge faced last.
 inline OutlineFacing face_outline(const World& world, const BodyInfo& body, std::uint32_t hint, double px, double py) {
-    const Piece* pieces = world.pieces.data() + body.first_piece;
-    const Edge* edges = world.edges.data();
+    const Piece* pieces = world.bodies.pieces.data() + body.first_piece;
+    const Edge* edges = world.bodies.edges.data();
     if (body.piece_count == 1 && pieces[0].closed) return detail::face_convex(edges, pieces[0], hint, px, py);
     OutlineFacing best{std::numeric_limits<double>::infinity(), 0.0, 0.0, 0};
     for (std::uint32_t p = 0; p < body.piece_count; ++p) {
@@ -149,7 +149,7 @@ inline ContactGeometry circles_geometry(double dx, double dy, double ri, double 
 
 /// The segment that begins at an element, as it lies now. @param centre of its body, m, in the frame wanted
 inline Bar bar_of(const World& world, const BodyState& body, std::uint32_t element, Vec2 centre) {
-    const Edge& edge = world.segments[element];
+    const Edge& edge = world.bodies.segments[element];
     const double c = body.shape[0], s = body.shape[1];
     return {centre + Vec2{c * edge.x - s * edge.y, s * edge.x + c * edge.y},
             {c * edge.tx - s * edge.ty, s * edge.tx + c * edge.ty},
@@ -163,14 +163,14 @@ inline void visit_discs(const World& world, const ContactPoint& point, const Bod
                         Visit&& visit) {
     const Bar b = bar_of(world, j, point.feature_j, {j.x - i.x, j.y - i.y});
     if constexpr (K == PointKind::disc_segment) {
-        const Element& circle = world.elements[point.element_i];
-        visit(b, turned(i, circle), circle.radius + world.thick, 1.0);
+        const Element& circle = world.bodies.elements[point.element_i];
+        visit(b, turned(i, circle), circle.radius + world.settings.thick, 1.0);
     } else {
         const Bar a = bar_of(world, i, point.element_i, {});
-        visit(b, a.start, world.thick, 1.0);
-        visit(b, a.start + a.length * a.along, world.thick, 1.0);
-        visit(a, b.start, world.thick, -1.0);
-        visit(a, b.start + b.length * b.along, world.thick, -1.0);
+        visit(b, a.start, world.settings.thick, 1.0);
+        visit(b, a.start + a.length * a.along, world.settings.thick, 1.0);
+        visit(a, b.start, world.settings.thick, -1.0);
+        visit(a, b.start + b.length * b.along, world.settings.thick, -1.0);
     }
 }
 
@@ -182,8 +182,8 @@ inline ContactGeometry contact_geometry(const World& world, const ContactPoint& 
     if constexpr (K == PointKind::circle_circle) {
         return detail::circles_geometry(j.x - i.x, j.y - i.y, i.shape[0], j.shape[0]);
     } else if constexpr (K == PointKind::element_element) {
-        const Element& a = world.elements[point.element_i];
-        const Element& b = world.elements[point.feature_j];
+        const Element& a = world.bodies.elements[point.element_i];
+        const Element& b = world.bodies.elements[point.feature_j];
         const Vec2 oi = turned(i, a), oj = turned(j, b);
         ContactGeometry g =
             detail::circles_geometry((j.x - i.x) + (oj.x - oi.x), (j.y - i.y) + (oj.y - oi.y), a.radius, b.radius);
@@ -193,11 +193,11 @@ inline ContactGeometry contact_geometry(const World& world, const ContactPoint& 
         g.ajy += oj.y;
         return g;
     } else if constexpr (K == PointKind::element_outline) {
-        const Element& a = world.elements[point.element_i];
+        const Element& a = world.bodies.elements[point.element_i];
         const Vec2 oi = turned(i, a);
         const double wx = (i.x - j.x) + oi.x, wy = (i.y - j.y) + oi.y;
         const double cosine = j.shape[0], sine = j.shape[1];
-        const OutlineFacing facing = face_outline(world, world.info[point.body_j], point.feature_j,
+        const OutlineFacing facing = face_outline(world, world.bodies.info[point.body_j], point.feature_j,
                                                   cosine * wx + sine * wy, cosine * wy - sine * wx);
         feature = facing.edge;
         ContactGeometry g;
@@ -216,14 +216,15 @@ inline ContactGeometry contact_geometry(const World& world, const ContactPoint& 
         visit([&](const Bar& bar, Vec2 centre, double radius, double sense) {
             resultant.add(bar, centre, radius, sense);
         });
-        const DiscResultant::Contact contact = resultant.contact(world.segment_law == SegmentLaw::demseg_mean, visit);
+        const DiscResultant::Contact contact =
+            resultant.contact(world.settings.segment_law == SegmentLaw::demseg_mean, visit);
         return {contact.overlap, contact.normal.x,           contact.normal.y,          contact.at.x,
                 contact.at.y,    contact.at.x - (j.x - i.x), contact.at.y - (j.y - i.y)};
     } else {
-        const Element& a = world.elements[point.element_i];
+        const Element& a = world.bodies.elements[point.element_i];
         const Vec2 oi = turned(i, a);
         const double radius = point.feature_j == 1 ? 0.0 : a.radius;
-        const Domain& domain = world.domain;
+        const Domain& domain = world.settings.domain;
         ContactGeometry g{};
         double distance = 0.0;
         switch (static_cast<Wall>(point.body_j)) {
@@ -261,8 +262,9 @@ inline ContactGeometry contact_geometry(const World& world, const ContactPoint& 
 /// The same where the bodies are.
 template <PointKind K>
 inline ContactGeometry contact_geometry(const World& world, const ContactPoint& point, std::uint32_t& feature) {
-    const BodyState& i = world.bodies[point.body_i];
-    return contact_geometry<K>(world, point, i, K == PointKind::element_wall ? i : world.bodies[point.body_j], feature);
+    const BodyState& i = world.bodies.state[point.body_i];
+    return contact_geometry<K>(world, point, i, K == PointKind::element_wall ? i : world.bodies.state[point.body_j],
+                               feature);
 }
 
 /// Only the overlap of it, m.
@@ -287,8 +289,5 @@ inline void visit_kinds(const std::array<PointIndex, point_kinds + 1>& kind_begi
     of_kind.template operator()<PointKind::element_wall>();
     static_assert(point_kinds == 6);
 }
-
-/// contact_geometry() of any point, whatever its kind (solver/measure/point_view.cpp).
-ContactGeometry geometry_at(const World& world, PointIndex point);
 
 }  // namespace crackle

@@ -38,7 +38,7 @@ Discs discs_of(const World& world, PointKind kind, const ContactPoint& point) {
         place(found, bar, centre);
         discs.all[discs.count++] = {found, bar, centre, radius, sense};
     };
-    const BodyState &i = world.bodies[point.body_i], &j = world.bodies[point.body_j];
+    const BodyState &i = world.bodies.state[point.body_i], &j = world.bodies.state[point.body_j];
     if (kind == PointKind::disc_segment) {
         visit_discs<PointKind::disc_segment>(world, point, i, j, add);
     } else {
@@ -53,7 +53,7 @@ void add_to(OverlapGradient& sum, double share, const OverlapGradient& row) {
 
 /// From i's centroid to j's.
 Vec2 between(const World& world, const ContactPoint& point) {
-    const BodyState &i = world.bodies[point.body_i], &j = world.bodies[point.body_j];
+    const BodyState &i = world.bodies.state[point.body_i], &j = world.bodies.state[point.body_j];
     return {j.x - i.x, j.y - i.y};
 }
 
@@ -105,7 +105,7 @@ OverlapGradient guide_gradient(const World& world, PointKind kind, const Contact
         return approach(nearest->sense * c.normal, c.at, c.at - to_j);
     }
     const Vec2 n = (1.0 / size) * sum;
-    const double share = world.segment_law == SegmentLaw::demseg_mean ? 1.0 / cases : 1.0;
+    const double share = world.settings.segment_law == SegmentLaw::demseg_mean ? 1.0 / cases : 1.0;
     OverlapGradient row{};
     for (const Disc& disc : discs) {
         if (disc.found.rule == DiscRule::none) continue;
@@ -120,7 +120,7 @@ std::vector<OverlapGradient> idle_discs(const World& world, PointKind kind, cons
     const Vec2 to_j = between(world, point);
     for (const Disc& disc : discs_of(world, kind, point)) {
         const DiscCase& c = disc.found;
-        const double limit = disc.radius + world.skin;
+        const double limit = disc.radius + world.list.skin;
         if (c.rule != DiscRule::none || c.squared_distance > limit * limit) continue;
         rows.push_back(approach(disc.sense * c.normal, c.at, c.at - to_j));
     }

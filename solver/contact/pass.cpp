@@ -11,25 +11,27 @@
 #include "solver/contact/geometry.hpp"
 #include "solver/contact/law.hpp"
 #include "solver/contact/opening.hpp"
+#include "solver/measure/ledger.hpp"
 
 namespace crackle {
 namespace {
 
 /// Work of the drift that ended here, by the spring's force before it and after it (`now` along the normal, N).
 inline void store_work(SpringWork& work, const World& world, const ContactPoint& point, double now, double closing) {
-    const BodyState &i = world.bodies[point.body_i], &j = world.bodies[point.body_j];
+    const BodyState &i = world.bodies.state[point.body_i], &j = world.bodies.state[point.body_j];
     const double given_back = work.last.fx * (i.vx - j.vx) + work.last.fy * (i.vy - j.vy) +
                               work.last.torque_i * i.omega + work.last.torque_j * j.omega;
-    work.stored += 0.5 * world.drift * (now * closing - given_back);
+    work.stored += 0.5 * world.stepping.drift * (now * closing - given_back);
 }
 
 /// Out of contact: no force; what the shear spring still held is lost to the slider.
 template <bool Friction, bool Ledger>
 inline void release(World& world, PointIndex k, BlockLosses& loss, double shear_move) {
-    PointState& state = world.point_states[k];
+    PointState& state = world.points.state[k];
     if constexpr (Ledger && Friction)
-        loss.friction += shear_force(world.laws[state.law], world.shear_forces[k], shear_move, 0.0).friction;
-    world.shear_forces[k] = 0.0;
+        loss.friction +=
+            shear_force(world.settings.laws[state.law], world.points.shear_force[k], shear_move, 0.0).friction;
+    world.points.shear_force[k] = 0.0;
     state.flags = static_cast<std::uint16_t>(state.flags & ~(point_touching | point_sliding | point_slid));
 }
 
@@ -38,14 +40,15 @@ inline void release(World& world, PointIndex k, BlockLosses& loss, double shear_
 template <PointKind K>
 inline void feel_bodies(const World& world, const ContactPoint& point, const ContactGeometry& g, Approach& approach) {
     const auto add = [&](BodyIndex b, double arm_x, double arm_y, double sense) {
-        const BodyInertia& inertia = world.inertia[b];
-        const BodyForce& force = world.last_forces[b];
+        const BodyInertia& inertia = world.bodies.inertia[b];
+        const BodyForce& force = world.bodies.last_force[b];
         const double turn = arm_x * g.ny - arm_y * g.nx;
         approach.inverse_mass += inertia.inverse_mass_x * g.nx * g.nx + inertia.inverse_mass_y * g.ny * g.ny +
                                  inertia.inverse_moment * turn * turn;
-        approach.acceleration += sense * ((force.fx + inertia.mass * world.gravity.x) * inertia.inverse_mass_x * g.nx +
-                                          (force.fy + inertia.mass * world.gravity.y) * inertia.inverse_mass_y * g.ny +
-                                          force.torque * inertia.inverse_moment * turn);
+        approach.acceleration +=
+            sense * ((force.fx + inertia.mass * world.settings.gravity.x) * inertia.inverse_mass_x * g.nx +
+                     (force.fy + inertia.mass * world.settings.gravity.y) * inertia.inverse_mass_y * g.ny +
+                     force.torque * inertia.inverse_moment * turn);
     };
     add(point.body_i, g.aix, g.aiy, 1.0);
     if constexpr (K != PointKind::element_wall) add(point.body_j, g.ajx, g.ajy, -1.0);
@@ -62,7 +65,7 @@ inline Arms arms_of_circles(const BodyState& i, const BodyState& j, const Contac
 /// Slip that ω × a at the end of the drift misses, where the arm is not along the normal: the chord of its turn,
 /// ½ω²Δt·a, in m/s. Left out, a bonded specimen that turns as a whole would collect shear, first order in Δt.
 inline double chord(const World& world, const BodyState& body, double arm_x, double arm_y, const ContactGeometry& g) {
-    return 0.5 * world.drift * body.omega * body.omega * (arm_y * g.nx - arm_x * g.ny);
+    return 0.5 * world.stepping.drift * body.omega * body.omega * (arm_y * g.nx - arm_x * g.ny);
 }
 
 /// How i moves against j at the contact position, m/s.
@@ -72,12 +75,12 @@ struct Motion {
 
 template <PointKind K>
 inline Motion relative_motion(const World& world, const ContactPoint& point, const ContactGeometry& g) {
-    const BodyState& i = world.bodies[point.body_i];
+    const BodyState& i = world.bodies.state[point.body_i];
     if constexpr (K == PointKind::element_wall) {
         const double rx = i.vx - i.omega * g.aiy, ry = i.vy + i.omega * g.aix;
         return {rx * g.nx + ry * g.ny, ry * g.nx - rx * g.ny + chord(world, i, g.aix, g.aiy, g)};
     } else {
-        const BodyState& j = world.bodies[point.body_j];
+        const BodyState& j = world.bodies.state[point.body_j];
         double rx = i.vx - j.vx, ry = i.vy - j.vy;
         if constexpr (K == PointKind::circle_circle) {
             const Arms arms = arms_of_circles(i, j, g);
@@ -95,18 +98,18 @@ inline Motion relative_motion(const World& world, const ContactPoint& point, con
 /// Force of one point into `out`, with all that can happen to it. @param place in its block
 template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Ledger, bool Consistent>
 inline void force_point(World& world, PointIndex k, PointIndex place, PointForce& out, BlockLosses& loss) {
-    const double dt = world.drift;
-    [[maybe_unused]] const double kick = kick_before(world) + 0.5 * world.time_step;
-    ContactPoint& point = world.points[k];
-    PointState& state = world.point_states[k];
+    const double dt = world.stepping.drift;
+    [[maybe_unused]] const double kick = kick_before(world.stepping) + 0.5 * world.stepping.time_step;
+    ContactPoint& point = world.points.contact[k];
+    PointState& state = world.points.state[k];
     const ContactGeometry g = contact_geometry<K>(world, point, point.feature_j);
-    const ContactLaw& law = world.laws[state.law];
+    const ContactLaw& law = world.settings.laws[state.law];
     bool bonded = false;
     if constexpr (Bonds) bonded = (state.flags & point_bonded) != 0;
 
     const bool holds = bonded ? g.overlap > law.break_overlap : g.overlap > 0.0;
     if (!holds && !bonded && (state.flags & point_touching) == 0) {
-        if constexpr (Consistent) world.openings[k].overlap = g.overlap;
+        if constexpr (Consistent) world.points.opening[k].overlap = g.overlap;
         out = {0.0, 0.0, 0.0, 0.0};
         return;
     }
@@ -118,19 +121,19 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
     // A point that overlaps before anything has moved has not been seen to close.
     [[maybe_unused]] const bool touched = (state.flags & point_touching) != 0 || dt == 0.0;
     if constexpr (Consistent) {
-        approach = {g.overlap, closing, 0.0, 0.0, law.normal_stiffness, 0.0, dt, kick, world.time_step};
-        if (!bonded) before = settle_opening(world.openings[k], touched, approach);
+        approach = {g.overlap, closing, 0.0, 0.0, law.normal_stiffness, 0.0, dt, kick, world.stepping.time_step};
+        if (!bonded) before = settle_opening(world.points.opening[k], touched, approach);
     }
 
     if (!holds) {
-        if constexpr (Consistent) rest_opening(world.openings[k]);
+        if constexpr (Consistent) rest_opening(world.points.opening[k]);
         if constexpr (Ledger && Damping) {
             loss.dashpot[place % BlockLosses::places] +=
-                0.5 * dt * (world.normal_dashpot[k] * closing + world.shear_dashpot[k] * slipping);
-            world.normal_dashpot[k] = world.shear_dashpot[k] = 0.0F;
+                0.5 * dt * (world.points.normal_dashpot[k] * closing + world.points.shear_dashpot[k] * slipping);
+            world.points.normal_dashpot[k] = world.points.shear_dashpot[k] = 0.0F;
         }
         if constexpr (Ledger && by_guide(K)) {
-            SpringWork& work = world.spring_work[k];
+            SpringWork& work = world.points.spring_work[k];
             store_work(work, world, point, 0.0, closing);
             work.last = {0.0, 0.0, 0.0, 0.0};
             if (!bonded) {
@@ -154,15 +157,15 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
     if constexpr (Consistent) {
         if (!bonded) {
             feel_bodies<K>(world, point, g, approach);
-            if constexpr (Damping) approach.dashpot = normal_damping(law, world.root_masses[k]) * closing;
-            normal = opening_force(world.openings[k], touched, before, approach);
+            if constexpr (Damping) approach.dashpot = normal_damping(law, world.points.root_mass[k]) * closing;
+            normal = opening_force(world.points.opening[k], touched, before, approach);
             compression = normal / law.normal_stiffness;
         }
     }
-    if constexpr (Bonds) normal -= law.normal_stiffness * world.bond_overlaps[k];
+    if constexpr (Bonds) normal -= law.normal_stiffness * world.points.bond_overlap[k];
     if constexpr (Ledger && by_guide(K)) {
-        SpringWork& work = world.spring_work[k];
-        if (world.initial_energy_taken) {
+        SpringWork& work = world.points.spring_work[k];
+        if (world.account.begun) {
             store_work(work, world, point, normal, closing);
         } else {
             work.stored = 0.5 * normal * normal / law.normal_stiffness;  // the account begins
@@ -174,33 +177,34 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
     std::uint16_t flags = static_cast<std::uint16_t>((state.flags | point_touching) & ~point_sliding);
     bool sliding = !Friction;
     if constexpr (Friction) {
-        const ShearUpdate shear = shear_force(law, world.shear_forces[k], slipping * dt, compression);
+        const ShearUpdate shear = shear_force(law, world.points.shear_force[k], slipping * dt, compression);
         sliding = shear.sliding;
         if (sliding) flags |= point_sliding | point_slid;
         if constexpr (Ledger) loss.friction += shear.friction;
-        world.shear_forces[k] = shear.force;
+        world.points.shear_force[k] = shear.force;
         tangential = shear.force;
     }
     state.flags = flags;
     if constexpr (Bonds) {
         loss.gained += (flags & point_counted) == 0 ? 1u : 0u;
         if (bonded) {
-            const double half_strength = 0.5 * law.normal_stiffness * world.bond_overlaps[k];
+            const double half_strength = 0.5 * law.normal_stiffness * world.points.bond_overlap[k];
             if (normal * normal + tangential * tangential >= half_strength * half_strength) {
-                world.strong_normal[k] = static_cast<float>(normal);
-                world.strong_shear[k] = static_cast<float>(tangential);
+                world.points.strong_normal[k] = static_cast<float>(normal);
+                world.points.strong_shear[k] = static_cast<float>(tangential);
             }
         }
     }
     if constexpr (Damping) {
-        const double normal_dashpot = normal_damping(law, world.root_masses[k]) * closing;
-        const double shear_damper = sliding ? 0.0 : shear_dashpot(law, world.root_masses[k], slipping, compression);
+        const double normal_dashpot = normal_damping(law, world.points.root_mass[k]) * closing;
+        const double shear_damper =
+            sliding ? 0.0 : shear_dashpot(law, world.points.root_mass[k], slipping, compression);
         if constexpr (Ledger) {
             loss.dashpot[place % BlockLosses::places] += 0.5 * dt *
-                                                         ((world.normal_dashpot[k] + normal_dashpot) * closing +
-                                                          (world.shear_dashpot[k] + shear_damper) * slipping);
-            world.normal_dashpot[k] = static_cast<float>(normal_dashpot);
-            world.shear_dashpot[k] = static_cast<float>(shear_damper);
+                                                         ((world.points.normal_dashpot[k] + normal_dashpot) * closing +
+                                                          (world.points.shear_dashpot[k] + shear_damper) * slipping);
+            world.points.normal_dashpot[k] = static_cast<float>(normal_dashpot);
+            world.points.shear_dashpot[k] = static_cast<float>(shear_damper);
         }
         normal += normal_dashpot;
         tangential -= shear_damper;
@@ -210,7 +214,7 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
     const double fx = -normal * g.nx - tangential * g.ny;
     const double fy = -normal * g.ny + tangential * g.nx;
     if constexpr (K == PointKind::circle_circle) {
-        const Arms arms = arms_of_circles(world.bodies[point.body_i], world.bodies[point.body_j], g);
+        const Arms arms = arms_of_circles(world.bodies.state[point.body_i], world.bodies.state[point.body_j], g);
         out = {fx, fy, arms.i * tangential, arms.j * tangential};
     } else {
         out = {fx, fy, g.aix * fy - g.aiy * fx, g.ajy * fx - g.ajx * fy};
@@ -229,7 +233,7 @@ CRACKLE_INLINE PointIndex force_batches(World& world, const PointBlock& block, P
     constexpr PointIndex ahead = 64 / lane_count;
     if (k + lane_count > end) return k;
     BatchGeometry geometry[ahead];
-    LawLanes law(world, world.point_states[k].law);
+    LawLanes law(world, world.points.state[k].law);
     while (k + lane_count <= end) {
         const PointIndex batches = std::min<PointIndex>(ahead, (end - k) / lane_count);
         geometry_batches<K, Fours>(world, k, batches, geometry);
@@ -252,14 +256,14 @@ void force_block(World& world, const PointBlock& block) {
     if constexpr (in_batches<K, Consistent>) {
         if constexpr (K == PointKind::element_outline)
             k = force_batches<K, Friction, Damping, Bonds, Ledger, true>(
-                world, block, k, std::min(block.end, std::max(k, world.fours_end)), loss);
+                world, block, k, std::min(block.end, std::max(k, world.points.fours_end)), loss);
         k = force_batches<K, Friction, Damping, Bonds, Ledger, false>(world, block, k, block.end, loss);
     }
     for (; k < block.end; ++k) {
         const PointIndex place = k - block.begin;
         force_point<K, Friction, Damping, Bonds, Ledger, Consistent>(world, k, place, block.forces[place], loss);
     }
-    world.loss_blocks[block.number] = loss.total();
+    world.account.blocks[block.number] = loss.total();
 }
 
 /// Geometry alone, for profiles.
@@ -274,7 +278,7 @@ void geometry_block(World& world, const PointBlock& block) {
         }
     }
     for (; k < block.end; ++k) {
-        ContactPoint& point = world.points[k];
+        ContactPoint& point = world.points.contact[k];
         const ContactGeometry g = contact_geometry<K>(world, point, point.feature_j);
         asm volatile("" : : "m"(g));
     }
@@ -311,8 +315,8 @@ constexpr std::array<ForceKernel, point_kinds> geometry_kernels{
 }  // namespace
 
 ContactFeatures features_of(const World& world) {
-    ContactFeatures features{false, false, world.has_bonds, world.ledger_on, !world.openings.empty()};
-    for (const ContactLaw& law : world.laws) {
+    ContactFeatures features{false, false, world.bonds.made, world.settings.ledger_on, !world.points.opening.empty()};
+    for (const ContactLaw& law : world.settings.laws) {
         features.friction = features.friction || law.friction > 0.0;
         features.damping = features.damping || law.normal_damping > 0.0 || law.shear_damping > 0.0 ||
                            law.normal_damping_ratio_term > 0.0 || law.shear_damping_ratio_term > 0.0;
@@ -321,7 +325,7 @@ ContactFeatures features_of(const World& world) {
 }
 
 PointIndex blocks_of_kind(const World& world, std::size_t kind) {
-    return (world.kind_begin[kind + 1] - world.kind_begin[kind] + block_points - 1) / block_points;
+    return (world.points.kind_begin[kind + 1] - world.points.kind_begin[kind] + block_points - 1) / block_points;
 }
 
 std::size_t first_block_of(const World& world, std::size_t kind) {
@@ -333,9 +337,9 @@ std::size_t first_block_of(const World& world, std::size_t kind) {
 std::size_t block_count(const World& world) { return first_block_of(world, point_kinds); }
 
 PointBlock block_of(const World& world, std::size_t kind, PointIndex block, PointForce* forces) {
-    const PointIndex begin = world.kind_begin[kind] + block * block_points;
-    return {begin, std::min(begin + block_points, world.kind_begin[kind + 1]), first_block_of(world, kind) + block,
-            forces};
+    const PointIndex begin = world.points.kind_begin[kind] + block * block_points;
+    return {begin, std::min(begin + block_points, world.points.kind_begin[kind + 1]),
+            first_block_of(world, kind) + block, forces};
 }
 
 ForceKernel force_kernel(const ContactFeatures& features, std::size_t kind) {

@@ -17,6 +17,8 @@
 
 #include "solver/base/errors.hpp"
 #include "solver/demseg/deck_reader.hpp"
+#include "solver/measure/point_view.hpp"
+#include "solver/stepping/bonding.hpp"
 
 namespace crackle {
 namespace {
@@ -38,18 +40,18 @@ int number_of(const BodyInfo& info, std::uint32_t element) {
 /// id, of a circle and a segment the circle's.
 PointName name_of(const World& world, PointIndex k) {
     const PointKind kind = view_point(world, k).kind;
-    const ContactPoint& point = world.points[k];
-    const BodyInfo& owner = world.info[point.body_i];
+    const ContactPoint& point = world.points.contact[k];
+    const BodyInfo& owner = world.bodies.info[point.body_i];
     PointName name{owner.id, partner_id(world, kind, point), number_of(owner, point.element_i), 0};
     if (kind != PointKind::element_outline && kind != PointKind::element_wall) {
-        name.partner = number_of(world.info[point.body_j], point.feature_j);
+        name.partner = number_of(world.bodies.info[point.body_j], point.feature_j);
         if (kind != PointKind::disc_segment && name.other < name.body) name = name.seen_from_other();
     }
     return name;
 }
 
 bool is_wall(PointIndex k, const World& world) {
-    return k >= world.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
+    return k >= world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
 }
 
 /// Points by name, in name order, each under one name.
@@ -94,14 +96,14 @@ void write_lists(std::ostream& out, const Scene& scene, LinesOfBodies& lines) {
 }
 
 double back_tension(const World& world, PointIndex k) {
-    return (world.point_states[k].flags & point_bonded) != 0
-               ? -world.laws[world.point_states[k].law].normal_stiffness * world.bond_overlaps[k]
+    return (world.points.state[k].flags & point_bonded) != 0
+               ? -world.settings.laws[world.points.state[k].law].normal_stiffness * world.points.bond_overlap[k]
                : 0.0;
 }
 
 /// δ0 as back_tension() would give it back.
 double bond_overlap(const World& world, PointIndex k, double tension) {
-    return -tension / world.laws[world.point_states[k].law].normal_stiffness;
+    return -tension / world.settings.laws[world.points.state[k].law].normal_stiffness;
 }
 
 /// Reads `id count` of the next list; the lists follow the bodies of the scene.
@@ -113,7 +115,8 @@ std::int64_t read_list_head(DeckReader& reader, const Body& body) {
 
 std::unordered_map<int, BodyIndex> indices_by_id(const World& world) {
     std::unordered_map<int, BodyIndex> indices;
-    for (std::size_t b = 0; b < world.info.size(); ++b) indices.emplace(world.info[b].id, static_cast<BodyIndex>(b));
+    for (std::size_t b = 0; b < world.bodies.info.size(); ++b)
+        indices.emplace(world.bodies.info[b].id, static_cast<BodyIndex>(b));
     return indices;
 }
 
@@ -123,26 +126,26 @@ bool may_have_parted(const World& world, const std::unordered_map<int, BodyIndex
     for (const int id : {name.body, name.other}) {
         if (id < 0) continue;  // a wall
         const BodyIndex b = index_of.at(id);
-        const BodyState& body = world.bodies[b];
-        speed += norm({body.vx, body.vy}) + world.info[b].reach * std::abs(body.omega);
+        const BodyState& body = world.bodies.state[b];
+        speed += norm({body.vx, body.vy}) + world.bodies.info[b].reach * std::abs(body.omega);
     }
-    return speed * world.time_step >= world.skin;
+    return speed * world.stepping.time_step >= world.list.skin;
 }
 
 }  // namespace
 
 int partner_id(const World& world, PointKind kind, const ContactPoint& point) {
-    return kind == PointKind::element_wall ? -static_cast<int>(point.body_j) - 1 : world.info[point.body_j].id;
+    return kind == PointKind::element_wall ? -static_cast<int>(point.body_j) - 1 : world.bodies.info[point.body_j].id;
 }
 
 void write_contacts(std::ostream& out, const Scene& scene, const World& world) {
     LinesOfBodies lines;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
-        if ((world.point_states[k].flags & (point_touching | point_bonded)) == 0) continue;
+        if ((world.points.state[k].flags & (point_touching | point_bonded)) == 0) continue;
         const PointName name = name_of(world, k);
-        lines[name.body].emplace_back(
-            name, fmt::format("{} {} {} {} {} {}\n", name.other, name.element, name.partner, world.shear_forces[k],
-                              back_tension(world, k), (world.point_states[k].flags & point_slid) != 0 ? 1 : 0));
+        lines[name.body].emplace_back(name, fmt::format("{} {} {} {} {} {}\n", name.other, name.element, name.partner,
+                                                        world.points.shear_force[k], back_tension(world, k),
+                                                        (world.points.state[k].flags & point_slid) != 0 ? 1 : 0));
     }
     write_lists(out, scene, lines);
 }
@@ -187,13 +190,13 @@ void read_contacts(DeckReader& reader, const Scene& scene, World& world) {
             if (!entered.insert(found->second).second)
                 reader.refuse(contact, fmt::format("the contact with {} a second time", with),
                               "every contact point once");
-            world.shear_forces[found->second] = shear_force;
-            world.point_states[found->second].flags =
+            world.points.shear_force[found->second] = shear_force;
+            world.points.state[found->second].flags =
                 static_cast<std::uint16_t>(point_touching | (slid ? point_slid : 0));
             if (tension == 0.0) continue;
             bonds = true;
-            world.point_states[found->second].flags |= point_bonded;
-            world.bond_overlaps[found->second] = bond_overlap(world, found->second, tension);
+            world.points.state[found->second].flags |= point_bonded;
+            world.points.bond_overlap[found->second] = bond_overlap(world, found->second, tension);
         }
     }
     reader.expect_end("the last contact");
@@ -205,8 +208,9 @@ void write_back_tensions(std::ostream& out, const Scene& scene, const World& wor
     LinesOfBodies lines;
     for (PointIndex k = 0; k < world.points.size() && !is_wall(k, world); ++k) {
         double tension = back_tension(world, k);
-        if (!world.has_bonds)
-            tension = -world.laws[world.point_states[k].law].normal_stiffness * std::max(0.0, overlap_of(world, k));
+        if (!world.bonds.made)
+            tension =
+                -world.settings.laws[world.points.state[k].law].normal_stiffness * std::max(0.0, overlap_of(world, k));
         if (!(tension < 0.0)) continue;
         const PointName name = name_of(world, k);
         const bool plain = plain_pair(*names.find(name.body), *names.find(name.other));
@@ -263,8 +267,8 @@ void read_back_tensions(DeckReader& reader, const Scene& scene, World& world) {
                 where));
         }
         if (listing.tension == 0.0) continue;
-        world.bond_overlaps[found->second] = bond_overlap(world, found->second, listing.tension);
-        world.point_states[found->second].flags = point_bonded | point_touching;
+        world.points.bond_overlap[found->second] = bond_overlap(world, found->second, listing.tension);
+        world.points.state[found->second].flags = point_bonded | point_touching;
     }
     finish_bonding(world);
 }

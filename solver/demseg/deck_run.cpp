@@ -16,6 +16,11 @@
 #include "solver/demseg/deck_state.hpp"
 #include "solver/demseg/outputs.hpp"
 #include "solver/demseg/random_circles.hpp"
+#include "solver/measure/health.hpp"
+#include "solver/measure/point_view.hpp"
+#include "solver/stepping/bonding.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/step.hpp"
 
 namespace crackle {
 namespace {
@@ -74,7 +79,7 @@ DeckRun::DeckRun(DeckOptions options) : options_(std::move(options)) {
         start_from_contacts(texts);
     }
     find_bodies();
-    first_step_ = world_.step;
+    first_step_ = world_.stepping.steps;
     last_step_ = first_step_ + options_.steps.value_or(asked_.steps);
     refuse_existing_outputs();
 }
@@ -106,9 +111,9 @@ void DeckRun::start_new(const Texts& texts) {
             DeckReader tensions = texts.reader(3);
             read_back_tensions(tensions, base_.scene, world_);
         } else {
-            bond_all(world_, world_.thick);
+            bond_all(world_, world_.settings.thick);
             notices_.push_back(fmt::format("{}: not there, so {} bonds were made from the present overlaps",
-                                           texts.names[3], world_.bonds_initial));
+                                           texts.names[3], world_.bonds.initial));
         }
     }
     enter_steps_before();  // a derived step is known once there are bonds
@@ -133,7 +138,8 @@ void DeckRun::start_from_contacts(const Texts& texts) {
     world_ = build_world(std::move(scene));
     read_contacts(contacts, base_.scene, world_);
     enter_steps_before();
-    world_.drift = world_.time_step;  // the bodies have just moved: the first force pass takes up the slip of that step
+    world_.stepping.drift =
+        world_.stepping.time_step;  // the bodies have just moved: the first force pass takes up the slip of that step
 }
 
 bool DeckRun::start_from_state(const Texts& texts) {
@@ -154,17 +160,17 @@ bool DeckRun::start_from_state(const Texts& texts) {
         base_ = read_deck_geometry(geometry);
         boundary_ = read_boundary(boundary);
         world_ = std::move(state->world);
-        if (options_.law && *options_.law != world_.segment_law)
+        if (options_.law && *options_.law != world_.settings.segment_law)
             throw InputError(
                 fmt::format("law: found another contact law than that of {}, expected the same or none; "
                             "remove it to go on from the text files",
                             path.string()));
-        if (options_.integrator && *options_.integrator != world_.integrator)
+        if (options_.integrator && *options_.integrator != world_.settings.integrator)
             throw InputError(
                 fmt::format("integrator: found another than that of {}, expected the same or none; remove it to go on "
                             "from the text files",
                             path.string()));
-        world_.allow_unstable = options_.allow_unstable;
+        world_.stepping.allow_unstable = options_.allow_unstable;
         set_threads(world_, options_.threads);
         return true;
     }
@@ -172,14 +178,15 @@ bool DeckRun::start_from_state(const Texts& texts) {
 }
 
 void DeckRun::enter_steps_before() {
-    world_.step = world_.list_step = boundary_.steps_before;
-    world_.time = static_cast<double>(world_.step) * world_.time_step;
-    for (ControlState& control : world_.controls) control.first_step = world_.step;
+    world_.stepping.steps = world_.list.built_at = boundary_.steps_before;
+    world_.stepping.time = static_cast<double>(world_.stepping.steps) * world_.stepping.time_step;
+    for (ControlState& control : world_.bodies.controls) control.first_step = world_.stepping.steps;
 }
 
 void DeckRun::find_bodies() {
     std::unordered_map<int, BodyIndex> index_of;
-    for (std::size_t b = 0; b < world_.info.size(); ++b) index_of[world_.info[b].id] = static_cast<BodyIndex>(b);
+    for (std::size_t b = 0; b < world_.bodies.info.size(); ++b)
+        index_of[world_.bodies.info[b].id] = static_cast<BodyIndex>(b);
     for (const Body& body : base_.scene.bodies) order_.push_back(index_of.at(body.id));
     for (const int id : boundary_.watched) watched_.push_back(index_of.at(id));
     velocity_ = watched_;
@@ -202,12 +209,12 @@ void DeckRun::refuse_existing_outputs() const {
 }
 
 bool DeckRun::rows_due() const {
-    const std::int64_t step = world_.step;
+    const std::int64_t step = world_.stepping.steps;
     return step == first_step_ || step == 1 || due(step, asked_.output_interval) || due(step, asked_.row_interval);
 }
 
 void DeckRun::write_rows(DeckOutputs& outputs) const {
-    const std::int64_t step = world_.step;
+    const std::int64_t step = world_.stepping.steps;
     const bool beginning = step == first_step_;
     if (beginning || due(step, asked_.output_interval)) outputs.write_frame(world_, order_);
     const bool row = due(step, asked_.row_interval);
@@ -226,32 +233,33 @@ void DeckRun::run(const std::function<bool(const World&)>& go_on) {
     DeckOutputs outputs(output_folder(), appends()    ? OutputMode::appending
                                          : first_part ? OutputMode::fresh
                                                       : OutputMode::part);
-    while (world_.step < last_step_ && (!go_on || go_on(world_))) {
-        const bool check_due = due(world_.step, health_interval);
+    while (world_.stepping.steps < last_step_ && (!go_on || go_on(world_))) {
+        const bool check_due = due(world_.stepping.steps, health_interval);
         if (!check_due && !rows_due()) {
             step(world_);
             continue;
         }
         compute_forces(world_);
         if (check_due) check_health(world_);
-        if (first_part || world_.step > first_step_)
+        if (first_part || world_.stepping.steps > first_step_)
             write_rows(outputs);  // the last part has written the row of its last step
         advance(world_);
     }
     const auto files = files_for_next();
     compute_forces(world_);
     check_health(world_);
-    if (first_part || world_.step > first_step_) write_rows(outputs);
+    if (first_part || world_.stepping.steps > first_step_) write_rows(outputs);
     outputs.flush();
     for (const auto& [name, contents] : files) replace_file(output_folder() / name, contents);
 }
 
 Scene DeckRun::present_scene() const {
     Scene scene = base_.scene;
-    scene.time_step = world_.time_step;  // a derived one as it is in use: from here it might come out otherwise
+    scene.time_step =
+        world_.stepping.time_step;  // a derived one as it is in use: from here it might come out otherwise
     for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
         Body& body = scene.bodies[k];
-        const BodyState& state = world_.bodies[order_[k]];
+        const BodyState& state = world_.bodies.state[order_[k]];
         body.velocity = {state.vx, state.vy};
         body.spin = state.omega;
         const std::vector<Vec2> positions = element_positions(world_, order_[k]);
@@ -268,10 +276,11 @@ Scene DeckRun::present_scene() const {
 
 BoundaryConditions DeckRun::boundary_for_next() const {
     const bool over = finished();
-    const std::int64_t left = over ? boundary_.steps : boundary_.steps - (world_.step - boundary_.steps_before);
+    const std::int64_t left =
+        over ? boundary_.steps : boundary_.steps - (world_.stepping.steps - boundary_.steps_before);
     BoundaryConditions next = boundary_;
     next.start = DeckStart::continued;
-    next.steps_before = world_.step;
+    next.steps_before = world_.stepping.steps;
     next.steps = left;
     for (BodyControl& control : next.controls) {
         for (DofControl* dof : {&control.x, &control.y, &control.rotation}) {

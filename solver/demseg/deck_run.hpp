@@ -68,7 +68,7 @@ class DeckRun {
     /// Whether write_rows() has something to write at the present step.
     bool rows_due() const;
     void write_rows(DeckOutputs& outputs) const;
-    bool finished() const { return world_.step - boundary_.steps_before >= boundary_.steps; }
+    bool finished() const { return world_.stepping.steps - boundary_.steps_before >= boundary_.steps; }
     Scene present_scene() const;
     BoundaryConditions boundary_for_next() const;
     /// Contents of new_in_gm.dat, new_in_bc.dat, new_in_cf.dat, new_in_cf0.dat and new_state.bin, by name.

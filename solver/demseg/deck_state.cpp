@@ -12,6 +12,7 @@
 
 #include "solver/base/errors.hpp"
 #include "solver/demseg/deck_reader.hpp"
+#include "solver/world/checkpoint.hpp"
 
 namespace crackle {
 namespace {

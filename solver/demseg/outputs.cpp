@@ -15,6 +15,8 @@
 #include "solver/base/errors.hpp"
 #include "solver/base/replace_file.hpp"
 #include "solver/demseg/contact_files.hpp"
+#include "solver/measure/ledger.hpp"
+#include "solver/measure/point_view.hpp"
 
 namespace crackle {
 namespace {
@@ -74,7 +76,7 @@ std::uintmax_t length_up_to(const std::filesystem::path& path, std::int64_t step
     return kept;
 }
 
-bool touching(const World& world, PointIndex k) { return (world.point_states[k].flags & point_touching) != 0; }
+bool touching(const World& world, PointIndex k) { return (world.points.state[k].flags & point_touching) != 0; }
 
 }  // namespace
 
@@ -120,13 +122,13 @@ void DeckOutputs::write_frame(const World& world, std::span<const BodyIndex> ord
     std::string circles, segments;
     std::size_t circle_count = 0, segment_count = 0;
     for (const BodyIndex b : order) {
-        const BodyInfo& info = world.info[b];
+        const BodyInfo& info = world.bodies.info[b];
         const std::vector<Vec2> points = element_positions(world, b);
         if (info.piece_count == 0) {
             for (std::size_t k = 0; k < points.size(); ++k, ++circle_count) {
                 fmt::format_to(std::back_inserter(circles), "{} {} {} {} {}\n", info.id,
-                               world.elements[info.first_element + k].radius, points[k].x, points[k].y,
-                               world.bodies[b].angle);
+                               world.bodies.elements[info.first_element + k].radius, points[k].x, points[k].y,
+                               world.bodies.state[b].angle);
             }
             continue;
         }
@@ -138,7 +140,8 @@ void DeckOutputs::write_frame(const World& world, std::span<const BodyIndex> ord
         }
     }
     write(positions,
-          fmt::format("{} {} {} {}\n", world.step, world.time, circle_count, segment_count) + circles + segments);
+          fmt::format("{} {} {} {}\n", world.stepping.steps, world.stepping.time, circle_count, segment_count) +
+              circles + segments);
 
     std::string forces, details;
     std::size_t contacts = 0;
@@ -146,34 +149,35 @@ void DeckOutputs::write_frame(const World& world, std::span<const BodyIndex> ord
         if (!touching(world, k)) continue;
         ++contacts;
         const PointView view = view_point(world, k);
-        const ContactPoint& point = world.points[k];
-        const int id = world.info[point.body_i].id, other = partner_id(world, view.kind, point);
+        const ContactPoint& point = world.points.contact[k];
+        const int id = world.bodies.info[point.body_i].id, other = partner_id(world, view.kind, point);
         fmt::format_to(std::back_inserter(forces), "{} {} {} {} {} {}\n", id, other, view.position.x, view.position.y,
-                       world.point_forces[k].fx, world.point_forces[k].fy);
+                       world.points.force[k].fx, world.points.force[k].fy);
         fmt::format_to(std::back_inserter(details), "{} {} {} {} {} {} {} {}\n", id, other, view.normal.x,
                        view.normal.y, view.overlap, view.normal_force, view.shear_force,
                        view.bonded ? -view.normal_stiffness * view.bond_overlap : 0.0);
     }
-    const std::string head = fmt::format("{} {} {}\n", world.step, world.time, contacts);
+    const std::string head = fmt::format("{} {} {}\n", world.stepping.steps, world.stepping.time, contacts);
     write(contact_forces, head + forces);
     write(contact_details, head + details);
 }
 
 void DeckOutputs::write_energy_row(const World& world, std::span<const BodyIndex> bodies) {
     const Ledger e = measure_ledger(world);
-    write(energies, fmt::format("{} {} {} {} {} {} {} {} {} {}\n", world.step, e.potential, e.kinetic, e.strain,
-                                e.dashpot_loss, e.friction_loss, e.displacement_work, e.force_work,
+    write(energies, fmt::format("{} {} {} {} {} {} {} {} {} {}\n", world.stepping.steps, e.potential, e.kinetic,
+                                e.strain, e.dashpot_loss, e.friction_loss, e.displacement_work, e.force_work,
                                 e.closing_error - e.law_loss, e.fracture_loss));
     for (const BodyIndex b : bodies)
-        write(velocities, fmt::format("{} {} {}\n", world.step, world.info[b].id, world.bodies[b].vy));
+        write(velocities,
+              fmt::format("{} {} {}\n", world.stepping.steps, world.bodies.info[b].id, world.bodies.state[b].vy));
 }
 
 void DeckOutputs::write_force_rows(const World& world, std::span<const BodyIndex> bodies) {
     for (const BodyIndex b : bodies) {
-        const BodyForce& f = world.forces[b];
-        const BodyState& s = world.bodies[b];
-        write(force_displacement, fmt::format("{} {} {} {} {} {} {} {}\n", world.step, world.info[b].id, f.fx, s.x,
-                                              f.fy, s.y, f.torque, s.angle));
+        const BodyForce& f = world.bodies.force[b];
+        const BodyState& s = world.bodies.state[b];
+        write(force_displacement, fmt::format("{} {} {} {} {} {} {} {}\n", world.stepping.steps,
+                                              world.bodies.info[b].id, f.fx, s.x, f.fy, s.y, f.torque, s.angle));
     }
 }
 

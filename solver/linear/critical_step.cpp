@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "solver/linear/mass_scaled.hpp"
+#include "solver/linear/step_bound.hpp"
 
 namespace crackle {
 namespace {

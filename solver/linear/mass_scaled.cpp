@@ -15,9 +15,9 @@ MassScaled::MassScaled(const World& world, ClosedPoints which)
         root_.push_back(std::sqrt(inverse));
     };
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
-        take(3 * b, world.inertia[b].inverse_mass_x);
-        take(3 * b + 1, world.inertia[b].inverse_mass_y);
-        take(3 * b + 2, world.inertia[b].inverse_moment);
+        take(3 * b, world.bodies.inertia[b].inverse_mass_x);
+        take(3 * b + 1, world.bodies.inertia[b].inverse_mass_y);
+        take(3 * b + 2, world.bodies.inertia[b].inverse_moment);
     }
 }
 

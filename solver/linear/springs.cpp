@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "solver/contact/law.hpp"
+#include "solver/measure/point_view.hpp"
 
 namespace crackle {
 namespace {
@@ -11,7 +12,7 @@ namespace {
 bool closed(const World& world, const PointView& view, ClosedPoints which) {
     switch (which) {
         case ClosedPoints::bonded:
-            return world.has_bonds ? view.bonded : view.touching;
+            return world.bonds.made ? view.bonded : view.touching;
         case ClosedPoints::touching:
             return view.touching;
         case ClosedPoints::listed:
@@ -35,7 +36,7 @@ double times(const Spring& s, const OverlapGradient& row, const std::vector<Moti
 double scaled_square(const World& world, const OverlapGradient& row, BodyIndex i, BodyIndex j) {
     const auto half = [&](BodyIndex body, std::size_t d) {
         if (body == no_body) return 0.0;
-        const BodyInertia& m = world.inertia[body];
+        const BodyInertia& m = world.bodies.inertia[body];
         return m.inverse_mass_x * row[d] * row[d] + m.inverse_mass_y * row[d + 1] * row[d + 1] +
                m.inverse_moment * row[d + 2] * row[d + 2];
     };
@@ -68,13 +69,13 @@ std::vector<Spring> symmetric_majorant(const World& world, const std::vector<Spr
 
 std::vector<Spring> springs_of(const World& world, ClosedPoints which) {
     std::vector<Spring> springs;
-    const PointIndex walls = world.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
+    const PointIndex walls = world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
     const auto count = which == ClosedPoints::bonded ? walls : static_cast<PointIndex>(world.points.size());
     for (PointIndex k = 0; k < count; ++k) {
         const PointView v = view_point(world, k);
         if (!closed(world, v, which)) continue;
-        const ContactLaw& law = world.laws[world.point_states[k].law];
-        const double root_mass = world.root_masses[k];
+        const ContactLaw& law = world.settings.laws[world.points.state[k].law];
+        const double root_mass = world.points.root_mass[k];
         const auto add = [&](bool shear, double stiffness, double damping, const OverlapGradient& push,
                              const OverlapGradient& gradient) {
             if (stiffness == 0.0 && damping == 0.0) return;

@@ -8,6 +8,8 @@
 #include <limits>
 
 #include "solver/base/errors.hpp"
+#include "solver/measure/health.hpp"
+#include "solver/measure/ledger.hpp"
 #include "solver/world/outside.hpp"
 #include "solver/world/world.hpp"
 
@@ -21,23 +23,23 @@ bool finite(const BodyState& b) {
 
 void check_bodies(const World& world) {
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
-        const BodyState& body = world.bodies[b];
-        const int id = world.info[b].id;
+        const BodyState& body = world.bodies.state[b];
+        const int id = world.bodies.info[b].id;
         if (!finite(body)) {
             throw UnstableRun(
-                world.step, id,
+                world.stepping.steps, id,
                 "its position or velocity is not a number; the time step is likely too large for its contacts");
         }
-        const double move = world.time_step * std::hypot(body.vx, body.vy);
-        if (move > world.fastest_allowed_move && !world.allow_unstable) {
-            throw UnstableRun(world.step, id,
+        const double move = world.stepping.time_step * std::hypot(body.vx, body.vy);
+        if (move > world.list.fastest_allowed_move && !world.stepping.allow_unstable) {
+            throw UnstableRun(world.stepping.steps, id,
                               fmt::format("it moves {:.3g} m a step, more than half the smallest body ({:.3g} m), so "
                                           "that contacts would be missed; "
                                           "the time step is too large or the impact too fast",
-                                          move, world.fastest_allowed_move));
+                                          move, world.list.fastest_allowed_move));
         }
         if (outside_domain(world, b)) {
-            throw UnstableRun(world.step, id,
+            throw UnstableRun(world.stepping.steps, id,
                               fmt::format("it left the domain at ({:.6g}, {:.6g}) through a wall; the time step is too "
                                           "large or the impact too fast",
                                           body.x, body.y));
@@ -52,37 +54,39 @@ double rounding_energy(const World& world, const Ledger& ledger) {
     constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
     double farthest = 0.0, stiffness = 0.0;
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
-        farthest = std::max(farthest,
-                            std::max(std::abs(world.bodies[b].x), std::abs(world.bodies[b].y)) + world.info[b].reach);
+        farthest = std::max(farthest, std::max(std::abs(world.bodies.state[b].x), std::abs(world.bodies.state[b].y)) +
+                                          world.bodies.info[b].reach);
     }
-    for (const PointState& point : world.point_states) {
-        const ContactLaw& law = world.laws[point.law];
+    for (const PointState& point : world.points.state) {
+        const ContactLaw& law = world.settings.laws[point.law];
         stiffness += law.normal_stiffness + law.shear_stiffness;
     }
     const double strain = rounding * farthest;
-    return stiffness * strain * strain + rounding * (std::abs(world.initial_energy) + std::abs(ledger.potential));
+    return stiffness * strain * strain +
+           rounding * (std::abs(world.account.initial_energy) + std::abs(ledger.potential));
 }
 
 /// Energy that has come from nowhere: more than all that was there, put in, or fallen.
 void check_energy(World& world) {
-    if (world.allow_unstable || !world.forces_current) return;
+    if (world.stepping.allow_unstable || !world.stepping.forces_current) return;
     const Ledger ledger = measure_ledger(world);
     const double mechanical = ledger.kinetic + ledger.strain;
-    const double supply = world.initial_energy - ledger.potential + ledger.displacement_work + ledger.force_work;
-    world.largest_supply = std::max({world.largest_supply, std::abs(supply), mechanical * 1e-3});
-    if (mechanical <= supply + world.largest_supply + rounding_energy(world, ledger)) return;
+    const double supply =
+        world.account.initial_energy - ledger.potential + ledger.displacement_work + ledger.force_work;
+    world.account.largest_supply = std::max({world.account.largest_supply, std::abs(supply), mechanical * 1e-3});
+    if (mechanical <= supply + world.account.largest_supply + rounding_energy(world, ledger)) return;
     std::size_t fastest = 0;
     double most = -1.0;
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
-        const double energy =
-            world.inertia[b].mass * (world.bodies[b].vx * world.bodies[b].vx + world.bodies[b].vy * world.bodies[b].vy);
+        const double energy = world.bodies.inertia[b].mass * (world.bodies.state[b].vx * world.bodies.state[b].vx +
+                                                              world.bodies.state[b].vy * world.bodies.state[b].vy);
         if (energy > most) most = energy, fastest = b;
     }
-    throw UnstableRun(world.step, world.info[fastest].id,
+    throw UnstableRun(world.stepping.steps, world.bodies.info[fastest].id,
                       fmt::format("runaway energy, {:.4g} J kinetic and stored where {:.4g} J were put in (this body "
                                   "carries most); the time step "
                                   "({:.4g} s, bound {:.4g} s) is likely too large",
-                                  mechanical, supply, world.time_step, world.step_bound));
+                                  mechanical, supply, world.stepping.time_step, world.stepping.step_bound));
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "solver/base/errors.hpp"
 #include "solver/contact/geometry.hpp"
 #include "solver/contact/overlap_gradient.hpp"
+#include "solver/measure/point_view.hpp"
 #include "solver/world/world.hpp"
 
 namespace crackle {
@@ -15,7 +16,7 @@ namespace {
 
 PointKind kind_of(const World& world, PointIndex k) {
     int kind = 0;
-    while (k >= world.kind_begin[static_cast<std::size_t>(kind) + 1]) ++kind;
+    while (k >= world.points.kind_begin[static_cast<std::size_t>(kind) + 1]) ++kind;
     return static_cast<PointKind>(kind);
 }
 
@@ -41,13 +42,15 @@ ContactGeometry geometry_of(const World& world, PointKind kind, const ContactPoi
 }  // namespace
 
 ContactGeometry geometry_at(const World& world, PointIndex k) {
-    return geometry_of(world, kind_of(world, k), world.points[k]);
+    return geometry_of(world, kind_of(world, k), world.points.contact[k]);
 }
 
 std::pair<PointIndex, PointIndex> points_between(const World& world, PointIndex k) {
-    const auto belongs = [&](PointIndex other) { return same_pair(world.points[other], world.points[k]); };
+    const auto belongs = [&](PointIndex other) {
+        return same_pair(world.points.contact[other], world.points.contact[k]);
+    };
     PointIndex begin = k, end = k + 1;
-    const PointIndex walls = world.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
+    const PointIndex walls = world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
     while (begin > 0 && belongs(begin - 1)) --begin;
     while (end < walls && belongs(end)) ++end;
     return {begin, end};
@@ -56,12 +59,12 @@ std::pair<PointIndex, PointIndex> points_between(const World& world, PointIndex 
 double overlap_of(const World& world, PointIndex k) { return geometry_at(world, k).overlap; }
 
 PointView view_point(const World& world, PointIndex k) {
-    const ContactPoint& point = world.points[k];
-    const ContactLaw& law = world.laws[world.point_states[k].law];
+    const ContactPoint& point = world.points.contact[k];
+    const ContactLaw& law = world.settings.laws[world.points.state[k].law];
     PointView view{};
     view.kind = kind_of(world, k);
     const ContactGeometry g = geometry_of(world, view.kind, point);
-    const BodyState& body = world.bodies[point.body_i];
+    const BodyState& body = world.bodies.state[point.body_i];
     view.body_i = point.body_i;
     view.body_j = point.body_j;
     view.overlap = g.overlap;
@@ -71,50 +74,50 @@ PointView view_point(const World& world, PointIndex k) {
     view.overlap_gradient =
         by_guide(view.kind) ? guide_gradient(world, view.kind, point) : approach(view.normal, view.arm_i, view.arm_j);
     view.position = {body.x + g.aix, body.y + g.aiy};
-    view.bonded = (world.point_states[k].flags & point_bonded) != 0;
+    view.bonded = (world.points.state[k].flags & point_bonded) != 0;
     view.touching = view.bonded || g.overlap > 0.0;
-    view.sliding = (world.point_states[k].flags & point_sliding) != 0;
-    view.slid = (world.point_states[k].flags & point_slid) != 0;
+    view.sliding = (world.points.state[k].flags & point_sliding) != 0;
+    view.slid = (world.points.state[k].flags & point_slid) != 0;
     view.normal_stiffness = law.normal_stiffness;
     view.shear_stiffness = law.friction > 0.0 ? law.shear_stiffness : 0.0;
     view.friction = law.friction;
-    view.bond_overlap = world.bond_overlaps[k];
-    view.normal_force = view.touching ? law.normal_stiffness * (g.overlap - world.bond_overlaps[k]) : 0.0;
-    view.shear_force = view.touching ? world.shear_forces[k] : 0.0;
+    view.bond_overlap = world.points.bond_overlap[k];
+    view.normal_force = view.touching ? law.normal_stiffness * (g.overlap - world.points.bond_overlap[k]) : 0.0;
+    view.shear_force = view.touching ? world.points.shear_force[k] : 0.0;
     return view;
 }
 
 BodyIndex body_of_id(const World& world, int id) {
-    for (std::size_t b = 0; b < world.info.size(); ++b) {
-        if (world.info[b].id == id) return static_cast<BodyIndex>(b);
+    for (std::size_t b = 0; b < world.bodies.info.size(); ++b) {
+        if (world.bodies.info[b].id == id) return static_cast<BodyIndex>(b);
     }
     throw InputError(
-        fmt::format("body {}: found no such body, expected one of the {} of this scene", id, world.info.size()));
+        fmt::format("body {}: found no such body, expected one of the {} of this scene", id, world.bodies.info.size()));
 }
 
 void forget_point_forces(World& world) {
-    world.keep_point_forces = false;
-    std::vector<PointForce>().swap(world.point_forces);  // `= {}` would keep the room
+    world.points.keep_forces = false;
+    std::vector<PointForce>().swap(world.points.force);  // `= {}` would keep the room
 }
 
 std::array<Vec2, 4> measure_wall_forces(const World& world) {
-    if (!world.keep_point_forces) throw std::logic_error("measure_wall_forces: this world keeps no forces of points");
+    if (!world.points.keep_forces) throw std::logic_error("measure_wall_forces: this world keeps no forces of points");
     std::array<Vec2, 4> sums{};
-    for (PointIndex k = world.kind_begin[static_cast<std::size_t>(PointKind::element_wall)]; k < world.points.size();
-         ++k) {
-        Vec2& sum = sums[world.points[k].body_j];
-        sum = sum - Vec2{world.point_forces[k].fx, world.point_forces[k].fy};
+    for (PointIndex k = world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
+         k < world.points.size(); ++k) {
+        Vec2& sum = sums[world.points.contact[k].body_j];
+        sum = sum - Vec2{world.points.force[k].fx, world.points.force[k].fy};
     }
     return sums;
 }
 
 std::vector<Vec2> element_positions(const World& world, BodyIndex body) {
-    const BodyInfo& info = world.info[body];
-    const BodyState& state = world.bodies[body];
+    const BodyInfo& info = world.bodies.info[body];
+    const BodyState& state = world.bodies.state[body];
     std::vector<Vec2> positions;
     positions.reserve(info.element_count);
     for (std::uint32_t e = info.first_element; e < info.first_element + info.element_count; ++e) {
-        positions.push_back(Vec2{state.x, state.y} + turned(state, world.elements[e]));
+        positions.push_back(Vec2{state.x, state.y} + turned(state, world.bodies.elements[e]));
     }
     return positions;
 }

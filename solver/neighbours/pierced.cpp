@@ -24,16 +24,16 @@ struct Place {
 };
 
 Place place_now(const World& world, BodyIndex b) {
-    const BodyState& body = world.bodies[b];
-    if (world.info[b].single_circle) return {{body.x, body.y}, 1.0, 0.0};
+    const BodyState& body = world.bodies.state[b];
+    if (world.bodies.info[b].single_circle) return {{body.x, body.y}, 1.0, 0.0};
     return {{body.x, body.y}, body.shape[0], body.shape[1]};
 }
 
 /// Where it was when the list was built.
 Place place_then(const World& world, BodyIndex b) {
-    const ListReference& then = world.list_reference[b];
+    const ListReference& then = world.list.reference[b];
     const Place now = place_now(world, b);
-    const double back = then.angle - world.bodies[b].angle, c = std::cos(back), s = std::sin(back);
+    const double back = then.angle - world.bodies.state[b].angle, c = std::cos(back), s = std::sin(back);
     return {{then.x, then.y}, c * now.c - s * now.s, s * now.c + c * now.s};
 }
 
@@ -46,10 +46,10 @@ double side_of(const Edge& edge, Vec2 p) {
 
 bool inside(const World& world, const BodyInfo& outline, Vec2 p) {
     for (std::uint32_t n = outline.first_piece; n < outline.first_piece + outline.piece_count; ++n) {
-        const Piece& piece = world.pieces[n];
+        const Piece& piece = world.bodies.pieces[n];
         bool in = true;
         for (std::uint32_t e = piece.first_edge; in && e < piece.first_edge + piece.edge_count; ++e) {
-            const Edge& edge = world.edges[e];
+            const Edge& edge = world.bodies.edges[e];
             in = (p.x - edge.x) * edge.ty - (p.y - edge.y) * edge.tx < 0.0;
         }
         if (in) return true;
@@ -60,7 +60,7 @@ bool inside(const World& world, const BodyInfo& outline, Vec2 p) {
 /// Number of the segment of an open chain that lies between the two places, from 1; 0: none.
 std::uint32_t segment_between(const World& world, const BodyInfo& chain, Vec2 then, Vec2 now) {
     for (std::uint32_t n = 0; n < chain.piece_count; ++n) {
-        const Edge& edge = world.edges[world.pieces[chain.first_piece + n].first_edge];
+        const Edge& edge = world.bodies.edges[world.bodies.pieces[chain.first_piece + n].first_edge];
         if (side_of(edge, now) * side_of(edge, then) < 0.0) return n + 1;
     }
     return 0;
@@ -72,30 +72,30 @@ bool convex(const BodyInfo& body) { return body.single_circle || (body.closed &&
 }  // namespace
 
 void refuse_piercing(const World& world) {
-    if (world.allow_unstable || world.segment_law != SegmentLaw::rounded) return;
+    if (world.stepping.allow_unstable || world.settings.segment_law != SegmentLaw::rounded) return;
     constexpr const char* cause = "; the impact is too fast or the load too high for its stiffness and thickness";
     const auto outlines = static_cast<std::size_t>(PointKind::element_outline);
-    for (PointIndex k = world.kind_begin[outlines]; k < world.kind_begin[outlines + 1]; ++k) {
-        const ContactPoint& point = world.points[k];
+    for (PointIndex k = world.points.kind_begin[outlines]; k < world.points.kind_begin[outlines + 1]; ++k) {
+        const ContactPoint& point = world.points.contact[k];
         const BodyIndex i = point.body_i, j = point.body_j;
-        const BodyInfo& target = world.info[j];
-        const bool first_of_pair =
-            k == world.kind_begin[outlines] || world.points[k - 1].body_i != i || world.points[k - 1].body_j != j;
-        if (target.closed && !(first_of_pair && convex(world.info[i]))) continue;
+        const BodyInfo& target = world.bodies.info[j];
+        const bool first_of_pair = k == world.points.kind_begin[outlines] || world.points.contact[k - 1].body_i != i ||
+                                   world.points.contact[k - 1].body_j != j;
+        if (target.closed && !(first_of_pair && convex(world.bodies.info[i]))) continue;
         const Place i_now = place_now(world, i), j_now = place_now(world, j);
         if (target.closed) {
             if (!inside(world, target, j_now.inwards(i_now.centre))) continue;
             if (inside(world, target, place_then(world, j).inwards(place_then(world, i).centre))) continue;
-            throw UnstableRun(world.step, world.info[i].id,
+            throw UnstableRun(world.stepping.steps, world.bodies.info[i].id,
                               fmt::format("its centroid has got inside body {}{}", target.id, cause));
         }
-        const Element& element = world.elements[point.element_i];
+        const Element& element = world.bodies.elements[point.element_i];
         const Vec2 at{element.x, element.y};
         const std::uint32_t segment =
             segment_between(world, target, place_then(world, j).inwards(place_then(world, i).outwards(at)),
                             j_now.inwards(i_now.outwards(at)));
         if (segment == 0) continue;
-        throw UnstableRun(world.step, world.info[i].id,
+        throw UnstableRun(world.stepping.steps, world.bodies.info[i].id,
                           fmt::format("it went through segment {} of body {}{}", segment, target.id, cause));
     }
 }

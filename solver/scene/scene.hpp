@@ -31,6 +31,17 @@ struct Material {
     double friction_angle = 0.0;  ///< φ, degrees, 0 <= φ < 90; μ = tan φ
 
     friend bool operator==(const Material&, const Material&) = default;
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("density", s.density);
+        visit("normal_stiffness", s.normal_stiffness);
+        visit("shear_stiffness", s.shear_stiffness);
+        visit("normal_damping", s.normal_damping);
+        visit("shear_damping", s.shear_damping);
+        visit("damping_ratio", s.damping_ratio);
+        visit("friction_angle", s.friction_angle);
+    }
 };
 
 struct CircleElement {
@@ -69,6 +80,12 @@ struct DofControl {
     double value = 0.0;
 
     friend bool operator==(const DofControl&, const DofControl&) = default;
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("drive", s.drive);
+        visit("value", s.value);
+    }
 };
 
 struct Control {
@@ -83,6 +100,15 @@ enum class Wall : std::uint8_t { left = 0, right = 1, bottom = 2, top = 3 };
 struct Domain {
     double x1 = unset, x2 = unset, y1 = unset, y2 = unset;     ///< m
     std::array<bool, 4> wall_present{true, true, true, true};  ///< by Wall
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("x1", s.x1);
+        visit("x2", s.x2);
+        visit("y1", s.y1);
+        visit("y2", s.y2);
+        visit("wall_present", s.wall_present);
+    }
 };
 
 /// Contact law of segments and polygons; circles among themselves and walls are the same in all.
@@ -117,6 +143,13 @@ struct IntactOptions {
     bool no_new_contacts = false;  ///< only bonded points act
 
     friend bool operator==(const IntactOptions&, const IntactOptions&) = default;
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("no_breaking", s.no_breaking);
+        visit("no_sliding", s.no_sliding);
+        visit("no_new_contacts", s.no_new_contacts);
+    }
 };
 
 struct Scene {

@@ -7,6 +7,9 @@
 
 #include "solver/contact/pass.hpp"
 #include "solver/linear/critical_step.hpp"
+#include "solver/measure/point_view.hpp"
+#include "solver/stepping/bonding.hpp"
+#include "solver/stepping/time_step.hpp"
 #include "solver/world/world.hpp"
 
 namespace crackle {
@@ -17,8 +20,8 @@ constexpr std::int64_t events_at_once = 1024;  // for which there is room before
 std::int64_t count_interfaces(const World& world) {
     std::vector<std::uint64_t> pairs;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
-        if ((world.point_states[k].flags & point_bonded) == 0) continue;
-        const ContactPoint& point = world.points[k];
+        if ((world.points.state[k].flags & point_bonded) == 0) continue;
+        const ContactPoint& point = world.points.contact[k];
         const std::uint64_t low = std::min(point.body_i, point.body_j), high = std::max(point.body_i, point.body_j);
         pairs.push_back((low << 32) | high);
     }
@@ -29,31 +32,30 @@ std::int64_t count_interfaces(const World& world) {
 }  // namespace
 
 void set_thickness(World& world, double thick) {
-    world.thick = thick;
-    for (const BodyInfo& info : world.info) {
+    world.settings.thick = thick;
+    for (const BodyInfo& info : world.bodies.info) {
         for (std::uint32_t e = info.first_element; e < info.first_element + info.element_count; ++e) {
-            Element& element = world.elements[e];
+            Element& element = world.bodies.elements[e];
             if (info.piece_count > 0) element.radius = 0.5 * thick;
             element.target_reach = info.piece_count > 0 ? 0.5 * thick : thick;
         }
     }
-    world.list_valid = false;
-    world.forces_current = false;
+    bodies_moved(world);
 }
 
 std::int64_t bond_all(World& world, double thick) {
-    if (thick != world.thick) set_thickness(world, thick);
+    if (thick != world.settings.thick) set_thickness(world, thick);
     refresh_neighbours(world);
     std::int64_t bonds = 0;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
-        world.shear_forces[k] = 0.0;
-        world.point_states[k].flags = 0;
-        world.bond_overlaps[k] = 0.0;
-        if (k >= world.kind_begin[static_cast<std::size_t>(PointKind::element_wall)]) continue;
+        world.points.shear_force[k] = 0.0;
+        world.points.state[k].flags = 0;
+        world.points.bond_overlap[k] = 0.0;
+        if (k >= world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)]) continue;
         const PointView view = view_point(world, k);
         if (view.overlap <= 0.0) continue;
-        world.bond_overlaps[k] = view.overlap;
-        world.point_states[k].flags = point_bonded | point_touching;
+        world.points.bond_overlap[k] = view.overlap;
+        world.points.state[k].flags = point_bonded | point_touching;
         ++bonds;
     }
     finish_bonding(world);
@@ -61,34 +63,28 @@ std::int64_t bond_all(World& world, double thick) {
 }
 
 void finish_bonding(World& world) {
-    world.has_bonds = true;
-    world.bonds_initial = std::count_if(world.point_states.begin(), world.point_states.end(),
+    world.bonds.made = true;
+    world.bonds.initial = std::count_if(world.points.state.begin(), world.points.state.end(),
                                         [](const PointState& p) { return (p.flags & point_bonded) != 0; });
-    world.interfaces_initial = count_interfaces(world);
+    world.bonds.interfaces_initial = count_interfaces(world);
     const CriticalStep exact = critical_step(world, ClosedPoints::touching);
-    world.exact_step = exact.step;
-    world.exact_step_proved = exact.proved;
-    world.step_goal = world.automatic_step && world.bonds_initial > 0 ? world.safety_factor * exact.step : 0.0;
+    world.stepping.exact_step = exact.step;
+    world.stepping.exact_step_proved = exact.proved;
+    world.stepping.step_goal =
+        world.stepping.automatic_step && world.bonds.initial > 0 ? world.stepping.safety_factor * exact.step : 0.0;
     evaluate_step_bound(world);
-    world.bonds_broken = 0;
-    world.interfaces_lost = 0;
-    world.strong_normal.assign(world.points.size(), 0.0F);
-    world.strong_shear = world.strong_normal;
-    world.normal_dashpot.assign(world.ledger_on ? world.points.size() : 0, 0.0F);
-    world.shear_dashpot = world.normal_dashpot;
-    world.spring_work.assign(keeps_spring_work(world) ? world.points.size() : 0, SpringWork{});
-    world.openings.assign(world.integrator == Integrator::consistent ? world.points.size() : 0, OpeningMemory{});
-    std::fill(world.owed.begin(), world.owed.end(), 0.0);
-    world.events.clear();
-    world.events.reserve(static_cast<std::size_t>(std::min<std::int64_t>(world.bonds_initial, events_at_once)));
-    world.dashpot_loss = world.friction_loss = world.fracture_loss = world.law_loss = 0.0;
-    world.displacement_work = world.force_work = 0.0;
-    world.initial_energy_taken = false;
-    world.largest_supply = 0.0;
-    world.drift = 0.0;  // nothing has moved since
-    world.forces_current = false;
-    if (world.intact.no_new_contacts) {
-        world.list_valid = false;
+    world.bonds.broken = 0;
+    world.bonds.interfaces_lost = 0;
+    visit_remembered(world.points, [&]<class T>(std::vector<T>& values, Remembered remembered) {
+        if (remembered != Remembered::always) values.assign(keeps(world, remembered) ? world.points.size() : 0, T{});
+    });
+    world.bonds.events.clear();
+    world.bonds.events.reserve(static_cast<std::size_t>(std::min<std::int64_t>(world.bonds.initial, events_at_once)));
+    restart_account(world);
+    world.stepping.drift = 0.0;  // nothing has moved since
+    world.stepping.forces_current = false;
+    if (world.settings.intact.no_new_contacts) {
+        world.list.valid = false;
         refresh_neighbours(world);
     }
 }

@@ -14,6 +14,7 @@
 #include <numbers>
 
 #include "solver/contact/law.hpp"
+#include "solver/measure/point_view.hpp"
 
 namespace crackle {
 namespace {
@@ -28,27 +29,27 @@ double orientation_of(Vec2 normal) {
 
 /// Energy that a break takes, J (see above). Under the guide's law the normal spring's work has been added up just so.
 double fracture_energy(const World& world, PointIndex k, const PointView& view) {
-    const ContactPoint& point = world.points[k];
-    const ContactLaw& law = world.laws[world.point_states[k].law];
-    const BodyState &i = world.bodies[point.body_i], &j = world.bodies[point.body_j];
+    const ContactPoint& point = world.points.contact[k];
+    const ContactLaw& law = world.settings.laws[world.points.state[k].law];
+    const BodyState &i = world.bodies.state[point.body_i], &j = world.bodies.state[point.body_j];
     const Vec2 speed{i.vx - i.omega * view.arm_i.y - (j.vx - j.omega * view.arm_j.y),
                      i.vy + i.omega * view.arm_i.x - (j.vy + j.omega * view.arm_j.x)};
-    const double opening = view.overlap - world.bond_overlaps[k];
-    const double before = opening - world.drift * dot(speed, view.normal);
-    const double normal = by_guide(view.kind) && !world.spring_work.empty()
-                              ? world.spring_work[k].stored
+    const double opening = view.overlap - world.points.bond_overlap[k];
+    const double before = opening - world.stepping.drift * dot(speed, view.normal);
+    const double normal = by_guide(view.kind) && !world.points.spring_work.empty()
+                              ? world.points.spring_work[k].stored
                               : 0.5 * law.normal_stiffness * before * opening;
     if (law.shear_stiffness == 0.0) return normal;
-    const double shear =
-        world.shear_forces[k] - law.shear_stiffness * world.drift * dot(speed, perpendicular(view.normal));
-    return normal + 0.5 * world.shear_forces[k] * shear / law.shear_stiffness;
+    const double shear = world.points.shear_force[k] -
+                         law.shear_stiffness * world.stepping.drift * dot(speed, perpendicular(view.normal));
+    return normal + 0.5 * world.points.shear_force[k] * shear / law.shear_stiffness;
 }
 
 /// Whether a bond is left between the two bodies of a point; one found broken in the same pass but not yet recorded
 /// still counts, so that an interface that loses several at once is lost once. Points of two bodies lie together.
 bool interface_holds(const World& world, PointIndex k) {
     const auto has_bond = [&](PointIndex other) {
-        return (world.point_states[other].flags & (point_bonded | point_just_broken)) != 0;
+        return (world.points.state[other].flags & (point_bonded | point_just_broken)) != 0;
     };
     const auto [begin, end] = points_between(world, k);
     for (PointIndex other = begin; other < end; ++other)
@@ -59,37 +60,37 @@ bool interface_holds(const World& world, PointIndex k) {
 }  // namespace
 
 void record_breaks(World& world) {
-    for (PointIndex k = 0; k < world.kind_begin[static_cast<std::size_t>(PointKind::element_wall)]; ++k) {
-        ContactPoint& point = world.points[k];
-        if ((world.point_states[k].flags & point_just_broken) == 0) continue;
+    for (PointIndex k = 0; k < world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)]; ++k) {
+        ContactPoint& point = world.points.contact[k];
+        if ((world.points.state[k].flags & point_just_broken) == 0) continue;
         const PointView view = view_point(world, k);
-        const ContactLaw& law = world.laws[world.point_states[k].law];
+        const ContactLaw& law = world.settings.laws[world.points.state[k].law];
         BreakEvent event{};
-        event.step = world.step;
-        event.time = world.time;
-        event.body_i = world.info[point.body_i].id;
-        event.body_j = world.info[point.body_j].id;
+        event.step = world.stepping.steps;
+        event.time = world.stepping.time;
+        event.body_i = world.bodies.info[point.body_i].id;
+        event.body_j = world.bodies.info[point.body_j].id;
         event.position = view.position;
         event.orientation = orientation_of(view.normal);
         event.energy = fracture_energy(world, k, view);
-        event.strength = law.normal_stiffness * world.bond_overlaps[k];
-        event.normal_force = world.strong_normal[k];
-        event.shear_force = world.strong_shear[k];
-        event.slid = (world.point_states[k].flags & point_slid) != 0;
+        event.strength = law.normal_stiffness * world.points.bond_overlap[k];
+        event.normal_force = world.points.strong_normal[k];
+        event.shear_force = world.points.strong_shear[k];
+        event.slid = (world.points.state[k].flags & point_slid) != 0;
         event.shear_mode = event.slid && std::abs(event.shear_force) > std::abs(event.normal_force);
-        world.shear_forces[k] = 0.0;
-        world.bond_overlaps[k] = 0.0;
-        world.point_states[k].flags =
-            static_cast<std::uint16_t>(world.point_states[k].flags & point_counted);  // until the bound is found anew
-        if (!world.spring_work.empty()) world.spring_work[k] = {};
-        if (!world.openings.empty()) world.openings[k] = {};
+        world.points.shear_force[k] = 0.0;
+        world.points.bond_overlap[k] = 0.0;
+        world.points.state[k].flags =
+            static_cast<std::uint16_t>(world.points.state[k].flags & point_counted);  // until the bound is found anew
+        if (!world.points.spring_work.empty()) world.points.spring_work[k] = {};
+        if (!world.points.opening.empty()) world.points.opening[k] = {};
         event.last_of_interface = !interface_holds(world, k);
         event.kind = view.kind;
         event.point = point;
-        world.fracture_loss += event.energy;
-        world.bonds_broken += 1;
-        world.interfaces_lost += event.last_of_interface ? 1 : 0;
-        world.events.push_back(event);
+        world.account.fracture_loss += event.energy;
+        world.bonds.broken += 1;
+        world.bonds.interfaces_lost += event.last_of_interface ? 1 : 0;
+        world.bonds.events.push_back(event);
     }
 }
 

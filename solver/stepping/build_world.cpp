@@ -12,8 +12,11 @@
 
 #include "solver/base/errors.hpp"
 #include "solver/contact/law.hpp"
+#include "solver/linear/step_bound.hpp"
 #include "solver/scene/convex_pieces.hpp"
+#include "solver/stepping/build_world.hpp"
 #include "solver/stepping/controls.hpp"
+#include "solver/stepping/time_step.hpp"
 #include "solver/world/outside.hpp"
 #include "solver/world/world.hpp"
 
@@ -80,47 +83,47 @@ void set_cones(std::span<Edge> ring) {
 }
 
 void add_pieces(World& world, BodyInfo& info, std::span<const Vec2> frame) {
-    info.first_piece = static_cast<std::uint32_t>(world.pieces.size());
-    const auto next_edge = [&] { return static_cast<std::uint32_t>(world.edges.size()); };
+    info.first_piece = static_cast<std::uint32_t>(world.bodies.pieces.size());
+    const auto next_edge = [&] { return static_cast<std::uint32_t>(world.bodies.edges.size()); };
     if (info.closed) {
         for (const std::vector<std::uint32_t>& ring : pieces_of(info.id, frame)) {
-            world.pieces.push_back({next_edge(), static_cast<std::uint32_t>(ring.size()), true});
+            world.bodies.pieces.push_back({next_edge(), static_cast<std::uint32_t>(ring.size()), true});
             for (std::size_t k = 0; k < ring.size(); ++k) {
-                world.edges.push_back(edge_between(frame[ring[k]], frame[ring[(k + 1) % ring.size()]]));
+                world.bodies.edges.push_back(edge_between(frame[ring[k]], frame[ring[(k + 1) % ring.size()]]));
             }
-            set_cones(std::span(world.edges).last(ring.size()));
+            set_cones(std::span(world.bodies.edges).last(ring.size()));
         }
     } else {
         for (std::size_t k = 0; k + 1 < frame.size(); ++k) {
-            world.pieces.push_back({next_edge(), 1, false});
-            world.edges.push_back(edge_between(frame[k], frame[k + 1]));
+            world.bodies.pieces.push_back({next_edge(), 1, false});
+            world.bodies.edges.push_back(edge_between(frame[k], frame[k + 1]));
         }
     }
-    info.piece_count = static_cast<std::uint32_t>(world.pieces.size()) - info.first_piece;
+    info.piece_count = static_cast<std::uint32_t>(world.bodies.pieces.size()) - info.first_piece;
 }
 
 /// Kernels look at edges of one-piece outlines without a search where the edge faced last still is the one.
 void mark_outlines(World& world) {
-    for (std::size_t b = 0; b < world.info.size(); ++b) {
-        const BodyInfo& info = world.info[b];
-        if (info.piece_count != 1 || !world.pieces[info.first_piece].closed) continue;
-        const Piece& piece = world.pieces[info.first_piece];
+    for (std::size_t b = 0; b < world.bodies.info.size(); ++b) {
+        const BodyInfo& info = world.bodies.info[b];
+        if (info.piece_count != 1 || !world.bodies.pieces[info.first_piece].closed) continue;
+        const Piece& piece = world.bodies.pieces[info.first_piece];
         for (std::uint32_t e = 0; e < piece.edge_count; ++e)
-            world.edges[piece.first_edge + e].outline_of = static_cast<BodyIndex>(b);
+            world.bodies.edges[piece.first_edge + e].outline_of = static_cast<BodyIndex>(b);
     }
-    world.convex_outlines = std::all_of(world.edges.begin(), world.edges.end(),
-                                        [](const Edge& edge) { return edge.outline_of != no_body; });
+    world.bodies.convex_outlines = std::all_of(world.bodies.edges.begin(), world.bodies.edges.end(),
+                                               [](const Edge& edge) { return edge.outline_of != no_body; });
 }
 
 /// Elements of a chain are its vertices, of a circle body its circles; radii of vertices follow the thickness.
 void add_elements(World& world, const Scene& scene, const Body& body, const MassProperties& properties, BodyInfo& info,
                   BodyState& state) {
-    info.first_element = static_cast<std::uint32_t>(world.elements.size());
+    info.first_element = static_cast<std::uint32_t>(world.bodies.elements.size());
     info.element_count = body.circle_count + body.vertex_count;
     for (std::uint32_t k = 0; k < body.circle_count; ++k) {
         const CircleElement& circle = scene.circles[body.first_circle + k];
         const Vec2 offset = info.single_circle ? Vec2{} : circle.centre - properties.centroid;
-        world.elements.push_back({offset.x, offset.y, circle.radius, scene.thick});
+        world.bodies.elements.push_back({offset.x, offset.y, circle.radius, scene.thick});
         info.reach = std::max(info.reach, norm(offset) + circle.radius);
     }
     if (body.circle_count > 0) state.angle = scene.circles[body.first_circle].angle;
@@ -129,7 +132,7 @@ void add_elements(World& world, const Scene& scene, const Body& body, const Mass
     for (std::uint32_t k = 0; k < body.vertex_count; ++k) {
         const Vec2 offset = scene.vertices[body.first_vertex + k] - properties.centroid;
         frame.push_back(offset);
-        world.elements.push_back({offset.x, offset.y, 0.5 * scene.thick, 0.5 * scene.thick});
+        world.bodies.elements.push_back({offset.x, offset.y, 0.5 * scene.thick, 0.5 * scene.thick});
         info.reach = std::max(info.reach, norm(offset));
     }
     state.angle = std::atan2(frame[1].y - frame[0].y, frame[1].x - frame[0].x);
@@ -139,14 +142,14 @@ void add_elements(World& world, const Scene& scene, const Body& body, const Mass
 /// The guide's law goes by the segments of the outline itself, whatever convex pieces it falls into.
 void add_segments(World& world, const BodyInfo& info) {
     for (std::uint32_t e = 0; e < info.element_count; ++e) {
-        const Element& a = world.elements[info.first_element + e];
+        const Element& a = world.bodies.elements[info.first_element + e];
         const bool last = e + 1 == info.element_count;
         if (info.piece_count == 0 || (last && !info.closed)) {
-            world.segments.push_back({a.x, a.y, 1.0, 0.0, 0.0});
+            world.bodies.segments.push_back({a.x, a.y, 1.0, 0.0, 0.0});
             continue;
         }
-        const Element& b = world.elements[info.first_element + (last ? 0 : e + 1)];
-        world.segments.push_back(edge_between({a.x, a.y}, {b.x, b.y}));
+        const Element& b = world.bodies.elements[info.first_element + (last ? 0 : e + 1)];
+        world.bodies.segments.push_back(edge_between({a.x, a.y}, {b.x, b.y}));
     }
 }
 
@@ -160,17 +163,18 @@ void add_body(World& world, const Scene& scene, const Body& body, const MassProp
     BodyState state{
         properties.centroid.x, properties.centroid.y, body.velocity.x, body.velocity.y, body.spin, {1.0, 0.0}, 0.0};
     add_elements(world, scene, body, properties, info, state);
-    if (world.segment_law != SegmentLaw::rounded) add_segments(world, info);
+    if (world.settings.segment_law != SegmentLaw::rounded) add_segments(world, info);
     if (info.single_circle) {
         state.x = scene.circles[body.first_circle].centre.x;
         state.y = scene.circles[body.first_circle].centre.y;
         state.shape[0] = scene.circles[body.first_circle].radius;
     }
-    world.bodies.push_back(state);
-    world.inertia.push_back({1.0 / properties.mass, 1.0 / properties.mass, 1.0 / properties.moment, properties.mass});
-    world.info.push_back(info);
-    world.turning_reach.push_back(info.single_circle ? 0.0 : info.reach);
-    world.some_turn = world.some_turn || !info.single_circle;
+    world.bodies.state.push_back(state);
+    world.bodies.inertia.push_back(
+        {1.0 / properties.mass, 1.0 / properties.mass, 1.0 / properties.moment, properties.mass});
+    world.bodies.info.push_back(info);
+    world.bodies.turning_reach.push_back(info.single_circle ? 0.0 : info.reach);
+    world.bodies.some_turn = world.bodies.some_turn || !info.single_circle;
 }
 
 /// Springs in series, k = 2k₁k₂/(k₁+k₂), so that equal materials give their own; 0 with 0 gives 0.
@@ -195,13 +199,15 @@ ContactLaw law_between(const Material& a, const Material& b, const IntactOptions
 }
 
 void build_laws(World& world) {
-    for (const Material& a : world.materials) {
-        for (const Material& b : world.materials) world.laws.push_back(law_between(a, b, world.intact));
+    for (const Material& a : world.settings.materials) {
+        for (const Material& b : world.settings.materials)
+            world.settings.laws.push_back(law_between(a, b, world.settings.intact));
     }
     // A domain wall has the touching body's own stiffness, damping and friction.
-    for (const Material& a : world.materials) world.laws.push_back(law_between(a, a, world.intact));
-    if (world.laws.size() > std::numeric_limits<std::uint16_t>::max()) {
-        throw InputError(fmt::format("materials: found {}, expected at most 255", world.materials.size()));
+    for (const Material& a : world.settings.materials)
+        world.settings.laws.push_back(law_between(a, a, world.settings.intact));
+    if (world.settings.laws.size() > std::numeric_limits<std::uint16_t>::max()) {
+        throw InputError(fmt::format("materials: found {}, expected at most 255", world.settings.materials.size()));
     }
 }
 
@@ -210,16 +216,18 @@ void rank_by_size(World& world) {
     const std::size_t n = world.bodies.size();
     std::vector<std::uint32_t> order(n);
     std::iota(order.begin(), order.end(), 0u);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::uint32_t a, std::uint32_t b) { return world.info[a].reach > world.info[b].reach; });
-    world.size_rank.resize(n);
-    world.largest_smaller.resize(n);
+    std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return world.bodies.info[a].reach > world.bodies.info[b].reach;
+    });
+    world.list.size_rank.resize(n);
+    world.list.largest_smaller.resize(n);
     for (std::size_t r = 0; r < n; ++r) {
-        world.size_rank[order[r]] = static_cast<std::uint32_t>(r);
-        world.largest_smaller[order[r]] = r + 1 < n ? world.info[order[r + 1]].reach : 0.0;
+        world.list.size_rank[order[r]] = static_cast<std::uint32_t>(r);
+        world.list.largest_smaller[order[r]] = r + 1 < n ? world.bodies.info[order[r + 1]].reach : 0.0;
     }
-    if (world.skin == 0.0) world.skin = world.widest_skin = skin_share * world.info[order[n / 2]].reach;
-    world.fastest_allowed_move = 0.5 * world.info[order[n - 1]].reach;
+    if (world.list.skin == 0.0)
+        world.list.skin = world.list.widest_skin = skin_share * world.bodies.info[order[n / 2]].reach;
+    world.list.fastest_allowed_move = 0.5 * world.bodies.info[order[n - 1]].reach;
 }
 
 void refuse_bodies_outside(const World& world) {
@@ -228,24 +236,26 @@ void refuse_bodies_outside(const World& world) {
         throw InputError(
             fmt::format("body {}: found its centroid at ({:.6g}, {:.6g}), beyond a wall of the domain, expected it "
                         "inside; move it, widen the domain, or hold the body",
-                        world.info[b].id, world.bodies[b].x, world.bodies[b].y));
+                        world.bodies.info[b].id, world.bodies.state[b].x, world.bodies.state[b].y));
     }
 }
 
 void choose_time_step(World& world, const Scene& scene) {
-    world.automatic_step = scene.time_step == 0.0;
-    if (world.automatic_step && !std::isfinite(world.step_bound)) {
+    world.stepping.automatic_step = scene.time_step == 0.0;
+    if (world.stepping.automatic_step && !std::isfinite(world.stepping.step_bound)) {
         throw InputError(
             "time step: found 0 (to be derived), expected a number > 0 in s; every body is held, so that no stiffness "
             "bounds it");
     }
-    world.time_step = world.automatic_step ? derived_step_share(world) * world.step_bound : scene.time_step;
-    if (!world.automatic_step && !world.allow_unstable && world.time_step > world.step_bound) {
+    world.stepping.time_step =
+        world.stepping.automatic_step ? derived_step_share(world) * world.stepping.step_bound : scene.time_step;
+    if (!world.stepping.automatic_step && !world.stepping.allow_unstable &&
+        world.stepping.time_step > world.stepping.step_bound) {
         throw InputError(
             fmt::format("time step: found {} s, expected at most the stable bound of this scene, {:.6g} s; give a "
                         "smaller one, leave it out to "
                         "have it chosen, or run with --allow-unstable to see the limit",
-                        world.time_step, world.step_bound));
+                        world.stepping.time_step, world.stepping.step_bound));
     }
 }
 
@@ -254,21 +264,21 @@ void choose_time_step(World& world, const Scene& scene) {
 World build_world(Scene scene) {
     validate(scene);
     World world;
-    world.materials = scene.materials;
-    world.domain = scene.domain;
-    world.thick = scene.thick;
-    world.segment_law = scene.segment_law;
-    world.integrator = scene.integrator;
-    world.gravity = scene.gravity;
-    world.safety_factor = scene.safety_factor;
-    world.step_scale = scene.step_scale;
-    world.allow_unstable = scene.allow_unstable;
-    world.ledger_on = scene.ledger;
-    world.intact = scene.intact;
-    world.threads = scene.threads;
-    world.thread_blocks.assign(static_cast<std::size_t>(scene.threads), 0);
-    world.skin = scene.skin;
-    world.kick_share = scene.first_kick == FirstKick::full ? 1.0 : 0.5;
+    world.settings.materials = scene.materials;
+    world.settings.domain = scene.domain;
+    world.settings.thick = scene.thick;
+    world.settings.segment_law = scene.segment_law;
+    world.settings.integrator = scene.integrator;
+    world.settings.gravity = scene.gravity;
+    world.stepping.safety_factor = scene.safety_factor;
+    world.stepping.step_scale = scene.step_scale;
+    world.stepping.allow_unstable = scene.allow_unstable;
+    world.settings.ledger_on = scene.ledger;
+    world.settings.intact = scene.intact;
+    world.workers.threads = scene.threads;
+    world.workers.blocks_done.assign(static_cast<std::size_t>(scene.threads), 0);
+    world.list.skin = scene.skin;
+    world.stepping.kick_share = scene.first_kick == FirstKick::full ? 1.0 : 0.5;
 
     std::vector<MassProperties> properties;
     properties.reserve(scene.bodies.size());
@@ -280,17 +290,17 @@ World build_world(Scene scene) {
         add_body(world, scene, scene.bodies[order[k]], properties[order[k]]);
     }
     mark_outlines(world);
-    world.bodies.shrink_to_fit();
-    world.inertia.shrink_to_fit();
-    world.info.shrink_to_fit();
-    world.elements.shrink_to_fit();
-    world.pieces.shrink_to_fit();
-    world.edges.shrink_to_fit();
-    if (world.integrator == Integrator::consistent) {
-        world.owed.assign(world.bodies.size(), 0.0);
-        world.last_forces.assign(world.bodies.size(), BodyForce{});
+    world.bodies.state.shrink_to_fit();
+    world.bodies.inertia.shrink_to_fit();
+    world.bodies.info.shrink_to_fit();
+    world.bodies.elements.shrink_to_fit();
+    world.bodies.pieces.shrink_to_fit();
+    world.bodies.edges.shrink_to_fit();
+    if (world.settings.integrator == Integrator::consistent) {
+        world.account.opening_defects.assign(world.bodies.size(), 0.0);
+        world.bodies.last_force.assign(world.bodies.size(), BodyForce{});
     }
-    world.forces.assign(world.bodies.size(), BodyForce{});
+    world.bodies.force.assign(world.bodies.size(), BodyForce{});
     build_laws(world);
     rank_by_size(world);
     build_controls(world, scene, internal_of);  // inverse masses of driven bodies enter m_eff and the bound

@@ -29,16 +29,16 @@ double ramp_position(const ControlState& control, int dof, std::int64_t step) {
 /// Sets a held velocity. The drive brings the kinetic energy at once, so it is displacement work: its force is
 /// infinitely large for no time and shows in no reaction.
 void set_velocity(World& world, BodyIndex b, int dof, double velocity) {
-    double& now = velocity_of(world.bodies[b], dof);
-    const double weight = dof < 2 ? world.inertia[b].mass : world.info[b].moment;
-    if (world.initial_energy_taken) world.displacement_work += 0.5 * weight * (velocity * velocity - now * now);
+    double& now = velocity_of(world.bodies.state[b], dof);
+    const double weight = dof < 2 ? world.bodies.inertia[b].mass : world.bodies.info[b].moment;
+    if (world.account.begun) world.account.displacement_work += 0.5 * weight * (velocity * velocity - now * now);
     now = velocity;
 }
 
 void enter(World& world, ControlState& control) {
-    BodyState& body = world.bodies[control.body];
-    BodyInertia& inertia = world.inertia[control.body];
-    const BodyInfo& info = world.info[control.body];
+    BodyState& body = world.bodies.state[control.body];
+    BodyInertia& inertia = world.bodies.inertia[control.body];
+    const BodyInfo& info = world.bodies.info[control.body];
     for (int d = 0; d < 3; ++d) {
         control.start[d] = position_of(body, d);
         control.last_force[d] = 0.0;
@@ -46,7 +46,8 @@ void enter(World& world, ControlState& control) {
         inverse_of(inertia, d) = held(control.dof[d]) ? 0.0 : d < 2 ? 1.0 / inertia.mass : 1.0 / info.moment;
         if (control.dof[d].drive == Drive::velocity) set_velocity(world, control.body, d, control.dof[d].value);
         if (control.dof[d].drive == Drive::displacement) {
-            set_velocity(world, control.body, d, ramp_velocity(control, d, world.step, world.time_step));
+            set_velocity(world, control.body, d,
+                         ramp_velocity(control, d, world.stepping.steps, world.stepping.time_step));
         }
     }
 }
@@ -64,21 +65,21 @@ void set_control(World& world, BodyIndex body, const DofControl (&dof)[3], std::
     ControlState fresh{};
     fresh.body = body;
     std::copy(std::begin(dof), std::end(dof), std::begin(fresh.dof));
-    fresh.first_step = world.step;
+    fresh.first_step = world.stepping.steps;
     fresh.ramp_steps = ramp_steps;
-    auto place = std::find_if(world.controls.begin(), world.controls.end(),
+    auto place = std::find_if(world.bodies.controls.begin(), world.bodies.controls.end(),
                               [&](const ControlState& c) { return c.body == body; });
-    if (place == world.controls.end())
-        place = world.controls.insert(world.controls.end(), fresh);
+    if (place == world.bodies.controls.end())
+        place = world.bodies.controls.insert(world.bodies.controls.end(), fresh);
     else
         *place = fresh;
     enter(world, *place);
-    world.sweep.valid = false;
-    world.forces_clear = false;
+    world.workers.plan.valid = false;
+    world.bodies.forces_clear = false;
 }
 
 void change_velocity(World& world, BodyIndex body, int dof, double velocity) {
-    for (ControlState& control : world.controls) {
+    for (ControlState& control : world.bodies.controls) {
         if (control.body != body) continue;
         control.dof[dof].value = velocity;
         set_velocity(world, body, dof, velocity);
@@ -86,43 +87,44 @@ void change_velocity(World& world, BodyIndex body, int dof, double velocity) {
 }
 
 void account_controls(World& world) {
-    for (ControlState& control : world.controls) {
-        const BodyForce& contact = world.forces[control.body];
-        const double mass = world.inertia[control.body].mass;
-        const double load[3] = {contact.fx + mass * world.gravity.x, contact.fy + mass * world.gravity.y,
-                                contact.torque};
+    for (ControlState& control : world.bodies.controls) {
+        const BodyForce& contact = world.bodies.force[control.body];
+        const double mass = world.bodies.inertia[control.body].mass;
+        const double load[3] = {contact.fx + mass * world.settings.gravity.x,
+                                contact.fy + mass * world.settings.gravity.y, contact.torque};
         for (int d = 0; d < 3; ++d) {
             if (control.dof[d].drive == Drive::free) continue;
             const bool reacts = held(control.dof[d]);
             const double force = reacts ? -load[d] : control.dof[d].value;
             const double work = 0.5 * (control.last_force[d] + force) * control.last_move[d];
-            (reacts ? world.displacement_work : world.force_work) += work;
+            (reacts ? world.account.displacement_work : world.account.force_work) += work;
             control.last_force[d] = force;
         }
     }
 }
 
 void kick_controls(World& world, double kick) {
-    for (ControlState& control : world.controls) {
-        BodyState& body = world.bodies[control.body];
+    for (ControlState& control : world.bodies.controls) {
+        BodyState& body = world.bodies.state[control.body];
         for (int d = 0; d < 3; ++d) {
             if (control.dof[d].drive == Drive::force) {
-                velocity_of(body, d) += kick * control.dof[d].value * inverse_of(world.inertia[control.body], d);
+                velocity_of(body, d) += kick * control.dof[d].value * inverse_of(world.bodies.inertia[control.body], d);
             } else if (control.dof[d].drive == Drive::displacement) {
-                set_velocity(world, control.body, d, ramp_velocity(control, d, world.step, world.time_step));
+                set_velocity(world, control.body, d,
+                             ramp_velocity(control, d, world.stepping.steps, world.stepping.time_step));
             }
         }
     }
 }
 
 void place_controls(World& world) {
-    for (ControlState& control : world.controls) {
-        BodyState& body = world.bodies[control.body];
+    for (ControlState& control : world.bodies.controls) {
+        BodyState& body = world.bodies.state[control.body];
         for (int d = 0; d < 3; ++d) {
             // A ramp's end is met to the last digit; the outline has turned by the same angle up to rounding.
             if (control.dof[d].drive == Drive::displacement)
-                position_of(body, d) = ramp_position(control, d, world.step);
-            control.last_move[d] = velocity_of(body, d) * world.drift;
+                position_of(body, d) = ramp_position(control, d, world.stepping.steps);
+            control.last_move[d] = velocity_of(body, d) * world.stepping.drift;
         }
     }
 }

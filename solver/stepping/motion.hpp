@@ -34,12 +34,12 @@ inline void turn_frame(BodyState& body, double turn) {
 /// @tparam Clear World::forces of these bodies are left as 0
 template <bool Gravity, bool Turning, bool Clear, class Number>
 Speeds move_each(World& world, double kick, std::int64_t count, Number number) {
-    const double dt = world.time_step;
-    [[maybe_unused]] const Pair gravity{world.gravity.x, world.gravity.y};
-    BodyState* const bodies = world.bodies.data();
-    const BodyInertia* const inertias = world.inertia.data();
-    BodyForce* const forces = world.forces.data();
-    [[maybe_unused]] const double* const reaches = world.turning_reach.data();
+    const double dt = world.stepping.time_step;
+    [[maybe_unused]] const Pair gravity{world.settings.gravity.x, world.settings.gravity.y};
+    BodyState* const bodies = world.bodies.state.data();
+    const BodyInertia* const inertias = world.bodies.inertia.data();
+    BodyForce* const forces = world.bodies.force.data();
+    [[maybe_unused]] const double* const reaches = world.bodies.turning_reach.data();
     Speeds speeds;
     for (std::int64_t k = 0; k < count; ++k) {
         const auto n = number(k);

@@ -11,10 +11,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/measure/health.hpp"
+#include "solver/measure/ledger.hpp"
 #include "solver/stepping/breaks.hpp"
 #include "solver/stepping/controls.hpp"
 #include "solver/stepping/motion.hpp"
+#include "solver/stepping/step.hpp"
 #include "solver/stepping/sweep.hpp"
+#include "solver/stepping/time_step.hpp"
 #include "solver/world/world.hpp"
 
 namespace crackle {
@@ -23,16 +27,18 @@ namespace {
 constexpr std::int64_t block_bodies = 512;
 
 /// s, of the kick that joins the middles of two drifts.
-double kick_now(const World& world) { return kick_before(world) + 0.5 * world.time_step; }
+double kick_now(const World& world) { return kick_before(world.stepping) + 0.5 * world.stepping.time_step; }
 
 /// Kick and drift of all bodies.
 Speeds move_bodies(World& world, double kick) {
     const auto count = static_cast<std::int64_t>(world.bodies.size());
-    const auto move = world.gravity == Vec2{} ? (world.some_turn ? &move_range<false, true> : &move_range<false, false>)
-                                              : (world.some_turn ? &move_range<true, true> : &move_range<true, false>);
-    if (world.threads == 1) return move(world, kick, 0, count);
+    const auto move = world.settings.gravity == Vec2{}
+                          ? (world.bodies.some_turn ? &move_range<false, true> : &move_range<false, false>)
+                          : (world.bodies.some_turn ? &move_range<true, true> : &move_range<true, false>);
+    if (world.workers.threads == 1) return move(world, kick, 0, count);
     double fastest = 0.0, excess = 0.0;
-#pragma omp parallel for num_threads(world.threads) schedule(static) reduction(max : fastest) reduction(+ : excess)
+#pragma omp parallel for num_threads(world.workers.threads) schedule(static) reduction(max : fastest) \
+    reduction(+ : excess)
     for (std::int64_t begin = 0; begin < count; begin += block_bodies) {
         const Speeds here = move(world, kick, begin, std::min(begin + block_bodies, count));
         excess += here.sum_of_excess;
@@ -44,106 +50,106 @@ Speeds move_bodies(World& world, double kick) {
 /// The move of lists of bodies that suits the world.
 template <bool Clear>
 MoveListed move_of_lists(const World& world) {
-    return world.gravity == Vec2{}
-               ? (world.some_turn ? &move_listed<false, true, Clear> : &move_listed<false, false, Clear>)
-               : (world.some_turn ? &move_listed<true, true, Clear> : &move_listed<true, false, Clear>);
+    return world.settings.gravity == Vec2{}
+               ? (world.bodies.some_turn ? &move_listed<false, true, Clear> : &move_listed<false, false, Clear>)
+               : (world.bodies.some_turn ? &move_listed<true, true, Clear> : &move_listed<true, false, Clear>);
 }
 
 /// Adds up what the blocks of the force pass report, in their order.
 void sum_blocks(World& world) {
     std::uint32_t broken = 0, gained = 0;
-    for (const World::LossBlock& block : world.loss_blocks) {
-        world.dashpot_loss += block.dashpot;
-        world.friction_loss += block.friction;
-        world.law_loss += block.law;
+    for (const LossBlock& block : world.account.blocks) {
+        world.account.dashpot_loss += block.dashpot;
+        world.account.friction_loss += block.friction;
+        world.account.law_loss += block.law;
         broken += block.broken;
         gained += block.gained;
     }
     if (broken > 0) record_breaks(world);
-    world.points_gained = gained > 0;
+    world.stepping.points_gained = gained > 0;
 }
 
 void sample_geometry(World& world) {
-    world.profile->force_passes += 1;
-    world.profile->point_steps += static_cast<std::int64_t>(world.points.size());
-    if (world.step % geometry_interval != 0) return;
-    const PhaseTimer timer(world.profile, &world.profile->geometry_sampled);
-#pragma omp parallel num_threads(world.threads) if (world.threads > 1)
+    world.workers.profile->force_passes += 1;
+    world.workers.profile->point_steps += static_cast<std::int64_t>(world.points.size());
+    if (world.stepping.steps % geometry_interval != 0) return;
+    const PhaseTimer timer(world.workers.profile, &world.workers.profile->geometry_sampled);
+#pragma omp parallel num_threads(world.workers.threads) if (world.workers.threads > 1)
     geometry_pass(world);
 }
 
 /// What the force pass needs to be up to date.
 void prepare_forces(World& world) {
-    if (world.points_gained) {
+    if (world.stepping.points_gained) {
         count_new_points(world);
-        world.points_gained = false;
+        world.stepping.points_gained = false;
     }
     refresh_neighbours(world);
     plan_sweep(world);
     clear_forces(world);
-    if (world.profile != nullptr) sample_geometry(world);
+    if (world.workers.profile != nullptr) sample_geometry(world);
 }
 
 /// Breaks, losses, driven bodies: what the force pass has left to be written down at time n.
 void account_forces(World& world) {
-    const PhaseTimer timer(world.profile, Phase::bookkeeping);
+    const PhaseTimer timer(world.workers.profile, Phase::bookkeeping);
     sum_blocks(world);
     account_controls(world);
 }
 
 /// All but the motion of bodies itself. @param speeds of all bodies
 void end_step(World& world, const Speeds& speeds) {
-    world.fastest = std::sqrt(speeds.checked());
-    world.drift = world.time_step;
-    world.step += 1;
-    world.time += world.time_step;
-    world.kick_share = 1.0;
-    world.travelled += world.fastest * world.time_step;
-    world.forces_current = false;
+    world.list.fastest = std::sqrt(speeds.checked());
+    world.stepping.drift = world.stepping.time_step;
+    world.stepping.steps += 1;
+    world.stepping.time += world.stepping.time_step;
+    world.stepping.kick_share = 1.0;
+    world.list.travelled += world.list.fastest * world.stepping.time_step;
+    world.stepping.forces_current = false;
     place_controls(world);
-    if (!(world.fastest * world.time_step < world.fastest_allowed_move)) check_health(world);
+    if (!(world.list.fastest * world.stepping.time_step < world.list.fastest_allowed_move)) check_health(world);
 }
 
 }  // namespace
 
 void compute_forces(World& world) {
-    if (world.forces_current) return;
+    if (world.stepping.forces_current) return;
     prepare_forces(world);
     sweep(world, features_of(world), nullptr, 0.0);
-    world.forces_clear = false;
+    world.bodies.forces_clear = false;
     account_forces(world);
-    world.forces_current = true;
-    if (!world.initial_energy_taken) {
-        world.initial_energy_taken = true;
-        world.initial_energy = 0.0;
-        world.initial_energy = measure_ledger(world).closing_error;
+    world.stepping.forces_current = true;
+    if (!world.account.begun) {
+        world.account.begun = true;
+        world.account.initial_energy = 0.0;
+        world.account.initial_energy = measure_ledger(world).closing_error;
     }
 }
 
 void advance(World& world) {
-    const PhaseTimer timer(world.profile, Phase::integrate);
+    const PhaseTimer timer(world.workers.profile, Phase::integrate);
     const double kick = kick_now(world);
     kick_controls(world, kick);
     end_step(world, move_bodies(world, kick));
 }
 
 void step(World& world) {
-    if (world.forces_current || !world.initial_energy_taken) {
+    if (world.stepping.forces_current || !world.account.begun) {
         compute_forces(world);
         advance(world);
         return;
     }
     prepare_forces(world);
-    const bool clear = world.integrator != Integrator::consistent;  // it looks at the last pass's forces
+    const bool clear = world.settings.integrator != Integrator::consistent;  // it looks at the last pass's forces
     const MoveListed move = clear ? move_of_lists<true>(world) : move_of_lists<false>(world);
     const double kick = kick_now(world);
     sweep(world, features_of(world), move, kick);
-    world.forces_clear = clear;
+    world.bodies.forces_clear = clear;
     account_forces(world);
-    const PhaseTimer timer(world.profile, Phase::integrate);
+    const PhaseTimer timer(world.workers.profile, Phase::integrate);
     Speeds speeds = move_the_rest(world, move, kick);
     kick_controls(world, kick);
-    for (const ControlState& control : world.controls)
+    for (const ControlState& control : world.bodies.controls)
         speeds.add(move_of_lists<false>(world)(world, kick, &control.body, 1));
     end_step(world, speeds);
 }

@@ -31,19 +31,19 @@ bool has_partner(std::size_t kind) { return static_cast<PointKind>(kind) != Poin
 /// Of points from `begin` to `end`, of one kind, where those end that are added up four at a time.
 PointIndex end_of_fours(const World& world, std::size_t kind, PointIndex begin, PointIndex end) {
     if (static_cast<PointKind>(kind) != PointKind::element_outline) return begin;
-    return std::clamp(world.fours_end, begin, end);
+    return std::clamp(world.points.fours_end, begin, end);
 }
 
 /// Calls visit(point, body) for each contribution of the points of the largest kind to a body, in the order in which
 /// they are added up.
 template <class Visit>
 void for_each_contribution(const World& world, Visit visit) {
-    const std::size_t kind = world.sweep.largest_kind;
-    const PointIndex begin = world.kind_begin[kind], end = world.kind_begin[kind + 1];
+    const std::size_t kind = world.workers.plan.largest_kind;
+    const PointIndex begin = world.points.kind_begin[kind], end = world.points.kind_begin[kind + 1];
     const PointIndex fours = end_of_fours(world, kind, begin, end);
     for (PointIndex k = begin; k < end; k += k < fours ? 4 : 1) {
-        visit(k, world.points[k].body_i);
-        if (has_partner(kind)) visit(k, world.points[k].body_j);
+        visit(k, world.points.contact[k].body_i);
+        if (has_partner(kind)) visit(k, world.points.contact[k].body_j);
     }
 }
 
@@ -55,7 +55,7 @@ struct BlockSpan {
 std::vector<BlockSpan> block_spans(const World& world, PointIndex blocks) {
     constexpr PointIndex none = std::numeric_limits<PointIndex>::max();
     std::vector<BlockSpan> spans(world.bodies.size(), {none, 0});
-    const PointIndex first_point = world.kind_begin[world.sweep.largest_kind];
+    const PointIndex first_point = world.points.kind_begin[world.workers.plan.largest_kind];
     for_each_contribution(world, [&](PointIndex k, BodyIndex b) {
         const PointIndex block = (k - first_point) / block_points;
         spans[b].first = std::min(spans[b].first, block);
@@ -71,15 +71,15 @@ std::vector<BlockSpan> block_spans(const World& world, PointIndex blocks) {
 
 /// Who adds to which body, and where the others leave what they have for it.
 void plan_deferred(World& world, const std::vector<BlockSpan>& spans, PointIndex blocks) {
-    Sweep& plan = world.sweep;
-    const auto threads = static_cast<std::size_t>(world.threads);
+    SweepPlan& plan = world.workers.plan;
+    const auto threads = static_cast<std::size_t>(world.workers.threads);
     plan.owner.resize(spans.size());
     for (std::size_t b = 0; b < spans.size(); ++b)
         plan.owner[b] = static_cast<std::uint16_t>(share_of(spans[b].first, blocks, threads));
     std::vector<BodyIndex> deferred_for;
     plan.deferred_begin.assign(threads + 1, 0);
     plan.defers.assign(blocks, 0);
-    const PointIndex first_point = world.kind_begin[plan.largest_kind];
+    const PointIndex first_point = world.points.kind_begin[plan.largest_kind];
     for_each_contribution(world, [&](PointIndex k, BodyIndex b) {
         const PointIndex block = (k - first_point) / block_points;
         const std::size_t thread = share_of(block, blocks, threads);
@@ -107,10 +107,12 @@ void plan_deferred(World& world, const std::vector<BlockSpan>& spans, PointIndex
 }  // namespace
 
 void plan_sweep(World& world) {
-    Sweep& plan = world.sweep;
+    SweepPlan& plan = world.workers.plan;
     if (plan.valid) return;
-    const auto threads = static_cast<std::size_t>(world.threads);
-    const auto points_of = [&](std::size_t kind) { return world.kind_begin[kind + 1] - world.kind_begin[kind]; };
+    const auto threads = static_cast<std::size_t>(world.workers.threads);
+    const auto points_of = [&](std::size_t kind) {
+        return world.points.kind_begin[kind + 1] - world.points.kind_begin[kind];
+    };
     plan.largest_kind = 0;
     for (std::size_t kind = 1; kind < point_kinds; ++kind)
         if (points_of(kind) > points_of(plan.largest_kind)) plan.largest_kind = kind;
@@ -125,7 +127,7 @@ void plan_sweep(World& world) {
         const bool alone = share_of(spans[b].first, blocks, threads) == share_of(spans[b].last, blocks, threads);
         finishing[b] = alone ? spans[b].last : late;
     }
-    for (const ControlState& control : world.controls) finishing[control.body] = driven;
+    for (const ControlState& control : world.bodies.controls) finishing[control.body] = driven;
     std::vector<std::uint32_t> begin(blocks + 3, 0);
     for (const PointIndex when : finishing) ++begin[when + 1];
     for (std::size_t k = 1; k < begin.size(); ++k) begin[k] += begin[k - 1];
@@ -157,9 +159,9 @@ void plan_sweep(World& world) {
 }
 
 void clear_forces(World& world) {
-    if (world.integrator == Integrator::consistent) world.last_forces = world.forces;
-    if (!world.forces_clear) std::ranges::fill(world.forces, BodyForce{});
-    for (const ControlState& control : world.controls) world.forces[control.body] = {};
+    if (world.settings.integrator == Integrator::consistent) world.bodies.last_force = world.bodies.force;
+    if (!world.bodies.forces_clear) std::ranges::fill(world.bodies.force, BodyForce{});
+    for (const ControlState& control : world.bodies.controls) world.bodies.force[control.body] = {};
 }
 
 namespace {
@@ -177,7 +179,7 @@ CRACKLE_INLINE void add(BodyForce& sum, const Quad& force) { store_as(&sum, load
 template <bool Partner, class Visit>
 CRACKLE_INLINE void visit_contributions(const World& world, PointIndex begin, PointIndex fours_end, PointIndex end,
                                         const PointForce* forces, Visit visit) {
-    const ContactPoint* const points = world.points.data();
+    const ContactPoint* const points = world.points.contact.data();
     PointIndex k = begin;
     if constexpr (Partner) {
         for (; k < fours_end; k += 4, forces += 4) {
@@ -214,23 +216,23 @@ class Sweeper {
   public:
     Sweeper(World& world, const ContactFeatures& features, MoveListed move, double kick, std::size_t thread)
         : world_(world),
-          plan_(world.sweep),
+          plan_(world.workers.plan),
           features_(features),
           move_(move),
           kick_(kick),
           thread_(thread),
           threads_(plan_.shares.size()),
-          profile_(thread_ == 0 ? world.profile : nullptr),
+          profile_(thread_ == 0 ? world.workers.profile : nullptr),
           share_(plan_.shares[thread_]),
           deferred_(threads_ == 1 ? nullptr : plan_.deferred.data() + plan_.deferred_begin[thread_]) {}
 
-    static std::uint32_t end_of_chunks(const Sweep& plan, std::size_t thread) {
+    static std::uint32_t end_of_chunks(const SweepPlan& plan, std::size_t thread) {
         const std::uint32_t chunks = plan.thread_chunks[thread + 1];
         return chunks == 0 ? 0 : plan.chunks[chunks - 1].end_body;
     }
 
-    static bool none_broken(const Sweep& plan) {
-        return std::ranges::none_of(plan.shares, [](const Sweep::Share& share) { return share.broken; });
+    static bool none_broken(const SweepPlan& plan) {
+        return std::ranges::none_of(plan.shares, [](const SweepPlan::Share& share) { return share.broken; });
     }
 
     void do_smaller_kinds() {
@@ -247,7 +249,7 @@ class Sweeper {
                     run(kernel,
                         block_of(world_, kind, b, plan_.smaller_kinds.data() + before + std::size_t{b} * block_points));
             }
-            before += world_.kind_begin[kind + 1] - world_.kind_begin[kind];
+            before += world_.points.kind_begin[kind + 1] - world_.points.kind_begin[kind];
         }
     }
 
@@ -260,7 +262,7 @@ class Sweeper {
         PointIndex b = share_begin(blocks, thread_, threads_);
         std::uint32_t body = share_.moved_end;
         for (std::uint32_t c = plan_.thread_chunks[thread_]; c < plan_.thread_chunks[thread_ + 1]; ++c) {
-            const Sweep::Chunk& chunk = plan_.chunks[c];
+            const SweepPlan::Chunk& chunk = plan_.chunks[c];
             const PointIndex first = b, end = std::min(chunk.end_block, blocks);  // none where the kind has no points
             for (; b < end; ++b)
                 do_block(kernel, kind, b, [&](const PointBlock& block) {
@@ -282,7 +284,7 @@ class Sweeper {
         {
             const PhaseTimer timer(profile_, Phase::gather);
             for (std::uint32_t n = begin; n < end; ++n) {
-                BodyForce& sum = world_.forces[plan_.order[plan_.late_begin + n]];
+                BodyForce& sum = world_.bodies.force[plan_.order[plan_.late_begin + n]];
                 for (std::uint32_t s = plan_.sources_begin[n]; s < plan_.sources_begin[n + 1]; ++s)
                     add(sum, load_as<Quad>(&plan_.deferred[plan_.sources[s]]));
             }
@@ -296,7 +298,7 @@ class Sweeper {
     bool smaller_kinds_broke() const {
         const std::size_t first = first_block_of(world_, plan_.largest_kind);
         return some_broke(0, first) ||
-               some_broke(first + blocks_of_kind(world_, plan_.largest_kind), world_.loss_blocks.size());
+               some_broke(first + blocks_of_kind(world_, plan_.largest_kind), world_.account.blocks.size());
     }
 
     /// Each thread goes through all of them and adds to the bodies it owns.
@@ -304,20 +306,20 @@ class Sweeper {
         const PointForce* force = plan_.smaller_kinds.data();
         for (std::size_t kind = 0; kind < point_kinds; ++kind) {
             if (kind == plan_.largest_kind) continue;
-            const PointIndex begin = world_.kind_begin[kind], end = world_.kind_begin[kind + 1];
+            const PointIndex begin = world_.points.kind_begin[kind], end = world_.points.kind_begin[kind + 1];
             visit_contributions(world_, kind, begin, end, force, [&](BodyIndex b, const Quad& on_b) {
-                if (owns(b)) add(world_.forces[b], on_b);
+                if (owns(b)) add(world_.bodies.force[b], on_b);
             });
             force += end - begin;
         }
-        if (!world_.point_forces.empty() && thread_ == 0) keep_smaller_kinds();
+        if (!world_.points.force.empty() && thread_ == 0) keep_smaller_kinds();
     }
 
     void keep_smaller_kinds() {
-        const auto largest = static_cast<std::ptrdiff_t>(world_.kind_begin[plan_.largest_kind]);
-        std::copy_n(plan_.smaller_kinds.begin(), largest, world_.point_forces.begin());
+        const auto largest = static_cast<std::ptrdiff_t>(world_.points.kind_begin[plan_.largest_kind]);
+        std::copy_n(plan_.smaller_kinds.begin(), largest, world_.points.force.begin());
         std::copy(plan_.smaller_kinds.begin() + largest, plan_.smaller_kinds.end(),
-                  world_.point_forces.begin() + world_.kind_begin[plan_.largest_kind + 1]);
+                  world_.points.force.begin() + world_.points.kind_begin[plan_.largest_kind + 1]);
     }
 
     /// Forces of a block, kept where somebody wants to see them, then `add_up` while they are at hand.
@@ -325,7 +327,7 @@ class Sweeper {
     void do_block(ForceKernel kernel, std::size_t kind, PointIndex b, AddUp add_up) {
         PointForce at_hand[block_points];
         PointBlock block = block_of(world_, kind, b, at_hand);
-        if (!world_.point_forces.empty()) block.forces = world_.point_forces.data() + block.begin;
+        if (!world_.points.force.empty()) block.forces = world_.points.force.data() + block.begin;
         run(kernel, block);
         const PhaseTimer timer(profile_, Phase::gather);
         add_up(block);
@@ -334,11 +336,11 @@ class Sweeper {
     void run(ForceKernel kernel, const PointBlock& block) {
         const PhaseTimer timer(profile_, Phase::force);
         kernel(world_, block);
-        ++world_.thread_blocks[thread_];
+        ++world_.workers.blocks_done[thread_];
     }
 
     void add_all(const PointBlock& block, std::size_t kind) {
-        BodyForce* const sums = world_.forces.data();
+        BodyForce* const sums = world_.bodies.force.data();
         visit_contributions(world_, kind, block.begin, block.end, block.forces,
                             [sums](BodyIndex b, const Quad& force) { add(sums[b], force); });
     }
@@ -346,7 +348,7 @@ class Sweeper {
     void add_or_defer(const PointBlock& block, std::size_t kind) {
         visit_contributions(world_, kind, block.begin, block.end, block.forces, [&](BodyIndex b, const Quad& force) {
             if (owns(b))
-                add(world_.forces[b], force);
+                add(world_.bodies.force[b], force);
             else
                 store_as(deferred_++, force);
         });
@@ -361,32 +363,32 @@ class Sweeper {
 
     bool some_broke(std::size_t first_block, std::size_t end_block) const {
         for (std::size_t b = first_block; b < end_block; ++b)
-            if (world_.loss_blocks[b].broken > 0) return true;
+            if (world_.account.blocks[b].broken > 0) return true;
         return false;
     }
 
     World& world_;
-    Sweep& plan_;
+    SweepPlan& plan_;
     const ContactFeatures& features_;
     MoveListed move_;
     double kick_;
     std::size_t thread_, threads_;
     Profile* profile_;
-    Sweep::Share& share_;
+    SweepPlan::Share& share_;
     BodyForce* deferred_;
 };
 
 }  // namespace
 
 void sweep(World& world, const ContactFeatures& features, MoveListed move, double kick) {
-    const std::size_t shares = world.sweep.shares.size();
+    const std::size_t shares = world.workers.plan.shares.size();
     if (shares == 1) {  // needs no team: its barriers would cost a tenth of a small scene's step
         Sweeper sweeper(world, features, move, kick, 0);
         sweeper.do_smaller_kinds();
         return sweeper.do_largest_kind();
     }
-    const bool smaller_kinds = !world.sweep.smaller_kinds.empty();
-#pragma omp parallel num_threads(world.threads)
+    const bool smaller_kinds = !world.workers.plan.smaller_kinds.empty();
+#pragma omp parallel num_threads(world.workers.threads)
     {
         // A team can be smaller than was asked for (OMP_THREAD_LIMIT, OMP_DYNAMIC): its threads then do several shares.
         const auto team = static_cast<std::size_t>(omp_get_num_threads());
@@ -407,7 +409,7 @@ void sweep(World& world, const ContactFeatures& features, MoveListed move, doubl
 }
 
 Speeds move_the_rest(World& world, MoveListed move, double kick) {
-    const Sweep& plan = world.sweep;
+    const SweepPlan& plan = world.workers.plan;
     Speeds speeds;
     const auto move_on = [&](std::uint32_t begin, std::uint32_t end) {
         speeds.add(move(world, kick, plan.order.data() + begin, end - begin));

@@ -11,9 +11,9 @@ namespace crackle {
 /// Centroid beyond a wall in a direction in which the body can move. Held bodies may lie anywhere: a container's
 /// centroid, say, or a platen parked behind the wall.
 inline bool outside_domain(const World& world, std::size_t b) {
-    const Domain& d = world.domain;
-    const BodyState& body = world.bodies[b];
-    const BodyInertia& inertia = world.inertia[b];
+    const Domain& d = world.settings.domain;
+    const BodyState& body = world.bodies.state[b];
+    const BodyInertia& inertia = world.bodies.inertia[b];
     const bool out_x = (d.wall_present[0] && body.x < d.x1) || (d.wall_present[1] && body.x > d.x2);
     const bool out_y = (d.wall_present[2] && body.y < d.y1) || (d.wall_present[3] && body.y > d.y2);
     return (out_x && inertia.inverse_mass_x > 0.0) || (out_y && inertia.inverse_mass_y > 0.0);

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "solver/linear/vibration.hpp"
+#include "solver/measure/point_view.hpp"
 
 namespace crackle {
 namespace {
@@ -32,8 +33,8 @@ std::vector<PointRates> rates_of(const World& world, const std::vector<Motion>& 
 LinearBond linear_bond(const World& world, PointIndex k, const PointRates& rate, double strain) {
     const PointView view = view_point(world, k);
     LinearBond bond;
-    bond.body_i = world.info[view.body_i].id;
-    bond.body_j = world.info[view.body_j].id;
+    bond.body_i = world.bodies.info[view.body_i].id;
+    bond.body_j = world.bodies.info[view.body_j].id;
     bond.position = view.position;
     bond.strength = view.normal_stiffness * view.bond_overlap;
     bond.normal_force = view.normal_stiffness * rate.closing * strain;
@@ -64,7 +65,7 @@ std::vector<LinearBond> linear_bonds(const World& world, const TestSetup& setup,
     const std::vector<PointRates> rates = rates_of(world, moduli.solution.displacement);
     std::vector<LinearBond> bonds;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
-        if ((world.point_states[k].flags & point_bonded) == 0) continue;
+        if ((world.points.state[k].flags & point_bonded) == 0) continue;
         bonds.push_back(linear_bond(world, k, {sense * rates[k].closing, rates[k].slipping}, strain));
     }
     return bonds;
@@ -98,9 +99,9 @@ ElasticAnalysis analyse_elastic(const VirtualTest& test, double strain, int mode
     result.stable_time_step = setup.stable_time_step;
     result.stable_time_step_proved = setup.stable_time_step_proved;
     result.time_step_bound = setup.time_step_bound;
-    result.time_step = world.time_step;
+    result.time_step = world.stepping.time_step;
     result.free = find_free_motions(world, {setup.bottom, setup.top});
-    for (const BodyIndex b : result.free.bodies) result.free_ids.push_back(world.info[b].id);
+    for (const BodyIndex b : result.free.bodies) result.free_ids.push_back(world.bodies.info[b].id);
     if (modes > 0) {
         for (const VibrationMode& mode : lowest_modes(world, modes, result.free.count))
             result.frequencies.push_back(mode.frequency);

@@ -15,10 +15,11 @@ struct Stretch {
 };
 
 double smaller_radius(const World& world, PointKind kind, const ContactPoint& point) {
-    const double radius = world.elements[point.element_i].radius;
+    const double radius = world.bodies.elements[point.element_i].radius;
     if (!is_circles(world, point.body_j)) return radius;
     const bool named = kind == PointKind::element_element;
-    return std::min(radius, world.elements[named ? point.feature_j : world.info[point.body_j].first_element].radius);
+    return std::min(
+        radius, world.bodies.elements[named ? point.feature_j : world.bodies.info[point.body_j].first_element].radius);
 }
 
 Vec2 middle_of(const Facing& facing) { return 0.5 * (facing.on_i + facing.on_j); }

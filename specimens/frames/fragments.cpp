@@ -35,7 +35,7 @@ std::vector<std::int32_t> find_fragments(const World& world, const TestSetup& se
         }
         Fragment& fragment = fragments[static_cast<std::size_t>(number[set])];
         fragment.area += area_of(world, b);
-        fragment.lowest_id = std::min(fragment.lowest_id, world.info[b].id);
+        fragment.lowest_id = std::min(fragment.lowest_id, world.bodies.info[b].id);
         fragment.set = set;
     }
     std::sort(fragments.begin(), fragments.end(), [](const Fragment& a, const Fragment& b) {

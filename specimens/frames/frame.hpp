@@ -31,6 +31,16 @@ struct Frame {
     struct Body {
         double x, y, angle;    // m, rad
         double vx, vy, omega;  // m/s, rad/s
+
+        template <class Self, class Visit>
+        static constexpr void fields(Self& s, Visit&& visit) {
+            visit("x", s.x);
+            visit("y", s.y);
+            visit("angle", s.angle);
+            visit("vx", s.vx);
+            visit("vy", s.vy);
+            visit("omega", s.omega);
+        }
     };
     std::int64_t row = -1;  ///< of the curve; -1: no frame
     double axial_strain = 0.0, axial_stress = 0.0, time = 0.0;
@@ -39,6 +49,19 @@ struct Frame {
     std::vector<ContactState> states;  ///< likewise
     LooseContacts loose;               ///< of points that were never bonded
     std::uint64_t cracks = 0;          ///< so many have come first in ContactHistory::cracks
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("row", s.row);
+        visit("axial_strain", s.axial_strain);
+        visit("axial_stress", s.axial_stress);
+        visit("time", s.time);
+        visit("bodies", s.bodies);
+        visit("shear_force", s.shear_force);
+        visit("states", s.states);
+        visit("loose", s.loose);
+        visit("cracks", s.cracks);
+    }
 };
 
 /// The present moment. Needs compute_forces() and look_at_contacts() to have been called. Linear in bodies and listed

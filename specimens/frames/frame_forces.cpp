@@ -20,7 +20,7 @@ void add_contact(std::vector<ParticleStress>& sums, const ContactPoint& point, c
 }  // namespace
 
 double area_of(const World& world, BodyIndex b) {
-    return world.inertia[b].mass / world.materials[world.info[b].material].density;
+    return world.bodies.inertia[b].mass / world.settings.materials[world.bodies.info[b].material].density;
 }
 
 FrameForces find_forces(const PlacedFrame& placed) {
@@ -34,7 +34,7 @@ FrameForces find_forces(const PlacedFrame& placed) {
         std::uint32_t feature = point.feature_j;
         const ContactGeometry g =
             contact_geometry<K>(world, point, placed.body(point.body_i), placed.body(point.body_j), feature);
-        const ContactLaw& law = world.laws[law_between(world, point.body_i, point.body_j)];
+        const ContactLaw& law = world.settings.laws[law_between(world, point.body_i, point.body_j)];
         const double normal = law.normal_stiffness * (g.overlap - bond_overlap);
         forces.normal.push_back(normal);
         add_contact(forces.stress, point, g, normal, shear);

@@ -21,7 +21,7 @@ namespace {
 std::vector<BodyIndex> drawing_order(const World& world, const TestSetup& setup) {
     std::vector<BodyIndex> order(world.bodies.size());
     std::iota(order.begin(), order.end(), BodyIndex{0});
-    const auto rank = [&](BodyIndex b) { return std::pair(!setup.is_platen(b), world.info[b].id); };
+    const auto rank = [&](BodyIndex b) { return std::pair(!setup.is_platen(b), world.bodies.info[b].id); };
     std::sort(order.begin(), order.end(), [&](BodyIndex a, BodyIndex b) { return rank(a) < rank(b); });
     return order;
 }
@@ -101,13 +101,13 @@ FramePainter::FramePainter(const World& world, const TestSetup& setup)
 template <class Visit>
 void FramePainter::visit_cells(const Visit& visit) const {
     for (const BodyIndex b : order_) {
-        const BodyInfo& info = world_.info[b];
+        const BodyInfo& info = world_.bodies.info[b];
         if (!is_circles(world_, b)) {
             visit(b, info.first_element, setup_.is_platen(b) ? std::size_t{2} : std::size_t{info.element_count}, 0.0);
             continue;
         }
         for (std::uint32_t e = info.first_element; e < info.first_element + info.element_count; ++e)
-            visit(b, e, outline_.size(), world_.elements[e].radius);
+            visit(b, e, outline_.size(), world_.bodies.elements[e].radius);
     }
 }
 
@@ -138,14 +138,14 @@ void FramePainter::write_particle_cells(std::ostream& out) const {
     write_cells("Polys", false);
     begin_element(out, "CellData");
     write_array<std::int32_t>(out, "id", cells, [&](const auto& add) {
-        visit_cells([&](BodyIndex b, std::uint32_t, std::size_t, double) { add(world_.info[b].id); });
+        visit_cells([&](BodyIndex b, std::uint32_t, std::size_t, double) { add(world_.bodies.info[b].id); });
     });
     write_array<double>(out, "radius", cells, [&](const auto& add) {
         visit_cells([&](BodyIndex, std::uint32_t, std::size_t, double radius) { add(radius); });
     });
     write_array<std::int32_t>(out, "material", cells, [&](const auto& add) {
         visit_cells([&](BodyIndex b, std::uint32_t, std::size_t, double) {
-            add(world_.info[b].material + 1);  // as decks number them
+            add(world_.bodies.info[b].material + 1);  // as decks number them
         });
     });
 }
@@ -159,7 +159,7 @@ void FramePainter::write_particles(std::ostream& out, const PlacedFrame& placed,
         const Frame::Body& body = frame.bodies[b];
         const Vec2 centroid{body.x, body.y}, turn = placed.turn(b);
         const auto place_of = [&](std::uint32_t e) {
-            return centroid + rotated(turn, {world_.elements[e].x, world_.elements[e].y});
+            return centroid + rotated(turn, {world_.bodies.elements[e].x, world_.bodies.elements[e].y});
         };
         if (radius == 0.0) {
             for (std::uint32_t e = element; e < element + corners; ++e) add_point(points, place_of(e));
@@ -241,10 +241,10 @@ void FramePainter::write_contact_cells(std::ostream& out, const LooseContacts& l
     end_element(out, "Lines");
     begin_element(out, "CellData");
     write_array<std::int32_t>(out, "body_i", contacts, [&](const auto& add) {
-        visit_contacts(loose, [&](const ContactPoint& point) { add(world_.info[point.body_i].id); });
+        visit_contacts(loose, [&](const ContactPoint& point) { add(world_.bodies.info[point.body_i].id); });
     });
     write_array<std::int32_t>(out, "body_j", contacts, [&](const auto& add) {
-        visit_contacts(loose, [&](const ContactPoint& point) { add(world_.info[point.body_j].id); });
+        visit_contacts(loose, [&](const ContactPoint& point) { add(world_.bodies.info[point.body_j].id); });
     });
 }
 
@@ -346,11 +346,13 @@ void FramePainter::write_cracks(std::ostream& out, const PlacedFrame& placed, st
     const auto point_of = [&](const Crack& crack) { return setup_.bonds[crack.bond].point; };
     const auto strength = [&](const Crack& crack) {
         const ContactPoint point = point_of(crack);
-        const ContactLaw& law = world_.laws[law_between(world_, point.body_i, point.body_j)];
+        const ContactLaw& law = world_.settings.laws[law_between(world_, point.body_i, point.body_j)];
         return law.normal_stiffness * setup_.bonds[crack.bond].overlap;
     };
-    write_values("body_i", std::int32_t{}, [&](const Crack& crack) { return world_.info[point_of(crack).body_i].id; });
-    write_values("body_j", std::int32_t{}, [&](const Crack& crack) { return world_.info[point_of(crack).body_j].id; });
+    write_values("body_i", std::int32_t{},
+                 [&](const Crack& crack) { return world_.bodies.info[point_of(crack).body_i].id; });
+    write_values("body_j", std::int32_t{},
+                 [&](const Crack& crack) { return world_.bodies.info[point_of(crack).body_j].id; });
     write_values("time", double{}, [](const Crack& crack) { return crack.time; });
     write_values("mode", std::uint8_t{}, [](const Crack& crack) { return crack.shear_mode ? 1 : 0; });
     write_values("energy", double{}, [](const Crack& crack) { return crack.energy; });

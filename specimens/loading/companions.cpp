@@ -77,13 +77,16 @@ std::optional<Companion> run_one(const Plan& plan, const VirtualTest& test, cons
     } catch (const TestInterrupted&) {
         return std::nullopt;
     } catch (const UnstableRun&) {
-        return Companion{plan.name, undefined, undefined, ended_by_instability, other.world.step, undefined};
+        return Companion{plan.name, undefined, undefined, ended_by_instability, other.world.stepping.steps, undefined};
     }
     if (other.state.ended_by.empty()) return std::nullopt;
     const FailureTracker& f = other.state.failure;
-    return Companion{plan.name,        f.peak_stress,
-                     f.peak_strain,    other.state.ended_by,
-                     other.world.step, post_peak_difference(test, other)};
+    return Companion{plan.name,
+                     f.peak_stress,
+                     f.peak_strain,
+                     other.state.ended_by,
+                     other.world.stepping.steps,
+                     post_peak_difference(test, other)};
 }
 
 NumberError error_of(double asked, double resolution, const std::vector<Companion>& companions,
@@ -134,11 +137,11 @@ bool on_one_branch(const NumberError& stress, const NumberError& strain) {
 
 std::optional<NumericalErrors> run_companions(const VirtualTest& test, const TestHooks& hooks) {
     if (test.state.failure.peak_row < 0) return std::nullopt;
-    const std::vector<Plan> plans = plans_for(test.description, test.world.threads);
+    const std::vector<Plan> plans = plans_for(test.description, test.world.workers.threads);
     if (hooks.stage) hooks.stage(fmt::format("verifying: {} companions of the test", plans.size()));
     std::vector<std::optional<Companion>> done(plans.size());
-    const std::size_t at_once =
-        std::max(1U, std::thread::hardware_concurrency() / static_cast<unsigned>(std::max(1, test.world.threads)));
+    const std::size_t at_once = std::max(
+        1U, std::thread::hardware_concurrency() / static_cast<unsigned>(std::max(1, test.world.workers.threads)));
     for (std::size_t first = 0; first < plans.size(); first += at_once) {
         std::vector<std::future<std::optional<Companion>>> running;
         for (std::size_t k = first; k < std::min(plans.size(), first + at_once); ++k)

@@ -7,7 +7,10 @@
 #include <chrono>
 
 #include "solver/base/errors.hpp"
+#include "solver/measure/health.hpp"
+#include "solver/measure/ledger.hpp"
 #include "solver/stepping/controls.hpp"
+#include "solver/stepping/step.hpp"
 #include "specimens/loading/virtual_test.hpp"
 #include "specimens/results/files.hpp"
 
@@ -40,7 +43,7 @@ class LoadingLoop {
           begun_(Clock::now()),
           last_checkpoint_(begun_),
           last_progress_(begun_),
-          first_step_(test.world.step),
+          first_step_(test.world.stepping.steps),
           step_seconds_before_(test.state.step_seconds) {}
 
     void run() {
@@ -58,16 +61,16 @@ class LoadingLoop {
     void load() {
         if (files_ != nullptr && state_.rows.empty()) files_->write_checkpoint(setup_, state_, world_);
         while (true) {
-            if (world_.step % steps_between_clock_looks == 0 && look_at_clock()) break;
+            if (world_.stepping.steps % steps_between_clock_looks == 0 && look_at_clock()) break;
             // Platens stand where the last step has put them, whether the forces are known or not.
             strain_ = setup_.axial_strain(world_);
             const bool at_end = strain_ >= max_strain_;
             const bool row_due = at_end || strain_ >= row_spacing_ * static_cast<double>(state_.rows.size());
-            const bool check_due = world_.step % steps_between_health_checks == 0;
+            const bool check_due = world_.stepping.steps % steps_between_health_checks == 0;
             const bool by_tolerance = setup_.rate_rule.tolerance > 0.0;
-            const bool rate_due = by_tolerance && world_.time >= state_.rate.next_look;
+            const bool rate_due = by_tolerance && world_.stepping.time >= state_.rate.next_look;
             if (!row_due && !check_due && !rate_due) {
-                const double drift = world_.drift;
+                const double drift = world_.stepping.drift;
                 step(world_);
                 if (by_tolerance) watch_platens(drift);
                 record_breaks();
@@ -80,7 +83,7 @@ class LoadingLoop {
             // An end that instability brought about is none.
             if (ended || check_due) check();
             if (ended) break;
-            if (by_tolerance) watch_platens(world_.drift);
+            if (by_tolerance) watch_platens(world_.stepping.drift);
             if (rate_due) set_rate();
             advance(world_);
         }
@@ -92,42 +95,42 @@ class LoadingLoop {
     }
 
     void check() {
-        const PhaseTimer timer(world_.profile, Phase::check);
+        const PhaseTimer timer(world_.workers.profile, Phase::check);
         check_health(world_);
     }
 
     /// The inertia error of the last force pass. @param drift s, that led to its positions
     void watch_platens(double drift) {
-        const PhaseTimer timer(world_.profile, Phase::set_the_rate);
-        const double top = world_.forces[setup_.top].fy, bottom = world_.forces[setup_.bottom].fy;
+        const PhaseTimer timer(world_.workers.profile, Phase::set_the_rate);
+        const double top = world_.bodies.force[setup_.top].fy, bottom = world_.bodies.force[setup_.bottom].fy;
         watch_balance(state_.rate, setup_.rate_rule, top / setup_.width, -bottom / setup_.width, drift);
     }
 
     /// The platen's speed by the inertia error.
     void set_rate() {
-        const PhaseTimer timer(world_.profile, Phase::set_the_rate);
+        const PhaseTimer timer(world_.workers.profile, Phase::set_the_rate);
         const Ledger ledger = measure_ledger(world_);
-        choose_rate(state_.rate, setup_.rate_rule, ledger.kinetic, ledger.strain, world_.time);
+        choose_rate(state_.rate, setup_.rate_rule, ledger.kinetic, ledger.strain, world_.stepping.time);
         const double speed = state_.rate.rate * setup_.height;
         change_velocity(world_, setup_.top, 1, setup_.compression ? -speed : speed);
     }
 
     void record_breaks() {
-        if (world_.events.size() == events_counted_) return;
-        const PhaseTimer timer(world_.profile, Phase::observe);
-        for (std::size_t k = events_counted_; k < world_.events.size(); ++k) {
-            const BreakEvent& event = world_.events[k];
+        if (world_.bonds.events.size() == events_counted_) return;
+        const PhaseTimer timer(world_.workers.profile, Phase::observe);
+        for (std::size_t k = events_counted_; k < world_.bonds.events.size(); ++k) {
+            const BreakEvent& event = world_.bonds.events[k];
             ++(event.shear_mode ? state_.breaks_in_shear : state_.breaks_in_tension);
             state_.breaks_after_sliding += event.slid ? 1 : 0;
             note_break(setup_, event, state_.history);
             if (files_ != nullptr) files_->add_event(event, strain_);
         }
-        if (files_ != nullptr) world_.events.clear();
-        events_counted_ = world_.events.size();
+        if (files_ != nullptr) world_.bonds.events.clear();
+        events_counted_ = world_.bonds.events.size();
     }
 
     void record_row(bool at_end) {
-        const PhaseTimer timer(world_.profile, Phase::observe);
+        const PhaseTimer timer(world_.workers.profile, Phase::observe);
         const auto index = static_cast<std::int64_t>(state_.rows.size());
         const CurveRow row = observe_row(world_, setup_);
         state_.rows.push_back(row);
@@ -140,7 +143,7 @@ class LoadingLoop {
         const bool loose = row.contacts_gained > 0 || !state_.history.loose.contacts.empty();
         if (loose) look_at_contacts(world_, state_.history);
         if (files_ == nullptr) return;
-        const PhaseTimer writing(world_.profile, Phase::write);
+        const PhaseTimer writing(world_.workers.profile, Phase::write);
         if (index % judged_per_written_ == 0 || !state_.ended_by.empty()) files_->add_row(row);
         const bool frame_due = row.axial_strain >= frame_spacing_ * static_cast<double>(state_.next_frame);
         while (row.axial_strain >= frame_spacing_ * static_cast<double>(state_.next_frame)) ++state_.next_frame;
@@ -160,7 +163,7 @@ class LoadingLoop {
             report_progress(seconds(begun_, now));
         }
         if (files_ != nullptr && seconds(last_checkpoint_, now) >= checkpoint_interval_) {
-            const PhaseTimer timer(world_.profile, Phase::write);
+            const PhaseTimer timer(world_.workers.profile, Phase::write);
             state_.step_seconds = step_seconds();
             files_->write_checkpoint(setup_, state_, world_);
             last_checkpoint_ = Clock::now();
@@ -174,10 +177,11 @@ class LoadingLoop {
         p.share_done = p.axial_strain / max_strain_;
         p.axial_stress = state_.rows.empty() ? 0.0 : state_.rows.back().axial_stress;
         p.peak_stress = state_.failure.peak_stress;
-        p.bonds_broken = world_.bonds_broken;
-        p.step = world_.step;
-        p.steps_per_second = static_cast<double>(world_.step - first_step_) / elapsed;
-        const double strain_per_step = p.axial_strain / static_cast<double>(std::max<std::int64_t>(1, world_.step));
+        p.bonds_broken = world_.bonds.broken;
+        p.step = world_.stepping.steps;
+        p.steps_per_second = static_cast<double>(world_.stepping.steps - first_step_) / elapsed;
+        const double strain_per_step =
+            p.axial_strain / static_cast<double>(std::max<std::int64_t>(1, world_.stepping.steps));
         p.seconds_left = (max_strain_ - p.axial_strain) / (strain_per_step * p.steps_per_second);
         hooks_.progress(p);
     }

@@ -10,6 +10,7 @@
 #include "solver/base/errors.hpp"
 #include "solver/linear/elastic.hpp"
 #include "solver/stepping/controls.hpp"
+#include "solver/stepping/step.hpp"
 
 namespace crackle {
 namespace {
@@ -19,10 +20,10 @@ std::vector<Motion> elastic_motion(const VirtualTest& test, const std::vector<bo
     const TestSetup& setup = test.setup;
     const World& world = test.world;
     const double sense = setup.compression ? -1.0 : 1.0;
-    const double bottom = world.bodies[setup.bottom].y, height = world.bodies[setup.top].y - bottom;
+    const double bottom = world.bodies.state[setup.bottom].y, height = world.bodies.state[setup.top].y - bottom;
     std::vector<Motion> motion(world.bodies.size());
     for (std::size_t b = 0; b < motion.size(); ++b) {
-        Motion way{0.0, setup.height * (world.bodies[b].y - bottom) / height, 0.0};
+        Motion way{0.0, setup.height * (world.bodies.state[b].y - bottom) / height, 0.0};
         if (elastic[b]) way = test.small_strain->moduli.solution.displacement[b];
         if (b == setup.bottom) way = {};
         if (b == setup.top) way = {0.0, setup.height, 0.0};
@@ -33,12 +34,12 @@ std::vector<Motion> elastic_motion(const VirtualTest& test, const std::vector<bo
 
 void set_velocities(World& world, const std::vector<Motion>& motion, double times) {
     for (std::size_t b = 0; b < motion.size(); ++b) {
-        BodyState& body = world.bodies[b];
+        BodyState& body = world.bodies.state[b];
         body.vx = times * motion[b].x;
         body.vy = times * motion[b].y;
         body.omega = times * motion[b].rotation;
     }
-    world.forces_current = false;
+    velocities_changed(world);
 }
 
 /// Moves the bodies by w (see the header), shear springs included, in one drift of the integrator without forces.
@@ -46,20 +47,19 @@ void settle_dashpots(World& world, const TestSetup& setup, const std::vector<boo
     compute_forces(world);
     std::vector<Motion> loads(world.bodies.size());
     for (std::size_t b = 0; b < loads.size(); ++b)
-        if (elastic[b]) loads[b] = {world.forces[b].fx, world.forces[b].fy, world.forces[b].torque};
+        if (elastic[b]) loads[b] = {world.bodies.force[b].fx, world.bodies.force[b].fy, world.bodies.force[b].torque};
     const ElasticSolution settled = solve_elastic(world, {{setup.bottom, {}}, {setup.top, {}}}, loads);
-    const auto step = world.step;
-    const double time = world.time, kick_share = world.kick_share;
-    set_velocities(world, settled.displacement, 1.0 / world.time_step);
-    std::ranges::fill(world.forces, BodyForce{});
+    const auto step = world.stepping.steps;
+    const double time = world.stepping.time, kick_share = world.stepping.kick_share;
+    set_velocities(world, settled.displacement, 1.0 / world.stepping.time_step);
+    std::ranges::fill(world.bodies.force, BodyForce{});
     change_velocity(world, setup.top, 1, 0.0);
     advance(world);
     compute_forces(world);
-    world.step = step;
-    world.time = time;
-    world.kick_share = kick_share;
-    world.drift = 0.0;
-    world.dashpot_loss = world.friction_loss = world.law_loss = 0.0;
+    world.stepping.steps = step;
+    world.stepping.time = time;
+    world.stepping.kick_share = kick_share;
+    world.stepping.drift = 0.0;
 }
 
 }  // namespace
@@ -74,7 +74,7 @@ RateRule rate_rule_of(const VirtualTest& test, double tolerance) {
     const TestSetup& setup = test.setup;
     double mass = 0.0;
     for (std::size_t b = 0; b < test.world.bodies.size(); ++b)
-        if (!setup.is_platen(static_cast<BodyIndex>(b))) mass += test.world.inertia[b].mass;
+        if (!setup.is_platen(static_cast<BodyIndex>(b))) mass += test.world.bodies.inertia[b].mass;
     const double modulus = test.small_strain->moduli.youngs_modulus, area = setup.width * setup.height;
     RateRule rule;
     rule.tolerance = tolerance;
@@ -99,8 +99,8 @@ void start_by_tolerance(VirtualTest& test) {
     const std::vector<Motion> motion = elastic_motion(test, elastic);
     for (std::size_t b = 0; b < motion.size(); ++b) {
         const Motion& way = motion[b];
-        rule.kinetic_per_rate += 0.5 * (world.inertia[b].mass * (way.x * way.x + way.y * way.y) +
-                                        world.info[b].moment * way.rotation * way.rotation);
+        rule.kinetic_per_rate += 0.5 * (world.bodies.inertia[b].mass * (way.x * way.x + way.y * way.y) +
+                                        world.bodies.info[b].moment * way.rotation * way.rotation);
     }
     RateState& rate = test.state.rate;
     rate.rate = rate.slowest = rate.fastest = largest_rate(rule);
@@ -110,8 +110,8 @@ void start_by_tolerance(VirtualTest& test) {
         set_velocities(world, motion, rate.rate);
     }
     change_velocity(world, setup.top, 1, (setup.compression ? -1.0 : 1.0) * rate.rate * setup.height);
-    world.initial_energy_taken = false;  // the account begins with this motion
-    world.forces_current = false;
+    restart_account(world);  // it begins with this motion
+    velocities_changed(world);
     compute_forces(world);
 }
 

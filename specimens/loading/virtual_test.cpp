@@ -13,7 +13,12 @@
 #include <sstream>
 
 #include "solver/base/errors.hpp"
+#include "solver/measure/point_view.hpp"
+#include "solver/stepping/bonding.hpp"
+#include "solver/stepping/build_world.hpp"
 #include "solver/stepping/controls.hpp"
+#include "solver/stepping/step.hpp"
+#include "solver/stepping/time_step.hpp"
 #include "specimens/elastic/analysis.hpp"
 #include "specimens/elastic/moduli.hpp"
 #include "specimens/loading/companions.hpp"
@@ -48,13 +53,13 @@ void tell_work(const TestHooks& hooks, const char* what) {
 void tell_bonded(const TestHooks& hooks, const World& world, const TestSetup& setup, const TestCase& test) {
     if (!hooks.detail) return;
     hooks.detail(fmt::format("{} bodies, {} segments; {} contact points touch, {} of them bonded; {} threads",
-                             world.bodies.size(), setup.segments, setup.contacts_initial, world.bonds_initial,
-                             world.threads));
+                             world.bodies.size(), setup.segments, setup.contacts_initial, world.bonds.initial,
+                             world.workers.threads));
     hooks.detail(fmt::format(
-        "time step {:.4g} s, {}; exact stable step {:.4g} s{}, guaranteed bound {:.4g} s", world.time_step,
+        "time step {:.4g} s, {}; exact stable step {:.4g} s{}, guaranteed bound {:.4g} s", world.stepping.time_step,
         test.numerics.time_step ? std::string("given by the case")
                                 : fmt::format("{:.3g} of the bound, followed as contacts open and close",
-                                              world.time_step / world.step_bound),
+                                              world.stepping.time_step / world.stepping.step_bound),
         setup.stable_time_step, setup.stable_time_step_proved ? "" : " (a bound itself)", setup.time_step_bound));
 }
 
@@ -78,7 +83,7 @@ void take_given_step(World& world, const TestCase& test) {
         throw InputError(fmt::format(
             "{}: found {} s, expected at most the exact stable step of this specimen, {:.6g} s; give a smaller one, "
             "leave it out to have it derived, or run with --allow-unstable to see the limit",
-            test.at("numerics.time_step"), *test.numerics.time_step, world.exact_step));
+            test.at("numerics.time_step"), *test.numerics.time_step, world.stepping.exact_step));
     }
 }
 
@@ -175,7 +180,7 @@ std::string resolved_case(const TestCase& test, const fs::path& folder) {
 
 TestTiming timing_of(const VirtualTest& test, const TestOptions& options) {
     return {test.state.wall_seconds + seconds_since(options.process_start), test.state.step_seconds,
-            test.world.threads};
+            test.world.workers.threads};
 }
 
 /// Loads with files open, and closes the account whatever the end.
@@ -245,7 +250,7 @@ TestOutcome finished_test(VirtualTest& test, const TestOptions& options, const T
     const bool verified = readable && old.contains("/numerical_errors/companions"_json_pointer);
     outcome.was_finished = readable && (verified || !options.verify);
     if (outcome.was_finished) return outcome;
-    TestTiming timing{0.0, 0.0, test.world.threads};
+    TestTiming timing{0.0, 0.0, test.world.workers.threads};
     if (readable) timing = {old.value("wall_seconds", 0.0), old.value("step_seconds", 0.0), old.value("threads", 1)};
     std::optional<NumericalErrors> errors;
     const auto write_summary = [&] {
@@ -283,8 +288,8 @@ VirtualTest bond_test(const TestCase& description, const TestHooks& hooks) {
     if (!description.output.frames)
         test.description.output.frames = default_frames(test.setup.particles, description.output.curve_rows);
     test.state.failure.share_of_peak = description.loading.stop_at_share_of_peak;
-    say(hooks, fmt::format("bonded {} points of {} interfaces, time step {:.3g} s", test.world.bonds_initial,
-                           test.world.interfaces_initial, test.world.time_step));
+    say(hooks, fmt::format("bonded {} points of {} interfaces, time step {:.3g} s", test.world.bonds.initial,
+                           test.world.bonds.interfaces_initial, test.world.stepping.time_step));
     tell_bonded(hooks, test.world, test.setup, description);
     tell_work(hooks, "solving for small strain");
     notice_deep_bonds(test);
@@ -334,7 +339,7 @@ TestOutcome run_test(const TestCase& description, const TestOptions& options, co
     VirtualTest test = prepare_test(description, hooks);
     if (options.threads > 0) set_threads(test.world, options.threads);
     Profile profile;
-    if (options.profile) test.world.profile = &profile;
+    if (options.profile) test.world.workers.profile = &profile;
     test.state.command = options.command;
     recorded.output.frames = test.description.output.frames;  // known only now where the case is silent
     const std::string text = resolved_case(recorded, folder.target());
@@ -374,8 +379,8 @@ TestOutcome resume_test(const TestOptions& options, const TestHooks& hooks) {
     // That of the interrupt: curve and frames go beyond it from here.
     fs::remove(folder.path() / "summary.json", error);
     TestFiles files(folder, checkpoint.case_hash, test.state);
-    say(hooks,
-        fmt::format("resumed at step {}, axial strain {:.4g}", test.world.step, test.setup.axial_strain(test.world)));
+    say(hooks, fmt::format("resumed at step {}, axial strain {:.4g}", test.world.stepping.steps,
+                           test.setup.axial_strain(test.world)));
     return run_with_files(test, options, hooks, folder, files);
 }
 

@@ -61,7 +61,8 @@ VirtualTest bond_test(const TestCase& description, const TestHooks& hooks = {});
 /// @throws as bond_test()
 VirtualTest prepare_test(const TestCase& description, const TestHooks& hooks = {});
 
-/// Loads to the end. @param files where to write; nullptr: rows and events stay in memory (state.rows, world.events)
+/// Loads to the end. @param files where to write; nullptr: rows and events stay in memory (state.rows,
+/// world.bonds.events)
 /// @throws UnstableRun with everything so far kept.
 void load_specimen(VirtualTest& test, const TestHooks& hooks = {}, TestFiles* files = nullptr);
 

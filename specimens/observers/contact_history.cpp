@@ -29,15 +29,15 @@ void note_break(const TestSetup& setup, const BreakEvent& event, ContactHistory&
 
 void look_at_contacts(const World& world, ContactHistory& history) {
     LooseContacts now;
-    visit_kinds(world.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
+    visit_kinds(world.points.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
         const auto number = static_cast<std::size_t>(K);
         const auto less = [](const LooseContact& a, const LooseContact& b) {
             return key_of(K, a.point) < key_of(K, b.point);
         };
         const std::size_t first = now.contacts.size();
         for (PointIndex k = begin; k < end && K != PointKind::element_wall; ++k) {
-            if ((world.point_states[k].flags & (point_touching | point_bonded)) == point_touching)
-                now.contacts.push_back({world.points[k], world.shear_forces[k], world.time});
+            if ((world.points.state[k].flags & (point_touching | point_bonded)) == point_touching)
+                now.contacts.push_back({world.points.contact[k], world.points.shear_force[k], world.stepping.time});
         }
         const auto found = now.contacts.begin() + static_cast<std::ptrdiff_t>(first);
         if (K == PointKind::element_outline) std::sort(found, now.contacts.end(), less);  // listed in two runs

@@ -22,6 +22,15 @@ struct Crack {
     double orientation = 0.0;  // rad, of the contact normal at the break, in (-π/2, π/2]
     PointIndex bond = 0;       // into TestSetup::bonds
     bool shear_mode = false;
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("time", s.time);
+        visit("energy", s.energy);
+        visit("orientation", s.orientation);
+        visit("bond", s.bond);
+        visit("shear_mode", s.shear_mode);
+    }
 };
 
 /// A point that touches and is not, or no longer, bonded.
@@ -29,16 +38,35 @@ struct LooseContact {
     ContactPoint point;
     double shear_force = 0.0;  // N, elastic, when last looked at
     double since = 0.0;        // s, of the row that saw it first
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("point", s.point);
+        visit("shear_force", s.shear_force);
+        visit("since", s.since);
+    }
 };
 
 struct LooseContacts {
     std::vector<LooseContact> contacts;  ///< by kind and in the order of keys (point_order.hpp)
     std::array<PointIndex, point_kinds + 1> kind_begin{};
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("contacts", s.contacts);
+        visit("kind_begin", s.kind_begin);
+    }
 };
 
 struct ContactHistory {
     std::vector<Crack> cracks;  ///< as they came
     LooseContacts loose;        ///< at the last look
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("cracks", s.cracks);
+        visit("loose", s.loose);
+    }
 };
 
 /// Notes a break.

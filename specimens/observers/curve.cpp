@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "solver/measure/ledger.hpp"
 #include "specimens/setup/setup.hpp"
 
 namespace crackle {
@@ -11,15 +12,15 @@ CurveRow observe_row(const World& world, const TestSetup& setup) {
     CurveRow row;
     const double sense = setup.compression ? 1.0 : -1.0;
     row.axial_strain = setup.axial_strain(world);
-    row.stress_top = sense * world.forces[setup.top].fy / setup.width;
-    row.stress_bottom = -sense * world.forces[setup.bottom].fy / setup.width;
+    row.stress_top = sense * world.bodies.force[setup.top].fy / setup.width;
+    row.stress_bottom = -sense * world.bodies.force[setup.bottom].fy / setup.width;
     row.axial_stress = 0.5 * (row.stress_top + row.stress_bottom);
     row.lateral_strain = setup.lateral_strain(world);
-    row.bonds_broken = world.bonds_broken;
-    row.interfaces_lost = world.interfaces_lost;
-    row.time = world.time;
-    row.step = world.step;
-    for (const PointState& point : world.point_states) {
+    row.bonds_broken = world.bonds.broken;
+    row.interfaces_lost = world.bonds.interfaces_lost;
+    row.time = world.stepping.time;
+    row.step = world.stepping.steps;
+    for (const PointState& point : world.points.state) {
         const bool touching = (point.flags & point_touching) != 0;
         if (touching && (point.flags & point_sliding) != 0) ++row.points_sliding;
         if (touching && (point.flags & point_bonded) == 0) ++row.contacts_gained;

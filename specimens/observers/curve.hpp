@@ -36,6 +36,28 @@ struct CurveRow {
     double platen_work = 0.0;          // J
     double energy_error = 0.0;         // J
     std::int64_t contacts_gained = 0;  ///< points touching without a bond; kept for the summary, not a column
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("axial_strain", s.axial_strain);
+        visit("axial_stress", s.axial_stress);
+        visit("stress_top", s.stress_top);
+        visit("stress_bottom", s.stress_bottom);
+        visit("lateral_strain", s.lateral_strain);
+        visit("bonds_broken", s.bonds_broken);
+        visit("kinetic_energy", s.kinetic_energy);
+        visit("strain_energy", s.strain_energy);
+        visit("time", s.time);
+        visit("step", s.step);
+        visit("interfaces_lost", s.interfaces_lost);
+        visit("points_sliding", s.points_sliding);
+        visit("dashpot_loss", s.dashpot_loss);
+        visit("friction_loss", s.friction_loss);
+        visit("fracture_loss", s.fracture_loss);
+        visit("platen_work", s.platen_work);
+        visit("energy_error", s.energy_error);
+        visit("contacts_gained", s.contacts_gained);
+    }
 };
 
 /// Needs compute_forces() to have been called.

@@ -21,6 +21,17 @@ struct FailureTracker {
 
     /// Takes the next row. @return whether it is a new peak
     bool update(std::int64_t row, double strain, double stress);
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("share_of_peak", s.share_of_peak);
+        visit("peak_stress", s.peak_stress);
+        visit("peak_strain", s.peak_strain);
+        visit("peak_row", s.peak_row);
+        visit("below_since", s.below_since);
+        visit("below_row", s.below_row);
+        visit("failed", s.failed);
+    }
 };
 
 /// Strain that the stress must stay below, as a share of the strain at peak.

@@ -21,6 +21,13 @@ struct FrameEntry {
     std::int64_t row = 0;
     double axial_strain = 0.0;
     double time = 0.0;  // s
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("row", s.row);
+        visit("axial_strain", s.axial_strain);
+        visit("time", s.time);
+    }
 };
 
 /// How a test ended; words as in summary.json.
@@ -48,6 +55,29 @@ struct TestState {
     std::uint64_t curve_bytes = 0, events_bytes = 0;  ///< lengths of the files at the checkpoint
     double wall_seconds = 0.0, step_seconds = 0.0;    ///< spent before this process
     std::string command;                              ///< that began the test
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("rows", s.rows);
+        visit("failure", s.failure);
+        visit("history", s.history);
+        visit("peak_frame", s.peak_frame);
+        visit("frames", s.frames);
+        visit("next_frame", s.next_frame);
+        visit("rate", s.rate);
+        visit("breaks_in_shear", s.breaks_in_shear);
+        visit("breaks_in_tension", s.breaks_in_tension);
+        visit("breaks_after_sliding", s.breaks_after_sliding);
+        visit("ended_by", s.ended_by);
+        visit("youngs_modulus", s.youngs_modulus);
+        visit("poissons_ratio", s.poissons_ratio);
+        visit("modulus_residual", s.modulus_residual);
+        visit("curve_bytes", s.curve_bytes);
+        visit("events_bytes", s.events_bytes);
+        visit("wall_seconds", s.wall_seconds);
+        visit("step_seconds", s.step_seconds);
+        visit("command", s.command);
+    }
 };
 
 }  // namespace crackle

@@ -80,16 +80,16 @@ void counts(Writer& w, const TestSetup& setup, const TestState& state, const Wor
     if (setup.polygons) w.put("segments", setup.segments, "edges of all polygons");
     w.put("bond_thick", setup.bond_thick, "m, segment thickness at bonding");
     w.put("contacts_initial", setup.contacts_initial, "contact points when loading begins");
-    w.put("bonds_initial", world.bonds_initial, "bonded points");
-    w.put("bonds_broken", world.bonds_broken, "bonded points");
+    w.put("bonds_initial", world.bonds.initial, "bonded points");
+    w.put("bonds_broken", world.bonds.broken, "bonded points");
     w.put("bonds_broken_after_sliding", state.breaks_after_sliding,
           "bonded points that had been at their Coulomb limit before they broke");
     w.put("bonds_broken_in_shear", state.breaks_in_shear,
           "bonded points, by the larger force in the last step at half their strength or more: hardly any, for a bond "
           "breaks where its overlap is gone and its Coulomb limit with it; see bonds_broken_after_sliding");
     w.put("bonds_broken_in_tension", state.breaks_in_tension, "bonded points, the others");
-    w.put("interfaces_initial", world.interfaces_initial, "bonded pairs of bodies");
-    w.put("interfaces_lost", world.interfaces_lost, "pairs whose last bond has broken");
+    w.put("interfaces_initial", world.bonds.interfaces_initial, "bonded pairs of bodies");
+    w.put("interfaces_lost", world.bonds.interfaces_lost, "pairs whose last bond has broken");
     w.put("mean_back_tension", setup.mean_back_tension, "N, over bonded points");
     w.put("mean_back_tension_interface", setup.mean_back_tension_interface,
           "N, summed over the points of an interface");
@@ -123,30 +123,31 @@ void numerics(Writer& w, const TestCase& test, const TestSetup& setup, const Tes
     w.put("axial_strain_end", last.axial_strain, "-, positive in the sense of the test");
     w.put("energy_closing_error", number(last.energy_error / last.platen_work),
           "-, over the platens' work, at the end");
-    if (world.segment_law != SegmentLaw::rounded) {
+    if (world.settings.segment_law != SegmentLaw::rounded) {
         w.put(
-            "energy_lost_to_contact_law", number(world.law_loss / last.platen_work),
+            "energy_lost_to_contact_law", number(world.account.law_loss / last.platen_work),
             "-, over the platens' work: left in springs of the guide's law when contacts ended (negative: made by it)");
     }
     w.put("platen_out_of_balance", number(platen_out_of_balance(state.rows, state.failure.peak_row)),
           "-, largest difference of the platens' stresses up to the peak, over the peak");
-    w.put("time_step", world.time_step, "s, at the end; shorter where new contacts need it");
-    w.put("time_step_mean", number(world.time / static_cast<double>(world.step)), "s, over the test");
+    w.put("time_step", world.stepping.time_step, "s, at the end; shorter where new contacts need it");
+    w.put("time_step_mean", number(world.stepping.time / static_cast<double>(world.stepping.steps)),
+          "s, over the test");
     w.put("stable_time_step", number(setup.stable_time_step),
-          world.segment_law != SegmentLaw::rounded
+          world.settings.segment_law != SegmentLaw::rounded
               ? "s, a bound when bonds were made: exact for the symmetric majorant of the law's unsymmetric stiffness"
           : setup.stable_time_step_proved
               ? "s, exact limit when bonds were made: 4M - 2dt C - dt^2 K positive definite, by Cholesky"
               : "s, when bonds were made; a bound, too large a specimen for the exact limit");
     w.put(
-        "time_step_over_stable", number(world.time_step / setup.stable_time_step),
+        "time_step_over_stable", number(world.stepping.time_step / setup.stable_time_step),
         "-, share of it taken at the end; at most numerics.safety_factor, less where the guaranteed bound is smaller");
     w.put("time_step_bound", setup.time_step_bound,
           "s, guaranteed stable below without an eigenvalue solve, kept up as contacts open and close; when loading "
           "began");
-    w.put("steps", world.step, "time steps");
-    w.put("simulated_time", world.time, "s");
-    w.put("list_builds", world.list_builds, "times the neighbour list was built");
+    w.put("steps", world.stepping.steps, "time steps");
+    w.put("simulated_time", world.stepping.time, "s");
+    w.put("list_builds", world.list.builds, "times the neighbour list was built");
     w.put("seed", test.has_table("packing") ? Json(test.packing.seed) : Json(nullptr), "of the packing");
 }
 
@@ -218,12 +219,12 @@ std::vector<std::string> notices_of(const TestCase& test, const TestSetup& setup
                         "towards {:.2g}",
                         f.peak_row, test.loading.max_axial_strain, 10.0 * f.peak_strain));
     }
-    if (world.time_step > setup.stable_time_step) {
+    if (world.stepping.time_step > setup.stable_time_step) {
         notices.push_back(
             fmt::format("the time step of {:.3g} s lies above the stable bound of {:.3g} s: this shows the limit, its "
                         "numbers are no "
                         "results",
-                        world.time_step, setup.stable_time_step));
+                        world.stepping.time_step, setup.stable_time_step));
     }
     const CurveRow last = state.rows.empty() ? CurveRow{} : state.rows.back();
     if (std::abs(last.energy_error) > closing_error_to_mention * std::abs(last.platen_work)) {
@@ -303,11 +304,13 @@ nlohmann::ordered_json make_summary(const TestCase& test, const TestSetup& setup
     w.put("threads", timing.threads, "");
     w.put("wall_seconds", timing.wall_seconds, "s, whole process");
     w.put("step_seconds", timing.step_seconds, "s, stepping loop with rebuilds, breaks and observers");
-    w.put("particle_steps_per_second",
-          number(static_cast<double>(setup.particles) * static_cast<double>(world.step) / timing.step_seconds),
-          "1/s, particles times steps over step_seconds");
-    if (world.profile != nullptr) {
-        w.put("profile", profile_report(*world.profile, setup.particles, world.step, timing.step_seconds),
+    w.put(
+        "particle_steps_per_second",
+        number(static_cast<double>(setup.particles) * static_cast<double>(world.stepping.steps) / timing.step_seconds),
+        "1/s, particles times steps over step_seconds");
+    if (world.workers.profile != nullptr) {
+        w.put("profile",
+              profile_report(*world.workers.profile, setup.particles, world.stepping.steps, timing.step_seconds),
               "where the stepping loop's time went, s of wall clock; force_ns_per_point over listed points");
     }
     for (const CurveColumn& column : curve_columns()) json["columns"][column.name] = column.unit_and_sign;

@@ -25,6 +25,16 @@ struct RateRule {
     double stress_floor = 0.0;      // N/m, at that strain
     double energy_floor = 0.0;      // J, stored at that strain
     double kinetic_per_rate = 0.0;  // J s2, of the elastic motion at a rate of 1/s
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("tolerance", s.tolerance);
+        visit("transit_time", s.transit_time);
+        visit("first_strain", s.first_strain);
+        visit("stress_floor", s.stress_floor);
+        visit("energy_floor", s.energy_floor);
+        visit("kinetic_per_rate", s.kinetic_per_rate);
+    }
 };
 
 struct RateState {
@@ -35,6 +45,18 @@ struct RateState {
     double next_look = 0.0;               // s
     double slowest = 0.0, fastest = 0.0;  // 1/s
     double strain_above = 0.0;            ///< strain gone through while the error lay above the tolerance
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("rate", s.rate);
+        visit("out_of_balance", s.out_of_balance);
+        visit("largest_stress", s.largest_stress);
+        visit("kinetic_share", s.kinetic_share);
+        visit("next_look", s.next_look);
+        visit("slowest", s.slowest);
+        visit("fastest", s.fastest);
+        visit("strain_above", s.strain_above);
+    }
 };
 
 /// Looks a transit: the rate changes little from one to the next, so that changing it sends no shock.

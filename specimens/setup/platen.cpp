@@ -2,6 +2,7 @@
 // Places, holds and drives the two platens.
 
 #include "specimens/setup/platen.hpp"
+#include "solver/measure/point_view.hpp"
 
 #include <algorithm>
 #include <limits>
@@ -109,10 +110,9 @@ Platens add_platens(Scene& scene, const Specimen& specimen, const TestCase::Load
 
 void place_platens(World& world, const Platens& platens) {
     if (platens.bonded) return;
-    world.bodies[body_of_id(world, platens.bottom_id)].y += platens.parked;
-    world.bodies[body_of_id(world, platens.top_id)].y -= platens.parked;
-    world.list_valid = false;
-    world.forces_current = false;
+    world.bodies.state[body_of_id(world, platens.bottom_id)].y += platens.parked;
+    world.bodies.state[body_of_id(world, platens.top_id)].y -= platens.parked;
+    bodies_moved(world);
 }
 
 }  // namespace crackle

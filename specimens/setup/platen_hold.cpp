@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "solver/base/errors.hpp"
+#include "solver/measure/point_view.hpp"
 
 namespace crackle {
 namespace {
@@ -27,7 +28,8 @@ Hold hold_of(const World& world, const TestSetup& setup, BodyIndex platen) {
         const BodyIndex particle = bond.body_i == platen ? bond.body_j : bond.body_i;
         const std::vector<Vec2> places = element_positions(world, particle);
         for (std::size_t e = 0; e < places.size(); ++e) {
-            const double radius = setup.polygons ? 0.0 : world.elements[world.info[particle].first_element + e].radius;
+            const double radius =
+                setup.polygons ? 0.0 : world.bodies.elements[world.bodies.info[particle].first_element + e].radius;
             hold.from = std::min(hold.from, places[e].x - radius);
             hold.to = std::max(hold.to, places[e].x + radius);
         }

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "solver/contact/geometry.hpp"
+#include "solver/measure/point_view.hpp"
 #include "solver/world/point_order.hpp"
 
 namespace crackle {
@@ -16,20 +17,21 @@ namespace {
 
 double mean_x(const World& world, const std::vector<BodyIndex>& bodies) {
     double sum = 0.0;
-    for (const BodyIndex b : bodies) sum += world.bodies[b].x;
+    for (const BodyIndex b : bodies) sum += world.bodies.state[b].x;
     return sum / static_cast<double>(bodies.size());
 }
 
 /// Side particles with centres in the middle half of the height, away from what the platens hold.
 std::vector<BodyIndex> gauge(const World& world, const std::vector<int>& ids, const Domain& domain) {
     std::unordered_map<int, BodyIndex> index;
-    for (std::size_t b = 0; b < world.info.size(); ++b) index[world.info[b].id] = static_cast<BodyIndex>(b);
+    for (std::size_t b = 0; b < world.bodies.info.size(); ++b)
+        index[world.bodies.info[b].id] = static_cast<BodyIndex>(b);
     const double middle = 0.5 * (domain.y1 + domain.y2);
     const double quarter = 0.25 * (domain.y2 - domain.y1);
     std::vector<BodyIndex> bodies;
     for (const int id : ids) {
         const BodyIndex b = index.at(id);
-        if (std::abs(world.bodies[b].y - middle) <= quarter) bodies.push_back(b);
+        if (std::abs(world.bodies.state[b].y - middle) <= quarter) bodies.push_back(b);
     }
     return bodies;
 }
@@ -37,16 +39,16 @@ std::vector<BodyIndex> gauge(const World& world, const std::vector<int>& ids, co
 void record_bonds(TestSetup& setup, const World& world) {
     std::map<std::pair<BodyIndex, BodyIndex>, double> interfaces;  // ordered: the sum must not depend on hashing
     double overlap = 0.0, tension = 0.0;
-    setup.bonds.reserve(static_cast<std::size_t>(world.bonds_initial));
-    visit_kinds(world.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
+    setup.bonds.reserve(static_cast<std::size_t>(world.bonds.initial));
+    visit_kinds(world.points.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
         for (PointIndex k = begin; k < end; ++k) {
-            const ContactPoint& point = world.points[k];
-            const PointState& state = world.point_states[k];
+            const ContactPoint& point = world.points.contact[k];
+            const PointState& state = world.points.state[k];
             if ((state.flags & point_touching) != 0) ++setup.contacts_initial;
             if ((state.flags & point_bonded) == 0) continue;
-            setup.bonds.push_back({point, world.bond_overlaps[k]});
-            const double back_tension = world.laws[state.law].normal_stiffness * world.bond_overlaps[k];
-            overlap += world.bond_overlaps[k];
+            setup.bonds.push_back({point, world.points.bond_overlap[k]});
+            const double back_tension = world.settings.laws[state.law].normal_stiffness * world.points.bond_overlap[k];
+            overlap += world.points.bond_overlap[k];
             tension += back_tension;
             interfaces[std::minmax(point.body_i, point.body_j)] += back_tension;
         }
@@ -64,8 +66,8 @@ void record_bonds(TestSetup& setup, const World& world) {
 }  // namespace
 
 BodyState placed_body(const World& world, const TestSetup& setup, BodyIndex b, double x, double y, double angle) {
-    BodyState body{x, y, 0.0, 0.0, 0.0, {world.bodies[b].shape[0], 0.0}, angle};
-    if (world.info[b].single_circle) return body;
+    BodyState body{x, y, 0.0, 0.0, 0.0, {world.bodies.state[b].shape[0], 0.0}, angle};
+    if (world.bodies.info[b].single_circle) return body;
     const double turn = angle - setup.start[b].angle;
     body.shape[0] = std::cos(turn);
     body.shape[1] = std::sin(turn);
@@ -73,7 +75,7 @@ BodyState placed_body(const World& world, const TestSetup& setup, BodyIndex b, d
 }
 
 double TestSetup::axial_strain(const World& world) const {
-    const double now = world.bodies[top].y;
+    const double now = world.bodies.state[top].y;
     return (compression ? top_start - now : now - top_start) / height;  // not -0 at the start
 }
 
@@ -89,24 +91,25 @@ TestSetup record_setup(const World& world, const Specimen& specimen, const Plate
     setup.polygons = specimen.polygons;
     setup.width = specimen.width;
     setup.height = specimen.height;
-    setup.bond_thick = world.thick;
+    setup.bond_thick = world.settings.thick;
     setup.mesh_thick = specimen.thick;
     setup.bottom_id = platens.bottom_id;
     setup.top_id = platens.top_id;
     setup.bottom = body_of_id(world, platens.bottom_id);
     setup.top = body_of_id(world, platens.top_id);
-    setup.top_start = world.bodies[setup.top].y;
+    setup.top_start = world.bodies.state[setup.top].y;
     setup.particles = static_cast<std::int64_t>(specimen.scene.bodies.size());
     setup.segments = specimen.segments;
     setup.seeds = specimen.seeds;
-    setup.stable_time_step = world.exact_step;
-    setup.stable_time_step_proved = world.exact_step_proved && world.segment_law == SegmentLaw::rounded;
-    setup.time_step_bound = world.step_bound;
+    setup.stable_time_step = world.stepping.exact_step;
+    setup.stable_time_step_proved =
+        world.stepping.exact_step_proved && world.settings.segment_law == SegmentLaw::rounded;
+    setup.time_step_bound = world.stepping.step_bound;
     setup.notices = specimen.notices;
     setup.packing = specimen.packing;
-    for (const BodyState& body : world.bodies) setup.start.push_back({body.x, body.y, body.angle});
-    setup.left = gauge(world, specimen.left_ids, world.domain);
-    setup.right = gauge(world, specimen.right_ids, world.domain);
+    for (const BodyState& body : world.bodies.state) setup.start.push_back({body.x, body.y, body.angle});
+    setup.left = gauge(world, specimen.left_ids, world.settings.domain);
+    setup.right = gauge(world, specimen.right_ids, world.settings.domain);
     if (setup.left.empty() || setup.right.empty()) {
         setup.notices.push_back("no particles at both side faces in the middle half of the height: no lateral strain");
     } else {

@@ -17,12 +17,25 @@ namespace crackle {
 /// Where a body was when loading began.
 struct StartPlace {
     double x = 0.0, y = 0.0, angle = 0.0;
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("x", s.x);
+        visit("y", s.y);
+        visit("angle", s.angle);
+    }
 };
 
 /// A point bonded when loading began.
 struct Bond {
     ContactPoint point;
     double overlap = 0.0;  ///< δ0, m
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("point", s.point);
+        visit("overlap", s.overlap);
+    }
 };
 
 struct TestSetup {
@@ -59,6 +72,41 @@ struct TestSetup {
     double axial_strain(const World& world) const;
     /// Not a number if the specimen has no side particles in the middle half of its height.
     double lateral_strain(const World& world) const;
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("compression", s.compression);
+        visit("specimen", s.specimen);
+        visit("polygons", s.polygons);
+        visit("width", s.width);
+        visit("height", s.height);
+        visit("bond_thick", s.bond_thick);
+        visit("mesh_thick", s.mesh_thick);
+        visit("bottom_id", s.bottom_id);
+        visit("top_id", s.top_id);
+        visit("bottom", s.bottom);
+        visit("top", s.top);
+        visit("top_start", s.top_start);
+        visit("left", s.left);
+        visit("right", s.right);
+        visit("gauge_length", s.gauge_length);
+        visit("particles", s.particles);
+        visit("segments", s.segments);
+        visit("seeds", s.seeds);
+        visit("contacts_initial", s.contacts_initial);
+        visit("mean_bond_overlap", s.mean_bond_overlap);
+        visit("mean_back_tension", s.mean_back_tension);
+        visit("mean_back_tension_interface", s.mean_back_tension_interface);
+        visit("stable_time_step", s.stable_time_step);
+        visit("stable_time_step_proved", s.stable_time_step_proved);
+        visit("time_step_bound", s.time_step_bound);
+        visit("rate_rule", s.rate_rule);
+        visit("start", s.start);
+        visit("bonds", s.bonds);
+        visit("bond_kind_begin", s.bond_kind_begin);
+        visit("notices", s.notices);
+        visit("packing", s.packing);
+    }
 };
 
 /// Takes down the start of loading. Needs a bonded world with its platens in place and compute_forces() done.

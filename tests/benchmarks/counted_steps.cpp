@@ -13,6 +13,9 @@
 #include <string>
 #include <vector>
 
+#include "solver/stepping/bonding.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/step.hpp"
 #include "solver/world/world.hpp"
 #include "specimens/making/lattices.hpp"
 #include "specimens/making/materials.hpp"

@@ -6,6 +6,9 @@
 
 #include <random>
 
+#include "solver/stepping/bonding.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/step.hpp"
 #include "solver/world/world.hpp"
 #include "specimens/making/lattices.hpp"
 #include "specimens/making/materials.hpp"
@@ -29,7 +32,7 @@ void run(benchmark::State& state, Scene scene, double thick) {
     for (auto _ : state) step(world);
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(world.bodies.size()));
     state.counters["contacts_per_particle"] = static_cast<double>(bonds) / static_cast<double>(world.bodies.size());
-    state.counters["rebuilds"] = static_cast<double>(world.list_builds);
+    state.counters["rebuilds"] = static_cast<double>(world.list.builds);
 }
 
 void bonded_discs(benchmark::State& state) {

@@ -18,6 +18,8 @@
 #include <span>
 
 #include "solver/base/errors.hpp"
+#include "solver/measure/point_view.hpp"
+#include "solver/stepping/step.hpp"
 #include "specimens/frames/read_frames.hpp"
 #include "specimens/results/checkpoint.hpp"
 
@@ -91,8 +93,8 @@ json state_of(const std::string& folder) {
     Arrays particles;
     json discs = json::array(), polygons = json::array();
     for (BodyIndex b = 0; b < world.bodies.size(); ++b) {
-        const BodyState& body = world.bodies[b];
-        const BodyInfo& info = world.info[b];
+        const BodyState& body = world.bodies.state[b];
+        const BodyInfo& info = world.bodies.info[b];
         const bool circles = info.piece_count == 0;
         const std::vector<Vec2> places = element_positions(world, b);
         if (!circles && !setup.is_platen(b)) {
@@ -100,9 +102,10 @@ json state_of(const std::string& folder) {
             for (const Vec2 place : places) corners.push_back({place.x, place.y});
             polygons.push_back(corners);
         }
-        const double share = setup.is_platen(b) ? 0.0 : world.materials[info.material].density / world.inertia[b].mass;
+        const double share =
+            setup.is_platen(b) ? 0.0 : world.settings.materials[info.material].density / world.bodies.inertia[b].mass;
         for (std::uint32_t e = 0; e < (circles ? info.element_count : 1); ++e) {
-            const double radius = circles ? world.elements[info.first_element + e].radius : 0.0;
+            const double radius = circles ? world.bodies.elements[info.first_element + e].radius : 0.0;
             if (circles) discs.push_back({places[e].x, places[e].y, radius});
             const auto put = [&](const char* name, std::initializer_list<double> values) {
                 particles[name].insert(particles[name].end(), values);
@@ -122,7 +125,7 @@ json state_of(const std::string& folder) {
     return {{"particles", described(particles)},
             {"contacts", described(contacts)},
             {"bonds", setup.bonds.size()},
-            {"time", world.time},
+            {"time", world.stepping.time},
             {"discs", discs},
             {"polygons", polygons}};
 }

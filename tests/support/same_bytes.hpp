@@ -17,20 +17,20 @@ bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
 
 /// What the steps so far have made of two worlds of the same points.
 inline void expect_same_run(const World& one, const World& other) {
-    EXPECT_TRUE(same_bytes(one.bodies, other.bodies));
-    EXPECT_TRUE(same_bytes(one.point_forces, other.point_forces));
-    EXPECT_TRUE(same_bytes(one.shear_forces, other.shear_forces));
-    EXPECT_TRUE(same_bytes(one.normal_dashpot, other.normal_dashpot));
-    EXPECT_TRUE(same_bytes(one.shear_dashpot, other.shear_dashpot));
-    EXPECT_TRUE(same_bytes(one.strong_normal, other.strong_normal));
-    EXPECT_TRUE(same_bytes(one.strong_shear, other.strong_shear));
-    EXPECT_EQ(one.bonds_broken, other.bonds_broken);
-    EXPECT_EQ(one.dashpot_loss, other.dashpot_loss);
-    EXPECT_EQ(one.friction_loss, other.friction_loss);
-    EXPECT_EQ(one.fracture_loss, other.fracture_loss);
-    EXPECT_EQ(one.displacement_work, other.displacement_work);
-    EXPECT_EQ(one.force_work, other.force_work);
-    EXPECT_EQ(one.time_step, other.time_step);
+    EXPECT_TRUE(same_bytes(one.bodies.state, other.bodies.state));
+    EXPECT_TRUE(same_bytes(one.points.force, other.points.force));
+    EXPECT_TRUE(same_bytes(one.points.shear_force, other.points.shear_force));
+    EXPECT_TRUE(same_bytes(one.points.normal_dashpot, other.points.normal_dashpot));
+    EXPECT_TRUE(same_bytes(one.points.shear_dashpot, other.points.shear_dashpot));
+    EXPECT_TRUE(same_bytes(one.points.strong_normal, other.points.strong_normal));
+    EXPECT_TRUE(same_bytes(one.points.strong_shear, other.points.strong_shear));
+    EXPECT_EQ(one.bonds.broken, other.bonds.broken);
+    EXPECT_EQ(one.account.dashpot_loss, other.account.dashpot_loss);
+    EXPECT_EQ(one.account.friction_loss, other.account.friction_loss);
+    EXPECT_EQ(one.account.fracture_loss, other.account.fracture_loss);
+    EXPECT_EQ(one.account.displacement_work, other.account.displacement_work);
+    EXPECT_EQ(one.account.force_work, other.account.force_work);
+    EXPECT_EQ(one.stepping.time_step, other.stepping.time_step);
 }
 
 }  // namespace crackle::testing

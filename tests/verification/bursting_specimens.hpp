@@ -7,6 +7,10 @@
 #include <utility>
 #include <vector>
 
+#include "solver/stepping/bonding.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/step.hpp"
+#include "solver/world/checkpoint.hpp"
 #include "solver/world/world.hpp"
 #include "specimens/making/disordered.hpp"
 #include "tests/support/claim.hpp"
@@ -18,9 +22,9 @@ namespace crackle::testing {
 inline void burst(World& world, double rate, double noise, std::uint64_t seed) {
     shake(world, noise * breaking_energy(world), seed);
     Vec2 middle;
-    for (const BodyState& body : world.bodies) middle = middle + Vec2{body.x, body.y};
+    for (const BodyState& body : world.bodies.state) middle = middle + Vec2{body.x, body.y};
     middle = (1.0 / static_cast<double>(world.bodies.size())) * middle;
-    for (BodyState& body : world.bodies) {
+    for (BodyState& body : world.bodies.state) {
         body.vx += rate * (body.x - middle.x);
         body.vy += 0.3 * rate * (body.y - middle.y);
     }
@@ -67,15 +71,15 @@ struct Trace {
 inline Trace trace_of(World world, int threads, int steps) {
     set_threads(world, threads);
     Trace trace;
-    const std::int64_t built = world.list_builds;
+    const std::int64_t built = world.list.builds;
     for (int n = 1; n <= steps; ++n) {
         step(world);
         if (n % 100 == 0) trace.hashes.push_back(hash_of(save_world(world)));
     }
     trace.last = save_world(world);
-    trace.broken = world.bonds_broken;
-    trace.rebuilds = world.list_builds - built;
-    trace.thread_blocks = world.thread_blocks;
+    trace.broken = world.bonds.broken;
+    trace.rebuilds = world.list.builds - built;
+    trace.thread_blocks = world.workers.blocks_done;
     return trace;
 }
 
@@ -112,10 +116,10 @@ inline void check_restarts(const World& start, int steps, std::uint64_t seed) {
         World world = start;
         for (int n = 0; n < stop; ++n) step(world);
         if (forces_known) compute_forces(world);
-        const std::int64_t events = static_cast<std::int64_t>(world.events.size());
+        const std::int64_t events = static_cast<std::int64_t>(world.bonds.events.size());
         World again = load_world(save_world(world), "memory");
         EXPECT_TRUE(save_world(again) == save_world(world)) << "stopped at step " << stop;
-        EXPECT_EQ(static_cast<std::int64_t>(again.events.size()), events);
+        EXPECT_EQ(static_cast<std::int64_t>(again.bonds.events.size()), events);
         set_threads(again, 1 + k % 3);
         for (int n = stop; n < steps; ++n) step(again);
         const std::string bytes = save_world(again);
@@ -123,7 +127,7 @@ inline void check_restarts(const World& start, int steps, std::uint64_t seed) {
                    bytes == straight.last ? "same bytes" : "OTHER BYTES");
         EXPECT_TRUE(bytes == straight.last);
         // The events of both parts together are those of the run in one: none lost, none twice.
-        EXPECT_EQ(static_cast<std::int64_t>(again.events.size()), straight.broken);
+        EXPECT_EQ(static_cast<std::int64_t>(again.bonds.events.size()), straight.broken);
     }
 }
 

@@ -4,6 +4,8 @@
 
 #include <map>
 
+#include "solver/stepping/step.hpp"
+#include "solver/world/checkpoint.hpp"
 #include "tests/verification/bursting_specimens.hpp"
 
 namespace crackle {
@@ -39,16 +41,16 @@ TEST(Determinism, StoppingAndTakingUpAgainDoesNotChangeABitForPolygons) {
 TEST(Determinism, HoldsUnderTheConsistentIntegratorToo) {
     const World discs = bursting_discs(14, 14, 1.0, 0.2, Integrator::consistent);
     const World cells = bursting_cells(7, 7, 1.0, 0.2, SegmentLaw::rounded, Integrator::consistent);
-    EXPECT_EQ(discs.openings.size(), discs.points.size());
+    EXPECT_EQ(discs.points.opening.size(), discs.points.size());
     check_threads(bursting_discs(30, 30, 0.3, 0.1, Integrator::consistent), 500, 5, 50);
     check_restarts(discs, 500, 21);
     check_restarts(cells, 500, 22);
     // It is another path than leapfrog's, whose worlds keep no memory of openings.
     const World plain = bursting_discs(14, 14, 1.0, 0.2);
-    EXPECT_TRUE(plain.openings.empty());
+    EXPECT_TRUE(plain.points.opening.empty());
     World one = discs, other = plain;
     for (int n = 0; n < 500; ++n) step(one), step(other);
-    EXPECT_NE(one.bodies[0].x, other.bodies[0].x);
+    EXPECT_NE(one.bodies.state[0].x, other.bodies.state[0].x);
 }
 
 TEST(Events, AreTheDifferenceOfTheBondSets) {
@@ -57,32 +59,32 @@ TEST(Events, AreTheDifferenceOfTheBondSets) {
         const auto bonds = [](const World& w) {
             std::map<std::pair<int, int>, int> count;
             for (PointIndex k = 0; k < w.points.size(); ++k) {
-                if ((w.point_states[k].flags & point_bonded) == 0) continue;
-                const ContactPoint& p = w.points[k];
-                const int a = w.info[p.body_i].id, b = w.info[p.body_j].id;
+                if ((w.points.state[k].flags & point_bonded) == 0) continue;
+                const ContactPoint& p = w.points.contact[k];
+                const int a = w.bodies.info[p.body_i].id, b = w.bodies.info[p.body_j].id;
                 ++count[{std::min(a, b), std::max(a, b)}];
             }
             return count;
         };
         auto before = bonds(world);
         const std::int64_t interfaces = static_cast<std::int64_t>(before.size());
-        EXPECT_EQ(world.interfaces_initial, interfaces);
+        EXPECT_EQ(world.bonds.interfaces_initial, interfaces);
         for (int n = 0; n < 1500; ++n) step(world);
         compute_forces(world);
         std::int64_t last = 0;
-        for (const BreakEvent& event : world.events) {
+        for (const BreakEvent& event : world.bonds.events) {
             --before[{std::min(event.body_i, event.body_j), std::max(event.body_i, event.body_j)}];
             last += event.last_of_interface ? 1 : 0;
         }
         std::erase_if(before, [](const auto& entry) { return entry.second == 0; });
         EXPECT_EQ(before, bonds(world));
-        EXPECT_EQ(last, world.interfaces_lost);
-        EXPECT_EQ(interfaces - static_cast<std::int64_t>(before.size()), world.interfaces_lost);
-        EXPECT_EQ(static_cast<std::int64_t>(world.events.size()), world.bonds_broken);
-        fmt::print("  {} of {} bonds broken, {} of {} interfaces lost\n", world.bonds_broken, world.bonds_initial,
-                   world.interfaces_lost, world.interfaces_initial);
-        EXPECT_GT(world.interfaces_lost, 0);
-        EXPECT_LT(world.interfaces_lost, interfaces);
+        EXPECT_EQ(last, world.bonds.interfaces_lost);
+        EXPECT_EQ(interfaces - static_cast<std::int64_t>(before.size()), world.bonds.interfaces_lost);
+        EXPECT_EQ(static_cast<std::int64_t>(world.bonds.events.size()), world.bonds.broken);
+        fmt::print("  {} of {} bonds broken, {} of {} interfaces lost\n", world.bonds.broken, world.bonds.initial,
+                   world.bonds.interfaces_lost, world.bonds.interfaces_initial);
+        EXPECT_GT(world.bonds.interfaces_lost, 0);
+        EXPECT_LT(world.bonds.interfaces_lost, interfaces);
     }
 }
 

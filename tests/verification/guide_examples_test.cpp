@@ -107,7 +107,7 @@ TEST(GuideCircle, StableStepIsTheTheoreticalOneAndHalfOfItHolds) {
     options.output = scratch / "out";
     options.overwrite = true;
     options.folder = deck(0.5 * limit);
-    EXPECT_TRUE(agrees("stable bound, s", DeckRun(options).world().step_bound, 1.1210e-3, 1e-4));
+    EXPECT_TRUE(agrees("stable bound, s", DeckRun(options).world().stepping.step_bound, 1.1210e-3, 1e-4));
     for (const double share : {0.5, 0.1}) {
         options.folder = deck(share * limit);
         ASSERT_NO_THROW(DeckRun(options).run());
@@ -227,7 +227,7 @@ TEST(GuideStability, SpringAndDashpotHoldsAt123AndDivergesAt124) {
         options.overwrite = true;
         options.allow_unstable = true;
         DeckRun run(options);
-        EXPECT_TRUE(agrees("bound of the scene", run.world().step_bound, 1.2360680, 1e-7));
+        EXPECT_TRUE(agrees("bound of the scene", run.world().stepping.step_bound, 1.2360680, 1e-7));
         run.run();
         const Rows rows = read_rows(options.output / "f-d_curve.dat");
         double first = 0.0, last = 0.0;
@@ -324,12 +324,12 @@ std::pair<double, std::int64_t> pull_chain(const ScratchFolder& scratch, double 
     options.output = scratch / "out";
     options.overwrite = true;
     DeckRun run(options);
-    EXPECT_EQ(run.world().bonds_initial, 19);
+    EXPECT_EQ(run.world().bonds.initial, 19);
     run.run();
     double largest = 0.0;
     for (const auto& row : rows_of(read_rows(options.output / "f-d_curve.dat"), 1, 20))
         largest = std::max(largest, std::hypot(row[2], row[4]));
-    return {largest, run.world().bonds_broken};
+    return {largest, run.world().bonds.broken};
 }
 
 // Guide: it breaks at the back-tension, without gravity nearly everywhere at once, with gravity in few places.

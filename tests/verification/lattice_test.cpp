@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "solver/stepping/bonding.hpp"
+#include "solver/stepping/build_world.hpp"
 #include "specimens/making/lattices.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/measures.hpp"
@@ -21,8 +23,8 @@ TEST(TriangularLattice, BoundOfTheStepComesFromDoubledBlocks) {
         // Doubled blocks of a disc with six neighbours: 6(k_n + k_s) for its shift, 24 k_s for its turn.
         const double ks = share * kn, lever = 1.0 - overlap / (2.0 * radius);
         const double doubled =
-            2.0 * std::sqrt(world.inertia[0].mass / std::max(6.0 * (kn + ks), 24.0 * ks * lever * lever));
-        EXPECT_TRUE(testing::agrees("bound from doubled blocks", world.step_bound, doubled, 1e-8));
+            2.0 * std::sqrt(world.bodies.inertia[0].mass / std::max(6.0 * (kn + ks), 24.0 * ks * lever * lever));
+        EXPECT_TRUE(testing::agrees("bound from doubled blocks", world.stepping.step_bound, doubled, 1e-8));
     }
 }
 

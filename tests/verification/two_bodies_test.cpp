@@ -5,7 +5,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "solver/measure/ledger.hpp"
+#include "solver/stepping/build_world.hpp"
 #include "solver/stepping/controls.hpp"
+#include "solver/stepping/step.hpp"
 #include "solver/world/world.hpp"
 #include "tests/support/claim.hpp"
 
@@ -42,7 +45,7 @@ TEST(Ledger, ClosesToSecondOrderForABounceWithDashpotAndFriction) {
         scene.time_step = contact_time(mass, 1e7, 0.1) / steps_in_contact;
         World world = build_world(scene);
         double worst = 0.0;
-        while (world.time < 0.06) {
+        while (world.stepping.time < 0.06) {
             compute_forces(world);
             worst = std::max(worst, std::abs(measure_ledger(world).closing_error));
             advance(world);
@@ -75,11 +78,11 @@ TEST(Controls, TheGuidesForceControlledSegmentMovesAsPrinted) {
     World world = build_world(scene);
     const double a = 1e4 / 1.25;
     for (const int n : {1, 10, 20}) {
-        while (world.step < n) step(world);
-        EXPECT_TRUE(
-            within(fmt::format("x after {} steps", n), world.bodies[0].x, -3.0 + a * 4e-10 * n * (n + 1) / 2.0, 1e-14));
+        while (world.stepping.steps < n) step(world);
+        EXPECT_TRUE(within(fmt::format("x after {} steps", n), world.bodies.state[0].x,
+                           -3.0 + a * 4e-10 * n * (n + 1) / 2.0, 1e-14));
     }
-    EXPECT_EQ(fmt::format("{:.6g}", world.bodies[0].x), "-2.99933");
+    EXPECT_EQ(fmt::format("{:.6g}", world.bodies.state[0].x), "-2.99933");
 }
 
 /// Largest closing error over the energy of the fall: the guide's circle falls by its radius and a half onto a floor
@@ -94,11 +97,11 @@ double bouncing_error(double share) {
     scene.domain = {-10.0, 10.0, 0.0, 10.0, {true, true, true, true}};
     scene.gravity = {0.0, -980.0};
     scene.add_circle_body(1, 0, {{0.0, 5.0}, 2.0, 0.0});
-    if (share > 0.0) scene.time_step = share * build_world(scene).step_bound;
+    if (share > 0.0) scene.time_step = share * build_world(scene).stepping.step_bound;
     World world = build_world(scene);
-    const double fall = world.inertia[0].mass * 980.0 * 3.0, once = 2.0 * std::sqrt(2.0 * 3.0 / 980.0);
+    const double fall = world.bodies.inertia[0].mass * 980.0 * 3.0, once = 2.0 * std::sqrt(2.0 * 3.0 / 980.0);
     double worst = 0.0;
-    while (world.time < 20.0 * once) {
+    while (world.stepping.time < 20.0 * once) {
         compute_forces(world);
         worst = std::max(worst, std::abs(measure_ledger(world).closing_error));
         advance(world);

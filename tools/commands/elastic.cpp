@@ -89,9 +89,10 @@ void print(const VirtualTest& test, const ElasticAnalysis& a, double seconds) {
     fmt::print("  first slip        {}\n", event_text(a, a.first_slip));
     fmt::print("  first break       {} (linear, no slip)\n", event_text(a, a.first_break));
     fmt::print("  stable time step  {:.6g} s{}; bound {:.3f} of it; a test takes {:.3f} of it\n", a.stable_time_step,
-               a.stable_time_step_proved                       ? ", proved"
-               : test.world.segment_law != SegmentLaw::rounded ? " (a bound: the law's stiffness is unsymmetric)"
-                                                               : " (the bound: too many particles for the exact one)",
+               a.stable_time_step_proved ? ", proved"
+               : test.world.settings.segment_law != SegmentLaw::rounded
+                   ? " (a bound: the law's stiffness is unsymmetric)"
+                   : " (the bound: too many particles for the exact one)",
                a.time_step_bound / a.stable_time_step, a.time_step / a.stable_time_step);
     if (a.free.count > 0) {
         std::string ids;

@@ -34,7 +34,7 @@ DeckOptions deck_options(const Invocation& given) {
 /// What -v tells of a run that has ended.
 void tell_details(Talk& talk, const World& world) {
     talk.detail(fmt::format("{} contact points, {} of them bonded; {} threads", world.points.size(),
-                            world.bonds_initial - world.bonds_broken, world.threads));
+                            world.bonds.initial - world.bonds.broken, world.workers.threads));
 }
 
 }  // namespace
@@ -84,21 +84,22 @@ int run_deck(const Invocation& given) {
     const World& world = deck.world();
     if (talk.verbose()) {
         talk.detail(fmt::format("read {} bodies", world.bodies.size()));
-        talk.detail(fmt::format("time step {:.6g}, stable below {:.6g} as the contacts are", world.time_step,
-                                world.step_bound));
+        talk.detail(fmt::format("time step {:.6g}, stable below {:.6g} as the contacts are", world.stepping.time_step,
+                                world.stepping.step_bound));
     }
     watch_interrupts();
     talk.progress().begin("", static_cast<double>(deck.last_step() - deck.first_step()), "steps");
     deck.run([&](const World& now) {
         // The clock costs as much as a small step.
-        if ((now.step & 15) == 0) talk.progress().count(static_cast<double>(now.step - deck.first_step()));
+        if ((now.stepping.steps & 15) == 0)
+            talk.progress().count(static_cast<double>(now.stepping.steps - deck.first_step()));
         return !interrupted();
     });
     talk.make_room();
     tell_details(talk, world);
     if (!talk.quiet()) {
         std::cout << fmt::format("{} bodies, steps {} to {}: outputs in {}\n", world.bodies.size(), deck.first_step(),
-                                 world.step, deck.output_folder().string());
+                                 world.stepping.steps, deck.output_folder().string());
     }
     if (!interrupted()) return exit_done;
     tell_error(fmt::format("interrupted; go on with `crackle run {} --continue`", deck.output_folder().string()));

@@ -9,6 +9,9 @@
 #include <algorithm>
 #include <random>
 
+#include "solver/stepping/bonding.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/step.hpp"
 #include "solver/world/world.hpp"
 #include "specimens/making/lattices.hpp"
 #include "specimens/making/materials.hpp"
@@ -51,7 +54,7 @@ World made(Trial trial, bool two_materials) {
 /// Of all points, whatever their laws are numbered.
 std::vector<std::uint16_t> flags_of(const World& world) {
     std::vector<std::uint16_t> flags;
-    for (const PointState& state : world.point_states) flags.push_back(state.flags);
+    for (const PointState& state : world.points.state) flags.push_back(state.flags);
     return flags;
 }
 
@@ -65,9 +68,9 @@ void expect_the_same(const Trial& trial, int steps, bool breaks) {
     compute_forces(apart);
     testing::expect_same_run(together, apart);
     EXPECT_TRUE(same_bytes(flags_of(together), flags_of(apart)));
-    EXPECT_EQ(together.friction_loss > 0.0, trial.slides);
-    EXPECT_EQ(together.bonds_broken > 0, breaks);
-    EXPECT_LE(together.bonds_broken, together.bonds_initial * 9 / 10) << "some hold";
+    EXPECT_EQ(together.account.friction_loss > 0.0, trial.slides);
+    EXPECT_EQ(together.bonds.broken > 0, breaks);
+    EXPECT_LE(together.bonds.broken, together.bonds.initial * 9 / 10) << "some hold";
 }
 
 TEST(PointBatch, BondedDiscsThatBreak) {
@@ -135,8 +138,8 @@ TEST(PointBatch, DiscsOnOneAndTheSameSpot) {
     World together = made({scene}, false), apart = made({scene}, true);
     compute_forces(together);
     compute_forces(apart);
-    EXPECT_TRUE(same_bytes(together.forces, apart.forces));
-    EXPECT_TRUE(same_bytes(together.point_forces, apart.point_forces));
+    EXPECT_TRUE(same_bytes(together.bodies.force, apart.bodies.force));
+    EXPECT_TRUE(same_bytes(together.points.force, apart.points.force));
 }
 
 TEST(PointBatch, WithoutDampingOrAccount) {
@@ -149,8 +152,8 @@ TEST(PointBatch, WithoutDampingOrAccount) {
         step(together);
         step(apart);
     }
-    EXPECT_TRUE(same_bytes(together.bodies, apart.bodies));
-    EXPECT_GT(together.bonds_broken, 0);
+    EXPECT_TRUE(same_bytes(together.bodies.state, apart.bodies.state));
+    EXPECT_GT(together.bonds.broken, 0);
 }
 
 }  // namespace

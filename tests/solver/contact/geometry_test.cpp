@@ -8,6 +8,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "solver/measure/ledger.hpp"
+#include "solver/measure/point_view.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/step.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/measures.hpp"
 #include "tests/support/plain_distance.hpp"
@@ -49,9 +53,9 @@ TEST(ConvexOutline, EdgeFacedLastIsAMereHint) {
     for (int polygon = 0; polygon < 300; ++polygon) {
         const std::vector<Vec2> corners = random_convex(generator);
         const World world = world_of(corners, true);
-        ASSERT_EQ(world.pieces.size(), 1u);
-        const Piece& piece = world.pieces[0];
-        const Vec2 centroid{world.bodies[0].x, world.bodies[0].y};
+        ASSERT_EQ(world.bodies.pieces.size(), 1u);
+        const Piece& piece = world.bodies.pieces[0];
+        const Vec2 centroid{world.bodies.state[0].x, world.bodies.state[0].y};
         for (int k = 0; k < 200; ++k) {
             Vec2 p{uniform_number(generator, -1.5, 1.5), uniform_number(generator, -1.5, 1.5)};
             if (k % 10 == 0) p = corners[static_cast<std::size_t>(k) % corners.size()];  // on a corner itself
@@ -60,13 +64,14 @@ TEST(ConvexOutline, EdgeFacedLastIsAMereHint) {
                 p = 0.5 * (corners[e] + corners[(e + 1) % corners.size()]);
             }
             const Vec2 local = p - centroid;
-            const OutlineFacing plain = detail::face_every_edge(world.edges.data(), piece, local.x, local.y);
+            const OutlineFacing plain = detail::face_every_edge(world.bodies.edges.data(), piece, local.x, local.y);
             const double expected = distance_to_outline(p, corners, true);
             worst_distance = std::max(worst_distance, std::abs(plain.distance - expected));
             inside += expected < 0.0 ? 1 : 0;
             ++total;
             for (std::uint32_t hint = 0; hint <= piece.edge_count; ++hint) {  // one beyond the last as well
-                const OutlineFacing quick = detail::face_convex(world.edges.data(), piece, hint, local.x, local.y);
+                const OutlineFacing quick =
+                    detail::face_convex(world.bodies.edges.data(), piece, hint, local.x, local.y);
                 worst_hint = std::max(worst_hint, std::abs(quick.distance - plain.distance));
                 if (std::abs(plain.distance) > 1e-6) {
                     worst_normal =
@@ -89,13 +94,14 @@ TEST(ConvexOutline, DistanceAndNormalAreContinuousAroundEveryCorner) {
     for (int polygon = 0; polygon < 50; ++polygon) {
         const std::vector<Vec2> corners = random_convex(generator);
         const World world = world_of(corners, true);
-        const Vec2 centroid{world.bodies[0].x, world.bodies[0].y};
+        const Vec2 centroid{world.bodies.state[0].x, world.bodies.state[0].y};
         const double reach = 1.2, step = 1e-4;
         OutlineFacing last{};
         Vec2 before;
         for (int k = 0; k <= 62832; ++k) {
             const Vec2 p{reach * std::cos(step * k), reach * std::sin(step * k)};
-            const OutlineFacing now = face_outline(world, world.info[0], last.edge, p.x - centroid.x, p.y - centroid.y);
+            const OutlineFacing now =
+                face_outline(world, world.bodies.info[0], last.edge, p.x - centroid.x, p.y - centroid.y);
             if (k > 0) {
                 // |∇d| = 1, and the normal turns no faster than about a corner at that distance.
                 const double way = norm(p - before);
@@ -115,14 +121,15 @@ const std::vector<Vec2> comb{{0, 0}, {5, 0}, {5, 3}, {4, 3}, {4, 1}, {3, 1}, {3,
 TEST(NonConvexOutline, DistanceOutsideIsThatOfTheWholeOutline) {
     std::mt19937_64 generator(9);
     const World closed = world_of(comb, true), open = world_of(comb, false);
-    EXPECT_GT(closed.info[0].piece_count, 1u);
+    EXPECT_GT(closed.bodies.info[0].piece_count, 1u);
     double worst_closed = 0.0, worst_open = 0.0;
     int outside = 0;
     for (int k = 0; k < 20000; ++k) {
         const Vec2 p{uniform_number(generator, -1.0, 6.0), uniform_number(generator, -1.0, 4.0)};
         const double expected = distance_to_outline(p, comb, true);
         const auto facing = [&](const World& world) {
-            return face_outline(world, world.info[0], 0, p.x - world.bodies[0].x, p.y - world.bodies[0].y);
+            return face_outline(world, world.bodies.info[0], 0, p.x - world.bodies.state[0].x,
+                                p.y - world.bodies.state[0].y);
         };
         worst_open = std::max(worst_open, std::abs(facing(open).distance - distance_to_outline(p, comb, false)));
         if (expected >= 0.0) {
@@ -150,17 +157,17 @@ double gradient_error(Scene scene, int samples) {
     int touching = 0;
     for (int k = 0; k < samples; ++k) {
         World world = start;
-        world.bodies[0].x += uniform_number(generator, -3.0, 3.0);
-        world.bodies[0].y += uniform_number(generator, -3.0, 3.0);
+        world.bodies.state[0].x += uniform_number(generator, -3.0, 3.0);
+        world.bodies.state[0].y += uniform_number(generator, -3.0, 3.0);
         testing::turn_body(world, 0, uniform_number(generator, -3.0, 3.0));
         const auto energy = [](World w) {
-            w.list_valid = false;
-            w.forces_current = false;
+            w.list.valid = false;
+            w.stepping.forces_current = false;
             compute_forces(w);
             return measure_ledger(w).strain;
         };
         if (energy(world) == 0.0) continue;
-        world.list_valid = false;
+        world.list.valid = false;
         compute_forces(world);
         bool deep = false;  // the distance of an inside point has ridges where its closest edge changes
         for (PointIndex p = 0; p < world.points.size(); ++p) {
@@ -170,14 +177,16 @@ double gradient_error(Scene scene, int samples) {
         if (deep) continue;
         ++touching;
         const double h = 1e-6;
-        const double scale = std::hypot(world.forces[0].fx, world.forces[0].fy);
+        const double scale = std::hypot(world.bodies.force[0].fx, world.bodies.force[0].fy);
         for (int d = 0; d < 3; ++d) {
             World plus = world, minus = world;
-            if (d == 0) plus.bodies[0].x += h, minus.bodies[0].x -= h;
-            if (d == 1) plus.bodies[0].y += h, minus.bodies[0].y -= h;
+            if (d == 0) plus.bodies.state[0].x += h, minus.bodies.state[0].x -= h;
+            if (d == 1) plus.bodies.state[0].y += h, minus.bodies.state[0].y -= h;
             if (d == 2) testing::turn_body(plus, 0, h), testing::turn_body(minus, 0, -h);
             const double slope = (energy(plus) - energy(minus)) / (2.0 * h);
-            const double force = d == 0 ? world.forces[0].fx : d == 1 ? world.forces[0].fy : world.forces[0].torque;
+            const double force = d == 0   ? world.bodies.force[0].fx
+                                 : d == 1 ? world.bodies.force[0].fy
+                                          : world.bodies.force[0].torque;
             worst = std::max(worst, std::abs(force + slope) / scale);
         }
     }

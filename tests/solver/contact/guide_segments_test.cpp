@@ -7,6 +7,9 @@
 #include <cmath>
 
 #include "solver/contact/overlap_gradient.hpp"
+#include "solver/measure/point_view.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/step.hpp"
 #include "solver/world/world.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/measures.hpp"
@@ -148,7 +151,7 @@ std::pair<double, std::vector<double>> pressed(Scene scene) {
         if (view.touching) overlaps.push_back(view.overlap);
     }
     std::ranges::sort(overlaps, std::greater<>());
-    return {world.forces[body_of_id(world, 2)].fx / 1e7, overlaps};
+    return {world.bodies.force[body_of_id(world, 2)].fx / 1e7, overlaps};
 }
 
 TEST(SegmentPairs, FacesAMillimetreApartCarryTheirFourDiscsTwice) {
@@ -182,7 +185,7 @@ TEST(SegmentPairs, ACornerIsTwiceAsStiffAsASide) {
         scene.add_circle_body(2, 0, {centre, 0.02, 0.0});
         World world = build_world(scene);
         compute_forces(world);
-        const BodyForce& f = world.forces[body_of_id(world, 2)];
+        const BodyForce& f = world.bodies.force[body_of_id(world, 2)];
         return std::hypot(f.fx, f.fy) / 1e7;
     };
     const double side = force({0.02, 0.04 + reach}),
@@ -201,8 +204,8 @@ TEST(SegmentPairs, ASegmentOfItsOwnIsTwoThicknessesWide) {
         World world = build_world(scene);
         compute_forces(world);
         const double expected = std::abs(gap) < 1.08e-3 ? 2.0 * (1.08e-3 - std::abs(gap)) : 0.0;
-        EXPECT_TRUE(within(fmt::format("gap {} m: force over k_n, m", gap), world.forces[body_of_id(world, 2)].fy / 1e7,
-                           std::copysign(expected, gap), 1e-15));
+        EXPECT_TRUE(within(fmt::format("gap {} m: force over k_n, m", gap),
+                           world.bodies.force[body_of_id(world, 2)].fy / 1e7, std::copysign(expected, gap), 1e-15));
     }
 }
 
@@ -222,10 +225,10 @@ TEST(SegmentPairs, GradientOfTheOverlapIsThatOfDifferences) {
         for (int k = 0; k < 600; ++k) {
             World world = start;
             for (std::size_t b = 0; b < 3; ++b) {
-                world.bodies[b].x += uniform(-1.5, 1.5), world.bodies[b].y += uniform(-1.5, 1.5);
+                world.bodies.state[b].x += uniform(-1.5, 1.5), world.bodies.state[b].y += uniform(-1.5, 1.5);
                 testing::turn_body(world, b, uniform(-3.0, 3.0));
             }
-            world.list_valid = false;
+            world.list.valid = false;
             compute_forces(world);
             for (PointIndex p = 0; p < world.points.size(); ++p) {
                 const PointView view = view_point(world, p);
@@ -233,8 +236,8 @@ TEST(SegmentPairs, GradientOfTheOverlapIsThatOfDifferences) {
                 const auto slope = [&](BodyIndex b, int dof, double h) {
                     const auto moved = [&](double by) {
                         World w = world;
-                        if (dof == 0) w.bodies[b].x += by;
-                        if (dof == 1) w.bodies[b].y += by;
+                        if (dof == 0) w.bodies.state[b].x += by;
+                        if (dof == 1) w.bodies.state[b].y += by;
                         if (dof == 2) testing::turn_body(w, b, by);
                         return view_point(w, p).overlap;
                     };

@@ -7,6 +7,10 @@
 #include <string>
 
 #include "solver/base/errors.hpp"
+#include "solver/measure/ledger.hpp"
+#include "solver/measure/point_view.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/step.hpp"
 #include "solver/world/world.hpp"
 #include "tests/support/claim.hpp"
 
@@ -39,17 +43,19 @@ World thrown_disc(double friction_angle, double shear_damping) {
 TEST(ShearDashpot, DoesNotDragAFrictionlessContact) {
     World world = thrown_disc(0.0, 1e3);
     for (int n = 0; n < 1000; ++n) step(world);
-    EXPECT_TRUE(testing::agrees("speed", world.bodies[0].vx, speed, 1e-12));
-    EXPECT_EQ(world.bodies[0].omega, 0.0);
+    EXPECT_TRUE(testing::agrees("speed", world.bodies.state[0].vx, speed, 1e-12));
+    EXPECT_EQ(world.bodies.state[0].omega, 0.0);
 }
 
 TEST(ShearDashpot, WithoutAShearSpringIsCappedByCoulombsLimit) {
     const double mu = std::tan(20.0 * std::numbers::pi / 180.0);
     World world = thrown_disc(20.0, 1e3);
-    while (world.time < 0.5 * speed / (3.0 * mu * gravity)) step(world);
-    EXPECT_TRUE(testing::agrees("speed while sliding", world.bodies[0].vx, speed - mu * gravity * world.time, 1e-3));
-    while (world.time < 3.0 * speed / (3.0 * mu * gravity)) step(world);
-    EXPECT_TRUE(testing::agrees("rolls in the end at 2/3 of its speed", world.bodies[0].vx, 2.0 / 3.0 * speed, 1e-3));
+    while (world.stepping.time < 0.5 * speed / (3.0 * mu * gravity)) step(world);
+    EXPECT_TRUE(testing::agrees("speed while sliding", world.bodies.state[0].vx,
+                                speed - mu * gravity * world.stepping.time, 1e-3));
+    while (world.stepping.time < 3.0 * speed / (3.0 * mu * gravity)) step(world);
+    EXPECT_TRUE(
+        testing::agrees("rolls in the end at 2/3 of its speed", world.bodies.state[0].vx, 2.0 / 3.0 * speed, 1e-3));
     compute_forces(world);
     const Ledger ledger = measure_ledger(world);
     EXPECT_TRUE(testing::within("closing error over the loss", ledger.closing_error / ledger.dashpot_loss, 0.0, 1e-3));
@@ -102,11 +108,13 @@ TEST(TwoMaterials, UnequalDiscsReboundByTheirEffectiveMassAndDashpotsInSeries) {
     double error[2] = {};
     for (const int halving : {0, 1}) {
         World world = two_discs(a, b, -1e-6, 0.5, 1e-6 / (1 << halving));
-        while (world.bodies[0].vx > world.bodies[1].vx || world.bodies[1].x - world.bodies[0].x < 0.0401) step(world);
-        const double restitution = world.bodies[1].vx - world.bodies[0].vx;  // they met at 1 m/s
+        while (world.bodies.state[0].vx > world.bodies.state[1].vx ||
+               world.bodies.state[1].x - world.bodies.state[0].x < 0.0401)
+            step(world);
+        const double restitution = world.bodies.state[1].vx - world.bodies.state[0].vx;  // they met at 1 m/s
         error[halving] = restitution - expected;
         EXPECT_TRUE(testing::agrees("restitution", restitution, expected, 5e-3));
-        const double momentum = m1 * world.bodies[0].vx + m2 * world.bodies[1].vx;
+        const double momentum = m1 * world.bodies.state[0].vx + m2 * world.bodies.state[1].vx;
         EXPECT_TRUE(testing::agrees("momentum, Ns", momentum, 0.5 * (m1 - m2), 1e-12));
     }
     EXPECT_TRUE(testing::agrees("error at half the step over error", error[1] / error[0], 0.5, 0.25));

@@ -15,6 +15,10 @@
 #include "solver/demseg/contact_files.hpp"
 #include "solver/demseg/deck_reader.hpp"
 #include "solver/demseg/random_circles.hpp"
+#include "solver/stepping/bonding.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/step.hpp"
+#include "solver/world/checkpoint.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/deck_files.hpp"
 
@@ -101,13 +105,13 @@ TEST(ContactFiles, BackTensionsOfEveryKindOfPointComeBack) {
     World copy = build_world(scene);
     DeckReader reader("in_cf0.dat", bonded.str());
     read_back_tensions(reader, scene, copy);
-    EXPECT_EQ(copy.bonds_initial, bonds);
-    EXPECT_EQ(copy.interfaces_initial, 4);
+    EXPECT_EQ(copy.bonds.initial, bonds);
+    EXPECT_EQ(copy.bonds.interfaces_initial, 4);
     write_back_tensions(again, scene, copy);
     EXPECT_EQ(bonded.str(), again.str());
     for (std::size_t k = 0; k < world.points.size(); ++k) {
-        EXPECT_NEAR(copy.bond_overlaps[k], world.bond_overlaps[k], 1e-17);
-        EXPECT_EQ(copy.point_states[k].flags, world.point_states[k].flags);
+        EXPECT_NEAR(copy.points.bond_overlap[k], world.points.bond_overlap[k], 1e-17);
+        EXPECT_EQ(copy.points.state[k].flags, world.points.state[k].flags);
     }
 }
 
@@ -127,7 +131,7 @@ TEST(ContactFiles, SegmentsUnderTheGuidesLawComeBackByTheirNumbers) {
     World copy = build_world(scene);
     DeckReader reader("in_cf0.dat", tensions.str());
     read_back_tensions(reader, scene, copy);
-    EXPECT_EQ(copy.bonds_initial, bonds);
+    EXPECT_EQ(copy.bonds.initial, bonds);
     write_back_tensions(again, scene, copy);
     EXPECT_EQ(again.str(), tensions.str());
 
@@ -222,11 +226,11 @@ TEST(ContactFiles, AContactListedFromItsOtherBodyIsTheSame) {
     World from_one, from_other;
     ASSERT_EQ(contacts_refusal("1 0\n2 0\n3 1\n4 2 0 5.5 -2e3 1\n4 0\n", &from_one), "accepted");
     ASSERT_EQ(contacts_refusal("1 0\n2 0\n3 0\n4 1\n3 0 2 5.5 -2e3 1\n", &from_other), "accepted");
-    EXPECT_EQ(from_one.bonds_initial, 1);
+    EXPECT_EQ(from_one.bonds.initial, 1);
     EXPECT_TRUE(save_world(from_one) == save_world(from_other));
     ASSERT_EQ(contacts_refusal("1 0\n2 0\n3 0\n4 1\n3 0 2 5.5 0 1\n", &from_other), "accepted");
     double shear = 0.0;
-    for (const double force : from_other.shear_forces) shear += force;
+    for (const double force : from_other.points.shear_force) shear += force;
     EXPECT_EQ(shear, 5.5) << "a spring without a bond";
 }
 
@@ -304,7 +308,7 @@ class DeckFolder : public ::testing::Test {
 
 TEST_F(DeckFolder, BondsFromPresentOverlapsWhereBackTensionsAreAbsent) {
     DeckRun run(options());
-    EXPECT_EQ(run.world().bonds_initial, 19);
+    EXPECT_EQ(run.world().bonds.initial, 19);
     ASSERT_EQ(run.notices().size(), 1u);
     EXPECT_NE(run.notices()[0].find("19 bonds were made from the present overlaps"), std::string::npos);
 }
@@ -388,8 +392,8 @@ TEST_F(DeckFolder, ADerivedStepIsHandedOnAsTheStepInUse) {
     edit("in_gm.dat", "2.0d-5", "0");
     DeckRun run(options());
     run.run();
-    EXPECT_EQ(read_geometry(folder_ / "new_in_gm.dat").time_step, run.world().time_step);
-    EXPECT_GT(run.world().time_step, 0.0);
+    EXPECT_EQ(read_geometry(folder_ / "new_in_gm.dat").time_step, run.world().stepping.time_step);
+    EXPECT_GT(run.world().stepping.time_step, 0.0);
 }
 
 TEST_F(DeckFolder, AStepThatThePileOutgrowsStopsTheRunWithItsOutputs) {
@@ -408,11 +412,11 @@ TEST_F(DeckFolder, AStepThatThePileOutgrowsStopsTheRunWithItsOutputs) {
         fmt::print("  {}\n", text);
         EXPECT_NE(text.find("0.0009 s"), std::string::npos);
         EXPECT_NE(text.find("0.000792"), std::string::npos);
-        EXPECT_EQ(error.step, run.world().step);
+        EXPECT_EQ(error.step, run.world().stepping.steps);
     }
     const Rows rows = read_rows(folder_ / "energy.dat");
     ASSERT_GE(rows.size(), 2u);
-    EXPECT_GT(rows.back()[0], static_cast<double>(run.world().step) - 11.0);
+    EXPECT_GT(rows.back()[0], static_cast<double>(run.world().stepping.steps) - 11.0);
     EXPECT_FALSE(std::filesystem::exists(folder_ / "new_in_gm.dat"));
     longer.overwrite = true;
     longer.allow_unstable = true;
@@ -442,7 +446,7 @@ TEST_F(DeckFolder, RenamedFilesGoOnWithTheStateUnlessTheyWereEdited) {
     EXPECT_NE(edited.notices()[0].find("new_state.bin: ignored, because it does not belong to in_gm.dat as it is now"),
               std::string::npos);
     EXPECT_EQ(edited.first_step(), 100);
-    EXPECT_EQ(edited.world().bonds_initial, 19);
+    EXPECT_EQ(edited.world().bonds.initial, 19);
 }
 
 TEST_F(DeckFolder, DamagedStateIsRefusedWithARemedy) {

@@ -11,6 +11,8 @@
 #include "solver/demseg/contact_files.hpp"
 #include "solver/demseg/deck_reader.hpp"
 #include "solver/demseg/geometry.hpp"
+#include "solver/stepping/bonding.hpp"
+#include "solver/stepping/build_world.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/deck_files.hpp"
 

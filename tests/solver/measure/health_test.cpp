@@ -9,6 +9,13 @@
 
 #include "solver/base/errors.hpp"
 #include "solver/linear/critical_step.hpp"
+#include "solver/linear/step_bound.hpp"
+#include "solver/measure/health.hpp"
+#include "solver/measure/ledger.hpp"
+#include "solver/measure/point_view.hpp"
+#include "solver/stepping/bonding.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/step.hpp"
 #include "solver/world/world.hpp"
 #include "specimens/making/disordered.hpp"
 #include "tests/support/claim.hpp"
@@ -32,7 +39,7 @@ std::string verdict(World& world, int id) {
     try {
         check_health(world);
     } catch (const UnstableRun& error) {
-        EXPECT_EQ(error.step, world.step);
+        EXPECT_EQ(error.step, world.stepping.steps);
         if (id != 0) {
             EXPECT_EQ(error.body, id) << error.what();
         }
@@ -55,14 +62,14 @@ TEST(Health, OfASoundRunIsGood) {
         EXPECT_NO_THROW(check_health(world));
         advance(world);
     }
-    EXPECT_GT(world.bonds_broken, 0);
+    EXPECT_GT(world.bonds.broken, 0);
 }
 
 TEST(Health, NotANumberStopsTheRunAndNamesTheBody) {
     for (int component = 0; component < 3; ++component) {
         World world = build_world(heap());
         step(world);
-        BodyState& body = world.bodies[body_of_id(world, 17)];
+        BodyState& body = world.bodies.state[body_of_id(world, 17)];
         (component == 0 ? body.vx : component == 1 ? body.omega : body.y) = std::numeric_limits<double>::quiet_NaN();
         EXPECT_NE(verdict(world, 17).find("not a number"), std::string::npos);
     }
@@ -71,14 +78,14 @@ TEST(Health, NotANumberStopsTheRunAndNamesTheBody) {
 TEST(Health, NotANumberIsNoticedByTheStepItself) {
     World world = build_world(heap());
     step(world);
-    world.bodies[body_of_id(world, 17)].vx = std::numeric_limits<double>::quiet_NaN();
+    world.bodies.state[body_of_id(world, 17)].vx = std::numeric_limits<double>::quiet_NaN();
     EXPECT_THROW(step(world), UnstableRun);
 }
 
 TEST(Health, ABodyBeyondAWallStopsTheRun) {
     World world = build_world(heap());
     step(world);
-    world.bodies[body_of_id(world, 5)].y = -0.06;
+    world.bodies.state[body_of_id(world, 5)].y = -0.06;
     EXPECT_NE(verdict(world, 5).find("left the domain"), std::string::npos);
 }
 
@@ -104,17 +111,17 @@ std::string stopped_by(Scene scene, bool allow_unstable) {
     scene.domain.wall_present = {false, false, false, false};
     scene.thick = 1e-3;
     World world = build_world(std::move(scene));
-    world.allow_unstable = allow_unstable;
+    world.stepping.allow_unstable = allow_unstable;
     const BodyIndex b = body_of_id(world, 1);
     try {
-        while (world.bodies[b].x < 0.2 && world.bodies[b].vx > 0.0) step(world);
+        while (world.bodies.state[b].x < 0.2 && world.bodies.state[b].vx > 0.0) step(world);
     } catch (const UnstableRun& error) {
         EXPECT_EQ(error.body, 1);
         EXPECT_GT(error.step, 1);
         fmt::print("  {}\n", error.what());
         return error.what();
     }
-    return world.bodies[b].vx > 0.0 ? "nothing" : "rebound";
+    return world.bodies.state[b].vx > 0.0 ? "nothing" : "rebound";
 }
 
 TEST(Health, ACircleThroughASegmentStopsTheRun) {
@@ -150,10 +157,10 @@ TEST(Health, APolygonThroughAPolygonStopsTheRun) {
 TEST(Health, RunawayEnergyStopsTheRun) {
     World world = build_world(heap());
     bond_all(world, 0.0);
-    world.automatic_step = false;
-    world.time_step =
-        1.3 * world.step_bound;  // past what build_world would let through, and no point left to notice it
-    for (PointState& point : world.point_states) point.flags |= point_counted;
+    world.stepping.automatic_step = false;
+    world.stepping.time_step =
+        1.3 * world.stepping.step_bound;  // past what build_world would let through, and no point left to notice it
+    for (PointState& point : world.points.state) point.flags |= point_counted;
     testing::shake(world, 1e-4 * testing::breaking_energy(world), 2);
     std::string cause;
     for (int n = 0; n < 2000 && cause.empty(); ++n) {
@@ -174,7 +181,7 @@ TEST(Health, RunawayEnergyStopsTheRun) {
 
 TEST(TimeStep, AboveTheBoundIsRefusedNamingBoth) {
     Scene scene = heap();
-    const double bound = build_world(scene).step_bound;
+    const double bound = build_world(scene).stepping.step_bound;
     scene.time_step = 1.5 * bound;
     try {
         build_world(scene);
@@ -198,12 +205,12 @@ TEST(TimeStep, ChosenByItselfIsTheSafeShareOfTheBound) {
     scene.safety_factor = 0.3;
     World world = build_world(scene);
     bond_all(world, 0.0);
-    EXPECT_TRUE(testing::agrees("step over exact", world.time_step / critical_step(world, ClosedPoints::touching).step,
-                                0.3, 1e-15));
+    EXPECT_TRUE(testing::agrees(
+        "step over exact", world.stepping.time_step / critical_step(world, ClosedPoints::touching).step, 0.3, 1e-15));
     scene.safety_factor = 0.5 * loose_step_share;
     world = build_world(scene);
-    EXPECT_TRUE(testing::agrees("smaller than the loose share", world.time_step / world.step_bound, scene.safety_factor,
-                                1e-15));
+    EXPECT_TRUE(testing::agrees("smaller than the loose share", world.stepping.time_step / world.stepping.step_bound,
+                                scene.safety_factor, 1e-15));
 }
 
 std::string refusal(Scene scene) {
@@ -231,20 +238,20 @@ Scene ring(double gap) {
 
 /// Moves the bodies of a ring until they touch.
 void close_ring(World& world) {
-    for (BodyState& body : world.bodies) {
+    for (BodyState& body : world.bodies.state) {
         const double distance = std::hypot(body.x, body.y);
         if (distance < 0.01) continue;
         body.x *= 0.04 / distance;
         body.y *= 0.04 / distance;
     }
-    world.list_valid = false;
-    world.forces_current = false;
+    world.list.valid = false;
+    world.stepping.forces_current = false;
     compute_forces(world);
 }
 
 TEST(TimeStep, OutgrownByAPileStopsTheRunNamingBoth) {
     Scene scene = ring(0.01);
-    scene.time_step = 0.95 * build_world(scene).step_bound;
+    scene.time_step = 0.95 * build_world(scene).stepping.step_bound;
     World world = build_world(scene);
     for (int n = 0; n < 3; ++n) step(world);
     try {
@@ -255,8 +262,8 @@ TEST(TimeStep, OutgrownByAPileStopsTheRunNamingBoth) {
         fmt::print("  {}\n", text);
         EXPECT_EQ(error.step, 3);
         EXPECT_EQ(error.body, 1) << "the disc in the middle";
-        EXPECT_NE(text.find(fmt::format("{:.6g} s", world.time_step)), std::string::npos);
-        EXPECT_NE(text.find(fmt::format("{:.6g} s", world.step_bound)), std::string::npos);
+        EXPECT_NE(text.find(fmt::format("{:.6g} s", world.stepping.time_step)), std::string::npos);
+        EXPECT_NE(text.find(fmt::format("{:.6g} s", world.stepping.step_bound)), std::string::npos);
         EXPECT_NE(text.find("--allow-unstable"), std::string::npos);
     }
     scene.allow_unstable = true;
@@ -266,21 +273,22 @@ TEST(TimeStep, OutgrownByAPileStopsTheRunNamingBoth) {
 
 TEST(TimeStep, ChosenByItselfIsLoweredAsBodiesPileUp) {
     World world = build_world(ring(0.01));
-    const double before = world.time_step;
+    const double before = world.stepping.time_step;
     close_ring(world);
-    EXPECT_LT(world.time_step, before);
-    EXPECT_TRUE(
-        testing::agrees("step over bound", world.time_step / world.step_bound, derived_step_share(world), 1e-15));
+    EXPECT_LT(world.stepping.time_step, before);
+    EXPECT_TRUE(testing::agrees("step over bound", world.stepping.time_step / world.stepping.step_bound,
+                                derived_step_share(world), 1e-15));
 }
 
 TEST(TimeStep, ChosenByItselfTakesTheLooseShareUntilThereAreBonds) {
     Scene scene = heap();
     scene.thick = 0.0;
     World world = build_world(scene);
-    EXPECT_TRUE(testing::agrees("step over bound, loose", world.time_step / world.step_bound, loose_step_share, 1e-15));
+    EXPECT_TRUE(testing::agrees("step over bound, loose", world.stepping.time_step / world.stepping.step_bound,
+                                loose_step_share, 1e-15));
     bond_all(world, 0.0);
     EXPECT_TRUE(testing::agrees("step over exact, bonded",
-                                world.time_step / critical_step(world, ClosedPoints::touching).step,
+                                world.stepping.time_step / critical_step(world, ClosedPoints::touching).step,
                                 scene.safety_factor, 1e-15));
 }
 
@@ -294,7 +302,7 @@ TEST(StableStep, OfGroupsApartIsTheLeastForAnyThreadsAndNamesItsBody) {
             circle.radius *= scale;
         }
         group.domain.wall_present = {false, false, false, false};
-        least = std::min(least, build_world(group).step_bound);
+        least = std::min(least, build_world(group).stepping.step_bound);
         const auto before = static_cast<int>(both.bodies.size());
         for (const CircleElement& circle : group.circles)
             both.add_circle_body(static_cast<int>(both.bodies.size()) + 1, 0, circle);
@@ -306,11 +314,12 @@ TEST(StableStep, OfGroupsApartIsTheLeastForAnyThreadsAndNamesItsBody) {
     const World one = build_world(both);
     both.threads = 3;
     const World three = build_world(both);
-    EXPECT_EQ(one.step_bound, three.step_bound);
+    EXPECT_EQ(one.stepping.step_bound, three.stepping.step_bound);
     BodyIndex limiting = 0;
-    EXPECT_EQ(stable_step_bound(three, &limiting), one.step_bound);
-    EXPECT_TRUE(testing::within("body of the second group", one.info[limiting].id, 54.5, 18.0));
-    EXPECT_TRUE(testing::agrees("bound", one.step_bound, least, 1e-8));  // an eigenvalue loses half its digits at worst
+    EXPECT_EQ(stable_step_bound(three, &limiting), one.stepping.step_bound);
+    EXPECT_TRUE(testing::within("body of the second group", one.bodies.info[limiting].id, 54.5, 18.0));
+    EXPECT_TRUE(testing::agrees("bound", one.stepping.step_bound, least,
+                                1e-8));  // an eigenvalue loses half its digits at worst
 }
 
 TEST(TimeStep, CannotBeDerivedWhereEveryBodyIsHeld) {
@@ -331,7 +340,7 @@ TEST(Health, RoundingAtRestIsNoRunaway) {
     scene.domain.wall_present = {false, false, false, false};
     World world = build_world(scene);
     bond_all(world, 0.0);
-    for (double& overlap : world.bond_overlaps)
+    for (double& overlap : world.points.bond_overlap)
         overlap = std::nextafter(overlap, 1.0);  // as a text file may give it back
     double largest = 0.0;
     for (int n = 0; n < 20000; ++n) {

@@ -8,6 +8,11 @@
 #include <set>
 #include <tuple>
 
+#include "solver/measure/point_view.hpp"
+#include "solver/stepping/bonding.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/step.hpp"
+#include "solver/stepping/time_step.hpp"
 #include "solver/world/world.hpp"
 #include "specimens/making/disordered.hpp"
 #include "tests/support/claim.hpp"
@@ -26,16 +31,16 @@ using Touch = std::tuple<int, std::uint32_t, int, std::int64_t>;
 std::set<Touch> listed(const World& world) {
     std::set<Touch> touches;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
-        const ContactPoint& p = world.points[k];
+        const ContactPoint& p = world.points.contact[k];
         const PointView view = view_point(world, k);
         if (view.overlap <= 0.0) continue;
-        const BodyInfo& i = world.info[p.body_i];
+        const BodyInfo& i = world.bodies.info[p.body_i];
         const std::uint32_t element = p.element_i - i.first_element;
         if (view.kind == PointKind::element_wall) {
             touches.insert({i.id, element, -1 - static_cast<int>(p.body_j), -1});
             continue;
         }
-        const BodyInfo& j = world.info[p.body_j];
+        const BodyInfo& j = world.bodies.info[p.body_j];
         if (view.kind == PointKind::element_outline) {
             touches.insert({i.id, element, j.id, -1});
         } else {
@@ -52,29 +57,29 @@ std::set<Touch> searched(const World& world) {
     std::vector<std::vector<Vec2>> places;
     for (std::size_t b = 0; b < world.bodies.size(); ++b)
         places.push_back(element_positions(world, static_cast<BodyIndex>(b)));
-    const Domain& d = world.domain;
+    const Domain& d = world.settings.domain;
     for (std::size_t i = 0; i < places.size(); ++i) {
-        const bool chain_i = world.info[i].piece_count > 0;
+        const bool chain_i = world.bodies.info[i].piece_count > 0;
         for (std::uint32_t e = 0; e < places[i].size(); ++e) {
             const Vec2 p = places[i][e];
-            const double radius = world.elements[world.info[i].first_element + e].radius;
+            const double radius = world.bodies.elements[world.bodies.info[i].first_element + e].radius;
             const double bare = chain_i ? 0.0 : radius;
             const double to_wall[4] = {p.x - d.x1, d.x2 - p.x, p.y - d.y1, d.y2 - p.y};
             for (int wall = 0; wall < 4; ++wall) {
                 if (d.wall_present[static_cast<std::size_t>(wall)] && to_wall[wall] < bare)
-                    touches.insert({world.info[i].id, e, -1 - wall, -1});
+                    touches.insert({world.bodies.info[i].id, e, -1 - wall, -1});
             }
             for (std::size_t j = 0; j < places.size(); ++j) {
                 if (j == i) continue;
-                if (world.info[j].piece_count > 0) {
-                    const double reach = chain_i ? world.thick : radius + world.thick;
-                    if (distance_to_outline(p, places[j], world.info[j].closed) < reach)
-                        touches.insert({world.info[i].id, e, world.info[j].id, -1});
-                } else if (!chain_i && world.info[i].id < world.info[j].id) {
+                if (world.bodies.info[j].piece_count > 0) {
+                    const double reach = chain_i ? world.settings.thick : radius + world.settings.thick;
+                    if (distance_to_outline(p, places[j], world.bodies.info[j].closed) < reach)
+                        touches.insert({world.bodies.info[i].id, e, world.bodies.info[j].id, -1});
+                } else if (!chain_i && world.bodies.info[i].id < world.bodies.info[j].id) {
                     for (std::uint32_t f = 0; f < places[j].size(); ++f) {
-                        const double other = world.elements[world.info[j].first_element + f].radius;
+                        const double other = world.bodies.elements[world.bodies.info[j].first_element + f].radius;
                         if (norm(places[j][f] - p) < radius + other)
-                            touches.insert({world.info[i].id, e, world.info[j].id, f});
+                            touches.insert({world.bodies.info[i].id, e, world.bodies.info[j].id, f});
                     }
                 }
             }
@@ -151,30 +156,32 @@ TEST(NeighbourList, EveryBodyAddsUpItsPointsInTheirOrder) {
         std::vector<BodyForce> sums(world.bodies.size(), BodyForce{0.0, 0.0, 0.0});
         std::vector<int> additions(world.bodies.size());
         std::set<int> points_a_body;
-        const PointIndex walls = world.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
+        const PointIndex walls = world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
         const auto add_kind = [&](std::size_t kind) {
-            for (PointIndex k = world.kind_begin[kind]; k < world.kind_begin[kind + 1]; ++k) {
-                const PointForce& force = world.point_forces[k];
-                BodyForce& on_i = sums[world.points[k].body_i];
+            for (PointIndex k = world.points.kind_begin[kind]; k < world.points.kind_begin[kind + 1]; ++k) {
+                const PointForce& force = world.points.force[k];
+                BodyForce& on_i = sums[world.points.contact[k].body_i];
                 on_i = {on_i.fx + force.fx, on_i.fy + force.fy, on_i.torque + force.torque_i};
-                ++additions[world.points[k].body_i];
+                ++additions[world.points.contact[k].body_i];
                 if (k >= walls) continue;
-                ++additions[world.points[k].body_j];
-                BodyForce& on_j = sums[world.points[k].body_j];
+                ++additions[world.points.contact[k].body_j];
+                BodyForce& on_j = sums[world.points.contact[k].body_j];
                 on_j = {on_j.fx - force.fx, on_j.fy - force.fy, on_j.torque + force.torque_j};
             }
         };
         std::size_t largest = 0;
-        const auto points_of = [&](std::size_t kind) { return world.kind_begin[kind + 1] - world.kind_begin[kind]; };
+        const auto points_of = [&](std::size_t kind) {
+            return world.points.kind_begin[kind + 1] - world.points.kind_begin[kind];
+        };
         for (std::size_t kind = 1; kind < point_kinds; ++kind)
             if (points_of(kind) > points_of(largest)) largest = kind;
         for (std::size_t kind = 0; kind < point_kinds; ++kind)
             if (kind != largest) add_kind(kind);
         add_kind(largest);
         for (std::size_t b = 0; b < sums.size(); ++b) {
-            EXPECT_EQ(world.forces[b].fx, sums[b].fx) << b;
-            EXPECT_EQ(world.forces[b].fy, sums[b].fy) << b;
-            EXPECT_EQ(world.forces[b].torque, sums[b].torque) << b;
+            EXPECT_EQ(world.bodies.force[b].fx, sums[b].fx) << b;
+            EXPECT_EQ(world.bodies.force[b].fy, sums[b].fy) << b;
+            EXPECT_EQ(world.bodies.force[b].torque, sums[b].torque) << b;
             points_a_body.insert(additions[b]);
         }
         EXPECT_TRUE(points_a_body.contains(0));
@@ -203,10 +210,10 @@ TEST(NeighbourList, MissesNoTouchingPointInMotionBetweenRebuilds) {
             }
             advance(world);
         }
-        fmt::print("  skin {:.3g} m: {} rebuilds in 400 steps, {} touching points on average\n", world.skin,
-                   world.list_builds, touching / checks);
-        EXPECT_GT(world.list_builds, 3);
-        EXPECT_LT(world.list_builds, 400);
+        fmt::print("  skin {:.3g} m: {} rebuilds in 400 steps, {} touching points on average\n", world.list.skin,
+                   world.list.builds, touching / checks);
+        EXPECT_GT(world.list.builds, 3);
+        EXPECT_LT(world.list.builds, 400);
     }
 }
 
@@ -220,7 +227,7 @@ SkinTrace trace_of_skin(Scene scene, double thick, double share) {
     scene.domain.wall_present = {false, false, false, false};
     scene.time_step = 2e-5;
     World follows = build_world(scene);
-    const double widest = follows.skin;
+    const double widest = follows.list.skin;
     scene.skin = widest;
     World stays = build_world(scene);
     for (World* world : {&follows, &stays}) bond_all(*world, thick);
@@ -230,13 +237,13 @@ SkinTrace trace_of_skin(Scene scene, double thick, double share) {
         for (int n = 0; n < steps; ++n) {
             for (World* world : {&follows, &stays}) compute_forces(*world);
             fewest = std::min(fewest, follows.points.size());
-            narrowest = std::min(narrowest, follows.skin);
+            narrowest = std::min(narrowest, follows.list.skin);
             if (n % 37 == 0) {
-                EXPECT_EQ(missed(follows), 0u) << "step " << follows.step;
+                EXPECT_EQ(missed(follows), 0u) << "step " << follows.stepping.steps;
             }
             for (World* world : {&follows, &stays}) advance(*world);
         }
-        widest_again = follows.skin;
+        widest_again = follows.list.skin;
     };
     run(200);  // at rest
     fmt::print("  at rest: skin {:.3g} of {:.3g} m, {} points of {}\n", narrowest, widest, fewest, stays.points.size());
@@ -244,21 +251,21 @@ SkinTrace trace_of_skin(Scene scene, double thick, double share) {
     const std::size_t spared = stays.points.size() - fewest;
     for (World* world : {&follows, &stays}) testing::shake(*world, share * testing::breaking_energy(*world), 5);
     run(1500);
-    EXPECT_GT(follows.bonds_broken, 50);
+    EXPECT_GT(follows.bonds.broken, 50);
     EXPECT_GT(widest_again, 0.2 * widest);
-    EXPECT_EQ(stays.skin, widest);
-    const double own = follows.half_skins.empty() ? 0.0 : *std::ranges::max_element(follows.half_skins);
+    EXPECT_EQ(stays.list.skin, widest);
+    const double own = follows.list.half_skins.empty() ? 0.0 : *std::ranges::max_element(follows.list.half_skins);
     EXPECT_GT(own, 0.6 * widest) << "no fast body has a wider skin of its own";
-    EXPECT_LT(follows.list_builds, stays.list_builds);
+    EXPECT_LT(follows.list.builds, stays.list.builds);
     fmt::print("  flying apart: skin {:.3g} m, {} bonds broken, {} rebuilds against {}\n", widest_again,
-               follows.bonds_broken, follows.list_builds, stays.list_builds);
-    EXPECT_EQ(follows.bonds_broken, stays.bonds_broken);
+               follows.bonds.broken, follows.list.builds, stays.list.builds);
+    EXPECT_EQ(follows.bonds.broken, stays.bonds.broken);
     double worst = 0.0, reach = 0.0;
     for (std::size_t b = 0; b < follows.bodies.size(); ++b) {
-        const BodyState &one = follows.bodies[b], &other = stays.bodies[b];
-        reach += follows.info[b].reach / static_cast<double>(follows.bodies.size());
+        const BodyState &one = follows.bodies.state[b], &other = stays.bodies.state[b];
+        reach += follows.bodies.info[b].reach / static_cast<double>(follows.bodies.size());
         worst = std::max(worst, std::hypot(one.x - other.x, one.y - other.y) +
-                                    follows.info[b].reach * std::abs(one.angle - other.angle));
+                                    follows.bodies.info[b].reach * std::abs(one.angle - other.angle));
     }
     fmt::print("  largest distance between the two runs: {:.2g} of a mean reach\n", worst / reach);
     return {worst / reach, spared};
@@ -289,18 +296,19 @@ TEST(NeighbourList, RebuildKeepsSpringsBondsAndFlags) {
     testing::shake(world, 0.3 * testing::breaking_energy(world), 5);
     for (int n = 0; n < 200; ++n) step(world);
     World again = world;
-    again.list_valid = false;
+    again.list.valid = false;
     refresh_neighbours(again);
-    EXPECT_GT(again.list_builds, world.list_builds);
+    EXPECT_GT(again.list.builds, world.list.builds);
     using Memory = std::tuple<double, double, std::uint16_t>;
     const auto memory = [](const World& w) {
         std::map<std::pair<int, int>, Memory> result;
         for (PointIndex k = 0; k < w.points.size(); ++k) {
-            const ContactPoint& p = w.points[k];
+            const ContactPoint& p = w.points.contact[k];
             const auto flags =
-                static_cast<std::uint16_t>(w.point_states[k].flags & ~point_counted);  // a rebuild counts anew
-            if (w.shear_forces[k] == 0.0 && flags == 0) continue;
-            result[{w.info[p.body_i].id, w.info[p.body_j].id}] = {w.shear_forces[k], w.bond_overlaps[k], flags};
+                static_cast<std::uint16_t>(w.points.state[k].flags & ~point_counted);  // a rebuild counts anew
+            if (w.points.shear_force[k] == 0.0 && flags == 0) continue;
+            result[{w.bodies.info[p.body_i].id, w.bodies.info[p.body_j].id}] = {w.points.shear_force[k],
+                                                                                w.points.bond_overlap[k], flags};
         }
         return result;
     };
@@ -330,7 +338,7 @@ World bonded_pair(bool squares, const IntactOptions& intact, double speed = 0.0)
 }
 
 std::int64_t bonds_held(const World& world) {
-    return std::count_if(world.point_states.begin(), world.point_states.end(),
+    return std::count_if(world.points.state.begin(), world.points.state.end(),
                          [](const PointState& p) { return (p.flags & point_bonded) != 0; });
 }
 
@@ -340,16 +348,16 @@ TEST(NeighbourList, IntactBondsHoldAtAnyOpening) {
             World world = bonded_pair(squares, {true, true, no_new_contacts});
             const BodyIndex far = body_of_id(world, 2);
             for (const double skins : {0.5, 2.5, 30.0, 1.0}) {
-                const double start = world.bodies[far].x, opening = skins * world.skin;
-                world.bodies[far].x += opening;
-                world.list_valid = false;
-                world.forces_current = false;
+                const double start = world.bodies.state[far].x, opening = skins * world.list.skin;
+                world.bodies.state[far].x += opening;
+                world.list.valid = false;
+                world.stepping.forces_current = false;
                 compute_forces(world);
                 const std::string claim = fmt::format("{} opened by {} skins", squares ? "squares" : "discs", skins);
-                EXPECT_EQ(bonds_held(world), world.bonds_initial) << claim;
-                EXPECT_TRUE(testing::agrees(claim + ": pull over stiffness, m", -world.forces[far].fx / 1e7,
-                                            static_cast<double>(world.bonds_initial) * opening, 1e-9));
-                world.bodies[far].x = start;
+                EXPECT_EQ(bonds_held(world), world.bonds.initial) << claim;
+                EXPECT_TRUE(testing::agrees(claim + ": pull over stiffness, m", -world.bodies.force[far].fx / 1e7,
+                                            static_cast<double>(world.bonds.initial) * opening, 1e-9));
+                world.bodies.state[far].x = start;
             }
         }
     }
@@ -366,37 +374,37 @@ TEST(NeighbourList, IntactBondsOfAWholeSpecimenKeepTheirOrderWhenItIsBlownUp) {
     const auto bonds = [&] {
         std::vector<std::pair<std::uint64_t, double>> all;
         for (PointIndex k = 0; k < world.points.size(); ++k) {
-            if ((world.point_states[k].flags & point_bonded) == 0) continue;
-            const ContactPoint& p = world.points[k];
-            all.emplace_back((static_cast<std::uint64_t>(p.body_i) << 32) | p.body_j, world.bond_overlaps[k]);
+            if ((world.points.state[k].flags & point_bonded) == 0) continue;
+            const ContactPoint& p = world.points.contact[k];
+            all.emplace_back((static_cast<std::uint64_t>(p.body_i) << 32) | p.body_j, world.points.bond_overlap[k]);
         }
         return all;
     };
     const auto before = bonds();
     for (const double scale : {1.5, 1.3, 0.7, 1.0}) {
-        const std::vector<BodyState> start = world.bodies;
-        for (BodyState& body : world.bodies) body.x *= scale, body.y *= scale;
-        world.list_valid = false;
-        world.forces_current = false;
+        const std::vector<BodyState> start = world.bodies.state;
+        for (BodyState& body : world.bodies.state) body.x *= scale, body.y *= scale;
+        world.list.valid = false;
+        world.stepping.forces_current = false;
         compute_forces(world);
         EXPECT_TRUE(bonds() == before) << "blown up by " << scale;
         double sum = 0.0, size = 0.0;
-        for (const BodyForce& force : world.forces) sum += force.fx, size += std::abs(force.fx);
+        for (const BodyForce& force : world.bodies.force) sum += force.fx, size += std::abs(force.fx);
         EXPECT_LE(std::abs(sum), 1e-12 * size) << "action and reaction, blown up by " << scale;
-        world.bodies = start;
+        world.bodies.state = start;
     }
 }
 
 TEST(NeighbourList, ABreakThatOpensBeyondTheSkinInOneStepGivesItsEvent) {
     for (const bool squares : {false, true}) {
-        const double step_length = bonded_pair(squares, {}).time_step;
+        const double step_length = bonded_pair(squares, {}).stepping.time_step;
         World world = bonded_pair(squares, {}, 0.3 * 0.02 / step_length);  // three skins of the discs a step
         step(world);
         compute_forces(world);
-        EXPECT_EQ(static_cast<std::int64_t>(world.events.size()), world.bonds_initial)
+        EXPECT_EQ(static_cast<std::int64_t>(world.bonds.events.size()), world.bonds.initial)
             << (squares ? "squares" : "discs");
-        EXPECT_EQ(world.bonds_broken, world.bonds_initial);
-        EXPECT_EQ(world.interfaces_lost, 1);
+        EXPECT_EQ(world.bonds.broken, world.bonds.initial);
+        EXPECT_EQ(world.bonds.interfaces_lost, 1);
     }
 }
 

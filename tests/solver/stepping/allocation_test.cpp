@@ -8,6 +8,9 @@
 #include <cstdlib>
 #include <new>
 
+#include "solver/stepping/bonding.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/step.hpp"
 #include "specimens/making/disordered.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/measures.hpp"
@@ -53,9 +56,9 @@ Material damped_rock() {
 
 std::int64_t requests_in(World& world, int steps) {
     for (int n = 0; n < 10; ++n) step(world);  // threads are started here
-    const std::int64_t built = world.list_builds, before = requests.load();
+    const std::int64_t built = world.list.builds, before = requests.load();
     for (int n = 0; n < steps; ++n) step(world);
-    EXPECT_EQ(world.list_builds, built) << "the list was rebuilt, so this shows nothing";
+    EXPECT_EQ(world.list.builds, built) << "the list was rebuilt, so this shows nothing";
     return requests.load() - before;
 }
 
@@ -82,8 +85,8 @@ TEST(Step, AllocatesNothingInTenThousandStepsOfDiscs) {
         set_threads(world, threads);
         EXPECT_EQ(requests_in(world, 10000), 0) << threads << " threads";
         fmt::print("  discs, {} threads: no request in 10000 steps, {} bonds broken meanwhile\n", threads,
-                   world.bonds_broken);
-        EXPECT_GT(world.bonds_broken, 0);
+                   world.bonds.broken);
+        EXPECT_GT(world.bonds.broken, 0);
     }
 }
 
@@ -99,7 +102,7 @@ TEST(Step, AllocatesNothingUnderTheConsistentIntegrator) {
     bond_all(world, 0.0);
     testing::shake(world, 1.0 * testing::breaking_energy(world), 3);
     EXPECT_EQ(requests_in(world, 5000), 0);
-    EXPECT_FALSE(world.openings.empty());
+    EXPECT_FALSE(world.points.opening.empty());
 }
 
 TEST(Step, AllocatesNothingInTenThousandStepsOfPolygonsAndDrivenBodies) {

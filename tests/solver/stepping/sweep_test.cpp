@@ -6,6 +6,10 @@
 #include <gtest/gtest.h>
 #include <omp.h>
 
+#include "solver/measure/point_view.hpp"
+#include "solver/stepping/bonding.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/step.hpp"
 #include "specimens/making/disordered.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/measures.hpp"
@@ -72,19 +76,19 @@ TEST(Sweep, HasTheBytesOfForcesThenMotionOnAnyNumberOfThreads) {
             advance(apart);
         }
         compute_forces(apart);
-        EXPECT_EQ(apart.bonds_broken > 0, swept_scene.breaks) << swept_scene.name;
-        EXPECT_GT(apart.list_builds, 1) << swept_scene.name;
+        EXPECT_EQ(apart.bonds.broken > 0, swept_scene.breaks) << swept_scene.name;
+        EXPECT_GT(apart.list.builds, 1) << swept_scene.name;
         for (const int threads : {1, 2, 3, 7}) {
             World swept = bonded_and_shaken(swept_scene, threads);
             for (int n = 0; n < 600; ++n) step(swept);
             compute_forces(swept);
             SCOPED_TRACE(std::string(swept_scene.name) + ", " + std::to_string(threads) + " threads");
             testing::expect_same_run(swept, apart);
-            ASSERT_EQ(swept.events.size(), apart.events.size());
-            for (std::size_t e = 0; e < swept.events.size(); ++e) {
-                EXPECT_EQ(swept.events[e].step, apart.events[e].step);
-                EXPECT_EQ(swept.events[e].position.x, apart.events[e].position.x);
-                EXPECT_EQ(swept.events[e].energy, apart.events[e].energy);
+            ASSERT_EQ(swept.bonds.events.size(), apart.bonds.events.size());
+            for (std::size_t e = 0; e < swept.bonds.events.size(); ++e) {
+                EXPECT_EQ(swept.bonds.events[e].step, apart.bonds.events[e].step);
+                EXPECT_EQ(swept.bonds.events[e].position.x, apart.bonds.events[e].position.x);
+                EXPECT_EQ(swept.bonds.events[e].energy, apart.bonds.events[e].energy);
             }
         }
     }
@@ -110,7 +114,7 @@ TEST(Sweep, HasTheSameBytesWhereFewerThreadsAreGivenThanAskedFor) {
         ASSERT_EQ(team, 1);
         compute_forces(alone);
         compute_forces(given_one);
-        EXPECT_GT(alone.bonds_broken, 0);
+        EXPECT_GT(alone.bonds.broken, 0);
         testing::expect_same_run(given_one, alone);
     }
 }
@@ -123,9 +127,9 @@ TEST(Sweep, FindsTheSameForcesWhetherThoseOfPointsAreKept) {
         step(kept);
         step(forgotten);
     }
-    EXPECT_FALSE(kept.point_forces.empty());
-    EXPECT_TRUE(forgotten.point_forces.empty());
-    EXPECT_TRUE(same_bytes(kept.bodies, forgotten.bodies));
+    EXPECT_FALSE(kept.points.force.empty());
+    EXPECT_TRUE(forgotten.points.force.empty());
+    EXPECT_TRUE(same_bytes(kept.bodies.state, forgotten.bodies.state));
     EXPECT_THROW(measure_wall_forces(forgotten), std::logic_error);
 }
 

@@ -3,12 +3,16 @@
 // run, free motions, vibration modes.
 
 #include "specimens/elastic/analysis.hpp"
+#include "solver/stepping/step.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "solver/linear/vibration.hpp"
+#include "solver/measure/point_view.hpp"
+#include "solver/stepping/bonding.hpp"
+#include "solver/stepping/build_world.hpp"
 #include "specimens/making/lattices.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/deck_files.hpp"
@@ -61,7 +65,7 @@ TEST_F(ElasticAnalysisOf, FirstSlipAndBreakAreWhereARunHasThem) {
     ASSERT_TRUE(a.first_slip && a.first_break);
     EXPECT_LE(a.first_slip->strain, a.first_break->strain);
     const LinearBond& bond = a.bonds[a.first_slip->bond];
-    const auto slid = [&](PointIndex k) { return (test.world.point_states[k].flags & point_slid) != 0; };
+    const auto slid = [&](PointIndex k) { return (test.world.points.state[k].flags & point_slid) != 0; };
     PointIndex found = 0;
     while (test.setup.axial_strain(test.world) < 2.0 * a.first_slip->strain) {
         step(test.world);
@@ -72,8 +76,9 @@ TEST_F(ElasticAnalysisOf, FirstSlipAndBreakAreWhereARunHasThem) {
     ASSERT_LT(found, test.world.points.size());
     // The run's own rate error: the wave still rings by rate·height/c over the strain, below a per cent here.
     EXPECT_TRUE(agrees("strain at the first slip", test.setup.axial_strain(test.world), a.first_slip->strain, 0.02));
-    const ContactPoint& point = test.world.points[found];
-    const auto [low, high] = std::minmax(test.world.info[point.body_i].id, test.world.info[point.body_j].id);
+    const ContactPoint& point = test.world.points.contact[found];
+    const auto [low, high] =
+        std::minmax(test.world.bodies.info[point.body_i].id, test.world.bodies.info[point.body_j].id);
     EXPECT_EQ(low, std::min(bond.body_i, bond.body_j));
     EXPECT_EQ(high, std::max(bond.body_i, bond.body_j));
 }
@@ -105,7 +110,7 @@ TEST(FreeMotions, AreCountedAndNamedAndDoNotSpoilTheSolution) {
     // The pendant disc rolls about its contact: 1. The floating one: 3. The pair: 3 as a whole, and it hinges: 1.
     EXPECT_EQ(free.count, 8);
     std::vector<int> ids;
-    for (const BodyIndex b : free.bodies) ids.push_back(world.info[b].id);
+    for (const BodyIndex b : free.bodies) ids.push_back(world.bodies.info[b].id);
     std::sort(ids.begin(), ids.end());
     EXPECT_EQ(ids, (std::vector<int>{4, 10, 11, 12}));
     const ElasticSolution solution = solve_elastic(world, {{low, {}}, {high, {1e-6, 0.0, 0.0}}});
@@ -122,7 +127,7 @@ TEST(VibrationModes, OfAHeldChainAreTheClosedForm) {
         scene.controls.push_back({k, k == 0 || k == count - 1 ? held : loose, held, held, 0});
     World world = build_world(std::move(scene));
     bond_all(world, 0.0);
-    const double mass = world.inertia[0].mass;
+    const double mass = world.bodies.inertia[0].mass;
     const std::vector<VibrationMode> modes = lowest_modes(world, 4, 0);
     for (int n = 1; n <= 4; ++n) {
         const double expected = 2.0 * std::sqrt(1e7 / mass) * std::sin(0.5 * std::numbers::pi * n / (count - 1));

@@ -10,6 +10,8 @@
 #include <numbers>
 #include <set>
 
+#include "solver/measure/point_view.hpp"
+#include "solver/stepping/step.hpp"
 #include "specimens/frames/fragments.hpp"
 #include "specimens/loading/virtual_test.hpp"
 #include "specimens/observers/curve.hpp"
@@ -63,7 +65,7 @@ TEST_F(FrameForcesOfRock, OfADiscInATriangularLatticeUnderUniaxialStrainAreTheCl
         frame.bodies[b].x = place(b).x;
         frame.bodies[b].y = (1.0 + strain) * place(b).y;
     }
-    const Material& material = test.world.materials[0];
+    const Material& material = test.world.settings.materials[0];
     std::vector<int> partners(frame.bodies.size());
     for (std::size_t k = 0; k < test.setup.bonds.size(); ++k) {
         Bond& bond = test.setup.bonds[k];
@@ -125,7 +127,7 @@ TEST_F(FrameForcesOfRock, AreZeroBeforeLoadingAndAddUpToTheViewsOfAllPointsLater
                 EXPECT_EQ(got.yy, 0.0) << "a platen's";
                 continue;
             }
-            const double share = test.world.materials[0].density / test.world.inertia[b].mass;
+            const double share = test.world.settings.materials[0].density / test.world.bodies.inertia[b].mass;
             largest = std::max(largest, std::abs(got.yy));
             off = std::max({off, std::abs(got.xx - share * sums[b].xx), std::abs(got.yy - share * sums[b].yy),
                             std::abs(got.xy - share * sums[b].xy)});
@@ -154,7 +156,7 @@ TEST_F(FrameForcesOfRock, FragmentsOfASpecimenSplitAcrossAreItsTwoParts) {
         }
         const std::vector<std::int32_t> parts = find_fragments(test.world, test.setup, frame);
         for (BodyIndex b = 0; b < parts.size(); ++b)
-            EXPECT_EQ(parts[b], test.setup.is_platen(b) ? -1 : above(b) ? 1 : 0) << test.world.info[b].id;
+            EXPECT_EQ(parts[b], test.setup.is_platen(b) ? -1 : above(b) ? 1 : 0) << test.world.bodies.info[b].id;
         frame.states[last] = ContactState::bonded_slid;
         EXPECT_EQ(find_fragments(test.world, test.setup, frame), whole);
     }
@@ -167,7 +169,7 @@ TEST_F(FrameForcesOfRock, FragmentsAreNumberedByAreaThenById) {
     const std::vector<std::int32_t> dust = find_fragments(test.world, test.setup, frame);
     std::vector<std::pair<int, std::int32_t>> by_id;
     for (BodyIndex b = 0; b < dust.size(); ++b)
-        if (!test.setup.is_platen(b)) by_id.emplace_back(test.world.info[b].id, dust[b]);
+        if (!test.setup.is_platen(b)) by_id.emplace_back(test.world.bodies.info[b].id, dust[b]);
     std::sort(by_id.begin(), by_id.end());
     for (std::size_t k = 0; k < by_id.size(); ++k)
         EXPECT_EQ(by_id[k].second, static_cast<std::int32_t>(k)) << "equal discs, all alone, go by their ids";

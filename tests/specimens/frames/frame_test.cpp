@@ -15,6 +15,8 @@
 #include <sstream>
 #include <utility>
 
+#include "solver/measure/point_view.hpp"
+#include "solver/stepping/step.hpp"
 #include "solver/world/point_order.hpp"
 #include "specimens/frames/frame_painter.hpp"
 #include "specimens/frames/read_frames.hpp"
@@ -42,16 +44,16 @@ class Frames : public ::testing::Test {
         wanted.numerics = "contact_law = \"" + law + "\"";
         VirtualTest test = prepare_test(read_case(write_small_case(scratch_ / "", wanted)));
         load_specimen(test);
-        test.world.list_valid = false;
+        test.world.list.valid = false;
         compute_forces(test.world);
-        EXPECT_GT(test.world.bonds_broken, 0);
+        EXPECT_GT(test.world.bonds.broken, 0);
         return test;
     }
     enum class Picture { particles, contacts, cracks };
     static Frame taken(VirtualTest& test) {
         ContactHistory& history = test.state.history;
-        while (history.cracks.size() < test.world.events.size())
-            note_break(test.setup, test.world.events[history.cracks.size()], history);
+        while (history.cracks.size() < test.world.bonds.events.size())
+            note_break(test.setup, test.world.bonds.events[history.cracks.size()], history);
         look_at_contacts(test.world, history);
         Frame frame;
         take_frame(test.world, test.setup, history, observe_row(test.world, test.setup), 7, frame);
@@ -97,7 +99,7 @@ TEST_F(Frames, ContactsHaveTheForcesAndStatesOfTheirPoints) {
         std::size_t bonded = 0;
         for (PointIndex k = 0; k < test.world.points.size(); ++k) {
             const PointView view = view_point(test.world, k);
-            if (view.touching) touching[{view.kind, key_of(view.kind, test.world.points[k])}] = view;
+            if (view.touching) touching[{view.kind, key_of(view.kind, test.world.points.contact[k])}] = view;
             bonded += view.bonded;
         }
         EXPECT_LT(bonded, bonds.size());
@@ -121,16 +123,16 @@ TEST_F(Frames, ContactsHaveTheForcesAndStatesOfTheirPoints) {
             const double state = view.bonded ? (view.slid ? 1.0 : 0.0) : touches ? 3.0 : 2.0;
             EXPECT_EQ(data.cell_data.at("state")[k], state);
             expect_forces(k, view);
-            EXPECT_EQ(data.cell_data.at("body_i")[k], test.world.info[point.body_i].id);
-            EXPECT_EQ(data.cell_data.at("body_j")[k], test.world.info[point.body_j].id);
+            EXPECT_EQ(data.cell_data.at("body_i")[k], test.world.bodies.info[point.body_i].id);
+            EXPECT_EQ(data.cell_data.at("body_j")[k], test.world.bodies.info[point.body_j].id);
             if (touches) touching.erase(held);
         }
         ASSERT_EQ(data.cells.size(), bonds.size() + touching.size()) << "what is left was never bonded";
         std::size_t cell = bonds.size();
         for (const auto& [name, view] : touching) {  // by kind and key, as they are written
             EXPECT_EQ(data.cell_data.at("state")[cell], 4.0);
-            EXPECT_EQ(data.cell_data.at("body_i")[cell], test.world.info[view.body_i].id);
-            EXPECT_EQ(data.cell_data.at("body_j")[cell], test.world.info[view.body_j].id);
+            EXPECT_EQ(data.cell_data.at("body_i")[cell], test.world.bodies.info[view.body_i].id);
+            EXPECT_EQ(data.cell_data.at("body_j")[cell], test.world.bodies.info[view.body_j].id);
             Vec2 middle;  // of the line's inner or only points
             const auto& line = data.cells[cell].points;
             for (const std::size_t point : line)
@@ -160,7 +162,7 @@ TEST_F(Frames, OutlinesAndBondsLieWhereTheBodiesAre) {
             const BodyIndex b = body_of_id(test.world, static_cast<int>(particles.cell_data.at("id")[c]));
             std::vector<Vec2> places = element_positions(test.world, b);
             if (test.setup.is_platen(b)) places.resize(2);
-            const bool circle = test.world.info[b].piece_count == 0;
+            const bool circle = test.world.bodies.info[b].piece_count == 0;
             ASSERT_EQ(particles.cells[c].points.size(), circle ? 24U : places.size());
             Vec2 mean;
             for (std::size_t k = 0; k < particles.cells[c].points.size(); ++k) {
@@ -169,11 +171,11 @@ TEST_F(Frames, OutlinesAndBondsLieWhereTheBodiesAre) {
                 if (!circle) farthest = std::max(farthest, norm(corner - places[k]));
             }
             if (circle) farthest = std::max(farthest, norm(mean - places[0]));
-            EXPECT_EQ(particles.cell_data.at("radius")[c], circle ? test.world.bodies[b].shape[0] : 0.0);
+            EXPECT_EQ(particles.cell_data.at("radius")[c], circle ? test.world.bodies.state[b].shape[0] : 0.0);
             EXPECT_EQ(particles.cell_data.at("displacement")[3 * c + 1],
-                      test.world.bodies[b].y - test.setup.start[b].y);
-            EXPECT_EQ(particles.cell_data.at("velocity")[3 * c], test.world.bodies[b].vx);
-            EXPECT_EQ(particles.cell_data.at("rotation_rate")[c], test.world.bodies[b].omega);
+                      test.world.bodies.state[b].y - test.setup.start[b].y);
+            EXPECT_EQ(particles.cell_data.at("velocity")[3 * c], test.world.bodies.state[b].vx);
+            EXPECT_EQ(particles.cell_data.at("rotation_rate")[c], test.world.bodies.state[b].omega);
             turned = std::max(turned, std::abs(particles.cell_data.at("angle")[c]));
         }
         // A bond that holds runs from body to body without a leap.

@@ -10,6 +10,8 @@
 #include <map>
 
 #include "solver/base/errors.hpp"
+#include "solver/measure/point_view.hpp"
+#include "solver/stepping/step.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/deck_files.hpp"
 #include "tests/support/small_rock.hpp"
@@ -42,18 +44,18 @@ TEST_F(VirtualRock, CirclesOverlapTheirPlatensByWhatTheyOverlappedTheWalls) {
     int platen_bonds = 0;
     double worst = 0.0;
     for (PointIndex k = 0; k < test.world.points.size(); ++k) {
-        const ContactPoint& point = test.world.points[k];
-        if ((test.world.point_states[k].flags & point_bonded) == 0) continue;
+        const ContactPoint& point = test.world.points.contact[k];
+        if ((test.world.points.state[k].flags & point_bonded) == 0) continue;
         const bool top = point.body_j == test.setup.top;
         if (!top && point.body_j != test.setup.bottom) continue;
         ++platen_bonds;
-        const int id = test.world.info[point.body_i].id;
+        const int id = test.world.bodies.info[point.body_i].id;
         const auto body =
             std::find_if(packed.bodies.begin(), packed.bodies.end(), [&](const Body& b) { return b.id == id; });
         ASSERT_NE(body, packed.bodies.end()) << id;
         const double y = packed.circles[body->first_circle].centre.y;
         const double to_wall = testing::rock_radius - (top ? packed.domain.y2 - y : y - packed.domain.y1);
-        worst = std::max(worst, std::abs(test.world.bond_overlaps[k] - to_wall));
+        worst = std::max(worst, std::abs(test.world.points.bond_overlap[k] - to_wall));
     }
     EXPECT_EQ(platen_bonds, 6 + 5) << "the lowest row has six discs, the highest five";
     EXPECT_TRUE(within("largest difference of the overlaps, m", worst, 0.0, 1e-15));
@@ -67,13 +69,13 @@ TEST_F(VirtualRock, PolygonsStandAsFarFromTheirPlatensAsFromEachOther) {
         double low = 1.0, high = 0.0;
         int platen_bonds = 0;
         for (PointIndex k = 0; k < test.world.points.size(); ++k) {
-            const ContactPoint& point = test.world.points[k];
-            if ((test.world.point_states[k].flags & point_bonded) == 0 ||
+            const ContactPoint& point = test.world.points.contact[k];
+            if ((test.world.points.state[k].flags & point_bonded) == 0 ||
                 (point.body_j != test.setup.top && point.body_j != test.setup.bottom))
                 continue;
             ++platen_bonds;
-            low = std::min(low, test.world.bond_overlaps[k]);
-            high = std::max(high, test.world.bond_overlaps[k]);
+            low = std::min(low, test.world.points.bond_overlap[k]);
+            high = std::max(high, test.world.points.bond_overlap[k]);
         }
         fmt::print("  {}: {} platen bonds\n", kind, platen_bonds);
         EXPECT_GE(platen_bonds, 20);
@@ -89,14 +91,14 @@ TEST_F(VirtualRock, BeginsWithVelocityLinearBetweenThePlatensAndNoWalls) {
     const double speed = 0.02 * test.setup.height;
     double worst = 0.0;
     for (BodyIndex b = 0; b < test.world.bodies.size(); ++b) {
-        const BodyState& body = test.world.bodies[b];
+        const BodyState& body = test.world.bodies.state[b];
         const double share = b == test.setup.top ? 1.0 : b == test.setup.bottom ? 0.0 : (body.y - low) / (high - low);
         worst = std::max(worst, std::abs(body.vy - speed * share));
         EXPECT_EQ(body.vx, 0.0);
         EXPECT_EQ(body.omega, 0.0);
     }
     EXPECT_TRUE(within("largest deviation of the velocities, m/s", worst, 0.0, 1e-15));
-    EXPECT_EQ(test.world.domain.wall_present, (std::array<bool, 4>{false, false, false, false}));
+    EXPECT_EQ(test.world.settings.domain.wall_present, (std::array<bool, 4>{false, false, false, false}));
 }
 
 TEST_F(VirtualRock, PulledFailsWithPositiveStressAndBalancedEnergy) {
@@ -104,12 +106,12 @@ TEST_F(VirtualRock, PulledFailsWithPositiveStressAndBalancedEnergy) {
     EXPECT_TRUE(test.state.failure.failed);
     EXPECT_EQ(test.state.ended_by, ended_by_failure);
     EXPECT_GT(test.state.failure.peak_stress, 0.0);
-    EXPECT_GT(test.world.bodies[test.setup.top].y, test.setup.top_start);
-    EXPECT_EQ(static_cast<std::int64_t>(test.world.events.size()), test.world.bonds_broken);
-    EXPECT_EQ(test.state.breaks_in_shear + test.state.breaks_in_tension, test.world.bonds_broken);
+    EXPECT_GT(test.world.bodies.state[test.setup.top].y, test.setup.top_start);
+    EXPECT_EQ(static_cast<std::int64_t>(test.world.bonds.events.size()), test.world.bonds.broken);
+    EXPECT_EQ(test.state.breaks_in_shear + test.state.breaks_in_tension, test.world.bonds.broken);
     const CurveRow& last = test.state.rows.back();
     const CurveRow& first = test.state.rows.front();
-    EXPECT_EQ(last.bonds_broken, test.world.bonds_broken);
+    EXPECT_EQ(last.bonds_broken, test.world.bonds.broken);
     const double balance = last.kinetic_energy - first.kinetic_energy + last.strain_energy + last.dashpot_loss +
                            last.friction_loss + last.fracture_loss - last.platen_work;
     EXPECT_TRUE(agrees("energy_error against the columns, J", balance, last.energy_error, 1e-6));
@@ -129,7 +131,7 @@ TEST_F(VirtualRock, SqueezedIsStrongerThanPulledAndWidens) {
     EXPECT_GT(compression.state.failure.peak_stress, tension.state.failure.peak_stress);
     EXPECT_GT(compression.state.rows[10].lateral_strain, 0.0);
     EXPECT_LT(tension.state.rows[10].lateral_strain, 0.0);
-    EXPECT_LT(compression.world.bodies[compression.setup.top].y, compression.setup.top_start);
+    EXPECT_LT(compression.world.bodies.state[compression.setup.top].y, compression.setup.top_start);
 }
 
 TEST_F(VirtualRock, FrictionalPlatensStartWithoutForceAndHoldNoBond) {
@@ -155,11 +157,11 @@ TEST_F(VirtualRock, CornersPressedThroughAPlatensFaceArePushedBackInProportion) 
     wanted.loading = "platens = \"frictional\"\nplaten_friction_angle = 5";
     VirtualTest test = prepare(wanted);
     World& world = test.world;
-    const double thick = world.thick;
-    world.bodies[test.setup.bottom].y += 2.5 * thick;
-    world.bodies[test.setup.top].y -= 2.5 * thick;
-    for (BodyState& body : world.bodies) body.vx = body.vy = body.omega = 0.0;  // the dashpots' share
-    world.list_valid = world.forces_current = false;
+    const double thick = world.settings.thick;
+    world.bodies.state[test.setup.bottom].y += 2.5 * thick;
+    world.bodies.state[test.setup.top].y -= 2.5 * thick;
+    for (BodyState& body : world.bodies.state) body.vx = body.vy = body.omega = 0.0;  // the dashpots' share
+    world.list.valid = world.stepping.forces_current = false;
     compute_forces(world);
     for (const BodyIndex platen : {test.setup.bottom, test.setup.top}) {
         const double outwards = platen == test.setup.top ? 1.0 : -1.0;
@@ -174,7 +176,7 @@ TEST_F(VirtualRock, CornersPressedThroughAPlatensFaceArePushedBackInProportion) 
             }
         }
         EXPECT_GT(deepest, 1.4 * thick);
-        EXPECT_TRUE(agrees("force on the platen, N", outwards * world.forces[platen].fy, expected, 1e-9));
+        EXPECT_TRUE(agrees("force on the platen, N", outwards * world.bodies.force[platen].fy, expected, 1e-9));
     }
 }
 
@@ -214,7 +216,7 @@ TEST_F(VirtualRock, NoTermOfTheAccountOfEnergyCouldBeMissing) {
         description.material.shear_damping = shear ? 1000.0 : 0.0;
         VirtualTest test = prepare_test(description);
         load_specimen(test);
-        ASSERT_GT(test.world.bonds_broken, 0);
+        ASSERT_GT(test.world.bonds.broken, 0);
         const CurveRow& end = test.state.rows.back();
         const double open = std::abs(end.energy_error / end.platen_work);
         const std::map<std::string, double> terms{{shear ? "shear dashpots" : "normal dashpots", end.dashpot_loss},
@@ -241,11 +243,13 @@ TEST_F(VirtualRock, HalfTheStepIsHalfAlsoWhereTheBoundRulesIt) {
         for (VirtualTest* test : {&whole, &half}) {
             for (int k = 0; k < 20; ++k) step(test->world);
         }
-        const bool bound_rules = whole.world.step_bound < whole.world.step_goal;
+        const bool bound_rules = whole.world.stepping.step_bound < whole.world.stepping.step_goal;
         fmt::print("  safety factor {}, {} rules: {:.4g} s, half of it expected, got {:.4g} s\n", share,
-                   bound_rules ? "the bound" : "the goal", whole.world.time_step, half.world.time_step);
+                   bound_rules ? "the bound" : "the goal", whole.world.stepping.time_step,
+                   half.world.stepping.time_step);
         EXPECT_EQ(bound_rules, share == std::string("1.0"));
-        EXPECT_NEAR(half.world.time_step, 0.5 * whole.world.time_step, 1e-3 * whole.world.time_step);
+        EXPECT_NEAR(half.world.stepping.time_step, 0.5 * whole.world.stepping.time_step,
+                    1e-3 * whole.world.stepping.time_step);
     }
 }
 
@@ -387,7 +391,7 @@ TEST_F(VirtualRock, UnderTheGuidesLawPolygonsHoldOnToTheirPlatensBySegmentPairs)
     const TestSetup& setup = test.setup;
     fmt::print("  {} bonds, mean back-tension {:.4g} N a pair of elements\n", setup.bonds.size(),
                setup.mean_back_tension);
-    EXPECT_EQ(static_cast<std::int64_t>(setup.bonds.size()), test.world.bonds_initial);
+    EXPECT_EQ(static_cast<std::int64_t>(setup.bonds.size()), test.world.bonds.initial);
 }
 
 }  // namespace

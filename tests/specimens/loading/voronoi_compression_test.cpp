@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/world/checkpoint.hpp"
 #include "solver/world/world.hpp"
 #include "specimens/loading/virtual_test.hpp"
 #include "specimens/packing/random_numbers.hpp"
@@ -52,8 +53,8 @@ Trace trace_of(VirtualTest test, int threads) {
         return false;
     };
     load_specimen(test, hooks);
-    trace.thread_blocks = test.world.thread_blocks;
-    trace.broken = test.world.bonds_broken;
+    trace.thread_blocks = test.world.workers.blocks_done;
+    trace.broken = test.world.bonds.broken;
     trace.failed = test.state.failure.failed;
     return trace;
 }

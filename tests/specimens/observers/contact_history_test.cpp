@@ -10,6 +10,8 @@
 #include <fstream>
 #include <map>
 
+#include "solver/measure/point_view.hpp"
+#include "solver/stepping/step.hpp"
 #include "specimens/frames/crack_faces.hpp"
 #include "specimens/frames/frame_painter.hpp"
 #include "specimens/frames/read_frames.hpp"
@@ -35,8 +37,8 @@ class PastOfRock : public ::testing::Test {
     }
     static void note_breaks(VirtualTest& test) {
         ContactHistory& history = test.state.history;
-        while (history.cracks.size() < test.world.events.size())
-            note_break(test.setup, test.world.events[history.cracks.size()], history);
+        while (history.cracks.size() < test.world.bonds.events.size())
+            note_break(test.setup, test.world.bonds.events[history.cracks.size()], history);
     }
     static Frame taken(VirtualTest& test) {
         note_breaks(test);
@@ -74,7 +76,7 @@ class WanderingDisc {
   public:
     explicit WanderingDisc(VirtualTest& test) : test_(test) {
         for (BodyIndex b = 0; b < test.world.bodies.size(); ++b) {
-            const BodyState& body = test.world.bodies[b];
+            const BodyState& body = test.world.bodies.state[b];
             if (test.setup.is_platen(b)) continue;
             if (std::abs(body.y - 0.5 * test.setup.height) < std::abs(at(disc_).y - 0.5 * test.setup.height) + 1e-9 &&
                 body.x < at(disc_).x + 1e-9)
@@ -86,15 +88,15 @@ class WanderingDisc {
     Vec2 home() const { return home_; }
     void put(Vec2 place, double time) {
         World& world = test_.world;
-        world.bodies[disc_].x = place.x;
-        world.bodies[disc_].y = place.y;
-        world.time = time;
-        world.forces_current = world.list_valid = false;
+        world.bodies.state[disc_].x = place.x;
+        world.bodies.state[disc_].y = place.y;
+        world.stepping.time = time;
+        world.stepping.forces_current = world.list.valid = false;
         compute_forces(world);
     }
 
   private:
-    const BodyState& at(BodyIndex b) const { return test_.world.bodies[b]; }
+    const BodyState& at(BodyIndex b) const { return test_.world.bodies.state[b]; }
     VirtualTest& test_;
     BodyIndex disc_ = 2;
     Vec2 home_;
@@ -114,7 +116,7 @@ TEST_F(PastOfRock, AContactHasStateAndAgeThroughBreakAndTouchingAgain) {
         for (std::size_t k = 0; k < test.setup.bonds.size(); ++k) {
             const bool its = std::find(own.begin(), own.end(), k) != own.end();
             EXPECT_EQ(data.at("state")[k], its ? state : 0.0) << when << ", bond " << k;
-            EXPECT_EQ(data.at("age")[k], its ? age : test.world.time) << when << ", bond " << k;
+            EXPECT_EQ(data.at("age")[k], its ? age : test.world.stepping.time) << when << ", bond " << k;
         }
         fmt::print("  {}: state {}, age {} s of {} contacts\n", when, data.at("state")[own[0]], data.at("age")[own[0]],
                    data.at("age").size());
@@ -123,7 +125,7 @@ TEST_F(PastOfRock, AContactHasStateAndAgeThroughBreakAndTouchingAgain) {
     expect("intact", look(), 0.0, 0.5);
     const Vec2 away = disc.home() - Vec2{3.0 * testing::rock_radius, 0.0};
     disc.put(away, 1.0);
-    EXPECT_EQ(test.world.bonds_broken, static_cast<std::int64_t>(own.size()));
+    EXPECT_EQ(test.world.bonds.broken, static_cast<std::int64_t>(own.size()));
     expect("at the break", look(), 2.0, 0.0);
     disc.put(away, 1.25);
     expect("later", look(), 2.0, 0.25);
@@ -145,14 +147,14 @@ TEST_F(PastOfRock, AContactWithoutABondIsAsOldAsTheLookThatSawItFirst) {
     // Another disc at the left side, two rows up: touched from the left, it touches the wanderer alone.
     BodyIndex other = no_body;
     for (BodyIndex b = 0; b < test.world.bodies.size(); ++b) {
-        const BodyState& body = test.world.bodies[b];
+        const BodyState& body = test.world.bodies.state[b];
         const double up = body.y - disc.home().y;
         if (!test.setup.is_platen(b) && up > 2.5 * testing::rock_radius && up < 4.5 * testing::rock_radius &&
             std::abs(body.x - disc.home().x) < 0.5 * testing::rock_radius)
             other = b;
     }
     ASSERT_NE(other, no_body);
-    const BodyState& partner = test.world.bodies[other];
+    const BodyState& partner = test.world.bodies.state[other];
     const double overlap = 1e-5;
     const Vec2 beside{partner.x - 2.0 * testing::rock_radius + overlap, partner.y};
     const std::size_t bonds = test.setup.bonds.size();
@@ -163,7 +165,7 @@ TEST_F(PastOfRock, AContactWithoutABondIsAsOldAsTheLookThatSawItFirst) {
         EXPECT_EQ(data.cell_data.at("age")[bonds], age);
         const std::pair ids(data.cell_data.at("body_i")[bonds], data.cell_data.at("body_j")[bonds]);
         EXPECT_EQ(std::minmax(ids.first, ids.second),
-                  std::minmax<double>(test.world.info[other].id, test.world.info[disc.disc()].id));
+                  std::minmax<double>(test.world.bodies.info[other].id, test.world.bodies.info[disc.disc()].id));
         EXPECT_TRUE(agrees("its force, N", data.cell_data.at("normal_force")[bonds], 1e7 * overlap, 1e-6));
     };
     disc.put(beside, 1.0);
@@ -187,7 +189,7 @@ TEST_F(PastOfRock, CracksAreTheEvents) {
         load_specimen(test);
         const Frame frame = taken(test);
         const PolyData data = cracks(test, frame);
-        const auto& events = test.world.events;
+        const auto& events = test.world.bonds.events;
         ASSERT_GT(events.size(), 0U);
         ASSERT_EQ(data.cells.size(), events.size());
         double farthest = 0.0, widest = -1.0;
@@ -217,7 +219,7 @@ TEST_F(PastOfRock, CracksAreTheEvents) {
 /// Of a bond whose points have not moved yet, from i to j.
 Vec2 normal_at_start(const VirtualTest& test, PointIndex bond) {
     for (PointIndex k = 0; k < test.world.points.size(); ++k) {
-        const ContactPoint &point = test.world.points[k], &wanted = test.setup.bonds[bond].point;
+        const ContactPoint &point = test.world.points.contact[k], &wanted = test.setup.bonds[bond].point;
         if (point.body_i == wanted.body_i && point.body_j == wanted.body_j && point.element_i == wanted.element_i)
             return view_point(test.world, k).normal;
     }

@@ -16,6 +16,10 @@
 
 #include "solver/base/errors.hpp"
 #include "solver/demseg/geometry.hpp"
+#include "solver/linear/step_bound.hpp"
+#include "solver/measure/point_view.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/step.hpp"
 #include "solver/world/world.hpp"
 #include "specimens/packing/random_numbers.hpp"
 #include "specimens/packing/relaxation.hpp"
@@ -181,7 +185,7 @@ TEST(Packing, StaysAtRestInTheSolver) {
     World world = build_world(packing.scene);
     compute_forces(world);
     double largest = 0.0;
-    for (const BodyForce& force : world.forces) largest = std::max(largest, std::hypot(force.fx, force.fy));
+    for (const BodyForce& force : world.bodies.force) largest = std::max(largest, std::hypot(force.fx, force.fy));
     EXPECT_TRUE(within("unbalanced / mean contact force in the solver", largest / packing.report.mean_contact_force,
                        0.0, 1e-5));
     const std::array<Vec2, 4> walls = measure_wall_forces(world);

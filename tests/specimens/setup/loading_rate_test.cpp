@@ -118,11 +118,11 @@ TEST_F(ByTolerance, GivesThePeakOfASlowRunInFewerSteps) {
     description.loading.axial_strain_rate.reset();
     description.loading.rate_tolerance = 0.02;
     const VirtualTest quick = tested(description);
-    EXPECT_LT(quick.world.step, slow.world.step / 2);
+    EXPECT_LT(quick.world.stepping.steps, slow.world.stepping.steps / 2);
     EXPECT_TRUE(agrees("peak stress, N/m", quick.state.failure.peak_stress, slow.state.failure.peak_stress, 0.02));
     EXPECT_LE(quick.state.rate.slowest, quick.state.rate.fastest);
-    fmt::print("  {} steps against {}; rates {:.2g} to {:.2g} 1/s\n", quick.world.step, slow.world.step,
-               quick.state.rate.slowest, quick.state.rate.fastest);
+    fmt::print("  {} steps against {}; rates {:.2g} to {:.2g} 1/s\n", quick.world.stepping.steps,
+               slow.world.stepping.steps, quick.state.rate.slowest, quick.state.rate.fastest);
     const CurveRow& end = quick.state.rows.back();
     EXPECT_TRUE(within("energy closing error over the work", end.energy_error / end.platen_work, 0.0, 1e-3));
 }

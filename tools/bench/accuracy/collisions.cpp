@@ -7,6 +7,11 @@
 #include <numbers>
 #include <utility>
 
+#include "solver/measure/ledger.hpp"
+#include "solver/measure/point_view.hpp"
+#include "solver/stepping/bonding.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/step.hpp"
 #include "solver/world/world.hpp"
 #include "specimens/making/lattices.hpp"
 #include "specimens/making/materials.hpp"
@@ -94,14 +99,15 @@ BounceErrors bounce_errors(Integrator integrator, double share) {
         double off = 0.0;
         // Ends in the middle of a flight.
         const double end = bounces * path.period();
-        while (world.time < end) {
+        while (world.stepping.time < end) {
             step(world);
-            off = std::max(off, std::abs(world.bodies[0].y - radius - path.height(world.time)) / path.drop);
+            off = std::max(off,
+                           std::abs(world.bodies.state[0].y - radius - path.height(world.stepping.time)) / path.drop);
             if (!(off < 1e3)) break;
         }
         // A disc whose path has gone astray may be in contact at the end; it is let out.
         compute_forces(world);
-        for (int n = 0; n < 100000 && world.bodies[0].y <= radius; ++n) advance(world), compute_forces(world);
+        for (int n = 0; n < 100000 && world.bodies.state[0].y <= radius; ++n) advance(world), compute_forces(world);
         const double energy = measure_ledger(world).closing_error / (disc_mass * gravity * path.drop);
         errors.energy += energy * energy / starts;
         errors.path = std::max(errors.path, off);
@@ -121,7 +127,7 @@ double oblique_error(SegmentLaw, Integrator integrator, double share) {
         Scene scene = above_floor(integrator, share, (1.0 + (k + 0.5) / starts) * down * dt, angle);
         scene.bodies[0].velocity = {along, -down};
         World world = build_world(std::move(scene));
-        const BodyState& disc = world.bodies[0];
+        const BodyState& disc = world.bodies.state[0];
         while (disc.vy <= 0.0 || disc.y <= radius) step(world);
         worst = std::max(worst, std::hypot(disc.vy - down, disc.vx - (along - 2.0 * mu * down)) / down);
     }
@@ -157,9 +163,9 @@ Squares collide(SegmentLaw law, Integrator integrator, double share, int start) 
     scene.time_step = share * std::sqrt(mass / stiffness);
     constexpr double duration = 0.06;
     World world = build_world(std::move(scene));
-    const auto steps = static_cast<int>(std::ceil(duration / world.time_step));
+    const auto steps = static_cast<int>(std::ceil(duration / world.stepping.time_step));
     for (int n = 0; n < steps; ++n) step(world);
-    return {world.bodies[body_of_id(world, 1)], world.bodies[body_of_id(world, 2)]};
+    return {world.bodies.state[body_of_id(world, 1)], world.bodies.state[body_of_id(world, 2)]};
 }
 
 /// Distance of the velocities after the collision, a corner's share of the spin counted, over the speed before.
@@ -213,14 +219,15 @@ double wave_error(SegmentLaw, Integrator integrator, double share) {
     std::vector<double> rest;
     for (int k = 0; k < count; ++k) {
         disc.push_back(body_of_id(world, k + 1));
-        rest.push_back(world.bodies[disc.back()].x);
+        rest.push_back(world.bodies.state[disc.back()].x);
     }
-    while (world.time < 10.0 * 2.0 * std::numbers::pi / omega) step(world);
+    while (world.stepping.time < 10.0 * 2.0 * std::numbers::pi / omega) step(world);
     double squares = 0.0, all = 0.0;
     for (int k = 0; k < count; ++k) {
         const auto n = static_cast<std::size_t>(k);
         const double shape = std::sin(q * k);
-        const double off = world.bodies[disc[n]].x - rest[n] - amplitude * shape * std::sin(omega * world.time);
+        const double off =
+            world.bodies.state[disc[n]].x - rest[n] - amplitude * shape * std::sin(omega * world.stepping.time);
         squares += off * off;
         all += amplitude * amplitude * shape * shape;
     }

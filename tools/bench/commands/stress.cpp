@@ -48,8 +48,8 @@ int bench_stress(const Invocation& given) {
     for (const StressScene& scene : verification::stress_scenes()) {
         const auto start = std::chrono::steady_clock::now();
         World world = scene.build();
-        talk.detail(
-            fmt::format("{}: time step {:.3g} s, bound {:.3g} s", scene.name, world.time_step, world.step_bound));
+        talk.detail(fmt::format("{}: time step {:.3g} s, bound {:.3g} s", scene.name, world.stepping.time_step,
+                                world.stepping.step_bound));
         talk.progress().step(done++, fmt::format("{}, {} bodies", scene.name, world.bodies.size()));
         const Endured endured = verification::endure(world, steps);
         const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();

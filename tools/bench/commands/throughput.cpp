@@ -16,6 +16,8 @@
 #include "solver/base/errors.hpp"
 #include "solver/base/replace_file.hpp"
 #include "solver/contact/lanes.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/step.hpp"
 #include "tools/bench/commands/bench.hpp"
 #include "tools/bench/commands/gnuplot.hpp"
 #include "tools/bench/commands/results_folder.hpp"
@@ -102,17 +104,17 @@ Row measure_flow(const Settings& settings, bool polygons, std::int64_t count) {
             World world = build_world(column.scene);
             row.particles = static_cast<std::int64_t>(world.bodies.size());
             for (int n = 0; n < until_in_touch; ++n) step(world);
-            const std::int64_t first_step = world.step, first_build = world.list_builds;
+            const std::int64_t first_step = world.stepping.steps, first_build = world.list.builds;
             const Clock::time_point begun = Clock::now();
             const auto gone = [&] { return std::chrono::duration<double>(Clock::now() - begun).count(); };
             const std::int64_t together = std::max<std::int64_t>(1, 20000 / row.particles);
-            while (world.time < column.lasts && took + gone() < settings.seconds)
+            while (world.stepping.time < column.lasts && took + gone() < settings.seconds)
                 for (std::int64_t n = 0; n < together; ++n) step(world);
             took += gone();
-            steps += static_cast<double>(world.step - first_step);
-            builds += static_cast<double>(world.list_builds - first_build);
+            steps += static_cast<double>(world.stepping.steps - first_step);
+            builds += static_cast<double>(world.list.builds - first_build);
             std::int64_t touching = 0;
-            for (const PointState point : world.point_states) touching += (point.flags & point_touching) != 0 ? 1 : 0;
+            for (const PointState point : world.points.state) touching += (point.flags & point_touching) != 0 ? 1 : 0;
             row.contacts = static_cast<double>(touching) / static_cast<double>(row.particles);
         }
         rates.push_back(static_cast<double>(row.particles) * steps / took);

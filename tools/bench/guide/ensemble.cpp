@@ -15,6 +15,10 @@
 #include <thread>
 
 #include "solver/base/errors.hpp"
+#include "solver/measure/point_view.hpp"
+#include "solver/stepping/bonding.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/step.hpp"
 #include "specimens/elastic/analysis.hpp"
 #include "specimens/loading/virtual_test.hpp"
 #include "specimens/observers/curve_analysis.hpp"
@@ -42,7 +46,7 @@ double cost_of_second(World& world) {
     for (int k = 0; k < warm_up; ++k) step(world);
     const double before = thread_seconds();
     for (int k = 0; k < steps; ++k) step(world);
-    return (thread_seconds() - before) / (steps * world.time_step);
+    return (thread_seconds() - before) / (steps * world.stepping.time_step);
 }
 
 /// Counts and back-tensions of a specimen that stands alone.
@@ -59,17 +63,17 @@ void take_counts(GuideResult& result, const TestCase& description, const TestHoo
     bond_all(world, thick);
     double tension = 0.0;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
-        if ((world.point_states[k].flags & point_bonded) == 0) continue;
+        if ((world.points.state[k].flags & point_bonded) == 0) continue;
         const PointView view = view_point(world, k);
         tension += view.normal_stiffness * view.bond_overlap;
     }
     auto& q = result.quantities;
     q["particles"] = static_cast<double>(specimen.scene.bodies.size());
     q["segments"] = static_cast<double>(specimen.segments);
-    q["contacts"] = static_cast<double>(world.bonds_initial);
-    q["interfaces"] = static_cast<double>(world.interfaces_initial);
-    q["mean_back_tension"] = tension / static_cast<double>(world.bonds_initial);
-    q["mean_back_tension_interface"] = tension / static_cast<double>(world.interfaces_initial);
+    q["contacts"] = static_cast<double>(world.bonds.initial);
+    q["interfaces"] = static_cast<double>(world.bonds.interfaces_initial);
+    q["mean_back_tension"] = tension / static_cast<double>(world.bonds.initial);
+    q["mean_back_tension_interface"] = tension / static_cast<double>(world.bonds.interfaces_initial);
 }
 
 void take_elastic(GuideResult& result, VirtualTest& test) {
@@ -78,7 +82,7 @@ void take_elastic(GuideResult& result, VirtualTest& test) {
     q["particles"] = static_cast<double>(test.setup.particles);
     q["segments"] = static_cast<double>(test.setup.segments);
     q["contacts"] = static_cast<double>(test.setup.contacts_initial);
-    q["interfaces"] = static_cast<double>(test.world.interfaces_initial);
+    q["interfaces"] = static_cast<double>(test.world.bonds.interfaces_initial);
     q["mean_back_tension"] = test.setup.mean_back_tension;
     q["mean_back_tension_interface"] = test.setup.mean_back_tension_interface;
     q["youngs_modulus"] = analysis.youngs_modulus;
@@ -99,10 +103,10 @@ void take_loaded(GuideResult& result, const VirtualTest& test, double seconds) {
     q["initial_tangent_modulus"] = initial_tangent(test.state.rows, failure.peak_row, test.setup.compression).modulus;
     q["tangent_modulus_50"] = tangent_at_half_peak(test.state.rows, failure.peak_row, test.setup.compression).modulus;
     q["bonds_broken_share"] =
-        static_cast<double>(test.world.bonds_broken) / static_cast<double>(test.world.bonds_initial);
+        static_cast<double>(test.world.bonds.broken) / static_cast<double>(test.world.bonds.initial);
     q["platen_out_of_balance"] = platen_out_of_balance(test.state.rows, failure.peak_row);
     q["axial_strain_rate"] = test.state.rows.back().axial_strain / test.state.rows.back().time;
-    q["steps"] = static_cast<double>(test.world.step);
+    q["steps"] = static_cast<double>(test.world.stepping.steps);
     q["processor_seconds"] = seconds;
 }
 

@@ -4,29 +4,31 @@
 #include "solver/base/errors.hpp"
 #include "solver/contact/lanes.hpp"
 #include "solver/contact/law.hpp"
+#include "solver/measure/point_view.hpp"
+#include "solver/stepping/step.hpp"
 
 namespace crackle::throughput {
 
-BareKernel::BareKernel(const World& world) : time_step_(world.time_step) {
-    const std::size_t begin = world.kind_begin[static_cast<std::size_t>(PointKind::circle_circle)];
-    const std::size_t end = world.kind_begin[static_cast<std::size_t>(PointKind::circle_circle) + 1];
+BareKernel::BareKernel(const World& world) : time_step_(world.stepping.time_step) {
+    const std::size_t begin = world.points.kind_begin[static_cast<std::size_t>(PointKind::circle_circle)];
+    const std::size_t end = world.points.kind_begin[static_cast<std::size_t>(PointKind::circle_circle) + 1];
     std::vector<std::uint32_t> own(world.bodies.size(), no_body);
     for (BodyIndex b = 0; b < world.bodies.size(); ++b) {
-        if (!world.info[b].single_circle) continue;
-        const BodyState& state = world.bodies[b];
+        if (!world.bodies.info[b].single_circle) continue;
+        const BodyState& state = world.bodies.state[b];
         own[b] = static_cast<std::uint32_t>(bodies_.size());
         world_body_.push_back(b);
         bodies_.push_back({state.x, state.y, state.vx, state.vy, state.omega, state.angle, state.shape[0], 0.0});
-        inertia_.push_back({world.inertia[b].inverse_mass_x, world.inertia[b].inverse_moment});
+        inertia_.push_back({world.bodies.inertia[b].inverse_mass_x, world.bodies.inertia[b].inverse_moment});
     }
     for (std::size_t k = begin; k < end; ++k) {
-        const ContactPoint& point = world.points[k];
+        const ContactPoint& point = world.points.contact[k];
         if (overlap_of(world, static_cast<PointIndex>(k)) > 0.0)
-            points_.push_back({own[point.body_i], own[point.body_j], world.shear_forces[k]});
+            points_.push_back({own[point.body_i], own[point.body_j], world.points.shear_force[k]});
     }
     if (points_.empty()) throw InputError("bare kernel: found no touching circles, expected a packing");
-    const ContactLaw& law = world.laws[world.point_states[begin].law];
-    const double root_mass = world.root_masses[begin];
+    const ContactLaw& law = world.settings.laws[world.points.state[begin].law];
+    const double root_mass = world.points.root_mass[begin];
     normal_stiffness_ = law.normal_stiffness;
     shear_stiffness_ = law.shear_stiffness;
     normal_damping_ = normal_damping(law, root_mass);

@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "solver/stepping/step.hpp"
 #include "solver/world/world.hpp"
 
 namespace crackle::throughput {

@@ -10,6 +10,10 @@
 
 #include "solver/base/errors.hpp"
 #include "solver/contact/pass.hpp"
+#include "solver/measure/point_view.hpp"
+#include "solver/stepping/bonding.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/step.hpp"
 #include "solver/stepping/sweep.hpp"
 #include "specimens/making/lattices.hpp"
 #include "specimens/results/files.hpp"
@@ -54,14 +58,14 @@ Scene settled(Scene scene) {
     scene.materials[0].friction_angle = 0.0;
     scene.ledger = false;
     World world = build_world(scene);
-    for (int k = 0; k < most_steps && (k < 100 || world.fastest > rest); ++k) step(world);
+    for (int k = 0; k < most_steps && (k < 100 || world.list.fastest > rest); ++k) step(world);
     for (Body& body : scene.bodies) {
         const std::vector<Vec2> places = element_positions(world, body_of_id(world, body.id));
         for (std::uint32_t k = 0; k < body.circle_count; ++k) scene.circles[body.first_circle + k].centre = places[k];
         for (std::uint32_t k = 0; k < body.vertex_count; ++k) scene.vertices[body.first_vertex + k] = places[k];
     }
-    scene.time_step = world.time_step;
-    scene.skin = world.skin;
+    scene.time_step = world.stepping.time_step;
+    scene.skin = world.list.skin;
     return scene;
 }
 
@@ -274,13 +278,13 @@ void add_observers(const FeatureStudy& study, const std::string& kind, const Add
     OutputFolder output = OutputFolder::create(study.scratch / kind / "out", true, {});
     TestFiles files(output, "", test.state);
     const auto load = [&](std::int64_t steps) {
-        const std::int64_t end = test.world.step + steps;
+        const std::int64_t end = test.world.stepping.steps + steps;
         const double begun = processor_seconds();
         double took = 0.0;  // until the last look: the picture of the peak that follows comes once a test
         TestHooks hooks;
         hooks.interrupted = [&] {
             took = processor_seconds() - begun;
-            return test.world.step >= end;
+            return test.world.stepping.steps >= end;
         };
         load_specimen(test, hooks, &files);
         return took;
@@ -329,7 +333,7 @@ const std::vector<Absence>& absences() {
 
 /// At rest: a force pass again and again changes nothing.
 void hold_still(World& world) {
-    for (BodyState& body : world.bodies) body.vx = body.vy = body.omega = 0.0;
+    for (BodyState& body : world.bodies.state) body.vx = body.vy = body.omega = 0.0;
 }
 
 void force_pass(World& world, const ContactFeatures& features) {
@@ -391,7 +395,7 @@ void add_absent_parts(const FeatureStudy& study, const Scene& scene, const Add& 
     Trial profiled = plain;
     profiled.reset = [&] {
         work = start;
-        work.profile = &profile;
+        work.workers.profile = &profile;
     };
     add(compare(study, row_of(FeatureRowKind::forced, "discs", "profile", "step without it"), plain, profiled));
 }

@@ -96,14 +96,14 @@ VirtualTest bond_timed_test(const TimedSpecimen& specimen, const fs::path& folde
     VirtualTest test = bond_test(read_case(case_path));
     // A row every so many steps of the length that bonding has found.
     const double strain_a_step = end_strain / (rows_of(specimen) * steps_between_rows);
-    change_velocity(test.world, test.setup.top, 1, -strain_a_step * test.setup.height / test.world.time_step);
+    change_velocity(test.world, test.setup.top, 1, -strain_a_step * test.setup.height / test.world.stepping.time_step);
     return test;
 }
 
 TimedTest time_test(const TimedSpecimen& specimen, const fs::path& folder, std::size_t empty_process,
                     Profile* profile) {
     VirtualTest test = bond_timed_test(specimen, folder);
-    test.world.profile = profile;
+    test.world.workers.profile = profile;
     OutputFolder output = OutputFolder::create(folder / "out", true, {});
     TestFiles files(output, "", test.state);
     const auto load_for = [&](double seconds) {
@@ -119,15 +119,15 @@ TimedTest time_test(const TimedSpecimen& specimen, const fs::path& folder, std::
     if (profile != nullptr) *profile = {};
     reset_peak_memory();
     const double seconds_before = test.state.step_seconds;
-    const std::int64_t steps_before = test.world.step;
+    const std::int64_t steps_before = test.world.stepping.steps;
     load_for(specimen.seconds);
 
     TimedTest timed;
     timed.particles = test.setup.particles;
-    timed.steps = test.world.step - steps_before;
+    timed.steps = test.world.stepping.steps - steps_before;
     timed.step_seconds = test.state.step_seconds - seconds_before;
-    timed.bonds = test.world.bonds_initial;
-    timed.list_builds = test.world.list_builds;
+    timed.bonds = test.world.bonds.initial;
+    timed.list_builds = test.world.list.builds;
     const auto count = static_cast<double>(timed.particles);
     timed.contacts_per_particle = static_cast<double>(timed.bonds) / count;
     const std::size_t peak = peak_memory();

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <map>
 
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/step.hpp"
 #include "specimens/making/lattices.hpp"
 #include "tools/bench/throughput/timed_test.hpp"
 
@@ -30,13 +32,14 @@ World stirred_discs(double speed) {
 
 double largest_difference(const World& world, const BareKernel& bare, double& scale, int& sliding) {
     std::map<std::pair<BodyIndex, BodyIndex>, PointIndex> points;
-    for (PointIndex k = 0; k < world.points.size(); ++k) points[{world.points[k].body_i, world.points[k].body_j}] = k;
+    for (PointIndex k = 0; k < world.points.size(); ++k)
+        points[{world.points.contact[k].body_i, world.points.contact[k].body_j}] = k;
     double largest = 0.0;
     scale = 0.0;
     for (const BareKernel::Contact& contact : bare.contacts()) {
         const PointIndex k = points.at({contact.i, contact.j});
-        const PointForce& engine = world.point_forces[k];
-        sliding += (world.point_states[k].flags & point_sliding) != 0 ? 1 : 0;
+        const PointForce& engine = world.points.force[k];
+        sliding += (world.points.state[k].flags & point_sliding) != 0 ? 1 : 0;
         scale = std::max(scale, std::hypot(engine.fx, engine.fy));
         largest = std::max({largest, std::abs(engine.fx - contact.force.fx), std::abs(engine.fy - contact.force.fy),
                             std::abs(engine.torque_i - contact.force.torque_i) / radius,

@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "solver/base/errors.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/step.hpp"
 #include "specimens/making/lattices.hpp"
 #include "tools/bench/throughput/least_step.hpp"
 #include "tools/bench/throughput/timed_test.hpp"
@@ -34,7 +36,7 @@ World loose_discs() {
 }
 
 bool same_bodies(const World& a, const World& b) {
-    return std::memcmp(a.bodies.data(), b.bodies.data(), a.bodies.size() * sizeof(BodyState)) == 0;
+    return std::memcmp(a.bodies.state.data(), b.bodies.state.data(), a.bodies.size() * sizeof(BodyState)) == 0;
 }
 
 TEST(LeastStep, GivesTheBytesOfTheEnginesStep) {
@@ -46,7 +48,7 @@ TEST(LeastStep, GivesTheBytesOfTheEnginesStep) {
         least_step(least, features);
     }
     EXPECT_TRUE(same_bodies(by_engine, least));
-    EXPECT_EQ(by_engine.travelled, least.travelled);
+    EXPECT_EQ(by_engine.list.travelled, least.list.travelled);
     ContactFeatures frictionless = features;
     frictionless.friction = false;
     least_step(least, frictionless);

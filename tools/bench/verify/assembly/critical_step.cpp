@@ -10,6 +10,9 @@
 #include <utility>
 
 #include "solver/linear/critical_step.hpp"
+#include "solver/stepping/bonding.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/step.hpp"
 #include "solver/world/world.hpp"
 #include "specimens/making/lattices.hpp"
 #include "tools/bench/verify/groups.hpp"
@@ -38,11 +41,11 @@ double excursion(double h, double time_step, double& bound) {
     scene.time_step = time_step;
     scene.allow_unstable = true;
     World world = build_world(std::move(scene));
-    bound = world.step_bound;
+    bound = world.stepping.step_bound;
     double largest = 0.0;
     for (int n = 0; n < 4000 && largest < 1e-5; ++n) {
         step(world);
-        largest = std::max(largest, std::abs(world.bodies[0].y - rest));
+        largest = std::max(largest, std::abs(world.bodies.state[0].y - rest));
     }
     return largest;
 }
@@ -71,7 +74,7 @@ World bonded(Scene scene) {
 /// @param closed_form_squared ω²m of the infinite lattice, N/m
 void check(Rows& rows, const std::string& name, const World& world, double closed_form_squared) {
     const double exact = critical_step(world, ClosedPoints::touching).root;
-    const double infinite = 2.0 / std::sqrt(closed_form_squared / world.inertia[0].mass);
+    const double infinite = 2.0 / std::sqrt(closed_form_squared / world.bodies.inertia[0].mass);
     rows.absolute(name + ": step of this specimen over the closed form", exact / infinite, 1.0, 0.02, "finite size");
     rows.at_least(name + ": the same, from below", exact / infinite, 1.0 - 1e-6, "part of the infinite one");
     check_step_limit(rows, name, world);
@@ -122,7 +125,7 @@ std::vector<ClaimRow> one_disc_among_held_neighbours_overestimates() {
         const double turning = share * lever * lever;
         const double expected =
             std::sqrt(std::max(6.0 + 2.0 * share, 24.0 * turning) / std::max(3.0 + 3.0 * share, 12.0 * turning));
-        const double mass = world.inertia[0].mass;
+        const double mass = world.bodies.inertia[0].mass;
         const double got = 2.0 / highest_frequency(world, dense_stiffness(world, 2e-5)) /
                            (2.0 / std::sqrt(kn * std::max(6.0 + 2.0 * share, 24.0 * turning) / mass));
         rows.relative(fmt::format("k_s/k_n {}: step over that of the lattice", share), got, expected, 1e-6,

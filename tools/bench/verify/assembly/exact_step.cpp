@@ -11,6 +11,9 @@
 #include <utility>
 
 #include "solver/linear/critical_step.hpp"
+#include "solver/stepping/bonding.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/step.hpp"
 #include "specimens/loading/virtual_test.hpp"
 #include "specimens/making/disordered.hpp"
 #include "specimens/making/lattices.hpp"
@@ -64,11 +67,11 @@ Eigen::MatrixXd dense_damping(const World& rest) {
     Eigen::MatrixXd damping(rows, rows);
     for (Eigen::Index c = 0; c < rows; ++c) {
         World world = rest;
-        BodyState& body = world.bodies[static_cast<std::size_t>(c / 3)];
+        BodyState& body = world.bodies.state[static_cast<std::size_t>(c / 3)];
         (c % 3 == 0 ? body.vx : c % 3 == 1 ? body.vy : body.omega) = 1e-6;
         compute_forces(world);
         for (Eigen::Index b = 0; b < rows / 3; ++b) {
-            const BodyForce& force = world.forces[static_cast<std::size_t>(b)];
+            const BodyForce& force = world.bodies.force[static_cast<std::size_t>(b)];
             damping.col(c).segment<3>(3 * b) << -1e6 * force.fx, -1e6 * force.fy, -1e6 * force.torque;
         }
     }
@@ -78,7 +81,7 @@ Eigen::MatrixXd dense_damping(const World& rest) {
 Eigen::VectorXd inverse_masses(const World& world) {
     Eigen::VectorXd inverse(3 * static_cast<Eigen::Index>(world.bodies.size()));
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
-        const BodyInertia& inertia = world.inertia[b];
+        const BodyInertia& inertia = world.bodies.inertia[b];
         inverse.segment<3>(3 * static_cast<Eigen::Index>(b)) << inertia.inverse_mass_x, inertia.inverse_mass_y,
             inertia.inverse_moment;
     }
@@ -91,7 +94,7 @@ struct Dense {
 };
 Dense dense_of(const World& rest, double move) {
     World undamped = rest;
-    for (ContactLaw& law : undamped.laws) {
+    for (ContactLaw& law : undamped.settings.laws) {
         law.normal_damping = law.shear_damping = 0.0;
         law.normal_damping_ratio_term = law.shear_damping_ratio_term = 0.0;
     }
@@ -177,8 +180,9 @@ std::vector<ClaimRow> bound_under_the_guides_law_lies_below_the_limit_of_its_uns
             const double largest = values.cwiseAbs().maxCoeff(), limit = 2.0 / std::sqrt(largest);
             const std::string name =
                 std::string(law == SegmentLaw::demseg ? "sum" : "mean") + ", seed " + std::to_string(seed);
-            rows.at_most(name + ": the engine's bound over the limit", world.step_bound / limit, 1.0, "a bound");
-            rows.at_least(name + ": the same, from below", world.step_bound / limit, 0.4, "of use");
+            rows.at_most(name + ": the engine's bound over the limit", world.stepping.step_bound / limit, 1.0,
+                         "a bound");
+            rows.at_least(name + ": the same, from below", world.stepping.step_bound / limit, 0.4, "of use");
             rows.at_least(name + ": lowest real part over the largest eigenvalue", values.real().minCoeff() / largest,
                           -1e-6, "finite differences");
             rows.shown(name + ": largest imaginary part over it", values.imag().maxCoeff() / largest);

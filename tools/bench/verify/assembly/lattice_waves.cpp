@@ -9,6 +9,9 @@
 #include <numbers>
 #include <utility>
 
+#include "solver/stepping/bonding.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/step.hpp"
 #include "solver/world/world.hpp"
 #include "specimens/making/lattices.hpp"
 #include "tools/bench/verify/groups.hpp"
@@ -65,26 +68,26 @@ double measured_omega(bool shear, double share, int wavelength, double step_shar
     bond_all(world, 0.0);
     const Vec2 middle{0.5 * spacing * (columns - 1), 0.25 * std::sqrt(3.0) * spacing * (count_rows - 1)};
     BodyIndex watched = 0;
-    const auto far = [&](BodyIndex b) { return norm(Vec2{world.bodies[b].x, world.bodies[b].y} - middle); };
+    const auto far = [&](BodyIndex b) { return norm(Vec2{world.bodies.state[b].x, world.bodies.state[b].y} - middle); };
     for (BodyIndex b = 1; b < world.bodies.size(); ++b) watched = far(b) < far(watched) ? b : watched;
-    const BodyState rest = world.bodies[watched];
+    const BodyState rest = world.bodies.state[watched];
     const PlaneWave wave = shear ? s_wave(q, share, mass) : p_wave(q, share, mass);
     // Moves through rest at its largest speed: the springs start unstrained, and ¼ later it is at its largest; so it is
     // the velocity of the watched disc that crosses zero.
     const double speed = 1e-7 * wave.omega;
-    for (BodyState& body : world.bodies) {
+    for (BodyState& body : world.bodies.state) {
         const double phase = q * (body.x - rest.x);
         (shear ? body.vy : body.vx) = speed * std::cos(phase);
         body.omega = -speed * wave.turn * std::sin(phase);
     }
     double before = speed;
-    const auto velocity = [&] { return shear ? world.bodies[watched].vy : world.bodies[watched].vx; };
+    const auto velocity = [&] { return shear ? world.bodies.state[watched].vy : world.bodies.state[watched].vx; };
     while (true) {
         step(world);
         const double now = velocity();
         if (now <= 0.0) {
             // Velocities stand half a step before the positions' time.
-            const double time = world.time - world.time_step * (0.5 + now / (now - before));
+            const double time = world.stepping.time - world.stepping.time_step * (0.5 + now / (now - before));
             return 0.5 * std::numbers::pi / time;
         }
         before = now;

@@ -9,6 +9,10 @@
 #include <utility>
 
 #include "solver/linear/elastic.hpp"
+#include "solver/measure/point_view.hpp"
+#include "solver/stepping/bonding.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/step.hpp"
 #include "specimens/loading/virtual_test.hpp"
 #include "specimens/making/disordered.hpp"
 #include "tools/bench/verify/groups.hpp"
@@ -33,17 +37,17 @@ Stiffness stiffness_of(Kind kind, double sense, double strain, double duration) 
     const ElasticSolution solution =
         solve_elastic(world, {{loaded.low, {0.0, 0.0, 0.0}}, {loaded.high, {0.0, 1.0, 0.0}}});
     // Mean of both platens over the last fifth, against the mean displacement there.
-    const double start = world.bodies[loaded.high].y;
+    const double start = world.bodies.state[loaded.high].y;
     double force = 0.0, way = 0.0;
-    while (world.time < duration) {
+    while (world.stepping.time < duration) {
         compute_forces(world);
-        if (world.time > 0.8 * duration) {
-            force += 0.5 * (world.forces[loaded.low].fy - world.forces[loaded.high].fy);
-            way += world.bodies[loaded.high].y - start;
+        if (world.stepping.time > 0.8 * duration) {
+            force += 0.5 * (world.bodies.force[loaded.low].fy - world.bodies.force[loaded.high].fy);
+            way += world.bodies.state[loaded.high].y - start;
         }
         advance(world);
     }
-    return {solution.reaction[1].y, force / way, world.bonds_broken};
+    return {solution.reaction[1].y, force / way, world.bonds.broken};
 }
 
 std::vector<ClaimRow> slow_run_measures_the_stiffness_of_the_sparse_solve() {
@@ -94,10 +98,10 @@ std::vector<ClaimRow> intact_test_has_the_moduli_of_the_sparse_solve() {
 /// Lowest and highest bodies of the specimen, pulled apart, sheared and turned.
 std::vector<Prescribed> grips(const World& world) {
     double low = 1e300, high = -1e300;
-    for (const BodyState& b : world.bodies) low = std::min(low, b.y), high = std::max(high, b.y);
+    for (const BodyState& b : world.bodies.state) low = std::min(low, b.y), high = std::max(high, b.y);
     std::vector<Prescribed> held;
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
-        const double share = (world.bodies[b].y - low) / (high - low);
+        const double share = (world.bodies.state[b].y - low) / (high - low);
         if (share < 0.1) held.push_back({static_cast<BodyIndex>(b), {0.0, 0.0, 0.0}});
         if (share > 0.9) held.push_back({static_cast<BodyIndex>(b), {3e-6, 1e-5, 1e-4}});
     }
@@ -135,7 +139,7 @@ void compare_with_dense(Rows& rows, const std::string& name, Scene scene, double
     double worst_u = 0.0, largest_u = 0.0, worst_f = 0.0, largest_f = 0.0;
     for (Eigen::Index b = 0; b < n; ++b) {
         const Motion& s = sparse.displacement[static_cast<std::size_t>(b)];
-        const double reach = world.info[static_cast<std::size_t>(b)].reach;
+        const double reach = world.bodies.info[static_cast<std::size_t>(b)].reach;
         const Eigen::Vector3d off{s.x - u[3 * b], s.y - u[3 * b + 1], reach * (s.rotation - u[3 * b + 2])};
         worst_u = std::max(worst_u, off.cwiseAbs().maxCoeff());
         largest_u = std::max({largest_u, std::abs(s.x), std::abs(s.y)});
@@ -206,7 +210,7 @@ double affine_modulus(const VirtualTest& test) {
     const auto face = [&](BodyIndex platen) { return element_positions(world, platen)[0].y; };
     const auto place = [&](BodyIndex b) {
         if (test.setup.is_platen(b)) return Vec2{0.0, face(b)};
-        return Vec2{world.bodies[b].x - world.bodies[test.setup.bottom].x, world.bodies[b].y};
+        return Vec2{world.bodies.state[b].x - world.bodies.state[test.setup.bottom].x, world.bodies.state[b].y};
     };
     double aa = 0.0, ae = 0.0, ee = 0.0;  // energy ½(aa a² + 2 ae aε + ee ε²)
     for (PointIndex k = 0; k < world.points.size(); ++k) {
@@ -233,7 +237,7 @@ double isotropic_modulus(const VirtualTest& test) {
     for (PointIndex k = 0; k < test.world.points.size(); ++k) {
         const PointView view = view_point(test.world, k);
         if (!view.bonded || view.kind != PointKind::circle_circle) continue;
-        const BodyState &i = test.world.bodies[view.body_i], &j = test.world.bodies[view.body_j];
+        const BodyState &i = test.world.bodies.state[view.body_i], &j = test.world.bodies.state[view.body_j];
         sum += (i.x - j.x) * (i.x - j.x) + (i.y - j.y) * (i.y - j.y);
         kn = view.normal_stiffness, ks = view.shear_stiffness;
     }

@@ -13,6 +13,12 @@
 
 #include "solver/base/errors.hpp"
 #include "solver/linear/critical_step.hpp"
+#include "solver/linear/step_bound.hpp"
+#include "solver/measure/health.hpp"
+#include "solver/measure/point_view.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/step.hpp"
+#include "solver/stepping/time_step.hpp"
 #include "tools/bench/verify/assembly/stress.hpp"
 #include "tools/bench/verify/groups.hpp"
 #include "tools/bench/verify/rows.hpp"
@@ -45,7 +51,7 @@ std::vector<ClaimRow> given_steps_up_to_the_bound_are_bounded_or_named() {
     for (const StressScene& scene : stress_scenes()) {
         for (const double share : {0.3, 0.9}) {
             World world = scene.build();
-            set_time_step(world, share * world.step_bound);
+            set_time_step(world, share * world.stepping.step_bound);
             Endured endured;
             try {
                 endured = endure(world, 3000);
@@ -119,12 +125,12 @@ int after_impact(const Impact& impact, double speed, std::string& words) {
     try {
         World world = build_world(std::move(scene));
         const BodyIndex b = body_of_id(world, 1);
-        while (world.time < 0.3 / speed || world.time < 5e-3) {
+        while (world.stepping.time < 0.3 / speed || world.stepping.time < 5e-3) {
             step(world);
-            if (std::abs(world.bodies[b].x) > 0.2) break;
+            if (std::abs(world.bodies.state[b].x) > 0.2) break;
         }
         check_health(world);
-        return world.bodies[b].x < 0.0 ? 1 : 0;
+        return world.bodies.state[b].x < 0.0 ? 1 : 0;
     } catch (const UnstableRun& error) {
         words = error.what();
         return -1;
@@ -167,25 +173,26 @@ Rest stand(Scene scene, double time) {
     const auto positions = [&] {
         std::vector<Vec2> all;
         all.reserve(world.bodies.size());
-        for (const BodyState& body : world.bodies) all.push_back({body.x, body.y});
+        for (const BodyState& body : world.bodies.state) all.push_back({body.x, body.y});
         return all;
     };
     const auto way = [&](const std::vector<Vec2>& from) {
         double most = 0.0;
         for (std::size_t b = 0; b < from.size(); ++b)
-            most = std::max(most, norm(Vec2{world.bodies[b].x, world.bodies[b].y} - from[b]));
+            most = std::max(most, norm(Vec2{world.bodies.state[b].x, world.bodies.state[b].y} - from[b]));
         return most;
     };
     Rest result;
     const std::vector<Vec2> start = positions();
-    const auto half = static_cast<std::int64_t>(0.5 * time / world.time_step);
+    const auto half = static_cast<std::int64_t>(0.5 * time / world.stepping.time_step);
     Endured endured = endure(world, half);
     const std::vector<Vec2> middle = positions();
     if (endured.error.empty()) endured = endure(world, half);
     result.error = endured.error;
     result.creep = way(middle);
     result.sunk = way(start);
-    for (const BodyState& body : world.bodies) result.speed = std::max(result.speed, std::hypot(body.vx, body.vy));
+    for (const BodyState& body : world.bodies.state)
+        result.speed = std::max(result.speed, std::hypot(body.vx, body.vy));
     return result;
 }
 
@@ -321,32 +328,32 @@ std::vector<ClaimRow> bonded_specimens_turn_round_unharmed() {
         const double spin = 4.0;  // rad/s: the centripetal pull ρω²R²/2 is some 600 N/m, bonds bear 20 000
         double mass = 0.0, x = 0.0, y = 0.0;
         for (std::size_t b = 0; b < world.bodies.size(); ++b) {
-            mass += world.inertia[b].mass;
-            x += world.inertia[b].mass * world.bodies[b].x;
-            y += world.inertia[b].mass * world.bodies[b].y;
+            mass += world.bodies.inertia[b].mass;
+            x += world.bodies.inertia[b].mass * world.bodies.state[b].x;
+            y += world.bodies.inertia[b].mass * world.bodies.state[b].y;
         }
-        for (BodyState& body : world.bodies) {
+        for (BodyState& body : world.bodies.state) {
             body.vx = -spin * (body.y - y / mass);
             body.vy = spin * (body.x - x / mass);
             body.omega = spin;
         }
         const Momentum start = momentum_of(world);
-        const std::vector<BodyState> before = world.bodies;
-        const auto steps = static_cast<std::int64_t>(2.0 * pi / spin / world.time_step);
+        const std::vector<BodyState> before = world.bodies.state;
+        const auto steps = static_cast<std::int64_t>(2.0 * pi / spin / world.stepping.time_step);
         const Endured endured = endure(world, steps, 500);
         const std::string name = name_of(kind);
         rows.exactly(name + (endured.error.empty() ? ": steps done" : ": " + endured.error),
                      static_cast<double>(endured.steps), static_cast<double>(steps));
-        rows.exactly(name + ": bonds broken", static_cast<double>(world.bonds_broken), 0.0);
+        rows.exactly(name + ": bonds broken", static_cast<double>(world.bonds.broken), 0.0);
         rows.absolute(name + ": account left open over the energy", endured.closing_error, 0.0, 1e-3, "(ω dt)²");
-        const double turn = spin * world.time;
+        const double turn = spin * world.stepping.time;
         double off = 0.0, farthest = 0.0;
         for (std::size_t b = 0; b < before.size(); ++b) {
             const Vec2 arm{before[b].x - x / mass, before[b].y - y / mass};
             const Vec2 expected = (1.0 / mass) * Vec2{x, y} + Vec2{std::cos(turn) * arm.x - std::sin(turn) * arm.y,
                                                                    std::sin(turn) * arm.x + std::cos(turn) * arm.y};
             farthest = std::max(farthest, norm(arm));
-            off = std::max(off, norm(Vec2{world.bodies[b].x, world.bodies[b].y} - expected));
+            off = std::max(off, norm(Vec2{world.bodies.state[b].x, world.bodies.state[b].y} - expected));
         }
         // Let go, it stretches by up to twice the strain of its pull, and its moment grows by twice that, so that the
         // turn lags.

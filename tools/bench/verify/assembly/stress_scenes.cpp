@@ -9,6 +9,10 @@
 #include <utility>
 
 #include "solver/base/errors.hpp"
+#include "solver/measure/health.hpp"
+#include "solver/measure/ledger.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/step.hpp"
 #include "specimens/packing/random_numbers.hpp"
 #include "tools/bench/verify/assembly/stress.hpp"
 #include "tools/bench/verify/scenes/measures.hpp"

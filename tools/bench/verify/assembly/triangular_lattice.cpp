@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "solver/linear/elastic.hpp"
+#include "solver/stepping/bonding.hpp"
+#include "solver/stepping/build_world.hpp"
 #include "solver/world/world.hpp"
 #include "specimens/making/lattices.hpp"
 #include "tools/bench/verify/groups.hpp"
@@ -40,11 +42,11 @@ Section strained(int columns, int rows, double shear_share, const Strain& e) {
     const World world = lattice(columns, rows, shear_share);
     std::vector<Prescribed> held;
     const auto affine = [&](std::size_t b) {
-        const BodyState& body = world.bodies[b];
+        const BodyState& body = world.bodies.state[b];
         return Motion{e.xx * body.x + e.xy * body.y, e.xy * body.x + e.yy * body.y, 0.0};
     };
     std::vector<int> bonds(world.bodies.size());
-    for (const ContactPoint& point : world.points) ++bonds[point.body_i], ++bonds[point.body_j];
+    for (const ContactPoint& point : world.points.contact) ++bonds[point.body_i], ++bonds[point.body_j];
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
         if (bonds[b] < 6) held.push_back({static_cast<BodyIndex>(b), affine(b)});
     }
@@ -63,8 +65,8 @@ Section strained(int columns, int rows, double shear_share, const Strain& e) {
     const double x = spacing * (0.5 * columns + 0.2), y = spacing * std::sqrt(3.0) * 0.5 * (0.5 * rows + 0.2);
     for (std::size_t k = 0; k < held.size(); ++k) {
         const Vec2 force{solution.reaction[k].x, solution.reaction[k].y};
-        if (world.bodies[held[k].body].x > x) section.across_x = section.across_x + force;
-        if (world.bodies[held[k].body].y > y) section.across_y = section.across_y + force;
+        if (world.bodies.state[held[k].body].x > x) section.across_x = section.across_x + force;
+        if (world.bodies.state[held[k].body].y > y) section.across_y = section.across_y + force;
     }
     return section;
 }

@@ -8,6 +8,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "solver/measure/ledger.hpp"
+#include "solver/measure/point_view.hpp"
+#include "solver/stepping/step.hpp"
 #include "solver/world/world.hpp"
 #include "tools/bench/verify/groups.hpp"
 #include "tools/bench/verify/rows.hpp"
@@ -36,8 +39,8 @@ Drift shaken_run(Kind kind, double step_share, int steps) {
         advance(world);
         worst.momentum = std::max(worst.momentum, momentum_error(start, momentum_of(world)));
     }
-    worst.broken = world.bonds_broken;
-    for (const PointState point : world.point_states) worst.slid = worst.slid || (point.flags & point_slid) != 0;
+    worst.broken = world.bonds.broken;
+    for (const PointState point : world.points.state) worst.slid = worst.slid || (point.flags & point_slid) != 0;
     return worst;
 }
 
@@ -61,14 +64,14 @@ std::vector<ClaimRow> free_bonded_specimen_keeps_momentum_and_energy() {
 /// Largest spring force after a full turn imposed in equal steps about the origin, over k_n times the mean overlap.
 double force_after_turn(Kind kind, int steps, std::int64_t& broken) {
     World world = free_specimen(kind, 27.0);
-    const std::vector<BodyState> start = world.bodies;
-    const double by = 2.0 * std::numbers::pi / steps, dt = world.time_step;
+    const std::vector<BodyState> start = world.bodies.state;
+    const double by = 2.0 * std::numbers::pi / steps, dt = world.stepping.time_step;
     double worst = 0.0;
     compute_forces(world);
     for (int n = 1; n <= steps; ++n) {
         const double c = std::cos(by * n), s = std::sin(by * n);
         for (std::size_t b = 0; b < world.bodies.size(); ++b) {
-            BodyState& body = world.bodies[b];
+            BodyState& body = world.bodies.state[b];
             const double x = c * start[b].x - s * start[b].y, y = s * start[b].x + c * start[b].y;
             body.vx = (x - body.x) / dt;
             body.vy = (y - body.y) / dt;
@@ -76,22 +79,22 @@ double force_after_turn(Kind kind, int steps, std::int64_t& broken) {
             body.x = x;
             body.y = y;
             body.angle = start[b].angle + by * n;
-            if (!world.info[b].single_circle) {
+            if (!world.bodies.info[b].single_circle) {
                 body.shape[0] = c;
                 body.shape[1] = s;
             }
         }
-        world.drift = dt;
-        world.list_valid = n % 16 != 0;  // the list is found anew along the way
-        world.forces_current = false;
+        world.stepping.drift = dt;
+        world.list.valid = n % 16 != 0;  // the list is found anew along the way
+        world.stepping.forces_current = false;
         compute_forces(world);
         for (PointIndex k = 0; k < world.points.size(); ++k) {
-            if ((world.point_states[k].flags & point_bonded) == 0) continue;
+            if ((world.points.state[k].flags & point_bonded) == 0) continue;
             const PointView view = view_point(world, k);
             worst = std::max({worst, std::abs(view.normal_force), std::abs(view.shear_force)});
         }
     }
-    broken += world.bonds_broken;
+    broken += world.bonds.broken;
     return worst / (1e7 * 8e-5);
 }
 
@@ -117,7 +120,7 @@ std::vector<ClaimRow> rigid_turn_of_360_degrees_gives_no_force() {
 /// Largest spring force of a specimen that spins freely from rest shape, N.
 double spinning_force(Kind kind, double spin, std::int64_t& broken) {
     World world = free_specimen(kind, 27.0, 0.2);
-    for (BodyState& body : world.bodies) {
+    for (BodyState& body : world.bodies.state) {
         body.vx = -spin * body.y;
         body.vy = spin * body.x;
         body.omega = spin;
@@ -131,7 +134,7 @@ double spinning_force(Kind kind, double spin, std::int64_t& broken) {
             largest = std::max({largest, std::abs(view.normal_force), std::abs(view.shear_force)});
         }
     }
-    broken += world.bonds_broken;
+    broken += world.bonds.broken;
     return largest;
 }
 
@@ -157,11 +160,12 @@ std::vector<ClaimRow> frictionless_motion_runs_backwards() {
     for (const Kind kind : {Kind::discs, Kind::polygons}) {
         World world = free_specimen(kind, 0.0);
         shake(world, 1e-4 * breaking_energy(world), 12);
-        const std::vector<BodyState> start = world.bodies;
+        const std::vector<BodyState> start = world.bodies.state;
         const auto farthest = [&] {
             double off = 0.0;
             for (std::size_t b = 0; b < start.size(); ++b)
-                off = std::max(off, std::hypot(world.bodies[b].x - start[b].x, world.bodies[b].y - start[b].y));
+                off = std::max(off,
+                               std::hypot(world.bodies.state[b].x - start[b].x, world.bodies.state[b].y - start[b].y));
             return off;
         };
         const int steps = 2000;
@@ -169,11 +173,12 @@ std::vector<ClaimRow> frictionless_motion_runs_backwards() {
         const double way = farthest();
         compute_forces(world);
         for (std::size_t b = 0; b < start.size(); ++b) {
-            BodyState& body = world.bodies[b];
-            const BodyInertia& inertia = world.inertia[b];
-            body.vx = -(body.vx + world.time_step * inertia.inverse_mass_x * world.forces[b].fx);
-            body.vy = -(body.vy + world.time_step * inertia.inverse_mass_y * world.forces[b].fy);
-            body.omega = -(body.omega + world.time_step * inertia.inverse_moment * world.forces[b].torque);
+            BodyState& body = world.bodies.state[b];
+            const BodyInertia& inertia = world.bodies.inertia[b];
+            body.vx = -(body.vx + world.stepping.time_step * inertia.inverse_mass_x * world.bodies.force[b].fx);
+            body.vy = -(body.vy + world.stepping.time_step * inertia.inverse_mass_y * world.bodies.force[b].fy);
+            body.omega =
+                -(body.omega + world.stepping.time_step * inertia.inverse_moment * world.bodies.force[b].torque);
         }
         for (int n = 0; n < steps; ++n) step(world);
         const std::string name = name_of(kind);

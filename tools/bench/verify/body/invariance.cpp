@@ -12,6 +12,10 @@
 #include <set>
 #include <utility>
 
+#include "solver/measure/ledger.hpp"
+#include "solver/stepping/bonding.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/step.hpp"
 #include "solver/world/world.hpp"
 #include "specimens/making/disordered.hpp"
 #include "specimens/packing/random_numbers.hpp"
@@ -68,17 +72,18 @@ Story story_of(Scene scene, double time_step, double bond_thick) {
     bond_all(world, bond_thick);
     std::vector<double> angles;
     angles.reserve(world.bodies.size());
-    for (const BodyState& body : world.bodies) angles.push_back(body.angle);
+    for (const BodyState& body : world.bodies.state) angles.push_back(body.angle);
     for (int n = 0; n < story_steps; ++n) step(world);
     compute_forces(world);
     Story story;
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
-        const BodyState& body = world.bodies[b];
-        story.bodies[world.info[b].id] = {{body.x, body.y}, {body.vx, body.vy}, body.angle - angles[b], body.omega};
+        const BodyState& body = world.bodies.state[b];
+        story.bodies[world.bodies.info[b].id] = {
+            {body.x, body.y}, {body.vx, body.vy}, body.angle - angles[b], body.omega};
     }
     const Ledger ledger = measure_ledger(world);
     story.energy = ledger.kinetic + ledger.strain;
-    story.broken = world.bonds_broken;
+    story.broken = world.bonds.broken;
     return story;
 }
 
@@ -173,9 +178,9 @@ std::set<std::pair<int, int>> roles_of(Scene scene) {
     bond_all(world, bond_thick);
     std::set<std::pair<int, int>> roles;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
-        const ContactPoint& point = world.points[k];
-        if ((world.point_states[k].flags & point_bonded) != 0)
-            roles.emplace(world.info[point.body_i].id, world.info[point.body_j].id);
+        const ContactPoint& point = world.points.contact[k];
+        if ((world.points.state[k].flags & point_bonded) != 0)
+            roles.emplace(world.bodies.info[point.body_i].id, world.bodies.info[point.body_j].id);
     }
     return roles;
 }

@@ -9,6 +9,9 @@
 #include <functional>
 #include <numbers>
 
+#include "solver/measure/point_view.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/step.hpp"
 #include "solver/world/world.hpp"
 #include "tools/bench/verify/groups.hpp"
 #include "tools/bench/verify/rows.hpp"
@@ -50,13 +53,13 @@ Rebound rebound(double h, double speed, double steps_in_contact, double phase) {
     scene.time_step = dt;
     World world = build_world(std::move(scene));
     const double begin = (2.0 + phase) * dt;
-    double before = world.bodies[0].y;
-    const BodyState& disc = world.bodies[0];
+    double before = world.bodies.state[0].y;
+    const BodyState& disc = world.bodies.state[0];
     while (disc.vy <= 0.0 || disc.y < radius) {
         before = disc.y;
         step(world);
     }
-    const double end = world.time - dt * (disc.y - radius) / (disc.y - before);
+    const double end = world.stepping.time - dt * (disc.y - radius) / (disc.y - before);
     return {disc.vy / speed, end - begin};
 }
 
@@ -206,9 +209,11 @@ double bounce_error(double h, double steps_in_contact, double duration, int star
         scene.time_step = dt;
         World world = build_world(std::move(scene));
         AnalyticBounce path(soft, h, start, gravity);
-        for (int n = 0; world.time < duration; ++n) {
+        for (int n = 0; world.stepping.time < duration; ++n) {
             step(world);
-            if (n % 16 == 0) worst = std::max(worst, std::abs(world.bodies[0].y - radius - path.at(world.time).height));
+            if (n % 16 == 0)
+                worst =
+                    std::max(worst, std::abs(world.bodies.state[0].y - radius - path.at(world.stepping.time).height));
         }
     }
     return worst / drop;
@@ -228,8 +233,8 @@ std::vector<ClaimRow> free_fall_bounce_and_rest() {
     Scene scene = above_floor(soft, 0.3, radius + drop);
     scene.gravity = {0.0, -gravity};
     World world = build_world(std::move(scene));
-    while (world.time < 1.5) step(world);
-    rows.relative("h 0.3: sag at rest, m", radius - world.bodies[0].y, mass * gravity / soft, 1e-9, "rounding");
+    while (world.stepping.time < 1.5) step(world);
+    rows.relative("h 0.3: sag at rest, m", radius - world.bodies.state[0].y, mass * gravity / soft, 1e-9, "rounding");
     return rows.take();
 }
 
@@ -261,14 +266,15 @@ double stack_error(double share) {
     const double omega = std::sqrt(soft / mass), squeeze = 3e-3;
     const Vec2 apart{2e-4, -0.7e-4};
     Stack stack = stacked(0.0, squeeze, apart, share / omega);
-    const double y1 = stack.world.bodies[stack.low].y - apart.x, y2 = stack.world.bodies[stack.high].y - apart.y;
+    const double y1 = stack.world.bodies.state[stack.low].y - apart.x,
+                 y2 = stack.world.bodies.state[stack.high].y - apart.y;
     double worst = 0.0;
-    while (stack.world.time < 16.0 * std::numbers::pi / omega) {
+    while (stack.world.stepping.time < 16.0 * std::numbers::pi / omega) {
         step(stack.world);
-        const double slow = 0.5 * (apart.x + apart.y) * std::cos(omega * stack.world.time);
-        const double fast = 0.5 * (apart.x - apart.y) * std::cos(std::sqrt(3.0) * omega * stack.world.time);
-        worst = std::max({worst, std::abs(stack.world.bodies[stack.low].y - y1 - slow - fast),
-                          std::abs(stack.world.bodies[stack.high].y - y2 - slow + fast)});
+        const double slow = 0.5 * (apart.x + apart.y) * std::cos(omega * stack.world.stepping.time);
+        const double fast = 0.5 * (apart.x - apart.y) * std::cos(std::sqrt(3.0) * omega * stack.world.stepping.time);
+        worst = std::max({worst, std::abs(stack.world.bodies.state[stack.low].y - y1 - slow - fast),
+                          std::abs(stack.world.bodies.state[stack.high].y - y2 - slow + fast)});
     }
     return worst / norm(apart);
 }
@@ -277,12 +283,12 @@ std::vector<ClaimRow> two_discs_stacked_between_walls() {
     Rows rows;
     const double squeeze = 3e-3, sag = mass * gravity / soft;
     Stack stack = stacked(0.3, squeeze, {3e-4, 1e-4}, 0.0);
-    while (stack.world.time < 1.5) step(stack.world);
-    const BodyState &low = stack.world.bodies[stack.low], &high = stack.world.bodies[stack.high];
+    while (stack.world.stepping.time < 1.5) step(stack.world);
+    const BodyState &low = stack.world.bodies.state[stack.low], &high = stack.world.bodies.state[stack.high];
     rows.relative("overlap with the floor, m", radius - low.y, squeeze / 3.0 + sag, 1e-6, "reference");
     rows.relative("overlap of the discs, m", 2.0 * radius - (high.y - low.y), squeeze / 3.0, 1e-6, "reference");
-    rows.relative("overlap with the ceiling, m", high.y + radius - stack.world.domain.y2, squeeze / 3.0 - sag, 1e-6,
-                  "reference");
+    rows.relative("overlap with the ceiling, m", high.y + radius - stack.world.settings.domain.y2, squeeze / 3.0 - sag,
+                  1e-6, "reference");
     // Leapfrog's frequency is too high by (ω dt)²/24: over 8 periods √3·3·16π/24 (ω dt)² = 11 (ω dt)² of the amplitude.
     const double coarse = stack_error(1e-3), fine = stack_error(2.5e-4);
     rows.absolute("distance from both modes over the first one, 8 periods, ω₀dt 2.5e-4", fine, 0.0, 1e-6, "(ω dt)²/24");

@@ -10,6 +10,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "solver/measure/ledger.hpp"
+#include "solver/measure/point_view.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/step.hpp"
 #include "solver/world/world.hpp"
 #include "tools/bench/verify/groups.hpp"
 #include "tools/bench/verify/rows.hpp"
@@ -106,7 +110,7 @@ Outcome collide(const Collision& c, double step_share, double friction_angle, Se
     const double energy = first.kinetic;
     Outcome outcome;
     outcome.stored_at_start = first.strain / energy;
-    while (world.time < 12.0 * contact_time) {
+    while (world.stepping.time < 12.0 * contact_time) {
         compute_forces(world);
         const Ledger ledger = measure_ledger(world);
         outcome.energy_error =
@@ -200,7 +204,7 @@ SlideOff slide_off(SegmentLaw law, double time_step) {
     World world = build_world(std::move(scene));
     SlideOff result;
     double strain = 0.0;
-    while (world.time < 6e-3) {
+    while (world.stepping.time < 6e-3) {
         compute_forces(world);
         const Ledger ledger = measure_ledger(world);
         strain = std::max(strain, ledger.strain);
@@ -208,7 +212,7 @@ SlideOff slide_off(SegmentLaw law, double time_step) {
         result.taken = ledger.law_loss;
         advance(world);
     }
-    result.height = world.bodies[body_of_id(world, 2)].y;
+    result.height = world.bodies.state[body_of_id(world, 2)].y;
     result.taken /= strain;
     result.closing_error /= strain;
     return result;
@@ -252,14 +256,14 @@ std::vector<ClaimRow> polygon_spins_freely_about_its_centroid() {
     scene.bodies[0].spin = 7.0;
     scene.time_step = 1e-5;
     World world = build_world(std::move(scene));
-    const Vec2 start{world.bodies[0].x, world.bodies[0].y};
+    const Vec2 start{world.bodies.state[0].x, world.bodies.state[0].y};
     const int steps = 200000;
     for (int n = 0; n < steps; ++n) step(world);
     const double time = 1e-5 * steps, turn = 7.0 * time;
     // Rounding of 2e5 additions, each at most ½ eps of the sum.
-    rows.absolute("turn, rad", world.bodies[0].angle - std::atan2(-0.01, 0.04), turn, 1e-9, "rounding");
-    rows.absolute("length of the body frame", std::hypot(world.bodies[0].shape[0], world.bodies[0].shape[1]), 1.0,
-                  1e-15, "rounding");
+    rows.absolute("turn, rad", world.bodies.state[0].angle - std::atan2(-0.01, 0.04), turn, 1e-9, "rounding");
+    rows.absolute("length of the body frame",
+                  std::hypot(world.bodies.state[0].shape[0], world.bodies.state[0].shape[1]), 1.0, 1e-15, "rounding");
     const std::vector<Vec2> corners = element_positions(world, 0);
     double worst = 0.0;
     for (std::size_t k = 0; k < kite.size(); ++k) {
@@ -270,7 +274,7 @@ std::vector<ClaimRow> polygon_spins_freely_about_its_centroid() {
         worst = std::max(worst, norm(corners[k] - expected));
     }
     rows.absolute("corners after 2.2 turns, m", worst, 0.0, 1e-10, "rounding");
-    rows.exactly("spin, rad/s", world.bodies[0].omega, 7.0);
+    rows.exactly("spin, rad/s", world.bodies.state[0].omega, 7.0);
     return rows.take();
 }
 

@@ -11,6 +11,11 @@
 #include <utility>
 #include <vector>
 
+#include "solver/measure/point_view.hpp"
+#include "solver/stepping/bonding.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/step.hpp"
+#include "solver/world/checkpoint.hpp"
 #include "solver/world/world.hpp"
 #include "specimens/packing/random_numbers.hpp"
 #include "tools/bench/verify/groups.hpp"
@@ -38,9 +43,10 @@ std::vector<ClaimRow> bond_squeezed_to_ten_times_its_strength_holds() {
     for (int n = 0; n < 25000; ++n) step(world);
     compute_forces(world);
     const BodyIndex fixed = body_of_id(world, 1);
-    rows.relative("squeezing force over strength", -world.forces[fixed].fx / (1e7 * overlap), 10.0, 1e-9, "rounding");
-    rows.exactly("bonds broken", static_cast<double>(world.bonds_broken), 0.0);
-    rows.exactly("events", static_cast<double>(world.events.size()), 0.0);
+    rows.relative("squeezing force over strength", -world.bodies.force[fixed].fx / (1e7 * overlap), 10.0, 1e-9,
+                  "rounding");
+    rows.exactly("bonds broken", static_cast<double>(world.bonds.broken), 0.0);
+    rows.exactly("events", static_cast<double>(world.bonds.events.size()), 0.0);
     return rows.take();
 }
 
@@ -57,8 +63,8 @@ std::vector<BodyState> rebound(double overlap, bool bonded, std::int64_t& broken
     World world = build_world(std::move(scene));
     if (bonded) bond_all(world, 0.0);
     for (int n = 0; n < 1000; ++n) step(world);
-    broken = world.bonds_broken;
-    return world.bodies;
+    broken = world.bonds.broken;
+    return world.bodies.state;
 }
 
 std::vector<ClaimRow> bond_of_vanishing_strength_equals_no_bond() {
@@ -89,9 +95,9 @@ using Pair = std::pair<int, int>;
 std::vector<Pair> bonded_pairs(const World& world) {
     std::vector<Pair> pairs;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
-        if ((world.point_states[k].flags & point_bonded) == 0) continue;
-        const ContactPoint& point = world.points[k];
-        pairs.emplace_back(std::minmax(world.info[point.body_i].id, world.info[point.body_j].id));
+        if ((world.points.state[k].flags & point_bonded) == 0) continue;
+        const ContactPoint& point = world.points.contact[k];
+        pairs.emplace_back(std::minmax(world.bodies.info[point.body_i].id, world.bodies.info[point.body_j].id));
     }
     std::sort(pairs.begin(), pairs.end());
     return pairs;
@@ -113,7 +119,7 @@ std::vector<ClaimRow> break_list_is_the_difference_of_bond_sets() {
         const std::vector<Pair> before = bonded_pairs(world);
         for (int n = 0; n < burst_steps; ++n) step(world);
         compute_forces(world);
-        const std::vector<Pair> after = bonded_pairs(world), broken = broken_pairs(world.events);
+        const std::vector<Pair> after = bonded_pairs(world), broken = broken_pairs(world.bonds.events);
         std::vector<Pair> lost, off;
         std::set_difference(before.begin(), before.end(), after.begin(), after.end(), std::back_inserter(lost));
         std::set_symmetric_difference(lost.begin(), lost.end(), broken.begin(), broken.end(), std::back_inserter(off));
@@ -122,7 +128,7 @@ std::vector<ClaimRow> break_list_is_the_difference_of_bond_sets() {
         rows.at_least(name + ": bonds that hold", static_cast<double>(after.size()), 20.0, "not all of it");
         rows.exactly(name + ": bonds lost without an event, or events without a lost bond",
                      static_cast<double>(off.size()), 0.0);
-        rows.exactly(name + ": counted as broken", static_cast<double>(world.bonds_broken),
+        rows.exactly(name + ": counted as broken", static_cast<double>(world.bonds.broken),
                      static_cast<double>(lost.size()));
     }
     return rows.take();
@@ -143,22 +149,23 @@ std::vector<ClaimRow> splitting_a_run_loses_no_break() {
         for (int n = 0; n < burst_steps; ++n) {
             if (uniform_below(generator, 200) == 0) {
                 if (parts % 2 == 1) compute_forces(split);  // stopped after the force pass, or after the step
-                events.insert(events.end(), split.events.begin(), split.events.end());
-                split.events.clear();
+                events.insert(events.end(), split.bonds.events.begin(), split.bonds.events.end());
+                split.bonds.events.clear();
                 split = load_world(save_world(split), "memory");
                 ++parts;
             }
             step(split);
         }
-        events.insert(events.end(), split.events.begin(), split.events.end());
-        std::size_t off = std::max(events.size(), straight.events.size());
-        if (events.size() == straight.events.size()) {
+        events.insert(events.end(), split.bonds.events.begin(), split.bonds.events.end());
+        std::size_t off = std::max(events.size(), straight.bonds.events.size());
+        if (events.size() == straight.bonds.events.size()) {
             off = 0;
-            for (std::size_t k = 0; k < events.size(); ++k) off += key(events[k]) == key(straight.events[k]) ? 0 : 1;
+            for (std::size_t k = 0; k < events.size(); ++k)
+                off += key(events[k]) == key(straight.bonds.events[k]) ? 0 : 1;
         }
         const std::string name = name_of(kind);
         rows.at_least(name + ": parts of the run", parts, 5.0, "it is split");
-        rows.at_least(name + ": breaks", static_cast<double>(straight.events.size()), 20.0, "it bursts");
+        rows.at_least(name + ": breaks", static_cast<double>(straight.bonds.events.size()), 20.0, "it bursts");
         rows.exactly(name + ": breaks that differ from those of the run in one", static_cast<double>(off), 0.0);
     }
     return rows.take();

@@ -7,6 +7,10 @@
 #include <cmath>
 #include <numbers>
 
+#include "solver/measure/point_view.hpp"
+#include "solver/stepping/bonding.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/step.hpp"
 #include "solver/world/world.hpp"
 #include "specimens/making/lattices.hpp"
 #include "tools/bench/verify/groups.hpp"
@@ -40,21 +44,21 @@ Wave standing_wave(int count, int mode, double step_share, int periods) {
     bond_all(world, 0.0);
     const BodyIndex watched =
         body_of_id(world, 1 + std::max(1, static_cast<int>(std::lround(0.5 * (count - 1) / mode))));
-    const double rest = world.bodies[watched].x;
+    const double rest = world.bodies.state[watched].x;
     // Period from the zero crossings of one disc.
     double first = 0.0, last = 0.0, before = 0.0;
     for (int crossings = 0; crossings < 2 * periods + 1;) {
         step(world);
-        const double now = world.bodies[watched].x - rest;
+        const double now = world.bodies.state[watched].x - rest;
         if (before != 0.0 && (now > 0.0) != (before > 0.0)) {
-            last = world.time - world.time_step * now / (now - before);
+            last = world.stepping.time - world.stepping.time_step * now / (now - before);
             if (crossings == 0) first = last;
             ++crossings;
         }
         before = now;
     }
     wave.measured = std::numbers::pi * 2.0 * periods / (last - first);
-    wave.stepped = 2.0 / world.time_step * std::asin(0.5 * wave.expected * world.time_step);
+    wave.stepped = 2.0 / world.stepping.time_step * std::asin(0.5 * wave.expected * world.stepping.time_step);
     return wave;
 }
 
@@ -129,25 +133,25 @@ std::vector<ClaimRow> bonded_chain_hangs_as_a_catenary() {
     scene.controls.push_back({count - 1, held, held, held, 0});
     World world = build_world(std::move(scene));
     rows.exactly("bonds", static_cast<double>(bond_all(world, 0.0)), count - 1);
-    const double weight = world.inertia[body_of_id(world, 2)].mass * gravity;
+    const double weight = world.bodies.inertia[body_of_id(world, 2)].mass * gravity;
     // Viscous drag brings it to rest; its slowest swing takes about a second.
-    while (world.time < 12.0) {
+    while (world.stepping.time < 12.0) {
         step(world);
-        for (BodyState& body : world.bodies) {
-            body.vx *= 1.0 - 8.0 * world.time_step;
-            body.vy *= 1.0 - 8.0 * world.time_step;
+        for (BodyState& body : world.bodies.state) {
+            body.vx *= 1.0 - 8.0 * world.stepping.time_step;
+            body.vy *= 1.0 - 8.0 * world.stepping.time_step;
         }
     }
     compute_forces(world);
     const auto place = [&](int id) {
-        const BodyState& body = world.bodies[body_of_id(world, id)];
+        const BodyState& body = world.bodies.state[body_of_id(world, id)];
         return Vec2{body.x, body.y};
     };
     const Catenary shape = discrete_catenary(count - 1, place(count).x - place(1).x, weight);
     double horizontal = 0.0, vertical = 0.0, off = 0.0;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
         const PointView view = view_point(world, k);
-        const int left = std::min(world.info[view.body_i].id, world.info[view.body_j].id);
+        const int left = std::min(world.bodies.info[view.body_i].id, world.bodies.info[view.body_j].id);
         const Vec2 pull = -view.normal_force * view.normal;
         const double sense = pull.x < 0.0 ? -1.0 : 1.0;
         horizontal = std::max(horizontal, std::abs(sense * pull.x - shape.horizontal));
@@ -155,7 +159,8 @@ std::vector<ClaimRow> bonded_chain_hangs_as_a_catenary() {
     }
     for (int k = 0; k < count; ++k)
         off = std::max(off, norm(place(k + 1) - place(1) - shape.place[static_cast<std::size_t>(k)]));
-    const Vec2 ends = Vec2{0.0, world.forces[body_of_id(world, 1)].fy + world.forces[body_of_id(world, count)].fy};
+    const Vec2 ends =
+        Vec2{0.0, world.bodies.force[body_of_id(world, 1)].fy + world.bodies.force[body_of_id(world, count)].fy};
     // Forces are stiffnesses times differences of coordinates: k_n·eps·1 m is 2e-9 N.
     rows.absolute("horizontal tension of any bond against the catenary's, over it", horizontal / shape.horizontal, 0.0,
                   1e-9, "rounding");
@@ -184,24 +189,24 @@ std::vector<ClaimRow> bonded_chain_pulled_breaks_at_its_back_tension() {
     rows.exactly("bonds", static_cast<double>(bond_all(world, 0.0)), 19);
     const BodyIndex fixed = body_of_id(world, 1), pulled = body_of_id(world, 20);
     double pull = 0.0, hold = 0.0;
-    while (world.bonds_broken == 0 && world.time < 400.0) {
+    while (world.bonds.broken == 0 && world.stepping.time < 400.0) {
         compute_forces(world);
-        if (world.bonds_broken > 0) break;
-        pull = -world.forces[pulled].fx;
-        hold = world.forces[fixed].fx;
+        if (world.bonds.broken > 0) break;
+        pull = -world.bodies.force[pulled].fx;
+        hold = world.bodies.force[fixed].fx;
         advance(world);
     }
-    rows.at_least("bonds broken", static_cast<double>(world.bonds_broken), 1.0, "breaks");
-    if (world.bonds_broken == 0) return rows.take();
-    const BreakEvent& event = world.events.front();
+    rows.at_least("bonds broken", static_cast<double>(world.bonds.broken), 1.0, "breaks");
+    if (world.bonds.broken == 0) return rows.take();
+    const BreakEvent& event = world.bonds.events.front();
     // A step stretches each bond by 0.02/19 dt of 0.2 m, 2e-6; the chain is 1e3 times slower than its waves.
     rows.relative("pull when the first bond breaks, N", pull, 2e7, 1e-3, "rate");
     rows.relative("hold at the other end, N", hold, 2e7, 1e-3, "rate");
     rows.relative("strength of the event, N", event.strength, 2e7, 1e-9, "rounding");
     rows.relative("energy of the event, J", event.energy, 0.5 * 1e8 * 0.04, 2e-3, "rate");
     rows.exactly("broken in shear", event.shear_mode ? 1.0 : 0.0, 0.0);
-    rows.absolute("extension when it breaks, m", world.bodies[pulled].x - world.bodies[fixed].x - 38.0, 19 * 0.2, 0.01,
-                  "rate");
+    rows.absolute("extension when it breaks, m", world.bodies.state[pulled].x - world.bodies.state[fixed].x - 38.0,
+                  19 * 0.2, 0.01, "rate");
     return rows.take();
 }
 

@@ -10,6 +10,10 @@
 #include <numbers>
 #include <utility>
 
+#include "solver/measure/point_view.hpp"
+#include "solver/stepping/bonding.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/step.hpp"
 #include "solver/world/world.hpp"
 #include "specimens/making/lattices.hpp"
 #include "tools/bench/verify/groups.hpp"
@@ -48,12 +52,13 @@ DiscStress stress_of(const World& world, BodyIndex disc) {
     const double area = 0.5 * std::sqrt(3.0) * spacing * spacing;
     // There are no walls.
     for (PointIndex k = 0; k < world.points.size(); ++k) {
-        const ContactPoint& point = world.points[k];
+        const ContactPoint& point = world.points.contact[k];
         if (point.body_i != disc && point.body_j != disc) continue;
-        const PointForce& force = world.point_forces[k];
+        const PointForce& force = world.points.force[k];
         const double sign = point.body_i == disc ? 1.0 : -1.0;
         const BodyIndex other = point.body_i == disc ? point.body_j : point.body_i;
-        const Vec2 arm{world.bodies[other].x - world.bodies[disc].x, world.bodies[other].y - world.bodies[disc].y};
+        const Vec2 arm{world.bodies.state[other].x - world.bodies.state[disc].x,
+                       world.bodies.state[other].y - world.bodies.state[disc].y};
         stress.xx += 0.5 * sign * force.fx * arm.x / area;
         stress.yy += 0.5 * sign * force.fy * arm.y / area;
         stress.net = stress.net + sign * Vec2{force.fx, force.fy};
@@ -68,7 +73,7 @@ FirstBreak pull(const Pull& request) {
     scene.intact.no_new_contacts = true;
     World world = build_world(std::move(scene));
     bond_all(world, 0.0);
-    const std::vector<BodyState> start = world.bodies;
+    const std::vector<BodyState> start = world.bodies.state;
     const BodyIndex inner = body_of_id(world, 12);           // the middle of rows of 5, 4, 5, 4, 5
     const double by = 1.4 * overlap / spacing / increments;  // across, bonds open by ¾ of the strain or less
     const double c11 = std::sqrt(3.0) / 4.0 * (3.0 + request.shear_share) * kn;
@@ -82,18 +87,18 @@ FirstBreak pull(const Pull& request) {
         lateral -= sideways / c11;
         const Vec2 stretch = request.along ? Vec2{1.0 + axial, 1.0 + lateral} : Vec2{1.0 + lateral, 1.0 + axial};
         for (std::size_t b = 0; b < world.bodies.size(); ++b) {
-            BodyState& body = world.bodies[b];
+            BodyState& body = world.bodies.state[b];
             const double x = stretch.x * start[b].x, y = stretch.y * start[b].y;
-            body.vx = (x - body.x) / world.time_step;
-            body.vy = (y - body.y) / world.time_step;
+            body.vx = (x - body.x) / world.stepping.time_step;
+            body.vy = (y - body.y) / world.stepping.time_step;
             body.x = x, body.y = y;
         }
-        world.drift = world.time_step;
-        world.forces_current = false;
+        world.stepping.drift = world.stepping.time_step;
+        world.stepping.forces_current = false;
         compute_forces(world);
-        if (world.bonds_broken > 0) {
+        if (world.bonds.broken > 0) {
             result.stress = request.along ? stress.xx : stress.yy;
-            for (const BreakEvent& event : world.events) {
+            for (const BreakEvent& event : world.bonds.events) {
                 const bool in_row = std::abs(event.orientation) < 0.1;
                 result.right_bonds = result.right_bonds && in_row == request.along;
             }
@@ -101,7 +106,7 @@ FirstBreak pull(const Pull& request) {
         }
         result.lateral = std::max(result.lateral, std::abs(sideways));
         result.unbalanced = std::max(result.unbalanced, norm(stress.net));
-        for (const PointState point : world.point_states) result.slid = result.slid || (point.flags & point_slid) != 0;
+        for (const PointState point : world.points.state) result.slid = result.slid || (point.flags & point_slid) != 0;
     }
     return result;
 }

@@ -9,6 +9,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "solver/measure/point_view.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/step.hpp"
 #include "solver/world/world.hpp"
 #include "tools/bench/verify/groups.hpp"
 #include "tools/bench/verify/rows.hpp"
@@ -51,9 +54,9 @@ World block_on(Ground ground, double width, double height, double slope, double 
 
 /// Tilts slowly to the slope, so that nothing sways, and waits there.
 void tilt(World& world, double slope, double tilting, double end) {
-    while (world.time < end) {
-        const double angle = slope * std::min(1.0, world.time / tilting);
-        world.gravity = {gravity * std::sin(angle), -gravity * std::cos(angle)};
+    while (world.stepping.time < end) {
+        const double angle = slope * std::min(1.0, world.stepping.time / tilting);
+        world.settings.gravity = {gravity * std::sin(angle), -gravity * std::cos(angle)};
         step(world);
     }
 }
@@ -64,14 +67,14 @@ std::vector<ClaimRow> block_stays_on_a_slope_below_friction() {
         const double slope = std::atan(0.97 * std::tan(30.0 * std::numbers::pi / 180.0));
         World world = block_on(ground, 0.2, 0.05, 0.0, 30.0);
         const BodyIndex block = body_of_id(world, 1);
-        const double start = world.bodies[block].x;
+        const double start = world.bodies.state[block].x;
         tilt(world, slope, 0.5, 1.5);
         // The springs of both bottom corners carry the slope's pull, mg sin θ / 2k_s; the block also leans over by the
         // difference of their normal springs and slips a little where the upper corner is relieved.
-        const double sag = world.inertia[block].mass * gravity * std::sin(slope) / (2.0 * 0.5e8);
+        const double sag = world.bodies.inertia[block].mass * gravity * std::sin(slope) / (2.0 * 0.5e8);
         rows.at_most(fmt::format("{}: way over that of its springs", name_of(ground)),
-                     (world.bodies[block].x - start) / sag, 4.0, "springs and lean");
-        rows.absolute(fmt::format("{}: speed, m/s", name_of(ground)), world.bodies[block].vx, 0.0, 1e-9, "rest");
+                     (world.bodies.state[block].x - start) / sag, 4.0, "springs and lean");
+        rows.absolute(fmt::format("{}: speed, m/s", name_of(ground)), world.bodies.state[block].vx, 0.0, 1e-9, "rest");
     }
     return rows.take();
 }
@@ -82,13 +85,13 @@ std::vector<ClaimRow> block_slides_on_a_slope_beyond_friction() {
         const double slope = 35.0 * std::numbers::pi / 180.0, mu = std::tan(20.0 * std::numbers::pi / 180.0);
         World world = block_on(ground, 0.2, 0.05, slope, 20.0);
         const BodyIndex block = body_of_id(world, 1);
-        while (world.time < 0.1) step(world);
-        const double v0 = world.bodies[block].vx, t0 = world.time;
-        while (world.time < 0.7) step(world);
+        while (world.stepping.time < 0.1) step(world);
+        const double v0 = world.bodies.state[block].vx, t0 = world.stepping.time;
+        while (world.stepping.time < 0.7) step(world);
         rows.relative(fmt::format("{}: acceleration, m/s2", name_of(ground)),
-                      (world.bodies[block].vx - v0) / (world.time - t0),
+                      (world.bodies.state[block].vx - v0) / (world.stepping.time - t0),
                       gravity * (std::sin(slope) - mu * std::cos(slope)), 1e-3, "reference");
-        rows.absolute(fmt::format("{}: turn, rad", name_of(ground)), world.bodies[block].angle, 0.0, 1e-3,
+        rows.absolute(fmt::format("{}: turn, rad", name_of(ground)), world.bodies.state[block].angle, 0.0, 1e-3,
                       "lean of its springs");
     }
     return rows.take();
@@ -101,10 +104,10 @@ std::vector<ClaimRow> block_topples_past_its_edge() {
         World stays = block_on(ground, 0.05, 0.2, 0.0, 40.0), falls = block_on(ground, 0.05, 0.2, 0.0, 40.0);
         tilt(stays, 0.995 * edge, 1.0, 3.0);
         tilt(falls, 1.005 * edge, 1.0, 1.0);
-        while (falls.time < 3.0 && std::abs(falls.bodies[body_of_id(falls, 1)].angle) < 0.5) step(falls);
+        while (falls.stepping.time < 3.0 && std::abs(falls.bodies.state[body_of_id(falls, 1)].angle) < 0.5) step(falls);
         rows.at_most(fmt::format("{}: turn at 0.995 of the edge, rad", name_of(ground)),
-                     std::abs(stays.bodies[body_of_id(stays, 1)].angle), 1e-3, "lean of its springs");
-        rows.at_most(fmt::format("{}: time to turn by 0.5 rad at 1.005 of the edge, s", name_of(ground)), falls.time,
+                     std::abs(stays.bodies.state[body_of_id(stays, 1)].angle), 1e-3, "lean of its springs");
+        rows.at_most(fmt::format("{}: time to turn by 0.5 rad at 1.005 of the edge, s", name_of(ground)), falls.stepping.time,
                      3.0 - 1e-9, "slow start");
     }
     return rows.take();

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/step.hpp"
 #include "solver/world/world.hpp"
 #include "tools/bench/verify/groups.hpp"
 #include "tools/bench/verify/rows.hpp"
@@ -40,20 +42,20 @@ std::vector<ClaimRow> disc_sliding_on_a_flat_ends_rolling() {
     scene.bodies[0].velocity = {speed, 0.0};
     scene.time_step = 2e-6;
     World world = build_world(std::move(scene));
-    const BodyState& disc = world.bodies[0];
+    const BodyState& disc = world.bodies.state[0];
     const double end = speed / (3.0 * mu * gravity);
-    while (world.time < 0.5 * end) step(world);
-    rows.relative("speed while sliding, m/s", disc.vx, speed - mu * gravity * world.time, 1e-3, "reference");
-    rows.relative("spin while sliding, rad/s", -disc.omega, 2.0 * mu * gravity * world.time / radius, 1e-3,
+    while (world.stepping.time < 0.5 * end) step(world);
+    rows.relative("speed while sliding, m/s", disc.vx, speed - mu * gravity * world.stepping.time, 1e-3, "reference");
+    rows.relative("spin while sliding, rad/s", -disc.omega, 2.0 * mu * gravity * world.stepping.time / radius, 1e-3,
                   "reference");
     // End of sliding: the slip at the floor, v - |ω|R, vanishes for the first time.
     while (disc.vx + disc.omega * radius > 0.0) step(world);
-    rows.relative("time at which it first rolls, s", world.time, end, 1e-3, "reference");
-    while (world.time < 2.0 * end) step(world);
+    rows.relative("time at which it first rolls, s", world.stepping.time, end, 1e-3, "reference");
+    while (world.stepping.time < 2.0 * end) step(world);
     // The undamped shear spring goes on ringing about the rolling motion: compare means over many of its periods.
     double sum_v = 0.0, sum_w = 0.0;
     int samples = 0;
-    for (; world.time < 12.0 * end; ++samples) {
+    for (; world.stepping.time < 12.0 * end; ++samples) {
         step(world);
         sum_v += disc.vx;
         sum_w += disc.omega;
@@ -72,11 +74,11 @@ Accelerations down_slope(double slope, double friction_angle) {
     Scene scene = on_floor(0.4, friction_angle, gravity * std::cos(slope));
     scene.gravity.x = gravity * std::sin(slope);
     World world = build_world(std::move(scene));
-    const BodyState& disc = world.bodies[0];
-    while (world.time < 0.02) step(world);
-    const double v = disc.vx, w = disc.omega, t = world.time;
-    while (world.time < 0.22) step(world);
-    return {(disc.vx - v) / (world.time - t), -(disc.omega - w) / (world.time - t)};
+    const BodyState& disc = world.bodies.state[0];
+    while (world.stepping.time < 0.02) step(world);
+    const double v = disc.vx, w = disc.omega, t = world.stepping.time;
+    while (world.stepping.time < 0.22) step(world);
+    return {(disc.vx - v) / (world.stepping.time - t), -(disc.omega - w) / (world.stepping.time - t)};
 }
 
 std::vector<ClaimRow> disc_on_a_slope() {
@@ -114,8 +116,8 @@ Rebound oblique(double h, double friction_angle, Vec2 velocity, double steps_in_
     scene.time_step = std::numbers::pi / std::sqrt(kn / mass * (1.0 - h * h)) / steps_in_contact;
     scene.circles[0].centre.y = radius - (1.0 + phase) * velocity.y * scene.time_step;
     World world = build_world(std::move(scene));
-    while (world.bodies[0].vy <= 0.0 || world.bodies[0].y < radius) step(world);
-    return {world.bodies[0].vx, -world.bodies[0].omega * radius};
+    while (world.bodies.state[0].vy <= 0.0 || world.bodies.state[0].y < radius) step(world);
+    return {world.bodies.state[0].vx, -world.bodies.state[0].omega * radius};
 }
 
 std::vector<ClaimRow> oblique_rebound_sliding_throughout() {

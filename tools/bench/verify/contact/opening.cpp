@@ -8,6 +8,9 @@
 #include <numbers>
 #include <utility>
 
+#include "solver/measure/ledger.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/step.hpp"
 #include "solver/world/world.hpp"
 #include "specimens/packing/random_numbers.hpp"
 #include "tools/bench/verify/groups.hpp"
@@ -48,12 +51,12 @@ Bouncing bounce(Integrator integrator, double step_share, double drop, int bounc
     Bouncing result;
     bool below = false;
     while (result.bounces < bounces) {
-        if (world.bodies[0].y < 0.5 * radius) {  // no bounce of sound energy is as deep
+        if (world.bodies.state[0].y < 0.5 * radius) {  // no bounce of sound energy is as deep
             result.largest = std::max(result.largest, 100.0);
             break;
         }
         const double error = energy_now(world);
-        if (world.bodies[0].y <= radius) {
+        if (world.bodies.state[0].y <= radius) {
             below = true;
         } else if (below) {
             below = false;
@@ -81,7 +84,7 @@ std::pair<double, double> leapfrog_bounce(double step_share, double phase) {
     scene.bodies[0].velocity = {0.0, -speed};
     scene.time_step = dt;
     World world = build_world(std::move(scene));
-    const BodyState& disc = world.bodies[0];
+    const BodyState& disc = world.bodies.state[0];
     double first = 0.0, last = 0.0;  // overlaps, m
     while (disc.vy <= 0.0 || disc.y <= radius) {
         const double overlap = radius - disc.y;
@@ -181,7 +184,7 @@ double chain_error(Integrator integrator, double step_share, std::uint64_t seed)
     scene.time_step = step_share * std::sqrt(mass / kn) / std::cos(0.5 * std::numbers::pi / (count + 1));
     World world = build_world(std::move(scene));
     double energy = 0.0;
-    for (const BodyState& body : world.bodies) energy += 0.5 * mass * body.vx * body.vx;
+    for (const BodyState& body : world.bodies.state) energy += 0.5 * mass * body.vx * body.vx;
     return largest_error(world, energy, 20000);
 }
 
@@ -227,7 +230,7 @@ double square_error(Integrator integrator, double step_share, std::uint64_t seed
     for (int n = 0; n < static_cast<int>(10000.0 / step_share); ++n) {
         const double error = energy_now(world) / energy;
         bool free = true;
-        for (const PointState point : world.point_states) free = free && (point.flags & point_touching) == 0;
+        for (const PointState point : world.points.state) free = free && (point.flags & point_touching) == 0;
         if (free) last = std::max(last, std::abs(error));
         if (!(last < 100.0)) break;
         advance(world);
@@ -272,7 +275,7 @@ Oblique oblique(Integrator integrator, double step_share, double phase) {
     scene.allow_unstable = true;
     scene.time_step = dt;
     World world = build_world(std::move(scene));
-    const BodyState& disc = world.bodies[0];
+    const BodyState& disc = world.bodies.state[0];
     while (disc.vy <= 0.0 || disc.y <= radius) step(world);
     return {disc.vy / down - 1.0, (disc.vx - (along - 2.0 * mu * down)) / down,
             (radius * std::abs(disc.omega) - 4.0 * mu * down) / down};

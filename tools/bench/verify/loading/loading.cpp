@@ -7,6 +7,8 @@
 #include <cmath>
 #include <vector>
 
+#include "solver/measure/ledger.hpp"
+#include "solver/stepping/step.hpp"
 #include "specimens/loading/virtual_test.hpp"
 #include "tools/bench/verify/groups.hpp"
 #include "tools/bench/verify/rows.hpp"
@@ -22,15 +24,15 @@ struct Account {
     bool intact = true;
 };
 Account account_before_breaks(Kind kind, double time_step_share) {
-    const double bound = between_platens(kind, 0.0, {}).world.step_bound;
+    const double bound = between_platens(kind, 0.0, {}).world.stepping.step_bound;
     LoadedSpecimen loaded = between_platens(kind, 1e-3, {}, 45.0, 0.1, time_step_share * bound);
     World& world = loaded.world;
     // From rest, so that loading sends a shock: what the step leaves of its energy is far above rounding.
     for (std::size_t b = 0; b < world.bodies.size(); ++b)
-        if (b != loaded.high) world.bodies[b].vy = 0.0;
+        if (b != loaded.high) world.bodies.state[b].vy = 0.0;
     Account account;
     double work = 0.0;
-    while (world.time < 0.02) {
+    while (world.stepping.time < 0.02) {
         compute_forces(world);
         const Ledger ledger = measure_ledger(world);
         work = std::max(work, std::abs(ledger.displacement_work));
@@ -38,8 +40,8 @@ Account account_before_breaks(Kind kind, double time_step_share) {
         advance(world);
     }
     account.error /= work;
-    account.intact = world.bonds_broken == 0;
-    for (const PointState point : world.point_states)
+    account.intact = world.bonds.broken == 0;
+    for (const PointState point : world.points.state)
         account.intact = account.intact && (point.flags & point_slid) == 0;
     return account;
 }

@@ -4,6 +4,10 @@
 #include <cmath>
 #include <utility>
 
+#include "solver/measure/point_view.hpp"
+#include "solver/stepping/bonding.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/time_step.hpp"
 #include "specimens/making/disordered.hpp"
 #include "tools/bench/verify/scenes/measures.hpp"
 
@@ -44,7 +48,7 @@ LoadedSpecimen between_platens(Kind kind, double speed, const IntactOptions& int
     loaded.height = top - bottom;
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
         if (b == loaded.low || b == loaded.high) continue;
-        world.bodies[b].vy = speed * (world.bodies[b].y - bottom) / loaded.height;
+        world.bodies.state[b].vy = speed * (world.bodies.state[b].y - bottom) / loaded.height;
     }
     return loaded;
 }

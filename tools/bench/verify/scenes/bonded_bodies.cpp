@@ -3,6 +3,8 @@
 
 #include <utility>
 
+#include "solver/stepping/bonding.hpp"
+#include "solver/stepping/build_world.hpp"
 #include "specimens/making/disordered.hpp"
 #include "tools/bench/verify/scenes/measures.hpp"
 
@@ -28,15 +30,15 @@ World free_specimen(Kind kind, double friction_angle, double step_share, IntactO
     World world = build_world(std::move(scene));
     bond_all(world, 1.08e-3);
     // Bonding has widened the reach of the polygons, so the bound was found anew; the same step for all.
-    world.automatic_step = false;
-    world.time_step = step_share * world.step_bound;
+    world.stepping.automatic_step = false;
+    world.stepping.time_step = step_share * world.stepping.step_bound;
     return world;
 }
 
 World bursting_specimen(Kind kind) {
     World world = free_specimen(kind, 27.0, 0.4);
     shake(world, 0.5 * breaking_energy(world), 3);
-    for (BodyState& body : world.bodies) {
+    for (BodyState& body : world.bodies.state) {
         body.vx += 4.0 * body.x;
         body.vy += 1.2 * body.y;
     }

@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 #include <cstddef>
 
+#include "solver/stepping/step.hpp"
 #include "solver/world/world.hpp"
 #include "tools/bench/verify/scenes/measures.hpp"
 
@@ -15,9 +16,9 @@ namespace crackle::verification {
 /// The shear springs take the slip of a drift of 1 s at the velocity that leads there.
 inline Eigen::VectorXd forces_after(const World& start, std::size_t b, int dof, double by) {
     World world = start;
-    for (BodyState& body : world.bodies) body.vx = body.vy = body.omega = 0.0;
-    world.drift = 1.0;
-    BodyState& body = world.bodies[b];
+    for (BodyState& body : world.bodies.state) body.vx = body.vy = body.omega = 0.0;
+    world.stepping.drift = 1.0;
+    BodyState& body = world.bodies.state[b];
     if (dof == 0) {
         body.x += by;
         body.vx = by;
@@ -28,14 +29,14 @@ inline Eigen::VectorXd forces_after(const World& start, std::size_t b, int dof, 
         turn_body(world, b, by);
         body.omega = by;
     }
-    world.forces_current = false;
+    world.stepping.forces_current = false;
     compute_forces(world);
     Eigen::VectorXd forces(3 * static_cast<Eigen::Index>(world.bodies.size()));
     for (std::size_t k = 0; k < world.bodies.size(); ++k) {
         const auto row = 3 * static_cast<Eigen::Index>(k);
-        forces[row] = world.forces[k].fx;
-        forces[row + 1] = world.forces[k].fy;
-        forces[row + 2] = world.forces[k].torque;
+        forces[row] = world.bodies.force[k].fx;
+        forces[row + 1] = world.bodies.force[k].fy;
+        forces[row + 2] = world.bodies.force[k].torque;
     }
     return forces;
 }
@@ -47,7 +48,7 @@ inline Eigen::MatrixXd dense_stiffness(const World& world, double move) {
     Eigen::MatrixXd stiffness(rows, rows);
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
         for (int dof = 0; dof < 3; ++dof) {
-            const double h = dof < 2 ? move : move / world.info[b].reach;
+            const double h = dof < 2 ? move : move / world.bodies.info[b].reach;
             const auto slope = [&](double by) -> Eigen::VectorXd {
                 return (forces_after(world, b, dof, -by) - forces_after(world, b, dof, by)) / (2.0 * by);
             };
@@ -62,9 +63,9 @@ inline double highest_frequency(const World& world, const Eigen::MatrixXd& stiff
     Eigen::VectorXd root(stiffness.rows());
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
         const auto row = 3 * static_cast<Eigen::Index>(b);
-        root[row] = std::sqrt(world.inertia[b].inverse_mass_x);
-        root[row + 1] = std::sqrt(world.inertia[b].inverse_mass_y);
-        root[row + 2] = std::sqrt(world.inertia[b].inverse_moment);
+        root[row] = std::sqrt(world.bodies.inertia[b].inverse_mass_x);
+        root[row + 1] = std::sqrt(world.bodies.inertia[b].inverse_mass_y);
+        root[row + 2] = std::sqrt(world.bodies.inertia[b].inverse_moment);
     }
     const Eigen::MatrixXd symmetric = 0.5 * (stiffness + stiffness.transpose());
     const Eigen::MatrixXd scaled = root.asDiagonal() * symmetric * root.asDiagonal();

@@ -29,8 +29,8 @@ struct Momentum {
 inline Momentum momentum_of(const World& world) {
     Momentum sum;
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
-        const BodyState& body = world.bodies[b];
-        const double mass = world.inertia[b].mass, spin = world.info[b].moment * body.omega;
+        const BodyState& body = world.bodies.state[b];
+        const double mass = world.bodies.inertia[b].mass, spin = world.bodies.info[b].moment * body.omega;
         sum.x += mass * body.vx;
         sum.y += mass * body.vy;
         sum.angular += mass * (body.x * body.vy - body.y * body.vx) + spin;
@@ -50,9 +50,10 @@ inline double momentum_error(const Momentum& start, const Momentum& now) {
 inline double breaking_energy(const World& world) {
     double sum = 0.0;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
-        const PointState& p = world.point_states[k];
+        const PointState& p = world.points.state[k];
         if ((p.flags & point_bonded) != 0)
-            sum += 0.5 * world.laws[p.law].normal_stiffness * world.bond_overlaps[k] * world.bond_overlaps[k];
+            sum += 0.5 * world.settings.laws[p.law].normal_stiffness * world.points.bond_overlap[k] *
+                   world.points.bond_overlap[k];
     }
     return sum;
 }
@@ -62,16 +63,16 @@ inline void shake(World& world, double energy, std::uint64_t seed) {
     std::mt19937_64 generator(seed);
     double sum = 0.0;
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
-        BodyState& body = world.bodies[b];
-        const double gyration = std::sqrt(world.info[b].moment / world.inertia[b].mass);
+        BodyState& body = world.bodies.state[b];
+        const double gyration = std::sqrt(world.bodies.info[b].moment / world.bodies.inertia[b].mass);
         body.vx = 2.0 * uniform_number(generator) - 1.0;
         body.vy = 2.0 * uniform_number(generator) - 1.0;
         body.omega = (2.0 * uniform_number(generator) - 1.0) / gyration;
-        sum += 0.5 * world.inertia[b].mass * (body.vx * body.vx + body.vy * body.vy) +
-               0.5 * world.info[b].moment * body.omega * body.omega;
+        sum += 0.5 * world.bodies.inertia[b].mass * (body.vx * body.vx + body.vy * body.vy) +
+               0.5 * world.bodies.info[b].moment * body.omega * body.omega;
     }
     const double scale = std::sqrt(energy / sum);
-    for (BodyState& body : world.bodies) {
+    for (BodyState& body : world.bodies.state) {
         body.vx *= scale;
         body.vy *= scale;
         body.omega *= scale;
@@ -80,8 +81,8 @@ inline void shake(World& world, double energy, std::uint64_t seed) {
 
 /// Sets the turn of a body, keeping the body frame of clumps and chains in step with it.
 inline void turn_body(World& world, std::size_t b, double angle) {
-    BodyState& body = world.bodies[b];
-    if (!world.info[b].single_circle) {
+    BodyState& body = world.bodies.state[b];
+    if (!world.bodies.info[b].single_circle) {
         const double c = std::cos(angle), s = std::sin(angle);
         const double cosine = body.shape[0] * c - body.shape[1] * s;
         body.shape[1] = body.shape[1] * c + body.shape[0] * s;

@@ -7,6 +7,9 @@
 #include <vector>
 
 #include "solver/linear/critical_step.hpp"
+#include "solver/linear/step_bound.hpp"
+#include "solver/measure/ledger.hpp"
+#include "solver/stepping/step.hpp"
 #include "tools/bench/verify/scenes/measures.hpp"
 
 namespace crackle::verification {
@@ -24,15 +27,15 @@ constexpr double largest_growth_below = 1.0 / distance + (1.0 + 10.0) * (1.0 + 1
 /// Random velocities of the bodies that are free.
 void shake_free(World& world, double energy, std::uint64_t seed) {
     shake(world, energy, seed);
-    for (const ControlState& control : world.controls) {
-        BodyState& body = world.bodies[control.body];
+    for (const ControlState& control : world.bodies.controls) {
+        BodyState& body = world.bodies.state[control.body];
         body.vx = body.vy = body.omega = 0.0;
     }
 }
 
 /// Stopped when far beyond that.
 double energy_growth(World world, double time_step) {
-    world.time_step = time_step;
+    world.stepping.time_step = time_step;
     const double energy = 1e-15 * breaking_energy(world);  // the weakest bonds are to bear a hundred times as much
     shake_free(world, energy, 5);
     double largest = 0.0;
@@ -48,13 +51,13 @@ double energy_growth(World world, double time_step) {
 /// The unstable mode's motion, from positions.
 class Projection {
   public:
-    Projection(const World& rest, std::vector<Motion> mode) : rest_(rest.bodies), mode_(std::move(mode)) {}
+    Projection(const World& rest, std::vector<Motion> mode) : rest_(rest.bodies.state), mode_(std::move(mode)) {}
     double of(const World& world) const {
         double sum = 0.0;
         for (std::size_t b = 0; b < rest_.size(); ++b) {
-            const BodyState &now = world.bodies[b], &then = rest_[b];
-            sum += world.inertia[b].mass * (mode_[b].x * (now.x - then.x) + mode_[b].y * (now.y - then.y)) +
-                   world.info[b].moment * mode_[b].rotation * (now.angle - then.angle);
+            const BodyState &now = world.bodies.state[b], &then = rest_[b];
+            sum += world.bodies.inertia[b].mass * (mode_[b].x * (now.x - then.x) + mode_[b].y * (now.y - then.y)) +
+                   world.bodies.info[b].moment * mode_[b].rotation * (now.angle - then.angle);
         }
         return sum;
     }
@@ -72,7 +75,7 @@ struct Growth {
 /// From the mode itself and a thousandth of noise, until it has grown by 1e6; over the later half.
 Growth measured_growth(World world, const std::vector<Motion>& mode, double time_step, double predicted) {
     const Projection projection(world, mode);
-    world.time_step = time_step;
+    world.stepping.time_step = time_step;
     double longest = 0.0;
     for (const Motion& m : mode) longest = std::max({longest, std::abs(m.x), std::abs(m.y)});
     double energy = 0.0;
@@ -80,45 +83,45 @@ Growth measured_growth(World world, const std::vector<Motion>& mode, double time
     const double speed = 1e-15 / (time_step * longest);
     for (std::size_t b = 0; b < mode.size(); ++b) {
         const Motion v{speed * mode[b].x, speed * mode[b].y, speed * mode[b].rotation};
-        energy += 0.5 * world.inertia[b].mass * (v.x * v.x + v.y * v.y) +
-                  0.5 * world.info[b].moment * v.rotation * v.rotation;
+        energy += 0.5 * world.bodies.inertia[b].mass * (v.x * v.x + v.y * v.y) +
+                  0.5 * world.bodies.info[b].moment * v.rotation * v.rotation;
     }
     shake_free(world, 1e-6 * energy, 7);
     for (std::size_t b = 0; b < mode.size(); ++b) {
-        world.bodies[b].vx += speed * mode[b].x;
-        world.bodies[b].vy += speed * mode[b].y;
-        world.bodies[b].omega += speed * mode[b].rotation;
+        world.bodies.state[b].vx += speed * mode[b].x;
+        world.bodies.state[b].vy += speed * mode[b].y;
+        world.bodies.state[b].omega += speed * mode[b].rotation;
     }
     const int steps = std::clamp(static_cast<int>(std::log(1e6) / std::log(predicted)), 2, 100000);
     const int first = steps / 2, rest = steps - first;
     for (int n = 0; n < first; ++n) step(world);
     const double half = projection.of(world);
     for (int n = 0; n < rest; ++n) step(world);
-    return {std::pow(std::abs(projection.of(world) / half), 1.0 / rest), world.bonds_broken};
+    return {std::pow(std::abs(projection.of(world) / half), 1.0 / rest), world.bonds.broken};
 }
 
 }  // namespace
 
 World at_rest(World world) {
-    for (BodyState& body : world.bodies) body.vx = body.vy = body.omega = 0.0;
-    for (ControlState& control : world.controls) {
+    for (BodyState& body : world.bodies.state) body.vx = body.vy = body.omega = 0.0;
+    for (ControlState& control : world.bodies.controls) {
         for (DofControl& dof : control.dof) {
             if (dof.drive != Drive::free) dof.value = 0.0;
         }
     }
-    world.gravity = {};
-    world.drift = 0.0;
-    world.kick_share = 0.5;
-    world.automatic_step = false;
-    world.allow_unstable = true;
-    world.forces_current = false;
+    world.settings.gravity = {};
+    world.stepping.drift = 0.0;
+    world.stepping.kick_share = 0.5;
+    world.stepping.automatic_step = false;
+    world.stepping.allow_unstable = true;
+    world.stepping.forces_current = false;
     return world;
 }
 
 void check_step_limit(Rows& rows, const std::string& name, const World& rest) {
     const CriticalStep exact = critical_step(rest, ClosedPoints::touching);
     rows.exactly(name + ": proved by Cholesky", exact.proved ? 1.0 : 0.0, 1.0);
-    rows.at_most(name + ": the engine's bound over the exact step", rest.step_bound / exact.root, 1.0 + 1e-9,
+    rows.at_most(name + ": the engine's bound over the exact step", rest.stepping.step_bound / exact.root, 1.0 + 1e-9,
                  "a bound");
     rows.at_most(name + ": its bound of all listed points over it", stable_step_bound(rest) / exact.root, 1.0 + 1e-9,
                  "a bound");

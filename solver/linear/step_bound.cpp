@@ -24,7 +24,7 @@
 // under the guide's law all listed ones, and a body without points counts one against a wall. Geometry is that of the
 // last evaluation, at the latest when the list was built: since then nothing has moved by more than its half skin.
 
-#include <fmt/format.h>
+#include "solver/linear/step_bound.hpp"
 
 #include <algorithm>
 #include <array>
@@ -32,11 +32,10 @@
 #include <limits>
 #include <numbers>
 
-#include "solver/base/errors.hpp"
 #include "solver/contact/geometry.hpp"
 #include "solver/contact/law.hpp"
-#include "solver/linear/critical_step.hpp"
 #include "solver/linear/springs.hpp"
+#include "solver/measure/point_view.hpp"
 #include "solver/world/world.hpp"
 
 namespace crackle {
@@ -153,27 +152,27 @@ struct Least {
 double share_of(double own, double partner) { return own > 0.0 ? 1.0 + partner / own : 1.0; }
 
 bool with_wall(const World& world, PointIndex k) {
-    return k >= world.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
+    return k >= world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
 }
 
 PointArms arms_of(const ContactGeometry& g) { return {{g.nx, g.ny}, {g.aix, g.aiy}, {g.ajx, g.ajy}}; }
 
 bool has_rows(const World& world, PointIndex k) {
-    return k >= world.kind_begin[static_cast<std::size_t>(PointKind::disc_segment)] && !with_wall(world, k);
+    return k >= world.points.kind_begin[static_cast<std::size_t>(PointKind::disc_segment)] && !with_wall(world, k);
 }
 
 /// Normal stiffness of points under the guide's law.
 std::vector<Spring> guide_rows(const World& world) {
     std::vector<Spring> touching;
     std::vector<Spring> rows;
-    const PointIndex walls = world.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
-    for (PointIndex k = world.kind_begin[static_cast<std::size_t>(PointKind::disc_segment)]; k < walls; ++k) {
+    const PointIndex walls = world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
+    for (PointIndex k = world.points.kind_begin[static_cast<std::size_t>(PointKind::disc_segment)]; k < walls; ++k) {
         const PointView v = view_point(world, k);
         if (v.touching) {
             touching.push_back({v.body_i, v.body_j, k, false, v.normal_stiffness, 0.0,
                                 approach(v.normal, v.arm_i, v.arm_j), v.overlap_gradient});
         }
-        for (const OverlapGradient& row : idle_discs(world, v.kind, world.points[k]))
+        for (const OverlapGradient& row : idle_discs(world, v.kind, world.points.contact[k]))
             rows.push_back({v.body_i, v.body_j, k, false, v.normal_stiffness, 0.0, row, row});
     }
     for (const Spring& row : symmetric_majorant(world, touching)) rows.push_back(row);
@@ -188,22 +187,23 @@ void add_row(Block& block, const Roots& roots, const Spring& row, bool second, d
 /// Adds a point's share to body b, one of its two.
 void add_point(BodyBlocks& blocks, const World& world, const std::vector<double>& weights, PointIndex k, BodyIndex b,
                const Roots& roots, const PointArms& arms) {
-    const ContactPoint& point = world.points[k];
+    const ContactPoint& point = world.points.contact[k];
     const bool first = b == point.body_i;
     const double partner = first && with_wall(world, k) ? 0.0 : weights[first ? point.body_j : point.body_i];
     add_side(blocks, side_of(roots, arms.normal, first ? arms.arm_i : arms.arm_j),
-             world.laws[world.point_states[k].law], world.root_masses[k], share_of(weights[b], partner),
+             world.settings.laws[world.points.state[k].law], world.points.root_mass[k], share_of(weights[b], partner),
              !has_rows(world, k));
 }
 
 /// What a body without points is stable with: the first thing it meets, a circle head-on or a corner at the longest
 /// lever it has.
 void lower_to_first_meeting(Least& least, const World& world, BodyIndex b) {
-    const BodyInfo& info = world.info[b];
-    const Roots roots = roots_of(world.inertia[b]);
-    const ContactLaw& law = world.laws[world.materials.size() * world.materials.size() + info.material];
+    const BodyInfo& info = world.bodies.info[b];
+    const Roots roots = roots_of(world.bodies.inertia[b]);
+    const ContactLaw& law =
+        world.settings.laws[world.settings.materials.size() * world.settings.materials.size() + info.material];
     const Vec2 along{info.reach, 0.0};
-    const double root_mass = std::sqrt(world.inertia[b].mass);
+    const double root_mass = std::sqrt(world.bodies.inertia[b].mass);
     BodyBlocks head_on;
     add_side(head_on, side_of(roots, {1.0, 0.0}, along), law, root_mass, 1.0);
     least.lower_to(head_on, b);
@@ -222,8 +222,8 @@ struct Surroundings {
 Surroundings surroundings_of(const World& world) {
     Surroundings all{guide_rows(world), std::vector<bool>(world.bodies.size())};
     for (PointIndex k = 0; k < world.points.size(); ++k) {
-        all.met[world.points[k].body_i] = true;
-        if (!with_wall(world, k)) all.met[world.points[k].body_j] = true;
+        all.met[world.points.contact[k].body_i] = true;
+        if (!with_wall(world, k)) all.met[world.points.contact[k].body_j] = true;
     }
     return all;
 }
@@ -234,15 +234,15 @@ template <class Counts>
 std::vector<BodyBlocks> blocks_of(const World& world, const std::vector<double>& weights,
                                   const std::vector<Spring>& rows, Counts counts) {
     std::vector<BodyBlocks> blocks(world.bodies.size());
-    visit_kinds(world.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
+    visit_kinds(world.points.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
         for (PointIndex k = begin; k < end; ++k) {
-            const ContactPoint& point = world.points[k];
+            const ContactPoint& point = world.points.contact[k];
             std::uint32_t feature = point.feature_j;
             const ContactGeometry g = contact_geometry<K>(world, point, feature);
             if (!counts(k, g.overlap)) continue;
             const auto add = [&](BodyIndex b) {
-                if (held(world.inertia[b])) return;
-                add_point(blocks[b], world, weights, k, b, roots_of(world.inertia[b]), arms_of(g));
+                if (held(world.bodies.inertia[b])) return;
+                add_point(blocks[b], world, weights, k, b, roots_of(world.bodies.inertia[b]), arms_of(g));
             };
             add(point.body_i);
             if constexpr (K != PointKind::element_wall) add(point.body_j);
@@ -250,8 +250,8 @@ std::vector<BodyBlocks> blocks_of(const World& world, const std::vector<double>&
     });
     for (const Spring& row : rows) {
         const auto add = [&](BodyIndex b, BodyIndex partner, bool second) {
-            if (held(world.inertia[b])) return;
-            add_row(blocks[b].stiffness, roots_of(world.inertia[b]), row, second,
+            if (held(world.bodies.inertia[b])) return;
+            add_row(blocks[b].stiffness, roots_of(world.bodies.inertia[b]), row, second,
                     share_of(weights[b], weights[partner]));
         };
         add(row.i, row.j, false);
@@ -275,7 +275,7 @@ std::vector<double> first_weights(const World& world, const std::vector<Spring>&
 Least least_of(const World& world, const std::vector<BodyBlocks>& blocks, const std::vector<bool>& met) {
     Least least;
     for (BodyIndex b = 0; b < blocks.size(); ++b) {
-        if (held(world.inertia[b])) continue;
+        if (held(world.bodies.inertia[b])) continue;
         least.lower_to(blocks[b], b);
         if (!met[b]) lower_to_first_meeting(least, world, b);
     }
@@ -297,23 +297,25 @@ constexpr double like_list = 0.01;
 /// Whether there are weights from before for all bodies that can move and meet something: without, they would count as
 /// held.
 bool weighed_before(const World& world, const std::vector<bool>& met) {
-    if (world.step_weights.size() != met.size()) return false;
+    if (world.stepping.step_weights.size() != met.size()) return false;
     for (std::size_t b = 0; b < met.size(); ++b)
-        if (met[b] && !held(world.inertia[b]) && !(world.step_weights[b] > 0.0)) return false;
+        if (met[b] && !held(world.bodies.inertia[b]) && !(world.stepping.step_weights[b] > 0.0)) return false;
     return true;
 }
 
 /// What a derived step asks of the bound, or a given one.
 double enough_for(const World& world) {
-    if (!world.automatic_step) return world.time_step;
-    return world.has_bonds ? world.step_goal : world.time_step * world.safety_factor / derived_step_share(world);
+    if (!world.stepping.automatic_step) return world.stepping.time_step;
+    return world.bonds.made ? world.stepping.step_goal
+                            : world.stepping.time_step * world.stepping.safety_factor / derived_step_share(world);
 }
 
 /// Whether the last search for weights, on a list like this one, has not reached what the step asks for: then
 /// another one is worth its time only where the bound has changed.
 bool searched_in_vain(const World& world, double enough) {
-    const auto listed = static_cast<double>(world.points.size()), then = static_cast<double>(world.weighed_points);
-    return world.weighed_bound < enough && std::abs(listed - then) <= like_list * then;
+    const auto listed = static_cast<double>(world.points.size()),
+               then = static_cast<double>(world.stepping.weighed_points);
+    return world.stepping.weighed_bound < enough && std::abs(listed - then) <= like_list * then;
 }
 
 /// Raises the weight of the bodies that limit against those that do not, until the bound is enough; keeps the best
@@ -325,7 +327,7 @@ Least raised(World& world, const Surroundings& all, Counts counts) {
     const bool in_vain = warm && searched_in_vain(world, enough);
     std::vector<double> first;
     if (!warm) first = first_weights(world, all.rows);
-    std::vector<double> trial = warm ? world.step_weights : first;
+    std::vector<double> trial = warm ? world.stepping.step_weights : first;
     Least best;
     best.bound = 0.0;
     std::array<double, weight_rounds> reached{};
@@ -334,17 +336,18 @@ Least raised(World& world, const Surroundings& all, Counts counts) {
         const Least least = least_of(world, blocks, all.met);
         if (least.bound > best.bound) {
             best = least;
-            world.step_weights = trial;
+            world.stepping.step_weights = trial;
         }
         const auto now = static_cast<std::size_t>(round);
         reached[now] = best.bound;
         if (best.bound >= enough) break;
-        if (!world.has_bonds) {  // they take a small share of it anyway: their own weights do
+        if (!world.bonds.made) {  // they take a small share of it anyway: their own weights do
             if (round > 0 || !warm) break;
             trial = first = first_weights(world, all.rows);
             continue;
         }
-        if (in_vain && round == 0 && std::abs(best.bound - world.weighed_bound) <= unchanged * best.bound) return best;
+        if (in_vain && round == 0 && std::abs(best.bound - world.stepping.weighed_bound) <= unchanged * best.bound)
+            return best;
         if (round >= 3 && best.bound < (1.0 + worth_three_rounds) * reached[now - 3]) break;
         if (first.empty()) first = first_weights(world, all.rows);
         for (std::size_t b = 0; b < trial.size(); ++b) {
@@ -353,8 +356,8 @@ Least raised(World& world, const Surroundings& all, Counts counts) {
             trial[b] = std::max(trial[b] * least.bound / step, lowest_weight_share * first[b]);
         }
     }
-    world.weighed_bound = best.bound;
-    world.weighed_points = world.has_bonds ? world.points.size() : 0;
+    world.stepping.weighed_bound = best.bound;
+    world.stepping.weighed_points = world.bonds.made ? world.points.size() : 0;
     return best;
 }
 
@@ -365,9 +368,10 @@ Least raised(World& world, const Surroundings& all, Counts counts) {
 constexpr double consistent_step_share = 0.2;
 
 double derived_step_share(const World& world) {
-    const bool bonded = world.has_bonds && world.bonds_initial > 0;
-    const double loose = world.integrator == Integrator::consistent ? consistent_step_share : loose_step_share;
-    return world.step_scale * (bonded ? world.safety_factor : std::min(world.safety_factor, loose));
+    const bool bonded = world.bonds.made && world.bonds.initial > 0;
+    const double loose = world.settings.integrator == Integrator::consistent ? consistent_step_share : loose_step_share;
+    return world.stepping.step_scale *
+           (bonded ? world.stepping.safety_factor : std::min(world.stepping.safety_factor, loose));
 }
 
 double stable_step_bound(const World& world, BodyIndex* limiting) {
@@ -378,116 +382,71 @@ double stable_step_bound(const World& world, BodyIndex* limiting) {
     return least.bound;
 }
 
-void evaluate_step_bound(World& world) {
-    const PhaseTimer timer(world.profile, Phase::step_bound);
+void find_step_bound(World& world) {
     // Of loose bodies those that the common skin lists: a fast body's own is wider, but that is no reason for a lower
     // step.
-    const bool by_guide = world.segment_law != SegmentLaw::rounded;
-    const double least_overlap = by_guide || (!world.has_bonds && world.widest_skin == 0.0)
+    const bool by_guide = world.settings.segment_law != SegmentLaw::rounded;
+    const double least_overlap = by_guide || (!world.bonds.made && world.list.widest_skin == 0.0)
                                      ? -std::numeric_limits<double>::infinity()
-                                 : world.has_bonds ? 0.0
-                                                   : -world.widest_skin;
+                                 : world.bonds.made ? 0.0
+                                                    : -world.list.widest_skin;
     const auto counts = [&](PointIndex k, double overlap) {
-        std::uint16_t& flags = world.point_states[k].flags;
+        std::uint16_t& flags = world.points.state[k].flags;
         const bool counted = (flags & point_bonded) != 0 || overlap > least_overlap;
         flags = static_cast<std::uint16_t>(counted ? flags | point_counted : flags & ~point_counted);
         return counted;
     };
     const Least least = raised(world, surroundings_of(world), counts);
-    world.step_bound = least.bound;
-    world.limiting_body = least.body;
-    keep_step_below_bound(world);
+    world.stepping.step_bound = least.bound;
+    world.stepping.limiting_body = least.body;
 }
 
-void count_new_points(World& world) {
-    const PhaseTimer timer(world.profile, Phase::step_bound);
+bool lower_step_bound(World& world) {
     constexpr std::size_t most = 64;
-    static_assert(most < std::numeric_limits<decltype(world.marks)::value_type>::max());
+    static_assert(most < std::numeric_limits<decltype(world.workers.marks)::value_type>::max());
     std::array<BodyIndex, most> gaining{};  // their marks are 1 and on
     std::size_t count = 0, uncounted = 0;
     const auto gains = [&](BodyIndex b) {
-        if (held(world.inertia[b]) || world.marks[b] != 0) return;
+        if (held(world.bodies.inertia[b]) || world.workers.marks[b] != 0) return;
         if (count == most) {
             ++uncounted;
             return;
         }
         gaining[count++] = b;
-        world.marks[b] = static_cast<std::uint8_t>(count);
+        world.workers.marks[b] = static_cast<std::uint8_t>(count);
     };
     for (PointIndex k = 0; k < world.points.size(); ++k) {
-        std::uint16_t& flags = world.point_states[k].flags;
+        std::uint16_t& flags = world.points.state[k].flags;
         if ((flags & (point_touching | point_counted)) != point_touching) continue;
         flags = static_cast<std::uint16_t>(flags | point_counted);
-        gains(world.points[k].body_i);
-        if (!with_wall(world, k)) gains(world.points[k].body_j);
+        gains(world.points.contact[k].body_i);
+        if (!with_wall(world, k)) gains(world.points.contact[k].body_j);
     }
 
     // Blocks of these bodies from all their counted points.
     std::array<BodyBlocks, most> blocks{};
     const auto add = [&](PointIndex k, BodyIndex b) {
-        if (world.marks[b] == 0) return;
-        add_point(blocks[world.marks[b] - std::size_t{1}], world, world.step_weights, k, b, roots_of(world.inertia[b]),
-                  arms_of(geometry_at(world, k)));
+        if (world.workers.marks[b] == 0) return;
+        add_point(blocks[world.workers.marks[b] - std::size_t{1}], world, world.stepping.step_weights, k, b,
+                  roots_of(world.bodies.inertia[b]), arms_of(geometry_at(world, k)));
     };
     for (PointIndex k = 0; k < world.points.size(); ++k) {
-        if ((world.point_states[k].flags & point_counted) == 0) continue;
-        add(k, world.points[k].body_i);
-        if (!with_wall(world, k)) add(k, world.points[k].body_j);
+        if ((world.points.state[k].flags & point_counted) == 0) continue;
+        add(k, world.points.contact[k].body_i);
+        if (!with_wall(world, k)) add(k, world.points.contact[k].body_j);
     }
-    Least least{world.step_bound, world.limiting_body};
+    Least least{world.stepping.step_bound, world.stepping.limiting_body};
     for (std::size_t n = 0; n < count; ++n) {
         least.lower_to(blocks[n], gaining[n]);
-        world.marks[gaining[n]] = 0;
+        world.workers.marks[gaining[n]] = 0;
     }
-    if (uncounted > 0) return evaluate_step_bound(world);
-    if (least.bound >= world.step_bound) return;
-    if (world.step_scale * least.bound < world.time_step)
-        return evaluate_step_bound(world);  // with weights that suit the new points
-    world.step_bound = least.bound;
-    world.limiting_body = least.body;
-}
-
-void keep_step_below_bound(World& world) {
-    if (world.automatic_step) {
-        const bool bonded = world.has_bonds && world.bonds_initial > 0;
-        if (bonded && world.step_goal > 0.0) {
-            world.time_step = world.step_scale * std::min(world.step_goal, world.step_bound);
-        } else {
-            const double share = derived_step_share(world);
-            if (world.time_step > share / world.safety_factor * world.step_bound)
-                world.time_step = share * world.step_bound;
-        }
-        return;
-    }
-    if (world.allow_unstable || world.time_step <= world.step_bound) return;
-    // Among bonds a given step may lie between the bound and the exact limit: of all listed points if that reaches, so
-    // that nothing more is asked until the list is rebuilt, or of those that touch. Loose bodies in collision would not
-    // bear it.
-    for (const ClosedPoints which : {ClosedPoints::listed, ClosedPoints::touching}) {
-        if (!world.has_bonds) break;
-        if (!stable_at(world, which, world.time_step)) continue;
-        world.step_bound = world.time_step;
-        if (which == ClosedPoints::listed) {
-            for (PointState& point : world.point_states)
-                point.flags = static_cast<std::uint16_t>(point.flags | point_counted);
-        }
-        return;
-    }
-    if (world.has_bonds)
-        world.step_bound = std::max(world.step_bound, critical_step(world, ClosedPoints::touching).step);
-    throw UnstableRun(
-        world.step, world.info[world.limiting_body].id,
-        fmt::format("the time step, {:.6g} s, is above the stable bound, which fell to {:.6g} s as contacts came "
-                    "about at this body; give a smaller one, leave it out (0 in a deck) to have it chosen, or run "
-                    "with --allow-unstable",
-                    world.time_step, world.step_bound));
-}
-
-void set_time_step(World& world, double time_step) {
-    world.automatic_step = false;
-    world.step_goal = 0.0;
-    world.time_step = time_step;
-    keep_step_below_bound(world);
+    if (uncounted > 0) return false;
+    if (least.bound >= world.stepping.step_bound) return true;
+    if (world.stepping.step_scale * least.bound < world.stepping.time_step)
+        return false;  // weights that suit the new points may raise it
+    world.stepping.step_bound = least.bound;
+    world.stepping.limiting_body = least.body;
+    return true;
 }
 
 }  // namespace crackle

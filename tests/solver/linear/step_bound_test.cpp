@@ -7,6 +7,9 @@
 #include <algorithm>
 
 #include "solver/linear/critical_step.hpp"
+#include "solver/stepping/bonding.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/step.hpp"
 #include "specimens/making/disordered.hpp"
 #include "specimens/making/lattices.hpp"
 #include "tests/support/claim.hpp"
@@ -20,7 +23,7 @@ using testing::rock;
 /// The bound over the exact limit of the points that touch now; at most 1.
 double share_of_exact(World& world) {
     compute_forces(world);
-    return world.step_bound / critical_step(world, ClosedPoints::touching).root;
+    return world.stepping.step_bound / critical_step(world, ClosedPoints::touching).root;
 }
 
 TEST(StepBound, StaysBelowTheExactLimitWhileBondsBreakAndContactsCome) {
@@ -33,7 +36,7 @@ TEST(StepBound, StaysBelowTheExactLimitWhileBondsBreakAndContactsCome) {
     for (const bool polygons : {false, true}) {
         Scene scene = polygons ? shaken_cells(cells, material) : disordered_discs(discs, material);
         World world = build_world(std::move(scene));
-        bond_all(world, polygons ? 1.5 * world.thick : 0.0);
+        bond_all(world, polygons ? 1.5 * world.settings.thick : 0.0);
         testing::shake(world, 1.0 * testing::breaking_energy(world), 3);
         double largest = 0.0, smallest = 1.0;
         for (int look = 0; look < 60; ++look) {
@@ -43,11 +46,11 @@ TEST(StepBound, StaysBelowTheExactLimitWhileBondsBreakAndContactsCome) {
             for (int n = 0; n < 40; ++n) step(world);
         }
         fmt::print("  {}: bound over exact limit {:.4f} to {:.4f}; {} lists, {} bonds broken\n",
-                   polygons ? "polygons" : "discs", smallest, largest, world.list_builds, world.bonds_broken);
+                   polygons ? "polygons" : "discs", smallest, largest, world.list.builds, world.bonds.broken);
         EXPECT_LE(largest, 1.0);
         EXPECT_GT(smallest, 0.3);
-        EXPECT_GT(world.list_builds, 5);
-        EXPECT_GT(world.bonds_broken, 5);
+        EXPECT_GT(world.list.builds, 5);
+        EXPECT_GT(world.bonds.broken, 5);
     }
 }
 
@@ -70,11 +73,11 @@ TEST(StepBound, CountsAHundredContactsThatCloseAtOnce) {
         bond_all(world, 0.0);
         const double before = share_of_exact(world);
         const auto touching = [&] {
-            return std::count_if(world.point_states.begin(), world.point_states.end(),
+            return std::count_if(world.points.state.begin(), world.points.state.end(),
                                  [](const PointState& state) { return (state.flags & point_touching) != 0; });
         };
         const auto bonded = touching();
-        const std::int64_t built = world.list_builds;
+        const std::int64_t built = world.list.builds;
         for (int n = 0; n < 1000 && touching() == bonded; ++n) {
             step(world);
             compute_forces(world);
@@ -85,7 +88,7 @@ TEST(StepBound, CountsAHundredContactsThatCloseAtOnce) {
         fmt::print("  {} contacts at once: bound over exact limit {:.4f} before, {:.4f} after\n", gained, before,
                    after);
         EXPECT_EQ(gained, rows);
-        EXPECT_EQ(world.list_builds, built) << "the list was rebuilt, so this shows nothing";
+        EXPECT_EQ(world.list.builds, built) << "the list was rebuilt, so this shows nothing";
         EXPECT_LE(before, 1.0);
         EXPECT_LE(after, 1.0);
         EXPECT_GT(after, 0.3);

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Any struct that lists its fields (fields.hpp), through cereal's archives: one member after the other, since the bytes
+// of padding belong to nobody.
+#pragma once
+
+#include "solver/base/fields.hpp"
+
+namespace crackle {
+
+template <class Archive, HasFields T>
+void serialize(Archive& archive, T& value) {
+    static_assert(lists_all_fields<T>(), "a member is missing in the struct's fields()");
+    T::fields(value, [&](const char* /*name*/, auto& field, const auto&... /*more*/) { archive(field); });
+}
+
+}  // namespace crackle

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The fields of a struct, listed once beside their declaration, for all that must treat every one of them alike:
+// checkpoints, hashes, what a new neighbour list carries over.
+//
+//     struct Place {
+//         double x, y;
+//         template <class Self, class Visit>
+//         static void fields(Self& self, Visit&& visit) {
+//             visit("x", self.x);
+//             visit("y", self.y);
+//         }
+//     };
+//
+// A visitor that wants to know more of a field takes it as a third argument (world/points.hpp). A list that lacks a
+// field does not compile where it is walked: lists_all_fields().
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <type_traits>
+#include <utility>
+
+namespace crackle {
+
+namespace detail {
+
+/// Converts to whatever a member is.
+struct AnyField {
+    template <class T>
+    operator T() const;
+};
+
+template <class T, std::size_t... N>
+constexpr bool takes(std::index_sequence<N...>) {
+    return requires { T{(static_cast<void>(N), AnyField{})...}; };
+}
+
+/// Initialisers that the aggregate T takes, an array's elements one by one: the largest number, since fewer always do.
+template <class T, std::size_t Most = 64>
+constexpr std::size_t initialisers() {
+    if constexpr (Most == 0 || takes<T>(std::make_index_sequence<Most>{})) {
+        return Most;
+    } else {
+        return initialisers<T, Most - 1>();
+    }
+}
+
+struct AnyVisitor {
+    void operator()(auto&&...) const {}
+};
+
+struct FieldCounter {
+    std::size_t& count;
+    template <class T, class... More>
+    constexpr void operator()(const char* /*name*/, T& /*field*/, const More&... /*more*/) const {
+        if constexpr (std::is_array_v<std::remove_reference_t<T>>) {
+            count += std::extent_v<std::remove_reference_t<T>>;
+        } else {
+            ++count;
+        }
+    }
+};
+
+template <class T>
+constexpr std::size_t listed_fields() {
+    std::size_t count = 0;
+    T value{};
+    T::fields(value, FieldCounter{count});
+    return count;
+}
+
+}  // namespace detail
+
+template <class T>
+concept HasFields = requires(T& value) { T::fields(value, detail::AnyVisitor{}); };
+
+/// Whether T::fields() visits every member of T.
+template <HasFields T>
+constexpr bool lists_all_fields() {
+    return detail::listed_fields<T>() == detail::initialisers<T>();
+}
+
+}  // namespace crackle

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/neighbours/exchange.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "solver/base/errors.hpp"
+#include "solver/contact/pass.hpp"
+#include "solver/world/point_order.hpp"
+
+namespace crackle {
+namespace {
+
+constexpr PointIndex no_point = std::numeric_limits<PointIndex>::max();
+
+/// Walks the listed points of a kind in the order of their keys; those of element_outline lie in two runs.
+class OldPoints {
+  public:
+    OldPoints(const World& world, PointKind kind) : world_(world), kind_(kind) {
+        const auto number = static_cast<std::size_t>(kind);
+        first_ = world.points.kind_begin[number];
+        second_end_ = world.points.kind_begin[number + 1];
+        first_end_ = second_ = kind == PointKind::element_outline ? world.points.fours_end : second_end_;
+    }
+    bool done() const { return first_ == first_end_ && second_ == second_end_; }
+    PointIndex at() const { return from_first() ? first_ : second_; }
+    PointKey key() const { return key_of(kind_, world_.points.contact[at()]); }
+    void next() { ++(from_first() ? first_ : second_); }
+
+  private:
+    bool from_first() const {
+        if (first_ == first_end_ || second_ == second_end_) return second_ == second_end_;
+        return key_of(kind_, world_.points.contact[first_]) < key_of(kind_, world_.points.contact[second_]);
+    }
+
+    const World& world_;
+    PointKind kind_;
+    PointIndex first_, first_end_, second_, second_end_;
+};
+
+/// Points of a new list and which points of the old one they are.
+struct Succession {
+    std::vector<ContactPoint> points;
+    std::vector<PointIndex> old;  // no_point: was not listed
+};
+
+/// An old point that stays though it is not listed anew.
+struct KeptPoint {
+    std::size_t place;  // before the point here
+    PointIndex old;
+};
+
+/// Inserts kept points, which come in order.
+void insert_kept(const World& world, const std::vector<KeptPoint>& kept, Succession& next) {
+    std::size_t from = next.points.size(), to = from + kept.size();
+    next.points.resize(to);
+    next.old.resize(to);
+    for (auto one = kept.rbegin(); one != kept.rend(); ++one) {
+        while (from > one->place) {
+            --from, --to;
+            next.points[to] = next.points[from];
+            next.old[to] = next.old[from];
+        }
+        --to;
+        next.points[to] = world.points.contact[one->old];
+        next.old[to] = one->old;
+    }
+}
+
+/// The new list of a kind, in the room of the points found. A bond is carried over whether its point was found or not:
+/// it lasts until the force pass finds it broken, and intact ones hold at any opening.
+Succession succeed(World& world, PointKind kind, std::vector<ContactPoint> found) {
+    Succession next{std::move(found), {}};
+    next.old.resize(next.points.size());
+    const bool consistent = world.settings.integrator == Integrator::consistent;
+    const bool closed = world.bonds.made && world.settings.intact.no_new_contacts;
+    const auto flagged = [&](PointIndex old, PointFlag flag) { return (world.points.state[old].flags & flag) != 0; };
+    const auto leave_out = [&](PointIndex old) {
+        if (consistent)
+            world.account.opening_defects[world.points.contact[old].body_i] += world.points.opening[old].defect;
+    };
+    std::size_t count = 0;
+    std::vector<KeptPoint> kept;
+    OldPoints old(world, kind);
+    const auto pass_unlisted = [&] {
+        // One that touched a step ago has its last force to settle, however far it has gone.
+        const bool settles = consistent && !by_guide(kind) && flagged(old.at(), point_touching) && !closed;
+        if (flagged(old.at(), point_bonded) || settles) {
+            kept.push_back({count, old.at()});
+        } else {
+            leave_out(old.at());
+        }
+        old.next();
+    };
+    for (const ContactPoint& point : next.points) {
+        const PointKey key = key_of(kind, point);
+        while (!old.done() && old.key() < key) pass_unlisted();
+        const bool known = !old.done() && old.key() == key;
+        if (!closed || (known && flagged(old.at(), point_bonded))) {
+            next.old[count] = known ? old.at() : no_point;
+            next.points[count] = point;
+            ++count;
+        } else if (known) {
+            leave_out(old.at());
+        }
+        if (known) old.next();
+    }
+    while (!old.done()) pass_unlisted();
+    next.points.resize(count);
+    next.old.resize(count);
+    insert_kept(world, kept, next);
+    return next;
+}
+
+/// The pairs with four points go first. @return how many points these have
+PointIndex put_fours_first(Succession& next) {
+    Succession others;
+    std::size_t fours = 0;
+    for (std::size_t first = 0, last = 0; first < next.points.size(); first = last) {
+        while (last < next.points.size() && same_pair(next.points[first], next.points[last])) ++last;
+        for (std::size_t k = first; k < last; ++k) {
+            if (last - first == 4) {
+                next.points[fours] = next.points[k];
+                next.old[fours] = next.old[k];
+                ++fours;
+            } else {
+                others.points.push_back(next.points[k]);
+                others.old.push_back(next.old[k]);
+            }
+        }
+    }
+    std::ranges::copy(others.points, next.points.begin() + static_cast<std::ptrdiff_t>(fours));
+    std::ranges::copy(others.old, next.old.begin() + static_cast<std::ptrdiff_t>(fours));
+    return static_cast<PointIndex>(fours);
+}
+
+/// Puts one kind behind another, in the room of the larger.
+template <class T>
+void append(std::vector<T>& all, std::vector<T> more) {
+    if (all.size() < more.size()) {
+        more.insert(more.begin(), all.begin(), all.end());
+        all = std::move(more);
+    } else {
+        all.insert(all.end(), more.begin(), more.end());
+    }
+}
+
+/// One remembered quantity in the new order; nothing in a world that does not keep it.
+template <class T>
+void carry_over(std::vector<T>& values, const std::vector<PointIndex>& old, bool kept = true) {
+    std::vector<T> now(kept ? old.size() : 0, T{});
+    if (!values.empty()) {
+        for (std::size_t k = 0; k < now.size(); ++k) {
+            if (old[k] != no_point) now[k] = values[old[k]];
+        }
+    }
+    values = std::move(now);
+}
+
+/// What points that left the list still owed goes to another of their bodies' points: written off, it would pile up,
+/// for such points owe more often than they are owed.
+void hand_on(World& world) {
+    for (std::size_t kind = 0; kind < point_kinds; ++kind) {
+        if (by_guide(static_cast<PointKind>(kind))) continue;
+        for (PointIndex k = world.points.kind_begin[kind]; k < world.points.kind_begin[kind + 1]; ++k) {
+            if ((world.points.state[k].flags & point_bonded) != 0) continue;
+            const auto take = [&](BodyIndex b) {
+                world.points.opening[k].defect += std::exchange(world.account.opening_defects[b], 0.0);
+            };
+            take(world.points.contact[k].body_i);
+            if (static_cast<PointKind>(kind) != PointKind::element_wall) take(world.points.contact[k].body_j);
+        }
+    }
+}
+
+/// sqrt of m_i m_j/(m_i + m_j); a partner held in translation counts as infinitely heavy.
+double root_effective_mass(const World& world, BodyIndex i, BodyIndex j) {
+    const auto inverse = [&](BodyIndex b) {
+        const BodyInertia& inertia = world.bodies.inertia[b];
+        return inertia.inverse_mass_x > 0.0 || inertia.inverse_mass_y > 0.0 ? 1.0 / inertia.mass : 0.0;
+    };
+    const double sum = inverse(i) + inverse(j);
+    return sum > 0.0 ? 1.0 / std::sqrt(sum) : 0.0;
+}
+
+/// Of each point the pair of materials and the effective mass.
+void find_pairs(World& world) {
+    const PointIndex walls = world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
+    world.points.root_mass.resize(world.points.size());
+    for (PointIndex k = 0; k < world.points.size(); ++k) {
+        const BodyIndex i = world.points.contact[k].body_i, j = world.points.contact[k].body_j;
+        const std::size_t materials = world.settings.materials.size();
+        const std::size_t law =
+            k < walls ? law_between(world, i, j) : materials * materials + world.bodies.info[i].material;
+        world.points.state[k].law = static_cast<std::uint16_t>(law);
+        world.points.root_mass[k] =
+            k < walls ? root_effective_mass(world, i, j) : std::sqrt(world.bodies.inertia[i].mass);
+    }
+}
+
+void refuse_more_than_countable(std::size_t points) {
+    constexpr std::size_t most = no_point - 1;
+    if (points > most)
+        throw InputError(
+            fmt::format("found {} contact points, expected at most {}; take a smaller scene", points, most));
+}
+
+}  // namespace
+
+void exchange_points(World& world, PointLists& lists) {
+    Succession next;
+    std::array<PointIndex, point_kinds + 1> kind_begin{};
+    PointIndex fours_end = 0;
+    for (std::size_t number = 0; number < point_kinds; ++number) {
+        const auto kind = static_cast<PointKind>(number);
+        Succession of_kind = succeed(world, kind, std::move(lists[number]));
+        if (kind == PointKind::element_outline) fours_end = kind_begin[number] + put_fours_first(of_kind);
+        refuse_more_than_countable(next.points.size() + of_kind.points.size());
+        append(next.points, std::move(of_kind.points));
+        append(next.old, std::move(of_kind.old));
+        kind_begin[number + 1] = static_cast<PointIndex>(next.points.size());
+    }
+    const bool consistent = world.settings.integrator == Integrator::consistent;
+    visit_remembered(world.points, [&](auto& values, Remembered remembered) {
+        carry_over(values, next.old, keeps(world, remembered));
+    });
+    world.points.contact = std::move(next.points);
+    world.points.kind_begin = kind_begin;
+    world.points.fours_end = fours_end;
+    find_pairs(world);
+    if (consistent) hand_on(world);
+    world.points.force.assign(world.points.keep_forces ? world.points.size() : 0, PointForce{});
+    world.account.blocks.assign(block_count(world), LossBlock{});
+}
+
+}  // namespace crackle

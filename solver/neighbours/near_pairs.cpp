@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/neighbours/near_pairs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "solver/contact/geometry.hpp"
+
+namespace crackle {
+namespace {
+
+struct Box {
+    Vec2 low{1e300, 1e300}, high{-1e300, -1e300};
+    void add(Vec2 p, double margin) {
+        low = {std::min(low.x, p.x - margin), std::min(low.y, p.y - margin)};
+        high = {std::max(high.x, p.x + margin), std::max(high.y, p.y + margin)};
+    }
+};
+
+Vec2 centre_of(const BodyState& body) { return {body.x, body.y}; }
+
+Box bounding_box(const World& world, std::size_t b) {
+    const BodyState& body = world.bodies.state[b];
+    const BodyInfo& info = world.bodies.info[b];
+    Box box;
+    for (std::uint32_t e = 0; e < info.element_count; ++e) {
+        const Element& element = world.bodies.elements[info.first_element + e];
+        box.add(centre_of(body) + turned(body, element), info.piece_count > 0 ? 0.0 : element.radius);
+    }
+    return box;
+}
+
+/// Uniform grid over the centroids: body numbers sorted by cell.
+class Grid {
+  public:
+    explicit Grid(const World& world) {
+        Box box;
+        double mean_reach = 0.0;
+        for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+            box.add(centre_of(world.bodies.state[b]), 0.0);
+            mean_reach += world.bodies.info[b].reach;
+        }
+        const auto n = static_cast<double>(world.bodies.size());
+        low_ = box.low;
+        const double width = box.high.x - box.low.x, height = box.high.y - box.low.y;
+        // Cells of about a body; larger where few bodies are spread over a wide area, so that memory stays linear.
+        size_ = std::max({2.0 * mean_reach / n, std::sqrt(width * height / (2.0 * n + 64.0)),
+                          std::max(width, height) / (2.0 * n + 64.0)});
+        columns_ = static_cast<std::int64_t>(width / size_) + 1;
+        rows_ = static_cast<std::int64_t>(height / size_) + 1;
+        begin_.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
+        members_.resize(world.bodies.size());
+        for (const BodyState& body : world.bodies.state) ++begin_[cell_of(centre_of(body)) + 1];
+        for (std::size_t c = 1; c < begin_.size(); ++c) begin_[c] += begin_[c - 1];
+        std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
+        for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+            members_[next[cell_of(centre_of(world.bodies.state[b]))]++] = static_cast<BodyIndex>(b);
+        }
+    }
+
+    template <typename Visit>
+    void visit(const Box& box, Visit&& visit_body) const {
+        const std::int64_t x0 = column(box.low.x), x1 = column(box.high.x), y0 = row(box.low.y), y1 = row(box.high.y);
+        for (std::int64_t y = y0; y <= y1; ++y) {
+            const std::uint32_t end = begin_[static_cast<std::size_t>(y * columns_ + x1) + 1];
+            for (std::uint32_t m = begin_[static_cast<std::size_t>(y * columns_ + x0)]; m < end; ++m)
+                visit_body(members_[m]);
+        }
+    }
+
+  private:
+    std::int64_t column(double x) const {
+        return std::clamp(static_cast<std::int64_t>(std::floor((x - low_.x) / size_)), std::int64_t{0}, columns_ - 1);
+    }
+    std::int64_t row(double y) const {
+        return std::clamp(static_cast<std::int64_t>(std::floor((y - low_.y) / size_)), std::int64_t{0}, rows_ - 1);
+    }
+    std::size_t cell_of(Vec2 p) const { return static_cast<std::size_t>(row(p.y) * columns_ + column(p.x)); }
+
+    Vec2 low_;
+    double size_ = 0.0;
+    std::int64_t columns_ = 1, rows_ = 1;
+    std::vector<std::uint32_t> begin_;
+    std::vector<BodyIndex> members_;
+};
+
+}  // namespace
+
+std::vector<std::uint64_t> near_pairs(const World& world) {
+    const PhaseTimer timer(world.workers.profile, Phase::broad_phase);
+    const Grid grid(world);
+    const double widest = world.list.half_skins.empty() ? 0.0 : *std::ranges::max_element(world.list.half_skins);
+    std::vector<std::uint64_t> pairs;
+    pairs.reserve(4 * world.bodies.size());
+    for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+        const Box own = bounding_box(world, b);
+        const double margin = world.list.largest_smaller[b] + world.settings.thick + world.list.half_skins[b] + widest;
+        Box search;
+        search.add(own.low, margin);
+        search.add(own.high, margin);
+        const BodyState& body = world.bodies.state[b];
+        grid.visit(search, [&](BodyIndex other) {
+            if (world.list.size_rank[other] <= world.list.size_rank[b]) return;
+            const BodyState& partner = world.bodies.state[other];
+            const double reach = world.bodies.info[other].reach + world.settings.thick +
+                                 skin_between(world, static_cast<BodyIndex>(b), other);
+            const double dx = partner.x - body.x, dy = partner.y - body.y;
+            const double limit = world.bodies.info[b].reach + reach;
+            if (dx * dx + dy * dy > limit * limit) return;
+            const double bx = std::max({own.low.x - partner.x, partner.x - own.high.x, 0.0});
+            const double by = std::max({own.low.y - partner.y, partner.y - own.high.y, 0.0});
+            if (bx * bx + by * by > reach * reach) return;
+            const auto self = static_cast<std::uint64_t>(b);
+            pairs.push_back(self < other ? (self << 32) | other : (static_cast<std::uint64_t>(other) << 32) | self);
+        });
+    }
+    std::sort(pairs.begin(), pairs.end());
+    return pairs;
+}
+
+}  // namespace crackle

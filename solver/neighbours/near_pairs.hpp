@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which bodies are near enough to each other for contact points between them to be listed.
+//
+// Bodies lie in a uniform grid by their centroids. A pair is found by its larger body, which searches its own bounding
+// box widened by the reach of the next smaller body: any mixture of sizes, platens and containers included, needs no
+// user hint.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "solver/world/world.hpp"
+
+namespace crackle {
+
+/// How far the surfaces of a listed pair may be apart beyond what they touch at, m.
+inline double skin_between(const World& world, BodyIndex i, BodyIndex j) {
+    return world.list.half_skins[i] + world.list.half_skins[j];
+}
+
+/// Pairs of bodies whose bounding boxes and circles come within thick + skin, as i << 32 | j with i < j, sorted.
+std::vector<std::uint64_t> near_pairs(const World& world);
+
+}  // namespace crackle

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/neighbours/point_lists.hpp"
+
+#include <cmath>
+
+#include "solver/contact/geometry.hpp"
+#include "solver/neighbours/near_pairs.hpp"
+
+namespace crackle {
+namespace {
+
+Vec2 centre_of(const BodyState& body) { return {body.x, body.y}; }
+
+ContactPoint new_point(BodyIndex i, BodyIndex j, std::uint32_t element, std::uint32_t feature) {
+    ContactPoint point{};
+    point.body_i = i;
+    point.body_j = j;
+    point.element_i = element;
+    point.feature_j = feature;
+    return point;
+}
+
+void add_circle_pairs(const World& world, BodyIndex i, BodyIndex j, PointLists& lists) {
+    const BodyInfo &a = world.bodies.info[i], &b = world.bodies.info[j];
+    const bool single = a.single_circle && b.single_circle;
+    const double skin = skin_between(world, i, j);
+    for (std::uint32_t p = a.first_element; p < a.first_element + a.element_count; ++p) {
+        const Vec2 centre = centre_of(world.bodies.state[i]) + turned(world.bodies.state[i], world.bodies.elements[p]);
+        for (std::uint32_t q = b.first_element; q < b.first_element + b.element_count; ++q) {
+            const Vec2 other =
+                centre_of(world.bodies.state[j]) + turned(world.bodies.state[j], world.bodies.elements[q]);
+            if (norm(other - centre) > world.bodies.elements[p].radius + world.bodies.elements[q].radius + skin)
+                continue;
+            lists[static_cast<std::size_t>(single ? PointKind::circle_circle : PointKind::element_element)].push_back(
+                new_point(i, j, p, q));
+        }
+    }
+}
+
+/// Elements of i against the outline of j.
+void add_outline_points(const World& world, BodyIndex i, BodyIndex j, PointLists& lists) {
+    const BodyInfo &a = world.bodies.info[i], &b = world.bodies.info[j];
+    const BodyState& target = world.bodies.state[j];
+    for (std::uint32_t p = a.first_element; p < a.first_element + a.element_count; ++p) {
+        const Element& element = world.bodies.elements[p];
+        const Vec2 w = centre_of(world.bodies.state[i]) + turned(world.bodies.state[i], element) - centre_of(target);
+        const double limit = element.radius + element.target_reach + skin_between(world, i, j);
+        if (dot(w, w) > (b.reach + limit) * (b.reach + limit)) continue;
+        const double c = target.shape[0], s = target.shape[1];
+        const OutlineFacing facing = face_outline(world, b, b.first_piece, c * w.x + s * w.y, c * w.y - s * w.x);
+        if (facing.distance > limit) continue;
+        lists[static_cast<std::size_t>(PointKind::element_outline)].push_back(new_point(i, j, p, facing.edge));
+    }
+}
+
+/// Circles of i against the segments of j, by the guide's law.
+void add_circle_segment_points(const World& world, BodyIndex i, BodyIndex j, PointLists& lists) {
+    const BodyInfo &a = world.bodies.info[i], &b = world.bodies.info[j];
+    const BodyState& own = world.bodies.state[i];
+    const Vec2 to_j = centre_of(world.bodies.state[j]) - centre_of(own);
+    for (std::uint32_t p = a.first_element; p < a.first_element + a.element_count; ++p) {
+        const Vec2 centre = turned(own, world.bodies.elements[p]);
+        const double limit = world.bodies.elements[p].radius + world.settings.thick + skin_between(world, i, j);
+        if (norm(centre - to_j) > b.reach + limit) continue;
+        for (std::uint32_t q = b.first_element; q < b.first_element + b.element_count; ++q) {
+            if (world.bodies.segments[q].length == 0.0) continue;
+            const DiscCase found = disc_case(bar_of(world, world.bodies.state[j], q, to_j), centre, limit);
+            if (found.rule == DiscRule::none) continue;
+            lists[static_cast<std::size_t>(PointKind::disc_segment)].push_back(new_point(i, j, p, q));
+        }
+    }
+}
+
+/// Segments of i against those of j, by the guide's law: where an end of one comes near the other.
+void add_segment_pairs(const World& world, BodyIndex i, BodyIndex j, PointLists& lists) {
+    const BodyInfo &a = world.bodies.info[i], &b = world.bodies.info[j];
+    const Vec2 to_j = centre_of(world.bodies.state[j]) - centre_of(world.bodies.state[i]);
+    const double limit = world.settings.thick + skin_between(world, i, j);
+    for (std::uint32_t p = a.first_element; p < a.first_element + a.element_count; ++p) {
+        if (world.bodies.segments[p].length == 0.0) continue;
+        const Bar own = bar_of(world, world.bodies.state[i], p, {});
+        if (std::sqrt(disc_case(own, to_j, 0.0).squared_distance) > b.reach + limit) continue;
+        for (std::uint32_t q = b.first_element; q < b.first_element + b.element_count; ++q) {
+            if (world.bodies.segments[q].length == 0.0) continue;
+            const Bar other = bar_of(world, world.bodies.state[j], q, to_j);
+            const auto near = [&](const Bar& bar, Vec2 end) {
+                return disc_case(bar, end, 0.0).squared_distance < limit * limit;
+            };
+            if (near(other, own.start) || near(other, own.start + own.length * own.along) || near(own, other.start) ||
+                near(own, other.start + other.length * other.along))
+                lists[static_cast<std::size_t>(PointKind::segment_segment)].push_back(new_point(i, j, p, q));
+        }
+    }
+}
+
+/// @param i, j two bodies at least one of which is a chain
+void add_guide_points(const World& world, BodyIndex i, BodyIndex j, PointLists& lists) {
+    const bool chain_i = world.bodies.info[i].piece_count > 0, chain_j = world.bodies.info[j].piece_count > 0;
+    if (chain_i && chain_j) {
+        add_segment_pairs(world, i, j, lists);
+    } else if (chain_j) {
+        add_circle_segment_points(world, i, j, lists);
+    } else {
+        add_circle_segment_points(world, j, i, lists);
+    }
+}
+
+void add_wall_points(const World& world, BodyIndex i, PointLists& lists) {
+    const BodyInfo& info = world.bodies.info[i];
+    const BodyState& body = world.bodies.state[i];
+    const Domain& d = world.settings.domain;
+    const bool chain = info.piece_count > 0;
+    const double skin = skin_between(world, i, i);
+    for (std::uint32_t wall = 0; wall < 4; ++wall) {
+        if (!d.wall_present[wall]) continue;
+        const double whole = wall == 0   ? body.x - d.x1
+                             : wall == 1 ? d.x2 - body.x
+                             : wall == 2 ? body.y - d.y1
+                                         : d.y2 - body.y;
+        if (whole > info.reach + skin) continue;
+        for (std::uint32_t p = info.first_element; p < info.first_element + info.element_count; ++p) {
+            const Vec2 o = turned(body, world.bodies.elements[p]);
+            const double distance = whole + (wall == 0 ? o.x : wall == 1 ? -o.x : wall == 2 ? o.y : -o.y);
+            if (distance > (chain ? 0.0 : world.bodies.elements[p].radius) + skin) continue;
+            ContactPoint point{};
+            point.body_i = i;
+            point.body_j = wall;
+            point.element_i = p;
+            point.feature_j = chain ? 1 : 0;
+            lists[static_cast<std::size_t>(PointKind::element_wall)].push_back(point);
+        }
+    }
+}
+
+/// Two bodies none of whose degrees of freedom can answer need no points.
+bool both_held(const World& world, BodyIndex i, BodyIndex j) {
+    const auto held = [&](BodyIndex b) {
+        const BodyInertia& inertia = world.bodies.inertia[b];
+        return inertia.inverse_mass_x == 0.0 && inertia.inverse_mass_y == 0.0 && inertia.inverse_moment == 0.0;
+    };
+    return held(i) && held(j);
+}
+
+}  // namespace
+
+PointLists list_points(const World& world, const std::vector<std::uint64_t>& pairs) {
+    PointLists lists;
+    for (std::size_t kind = 0; kind < point_kinds; ++kind) {
+        const PointIndex listed = world.points.kind_begin[kind + 1] - world.points.kind_begin[kind];
+        lists[kind].reserve(listed + listed / 64);  // few more than before
+    }
+    for (const std::uint64_t pair : pairs) {
+        const auto i = static_cast<BodyIndex>(pair >> 32), j = static_cast<BodyIndex>(pair & 0xffffffffu);
+        if (both_held(world, i, j)) continue;
+        const bool chain_i = world.bodies.info[i].piece_count > 0, chain_j = world.bodies.info[j].piece_count > 0;
+        if (!chain_i && !chain_j) add_circle_pairs(world, i, j, lists);
+        if (world.settings.segment_law != SegmentLaw::rounded) {
+            if (chain_i || chain_j) add_guide_points(world, i, j, lists);
+            continue;
+        }
+        if (chain_j) add_outline_points(world, i, j, lists);
+        if (chain_i) add_outline_points(world, j, i, lists);
+    }
+    for (std::size_t b = 0; b < world.bodies.size(); ++b) add_wall_points(world, static_cast<BodyIndex>(b), lists);
+    return lists;
+}
+
+}  // namespace crackle

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "solver/scene/scene.hpp"
+#include "solver/world/world.hpp"
+
+namespace crackle {
+
+/// Validates the scene and lays it out. @throws InputError (a time step above the bound included, naming both).
+World build_world(Scene scene);
+
+}  // namespace crackle

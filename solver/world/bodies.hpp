@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The bodies of a world: what a step reads and writes of each in one cache line, shapes in body frames, drives.
+//
+// Bodies are numbered in rows along the shorter side of the scene (stepping/build_world.cpp); BodyInfo::id leads back
+// to the input's numbers.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "solver/scene/scene.hpp"
+
+namespace crackle {
+
+using BodyIndex = std::uint32_t;  // into the arrays of Bodies (internal numbering)
+inline constexpr BodyIndex no_body = 0xffffffff;
+
+/// What a step reads and writes of one body.
+struct alignas(64) BodyState {
+    double x, y;    // centroid, m
+    double vx, vy;  // m/s, half a step behind x between steps (leapfrog)
+    double omega;   // rad/s
+    double
+        shape[2];  // single circle: radius, 0; clump or chain: cos and sin of the turn since the body frame was taken
+    double angle;  // rad, accumulated
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("x", s.x);
+        visit("y", s.y);
+        visit("vx", s.vx);
+        visit("vy", s.vy);
+        visit("omega", s.omega);
+        visit("shape", s.shape);
+        visit("angle", s.angle);
+    }
+};
+static_assert(sizeof(BodyState) == 64);
+
+/// Per degree of freedom, so that a driven one (inverse 0) needs no branch.
+struct BodyInertia {
+    double inverse_mass_x, inverse_mass_y, inverse_moment;
+    double mass;
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("inverse_mass_x", s.inverse_mass_x);
+        visit("inverse_mass_y", s.inverse_mass_y);
+        visit("inverse_moment", s.inverse_moment);
+        visit("mass", s.mass);
+    }
+};
+static_assert(sizeof(BodyInertia) == 32);
+
+/// Sum of a body's contact forces (without gravity and applied loads), N and N m about its centroid.
+struct alignas(32) BodyForce {
+    double fx, fy, torque;
+    double unused = 0.0;  // a point's record is added as a whole
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("fx", s.fx);
+        visit("fy", s.fy);
+        visit("torque", s.torque);
+        visit("unused", s.unused);
+    }
+};
+
+/// What cannot change during a run, or is read only by observers.
+struct BodyInfo {
+    int id;
+    std::uint16_t material;
+    bool single_circle;
+    bool closed;
+    double moment;  // kg m2
+    double reach;   // m, bounding radius of the elements about the centroid (circle radius included, thick not)
+    std::uint32_t first_element, element_count;  // into Bodies::elements (vertices or circles)
+    std::uint32_t first_piece, piece_count;      // into Bodies::pieces; 0 pieces: circles
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("id", s.id);
+        visit("material", s.material);
+        visit("single_circle", s.single_circle);
+        visit("closed", s.closed);
+        visit("moment", s.moment);
+        visit("reach", s.reach);
+        visit("first_element", s.first_element);
+        visit("element_count", s.element_count);
+        visit("first_piece", s.first_piece);
+        visit("piece_count", s.piece_count);
+    }
+};
+static_assert(sizeof(BodyInfo) == 40);
+
+/// A circle or a vertex of a clump or chain, or the one circle of a single-circle body, in the body frame.
+struct Element {
+    double x, y;          // m, from the centroid
+    double radius;        // surface radius towards an outline or circle: circle r; vertex thick/2
+    double target_reach;  // what an outline adds on its side: for a circle thick, for a vertex thick/2
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("x", s.x);
+        visit("y", s.y);
+        visit("radius", s.radius);
+        visit("target_reach", s.target_reach);
+    }
+};
+
+/// A convex closed outline, or one open segment, in the body frame.
+struct Piece {
+    std::uint32_t first_edge, edge_count;  // into Bodies::edges
+    bool closed;
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("first_edge", s.first_edge);
+        visit("edge_count", s.edge_count);
+        visit("closed", s.closed);
+    }
+};
+
+/// One edge in the body frame: start, unit direction (outward normal = direction turned by -90 degrees), length.
+struct Edge {
+    double x, y;
+    double tx, ty;
+    double length;
+    /// What the corners at its start and its end are closest to: points `across` >= 0 in front of the edge's line and
+    /// `over` beyond that end (negative at the start) with across + over·cone >= 0. cot θ and -cot θ, θ the angle by
+    /// which the outline turns there; closed pieces only.
+    double cone[2] = {0.0, 0.0};
+    BodyIndex outline_of = no_body;  // the body whose outline is the one convex piece that this edge is of
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("x", s.x);
+        visit("y", s.y);
+        visit("tx", s.tx);
+        visit("ty", s.ty);
+        visit("length", s.length);
+        visit("cone", s.cone);
+        visit("outline_of", s.outline_of);
+    }
+};
+static_assert(sizeof(Edge) == 64);
+
+/// One driven body with what is needed to account for its work.
+struct ControlState {
+    BodyIndex body;
+    DofControl dof[3];        // x, y, rotation
+    double start[3];          // position at the first step of the ramp
+    std::int64_t first_step;  // step at which the ramp began
+    std::int64_t ramp_steps;
+    double last_force[3];  // driving force (N, N m) at the last force pass: the reaction, or the force applied
+    double last_move[3];   // m, rad in the last step
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("body", s.body);
+        visit("dof", s.dof);
+        visit("start", s.start);
+        visit("first_step", s.first_step);
+        visit("ramp_steps", s.ramp_steps);
+        visit("last_force", s.last_force);
+        visit("last_move", s.last_move);
+    }
+};
+
+struct Bodies {
+    std::vector<BodyState> state;
+    std::vector<BodyInertia> inertia;
+    /// Of the last force pass: after compute_forces() of all bodies, after step() of driven ones.
+    std::vector<BodyForce> force;
+    bool forces_clear = false;          // those of all but driven bodies are 0
+    std::vector<BodyForce> last_force;  // of the pass before; consistent integrator only
+    std::vector<BodyInfo> info;
+    std::vector<double> turning_reach;  // m per body: how far turning moves its surface (0: single circles)
+    bool some_turn = false;             // any of these is not 0
+    std::vector<Element> elements;
+    std::vector<Piece> pieces;
+    std::vector<Edge> edges;
+    bool convex_outlines = true;  // every outline is one convex piece
+    std::vector<Edge>
+        segments;  // by element: the segment that begins there (length 0: none); empty without guide's law
+    std::vector<ControlState> controls;
+
+    std::size_t size() const { return state.size(); }
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("state", s.state);
+        visit("inertia", s.inertia);
+        visit("force", s.force);
+        visit("forces_clear", s.forces_clear);
+        visit("last_force", s.last_force);
+        visit("info", s.info);
+        visit("turning_reach", s.turning_reach);
+        visit("some_turn", s.some_turn);
+        visit("elements", s.elements);
+        visit("pieces", s.pieces);
+        visit("edges", s.edges);
+        visit("convex_outlines", s.convex_outlines);
+        visit("segments", s.segments);
+        visit("controls", s.controls);
+    }
+};
+
+}  // namespace crackle

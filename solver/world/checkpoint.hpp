@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The complete state of a world as bytes.
+#pragma once
+
+#include <cstdint>
+#include <iosfwd>
+#include <string>
+#include <vector>
+
+#include "solver/world/world.hpp"
+
+namespace crackle {
+
+/// Complete state, versioned; straight and restarted runs agree byte for byte.
+void save_world(const World& world, std::ostream& out);
+std::string save_world(const World& world);
+/// @throws InputError on a foreign, truncated or newer checkpoint; `name` is used in the message.
+World load_world(const std::string& bytes, const std::string& name);
+
+}  // namespace crackle

@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The contact points of a world: compact records grouped by kind, each quantity in an array of its own. The kernels
+// take those of neighbouring points as they lie, and what a step does not change is not written back.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "solver/world/bodies.hpp"
+
+namespace crackle {
+
+using PointIndex = std::uint32_t;  // into the arrays of Points
+
+/// How a point's two sides look; points of one kind lie together and have a kernel of their own.
+enum class PointKind : std::uint8_t {
+    circle_circle = 0,    // two single circles
+    element_element = 1,  // circles of which at least one belongs to a clump
+    element_outline = 2,  // circle or vertex of body_i against the outline of body_j
+    // The guide's law only (contact/guide_segments.hpp); a segment goes by the element it begins at.
+    disc_segment = 3,     // circle of body_i against segment feature_j of body_j
+    segment_segment = 4,  // segments element_i of body_i and feature_j of body_j
+    element_wall = 5,  // circle or vertex of body_i against a domain wall (body_j = Wall); feature_j = 1: a bare vertex
+};
+inline constexpr int point_kinds = 6;
+
+/// Points whose force does not derive from a potential of the overlap.
+constexpr bool by_guide(PointKind kind) {
+    return kind == PointKind::disc_segment || kind == PointKind::segment_segment;
+}
+
+enum PointFlag : std::uint16_t {
+    point_touching = 1,  // overlap > 0 or bonded, in the last force pass
+    point_bonded = 2,
+    point_sliding = 4,       // at the Coulomb limit in the last force pass
+    point_slid = 8,          // has been at the limit since bonding (or since contact began)
+    point_just_broken = 16,  // bond lost in the last force pass; cleared when its event is recorded
+    point_counted = 32       // counts in StepControl::step_bound
+};
+
+/// What meets at one contact point.
+struct ContactPoint {
+    BodyIndex body_i;
+    BodyIndex body_j;         // Wall number for element_wall
+    std::uint32_t element_i;  // into Bodies::elements
+    std::uint32_t
+        feature_j;  // circle and segment kinds: element of j; outline: edge last faced (a hint, never physics)
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("body_i", s.body_i);
+        visit("body_j", s.body_j);
+        visit("element_i", s.element_i);
+        visit("feature_j", s.feature_j);
+    }
+};
+static_assert(sizeof(ContactPoint) == 16);
+
+/// Whether two points that are not with walls are between the same bodies.
+inline bool same_pair(const ContactPoint& p, const ContactPoint& q) {
+    return (p.body_i == q.body_i && p.body_j == q.body_j) || (p.body_i == q.body_j && p.body_j == q.body_i);
+}
+
+struct PointState {
+    std::uint16_t law;    // into Settings::laws
+    std::uint16_t flags;  // PointFlag
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("law", s.law);
+        visit("flags", s.flags);
+    }
+};
+static_assert(sizeof(PointState) == 4);
+
+/// Force of a point on body_i (body_j gets the opposite) and its moments about both centroids.
+struct PointForce {
+    double fx, fy;
+    double torque_i, torque_j;
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("fx", s.fx);
+        visit("fy", s.fy);
+        visit("torque_i", s.torque_i);
+        visit("torque_j", s.torque_j);
+    }
+};
+static_assert(sizeof(PointForce) == 32);
+
+/// What the normal spring of a point under the guide's law has taken up. Its force is k_n(δ - δ0) at the resultant's
+/// place, but δ does not change by the way of that place alone: there is no potential, so the work itself is added up,
+/// by the trapezoidal rule over the drifts, which is leapfrog's own account of it.
+struct SpringWork {
+    PointForce last;  // N, N m, of the spring at the last force pass
+    double stored;    // J
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("last", s.last);
+        visit("stored", s.stored);
+    }
+};
+
+/// What an unbonded point remembers under the consistent integrator (contact/opening.hpp).
+struct OpeningMemory {
+    double defect = 0.0;       // J: stored beyond ½kδ(n)δ(n+1)
+    double extra_force = 0.0;  // N, beyond kδ in the last force pass
+    double overlap = unset;    // m, in the last force pass; unset in a new point
+    double force = 0.0;        // N, spring and dashpot in the last force pass
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("defect", s.defect);
+        visit("extra_force", s.extra_force);
+        visit("overlap", s.overlap);
+        visit("force", s.force);
+    }
+};
+
+/// Which worlds remember a quantity of every point from one neighbour list to the next; in others its array is empty.
+enum class Remembered : std::uint8_t {
+    always,
+    with_ledger,        // Settings::ledger_on
+    with_guide_ledger,  // that and the guide's law of segments
+    when_consistent,    // Integrator::consistent
+    when_bonded,        // Bonds::made
+};
+
+struct Points {
+    std::vector<ContactPoint> contact;  // grouped by kind, ordered by (i, j, element) within (but for fours_end)
+    std::array<PointIndex, point_kinds + 1> kind_begin{};
+    /// Points of element_outline up to here lie in fours, each four between the same two bodies: the interfaces of a
+    /// mesh. The others of that kind follow.
+    PointIndex fours_end = 0;
+    std::vector<double> root_mass;  // square root of the effective mass, sqrt(kg)
+    std::vector<PointState> state;
+    std::vector<double> shear_force;   // elastic, N on body_i along the normal (i to j) turned by +90 degrees
+    std::vector<double> bond_overlap;  // δ0, m; back-tension f_b = -k_n δ0
+    // Dashpot forces of the last force pass, N: their work is taken by the trapezoidal rule. Floats, like strong
+    // forces: they are reported, no motion follows from them, and they are much of what is moved.
+    std::vector<float> normal_dashpot, shear_dashpot;
+    std::vector<SpringWork> spring_work;
+    std::vector<OpeningMemory> opening;
+    // Elastic forces of a bonded point in the last step in which it carried at least half its strength, N: normal,
+    // compression positive, and shear.
+    std::vector<float> strong_normal, strong_shear;
+    std::vector<PointForce> force;  // of the last force pass; empty unless kept
+    bool keep_forces = true;        // looked at when the list is rebuilt
+
+    std::size_t size() const { return contact.size(); }
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("contact", s.contact);
+        visit("kind_begin", s.kind_begin);
+        visit("fours_end", s.fours_end);
+        visit("root_mass", s.root_mass);
+        visit("state", s.state, Remembered::always);
+        visit("shear_force", s.shear_force, Remembered::always);
+        visit("bond_overlap", s.bond_overlap, Remembered::always);
+        visit("normal_dashpot", s.normal_dashpot, Remembered::with_ledger);
+        visit("shear_dashpot", s.shear_dashpot, Remembered::with_ledger);
+        visit("spring_work", s.spring_work, Remembered::with_guide_ledger);
+        visit("opening", s.opening, Remembered::when_consistent);
+        visit("strong_normal", s.strong_normal, Remembered::when_bonded);
+        visit("strong_shear", s.strong_shear, Remembered::when_bonded);
+        visit("force", s.force);
+        visit("keep_forces", s.keep_forces);
+    }
+};
+
+/// Calls visit(values, remembered) with every array that is carried from one neighbour list to the next.
+template <class Visit>
+void visit_remembered(Points& points, Visit&& visit) {
+    Points::fields(points, [&](const char* /*name*/, auto& values, auto... remembered) {
+        if constexpr (sizeof...(remembered) == 1) visit(values, remembered...);
+    });
+}
+
+}  // namespace crackle

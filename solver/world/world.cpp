@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/world/world.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "solver/base/errors.hpp"
+
+namespace crackle {
+
+bool keeps(const World& world, Remembered remembered) {
+    switch (remembered) {
+        case Remembered::always:
+            return true;
+        case Remembered::with_ledger:
+            return world.settings.ledger_on;
+        case Remembered::with_guide_ledger:
+            return world.settings.ledger_on && world.settings.segment_law != SegmentLaw::rounded;
+        case Remembered::when_consistent:
+            return world.settings.integrator == Integrator::consistent;
+        case Remembered::when_bonded:
+            break;
+    }
+    return world.bonds.made;
+}
+
+void restart_account(World& world) {
+    EnergyAccount& account = world.account;
+    account.begun = false;
+    account.dashpot_loss = account.friction_loss = account.fracture_loss = account.law_loss = 0.0;
+    account.displacement_work = account.force_work = 0.0;
+    account.largest_supply = 0.0;
+    std::ranges::fill(account.opening_defects, 0.0);
+}
+
+void set_threads(World& world, int threads) {
+    if (threads < 1 || threads > 1024) throw InputError(fmt::format("threads: found {}, expected 1 to 1024", threads));
+    world.workers.threads = threads;
+    world.workers.blocks_done.assign(static_cast<std::size_t>(threads), 0);
+    world.workers.plan.valid = false;
+}
+
+}  // namespace crackle
