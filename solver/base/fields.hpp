@@ -49,10 +49,15 @@ struct AnyVisitor {
     void operator()(auto&&...) const {}
 };
 
+/// Counts initialisers of fields that are not listed yet.
 struct FieldCounter {
-    std::size_t& count;
+    std::size_t count = 0, seen = 0;
+    std::array<const void*, 64> places{};
     template <class T, class... More>
-    constexpr void operator()(const char* /*name*/, T& /*field*/, const More&... /*more*/) const {
+    constexpr void operator()(const char* /*name*/, T& field, const More&... /*more*/) {
+        for (std::size_t k = 0; k < seen; ++k)
+            if (places[k] == &field) return;
+        places[seen++] = &field;
         if constexpr (std::is_array_v<std::remove_reference_t<T>>) {
             count += std::extent_v<std::remove_reference_t<T>>;
         } else {
@@ -63,10 +68,10 @@ struct FieldCounter {
 
 template <class T>
 constexpr std::size_t listed_fields() {
-    std::size_t count = 0;
+    FieldCounter counter;
     T value{};
-    T::fields(value, FieldCounter{count});
-    return count;
+    T::fields(value, counter);
+    return counter.count;
 }
 
 }  // namespace detail

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "solver/base/fields.hpp"
 #include "solver/world/bodies.hpp"
 
 namespace crackle {
@@ -172,9 +173,9 @@ struct Points {
 };
 
 /// Calls visit(values, remembered) with every array that is carried from one neighbour list to the next.
-template <class Visit>
-void visit_remembered(Points& points, Visit&& visit) {
-    Points::fields(points, [&](const char* /*name*/, auto& values, auto... remembered) {
+template <HasFields AnyPoints, class Visit>
+void visit_remembered(AnyPoints& points, Visit&& visit) {
+    AnyPoints::fields(points, [&](const char* /*name*/, auto& values, auto... remembered) {
         if constexpr (sizeof...(remembered) == 1) visit(values, remembered...);
     });
 }

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The hash (XXH3) of any value made of numbers and of structs that list their fields (fields.hpp): of members, not of
+// padding.
+#pragma once
+
+#include <xxhash.h>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <type_traits>
+#include <vector>
+
+#include "solver/base/fields.hpp"
+
+namespace crackle {
+
+class FieldHasher {
+  public:
+    FieldHasher() : state_(XXH3_createState(), &XXH3_freeState) { XXH3_64bits_reset(state_.get()); }
+
+    template <class T>
+    void add(const T& value) {
+        if constexpr (HasFields<T>) {
+            static_assert(lists_all_fields<T>(), "a member is missing in the struct's fields()");
+            T::fields(value, [&](const char* /*name*/, const auto& field, const auto&... /*more*/) { add(field); });
+        } else {
+            static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>);
+            XXH3_64bits_update(state_.get(), &value, sizeof value);
+        }
+    }
+    template <class T>
+    void add(const std::vector<T>& values) {
+        add(values.size());
+        if constexpr (std::is_arithmetic_v<T>) {
+            XXH3_64bits_update(state_.get(), values.data(), values.size() * sizeof(T));
+        } else {
+            for (const T& value : values) add(value);
+        }
+    }
+    template <class T, std::size_t N>
+    void add(const std::array<T, N>& values) {
+        for (const T& value : values) add(value);
+    }
+    template <class T, std::size_t N>
+    void add(const T (&values)[N]) {
+        for (const T& value : values) add(value);
+    }
+    template <class T>
+    void add(const std::optional<T>& value) {
+        add(value.has_value());
+        if (value) add(*value);
+    }
+
+    std::uint64_t digest() const { return XXH3_64bits_digest(state_.get()); }
+
+  private:
+    std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state_;
+};
+
+template <class T>
+std::uint64_t hash_of_field(const T& field) {
+    FieldHasher hash;
+    hash.add(field);
+    return hash.digest();
+}
+
+}  // namespace crackle

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The groups of a world, field by field: each is hashed on its own, survives a checkpoint, and, where points remember
+// it, is carried to the next neighbour list. What is listed is tested without being named here.
+
+#include "solver/world/world.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "solver/base/field_hash.hpp"
+#include "solver/stepping/bonding.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/time_step.hpp"
+#include "solver/world/checkpoint.hpp"
+#include "solver/world/point_order.hpp"
+#include "solver/world/state_hash.hpp"
+#include "specimens/making/lattices.hpp"
+#include "tests/solver/world/every_field.hpp"
+#include "tests/support/measures.hpp"
+
+namespace crackle {
+namespace {
+
+using testing::Change;
+using testing::Fill;
+
+World world_with_something_everywhere() {
+    World world;
+    World::groups(world, [](const char* /*name*/, auto& group) { Fill{}.add(group); });
+    return world;
+}
+
+/// Names of the fields whose hashes differ.
+std::vector<std::string> differing(const World& one, const World& other) {
+    const std::vector<FieldHash> a = hash_fields(one), b = hash_fields(other);
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < a.size(); ++k)
+        if (a[k] != b[k]) names.push_back(a[k].name);
+    return names;
+}
+
+/// "bodies.state" of "bodies.state[0].vx".
+std::string field_of(const std::string& name) { return name.substr(0, name.find_first_of(".[", name.find('.') + 1)); }
+
+TEST(WorldGroups, EachFieldIsHashedOnItsOwnAndSurvivesACheckpoint) {
+    const World start = world_with_something_everywhere();
+    std::set<std::string> fields;
+    int changes = 0;
+    for (;; ++changes) {
+        World world = start;
+        Change change(changes);
+        World::groups(world, [&](const std::string& name, auto& group) { change.walk(group, name); });
+        if (change.changed().empty()) break;
+        fields.insert(field_of(change.changed()));
+        EXPECT_EQ(differing(start, world), std::vector{field_of(change.changed())}) << change.changed();
+        EXPECT_NE(hash_state(world), hash_state(start)) << change.changed();
+        const World loaded = load_world(save_world(world), "memory");
+        EXPECT_EQ(differing(world, loaded), std::vector<std::string>{}) << change.changed();
+        EXPECT_EQ(hash_state(loaded), hash_state(world)) << change.changed();
+    }
+    fmt::print("  {} fields, {} changes\n", fields.size(), changes);
+    EXPECT_EQ(fields.size(), hash_fields(start).size());
+}
+
+TEST(WorldGroups, NamesOfFieldsAreTheirOwn) {
+    std::set<std::string> names;
+    for (const FieldHash& field : hash_fields(World{})) EXPECT_TRUE(names.insert(field.name).second) << field.name;
+}
+
+/// Discs that touch, bonded, and a lone one far to their left; every array of points is remembered.
+World bonded_discs_and_a_lone_one() {
+    Scene scene = triangular_lattice(4, 3, 0.02, 1e-4, testing::rock());
+    scene.add_circle_body(100, 0, {{-1.0, 0.02}, 0.02});
+    scene.segment_law = SegmentLaw::demseg;
+    scene.integrator = Integrator::consistent;
+    World world = build_world(std::move(scene));
+    bond_all(world, 0.0);
+    return world;
+}
+
+/// A number of its own for each member of each element; kinds of points and flags that mean something are left.
+struct Number {
+    double next = 1.0;
+
+    template <class T>
+    void give(T& value) {
+        if constexpr (HasFields<T>) {
+            T::fields(value, [&](const char* /*name*/, auto& field, const auto&... /*more*/) { give(field); });
+        } else {
+            value = static_cast<T>(next++);
+        }
+    }
+    void give(PointState& state) {
+        if (static_cast<int>(next++) % 2 == 0) state.flags = static_cast<std::uint16_t>(state.flags | point_slid);
+    }
+};
+
+TEST(WorldGroups, WhatPointsRememberIsCarriedToTheNextList) {
+    World world = bonded_discs_and_a_lone_one();
+    Number number;
+    int arrays = 0;
+    visit_remembered(world.points, [&](auto& values, Remembered remembered) {
+        ++arrays;
+        EXPECT_TRUE(keeps(world, remembered));
+        ASSERT_EQ(values.size(), world.points.size());
+        for (auto& value : values) number.give(value);
+    });
+    EXPECT_GE(arrays, 9);
+    const World before = world;
+
+    // The lone one comes to touch another: new points, before or among those that there were.
+    const auto id_is = [](int id) { return [id](const BodyInfo& info) { return info.id == id; }; };
+    const auto lone = std::ranges::find_if(world.bodies.info, id_is(100)) - world.bodies.info.begin();
+    const auto first = std::ranges::find_if(world.bodies.info, id_is(1)) - world.bodies.info.begin();
+    BodyState& moved = world.bodies.state[static_cast<std::size_t>(lone)];
+    moved.x = world.bodies.state[static_cast<std::size_t>(first)].x - 0.0399;
+    moved.y = world.bodies.state[static_cast<std::size_t>(first)].y;
+    bodies_moved(world);
+    refresh_neighbours(world);
+
+    std::vector<PointIndex> old;
+    std::size_t elsewhere = 0;
+    for (PointIndex k = 0; k < world.points.size(); ++k) {
+        PointIndex found = 0;
+        while (found < before.points.size() &&
+               !same_point(PointKind::circle_circle, before.points.contact[found], world.points.contact[k]))
+            ++found;
+        old.push_back(found);
+        elsewhere += found < before.points.size() && found != k ? 1 : 0;
+    }
+    const auto is_new = [&](PointIndex k) { return k == before.points.size(); };
+    EXPECT_GT(std::ranges::count_if(old, is_new), 0);
+    EXPECT_GT(elsewhere, before.points.size() / 2);
+
+    std::vector<std::vector<std::uint64_t>> hashes;
+    Points then = before.points;
+    visit_remembered(then, [&](auto& values, Remembered /*remembered*/) {
+        // What counts in the bound of the step is judged again with each list.
+        if constexpr (requires { values[0].flags; })
+            for (auto& value : values) value.flags = static_cast<std::uint16_t>(value.flags & ~point_counted);
+        hashes.emplace_back();
+        for (const auto& value : values) hashes.back().push_back(hash_of_field(value));
+    });
+    std::size_t array = 0;
+    Points now = world.points;
+    visit_remembered(now, [&]<class T>(std::vector<T>& values, Remembered /*remembered*/) {
+        if constexpr (requires { values[0].flags; })
+            for (auto& value : values) value.flags = static_cast<std::uint16_t>(value.flags & ~point_counted);
+        ASSERT_EQ(values.size(), old.size());
+        for (std::size_t k = 0; k < old.size(); ++k) {
+            EXPECT_EQ(hash_of_field(values[k]), is_new(old[k]) ? hash_of_field(T{}) : hashes[array][old[k]])
+                << "array " << array << ", point " << k;
+        }
+        ++array;
+    });
+}
+
+}  // namespace
+}  // namespace crackle
