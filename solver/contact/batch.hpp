@@ -9,7 +9,6 @@
 #include "solver/contact/geometry.hpp"
 #include "solver/contact/lanes.hpp"
 #include "solver/contact/law.hpp"
-#include "solver/measure/ledger.hpp"
 #include "solver/world/world.hpp"
 
 namespace crackle {

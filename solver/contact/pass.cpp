@@ -11,7 +11,6 @@
 #include "solver/contact/geometry.hpp"
 #include "solver/contact/law.hpp"
 #include "solver/contact/opening.hpp"
-#include "solver/measure/ledger.hpp"
 
 namespace crackle {
 namespace {

@@ -370,18 +370,6 @@ class Judge {
 
 }  // namespace
 
-std::string TestCase::at(const std::string& key) const {
-    const auto found = position.find(key);
-    if (found != position.end()) return found->second + ": " + key;
-    const auto table = position.find(key.substr(0, key.find('.')));
-    return (table == position.end() ? source.string() : table->second) + ": " + key;
-}
-
-fs::path TestCase::resolve_path(const std::string& key, const std::string& written) const {
-    const std::string& where = position.at(key);
-    return (fs::path(where.substr(0, where.rfind(':'))).parent_path() / written).lexically_normal();
-}
-
 TestCase read_case(const fs::path& path) {
     TestCase test;
     test.source = path;

@@ -1,119 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A case: everything one virtual test needs to know, read from one TOML file.
+// Case files: everything one virtual test needs to know (test_case.hpp), read from one TOML file.
 //
-// Every parameter is declared once, in case_parameters.cpp: table, key, unit, default, range, sentence. The reader, the
+// Every parameter is declared once, in parameters.cpp: table, key, unit, default, range, sentence. The reader, the
 // error texts, `crackle test --keys` and the resolved case that a test leaves beside its results all come from that
 // declaration. A case may begin with include = "other.toml": the other file's values hold wherever the case is silent,
 // so that several tests share one specimen.
-//
-// Units: any consistent set, SI in what we ship. Strictly 2D: stiffnesses, stresses and moduli in N/m.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <iosfwd>
-#include <map>
-#include <optional>
-#include <string>
-#include <vector>
+
+#include "specimens/case/test_case.hpp"
 
 namespace crackle {
-
-/// Of a packing whose case says nothing of damping: a particle ringing on its contacts loses 95 % of its energy a
-/// period, exp(-4πh) = 1/20; it shortens the stable step by a fifth.
-inline constexpr double default_damping_ratio = 0.2383941;  // ln(20)/(4π)
-
-/// One virtual test as the user wrote it, defaults filled in. Units and ranges: case_parameters.cpp.
-struct TestCase {
-    std::string title;
-
-    struct Particles {
-        std::optional<std::string> file;  ///< as written; resolve_path() leads to it
-    } particles;
-
-    struct Packing {
-        std::optional<double> width, height;    // m
-        std::optional<std::int64_t> count;      // circles; with height_to_width in place of width and height
-        std::optional<double> height_to_width;  // -
-        std::string sizes = "uniform";
-        std::optional<double> radius_min, radius_max;               // m
-        std::optional<double> radius_median, radius_log_deviation;  // m, -
-        std::optional<std::string> sieve;                           // CSV file
-        std::optional<double> mean_overlap;                         // m
-        std::optional<double> void_ratio;                           // -
-        std::int64_t seed = 1;
-    } packing;
-
-    struct Mesh {
-        std::optional<std::string> kind;
-        std::optional<double> thick;  // m
-        std::optional<double> inset;  // m
-        std::string boundary = "domain";
-        bool merge_destroyed = false;
-    } mesh;
-
-    struct MaterialKeys {
-        std::optional<double> density;           // kg/m2
-        std::optional<double> normal_stiffness;  // N/m
-        std::optional<double> shear_stiffness;   // N/m
-        std::optional<double> friction_angle;    // degrees
-        std::optional<double> damping_ratio;     // -
-        std::optional<double> normal_damping;    // N s/m
-        std::optional<double> shear_damping;     // N s/m
-    } material;
-
-    struct Bond {
-        std::optional<double> thick;  // m
-    } bond;
-
-    struct Loading {
-        std::string kind;                         // "compression" or "tension"
-        std::optional<double> axial_strain_rate;  // 1/s; or:
-        std::optional<double> rate_tolerance;
-        double max_axial_strain = 0.0;
-        double stop_at_share_of_peak = 0.0;
-        std::string platens;                          // "bonded" or "frictional"
-        std::optional<double> platen_friction_angle;  // degrees
-
-        /// So many times as fast: a tolerance goes by the square of the rate it allows.
-        void scale_rate(double by) {
-            if (axial_strain_rate) *axial_strain_rate *= by;
-            if (rate_tolerance) *rate_tolerance *= by * by;
-        }
-    } loading;
-
-    struct Numerics {
-        std::optional<double> time_step;  // s
-        double safety_factor = 0.0;
-        std::int64_t threads = 1;
-        std::string contact_law;
-        std::string integrator;
-        bool intact = false;
-        bool allow_unstable = false;
-    } numerics;
-
-    struct Output {
-        std::int64_t curve_rows = 0;
-        std::optional<std::int64_t> frames;   ///< absent until the bodies are counted: default_frames()
-        double checkpoint_interval = 0.0;     // s, wall clock
-        double out_of_plane_thickness = 0.0;  // m
-    } output;
-
-    /// No key: the companions of a test are made with it. Times the damping of every material, after packing.
-    double damping_scale = 1.0;
-    double step_scale = 1.0;  ///< of a derived time step
-
-    std::filesystem::path source;                 ///< the case file
-    std::map<std::string, std::string> position;  ///< "table.key" → "file:line", for keys that somebody wrote
-    std::map<std::string, bool> table_present;    ///< "packing", "mesh", …
-    std::vector<std::filesystem::path> inputs;    ///< files read so far, the case first
-
-    bool has_table(const std::string& table) const { return table_present.contains(table); }
-    /// «file:line: table.key», or «file: table.key» for a key nobody wrote.
-    std::string at(const std::string& key) const;
-    /// A path written in the case, relative to the file that wrote it.
-    std::filesystem::path resolve_path(const std::string& key, const std::string& written) const;
-};
 
 /// Reads and judges a case. @throws InputError «file:line: key: found X, expected Y; what to do».
 TestCase read_case(const std::filesystem::path& path);

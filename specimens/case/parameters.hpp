@@ -12,7 +12,7 @@
 #include <variant>
 #include <vector>
 
-#include "specimens/case/case_file.hpp"
+#include "specimens/case/test_case.hpp"
 
 namespace crackle {
 

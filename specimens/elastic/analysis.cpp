@@ -83,10 +83,8 @@ double yield_strain(const World& world, const TestSetup& setup, const Moduli& mo
     return *nth;
 }
 
-ElasticAnalysis analyse_elastic(const VirtualTest& test, double strain, int modes) {
-    const World& world = test.world;
-    const TestSetup& setup = test.setup;
-    const Moduli moduli = test.small_strain ? test.small_strain->moduli : solve_moduli(world, setup);
+ElasticAnalysis analyse_elastic(const World& world, const TestSetup& setup, const Moduli& moduli, double strain,
+                                int modes) {
     ElasticAnalysis result;
     result.youngs_modulus = moduli.youngs_modulus;
     result.poissons_ratio = moduli.poissons_ratio;

@@ -15,7 +15,7 @@
 
 #include "solver/linear/elastic.hpp"
 #include "specimens/elastic/moduli.hpp"
-#include "specimens/loading/virtual_test.hpp"
+#include "specimens/setup/setup.hpp"
 
 namespace crackle {
 
@@ -56,10 +56,11 @@ struct ElasticAnalysis {
 /// twin with the same bodies
 double yield_strain(const World& world, const TestSetup& setup, const Moduli& moduli, double share);
 
-/// @param test prepared, not yet loaded; its platens bonded
+/// @param world bonded with its platens, not yet loaded, with the platens and side particles of `setup`
+/// @param moduli of this world (solve_moduli())
 /// @param strain at which bond forces are given (sense of the test)
 /// @param modes lowest vibration modes to find, platens held
-/// @throws InputError where there is no linear solution
-ElasticAnalysis analyse_elastic(const VirtualTest& test, double strain, int modes);
+ElasticAnalysis analyse_elastic(const World& world, const TestSetup& setup, const Moduli& moduli, double strain,
+                                int modes);
 
 }  // namespace crackle

@@ -11,6 +11,8 @@
 #include <utility>
 
 #include "solver/base/errors.hpp"
+#include "specimens/loading/load_specimen.hpp"
+#include "specimens/loading/prepare.hpp"
 
 namespace crackle {
 namespace {

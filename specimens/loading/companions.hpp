@@ -18,29 +18,10 @@
 #include <vector>
 
 #include "specimens/loading/virtual_test.hpp"
+#include "specimens/making/hooks.hpp"
+#include "specimens/results/numerical_errors.hpp"
 
 namespace crackle {
-
-struct Companion {
-    std::string name;  ///< "half_time_step", "half_rate", "half_damping", "double_damping"
-    double peak_stress = 0.0, peak_strain = 0.0;
-    std::string ended_by;  ///< as the test's own; "instability": it has no numbers worth comparing
-    std::int64_t steps = 0;
-    double post_peak_difference = 0.0;  ///< mean |stress - the test's| from the peak on, over the peak
-};
-
-/// Relative errors of one number.
-struct NumberError {
-    double time_step = 0.0, rate = 0.0, damping = 0.0;  ///< largest change by the companions; NaN: that one is unstable
-    double resolution = 0.0;                            ///< by the spacing of the rows it was judged by
-    double stated = 0.0;                                ///< NaN where a companion by step or rate is unstable
-};
-
-struct NumericalErrors {
-    std::vector<Companion> companions;
-    NumberError peak_stress, peak_strain;
-    std::optional<bool> peak_converged;  ///< no companion by step or rate is on another branch; none: no failure yet
-};
 
 /// A companion whose peak moved by more than this is on another branch.
 inline constexpr double branch_stress_change = 0.03, branch_strain_change = 0.1;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The loading loop: forces, observers, step; until failure, the largest strain, or an interrupt.
+#include "specimens/loading/load_specimen.hpp"
 
 #include <malloc.h>
 
@@ -11,7 +11,6 @@
 #include "solver/measure/ledger.hpp"
 #include "solver/stepping/controls.hpp"
 #include "solver/stepping/step.hpp"
-#include "specimens/loading/virtual_test.hpp"
 #include "specimens/results/files.hpp"
 
 namespace crackle {

@@ -25,6 +25,13 @@ struct TestHooks {
     std::function<void(const std::string&)> working;    ///< what is being done before loading, often
     std::function<void(const TestProgress&)> progress;  ///< a few times a second
     std::function<bool()> interrupted;
+
+    void report_stage(const std::string& line) const {
+        if (stage) stage(line);
+    }
+    void report_work(const std::string& what) const {
+        if (working) working(what);
+    }
 };
 
 /// The caller's interrupt before loading has begun: there is nothing to keep.

@@ -19,10 +19,6 @@
 namespace crackle {
 namespace {
 
-void say(const TestHooks& hooks, const std::string& line) {
-    if (hooks.stage) hooks.stage(line);
-}
-
 void apply_material(const TestCase::MaterialKeys& keys, Material& material) {
     if (keys.density) material.density = *keys.density;
     if (keys.normal_stiffness) material.normal_stiffness = *keys.normal_stiffness;
@@ -75,8 +71,7 @@ Scene packed_scene(const TestCase& test, const TestHooks& hooks, Specimen& speci
     try {
         packing = make_packing(request, [&](const PackingProgress& p) {
             if (hooks.interrupted && hooks.interrupted()) throw TestInterrupted();
-            if (hooks.working)
-                hooks.working(fmt::format("{} (draw {}): unbalanced by {:.1e} of the mean contact force", p.stage,
+            hooks.report_work(fmt::format("{} (draw {}): unbalanced by {:.1e} of the mean contact force", p.stage,
                                           p.attempt, p.residual));
         });
     } catch (const InputError& error) {
@@ -94,8 +89,7 @@ Scene packed_scene(const TestCase& test, const TestHooks& hooks, Specimen& speci
                         {"anisotropy", report.anisotropy},
                         {"unbalanced", report.residual},
                         {"radius_scale", report.radius_scale}};
-    say(hooks,
-        fmt::format("packed {} circles into {:.4g} m x {:.4g} m: void ratio {:.4g}, mean overlap {:.4g} m, seed {}",
+    hooks.report_stage(fmt::format("packed {} circles into {:.4g} m x {:.4g} m: void ratio {:.4g}, mean overlap {:.4g} m, seed {}",
                     packing.report.circles, packing.report.width, packing.report.height, packing.report.void_ratio,
                     packing.report.mean_overlap, keys.seed));
     return std::move(packing.scene);
@@ -105,7 +99,7 @@ Scene read_particles(const TestCase& test, const TestHooks& hooks) {
     const auto path = test.resolve_path("particles.file", *test.particles.file);
     Scene scene = read_geometry(path);
     for (Material& material : scene.materials) apply_material(test.material, material);
-    say(hooks, fmt::format("read {} bodies from {}", scene.bodies.size(), path.string()));
+    hooks.report_stage(fmt::format("read {} bodies from {}", scene.bodies.size(), path.string()));
     return scene;
 }
 
@@ -215,7 +209,7 @@ void mesh_specimen(Specimen& specimen, const TestCase& test, const TestHooks& ho
     request.merge_destroyed = test.mesh.merge_destroyed;
     const Domain& domain = circles.domain;
     Mesh mesh;
-    if (hooks.working) hooks.working(fmt::format("meshing {} seeds", seeds.size()));
+    hooks.report_work(fmt::format("meshing {} seeds", seeds.size()));
     try {
         mesh = make_mesh(seeds, {domain.x1, domain.x2, domain.y1, domain.y2}, request);
     } catch (const MeshError& error) {
@@ -242,7 +236,7 @@ void mesh_specimen(Specimen& specimen, const TestCase& test, const TestHooks& ho
     specimen.thick = request.inset ? 2.0 * *request.inset : request.thick;
     specimen.seeds = static_cast<std::int64_t>(seeds.size());
     specimen.segments = mesh.report.segments;
-    say(hooks, fmt::format("meshed into {} {} cells with {} segments", mesh.report.cells, specimen.kind,
+    hooks.report_stage(fmt::format("meshed into {} {} cells with {} segments", mesh.report.cells, specimen.kind,
                            mesh.report.segments));
 }
 

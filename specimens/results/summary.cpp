@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-#include "specimens/loading/companions.hpp"
 #include "specimens/observers/curve_analysis.hpp"
 #include "specimens/observers/profile_report.hpp"
+#include "specimens/results/numerical_errors.hpp"
 
 namespace crackle {
 namespace {

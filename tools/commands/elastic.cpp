@@ -12,6 +12,7 @@
 
 #include "solver/base/errors.hpp"
 #include "specimens/elastic/analysis.hpp"
+#include "specimens/loading/prepare.hpp"
 #include "tools/commands/commands.hpp"
 
 namespace crackle::tools {
@@ -175,7 +176,7 @@ int elastic(const Invocation& given) {
     const VirtualTest test = bond_test(description, hooks);
     talk.progress().begin("solving the linear system", 2.0, "");
     if (modes > 0) talk.progress().step(0.0, fmt::format("solving the linear system, {} modes", modes));
-    const ElasticAnalysis analysis = analyse_elastic(test, strain, modes);
+    const ElasticAnalysis analysis = analyse_elastic(test.world, test.setup, moduli_of(test), strain, modes);
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count() - test.specimen_seconds;
     talk.make_room();
     talk.detail(fmt::format("solved for {} unknowns, residual {:.1e}", analysis.unknowns, analysis.residual));

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "solver/base/errors.hpp"
-#include "specimens/loading/virtual_test.hpp"
+#include "specimens/loading/run.hpp"
 #include "specimens/observers/profile_report.hpp"
 #include "specimens/results/output_folder.hpp"
 #include "tools/commands/commands.hpp"

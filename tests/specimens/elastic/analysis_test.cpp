@@ -4,6 +4,7 @@
 
 #include "specimens/elastic/analysis.hpp"
 #include "solver/stepping/step.hpp"
+#include "specimens/loading/prepare.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -33,13 +34,17 @@ class ElasticAnalysisOf : public ::testing::Test {
     testing::ScratchFolder scratch_;
 };
 
+ElasticAnalysis analysed(const VirtualTest& test, double strain) {
+    return analyse_elastic(test.world, test.setup, moduli_of(test), strain, 0);
+}
+
 TEST_F(ElasticAnalysisOf, BondForcesOfAllPointsHoldThePlatens) {
     for (const char* mesh : {"", "voronoi"}) {
         SmallCase wanted;
         wanted.mesh = mesh;
         const VirtualTest test = prepared(wanted);
         const double strain = 1e-5;
-        const ElasticAnalysis a = analyse_elastic(test, strain, 0);
+        const ElasticAnalysis a = analysed(test, strain);
         double pull = 0.0;
         std::size_t k = 0;
         for (PointIndex p = 0; p < test.world.points.size(); ++p) {
@@ -61,7 +66,7 @@ TEST_F(ElasticAnalysisOf, FirstSlipAndBreakAreWhereARunHasThem) {
     SmallCase wanted;
     wanted.rate = 2e-4;
     VirtualTest test = prepared(wanted);
-    const ElasticAnalysis a = analyse_elastic(test, 1e-5, 0);
+    const ElasticAnalysis a = analysed(test, 1e-5);
     ASSERT_TRUE(a.first_slip && a.first_break);
     EXPECT_LE(a.first_slip->strain, a.first_break->strain);
     const LinearBond& bond = a.bonds[a.first_slip->bond];
@@ -85,7 +90,7 @@ TEST_F(ElasticAnalysisOf, FirstSlipAndBreakAreWhereARunHasThem) {
 
 TEST_F(ElasticAnalysisOf, FirstBreakIsTheLeastOfAllBondsAndNoneBreaksBeforeItSlips) {
     SmallCase wanted;
-    const ElasticAnalysis a = analyse_elastic(prepared(wanted), 1e-5, 0);
+    const ElasticAnalysis a = analysed(prepared(wanted), 1e-5);
     double least = std::numeric_limits<double>::infinity();
     for (const LinearBond& bond : a.bonds) {
         if (bond.normal_force >= 0.0) continue;

@@ -13,6 +13,8 @@
 #include "solver/measure/point_view.hpp"
 #include "solver/stepping/step.hpp"
 #include "specimens/frames/fragments.hpp"
+#include "specimens/loading/load_specimen.hpp"
+#include "specimens/loading/prepare.hpp"
 #include "specimens/loading/virtual_test.hpp"
 #include "specimens/observers/curve.hpp"
 #include "tests/support/claim.hpp"

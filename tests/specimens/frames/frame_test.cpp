@@ -20,6 +20,8 @@
 #include "solver/world/point_order.hpp"
 #include "specimens/frames/frame_painter.hpp"
 #include "specimens/frames/read_frames.hpp"
+#include "specimens/loading/load_specimen.hpp"
+#include "specimens/loading/prepare.hpp"
 #include "specimens/loading/virtual_test.hpp"
 #include "specimens/observers/curve.hpp"
 #include "tests/support/claim.hpp"

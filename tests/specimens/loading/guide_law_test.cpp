@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "specimens/loading/prepare.hpp"
 #include "specimens/loading/virtual_test.hpp"
 #include "tests/support/claim.hpp"
 

@@ -2,6 +2,8 @@
 // A specimen between its platens: where they stand, and what they measure.
 
 #include "specimens/loading/virtual_test.hpp"
+#include "specimens/loading/load_specimen.hpp"
+#include "specimens/loading/prepare.hpp"
 
 #include <gtest/gtest.h>
 

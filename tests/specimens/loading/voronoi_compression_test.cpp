@@ -12,6 +12,9 @@
 
 #include "solver/world/checkpoint.hpp"
 #include "solver/world/world.hpp"
+#include "specimens/loading/load_specimen.hpp"
+#include "specimens/loading/prepare.hpp"
+#include "specimens/loading/run.hpp"
 #include "specimens/loading/virtual_test.hpp"
 #include "specimens/packing/random_numbers.hpp"
 #include "tests/support/claim.hpp"

@@ -15,6 +15,8 @@
 #include "specimens/frames/crack_faces.hpp"
 #include "specimens/frames/frame_painter.hpp"
 #include "specimens/frames/read_frames.hpp"
+#include "specimens/loading/load_specimen.hpp"
+#include "specimens/loading/prepare.hpp"
 #include "specimens/loading/virtual_test.hpp"
 #include "specimens/observers/curve.hpp"
 #include "tests/support/claim.hpp"

@@ -13,7 +13,7 @@
 #include "solver/base/errors.hpp"
 #include "specimens/frames/frame.hpp"
 #include "specimens/frames/read_frames.hpp"
-#include "specimens/loading/virtual_test.hpp"
+#include "specimens/loading/run.hpp"
 #include "specimens/recordings/recording.hpp"
 #include "specimens/results/output_folder.hpp"
 #include "tests/support/claim.hpp"

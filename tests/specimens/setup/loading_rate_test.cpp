@@ -7,6 +7,8 @@
 
 #include "solver/base/errors.hpp"
 #include "specimens/loading/companions.hpp"
+#include "specimens/loading/load_specimen.hpp"
+#include "specimens/loading/prepare.hpp"
 #include "specimens/loading/virtual_test.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/deck_files.hpp"

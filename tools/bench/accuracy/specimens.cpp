@@ -7,6 +7,8 @@
 #include <map>
 #include <utility>
 
+#include "specimens/loading/load_specimen.hpp"
+#include "specimens/loading/prepare.hpp"
 #include "specimens/loading/virtual_test.hpp"
 #include "tools/bench/accuracy/accuracy.hpp"
 #include "tools/bench/verify/scenes/packed_case.hpp"

@@ -20,6 +20,8 @@
 #include "solver/stepping/build_world.hpp"
 #include "solver/stepping/step.hpp"
 #include "specimens/elastic/analysis.hpp"
+#include "specimens/loading/load_specimen.hpp"
+#include "specimens/loading/prepare.hpp"
 #include "specimens/loading/virtual_test.hpp"
 #include "specimens/observers/curve_analysis.hpp"
 #include "specimens/results/sha256.hpp"
@@ -77,7 +79,7 @@ void take_counts(GuideResult& result, const TestCase& description, const TestHoo
 }
 
 void take_elastic(GuideResult& result, VirtualTest& test) {
-    const ElasticAnalysis analysis = analyse_elastic(test, 1e-4, 0);
+    const ElasticAnalysis analysis = analyse_elastic(test.world, test.setup, moduli_of(test), 1e-4, 0);
     auto& q = result.quantities;
     q["particles"] = static_cast<double>(test.setup.particles);
     q["segments"] = static_cast<double>(test.setup.segments);

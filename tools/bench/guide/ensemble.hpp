@@ -13,11 +13,11 @@
 #include <string>
 #include <vector>
 
-#include "specimens/case/case_file.hpp"
+#include "specimens/case/test_case.hpp"
+#include "tools/bench/guide/experiments.hpp"
 
 namespace crackle::studies {
 
-inline constexpr const char* as_shipped = "shipped";  ///< the experiment that changes nothing
 inline constexpr const char* elastic_test = "elastic";
 
 struct GuideTest {

@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "solver/base/errors.hpp"
-#include "tools/bench/guide/ensemble.hpp"
 
 namespace crackle::studies {
 namespace {

@@ -5,9 +5,11 @@
 #include <string>
 #include <vector>
 
-#include "specimens/case/case_file.hpp"
+#include "specimens/case/test_case.hpp"
 
 namespace crackle::studies {
+
+inline constexpr const char* as_shipped = "shipped";  ///< the experiment that changes nothing
 
 /// Tests that an experiment touches; where it does not, the shipped test stands in.
 struct Reach {

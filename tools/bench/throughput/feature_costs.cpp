@@ -15,6 +15,7 @@
 #include "solver/stepping/build_world.hpp"
 #include "solver/stepping/step.hpp"
 #include "solver/stepping/sweep.hpp"
+#include "specimens/loading/load_specimen.hpp"
 #include "specimens/making/lattices.hpp"
 #include "specimens/results/files.hpp"
 #include "tools/bench/throughput/least_step.hpp"

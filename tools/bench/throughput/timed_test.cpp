@@ -12,6 +12,8 @@
 #include "solver/demseg/geometry.hpp"
 #include "solver/stepping/controls.hpp"
 #include "specimens/case/case_file.hpp"
+#include "specimens/loading/load_specimen.hpp"
+#include "specimens/loading/prepare.hpp"
 #include "specimens/loading/virtual_test.hpp"
 #include "specimens/making/disordered.hpp"
 #include "specimens/results/files.hpp"

@@ -14,7 +14,7 @@
 #include "solver/stepping/bonding.hpp"
 #include "solver/stepping/build_world.hpp"
 #include "solver/stepping/step.hpp"
-#include "specimens/loading/virtual_test.hpp"
+#include "specimens/loading/prepare.hpp"
 #include "specimens/making/disordered.hpp"
 #include "specimens/making/lattices.hpp"
 #include "tools/bench/verify/groups.hpp"

@@ -13,6 +13,8 @@
 #include "solver/stepping/bonding.hpp"
 #include "solver/stepping/build_world.hpp"
 #include "solver/stepping/step.hpp"
+#include "specimens/loading/prepare.hpp"
+#include "specimens/loading/load_specimen.hpp"
 #include "specimens/loading/virtual_test.hpp"
 #include "specimens/making/disordered.hpp"
 #include "tools/bench/verify/groups.hpp"

@@ -9,6 +9,8 @@
 
 #include "solver/measure/ledger.hpp"
 #include "solver/stepping/step.hpp"
+#include "specimens/loading/prepare.hpp"
+#include "specimens/loading/load_specimen.hpp"
 #include "specimens/loading/virtual_test.hpp"
 #include "tools/bench/verify/groups.hpp"
 #include "tools/bench/verify/rows.hpp"

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/case/test_case.hpp"
+
+namespace crackle {
+
+namespace fs = std::filesystem;
+
+std::string TestCase::at(const std::string& key) const {
+    const auto found = position.find(key);
+    if (found != position.end()) return found->second + ": " + key;
+    const auto table = position.find(key.substr(0, key.find('.')));
+    return (table == position.end() ? source.string() : table->second) + ": " + key;
+}
+
+fs::path TestCase::resolve_path(const std::string& key, const std::string& written) const {
+    const std::string& where = position.at(key);
+    return (fs::path(where.substr(0, where.rfind(':'))).parent_path() / written).lexically_normal();
+}
+
+}  // namespace crackle

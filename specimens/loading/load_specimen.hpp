@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The loading loop: steps the world until it fails, reaches its largest strain or is interrupted.
+//
+// Observers look in steps that somebody reads, in a fixed order: curve row, failure, frame; broken bonds as they come.
+// Nothing of this reaches the kernels.
+#pragma once
+
+#include "specimens/loading/virtual_test.hpp"
+#include "specimens/making/hooks.hpp"
+
+namespace crackle {
+
+class TestFiles;
+
+/// Loads to the end. @param files where to write; nullptr: rows and events stay in memory (state.rows,
+/// world.bonds.events)
+/// @throws UnstableRun with everything so far kept.
+void load_specimen(VirtualTest& test, const TestHooks& hooks = {}, TestFiles* files = nullptr);
+
+}  // namespace crackle

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/loading/prepare.hpp"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <cmath>
+#include <utility>
+
+#include "solver/base/errors.hpp"
+#include "specimens/elastic/analysis.hpp"
+#include "specimens/loading/quasi_static_start.hpp"
+#include "specimens/setup/bonded_specimen.hpp"
+#include "specimens/setup/platen_hold.hpp"
+
+namespace crackle {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// What was bonded, and where the step comes from.
+void report_bonded(const TestHooks& hooks, const World& world, const TestSetup& setup, const TestCase& test) {
+    if (!hooks.detail) return;
+    hooks.detail(fmt::format("{} bodies, {} segments; {} contact points touch, {} of them bonded; {} threads",
+                             world.bodies.size(), setup.segments, setup.contacts_initial, world.bonds.initial,
+                             world.workers.threads));
+    hooks.detail(fmt::format(
+        "time step {:.4g} s, {}; exact stable step {:.4g} s{}, guaranteed bound {:.4g} s", world.stepping.time_step,
+        test.numerics.time_step ? std::string("given by the case")
+                                : fmt::format("{:.3g} of the bound, followed as contacts open and close",
+                                              world.stepping.time_step / world.stepping.step_bound),
+        setup.stable_time_step, setup.stable_time_step_proved ? "" : " (a bound itself)", setup.time_step_bound));
+}
+
+// Loading by tolerance counts from where this share of the bonded points has given way by the linear solution, which is
+// 0.1 to 1.3 of the strain at peak of the guide's six tests; single slivers give way at a thousandth of it.
+constexpr double first_yield_share = 0.02;
+
+// Solving 50,000 cells takes 27 s and 3 GB, and both grow faster than the number of bodies: more are solved on demand.
+constexpr std::size_t most_bodies_solved = 200'000;
+
+/// Linear solution of a world with bonded platens, or a notice why there is none.
+void take_small_strain(VirtualTest& test, const World& world, const TestSetup& own) {
+    if (world.bodies.size() > most_bodies_solved) {
+        test.setup.notices.push_back(fmt::format(
+            "no small-strain modulus: {} bodies, more than {} are not solved beside a test; `crackle elastic` does it",
+            world.bodies.size(), most_bodies_solved));
+        return;
+    }
+    try {
+        SmallStrain solved{solve_moduli(world, own), 0.0};
+        solved.yield_strain = yield_strain(world, own, solved.moduli, first_yield_share);
+        test.state.youngs_modulus = solved.moduli.youngs_modulus;
+        test.state.poissons_ratio = solved.moduli.poissons_ratio;
+        test.state.modulus_residual = solved.moduli.solution.residual;
+        test.small_strain = std::move(solved);
+    } catch (const InputError& error) {
+        test.setup.notices.push_back(fmt::format("no small-strain modulus: {}", error.what()));
+    }
+}
+
+/// Bonds as deep as this share of a particle's size reach beyond the faces that lie against each other.
+constexpr double deep_bond_share = 0.1;
+
+void notice_deep_bonds(VirtualTest& test) {
+    const TestSetup& setup = test.setup;
+    if (!setup.polygons) return;
+    const double size = std::sqrt(setup.width * setup.height / static_cast<double>(setup.particles));
+    const double excess = setup.bond_thick - setup.mesh_thick;
+    if (excess <= deep_bond_share * size) return;
+    test.setup.notices.push_back(fmt::format(
+        "bond.thick = {:.4g} m exceeds the gap of {:.4g} m by {:.2g} of the mean particle size: polygons that share no "
+        "face bond too; the excess is the overlap that bonds them, and wants to be small",
+        setup.bond_thick, setup.mesh_thick, excess / size));
+}
+
+// Times the rate that loading by this tolerance would begin with.
+constexpr double noticed_tolerance = 0.01, noticed_rate = 3.0;
+
+void notice_fast_loading(VirtualTest& test) {
+    if (!test.small_strain || !(test.small_strain->moduli.youngs_modulus > 0.0)) return;
+    const double derived = largest_rate(rate_rule_of(test, noticed_tolerance));
+    const double given = *test.description.loading.axial_strain_rate;
+    if (given <= noticed_rate * derived) return;
+    test.setup.notices.push_back(
+        fmt::format("{} = {:.3g} 1/s is {:.2g} times the rate that rate_tolerance = {} would begin with: inertia and "
+                    "dashpots bear part of the stress; leave the rate out, or see with --verify what it changes",
+                    test.description.at("loading.axial_strain_rate"), given, given / derived, noticed_tolerance));
+}
+
+}  // namespace
+
+VirtualTest bond_test(const TestCase& description, const TestHooks& hooks) {
+    VirtualTest test;
+    test.description = description;
+    const TestCase::MaterialKeys& material = description.material;
+    if (description.has_table("packing") && !material.damping_ratio && !material.normal_damping) {
+        hooks.report_stage(fmt::format("damping ratio {:.4g} by default: a particle ringing on its contacts loses 95 % of its "
+                               "energy a period",
+                               default_damping_ratio));
+    }
+    const Clock::time_point begun = Clock::now();
+    const Specimen specimen = make_specimen(description, hooks);
+    test.specimen_seconds = std::chrono::duration<double>(Clock::now() - begun).count();
+    hooks.report_work("bonding");
+    BondedSpecimen bonded = bond_specimen(specimen, description, description.loading);
+    test.world = std::move(bonded.world);
+    test.setup = record_setup(test.world, specimen, bonded.platens, description.loading.kind == "compression");
+    if (!description.output.frames)
+        test.description.output.frames = default_frames(test.setup.particles, description.output.curve_rows);
+    test.state.failure.share_of_peak = description.loading.stop_at_share_of_peak;
+    hooks.report_stage(fmt::format("bonded {} points of {} interfaces, time step {:.3g} s", test.world.bonds.initial,
+                           test.world.bonds.interfaces_initial, test.world.stepping.time_step));
+    report_bonded(hooks, test.world, test.setup, description);
+    hooks.report_work("solving for small strain");
+    notice_deep_bonds(test);
+    if (bonded.platens.bonded) {
+        check_platen_hold(test.world, test.setup, bonded.platens, description);
+        take_small_strain(test, test.world, test.setup);
+    } else {
+        TestCase::Loading held = description.loading;
+        held.platens = "bonded";
+        const BondedSpecimen twin = bond_specimen(specimen, description, held);
+        try {
+            const TestSetup own = record_setup(twin.world, specimen, twin.platens, test.setup.compression);
+            check_platen_hold(twin.world, own, twin.platens, description);
+            take_small_strain(test, twin.world, own);
+        } catch (const InputError& error) {
+            test.setup.notices.push_back(fmt::format("no small-strain modulus: {}", error.what()));
+        }
+    }
+    if (std::isfinite(test.state.youngs_modulus)) {
+        hooks.report_stage(fmt::format("small strain: E = {:.4g} N/m, nu = {:.3g}", test.state.youngs_modulus,
+                               test.state.poissons_ratio));
+    }
+    return test;
+}
+
+VirtualTest prepare_test(const TestCase& description, const TestHooks& hooks) {
+    VirtualTest test = bond_test(description, hooks);
+    if (description.loading.rate_tolerance) {
+        start_by_tolerance(test);
+        hooks.report_stage(fmt::format("loading by tolerance {}: first rate {:.3g} 1/s, a wave's transit {:.3g} s",
+                        *description.loading.rate_tolerance, test.state.rate.rate, test.setup.rate_rule.transit_time));
+    } else {
+        notice_fast_loading(test);
+    }
+    for (const std::string& notice : test.setup.notices) hooks.report_stage("notice: " + notice);
+    return test;
+}
+
+Moduli moduli_of(const VirtualTest& test) {
+    return test.small_strain ? test.small_strain->moduli : solve_moduli(test.world, test.setup);
+}
+
+}  // namespace crackle

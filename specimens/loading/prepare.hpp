@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// From a case to a test that is ready to be loaded.
+//
+//   bond_test()     case → specimen → platens → world → bonds → linear solution, at rest
+//   prepare_test()  and the start of loading
+#pragma once
+
+#include "specimens/case/case_file.hpp"
+#include "specimens/loading/virtual_test.hpp"
+#include "specimens/making/hooks.hpp"
+
+namespace crackle {
+
+/// @throws InputError for everything that makes the case impossible; TestInterrupted.
+VirtualTest bond_test(const TestCase& description, const TestHooks& hooks = {});
+
+/// @throws as bond_test()
+VirtualTest prepare_test(const TestCase& description, const TestHooks& hooks = {});
+
+/// Its linear solution, solved now where it was left out for its size. @throws InputError where there is none
+Moduli moduli_of(const VirtualTest& test);
+
+}  // namespace crackle

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/loading/run.hpp"
+
+#include <fmt/format.h>
+
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <sstream>
+#include <utility>
+
+#include "solver/base/errors.hpp"
+#include "specimens/loading/companions.hpp"
+#include "specimens/loading/load_specimen.hpp"
+#include "specimens/loading/prepare.hpp"
+#include "specimens/results/checkpoint.hpp"
+#include "specimens/results/files.hpp"
+#include "specimens/results/output_folder.hpp"
+#include "specimens/results/sha256.hpp"
+
+namespace crackle {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+using namespace nlohmann::literals;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+std::string read_bytes(const fs::path& path) {
+    std::ifstream in(path, std::ios::binary);
+    if (!in) throw InputError(fmt::format("{}: cannot be read, expected a file; check the path", path.string()));
+    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+std::string resolved_case(const TestCase& test, const fs::path& folder) {
+    std::ostringstream text;
+    text << resolved_case_mark << CRACKLE_VERSION << ": every value in the open. Its inputs, with their SHA-256:\n";
+    for (const fs::path& input : test.inputs) {
+        text << "#   " << sha256(read_bytes(input)) << "  " << input.filename().string() << '\n';
+    }
+    write_resolved_case(text, test, folder);
+    return text.str();
+}
+
+TestTiming timing_of(const VirtualTest& test, const TestOptions& options) {
+    return {test.state.wall_seconds + seconds_since(options.process_start), test.state.step_seconds,
+            test.world.workers.threads};
+}
+
+/// Loads with files open, and closes the account whatever the end.
+TestOutcome run_with_files(VirtualTest& test, const TestOptions& options, const TestHooks& hooks, OutputFolder& folder,
+                           TestFiles& files) {
+    TestOutcome outcome;
+    std::optional<NumericalErrors> errors;
+    const auto write_summary = [&] {
+        outcome.summary = make_summary(test.description, test.setup, test.state, test.world, timing_of(test, options),
+                                       errors ? &*errors : nullptr);
+        files.write_summary(outcome.summary, test.state);
+    };
+    const auto write_peak = [&] {
+        if (test.state.peak_frame.row >= 0) files.add_frame(test.state.peak_frame, test.setup, test.state, test.world);
+    };
+    try {
+        load_specimen(test, hooks, &files);
+    } catch (const UnstableRun& error) {
+        test.state.ended_by = ended_by_instability;
+        test.setup.notices.push_back(error.what());
+        files.flush();
+        write_peak();
+        write_summary();
+        throw UnstableRun(error, fmt::format("output so far in {}{}", folder.path().string(),
+                                             folder.staged() ? "; earlier results are as they were" : ""));
+    }
+    outcome.interrupted = test.state.ended_by.empty();
+    if (outcome.interrupted) {
+        // The checkpoint knows neither this end nor the picture of the peak so far: a resumed test may pass a higher
+        // one.
+        TestState kept = test.state;
+        kept.wall_seconds += seconds_since(options.process_start);
+        files.write_checkpoint(test.setup, kept, test.world);
+        test.state.ended_by = ended_by_interrupt;
+        write_peak();
+        write_summary();
+    } else {
+        write_peak();
+        TestState kept = test.state;
+        kept.wall_seconds = kept.step_seconds =
+            0.0;  // nothing is left to add them to: the same run gives the same bytes
+        files.write_checkpoint(test.setup, kept, test.world);
+        write_summary();  // complete before the companions begin, whatever becomes of them
+        if (options.verify) {
+            errors = run_companions(test, hooks);
+            outcome.unverified = !errors && test.state.failure.peak_row >= 0;
+            write_summary();
+        }
+        folder.finish();
+    }
+    outcome.folder = folder.path();
+    return outcome;
+}
+
+/// A test that has nothing left to be loaded: verified now, if that is asked and has not been done.
+TestOutcome finished_test(VirtualTest& test, const TestOptions& options, const TestHooks& hooks,
+                          const OutputFolder& folder) {
+    TestOutcome outcome;
+    outcome.folder = folder.path();
+    const fs::path name = folder.path() / "summary.json";
+    // Without one the process was stopped in between: what only the clock knew is lost.
+    std::error_code error;
+    const bool exists = fs::is_regular_file(name, error);
+    if (exists) outcome.summary = nlohmann::ordered_json::parse(read_bytes(name), nullptr, false);
+    const auto& old = outcome.summary;
+    const bool readable = exists && old.is_object() && old.value("ended_by", "") == test.state.ended_by;
+    const bool verified = readable && old.contains("/numerical_errors/companions"_json_pointer);
+    outcome.was_finished = readable && (verified || !options.verify);
+    if (outcome.was_finished) return outcome;
+    TestTiming timing{0.0, 0.0, test.world.workers.threads};
+    if (readable) timing = {old.value("wall_seconds", 0.0), old.value("step_seconds", 0.0), old.value("threads", 1)};
+    std::optional<NumericalErrors> errors;
+    const auto write_summary = [&] {
+        outcome.summary =
+            make_summary(test.description, test.setup, test.state, test.world, timing, errors ? &*errors : nullptr);
+        folder.write("summary.json", outcome.summary.dump(2) + '\n');
+    };
+    write_summary();
+    if (options.verify) {
+        errors = run_companions(test, hooks);
+        outcome.unverified = !errors && test.state.failure.peak_row >= 0;
+        write_summary();
+    }
+    return outcome;
+}
+
+}  // namespace
+
+TestOutcome run_test(const TestCase& description, const TestOptions& options, const TestHooks& hooks) {
+    TestCase recorded = description;
+    if (description.particles.file)
+        recorded.inputs.push_back(description.resolve_path("particles.file", *description.particles.file));
+    if (description.packing.sieve)
+        recorded.inputs.push_back(description.resolve_path("packing.sieve", *description.packing.sieve));
+    OutputFolder folder = OutputFolder::create(options.folder, options.force, recorded.inputs);
+    VirtualTest test = prepare_test(description, hooks);
+    if (options.threads > 0) set_threads(test.world, options.threads);
+    Profile profile;
+    if (options.profile) test.world.workers.profile = &profile;
+    test.state.command = options.command;
+    recorded.output.frames = test.description.output.frames;  // known only now where the case is silent
+    const std::string text = resolved_case(recorded, folder.target());
+    TestFiles files(folder, sha256(text),
+                    test.state);  // empty until loading: by that a test that has only begun is known
+    folder.write("case.toml", text);
+    return run_with_files(test, options, hooks, folder, files);
+}
+
+TestOutcome resume_test(const TestOptions& options, const TestHooks& hooks) {
+    OutputFolder folder = OutputFolder::reopen(options.folder);
+    const fs::path checkpoint_path = folder.path() / "checkpoint";
+    std::error_code error;
+    if (!fs::is_regular_file(checkpoint_path, error)) {
+        throw InputError(fmt::format("{}: found no checkpoint, {}", checkpoint_path.string(),
+                                     holds_test_results(folder.path())
+                                         ? "expected one to resume from; run the test again with --force"
+                                         : "for the test was stopped before its loading began; nothing is lost, run "
+                                           "the test again"));
+    }
+    const fs::path case_path = folder.path() / "case.toml";
+    VirtualTest test;
+    test.description = read_case(case_path);
+    TestCheckpoint checkpoint = load_test(read_bytes(checkpoint_path), checkpoint_path.string());
+    if (checkpoint.case_hash != sha256(read_bytes(case_path))) {
+        throw InputError(fmt::format(
+            "{}: found another case than the one the checkpoint belongs to, expected it unchanged; restore it, "
+            "or run the test again with --force",
+            case_path.string()));
+    }
+    test.setup = std::move(checkpoint.setup);
+    test.state = std::move(checkpoint.state);
+    test.world = std::move(checkpoint.world);
+    set_threads(test.world,
+                options.threads > 0 ? options.threads : static_cast<int>(test.description.numerics.threads));
+    if (!test.state.ended_by.empty()) return finished_test(test, options, hooks, folder);
+    // That of the interrupt: curve and frames go beyond it from here.
+    fs::remove(folder.path() / "summary.json", error);
+    TestFiles files(folder, checkpoint.case_hash, test.state);
+    hooks.report_stage(fmt::format("resumed at step {}, axial strain {:.4g}", test.world.stepping.steps,
+                           test.setup.axial_strain(test.world)));
+    return run_with_files(test, options, hooks, folder, files);
+}
+
+}  // namespace crackle

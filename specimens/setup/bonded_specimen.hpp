@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A specimen between its platens as a world with bonds.
+#pragma once
+
+#include "solver/world/world.hpp"
+#include "specimens/case/case_file.hpp"
+#include "specimens/making/specimen.hpp"
+#include "specimens/setup/platen.hpp"
+
+namespace crackle {
+
+struct BondedSpecimen {
+    World world;
+    Platens platens;
+};
+
+/// Platens added, world built, bonds made, platens in place, forces known.
+/// @param loading of the test, or with other platens
+/// @throws InputError for a step above the exact stable step, naming the case's key
+BondedSpecimen bond_specimen(const Specimen& specimen, const TestCase& test, const TestCase::Loading& loading);
+
+}  // namespace crackle
