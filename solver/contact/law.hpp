@@ -9,7 +9,7 @@
 // degrees. The limit uses the contact's own compression k_n δ, so a bond keeps the shear strength it had before
 // bonding. The dashpot sees the lagged velocity v(n-½) and may pull just before separation, as the restitution formula
 // assumes. Energy: the slider takes ½(f_t0 + f_t1)(trial - f_t1)/k_s a step, which together with ½f_t²/k_s is exactly
-// the work of the mean shear force. Source: DEMseg guide; model.md 3.
+// the work of the mean shear force. Source: DEMseg guide; solver/MODEL.md 4.
 #pragma once
 
 #include <algorithm>
