@@ -8,9 +8,12 @@
 #include <utility>
 
 #include "solver/contact/batch.hpp"
+#include "solver/contact/dashpot.hpp"
+#include "solver/contact/friction.hpp"
 #include "solver/contact/geometry.hpp"
 #include "solver/contact/law.hpp"
 #include "solver/contact/opening.hpp"
+#include "solver/contact/relative_motion.hpp"
 
 namespace crackle {
 namespace {
@@ -25,11 +28,13 @@ inline void store_work(SpringWork& work, const World& world, const ContactPoint&
 
 /// Out of contact: no force; what the shear spring still held is lost to the slider.
 template <bool Friction, bool Ledger>
-inline void release(World& world, PointIndex k, BlockLosses& loss, double shear_move) {
+inline void release(World& world, PointIndex k, BlockLosses& loss, double slip) {
     PointState& state = world.points.state[k];
-    if constexpr (Ledger && Friction)
-        loss.friction +=
-            shear_force(world.settings.laws[state.law], world.points.shear_force[k], shear_move, 0.0).friction;
+    if constexpr (Ledger && Friction) {
+        const Law<double> law(world.settings.laws[state.law]);
+        const ShearTrial<double> trial = try_shear(law, world.points.shear_force[k], slip, 0.0);
+        if (trial.slides) loss.friction += slider_loss(law, trial, shear_force(trial));
+    }
     world.points.shear_force[k] = 0.0;
     state.flags = static_cast<std::uint16_t>(state.flags & ~(point_touching | point_sliding | point_slid));
 }
@@ -37,14 +42,15 @@ inline void release(World& world, PointIndex k, BlockLosses& loss, double shear_
 /// Inverse mass along the normal at the contact position, 1/kg, and the acceleration there in the last kick (closing,
 /// m/s2). A driving force is no part of it: what that costs is in the point's defect.
 template <PointKind K>
-inline void feel_bodies(const World& world, const ContactPoint& point, const ContactGeometry& g, Approach& approach) {
+inline void feel_bodies(const World& world, const ContactPoint& point, const ContactGeometry& g,
+                        ClosingPoint& closing) {
     const auto add = [&](BodyIndex b, double arm_x, double arm_y, double sense) {
         const BodyInertia& inertia = world.bodies.inertia[b];
         const BodyForce& force = world.bodies.last_force[b];
         const double turn = arm_x * g.ny - arm_y * g.nx;
-        approach.inverse_mass += inertia.inverse_mass_x * g.nx * g.nx + inertia.inverse_mass_y * g.ny * g.ny +
+        closing.inverse_mass += inertia.inverse_mass_x * g.nx * g.nx + inertia.inverse_mass_y * g.ny * g.ny +
                                  inertia.inverse_moment * turn * turn;
-        approach.acceleration +=
+        closing.acceleration +=
             sense * ((force.fx + inertia.mass * world.settings.gravity.x) * inertia.inverse_mass_x * g.nx +
                      (force.fy + inertia.mass * world.settings.gravity.y) * inertia.inverse_mass_y * g.ny +
                      force.torque * inertia.inverse_moment * turn);
@@ -53,44 +59,31 @@ inline void feel_bodies(const World& world, const ContactPoint& point, const Con
     if constexpr (K != PointKind::element_wall) add(point.body_j, g.ajx, g.ajy, -1.0);
 }
 
-/// Lengths of the arms of two single circles, which lie along the normal, m.
-struct Arms {
-    double i, j;
-};
-inline Arms arms_of_circles(const BodyState& i, const BodyState& j, const ContactGeometry& g) {
-    return {i.shape[0] - 0.5 * g.overlap, j.shape[0] - 0.5 * g.overlap};
-}
-
-/// Slip that ω × a at the end of the drift misses, where the arm is not along the normal: the chord of its turn,
-/// ½ω²Δt·a, in m/s. Left out, a bonded specimen that turns as a whole would collect shear, first order in Δt.
-inline double chord(const World& world, const BodyState& body, double arm_x, double arm_y, const ContactGeometry& g) {
-    return 0.5 * world.stepping.drift * body.omega * body.omega * (arm_y * g.nx - arm_x * g.ny);
-}
-
-/// How i moves against j at the contact position, m/s.
-struct Motion {
-    double closing, slipping;  // along the normal and the tangent
-};
-
+/// Geometry of a point: of two single circles as circles, of others with arms.
 template <PointKind K>
-inline Motion relative_motion(const World& world, const ContactPoint& point, const ContactGeometry& g) {
+inline auto geometry_of(const World& world, ContactPoint& point) {
+    if constexpr (K == PointKind::circle_circle) {
+        return single_circles_contact(world.bodies.state[point.body_i], world.bodies.state[point.body_j]);
+    } else {
+        return contact_geometry<K>(world, point, point.feature_j);
+    }
+}
+inline ContactGeometry with_arms(const ContactGeometry& g) { return g; }
+
+template <PointKind K, class Geometry>
+inline RelativeMotion<double> motion_of(const World& world, const ContactPoint& point, const Geometry& g) {
     const BodyState& i = world.bodies.state[point.body_i];
+    const double drift = world.stepping.drift;
     if constexpr (K == PointKind::element_wall) {
-        const double rx = i.vx - i.omega * g.aiy, ry = i.vy + i.omega * g.aix;
-        return {rx * g.nx + ry * g.ny, ry * g.nx - rx * g.ny + chord(world, i, g.aix, g.aiy, g)};
+        return motion_against_wall<double>(g, {i.vx, i.vy, i.omega, 0.0}, drift);
     } else {
         const BodyState& j = world.bodies.state[point.body_j];
-        double rx = i.vx - j.vx, ry = i.vy - j.vy;
+        const PairMotion<double> pair{i.vx - j.vx, i.vy - j.vy, i.omega, j.omega};
         if constexpr (K == PointKind::circle_circle) {
-            const Arms arms = arms_of_circles(i, j, g);
-            return {rx * g.nx + ry * g.ny, (ry * g.nx - rx * g.ny) + (i.omega * arms.i + j.omega * arms.j)};
+            return relative_motion(g, pair);
+        } else {
+            return relative_motion(g, pair, drift);
         }
-        rx -= i.omega * g.aiy - j.omega * g.ajy;
-        ry += i.omega * g.aix - j.omega * g.ajx;
-        double slipping = ry * g.nx - rx * g.ny;
-        slipping += chord(world, i, g.aix, g.aiy, g);
-        slipping -= chord(world, j, g.ajx, g.ajy, g);
-        return {rx * g.nx + ry * g.ny, slipping};
     }
 }
 
@@ -101,8 +94,8 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
     [[maybe_unused]] const double kick = kick_before(world.stepping) + 0.5 * world.stepping.time_step;
     ContactPoint& point = world.points.contact[k];
     PointState& state = world.points.state[k];
-    const ContactGeometry g = contact_geometry<K>(world, point, point.feature_j);
-    const ContactLaw& law = world.settings.laws[state.law];
+    const auto g = geometry_of<K>(world, point);
+    const Law<double> law(world.settings.laws[state.law]);
     bool bonded = false;
     if constexpr (Bonds) bonded = (state.flags & point_bonded) != 0;
 
@@ -113,22 +106,22 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
         return;
     }
 
-    const auto [closing, slipping] = relative_motion<K>(world, point, g);
+    const auto [closing, slipping] = motion_of<K>(world, point, g);
 
-    [[maybe_unused]] Approach approach{};
+    [[maybe_unused]] ClosingPoint coming{};
     [[maybe_unused]] double before = 0.0;
     // A point that overlaps before anything has moved has not been seen to close.
     [[maybe_unused]] const bool touched = (state.flags & point_touching) != 0 || dt == 0.0;
     if constexpr (Consistent) {
-        approach = {g.overlap, closing, 0.0, 0.0, law.normal_stiffness, 0.0, dt, kick, world.stepping.time_step};
-        if (!bonded) before = settle_opening(world.points.opening[k], touched, approach);
+        coming = {g.overlap, closing, 0.0, 0.0, law.normal_stiffness, 0.0, dt, kick, world.stepping.time_step};
+        if (!bonded) before = settle_opening(world.points.opening[k], touched, coming);
     }
 
     if (!holds) {
         if constexpr (Consistent) rest_opening(world.points.opening[k]);
         if constexpr (Ledger && Damping) {
-            loss.dashpot[place % BlockLosses::places] +=
-                0.5 * dt * (world.points.normal_dashpot[k] * closing + world.points.shear_dashpot[k] * slipping);
+            loss.dashpot[place % BlockLosses::places] += dashpot_loss<double>(
+                dt, world.points.normal_dashpot[k], closing, world.points.shear_dashpot[k], slipping);
             world.points.normal_dashpot[k] = world.points.shear_dashpot[k] = 0.0F;
         }
         if constexpr (Ledger && by_guide(K)) {
@@ -151,17 +144,17 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
         return;
     }
 
-    double normal = law.normal_stiffness * g.overlap;
+    double normal = spring_force(law, g.overlap);
     double compression = g.overlap;  // m, what Coulomb's limit goes by
     if constexpr (Consistent) {
         if (!bonded) {
-            feel_bodies<K>(world, point, g, approach);
-            if constexpr (Damping) approach.dashpot = normal_damping(law, world.points.root_mass[k]) * closing;
-            normal = opening_force(world.points.opening[k], touched, before, approach);
+            feel_bodies<K>(world, point, with_arms(g), coming);
+            if constexpr (Damping) coming.dashpot = normal_damping(law, world.points.root_mass[k]) * closing;
+            normal = opening_force(world.points.opening[k], touched, before, coming);
             compression = normal / law.normal_stiffness;
         }
     }
-    if constexpr (Bonds) normal -= law.normal_stiffness * world.points.bond_overlap[k];
+    if constexpr (Bonds) normal -= spring_force(law, world.points.bond_overlap[k]);
     if constexpr (Ledger && by_guide(K)) {
         SpringWork& work = world.points.spring_work[k];
         if (world.account.begun) {
@@ -172,55 +165,45 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
         const double fx = -normal * g.nx, fy = -normal * g.ny;
         work.last = {fx, fy, g.aix * fy - g.aiy * fx, g.ajy * fx - g.ajx * fy};
     }
-    double tangential = 0.0;
+    double shear = 0.0;
     std::uint16_t flags = static_cast<std::uint16_t>((state.flags | point_touching) & ~point_sliding);
     bool sliding = !Friction;
     if constexpr (Friction) {
-        const ShearUpdate shear = shear_force(law, world.points.shear_force[k], slipping * dt, compression);
-        sliding = shear.sliding;
-        if (sliding) flags |= point_sliding | point_slid;
-        if constexpr (Ledger) loss.friction += shear.friction;
-        world.points.shear_force[k] = shear.force;
-        tangential = shear.force;
+        const ShearTrial<double> trial = try_shear(law, world.points.shear_force[k], slipping * dt, compression);
+        shear = shear_force(trial);
+        sliding = trial.slides;
+        if (sliding) {
+            flags |= point_sliding | point_slid;
+            if constexpr (Ledger) loss.friction += slider_loss(law, trial, shear);
+        }
+        world.points.shear_force[k] = shear;
     }
     state.flags = flags;
     if constexpr (Bonds) {
         loss.gained += (flags & point_counted) == 0 ? 1u : 0u;
-        if (bonded) {
-            const double half_strength = 0.5 * law.normal_stiffness * world.points.bond_overlap[k];
-            if (normal * normal + tangential * tangential >= half_strength * half_strength) {
-                world.points.strong_normal[k] = static_cast<float>(normal);
-                world.points.strong_shear[k] = static_cast<float>(tangential);
-            }
+        if (bonded && carries_half_strength(law, normal, shear, world.points.bond_overlap[k])) {
+            world.points.strong_normal[k] = static_cast<float>(normal);
+            world.points.strong_shear[k] = static_cast<float>(shear);
         }
     }
     if constexpr (Damping) {
-        const double normal_dashpot = normal_damping(law, world.points.root_mass[k]) * closing;
-        const double shear_damper =
-            sliding ? 0.0 : shear_dashpot(law, world.points.root_mass[k], slipping, compression);
+        const double normal_damper = normal_damping(law, world.points.root_mass[k]) * closing;
+        const double shear_damper = shear_dashpot(law, world.points.root_mass[k], slipping, compression, sliding);
         if constexpr (Ledger) {
-            loss.dashpot[place % BlockLosses::places] += 0.5 * dt *
-                                                         ((world.points.normal_dashpot[k] + normal_dashpot) * closing +
-                                                          (world.points.shear_dashpot[k] + shear_damper) * slipping);
-            world.points.normal_dashpot[k] = static_cast<float>(normal_dashpot);
+            loss.dashpot[place % BlockLosses::places] +=
+                dashpot_loss(dt, world.points.normal_dashpot[k] + normal_damper, closing,
+                             world.points.shear_dashpot[k] + shear_damper, slipping);
+            world.points.normal_dashpot[k] = static_cast<float>(normal_damper);
             world.points.shear_dashpot[k] = static_cast<float>(shear_damper);
         }
-        normal += normal_dashpot;
-        tangential -= shear_damper;
+        normal += normal_damper;
+        shear -= shear_damper;
     }
-
-    // Force on i: -f_n along the normal (pushed away from j), f_t along the tangent.
-    const double fx = -normal * g.nx - tangential * g.ny;
-    const double fy = -normal * g.ny + tangential * g.nx;
-    if constexpr (K == PointKind::circle_circle) {
-        const Arms arms = arms_of_circles(world.bodies.state[point.body_i], world.bodies.state[point.body_j], g);
-        out = {fx, fy, arms.i * tangential, arms.j * tangential};
-    } else {
-        out = {fx, fy, g.aix * fy - g.aiy * fx, g.ajy * fx - g.ajx * fy};
-    }
+    const ForceOnBodies<double> force = force_on_bodies(g, normal, shear);
+    out = {force.fx, force.fy, force.torque_i, force.torque_j};
 }
 
-/// Whether points of a kind are looked at eight at a time.
+/// Whether kernels look at several points of a kind at once.
 template <PointKind K, bool Consistent>
 inline constexpr bool in_batches = (K == PointKind::circle_circle || K == PointKind::element_outline) && !Consistent;
 
@@ -231,15 +214,15 @@ CRACKLE_INLINE PointIndex force_batches(World& world, const PointBlock& block, P
     // Geometry first: its roots and divisions then overlap those of the next batches.
     constexpr PointIndex ahead = 64 / lane_count;
     if (k + lane_count > end) return k;
-    BatchGeometry geometry[ahead];
-    LawLanes law(world, world.points.state[k].law);
+    BatchOf<K> geometry[ahead];
+    BatchLaw law(world, world.points.state[k].law);
     while (k + lane_count <= end) {
         const PointIndex batches = std::min<PointIndex>(ahead, (end - k) / lane_count);
         geometry_batches<K, Fours>(world, k, batches, geometry);
         for (PointIndex b = 0; b < batches; ++b, k += lane_count) {
             const PointIndex place = k - block.begin;
             PointForce* const out = block.forces + place;
-            if (force_batch<K, Friction, Damping, Bonds, Ledger>(world, k, place, geometry[b], law, out, loss))
+            if (force_batch<Friction, Damping, Bonds, Ledger>(world, k, place, geometry[b], law, out, loss))
                 continue;
             for (PointIndex l = 0; l < lane_count; ++l)
                 force_point<K, Friction, Damping, Bonds, Ledger, false>(world, k + l, place + l, out[l], loss);
@@ -271,7 +254,7 @@ void geometry_block(World& world, const PointBlock& block) {
     PointIndex k = block.begin;
     if constexpr (in_batches<K, false>) {
         for (; k + lane_count <= block.end; k += lane_count) {
-            BatchGeometry g[1];
+            BatchOf<K> g[1];
             geometry_batches<K, false>(world, k, 1, g);
             asm volatile("" : : "m"(g));
         }

@@ -11,7 +11,7 @@ namespace crackle {
 
 struct VibrationMode {
     double frequency;           // rad/s
-    std::vector<Motion> shape;  ///< per body, largest mass-scaled component 1
+    std::vector<BodyMotion> shape;  ///< per body, largest mass-scaled component 1
 };
 
 /// Most modes (free motions included) that are looked for at once.

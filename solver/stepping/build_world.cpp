@@ -11,7 +11,6 @@
 #include <span>
 
 #include "solver/base/errors.hpp"
-#include "solver/contact/law.hpp"
 #include "solver/linear/step_bound.hpp"
 #include "solver/scene/convex_pieces.hpp"
 #include "solver/stepping/build_world.hpp"
