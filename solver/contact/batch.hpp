@@ -284,15 +284,51 @@ struct BlockLosses {
     }
 };
 
+/// What happens to the points of a batch.
+enum class BatchCase : std::uint8_t {
+    all_hold,    // every point was in contact, holds, and stuck before (and is bonded, where there are bonds)
+    some_hold,   // no other was in contact
+    none_holds,  // nor was in contact
+    one_by_one   // something breaks or parts, or the points are of several laws: for the scalar code
+};
+
 /// Which points of a batch carry load, and what they were before.
 struct BatchState {
+    BatchCase what;
     PointState* states;
     LaneBits law_and_flags, bonded, holds;
 };
 
-/// @tparam All every point was in contact, holds, and stuck before (and is bonded, where there are bonds)
-/// @param place of the first point in its block
-template <bool Friction, bool Damping, bool Bonds, bool Ledger, bool All, class Contact>
+constexpr LaneBit bits_of_flags(int flags) { return static_cast<LaneBit>(flags) << 16; }
+
+/// Changes nothing. @param k first point of the batch @param law of the batch before; left as this one's
+template <bool Bonds>
+CRACKLE_INLINE BatchState look_at_batch(World& world, PointIndex k, const Lanes& overlap, BatchLaw& law) {
+    constexpr int at_rest = point_touching | (Bonds ? point_bonded | point_counted : 0);
+    constexpr LaneBit of_law = 0xffff, looked_at = of_law | bits_of_flags(at_rest | point_sliding);
+    PointState* const states = world.points.state.data() + k;
+    const LaneBits law_and_flags = widened(states);
+    LaneBits unlike = law_and_flags ^ (law.number | bits_of_flags(at_rest));
+    if (!none_of(unlike & of_law)) {
+        if (!none_of((law_and_flags ^ law_and_flags[0]) & of_law)) return {BatchCase::one_by_one, states, {}, {}, {}};
+        law = BatchLaw(world, states[0].law);
+        unlike = law_and_flags ^ (law.number | bits_of_flags(at_rest));
+    }
+    const LaneBits over = overlap > (Bonds ? law.law.break_overlap : Lanes{});
+    if (none_of((unlike & looked_at) | ~over)) return {BatchCase::all_hold, states, law_and_flags, over, over};
+    LaneBits bonded{}, holds = overlap > 0.0;
+    if constexpr (Bonds) {
+        bonded = (law_and_flags & bits_of_flags(point_bonded)) != 0;
+        holds = bonded ? over : holds;
+    }
+    const LaneBits held_before = bonded | ((law_and_flags & bits_of_flags(point_touching)) != 0);
+    if (any(~holds & held_before)) return {BatchCase::one_by_one, states, law_and_flags, bonded, holds};
+    return {any(holds) ? BatchCase::some_hold : BatchCase::none_holds, states, law_and_flags, bonded, holds};
+}
+
+/// Forces of the points of a batch that hold, into `out`; of the others 0.
+/// @tparam All BatchCase::all_hold, else some_hold @param place of the first point in its block
+template <bool Friction, bool Damping, bool Bonds, bool All, class Contact>
 CRACKLE_INLINE void force_lanes(World& world, PointIndex k, PointIndex place, const BatchGeometry<Contact>& g,
                                 const Law<Lanes>& law, const BatchState& batch, PointForce* out, BlockLosses& loss) {
     const Lanes zero{};
@@ -321,10 +357,8 @@ CRACKLE_INLINE void force_lanes(World& world, PointIndex k, PointIndex place, co
         if (any(slides)) shear = shear_force(trial);
         store_as(spring, where_held(shear, before));
         if (any(slides)) {
-            if constexpr (Ledger) {
-                const Lanes lost = slider_loss(law, trial, shear);
-                for (int l = 0; l < lane_count; ++l) loss.friction += slides[l] != 0 ? lost[l] : 0.0;
-            }
+            const Lanes lost = slider_loss(law, trial, shear);
+            for (int l = 0; l < lane_count; ++l) loss.friction += slides[l] != 0 ? lost[l] : 0.0;
             if constexpr (All) {
                 for (int l = 0; l < lane_count; ++l)
                     if (slides[l] != 0) batch.states[l].flags |= point_sliding | point_slid;
@@ -332,9 +366,8 @@ CRACKLE_INLINE void force_lanes(World& world, PointIndex k, PointIndex place, co
         }
     }
     if constexpr (!All) {
-        constexpr auto bit_of = [](PointFlag flag) { return static_cast<LaneBit>(flag) << 16; };
-        LaneBits now = (batch.law_and_flags | bit_of(point_touching)) & ~bit_of(point_sliding);
-        if constexpr (Friction) now |= sliding & (bit_of(point_sliding) | bit_of(point_slid));
+        LaneBits now = (batch.law_and_flags | bits_of_flags(point_touching)) & ~bits_of_flags(point_sliding);
+        if constexpr (Friction) now |= sliding & (bits_of_flags(point_sliding) | bits_of_flags(point_slid));
         if (const unsigned changed = mask_of(batch.holds & ((now ^ batch.law_and_flags) != 0)); changed != 0) {
             for (int l = 0; l < lane_count; ++l)
                 if ((changed >> l & 1) != 0) batch.states[l].flags = static_cast<std::uint16_t>(now[l] >> 16);
@@ -342,8 +375,8 @@ CRACKLE_INLINE void force_lanes(World& world, PointIndex k, PointIndex place, co
     }
     if constexpr (Bonds) {
         if constexpr (!All) {
-            constexpr LaneBit counted = static_cast<LaneBit>(point_counted) << 16;
-            const unsigned uncounted = mask_of(batch.holds & ((batch.law_and_flags & counted) == 0));
+            const unsigned uncounted =
+                mask_of(batch.holds & ((batch.law_and_flags & bits_of_flags(point_counted)) == 0));
             loss.gained += static_cast<std::uint32_t>(__builtin_popcount(uncounted));
         }
         LaneBits strong = carries_half_strength(law, normal, shear, bond_overlap);
@@ -359,60 +392,20 @@ CRACKLE_INLINE void force_lanes(World& world, PointIndex k, PointIndex place, co
         const Lanes root_mass = load_as<Lanes>(&world.points.root_mass[k]);
         const Lanes normal_damper = normal_damping(law, root_mass) * g.motion.closing;
         const Lanes shear_damper = shear_dashpot(law, root_mass, g.motion.slipping, g.contact.overlap, sliding);
-        if constexpr (Ledger) {
-            float *const normal_memory = &world.points.normal_dashpot[k], *const shear_memory =
-                                                                              &world.points.shear_dashpot[k];
-            const Lanes last_normal = load_floats(normal_memory), last_shear = load_floats(shear_memory);
-            const Lanes lost = dashpot_loss<Lanes>(dt, last_normal + normal_damper, g.motion.closing,
-                                                   last_shear + shear_damper, g.motion.slipping);
-            loss.add_dashpots(place, where_held(lost, zero));
-            store_floats(normal_memory, where_held(normal_damper, last_normal));
-            store_floats(shear_memory, where_held(shear_damper, last_shear));
-        }
+        float *const normal_memory = &world.points.normal_dashpot[k], *const shear_memory =
+                                                                          &world.points.shear_dashpot[k];
+        const Lanes last_normal = load_floats(normal_memory), last_shear = load_floats(shear_memory);
+        const Lanes lost = dashpot_loss<Lanes>(dt, last_normal + normal_damper, g.motion.closing,
+                                               last_shear + shear_damper, g.motion.slipping);
+        loss.add_dashpots(place, where_held(lost, zero));
+        store_floats(normal_memory, where_held(normal_damper, last_normal));
+        store_floats(shear_memory, where_held(shear_damper, last_shear));
         normal += normal_damper;
         shear -= shear_damper;
     }
     const ForceOnBodies<Lanes> force = force_on_bodies(g.contact, normal, shear);
     store_quads(out, where_held(force.fx, zero), where_held(force.fy, zero), where_held(force.torque_i, zero),
                 where_held(force.torque_j, zero));
-}
-
-/// Forces of points k to k + lane_count - 1, into `out`. @param place of the first in its block @param law of the batch
-/// before; left as this one's @return false, with no force or loss changed, where the scalar code must look
-template <bool Friction, bool Damping, bool Bonds, bool Ledger, class Contact>
-CRACKLE_INLINE bool force_batch(World& world, PointIndex k, PointIndex place, const BatchGeometry<Contact>& g,
-                                BatchLaw& law, PointForce* out, BlockLosses& loss) {
-    constexpr auto bit_of = [](int flags) { return static_cast<LaneBit>(flags) << 16; };
-    constexpr int at_rest = point_touching | (Bonds ? point_bonded | point_counted : 0);
-    constexpr LaneBit of_law = 0xffff, looked_at = of_law | bit_of(at_rest | point_sliding);
-    PointState* const states = world.points.state.data() + k;
-    const LaneBits law_and_flags = widened(states);
-    LaneBits unlike = law_and_flags ^ (law.number | bit_of(at_rest));
-    if (!none_of(unlike & of_law)) {
-        if (!none_of((law_and_flags ^ law_and_flags[0]) & of_law)) return false;
-        law = BatchLaw(world, states[0].law);
-        unlike = law_and_flags ^ (law.number | bit_of(at_rest));
-    }
-    const LaneBits over = g.contact.overlap > (Bonds ? law.law.break_overlap : Lanes{});
-    if (none_of((unlike & looked_at) | ~over)) {
-        force_lanes<Friction, Damping, Bonds, Ledger, true>(world, k, place, g, law.law,
-                                                            {states, law_and_flags, over, over}, out, loss);
-        return true;
-    }
-    LaneBits bonded{}, holds = g.contact.overlap > 0.0;
-    if constexpr (Bonds) {
-        bonded = (law_and_flags & bit_of(point_bonded)) != 0;
-        holds = bonded ? over : holds;
-    }
-    const LaneBits held_before = bonded | ((law_and_flags & bit_of(point_touching)) != 0);
-    if (any(~holds & held_before)) return false;  // breaks or parts
-    if (!any(holds)) {
-        store_quads(out, Lanes{}, Lanes{}, Lanes{}, Lanes{});
-        return true;
-    }
-    force_lanes<Friction, Damping, Bonds, Ledger, false>(world, k, place, g, law.law,
-                                                         {states, law_and_flags, bonded, holds}, out, loss);
-    return true;
 }
 
 }  // namespace crackle

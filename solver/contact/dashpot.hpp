@@ -5,7 +5,7 @@
 //
 // They see the lagged velocity v(n-½), and the normal one may pull just before separation, as the restitution formula
 // assumes. Without a shear spring the shear dashpot is all that resists, and Coulomb's limit is its own. Energy: a
-// dashpot's work over a drift by the trapezoidal rule. Source: DEMseg guide; model.md 3.
+// dashpot's work over a drift by the trapezoidal rule. Source: DEMseg guide; solver/MODEL.md 4.
 #pragma once
 
 #include "solver/contact/friction.hpp"

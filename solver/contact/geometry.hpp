@@ -6,7 +6,7 @@
 //     δ = r_a + r_b - d         circle-circle: both radii; circle-outline: r and thick; vertex-outline: thick/2 twice
 // the normal n = -∇d points from i to j, and the force acts midway between the two surfaces, at x + n(r_a - δ/2).
 // This is the «rounded» law: d is C¹ outside a convex outline, so the force derives from ½k_n δ². The guide's law has
-// kinds of its own (guide_segments.hpp). Source: reference/model.md 2.
+// kinds of its own, by guide_segments.hpp. Source: solver/MODEL.md 3.
 #pragma once
 
 #include <array>

@@ -5,9 +5,9 @@
 // magnitude(), with_sign(), any() and none_of() below are there for both.
 //
 // Kernels load records two numbers at a time and turn them in registers: hardware gathers are slower than that on the
-// machines we know (reference/limits.md). Eight lanes where the target has AVX-512, else four, which the compiler
-// splits where even those are too many. All is IEEE arithmetic in the order of the source, so that any number of lanes
-// gives the bytes of the scalar code.
+// machines we know (tests/benchmarks/results/README.md). Eight lanes where the target has AVX-512, else four, which the
+// compiler splits where even those are too many. All is IEEE arithmetic in the order of the source, so that any number
+// of lanes gives the bytes of the scalar code.
 #pragma once
 
 #include <immintrin.h>

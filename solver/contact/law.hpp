@@ -7,7 +7,7 @@
 //
 // δ overlap [m], δ0 overlap at bonding (0: not bonded), u_t displacement of i against j along the normal turned by +90
 // degrees. The law is written once for any Number: a double, or Lanes of several points. Here are its constants and the
-// normal spring. Source: DEMseg guide; model.md 3.
+// normal spring. Source: DEMseg guide; solver/MODEL.md 4.
 #pragma once
 
 #include "solver/contact/lanes.hpp"

@@ -27,10 +27,10 @@ inline void store_work(SpringWork& work, const World& world, const ContactPoint&
 }
 
 /// Out of contact: no force; what the shear spring still held is lost to the slider.
-template <bool Friction, bool Ledger>
+template <bool Friction>
 inline void release(World& world, PointIndex k, BlockLosses& loss, double slip) {
     PointState& state = world.points.state[k];
-    if constexpr (Ledger && Friction) {
+    if constexpr (Friction) {
         const Law<double> law(world.settings.laws[state.law]);
         const ShearTrial<double> trial = try_shear(law, world.points.shear_force[k], slip, 0.0);
         if (trial.slides) loss.friction += slider_loss(law, trial, shear_force(trial));
@@ -88,7 +88,7 @@ inline RelativeMotion<double> motion_of(const World& world, const ContactPoint& 
 }
 
 /// Force of one point into `out`, with all that can happen to it. @param place in its block
-template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Ledger, bool Consistent>
+template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Consistent>
 inline void force_point(World& world, PointIndex k, PointIndex place, PointForce& out, BlockLosses& loss) {
     const double dt = world.stepping.drift;
     [[maybe_unused]] const double kick = kick_before(world.stepping) + 0.5 * world.stepping.time_step;
@@ -119,12 +119,12 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
 
     if (!holds) {
         if constexpr (Consistent) rest_opening(world.points.opening[k]);
-        if constexpr (Ledger && Damping) {
+        if constexpr (Damping) {
             loss.dashpot[place % BlockLosses::places] += dashpot_loss<double>(
                 dt, world.points.normal_dashpot[k], closing, world.points.shear_dashpot[k], slipping);
             world.points.normal_dashpot[k] = world.points.shear_dashpot[k] = 0.0F;
         }
-        if constexpr (Ledger && by_guide(K)) {
+        if constexpr (by_guide(K)) {
             SpringWork& work = world.points.spring_work[k];
             store_work(work, world, point, 0.0, closing);
             work.last = {0.0, 0.0, 0.0, 0.0};
@@ -138,7 +138,7 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
             ++loss.broken;
             // The event needs the springs as they were; record_breaks() releases the point.
         } else {
-            release<Friction, Ledger>(world, k, loss, slipping * dt);
+            release<Friction>(world, k, loss, slipping * dt);
         }
         out = {0.0, 0.0, 0.0, 0.0};
         return;
@@ -155,7 +155,7 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
         }
     }
     if constexpr (Bonds) normal -= spring_force(law, world.points.bond_overlap[k]);
-    if constexpr (Ledger && by_guide(K)) {
+    if constexpr (by_guide(K)) {
         SpringWork& work = world.points.spring_work[k];
         if (world.account.begun) {
             store_work(work, world, point, normal, closing);
@@ -174,7 +174,7 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
         sliding = trial.slides;
         if (sliding) {
             flags |= point_sliding | point_slid;
-            if constexpr (Ledger) loss.friction += slider_loss(law, trial, shear);
+            loss.friction += slider_loss(law, trial, shear);
         }
         world.points.shear_force[k] = shear;
     }
@@ -189,13 +189,11 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
     if constexpr (Damping) {
         const double normal_damper = normal_damping(law, world.points.root_mass[k]) * closing;
         const double shear_damper = shear_dashpot(law, world.points.root_mass[k], slipping, compression, sliding);
-        if constexpr (Ledger) {
-            loss.dashpot[place % BlockLosses::places] +=
-                dashpot_loss(dt, world.points.normal_dashpot[k] + normal_damper, closing,
-                             world.points.shear_dashpot[k] + shear_damper, slipping);
-            world.points.normal_dashpot[k] = static_cast<float>(normal_damper);
-            world.points.shear_dashpot[k] = static_cast<float>(shear_damper);
-        }
+        loss.dashpot[place % BlockLosses::places] +=
+            dashpot_loss(dt, world.points.normal_dashpot[k] + normal_damper, closing,
+                         world.points.shear_dashpot[k] + shear_damper, slipping);
+        world.points.normal_dashpot[k] = static_cast<float>(normal_damper);
+        world.points.shear_dashpot[k] = static_cast<float>(shear_damper);
         normal += normal_damper;
         shear -= shear_damper;
     }
@@ -204,47 +202,66 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
 }
 
 /// Whether kernels look at several points of a kind at once.
-template <PointKind K, bool Consistent>
-inline constexpr bool in_batches = (K == PointKind::circle_circle || K == PointKind::element_outline) && !Consistent;
+template <PointKind K>
+inline constexpr bool in_batches = K == PointKind::circle_circle || K == PointKind::element_outline;
 
-/// Points of a block from k on, as far as batches go. @return the first point left
-template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Ledger, bool Fours>
-CRACKLE_INLINE PointIndex force_batches(World& world, const PointBlock& block, PointIndex k, PointIndex end,
-                                        BlockLosses& loss) {
+/// Points of a block from k on, one after the other.
+template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Consistent>
+inline void force_points(World& world, const PointBlock& block, PointIndex k, BlockLosses& loss) {
+    for (; k < block.end; ++k) {
+        const PointIndex place = k - block.begin;
+        force_point<K, Friction, Damping, Bonds, Consistent>(world, k, place, block.forces[place], loss);
+    }
+}
+
+/// Kernel of kinds that are looked at one point after the other.
+template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Consistent>
+void force_block(World& world, const PointBlock& block) {
+    BlockLosses loss;
+    force_points<K, Friction, Damping, Bonds, Consistent>(world, block, block.begin, loss);
+    world.account.blocks[block.number] = loss.total();
+}
+
+/// Kernel of kinds that are looked at in batches, as far as these fill their lanes.
+template <PointKind K, bool Friction, bool Damping, bool Bonds>
+void force_block_in_batches(World& world, const PointBlock& block) {
     // Geometry first: its roots and divisions then overlap those of the next batches.
     constexpr PointIndex ahead = 64 / lane_count;
-    if (k + lane_count > end) return k;
     BatchOf<K> geometry[ahead];
-    BatchLaw law(world, world.points.state[k].law);
-    while (k + lane_count <= end) {
-        const PointIndex batches = std::min<PointIndex>(ahead, (end - k) / lane_count);
-        geometry_batches<K, Fours>(world, k, batches, geometry);
+    BlockLosses loss;
+    BatchLaw law(world, world.points.state[block.begin].law);
+    const PointIndex fours_end = K == PointKind::element_outline ? std::min(block.end, world.points.fours_end) : 0;
+    PointIndex k = block.begin;
+    while (k + lane_count <= block.end) {
+        const bool fours = k + lane_count <= fours_end;
+        const PointIndex batches = std::min<PointIndex>(ahead, ((fours ? fours_end : block.end) - k) / lane_count);
+        if (fours)
+            geometry_batches<K, true>(world, k, batches, geometry);
+        else
+            geometry_batches<K, false>(world, k, batches, geometry);
         for (PointIndex b = 0; b < batches; ++b, k += lane_count) {
             const PointIndex place = k - block.begin;
             PointForce* const out = block.forces + place;
-            if (force_batch<Friction, Damping, Bonds, Ledger>(world, k, place, geometry[b], law, out, loss))
-                continue;
-            for (PointIndex l = 0; l < lane_count; ++l)
-                force_point<K, Friction, Damping, Bonds, Ledger, false>(world, k + l, place + l, out[l], loss);
+            const BatchOf<K>& g = geometry[b];
+            const BatchState batch = look_at_batch<Bonds>(world, k, g.contact.overlap, law);
+            switch (batch.what) {
+                case BatchCase::all_hold:
+                    force_lanes<Friction, Damping, Bonds, true>(world, k, place, g, law.law, batch, out, loss);
+                    break;
+                case BatchCase::some_hold:
+                    force_lanes<Friction, Damping, Bonds, false>(world, k, place, g, law.law, batch, out, loss);
+                    break;
+                case BatchCase::none_holds:
+                    store_quads(out, Lanes{}, Lanes{}, Lanes{}, Lanes{});
+                    break;
+                case BatchCase::one_by_one:
+                    for (PointIndex l = 0; l < lane_count; ++l)
+                        force_point<K, Friction, Damping, Bonds, false>(world, k + l, place + l, out[l], loss);
+                    break;
+            }
         }
     }
-    return k;
-}
-
-template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Ledger, bool Consistent>
-void force_block(World& world, const PointBlock& block) {
-    BlockLosses loss;
-    PointIndex k = block.begin;
-    if constexpr (in_batches<K, Consistent>) {
-        if constexpr (K == PointKind::element_outline)
-            k = force_batches<K, Friction, Damping, Bonds, Ledger, true>(
-                world, block, k, std::min(block.end, std::max(k, world.points.fours_end)), loss);
-        k = force_batches<K, Friction, Damping, Bonds, Ledger, false>(world, block, k, block.end, loss);
-    }
-    for (; k < block.end; ++k) {
-        const PointIndex place = k - block.begin;
-        force_point<K, Friction, Damping, Bonds, Ledger, Consistent>(world, k, place, block.forces[place], loss);
-    }
+    force_points<K, Friction, Damping, Bonds, false>(world, block, k, loss);
     world.account.blocks[block.number] = loss.total();
 }
 
@@ -252,7 +269,7 @@ void force_block(World& world, const PointBlock& block) {
 template <PointKind K>
 void geometry_block(World& world, const PointBlock& block) {
     PointIndex k = block.begin;
-    if constexpr (in_batches<K, false>) {
+    if constexpr (in_batches<K>) {
         for (; k + lane_count <= block.end; k += lane_count) {
             BatchOf<K> g[1];
             geometry_batches<K, false>(world, k, 1, g);
@@ -270,22 +287,25 @@ void geometry_block(World& world, const PointBlock& block) {
 template <PointKind K, std::size_t Features>
 constexpr ForceKernel kernel_of() {
     constexpr bool friction = (Features & 1) != 0, damping = (Features & 2) != 0, bonds = (Features & 4) != 0;
-    constexpr bool ledger = (Features & 8) != 0, consistent = (Features & 16) != 0 && !by_guide(K);
-    return &force_block<K, friction, damping, bonds, ledger, consistent>;
+    constexpr bool consistent = (Features & 8) != 0 && !by_guide(K);
+    if constexpr (in_batches<K> && !consistent)
+        return &force_block_in_batches<K, friction, damping, bonds>;
+    else
+        return &force_block<K, friction, damping, bonds, consistent>;
 }
 
 template <PointKind K, std::size_t... Features>
-constexpr std::array<ForceKernel, 32> kernels_of(std::index_sequence<Features...>) {
+constexpr std::array<ForceKernel, 16> kernels_of(std::index_sequence<Features...>) {
     return {kernel_of<K, Features>()...};
 }
 
-constexpr std::array<std::array<ForceKernel, 32>, point_kinds> kernels{
-    kernels_of<PointKind::circle_circle>(std::make_index_sequence<32>{}),
-    kernels_of<PointKind::element_element>(std::make_index_sequence<32>{}),
-    kernels_of<PointKind::element_outline>(std::make_index_sequence<32>{}),
-    kernels_of<PointKind::disc_segment>(std::make_index_sequence<32>{}),
-    kernels_of<PointKind::segment_segment>(std::make_index_sequence<32>{}),
-    kernels_of<PointKind::element_wall>(std::make_index_sequence<32>{}),
+constexpr std::array<std::array<ForceKernel, 16>, point_kinds> kernels{
+    kernels_of<PointKind::circle_circle>(std::make_index_sequence<16>{}),
+    kernels_of<PointKind::element_element>(std::make_index_sequence<16>{}),
+    kernels_of<PointKind::element_outline>(std::make_index_sequence<16>{}),
+    kernels_of<PointKind::disc_segment>(std::make_index_sequence<16>{}),
+    kernels_of<PointKind::segment_segment>(std::make_index_sequence<16>{}),
+    kernels_of<PointKind::element_wall>(std::make_index_sequence<16>{}),
 };
 
 constexpr std::array<ForceKernel, point_kinds> geometry_kernels{
@@ -297,7 +317,7 @@ constexpr std::array<ForceKernel, point_kinds> geometry_kernels{
 }  // namespace
 
 ContactFeatures features_of(const World& world) {
-    ContactFeatures features{false, false, world.bonds.made, world.settings.ledger_on, !world.points.opening.empty()};
+    ContactFeatures features{false, false, world.bonds.made, !world.points.opening.empty()};
     for (const ContactLaw& law : world.settings.laws) {
         features.friction = features.friction || law.friction > 0.0;
         features.damping = features.damping || law.normal_damping > 0.0 || law.shear_damping > 0.0 ||
@@ -326,8 +346,7 @@ PointBlock block_of(const World& world, std::size_t kind, PointIndex block, Poin
 
 ForceKernel force_kernel(const ContactFeatures& features, std::size_t kind) {
     const std::size_t choice = (features.friction ? 1u : 0u) + (features.damping ? 2u : 0u) +
-                               (features.bonds ? 4u : 0u) + (features.ledger ? 8u : 0u) +
-                               (features.consistent ? 16u : 0u);
+                               (features.bonds ? 4u : 0u) + (features.consistent ? 8u : 0u);
     return kernels[kind][choice];
 }
 
