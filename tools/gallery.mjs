@@ -1,6 +1,6 @@
 #!/usr/bin/env node
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Takes the pictures that the README shows out of the report that tools/quickstart made, and its comparison with the guide.
+// Takes the pictures of specimens/gallery/README.md out of the report that tools/quickstart made, and its comparison with the guide.
 //   node tools/gallery.mjs [FOLDER] [GALLERY]    default out/guide_rock, specimens/gallery
 // Needs tools/quickstart and tools/test run before.
 // The browser driver is the one that building the tests installs (tools/test), the browser Debian's Chromium.

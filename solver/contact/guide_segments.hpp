@@ -15,7 +15,7 @@
 // is unsigned, so a disc that got through is pushed out behind; a corner is the end of two segments and twice as stiff.
 // Ours where the guide is silent: the normal of (ii), and half its overlap at h_p = h_s, so that ends exactly opposite
 // each other sum up as ends nearly so do (rounding decides there: meshes on a grid are this law's worst case). Source:
-// DEMseg guide II.2 (printed (6) and (7) lack -r); model.md 2.
+// DEMseg guide II.2 (printed (6) and (7) lack -r); solver/MODEL.md 3.3.
 #pragma once
 
 #include <algorithm>

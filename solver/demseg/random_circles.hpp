@@ -6,7 +6,7 @@
 //     N = round(A / ((1 + e) π <r²>)),  <r²> = (r1² + r1 r2 + r2²)/3     582 for the guide's 80 x 80, r 1-2, e 0.5
 //
 // A area of the domain, e void ratio. Own distributions on std::mt19937_64, whose sequence the standard fixes, so that
-// a seed gives the same bytes everywhere. Source: DEMseg guide I.7; the count is inferred from its 582 (model.md 5).
+// a seed gives the same bytes everywhere. Source: DEMseg guide I.7; the count is inferred from its 582 (FORMATS.md).
 #pragma once
 
 #include <cstdint>

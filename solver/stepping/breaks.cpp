@@ -6,7 +6,7 @@
 // is taken, they still do half their work over that drift. What is left of the stored energy goes to the account of
 // fracture: ½k_n(δ-δ0)' (δ-δ0) + ½f_t' f_t/k_s, the primed values those of n-1; ½k_n(δ-δ0)² + ½f_t²/k_s as Δt → 0. A
 // break is `shear` if the point had been at its Coulomb limit since bonding and |f_t| > |f_n| in the last step in which
-// it carried at least half its strength; else `tension`. Source: model.md 3.
+// it carried at least half its strength; else `tension`. Source: solver/MODEL.md 5.
 
 #include "solver/stepping/breaks.hpp"
 

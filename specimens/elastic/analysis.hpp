@@ -4,7 +4,7 @@
 //
 // With ε the axial strain in the sense of the test and a_n, a_t a point's growth of overlap and slip per unit of it,
 //     break:  δ0 + ε a_n = 0                         (linear, no slip)
-//     slip:   k_s |a_t| ε = μ k_n (δ0 + ε a_n)       (Coulomb limit of model.md 3)
+//     slip:   k_s |a_t| ε = μ k_n (δ0 + ε a_n)       (Coulomb limit, solver/MODEL.md 4.2)
 // A point that opens slips before it breaks unless it does not shear at all, for its limit goes with its overlap.
 #pragma once
 

@@ -17,6 +17,53 @@
 namespace crackle {
 namespace {
 
+constexpr Quantity fields_of_a_moment[]{
+    {"axial_strain", "-", "positive in the sense of the test"},
+    {"axial_stress", "N/m", "mean of both platens, positive in the sense of the test"},
+    {"time", "s since loading began", "of the moment"},
+};
+constexpr Quantity arrays_of_particles[]{
+    {"id", "", "number in the particle file or packing; platens come after the largest"},
+    {"radius", "m", "0 for polygons and platens"},
+    {"material", "", "number in the particle file, from 1"},
+    {"angle", "rad", "turned since loading began, counter-clockwise"},
+    {"displacement", "m", "since loading began; three components"},
+    {"velocity", "m/s", "half a step before the moment; three components"},
+    {"rotation_rate", "rad/s", "counter-clockwise, half a step before the moment"},
+    {"stress_xx", "N/m", "mean stress of the particle, compression positive; platens 0",
+     "force times arm over its contacts, symmetrised, over its area; springs with the bonds' back-tension, without "
+     "dashpots, so that it is 0 before loading"},
+    {"stress_yy", "N/m", "likewise"},
+    {"stress_xy", "N/m", "likewise"},
+    {"fragment", "",
+     "particles that intact bonds join, directly or through others, share a number: 0 the largest by area, then "
+     "falling, equal ones by their lowest id; platens are -1 and join nothing"},
+};
+constexpr Quantity arrays_of_contacts[]{
+    {"body_i", "", "id of one body"},
+    {"body_j", "", "id of the other"},
+    {"normal_force", "N", "elastic, positive pushes apart"},
+    {"shear_force", "N", "elastic, on body_i along the normal from i to j turned by +90°"},
+    {"state", "",
+     "0 bond, 1 bond that has been at its Coulomb limit, 2 broken bond, 3 broken bond whose surfaces touch again (its "
+     "forces are those of the touch), 4 contact without a bond"},
+    {"age", "s",
+     "of an intact bond since loading began; of a broken one since its break, to the step; of a contact since the row "
+     "of the curve that saw it first, of 2000 or more over `loading.max_axial_strain`, written or not"},
+};
+constexpr Quantity arrays_of_cracks[]{
+    {"body_i", "", "as in events.csv"},
+    {"body_j", "", "as in events.csv"},
+    {"time", "s since loading began", "of the break"},
+    {"mode", "", "0 tension, 1 shear, as in events.csv"},
+    {"energy", "J", "taken by the break"},
+    {"orientation", "rad", "of the contact normal at the break, in (-π/2, π/2]"},
+    {"strength", "N", "tensile strength that the point had"},
+    {"opening", "m",
+     "present gap between the surfaces along the normal: 0 as the bond's overlap is used up, negative where they are "
+     "pressed together again"},
+};
+
 /// Platens first, as VTK counts lines before polygons, then by id.
 std::vector<BodyIndex> drawing_order(const World& world, const TestSetup& setup) {
     std::vector<BodyIndex> order(world.bodies.size());
@@ -56,13 +103,24 @@ void write_indices(std::ostream& out, const char* name, std::size_t values, std:
 
 void write_head(std::ostream& out, const Frame& frame, const VtpCounts& counts) {
     write_vtp_head(out,
-                   {{"axial_strain", frame.axial_strain}, {"axial_stress", frame.axial_stress}, {"time", frame.time}},
+                   {{declared(fields_of_a_moment, "axial_strain").name, frame.axial_strain},
+                    {declared(fields_of_a_moment, "axial_stress").name, frame.axial_stress},
+                    {declared(fields_of_a_moment, "time").name, frame.time}},
                    counts);
 }
+
+const char* of_particles(std::string_view name) { return declared(arrays_of_particles, name).name; }
+const char* of_contacts(std::string_view name) { return declared(arrays_of_contacts, name).name; }
+const char* of_cracks(std::string_view name) { return declared(arrays_of_cracks, name).name; }
 
 constexpr std::int64_t most_kept = 2000;  // particles whose constant arrays are kept packed
 
 }  // namespace
+
+std::span<const Quantity> frame_fields() { return fields_of_a_moment; }
+std::span<const Quantity> particle_arrays() { return arrays_of_particles; }
+std::span<const Quantity> contact_arrays() { return arrays_of_contacts; }
+std::span<const Quantity> crack_arrays() { return arrays_of_cracks; }
 
 int circle_corners(std::int64_t particles) {
     constexpr std::int64_t most_seen_closely = 2000;
@@ -137,13 +195,13 @@ void FramePainter::write_particle_cells(std::ostream& out) const {
     write_cells("Lines", true);
     write_cells("Polys", false);
     begin_element(out, "CellData");
-    write_array<std::int32_t>(out, "id", cells, [&](const auto& add) {
+    write_array<std::int32_t>(out, of_particles("id"), cells, [&](const auto& add) {
         visit_cells([&](BodyIndex b, std::uint32_t, std::size_t, double) { add(world_.bodies.info[b].id); });
     });
-    write_array<double>(out, "radius", cells, [&](const auto& add) {
+    write_array<double>(out, of_particles("radius"), cells, [&](const auto& add) {
         visit_cells([&](BodyIndex, std::uint32_t, std::size_t, double radius) { add(radius); });
     });
-    write_array<std::int32_t>(out, "material", cells, [&](const auto& add) {
+    write_array<std::int32_t>(out, of_particles("material"), cells, [&](const auto& add) {
         visit_cells([&](BodyIndex b, std::uint32_t, std::size_t, double) {
             add(world_.bodies.info[b].material + 1);  // as decks number them
         });
@@ -175,12 +233,12 @@ void FramePainter::write_particles(std::ostream& out, const PlacedFrame& placed,
 
     const std::size_t cells = particle_counts_.lines + particle_counts_.polygons;
     const auto write_scalars = [&](const char* name, const auto& value_of) {
-        write_array<double>(out, name, cells, [&](const auto& add) {
+        write_array<double>(out, of_particles(name), cells, [&](const auto& add) {
             visit_cells([&](BodyIndex b, std::uint32_t, std::size_t, double) { add(value_of(b)); });
         });
     };
     const auto write_vectors = [&](const char* name, const auto& value_of) {
-        PackedArray<double> array(out, name, 3, 3 * cells);
+        PackedArray<double> array(out, of_particles(name), 3, 3 * cells);
         visit_cells([&](BodyIndex b, std::uint32_t, std::size_t, double) { add_vector(array, value_of(b)); });
         array.finish();
     };
@@ -195,7 +253,7 @@ void FramePainter::write_particles(std::ostream& out, const PlacedFrame& placed,
     write_scalars("stress_xx", [&](BodyIndex b) { return forces.stress[b].xx; });
     write_scalars("stress_yy", [&](BodyIndex b) { return forces.stress[b].yy; });
     write_scalars("stress_xy", [&](BodyIndex b) { return forces.stress[b].xy; });
-    write_array<std::int32_t>(out, "fragment", cells, [&](const auto& add) {
+    write_array<std::int32_t>(out, of_particles("fragment"), cells, [&](const auto& add) {
         const std::vector<std::int32_t> fragments = find_fragments(world_, setup_, frame);
         visit_cells([&](BodyIndex b, std::uint32_t, std::size_t, double) { add(fragments[b]); });
     });
@@ -240,10 +298,10 @@ void FramePainter::write_contact_cells(std::ostream& out, const LooseContacts& l
     });
     end_element(out, "Lines");
     begin_element(out, "CellData");
-    write_array<std::int32_t>(out, "body_i", contacts, [&](const auto& add) {
+    write_array<std::int32_t>(out, of_contacts("body_i"), contacts, [&](const auto& add) {
         visit_contacts(loose, [&](const ContactPoint& point) { add(world_.bodies.info[point.body_i].id); });
     });
-    write_array<std::int32_t>(out, "body_j", contacts, [&](const auto& add) {
+    write_array<std::int32_t>(out, of_contacts("body_j"), contacts, [&](const auto& add) {
         visit_contacts(loose, [&](const ContactPoint& point) { add(world_.bodies.info[point.body_j].id); });
     });
 }
@@ -289,18 +347,18 @@ void FramePainter::write_contacts(std::ostream& out, const PlacedFrame& placed, 
     end_element(out, "Points");
     loose.empty() && !bond_cells_.empty() ? void(out << bond_cells_) : write_contact_cells(out, frame.loose);
 
-    write_array<double>(out, "normal_force", contacts, [&](const auto& add) {
+    write_array<double>(out, of_contacts("normal_force"), contacts, [&](const auto& add) {
         for (const double force : forces.normal) add(force);
     });
-    write_array<double>(out, "shear_force", contacts, [&](const auto& add) {
+    write_array<double>(out, of_contacts("shear_force"), contacts, [&](const auto& add) {
         for (const double force : frame.shear_force) add(force);
         for (const LooseContact& contact : loose) add(contact.shear_force);
     });
-    write_array<std::uint8_t>(out, "state", contacts, [&](const auto& add) {
+    write_array<std::uint8_t>(out, of_contacts("state"), contacts, [&](const auto& add) {
         for (const ContactState state : frame.states) add(static_cast<std::uint8_t>(state));
         for (std::size_t k = 0; k < loose.size(); ++k) add(static_cast<std::uint8_t>(ContactState::loose));
     });
-    write_array<double>(out, "age", contacts, [&](const auto& add) {
+    write_array<double>(out, of_contacts("age"), contacts, [&](const auto& add) {
         std::vector<std::pair<PointIndex, double>> breaks;  // bond, time
         for (const Crack& crack : cracks) breaks.emplace_back(crack.bond, crack.time);
         std::sort(breaks.begin(), breaks.end());
@@ -339,7 +397,7 @@ void FramePainter::write_cracks(std::ostream& out, const PlacedFrame& placed, st
     end_element(out, "Lines");
     begin_element(out, "CellData");
     const auto write_values = [&]<class T>(const char* name, T, const auto& value_of) {
-        write_array<T>(out, name, cracks.size(), [&](const auto& add) {
+        write_array<T>(out, of_cracks(name), cracks.size(), [&](const auto& add) {
             for (const Crack& crack : cracks) add(value_of(crack));
         });
     };
@@ -358,7 +416,7 @@ void FramePainter::write_cracks(std::ostream& out, const PlacedFrame& placed, st
     write_values("energy", double{}, [](const Crack& crack) { return crack.energy; });
     write_values("orientation", double{}, [](const Crack& crack) { return crack.orientation; });
     write_values("strength", double{}, strength);
-    write_array<double>(out, "opening", cracks.size(), [&](const auto& add) {
+    write_array<double>(out, of_cracks("opening"), cracks.size(), [&](const auto& add) {
         for (const double opening : openings) add(opening);
     });
     end_element(out, "CellData");

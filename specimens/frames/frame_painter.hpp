@@ -6,18 +6,11 @@
 // corners up to 2,000 particles, 12 beyond, where they are looked at from farther away (outlines share 0.98 of what
 // they cover together; 0.996 with 24). True circles are drawn about the mean of the corners with `radius`. All circles
 // of a clump have the values of the clump.
-// Cell data: id, radius [m, 0 for polygons], material, angle [rad, turned since loading began], displacement [m],
-// velocity [m/s], rotation_rate [rad/s], stress_xx, stress_yy, stress_xy [N/m, mean of the particle, compression
-// positive, of springs only: frame_forces.hpp; 0 for platens], fragment [0 the largest: fragments.hpp; -1 platens].
 // Contacts: all bonds that loading began with, always in the same order and where they were held, then what else
 // touches at the moment; as lines centre-point-centre between circles and point-point between polygons.
-// Cell data: body_i, body_j, normal_force [N, elastic, compression positive], shear_force [N, elastic, on body_i along
-// the normal from i to j turned by +90°], state [0 bond, 1 bond that has slid, 2 broken, 3 broken and touching again,
-// whose forces are those of the touch, 4 contact without a bond], age [s: of a bond since loading began, of a broken
-// one since its break, of a contact since it was first seen: contact_history.hpp].
 // Cracks: a line for each bonded point that has broken so far, in the order of events.csv: crack_faces.hpp says where.
-// Cell data: body_i, body_j, time [s, of the break], mode [0 tension, 1 shear], energy [J], orientation [rad, of the
-// contact normal at the break], strength [N], opening [m, present gap].
+// Cell data and their units: particle_arrays() and its like below; forces and stresses are of springs only,
+// frame_forces.hpp; fragments, fragments.hpp; ages, contact_history.hpp.
 //
 // Points are Float32 (a hundred-millionth of the specimen), what was computed Float64, ids and indices Int32 (indices
 // Int64 beyond 2³¹), state and mode UInt8. What never changes is packed once and put into every file again, up to 2,000
@@ -34,8 +27,15 @@
 #include "specimens/frames/frame_forces.hpp"
 #include "specimens/frames/placed_frame.hpp"
 #include "specimens/frames/vtk_polydata.hpp"
+#include "specimens/observers/quantity.hpp"
 
 namespace crackle {
+
+/// What each file of a frame holds of the moment, and of each cell, in the order of the file.
+std::span<const Quantity> frame_fields();
+std::span<const Quantity> particle_arrays();
+std::span<const Quantity> contact_arrays();
+std::span<const Quantity> crack_arrays();
 
 /// Corners of a circle drawn among so many particles.
 int circle_corners(std::int64_t particles);

@@ -37,34 +37,55 @@ CurveRow observe_row(const World& world, const TestSetup& setup) {
 }
 
 const std::vector<CurveColumn>& curve_columns() {
+    using Row = const CurveRow&;
     static const std::vector<CurveColumn> columns{
-        {"axial_strain", "-, positive in the sense of the test", [](const CurveRow& r) { return r.axial_strain; },
+        {{"axial_strain", "-", "positive in the sense of the test",
+          "displacement of the upper platen over the initial height"},
+         [](Row r) { return r.axial_strain; },
          false},
-        {"axial_stress", "N/m, mean of both platens, positive in the sense of the test",
-         [](const CurveRow& r) { return r.axial_stress; }, false},
-        {"stress_top", "N/m, upper platen, positive in the sense of the test",
-         [](const CurveRow& r) { return r.stress_top; }, false},
-        {"stress_bottom", "N/m, lower platen, positive in the sense of the test",
-         [](const CurveRow& r) { return r.stress_bottom; }, false},
-        {"lateral_strain", "-, positive when the specimen widens", [](const CurveRow& r) { return r.lateral_strain; },
+        {{"axial_stress", "N/m", "mean of both platens, positive in the sense of the test"},
+         [](Row r) { return r.axial_stress; },
          false},
-        {"bonds_broken", "bonded points broken so far",
-         [](const CurveRow& r) { return static_cast<double>(r.bonds_broken); }, true},
-        {"kinetic_energy", "J", [](const CurveRow& r) { return r.kinetic_energy; }, false},
-        {"strain_energy", "J, of all contact points, from the bonded state",
-         [](const CurveRow& r) { return r.strain_energy; }, false},
-        {"time", "s since loading began", [](const CurveRow& r) { return r.time; }, false},
-        {"step", "steps since loading began", [](const CurveRow& r) { return static_cast<double>(r.step); }, true},
-        {"interfaces_lost", "pairs of bodies whose last bond has broken so far",
-         [](const CurveRow& r) { return static_cast<double>(r.interfaces_lost); }, true},
-        {"points_sliding", "contact points at the Coulomb limit in this step",
-         [](const CurveRow& r) { return static_cast<double>(r.points_sliding); }, true},
-        {"dashpot_loss", "J, so far", [](const CurveRow& r) { return r.dashpot_loss; }, false},
-        {"friction_loss", "J, so far", [](const CurveRow& r) { return r.friction_loss; }, false},
-        {"fracture_loss", "J, so far", [](const CurveRow& r) { return r.fracture_loss; }, false},
-        {"platen_work", "J, done on the specimen so far", [](const CurveRow& r) { return r.platen_work; }, false},
-        {"energy_error", "J, kinetic - initial kinetic + strain + losses - work",
-         [](const CurveRow& r) { return r.energy_error; }, false},
+        {{"stress_top", "N/m", "upper platen, positive in the sense of the test",
+          "force of the specimen on it, dashpots included, over the initial width"},
+         [](Row r) { return r.stress_top; },
+         false},
+        {{"stress_bottom", "N/m", "lower platen, positive in the sense of the test"},
+         [](Row r) { return r.stress_bottom; },
+         false},
+        {{"lateral_strain", "-", "positive when the specimen widens",
+          "growth of the distance between the mean x of the right and of the left side particles over its initial "
+          "value; side particles are those at a side face, in the middle half of the height; nan without any"},
+         [](Row r) { return r.lateral_strain; },
+         false},
+        {{"bonds_broken", "", "bonded points broken so far"},
+         [](Row r) { return static_cast<double>(r.bonds_broken); },
+         true},
+        {{"kinetic_energy", "J", "", "of all bodies, with the mean of the velocities half a step before and after"},
+         [](Row r) { return r.kinetic_energy; },
+         false},
+        {{"strain_energy", "J", "of all contact points, from the bonded state"},
+         [](Row r) { return r.strain_energy; },
+         false},
+        {{"time", "s since loading began", "", "of the row"}, [](Row r) { return r.time; }, false},
+        {{"step", "steps since loading began", "", "of the row"},
+         [](Row r) { return static_cast<double>(r.step); },
+         true},
+        {{"interfaces_lost", "", "pairs of bodies whose last bond has broken so far"},
+         [](Row r) { return static_cast<double>(r.interfaces_lost); },
+         true},
+        {{"points_sliding", "", "contact points at the Coulomb limit in this step"},
+         [](Row r) { return static_cast<double>(r.points_sliding); },
+         true},
+        {{"dashpot_loss", "J", "so far"}, [](Row r) { return r.dashpot_loss; }, false},
+        {{"friction_loss", "J", "so far"}, [](Row r) { return r.friction_loss; }, false},
+        {{"fracture_loss", "J", "so far", "taken by broken bonds"}, [](Row r) { return r.fracture_loss; }, false},
+        {{"platen_work", "J", "done on the specimen so far"}, [](Row r) { return r.platen_work; }, false},
+        {{"energy_error", "J", "kinetic - initial kinetic + strain + losses - work",
+          "what the account of energy leaves open; under the guide's law what the law itself takes or makes, "
+          "energy_lost_to_contact_law of summary.json, counts among the losses"},
+         [](Row r) { return r.energy_error; },
+         false},
     };
     return columns;
 }
@@ -73,7 +94,7 @@ std::string curve_header() {
     std::string line;
     for (const CurveColumn& column : curve_columns()) {
         if (!line.empty()) line += ',';
-        line += column.name;
+        line += column.what.name;
     }
     return line + '\n';
 }

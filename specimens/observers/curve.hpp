@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "solver/world/world.hpp"
+#include "specimens/observers/quantity.hpp"
 
 namespace crackle {
 
@@ -64,11 +65,11 @@ struct CurveRow {
 CurveRow observe_row(const World& world, const TestSetup& setup);
 
 struct CurveColumn {
-    const char* name;
-    const char* unit_and_sign;
+    Quantity what;
     double (*value)(const CurveRow&);
     bool whole;  ///< a count
 };
+/// In the order of the file.
 const std::vector<CurveColumn>& curve_columns();
 
 std::string curve_header();                   ///< with line end

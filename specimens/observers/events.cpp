@@ -5,15 +5,60 @@
 
 namespace crackle {
 
-std::string events_header() {
-    return "time,step,axial_strain,x,y,body_i,body_j,orientation,energy,strength,normal_force,shear_force,slid,mode,"
-           "last_of_interface\n";
+const std::vector<EventColumn>& event_columns() {
+    using Event = const BreakEvent&;
+    static const auto written = [](const auto& value) { return fmt::format("{}", value); };
+    static const std::vector<EventColumn> columns{
+        {{"time", "s since loading began", "", "when the break was found"},
+         [](Event e, double) { return written(e.time); }},
+        {{"step", "steps since loading began", "", "likewise"}, [](Event e, double) { return written(e.step); }},
+        {{"axial_strain", "-", "positive in the sense of the test"},
+         [](Event, double strain) { return written(strain); }},
+        {{"x", "m", "of the contact point, rightwards"}, [](Event e, double) { return written(e.position.x); }},
+        {{"y", "m", "of the contact point, upwards"}, [](Event e, double) { return written(e.position.y); }},
+        {{"body_i", "", "id of one body"}, [](Event e, double) { return written(e.body_i); }},
+        {{"body_j", "", "id of the other"}, [](Event e, double) { return written(e.body_j); }},
+        {{"orientation", "rad", "direction of the contact normal, counter-clockwise from x, in (-π/2, π/2]"},
+         [](Event e, double) { return written(e.orientation); }},
+        {{"energy", "J", "taken by the break",
+          "½k_n(δ-δ0)'(δ-δ0) + ½f_t'f_t/k_s, primed one step before the break was found (solver/MODEL.md 5)"},
+         [](Event e, double) { return written(e.energy); }},
+        {{"strength", "N", "tensile strength k_n δ0 that the point had"},
+         [](Event e, double) { return written(e.strength); }},
+        {{"normal_force", "N",
+          "elastic, positive pushes apart; in the last step in which the point carried at least half its strength"},
+         [](Event e, double) { return written(e.normal_force); }},
+        {{"shear_force", "N", "elastic, on body_i along the normal from i to j turned by +90°; in the same step"},
+         [](Event e, double) { return written(e.shear_force); }},
+        {{"slid", "0 or 1", "1 if the point had reached the Coulomb limit since bonding"},
+         [](Event e, double) { return written(e.slid ? 1 : 0); }},
+        {{"mode", "word", "`shear` if it had slid and shear outweighed the normal force then, else `tension`",
+          "nearly all are `tension`: a bond breaks where its overlap is used up, and its Coulomb limit with it; "
+          "whether "
+          "it failed by sliding first is in `slid`"},
+         [](Event e, double) { return std::string(e.shear_mode ? "shear" : "tension"); }},
+        {{"last_of_interface", "0 or 1", "1 if no bond is left between the two bodies"},
+         [](Event e, double) { return written(e.last_of_interface ? 1 : 0); }},
+    };
+    return columns;
 }
 
-std::string event_line(const BreakEvent& e, double axial_strain) {
-    return fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", e.time, e.step, axial_strain, e.position.x,
-                       e.position.y, e.body_i, e.body_j, e.orientation, e.energy, e.strength, e.normal_force,
-                       e.shear_force, e.slid ? 1 : 0, e.shear_mode ? "shear" : "tension", e.last_of_interface ? 1 : 0);
+std::string events_header() {
+    std::string line;
+    for (const EventColumn& column : event_columns()) {
+        if (!line.empty()) line += ',';
+        line += column.what.name;
+    }
+    return line + '\n';
+}
+
+std::string event_line(const BreakEvent& event, double axial_strain) {
+    std::string line;
+    for (const EventColumn& column : event_columns()) {
+        if (!line.empty()) line += ',';
+        line += column.text(event, axial_strain);
+    }
+    return line + '\n';
 }
 
 }  // namespace crackle

@@ -24,8 +24,21 @@ namespace {
 namespace fs = std::filesystem;
 
 // In the order in which staged results take the old ones' place: the summary, which readers look for, comes last.
-constexpr std::array<const char*, 6> result_names{"case.toml", "curve.csv",  "events.csv",
-                                                  "frames",    "checkpoint", "summary.json"};
+constexpr std::array<ResultFile, 6> files_of_a_test{{
+    {"case.toml",
+     "the case with every value in the open and the hashes of its inputs, with a comment on each key "
+     "(`crackle test --keys` lists them all); it can be run again"},
+    {"curve.csv", "one row an observed step"},
+    {"events.csv", "one row a broken bonded point"},
+    {"frames", "a folder of pictures for ParaView, start, peak and end among them: open `frames/frames.pvd`"},
+    {"checkpoint", "the complete state, for `--resume`; a format of its own, of one version of the program"},
+    {"summary.json", "figures of the whole test"},
+}};
+constexpr auto result_names = [] {
+    std::array<const char*, files_of_a_test.size()> names{};
+    for (std::size_t k = 0; k < names.size(); ++k) names[k] = files_of_a_test[k].name;
+    return names;
+}();
 constexpr const char* report_name =
     "report.html";  // made of the results by another command; stale once they are replaced
 constexpr const char* temporary_suffix = ".tmp";
@@ -210,6 +223,8 @@ void complete_move(const fs::path& target) {
 }  // namespace
 
 bool holds_test_results(const fs::path& folder) { return holds_results(folder) && !has_only_begun(folder); }
+
+std::span<const ResultFile> result_files() { return files_of_a_test; }
 
 bool is_result_name(const std::string& name) {
     return std::find(result_names.begin(), result_names.end(), name) != result_names.end();

@@ -17,6 +17,13 @@
 
 namespace crackle {
 
+/// What a test makes in its folder.
+struct ResultFile {
+    const char* name;
+    const char* holds;
+};
+std::span<const ResultFile> result_files();
+
 /// Names that a test makes in its folder; anything else there belongs to the user.
 bool is_result_name(const std::string& name);
 

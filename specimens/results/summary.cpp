@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <stdexcept>
+#include <string_view>
 
 #include "specimens/observers/curve_analysis.hpp"
 #include "specimens/observers/profile_report.hpp"
@@ -17,85 +19,88 @@ using Json = nlohmann::ordered_json;
 /// JSON has no NaN: what is not defined is null.
 Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
+/// How a key is declared. @param which of several meanings
+const SummaryKey& declared_key(std::string_view name, int which = 0) {
+    for (const SummaryKey& key : summary_keys())
+        if (name == key.what.name && which-- == 0) return key;
+    throw std::logic_error(fmt::format("summary.json: {} is written but not declared", name));
+}
+
 struct Writer {
     Json& json;
     Json& units;
     double out_of_plane_thickness;
 
-    void put(const std::string& key, Json value, const std::string& unit) {
+    void put(const std::string& key, Json value, int which = 0) {
+        const SummaryKey& found = declared_key(key, which);
         json[key] = std::move(value);
-        units[key] = unit;
+        if (found.in_units) units[key] = stated(found.what);
     }
     /// A stress or modulus, with its conversion beside it.
-    void stress(const std::string& key, double value, const std::string& meaning) {
-        put(key, number(value), "N/m, " + meaning);
-        put(key + "_pa", number(value / out_of_plane_thickness), "Pa, the same over out_of_plane_thickness");
+    void stress(const std::string& key, double value) {
+        put(key, number(value));
+        const std::string converted = key + converted_suffix;
+        json[converted] = number(value / out_of_plane_thickness);
+        units[converted] = converted_unit;
     }
 };
 
 void describe(Writer& w, const TestCase& test, const TestSetup& setup, const TestState& state) {
-    w.json["title"] = test.title;
-    w.json["kind"] = test.loading.kind;
-    w.json["specimen"] = setup.specimen;
-    w.json["platens"] = test.loading.platens;
-    w.json["failed"] = state.failure.failed;
-    w.json["interrupted"] = state.ended_by == ended_by_interrupt;
-    w.json["ended_by"] = state.ended_by.empty() ? Json(nullptr) : Json(state.ended_by);
+    w.put("title", test.title);
+    w.put("kind", test.loading.kind);
+    w.put("specimen", setup.specimen);
+    w.put("platens", test.loading.platens);
+    w.put("failed", state.failure.failed);
+    w.put("interrupted", state.ended_by == ended_by_interrupt);
+    w.put("ended_by", state.ended_by.empty() ? Json(nullptr) : Json(state.ended_by));
     if (!state.failure.failed) {
-        w.json["note"] =
-            fmt::format("the specimen has not failed (ended by {}): peak and moduli refer to the largest stress so far",
-                        state.ended_by.empty() ? "nothing yet" : state.ended_by);
+        w.put("note", fmt::format("the specimen has not failed (ended by {}): peak and moduli refer to the largest "
+                                  "stress so far",
+                                  state.ended_by.empty() ? "nothing yet" : state.ended_by));
     }
 }
 
 void strength(Writer& w, const TestSetup& setup, const TestState& state) {
     const FailureTracker& f = state.failure;
     const std::string so_far = f.failed ? "" : "_so_far";
-    w.stress("peak_stress" + so_far, f.peak_row < 0 ? NAN : f.peak_stress, "positive in the sense of the test");
-    w.put("peak_strain" + so_far, number(f.peak_row < 0 ? NAN : f.peak_strain), "-, positive in the sense of the test");
-    w.stress("youngs_modulus", state.youngs_modulus,
-             "small strain, all bonds intact and sticking, platens bonded (sparse solve)");
-    w.put("poissons_ratio", number(state.poissons_ratio), "-, small strain, as youngs_modulus");
+    w.stress("peak_stress" + so_far, f.peak_row < 0 ? NAN : f.peak_stress);
+    w.put("peak_strain" + so_far, number(f.peak_row < 0 ? NAN : f.peak_strain));
+    w.stress("youngs_modulus", state.youngs_modulus);
+    w.put("poissons_ratio", number(state.poissons_ratio));
 
     const Tangent initial = initial_tangent(state.rows, f.peak_row, setup.compression);
-    w.stress("initial_tangent_modulus", initial.modulus, "regression over the first twentieth of the strain at peak");
-    w.put("initial_poissons_ratio", number(initial.poissons_ratio), "-, over the same rows");
-    w.put("initial_tangent_window",
-          {{"rows", initial.rows},
-           {"strain_to", initial.strain_to},
-           {"bonds_broken", initial.bonds_broken},
-           {"points_sliding", initial.points_sliding},
-           {"contacts_gained", initial.contacts_gained}},
-          "counts within the window; points_sliding at its end");
+    w.stress("initial_tangent_modulus", initial.modulus);
+    w.put("initial_poissons_ratio", number(initial.poissons_ratio));
+    w.put("initial_tangent_window", {{"rows", initial.rows},
+                                     {"strain_to", initial.strain_to},
+                                     {"bonds_broken", initial.bonds_broken},
+                                     {"points_sliding", initial.points_sliding},
+                                     {"contacts_gained", initial.contacts_gained}});
     const Tangent half = tangent_at_half_peak(state.rows, f.peak_row, setup.compression);
-    w.stress("tangent_modulus_50", half.modulus, "regression from 40 % to 60 % of the peak");
-    w.put("tangent_50_poissons_ratio", number(half.poissons_ratio), "-, over the same rows");
+    w.stress("tangent_modulus_50", half.modulus);
+    w.put("tangent_50_poissons_ratio", number(half.poissons_ratio));
 }
 
 void counts(Writer& w, const TestSetup& setup, const TestState& state, const World& world) {
-    w.put("initial_width", setup.width, "m");
-    w.put("initial_height", setup.height, "m");
-    w.put("particles", setup.particles, "bodies without platens");
-    if (setup.seeds > 0) w.put("seeds", setup.seeds, "circles the polygons were meshed from");
-    if (setup.polygons) w.put("segments", setup.segments, "edges of all polygons");
-    w.put("bond_thick", setup.bond_thick, "m, segment thickness at bonding");
-    w.put("contacts_initial", setup.contacts_initial, "contact points when loading begins");
-    w.put("bonds_initial", world.bonds.initial, "bonded points");
-    w.put("bonds_broken", world.bonds.broken, "bonded points");
-    w.put("bonds_broken_after_sliding", state.breaks_after_sliding,
-          "bonded points that had been at their Coulomb limit before they broke");
-    w.put("bonds_broken_in_shear", state.breaks_in_shear,
-          "bonded points, by the larger force in the last step at half their strength or more: hardly any, for a bond "
-          "breaks where its overlap is gone and its Coulomb limit with it; see bonds_broken_after_sliding");
-    w.put("bonds_broken_in_tension", state.breaks_in_tension, "bonded points, the others");
-    w.put("interfaces_initial", world.bonds.interfaces_initial, "bonded pairs of bodies");
-    w.put("interfaces_lost", world.bonds.interfaces_lost, "pairs whose last bond has broken");
-    w.put("mean_back_tension", setup.mean_back_tension, "N, over bonded points");
-    w.put("mean_back_tension_interface", setup.mean_back_tension_interface,
-          "N, summed over the points of an interface");
-    w.put("mean_bond_overlap", setup.mean_bond_overlap, "m, over bonded points");
-    w.put("platen_bottom_id", setup.bottom_id, "id in events.csv and frames");
-    w.put("platen_top_id", setup.top_id, "id in events.csv and frames");
+    w.put("initial_width", setup.width);
+    w.put("initial_height", setup.height);
+    w.put("particles", setup.particles);
+    if (setup.seeds > 0) w.put("seeds", setup.seeds);
+    if (setup.polygons) w.put("segments", setup.segments);
+    w.put("bond_thick", setup.bond_thick);
+    w.put("contacts_initial", setup.contacts_initial);
+    w.put("bonds_initial", world.bonds.initial);
+    w.put("bonds_broken", world.bonds.broken);
+    w.put("bonds_broken_after_sliding", state.breaks_after_sliding);
+    w.put("bonds_broken_in_shear", state.breaks_in_shear);
+    w.put("bonds_broken_in_tension", state.breaks_in_tension);
+    w.put("interfaces_initial", world.bonds.interfaces_initial);
+    w.put("interfaces_lost", world.bonds.interfaces_lost);
+    w.put("mean_back_tension", setup.mean_back_tension);
+    w.put("mean_back_tension_interface", setup.mean_back_tension_interface);
+    w.put("mean_bond_overlap", setup.mean_bond_overlap);
+    w.put("platen_bottom_id", setup.bottom_id);
+    w.put("platen_top_id", setup.top_id);
 }
 
 /// Stress that the dashpots bear when loading by tolerance begins, over the largest one.
@@ -108,57 +113,40 @@ void numerics(Writer& w, const TestCase& test, const TestSetup& setup, const Tes
     const CurveRow last = state.rows.empty() ? CurveRow{} : state.rows.back();
     if (test.loading.rate_tolerance) {
         const RateState& rate = state.rate;
-        w.put("rate_tolerance", *test.loading.rate_tolerance,
-              "-, of out-of-balance and kinetic over strain energy: sets the largest rate, and what slows it down");
-        w.put("axial_strain_rate", last.axial_strain / last.time, "1/s, mean of the test");
-        w.put("axial_strain_rate_range", {rate.slowest, rate.fastest}, "1/s, slowest and fastest");
-        w.put("strain_share_above_tolerance", rate.strain_above / last.axial_strain,
-              "-, share of the strain gone through while the inertia error was above the tolerance");
-        w.put("wave_transit_time", setup.rate_rule.transit_time, "s, height/sqrt(E/density)");
+        w.put("rate_tolerance", *test.loading.rate_tolerance);
+        w.put("axial_strain_rate", last.axial_strain / last.time);
+        w.put("axial_strain_rate_range", {rate.slowest, rate.fastest});
+        w.put("strain_share_above_tolerance", rate.strain_above / last.axial_strain);
+        w.put("wave_transit_time", setup.rate_rule.transit_time);
     } else {
-        w.put("axial_strain_rate", *test.loading.axial_strain_rate, "1/s");
+        w.put("axial_strain_rate", *test.loading.axial_strain_rate, 1);
     }
-    w.put("viscous_stress_share", number(viscous_share(test, state)),
-          "-, stress of the dashpots when loading by tolerance begins, over the largest stress");
-    w.put("axial_strain_end", last.axial_strain, "-, positive in the sense of the test");
-    w.put("energy_closing_error", number(last.energy_error / last.platen_work),
-          "-, over the platens' work, at the end");
+    w.put("viscous_stress_share", number(viscous_share(test, state)));
+    w.put("axial_strain_end", last.axial_strain);
+    w.put("energy_closing_error", number(last.energy_error / last.platen_work));
     if (world.settings.segment_law != SegmentLaw::rounded) {
-        w.put(
-            "energy_lost_to_contact_law", number(world.account.law_loss / last.platen_work),
-            "-, over the platens' work: left in springs of the guide's law when contacts ended (negative: made by it)");
+        w.put("energy_lost_to_contact_law", number(world.account.law_loss / last.platen_work));
     }
-    w.put("platen_out_of_balance", number(platen_out_of_balance(state.rows, state.failure.peak_row)),
-          "-, largest difference of the platens' stresses up to the peak, over the peak");
-    w.put("time_step", world.stepping.time_step, "s, at the end; shorter where new contacts need it");
-    w.put("time_step_mean", number(world.stepping.time / static_cast<double>(world.stepping.steps)),
-          "s, over the test");
+    w.put("platen_out_of_balance", number(platen_out_of_balance(state.rows, state.failure.peak_row)));
+    w.put("time_step", world.stepping.time_step);
+    w.put("time_step_mean", number(world.stepping.time / static_cast<double>(world.stepping.steps)));
     w.put("stable_time_step", number(setup.stable_time_step),
-          world.settings.segment_law != SegmentLaw::rounded
-              ? "s, a bound when bonds were made: exact for the symmetric majorant of the law's unsymmetric stiffness"
-          : setup.stable_time_step_proved
-              ? "s, exact limit when bonds were made: 4M - 2dt C - dt^2 K positive definite, by Cholesky"
-              : "s, when bonds were made; a bound, too large a specimen for the exact limit");
-    w.put(
-        "time_step_over_stable", number(world.stepping.time_step / setup.stable_time_step),
-        "-, share of it taken at the end; at most numerics.safety_factor, less where the guaranteed bound is smaller");
-    w.put("time_step_bound", setup.time_step_bound,
-          "s, guaranteed stable below without an eigenvalue solve, kept up as contacts open and close; when loading "
-          "began");
-    w.put("steps", world.stepping.steps, "time steps");
-    w.put("simulated_time", world.stepping.time, "s");
-    w.put("list_builds", world.list.builds, "times the neighbour list was built");
-    w.put("seed", test.has_table("packing") ? Json(test.packing.seed) : Json(nullptr), "of the packing");
+          world.settings.segment_law != SegmentLaw::rounded ? 1
+          : setup.stable_time_step_proved                   ? 0
+                                                            : 2);
+    w.put("time_step_over_stable", number(world.stepping.time_step / setup.stable_time_step));
+    w.put("time_step_bound", setup.time_step_bound);
+    w.put("steps", world.stepping.steps);
+    w.put("simulated_time", world.stepping.time);
+    w.put("list_builds", world.list.builds);
+    w.put("seed", test.has_table("packing") ? Json(test.packing.seed) : Json(nullptr));
 }
 
 void packing(Writer& w, const TestSetup& setup) {
     if (setup.packing.empty()) return;
     Json figures;
     for (const auto& [name, value] : setup.packing) figures[name] = number(value);
-    w.put("packing", figures,
-          "before bonding: mean_overlap in m over circles, bottom and top wall; stress_x, stress_y in N/m; anisotropy "
-          "|sx - sy|/(sx + sy); unbalanced: largest force on a circle over the mean contact force; the rest counts and "
-          "ratios");
+    w.put("packing", figures);
 }
 
 Json error_of(const NumberError* measured, double closing) {
@@ -191,17 +179,9 @@ void numerical_errors(Writer& w, const TestState& state, const NumericalErrors* 
                                          {"post_peak_difference", number(c.post_peak_difference)}};
         }
     }
-    w.put("numerical_errors", all,
-          "-, relative. time_step, rate, damping: change at half the step, half the rate, half or double the damping "
-          "(crackle test --verify; null: not run, or unstable); energy_closing: over the platens' work; resolution: by "
-          "the spacing of the rows; stated: of resolution and the larger of 3 rate and 2.92 sqrt(2) standard "
-          "deviations of the test, its half step and its half rate, the root of the sum of squares (90 of 100, were "
-          "they independent); youngs_modulus: a sparse "
-          "solve, its residual. post_peak_difference: mean difference of stress from the peak on, over the peak; "
-          "breaks there are chaotic, so it is no error of step or rate");
+    w.put("numerical_errors", all);
     const bool judged = errors != nullptr && errors->peak_converged.has_value();
-    w.put("peak_converged", judged ? Json(*errors->peak_converged) : Json(nullptr),
-          "whether the peak at half the step and half the rate lies on the same branch; null: not run, or no failure");
+    w.put("peak_converged", judged ? Json(*errors->peak_converged) : Json(nullptr));
 }
 
 /// Those of the start, and what the curve turned out to resolve badly.
@@ -272,10 +252,10 @@ std::string notice_of(const FailureTracker& failure, const NumericalErrors& erro
 void frames(Writer& w, const TestState& state) {
     const auto name = [](std::int64_t row) { return "frames/" + particles_file(row); };
     const auto& list = state.frames;
-    w.json["frame_start"] = list.empty() ? Json(nullptr) : Json(name(list.front().row));
-    w.json["frame_peak"] =
-        list.empty() || state.failure.peak_row < 0 ? Json(nullptr) : Json(name(state.failure.peak_row));
-    w.json["frame_end"] = list.empty() ? Json(nullptr) : Json(name(list.back().row));
+    w.put("frame_start", list.empty() ? Json(nullptr) : Json(name(list.front().row)));
+    w.put("frame_peak",
+          list.empty() || state.failure.peak_row < 0 ? Json(nullptr) : Json(name(state.failure.peak_row)));
+    w.put("frame_end", list.empty() ? Json(nullptr) : Json(name(list.back().row)));
 }
 
 }  // namespace
@@ -291,30 +271,27 @@ nlohmann::ordered_json make_summary(const TestCase& test, const TestSetup& setup
     numerical_errors(w, state, errors);
     packing(w, setup);
     frames(w, state);
-    w.put("out_of_plane_thickness", test.output.out_of_plane_thickness,
-          "m, converts what is reported and nothing else");
-    json["notices"] = notices_of(test, setup, state, world);
+    w.put("out_of_plane_thickness", test.output.out_of_plane_thickness);
+    w.put("notices", notices_of(test, setup, state, world));
     if (errors != nullptr) {
         const std::string notice = notice_of(state.failure, *errors);
         if (!notice.empty()) json["notices"].push_back(notice);
     }
-    json["version"] = CRACKLE_VERSION;
-    json["compiler"] = __VERSION__;
-    json["command"] = state.command;
-    w.put("threads", timing.threads, "");
-    w.put("wall_seconds", timing.wall_seconds, "s, whole process");
-    w.put("step_seconds", timing.step_seconds, "s, stepping loop with rebuilds, breaks and observers");
-    w.put(
-        "particle_steps_per_second",
-        number(static_cast<double>(setup.particles) * static_cast<double>(world.stepping.steps) / timing.step_seconds),
-        "1/s, particles times steps over step_seconds");
-    if (world.workers.profile != nullptr) {
+    w.put("version", CRACKLE_VERSION);
+    w.put("compiler", __VERSION__);
+    w.put("command", state.command);
+    w.put("threads", timing.threads);
+    w.put("wall_seconds", timing.wall_seconds);
+    w.put("step_seconds", timing.step_seconds);
+    w.put("particle_steps_per_second", number(static_cast<double>(setup.particles) *
+                                              static_cast<double>(world.stepping.steps) / timing.step_seconds));
+    if (world.workers.profile != nullptr)
         w.put("profile",
-              profile_report(*world.workers.profile, setup.particles, world.stepping.steps, timing.step_seconds),
-              "where the stepping loop's time went, s of wall clock; force_ns_per_point over listed points");
-    }
-    for (const CurveColumn& column : curve_columns()) json["columns"][column.name] = column.unit_and_sign;
-    json["units"] = units;
+              profile_report(*world.workers.profile, setup.particles, world.stepping.steps, timing.step_seconds));
+    Json columns;
+    for (const CurveColumn& column : curve_columns()) columns[column.what.name] = stated(column.what);
+    w.put("columns", columns);
+    w.put("units", units);
     return json;
 }
 

@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // summary.json: what came out of a test in one place, with its numerical errors. Keys, units and signs stand in the
-// file itself
-// (`units`, `columns`). Until the specimen has failed, what refers to the peak is called ..._so_far.
+// file itself (`units`, `columns`), and in FILES.md. Until the specimen has failed, what refers to the peak is called
+// ..._so_far.
 #pragma once
 
 #include <nlohmann/json.hpp>
 
+#include <vector>
+
 #include "specimens/case/case_file.hpp"
+#include "specimens/observers/quantity.hpp"
 #include "specimens/results/state.hpp"
 #include "specimens/setup/setup.hpp"
 
@@ -21,6 +24,19 @@ struct TestTiming {
     double step_seconds = 0.0;  ///< stepping loop with rebuilds, breaks and observers
     int threads = 1;
 };
+
+/// What a stress or modulus is called, and its unit, where out_of_plane_thickness has made it one of three dimensions.
+inline constexpr const char* converted_suffix = "_pa";
+inline constexpr const char* converted_unit = "Pa, the same over out_of_plane_thickness";
+
+struct SummaryKey {
+    Quantity what;
+    bool in_units = true;    ///< stated in the file's own `units`
+    bool converted = false;  ///< a stress or modulus: ..._pa stands beside it
+};
+/// In the order of the file. Keys of a table within stand behind it as `table.key`, `*` for any name and `[]` for each
+/// entry of a list. A key whose meaning depends on the test stands once for each.
+const std::vector<SummaryKey>& summary_keys();
 
 /// @param errors from the test's companions, if they were run
 nlohmann::ordered_json make_summary(const TestCase& test, const TestSetup& setup, const TestState& state,

@@ -1,16 +1,18 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the README says is so: its commands run, its tables name what the program writes, its links lead somewhere.
+"""What the pages show is so: their commands run, their tables name what the program writes, their links lead somewhere.
 
   CRACKLE_PROGRAM    the program
-Blocks marked `sh` run in their order in one shell, in an empty folder that has the project's specimens/ and the built program
-where the README expects them; then those marked `python`, as one script in the same folder. Commands of blocks marked `sh ci`
-must stand in .ci/run.
+Pages are all Markdown files of the tree. Blocks marked `sh` run in their order in one shell a page, the README's first, all in one folder that is empty
+but for the project's specimens/ and the built program where the README expects them; then the blocks marked `python` of a page, as one script.
+Commands of blocks marked `sh ci` must stand in .ci/run. What takes too long or needs what is not here is marked `sh long`, or stands in a page as
+«Made by `...`» and «Run: `...`»: these must name a program that is there, with options it has, and folders that are there.
 """
-import csv
+import functools
 import json
 import os
 import re
+import shlex
 import subprocess
 import sys
 import tempfile
@@ -19,85 +21,209 @@ import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 TOP = Path(__file__).resolve().parents[2]
-README = (TOP / "README.md").read_text(encoding="utf-8")
 PROGRAM = Path(os.environ["CRACKLE_PROGRAM"]).resolve()
+ROOMS = ("solver", "mesher", "specimens", "tools", "tests")
+README_AT_MOST = 9000  # bytes: a door, not the house
+PAGES = {"README.md": (TOP / "README.md").read_text(encoding="utf-8")} | {
+    str(path.relative_to(TOP)): path.read_text(encoding="utf-8")
+    for room in ROOMS for path in sorted((TOP / room).rglob("*.md")) if "node_modules" not in path.parts}
+README = PAGES["README.md"]
+FILES = PAGES["specimens/results/FILES.md"]
+LONE = re.compile(r"(?:Made by|Run:) `([^`]+)`")
 
 
-def blocks(mark):
-    return re.findall(rf"^```{mark}\n(.*?)^```$", README, re.MULTILINE | re.DOTALL)
+def blocks(mark, page):
+    return re.findall(rf"^```{mark}\n(.*?)^```$", PAGES[page], re.MULTILINE | re.DOTALL)
 
 
-def table(heading):
-    """First cells of the table that follows the line beginning with `heading`, each without its backquotes."""
-    start = README.index("\n" + heading)
-    rows = re.search(r"\n\n((?:\|.*\n)+)", README[start:]).group(1).splitlines()[2:]
+def lines(mark, page):
+    found = (line.split(" #")[0].strip() for block in blocks(mark, page) for line in block.splitlines())
+    return [line for line in found if line]
+
+
+def table(text, heading):
+    """Names in the first cells of the first table behind the line beginning with `heading`, each without its backquotes."""
+    start = text.index("\n" + heading)
+    rows = re.search(r"\n\n((?:\|.*\n)+)", text[start:]).group(1).splitlines()[2:]
     return [name for row in rows for name in re.findall(r"`([^`]+)`", row.split("|")[1])]
 
 
-class Readme(unittest.TestCase):
+@functools.cache
+def printed(*words):
+    done = subprocess.run(words, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
+    return done.stdout + done.stderr
+
+
+def help_of(words):
+    """What tells the options of a command line's program, and the words that are left of it."""
+    name = words[0]
+    if name == "crackle":
+        commands = words[1:3] if words[1] == "bench" else words[1:2]
+        return printed(PROGRAM, *commands, "--help"), words[1 + len(commands):]
+    if name in ("node", "bash"):
+        name, words = words[1], words[1:]
+    if name.startswith("build/"):
+        room, target = Path(*Path(name).parts[2:]).parent, Path(name).name
+        assert f"add_executable({target} " in (TOP / room / "CMakeLists.txt").read_text(encoding="utf-8"), f"{name}: found no such target"
+        return "", words[1:]
+    script = TOP / name
+    assert script.is_file(), f"{name}: found nothing, expected a program"
+    text = script.read_text(encoding="utf-8")
+    return text, words[1:]
+
+
+def check_words(line):
+    """Whether a command that is not run could be."""
+    text, words = help_of(shlex.split(line))
+    for word in words:
+        if word.startswith("-"):
+            assert re.search(rf"(?<![\w-]){re.escape(word)}(?![\w-])", text), f"{line}: found {word}, expected an option of the program"
+        if word.startswith("specimens/"):
+            assert (TOP / word).exists(), f"{line}: found no {word}"
+
+
+def flat(value, path=""):
+    """Names of a summary's keys as FILES.md writes them."""
+    if path in ("columns", "units") or not isinstance(value, (dict, list)):
+        return {path}
+    inner = value.items() if isinstance(value, dict) else [("[]", entry) for entry in value if isinstance(entry, (dict, list))]
+    names = {path} if path else set()
+    for key, entry in inner:
+        names |= flat(entry, f"{path}[]" if key == "[]" else f"{path}.{key}" if path else key)
+    return names
+
+
+def declared(name):
+    """A key of a summary by the wildcards of FILES.md."""
+    name = re.sub(r"^numerical_errors\.companions\.\w+", "numerical_errors.companions.*", name)
+    return re.sub(r"^numerical_errors\.(youngs_modulus|peak_stress|peak_strain)", "numerical_errors.*", name)
+
+
+# Tests whose files have all that FILES.md names between them: one under the guide's law that ends before it fails, verified and profiled.
+UNFAILED = """include = "{top}/specimens/guide_rock/voronoi_tension.toml"
+[packing]
+count = 30
+[loading]
+max_axial_strain = 1e-4
+[numerics]
+contact_law = "demseg"
+[output]
+curve_rows = 50
+frames = 2
+"""
+CONTAINERS = {"numerical_errors.*", "numerical_errors.companions", "numerical_errors.companions.*", "profile.phases", "profile.phases[]"}
+
+
+class Pages(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         cls.folder = Path(cls.enterClassContext(tempfile.TemporaryDirectory()))
         (cls.folder / "specimens").symlink_to(TOP / "specimens")
         (cls.folder / "build" / "release").mkdir(parents=True)
         (cls.folder / "build" / "release" / "tools").symlink_to(PROGRAM.parent)
-        cls.run_of_commands = subprocess.run(["bash", "-eux", "-c", "\n".join(blocks("sh"))], cwd=cls.folder, capture_output=True,
-                                             text=True, check=False, stdin=subprocess.DEVNULL)
-        print(cls.run_of_commands.stdout, cls.run_of_commands.stderr, sep="")
-        cls.run_of_python = subprocess.run([sys.executable, "-c", "\n".join(blocks("python"))], cwd=cls.folder, capture_output=True,
-                                           text=True, check=False, stdin=subprocess.DEVNULL)
-        print(cls.run_of_python.stdout, cls.run_of_python.stderr, sep="")
+        cls.runs = {}
+        for page in PAGES:
+            before = "" if page == "README.md" else 'export PATH="$PWD/build/release/tools:$PATH"\n'
+            cls.run_of(page, "sh", ["bash", "-eux", "-c", before + "\n".join(blocks("sh", page))])
+            cls.run_of(page, "python", [sys.executable, "-c", "\n".join(blocks("python", page))])
+        (cls.folder / "unfailed.toml").write_text(UNFAILED.format(top=TOP), encoding="utf-8")
+        cls.unfailed = subprocess.run([PROGRAM, "test", "unfailed.toml", "-o", "out/unfailed", "--verify", "--profile", "-q"], cwd=cls.folder,
+                                      capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
+        print(cls.unfailed.stderr)
 
-    def test_its_commands_run(self):
-        self.assertGreaterEqual(len(blocks("sh")), 6)
-        self.assertEqual(self.run_of_commands.returncode, 0)
+    @classmethod
+    def run_of(cls, page, mark, words):
+        if not blocks(mark, page):
+            return
+        done = subprocess.run(words, cwd=cls.folder, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
+        print(f"== {page}, {mark}", done.stdout, done.stderr, sep="\n")
+        cls.runs[page, mark] = done
+
+    def test_commands_run(self):
+        self.assertGreaterEqual(len(blocks("sh", "README.md")), 6)
+        self.assertGreaterEqual(len(self.runs), 3)
+        for where, done in self.runs.items():
+            self.assertEqual(done.returncode, 0, f"{where}: {done.stderr[-2000:]}")
         for made in ("out/in_gm.dat", "out/in_gm_volo.dat", "out/pulled/summary.json", "out/squeezed/curve.csv",
                      "out/report.html", "out/triangle/output.dat"):
             self.assertTrue((self.folder / made).is_file(), f"{made}: found nothing, expected what the README's commands make")
+        self.assertNotEqual(self.runs["README.md", "python"].stdout, "")
 
-    def test_its_python_runs(self):
-        self.assertGreaterEqual(len(blocks("python")), 2)
-        self.assertEqual(self.run_of_python.returncode, 0, self.run_of_python.stderr)
-        self.assertNotEqual(self.run_of_python.stdout, "")
-
-    def test_its_commands_for_ci_stand_in_ci(self):
+    def test_commands_for_ci_stand_in_ci(self):
         script = (TOP / ".ci" / "run").read_text(encoding="utf-8")
-        commands = [line.split("#")[0].strip() for block in blocks("sh ci") for line in block.splitlines()]
-        self.assertGreaterEqual(len(commands), 2)
+        commands = [line for page in PAGES for line in lines("sh ci", page)]
+        self.assertGreaterEqual(len(commands), 3)
         for command in commands:
             self.assertRegex(script, rf"(?m)^[^#\n]*{re.escape(command)}\b", f"«{command}» is not run by .ci/run")
 
-    def test_columns_are_those_of_the_files(self):
-        for name in ("curve", "events"):
-            with (self.folder / "out" / "squeezed" / f"{name}.csv").open(encoding="utf-8", newline="") as file:
-                columns = next(csv.reader(file))
-            self.assertCountEqual(table(f"`{name}.csv`:"), columns)
+    def test_long_commands_could_run(self):
+        commands = [(page, line) for page in PAGES for line in lines("sh long", page) + LONE.findall(PAGES[page])]
+        self.assertGreaterEqual(len(commands), 30)
+        for page, command in commands:
+            with self.subTest(page=page, command=command):
+                check_words(command)
 
-    def test_keys_are_in_the_summary(self):
-        summary = json.loads((self.folder / "out" / "squeezed" / "summary.json").read_text(encoding="utf-8"))
-        for key in table("`summary.json`, "):
-            self.assertIn(key, summary)
+    def test_every_block_is_tested_or_of_another_language(self):
+        for page, text in PAGES.items():
+            for mark in re.findall(r"^```(.+)$", text, re.MULTILINE):
+                self.assertIn(mark, ("sh", "sh ci", "sh long", "python", "toml"), f"{page}: a block that no test reads")
+
+    def test_readme_is_a_door(self):
+        self.assertLessEqual(len(README.encode()), README_AT_MOST)
+
+    def test_page_of_files_is_what_the_program_prints(self):
+        self.assertEqual(FILES, printed(PROGRAM, "test", "--files"), "make it again: crackle test --files > specimens/results/FILES.md")
+
+    def results(self):
+        self.assertEqual(self.unfailed.returncode, 0, self.unfailed.stderr)
+        return [self.folder / "out" / name for name in ("pulled", "squeezed", "verified", "unfailed")]
 
     def test_files_are_those_of_a_test(self):
-        for name in table("`crackle test CASE.toml -o OUT` leaves"):
-            self.assertTrue((self.folder / "out" / "squeezed" / name).exists(), f"{name}: not among a test's results")
+        for results in self.results():
+            self.assertCountEqual(table(FILES, "`crackle test CASE.toml -o OUT` leaves"), [entry.name for entry in results.iterdir()])
+
+    def test_columns_are_those_of_the_files(self):
+        for results in self.results():
+            for name in ("curve", "events"):
+                header = (results / f"{name}.csv").read_text(encoding="utf-8").splitlines()[0]
+                self.assertEqual(table(FILES, f"## `{name}.csv`"), header.split(","))
+
+    def test_keys_are_those_of_summaries(self):
+        found = set()
+        for results in self.results():
+            found |= {declared(name) for name in flat(json.loads((results / "summary.json").read_text(encoding="utf-8")))}
+        self.assertEqual(sorted(set(table(FILES, "## `summary.json`")) ^ (found - CONTAINERS)), [])
 
     def test_arrays_are_those_of_the_frames(self):
-        for name in ("particles", "contacts", "cracks"):
-            file = min((self.folder / "out" / "squeezed" / "frames").glob(f"{name}_*.vtp"))
-            cells = ElementTree.parse(file).find("PolyData/Piece/CellData")
-            self.assertCountEqual(table(f"Arrays of `{name}`:"), [array.get("Name") for array in cells])
+        for results in self.results():
+            for name in ("particles", "contacts", "cracks"):
+                poly = ElementTree.parse(min((results / "frames").glob(f"{name}_*.vtp"))).find("PolyData")
+                self.assertEqual(table(FILES, f"Cell data of `{name}`:"), [array.get("Name") for array in poly.find("Piece/CellData")])
+                self.assertEqual(table(FILES, "Field data of all three:"), [array.get("Name") for array in poly.find("FieldData")])
+            patterns = [name.replace("NNNNN", "*") for name in table(FILES, "## `frames/`")]
+            for file in (results / "frames").iterdir():
+                self.assertTrue(any(file.match(pattern) for pattern in patterns), f"{file.name}: not on the page")
 
     def test_commands_are_those_of_the_program(self):
-        told = subprocess.run([PROGRAM, "--help"], capture_output=True, text=True, check=True).stdout
-        commands = re.findall(r"^  (\w+)  +\w", told, re.MULTILINE)
-        self.assertCountEqual([row.split()[1] for row in table("## Commands")], commands)
+        commands = re.findall(r"^  (\w+)  +\w", printed(PROGRAM, "--help"), re.MULTILINE)
+        self.assertCountEqual([row.split()[1] for row in table(README, "## Commands")], commands)
+
+    def test_rooms_are_those_of_the_tree(self):
+        top, named = "", set()
+        for row in re.findall(r"^\| (.+?) \|", README[README.index("## Where things are"):], re.MULTILINE)[2:]:
+            names = re.findall(r"`([\w/]+)`", row)
+            top = top if row.startswith("—") else names.pop(0)
+            named |= {top} | {f"{top}{name}/" for name in names}
+        for room in named:
+            self.assertTrue((TOP / room).is_dir(), f"{room}: found no such folder")
+        for room in ("solver", "specimens"):
+            there = {f"{room}/{entry.name}/" for entry in (TOP / room).iterdir() if entry.is_dir()}
+            self.assertLessEqual(there, named)
 
     def test_links_lead_somewhere(self):
-        links = re.findall(r"\]\(([^)#]+)\)", README)
-        self.assertGreaterEqual(len(links), 3)
-        for link in links:
-            self.assertTrue((TOP / link).exists(), f"{link}: found nothing")
+        for page, text in PAGES.items():
+            for link in re.findall(r"\]\(([^)#]+)\)", text):
+                self.assertTrue((TOP / page).parent.joinpath(link).exists(), f"{page}: {link}: found nothing")
 
 
 if __name__ == "__main__":

@@ -10,6 +10,7 @@
 #include "solver/base/errors.hpp"
 #include "specimens/loading/run.hpp"
 #include "specimens/observers/profile_report.hpp"
+#include "specimens/results/describe_files.hpp"
 #include "specimens/results/output_folder.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/terminal/interrupt.hpp"
@@ -129,7 +130,8 @@ CommandLine describe_test() {
         ("threads", po::value<int>()->value_name("N"),
          "threads (default: the case's); results do not depend on them")                     //
         ("allow-unstable", "accept a time step above the stable bound, and runaway energy")  //
-        ("keys", "list all keys of a case");
+        ("keys", "list all keys of a case")                                                  //
+        ("files", "list the files of a test: every column, key and array, with its unit");
     return {.synopses = {"crackle test CASE.toml -o OUT [OPTIONS]", "crackle test --resume OUT [OPTIONS]"},
             .description =
                 "Makes the specimen that CASE.toml describes, bonds it with its platens, loads it until it fails, and "
@@ -145,7 +147,8 @@ CommandLine describe_test() {
                          {"crackle test --resume out/case",
                           "goes on after an interrupt, to the bytes of an "
                           "uninterrupted test"},
-                         {"crackle test --keys", "all keys of a case, with units, defaults and ranges"}}};
+                         {"crackle test --keys", "all keys of a case, with units, defaults and ranges"},
+                         {"crackle test --files", "all columns, keys and arrays of the files in OUT"}}};
 }
 
 int test(const Invocation& given) {
@@ -153,6 +156,10 @@ int test(const Invocation& given) {
     const po::variables_map& values = given.values;
     if (values.contains("keys")) {
         describe_case_keys(std::cout);
+        return exit_done;
+    }
+    if (values.contains("files")) {
+        describe_test_files(std::cout);
         return exit_done;
     }
     const bool resume = values.contains("resume");

@@ -50,7 +50,7 @@ interface Manifest {
     tests: TestEntry[];
 }
 
-/// summary.json as the test wrote it; keys and units are listed in the README.
+/// summary.json as the test wrote it; keys and units are listed in specimens/results/FILES.md.
 export type Summary = Record<string, unknown>;
 
 export interface Curve {
