@@ -310,7 +310,8 @@ CRACKLE_INLINE BatchState look_at_batch(World& world, PointIndex k, const Lanes&
     const LaneBits law_and_flags = widened(states);
     LaneBits unlike = law_and_flags ^ (law.number | bits_of_flags(at_rest));
     if (!none_of(unlike & of_law)) {
-        if (!none_of((law_and_flags ^ law_and_flags[0]) & of_law)) return {BatchCase::one_by_one, states, {}, {}, {}};
+        if (!none_of((law_and_flags ^ law_and_flags[0]) & of_law))
+            return {BatchCase::one_by_one, states, law_and_flags, LaneBits{}, LaneBits{}};
         law = BatchLaw(world, states[0].law);
         unlike = law_and_flags ^ (law.number | bits_of_flags(at_rest));
     }

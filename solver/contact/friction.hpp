@@ -4,8 +4,8 @@
 //     trial = f_t - k_s Δu_t       limit = μ k_n max(δ, 0)       f_t ← trial, or the limit with its sign beyond it
 //
 // The limit uses the contact's own compression k_n δ, so that a bond keeps the shear strength it had before bonding.
-// Energy: the slider takes ½(f_t0 + f_t1)(trial - f_t1)/k_s a step, which together with ½f_t²/k_s is exactly the work of
-// the mean shear force. Forces in N. Source: DEMseg guide; solver/MODEL.md 4.
+// Energy: the slider takes ½(f_t0 + f_t1)(trial - f_t1)/k_s a step, which together with ½f_t²/k_s is exactly the work
+// of the mean shear force. Forces in N. Source: DEMseg guide; solver/MODEL.md 4.
 #pragma once
 
 #include "solver/contact/law.hpp"

@@ -67,8 +67,8 @@ inline ContactGeometry contact_geometry(const World& world, const ContactPoint& 
         const Element& a = world.bodies.elements[point.element_i];
         const Element& b = world.bodies.elements[point.feature_j];
         const Vec2 oi = turned(i, a), oj = turned(j, b);
-        ContactGeometry g = with_arms(
-            circle_contact((j.x - i.x) + (oj.x - oi.x), (j.y - i.y) + (oj.y - oi.y), a.radius, b.radius));
+        ContactGeometry g =
+            with_arms(circle_contact((j.x - i.x) + (oj.x - oi.x), (j.y - i.y) + (oj.y - oi.y), a.radius, b.radius));
         g.aix += oi.x;
         g.aiy += oi.y;
         g.ajx += oj.x;

@@ -24,8 +24,7 @@
 
 // Around functions that return lanes. g++ warns that code compiled for other processors would look for the result
 // elsewhere; these functions are inlined, so that nobody looks for it.
-#define CRACKLE_RETURNS_LANES \
-    _Pragma("GCC diagnostic push") _Pragma("GCC diagnostic ignored \"-Wpsabi\"")
+#define CRACKLE_RETURNS_LANES _Pragma("GCC diagnostic push") _Pragma("GCC diagnostic ignored \"-Wpsabi\"")
 #define CRACKLE_END_RETURNS_LANES _Pragma("GCC diagnostic pop")
 
 CRACKLE_RETURNS_LANES

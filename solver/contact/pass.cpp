@@ -49,7 +49,7 @@ inline void feel_bodies(const World& world, const ContactPoint& point, const Con
         const BodyForce& force = world.bodies.last_force[b];
         const double turn = arm_x * g.ny - arm_y * g.nx;
         closing.inverse_mass += inertia.inverse_mass_x * g.nx * g.nx + inertia.inverse_mass_y * g.ny * g.ny +
-                                 inertia.inverse_moment * turn * turn;
+                                inertia.inverse_moment * turn * turn;
         closing.acceleration +=
             sense * ((force.fx + inertia.mass * world.settings.gravity.x) * inertia.inverse_mass_x * g.nx +
                      (force.fy + inertia.mass * world.settings.gravity.y) * inertia.inverse_mass_y * g.ny +

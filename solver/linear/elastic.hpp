@@ -31,9 +31,9 @@ struct Prescribed {
 struct ElasticSolution {
     std::vector<BodyMotion> displacement;  ///< per body
     std::vector<BodyMotion> reaction;      ///< per entry of `prescribed`: force needed to hold it there
-    double energy = 0.0;               ///< J, ½uᵀKu
-    double residual = 0.0;             ///< |f - Ku| over |f| on the free degrees of freedom, scaled
-    std::int64_t unknowns = 0;         ///< free degrees of freedom
+    double energy = 0.0;                   ///< J, ½uᵀKu
+    double residual = 0.0;                 ///< |f - Ku| over |f| on the free degrees of freedom, scaled
+    std::int64_t unknowns = 0;             ///< free degrees of freedom
 };
 
 /// @param loads forces (N) and torque (N m) on every body, besides what is prescribed; empty: none

@@ -10,7 +10,7 @@
 namespace crackle {
 
 struct VibrationMode {
-    double frequency;           // rad/s
+    double frequency;               // rad/s
     std::vector<BodyMotion> shape;  ///< per body, largest mass-scaled component 1
 };
 

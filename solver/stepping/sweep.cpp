@@ -245,7 +245,8 @@ class Sweeper {
             const PointIndex end = share_begin(blocks, thread_ + 1, threads_);
             for (PointIndex b = share_begin(blocks, thread_, threads_); b < end; ++b) {
                 PointForce* const kept = plan_.smaller_kinds.data() + before + std::size_t{b} * block_points;
-                const PointBlock block = threads_ == 1 ? block_to_fill(kind, b, at_hand) : block_of(world_, kind, b, kept);
+                const PointBlock block =
+                    threads_ == 1 ? block_to_fill(kind, b, at_hand) : block_of(world_, kind, b, kept);
                 compute(kernel, block);
                 if (threads_ > 1) continue;  // added up when all threads have found theirs
                 const PhaseTimer timer(profile_, Phase::gather);
@@ -382,7 +383,6 @@ class Sweeper {
 }  // namespace
 
 void sweep(World& world, const ContactFeatures& features, MoveListed move, double kick) {
-    world.bodies.forces_clear = clears_forces(world, move);
     const std::size_t shares = world.workers.plan.shares.size();
     if (shares == 1) {  // needs no team: its barriers would cost a tenth of a small scene's step
         Sweeper sweeper(world, features, move, kick, 0);
