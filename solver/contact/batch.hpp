@@ -15,8 +15,6 @@
 #include "solver/contact/relative_motion.hpp"
 #include "solver/world/world.hpp"
 
-CRACKLE_RETURNS_LANES
-
 namespace crackle {
 
 /// Geometry of the points of a batch and how i moves against j there.
@@ -410,5 +408,3 @@ CRACKLE_INLINE void force_lanes(World& world, PointIndex k, PointIndex place, co
 }
 
 }  // namespace crackle
-
-CRACKLE_END_RETURNS_LANES

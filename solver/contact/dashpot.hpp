@@ -10,8 +10,6 @@
 
 #include "solver/contact/friction.hpp"
 
-CRACKLE_RETURNS_LANES
-
 namespace crackle {
 
 /// c_n, N s/m. @param law ContactLaw or Law @param root_mass square root of the effective mass, sqrt(kg)
@@ -43,5 +41,3 @@ CRACKLE_INLINE Number dashpot_loss(double drift, const Number& normal, const Num
 }
 
 }  // namespace crackle
-
-CRACKLE_END_RETURNS_LANES

@@ -10,8 +10,6 @@
 
 #include "solver/contact/law.hpp"
 
-CRACKLE_RETURNS_LANES
-
 namespace crackle {
 
 /// Largest shear force at an overlap, N.
@@ -56,5 +54,3 @@ CRACKLE_INLINE Number slider_loss(const Law<Number>& law, const ShearTrial<Numbe
 }
 
 }  // namespace crackle
-
-CRACKLE_END_RETURNS_LANES

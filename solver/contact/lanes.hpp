@@ -22,13 +22,6 @@
 
 #define CRACKLE_INLINE inline __attribute__((always_inline))
 
-// Around functions that return lanes. g++ warns that code compiled for other processors would look for the result
-// elsewhere; these functions are inlined, so that nobody looks for it.
-#define CRACKLE_RETURNS_LANES _Pragma("GCC diagnostic push") _Pragma("GCC diagnostic ignored \"-Wpsabi\"")
-#define CRACKLE_END_RETURNS_LANES _Pragma("GCC diagnostic pop")
-
-CRACKLE_RETURNS_LANES
-
 namespace crackle {
 
 using Lanes = double __attribute__((vector_size(8 * lane_count)));
@@ -224,5 +217,3 @@ CRACKLE_INLINE void store_quads(void* to, const Lanes& a, const Lanes& b, const 
 #endif
 
 }  // namespace crackle
-
-CRACKLE_END_RETURNS_LANES

@@ -13,8 +13,6 @@
 #include "solver/contact/lanes.hpp"
 #include "solver/world/settings.hpp"
 
-CRACKLE_RETURNS_LANES
-
 namespace crackle {
 
 /// A ContactLaw with its constants in all lanes of a Number, and what follows from them.
@@ -63,5 +61,3 @@ inline double strain_energy(const ContactLaw& law, double overlap, double bond_o
 }
 
 }  // namespace crackle
-
-CRACKLE_END_RETURNS_LANES

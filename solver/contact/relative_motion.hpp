@@ -8,8 +8,6 @@
 #include "solver/contact/circle_geometry.hpp"
 #include "solver/contact/point_geometry.hpp"
 
-CRACKLE_RETURNS_LANES
-
 namespace crackle {
 
 template <class Number>
@@ -60,5 +58,3 @@ CRACKLE_INLINE RelativeMotion<Number> motion_against_wall(const PointGeometry<Nu
 }
 
 }  // namespace crackle
-
-CRACKLE_END_RETURNS_LANES
