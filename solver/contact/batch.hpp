@@ -5,20 +5,26 @@
 #pragma once
 
 #include <cstddef>
+#include <type_traits>
 
+#include "solver/contact/dashpot.hpp"
+#include "solver/contact/friction.hpp"
 #include "solver/contact/geometry.hpp"
 #include "solver/contact/lanes.hpp"
 #include "solver/contact/law.hpp"
+#include "solver/contact/relative_motion.hpp"
 #include "solver/world/world.hpp"
 
 namespace crackle {
 
-/// Overlap and normal of the points, how i moves against j at the contact position, and the arms there: of outlines
-/// about both centroids, of single circles, whose arms lie along the normal, their lengths in aix and ajx.
+/// Geometry of the points of a batch and how i moves against j there.
+template <class Contact>
 struct BatchGeometry {
-    Lanes overlap, nx, ny, aix, aiy, ajx, ajy;
-    Lanes closing, slipping;  // m/s, along the normal and the tangent
+    Contact contact;
+    RelativeMotion<Lanes> motion;
 };
+using CircleBatch = BatchGeometry<CircleContact<Lanes>>;
+using OutlineBatch = BatchGeometry<PointGeometry<Lanes>>;
 
 using BatchBodies = const BodyState* [lane_count];
 
@@ -29,33 +35,25 @@ CRACKLE_INLINE void load_pairs(const BatchBodies& bodies, double BodyState::*fir
     gather_pairs(at, a, b);
 }
 
-/// As circles_geometry() of two single circles, and their approach as in force_point().
-CRACKLE_INLINE void circles_batch(const BatchBodies& i, const BatchBodies& j, BatchGeometry& g) {
+/// Of two single circles each.
+CRACKLE_INLINE void circle_batch(const BatchBodies& i, const BatchBodies& j, CircleBatch& g) {
     static_assert(offsetof(BodyState, shape) == offsetof(BodyState, omega) + sizeof(double));
     Lanes ix, iy, jx, jy, ivx, ivy, jvx, jvy, spin_i, spin_j, radius_i, radius_j;
     load_pairs(i, &BodyState::x, ix, iy);
     load_pairs(j, &BodyState::x, jx, jy);
     load_pairs(i, &BodyState::omega, spin_i, radius_i);
     load_pairs(j, &BodyState::omega, spin_j, radius_j);
-    const Lanes dx = jx - ix, dy = jy - iy;
-    const Lanes squared = dx * dx + dy * dy, distance = root(squared), inverse = distance * (1.0 / squared);
-    const LaneBits apart = squared >= least_squared_distance;
-    g.overlap = radius_i + radius_j - distance;
-    g.nx = apart ? dx * inverse : all_lanes(1.0);
-    g.ny = apart ? dy * inverse : Lanes{};
-    g.aix = radius_i - 0.5 * g.overlap;
-    g.ajx = radius_j - 0.5 * g.overlap;
+    g.contact = circle_contact<Lanes>(jx - ix, jy - iy, radius_i, radius_j);
     load_pairs(i, &BodyState::vx, ivx, ivy);
     load_pairs(j, &BodyState::vx, jvx, jvy);
-    const Lanes rx = ivx - jvx, ry = ivy - jvy;
-    g.closing = rx * g.nx + ry * g.ny;
-    g.slipping = (ry * g.nx - rx * g.ny) + (spin_i * g.aix + spin_j * g.ajx);
+    g.motion = relative_motion<Lanes>(g.contact, {ivx - jvx, ivy - jvy, spin_i, spin_j});
 }
 
 /// The two bodies of each point of element_outline.
 struct PairLanes {
-    Lanes dx, dy, dvx, dvy;  // of i against j
-    Lanes spin_i, spin_j, cosine_i, sine_i, cosine_j, sine_j;
+    Lanes dx, dy;  // m, of i from j
+    PairMotion<Lanes> motion;
+    Lanes cosine_i, sine_i, cosine_j, sine_j;
 };
 
 CRACKLE_INLINE PairLanes load_any_pairs(const World& world, const ContactPoint* points) {
@@ -73,9 +71,9 @@ CRACKLE_INLINE PairLanes load_any_pairs(const World& world, const ContactPoint* 
     pair.dx = ix - jx, pair.dy = iy - jy;
     load_pairs(i, &BodyState::vx, ix, iy);
     load_pairs(j, &BodyState::vx, jx, jy);
-    pair.dvx = ix - jx, pair.dvy = iy - jy;
-    load_pairs(i, &BodyState::omega, pair.spin_i, pair.cosine_i);
-    load_pairs(j, &BodyState::omega, pair.spin_j, pair.cosine_j);
+    pair.motion.vx = ix - jx, pair.motion.vy = iy - jy;
+    load_pairs(i, &BodyState::omega, pair.motion.spin_i, pair.cosine_i);
+    load_pairs(j, &BodyState::omega, pair.motion.spin_j, pair.cosine_j);
     const double *sine_i[lane_count], *sine_j[lane_count];
     for (int l = 0; l < lane_count; ++l) sine_i[l] = i[l]->shape + 1, sine_j[l] = j[l]->shape + 1;
     gather_pairs(sine_i, pair.sine_i, unused);
@@ -121,8 +119,8 @@ CRACKLE_INLINE PairLanes load_fours(const World& world, const ContactPoint* poin
     };
     PairLanes pair;
     pair.dx = difference(&BodyState::x), pair.dy = difference(&BodyState::y);
-    pair.dvx = difference(&BodyState::vx), pair.dvy = difference(&BodyState::vy);
-    either([](const BodyState& body) { return body.omega; }, pair.spin_i, pair.spin_j);
+    pair.motion.vx = difference(&BodyState::vx), pair.motion.vy = difference(&BodyState::vy);
+    either([](const BodyState& body) { return body.omega; }, pair.motion.spin_i, pair.motion.spin_j);
     either([](const BodyState& body) { return body.shape[0]; }, pair.cosine_i, pair.cosine_j);
     either([](const BodyState& body) { return body.shape[1]; }, pair.sine_i, pair.sine_j);
     return pair;
@@ -131,15 +129,10 @@ CRACKLE_INLINE PairLanes load_fours(const World& world, const ContactPoint* poin
 /// What is known of points of element_outline before the roots: kernels do this for many batches, then the roots for
 /// all of these, for one batch is a chain of calculations that the processor would wait for.
 struct OutlineStage {
-    Lanes ox, oy;        // m, the element from i's centroid
-    Lanes wx, wy;        // m, from j's
-    Lanes radius;        // m, of the element
-    Lanes cover;         // m, distance at which the overlap begins
-    Lanes across;        // m, in front of the line of the edge faced
-    Lanes over;          // m, beyond an end of it; 0: faces the edge itself
+    FacingElement<Lanes> element;
+    Lanes across, over;  // m, as in BeforeEdge, of the edge faced
     Lanes tx, ty;        // direction of the edge, body frame of j
-    Lanes cosine, sine;  // of j
-    Lanes dvx, dvy, spin_i, spin_j;
+    PairMotion<Lanes> motion;
 };
 
 /// What points that come later look at. In a mesh beyond the caches it comes from memory, from places that only the
@@ -166,7 +159,8 @@ CRACKLE_INLINE void outline_stage(const World& world, ContactPoint* points, cons
     static_assert(offsetof(Edge, cone) == offsetof(Edge, length) + sizeof(double));
     const double *elements[lane_count], *element_reaches[lane_count], *edges[lane_count], *edge_directions[lane_count],
         *edge_lengths[lane_count], *edge_ends[lane_count];
-    Lanes element_x, element_y, target_reach, edge_x, edge_y, tx, ty, length, cone_before, cone_beyond, unused;
+    Lanes element_x, element_y, target_reach, unused;
+    EdgeNumbers<Lanes> edge;
     for (int l = 0; l < lane_count; ++l) {
         const Element& element = world.bodies.elements[points[l].element_i];
         const Edge& faced = world.bodies.edges[points[l].feature_j];
@@ -177,28 +171,26 @@ CRACKLE_INLINE void outline_stage(const World& world, ContactPoint* points, cons
         edge_lengths[l] = &faced.length;
         edge_ends[l] = &faced.cone[1];
     }
+    FacingElement<Lanes>& e = stage.element;
     gather_pairs(elements, element_x, element_y);
-    gather_pairs(element_reaches, stage.radius, target_reach);
-    stage.cover = stage.radius + target_reach;
-    gather_pairs(edges, edge_x, edge_y);
-    gather_pairs(edge_directions, tx, ty);
-    gather_pairs(edge_lengths, length, cone_before);
-    gather_pairs(edge_ends, cone_beyond, unused);
-    stage.ox = pair.cosine_i * element_x - pair.sine_i * element_y;
-    stage.oy = pair.sine_i * element_x + pair.cosine_i * element_y;
-    const Lanes wx = stage.wx = pair.dx + stage.ox, wy = stage.wy = pair.dy + stage.oy;
-    const Lanes px = pair.cosine_j * wx + pair.sine_j * wy, py = pair.cosine_j * wy - pair.sine_j * wx;
-    const Lanes dx = px - edge_x, dy = py - edge_y;
-    const Lanes across = dx * ty - dy * tx, along = dx * tx + dy * ty;
-    const LaneBits before = along<0.0, beyond = along> length;
-    const Lanes over = before ? along : (beyond ? along - length : Lanes{});
-    LaneBits settled = (across >= 0.0) & (across + over * (before ? cone_before : cone_beyond) >= 0.0);
-    stage.across = across;
-    stage.over = over;
-    stage.tx = tx, stage.ty = ty;
-    stage.cosine = pair.cosine_j, stage.sine = pair.sine_j;
-    stage.dvx = pair.dvx, stage.dvy = pair.dvy;
-    stage.spin_i = pair.spin_i, stage.spin_j = pair.spin_j;
+    gather_pairs(element_reaches, e.radius, target_reach);
+    e.cover = e.radius + target_reach;
+    gather_pairs(edges, edge.x, edge.y);
+    gather_pairs(edge_directions, edge.tx, edge.ty);
+    gather_pairs(edge_lengths, edge.length, edge.cone_before);
+    gather_pairs(edge_ends, edge.cone_beyond, unused);
+    e.ox = pair.cosine_i * element_x - pair.sine_i * element_y;
+    e.oy = pair.sine_i * element_x + pair.cosine_i * element_y;
+    e.wx = pair.dx + e.ox;
+    e.wy = pair.dy + e.oy;
+    e.cosine = pair.cosine_j, e.sine = pair.sine_j;
+    const Lanes px = e.cosine * e.wx + e.sine * e.wy, py = e.cosine * e.wy - e.sine * e.wx;
+    const BeforeEdge<Lanes> place = before_edge(edge, px, py);
+    LaneBits settled = place.is_closest;
+    stage.across = place.across;
+    stage.over = place.over;
+    stage.tx = edge.tx, stage.ty = edge.ty;
+    stage.motion = pair.motion;
     // Whether the edge faced last is of an outline whose edges are all there is to face.
     if (!world.bodies.convex_outlines) {
         for (int l = 0; l < lane_count; ++l)
@@ -219,37 +211,19 @@ CRACKLE_INLINE void outline_stage(const World& world, ContactPoint* points, cons
     }
 }
 
-/// As contact_geometry() of elements against outlines, and their approach as in force_point().
-CRACKLE_INLINE void outline_batch(const OutlineStage& stage, double drift, BatchGeometry& g) {
-    const LaneBits at_corner = stage.over != 0.0;
-    const Lanes squared = stage.over * stage.over + stage.across * stage.across;
-    const Lanes to_corner = root(squared), inverse = to_corner * (1.0 / squared);
-    const LaneBits apart = at_corner & (squared >= least_squared_distance);
-    const Lanes a = stage.over * inverse, out = stage.across * inverse;
-    const Lanes gx = apart ? a * stage.tx + out * stage.ty : stage.ty;
-    const Lanes gy = apart ? a * stage.ty - out * stage.tx : -stage.tx;
-    g.overlap = stage.cover - (at_corner ? to_corner : stage.across);
-    g.nx = stage.sine * gy - stage.cosine * gx;
-    g.ny = -(stage.sine * gx + stage.cosine * gy);
-    const Lanes lift = stage.radius - 0.5 * g.overlap;
-    const Lanes lift_x = lift * g.nx, lift_y = lift * g.ny;
-    g.aix = stage.ox + lift_x;
-    g.aiy = stage.oy + lift_y;
-    g.ajx = stage.wx + lift_x;
-    g.ajy = stage.wy + lift_y;
-    const Lanes rx = stage.dvx - (stage.spin_i * g.aiy - stage.spin_j * g.ajy);
-    const Lanes ry = stage.dvy + (stage.spin_i * g.aix - stage.spin_j * g.ajx);
-    g.closing = rx * g.nx + ry * g.ny;
-    g.slipping = ry * g.nx - rx * g.ny;
-    const double half = 0.5 * drift;
-    g.slipping += half * stage.spin_i * stage.spin_i * (g.aiy * g.nx - g.aix * g.ny);
-    g.slipping -= half * stage.spin_j * stage.spin_j * (g.ajy * g.nx - g.ajx * g.ny);
+CRACKLE_INLINE void outline_batch(const OutlineStage& stage, double drift, OutlineBatch& g) {
+    g.contact = outline_contact(stage.element,
+                                outline_distance(stage.over != 0.0, stage.over, stage.across, stage.tx, stage.ty));
+    g.motion = relative_motion(g.contact, stage.motion, drift);
 }
 
-/// All that the forces of some batches of points need to know of their bodies.
-/// @tparam Fours they lie before World::fours_end
+/// What the forces of batches of a kind need to know of their bodies.
+template <PointKind K>
+using BatchOf = std::conditional_t<K == PointKind::circle_circle, CircleBatch, OutlineBatch>;
+
+/// Fills the geometry of batches that begin with point k. @tparam Fours they lie before Points::fours_end
 template <PointKind K, bool Fours, PointIndex Most>
-CRACKLE_INLINE void geometry_batches(World& world, PointIndex k, PointIndex batches, BatchGeometry (&geometry)[Most]) {
+CRACKLE_INLINE void geometry_batches(World& world, PointIndex k, PointIndex batches, BatchOf<K> (&geometry)[Most]) {
     static_assert(K == PointKind::circle_circle || K == PointKind::element_outline);
     if constexpr (K == PointKind::circle_circle) {
         const BodyState* const bodies = world.bodies.state.data();
@@ -260,7 +234,7 @@ CRACKLE_INLINE void geometry_batches(World& world, PointIndex k, PointIndex batc
                 i[l] = &bodies[points[l].body_i];
                 j[l] = &bodies[points[l].body_j];
             }
-            circles_batch(i, j, geometry[n]);
+            circle_batch(i, j, geometry[n]);
         }
     } else {
         OutlineStage stages[Most];
@@ -274,31 +248,13 @@ CRACKLE_INLINE void geometry_batches(World& world, PointIndex k, PointIndex batc
     }
 }
 
-/// Law of a batch, each number in all lanes, where kernels have them at hand.
-struct LawLanes {
-    LawLanes(const World& world, std::uint16_t of_law) : LawLanes(world.settings.laws[of_law], of_law) {}
+/// Law of a batch, kept from one batch to the next of the same law.
+struct BatchLaw {
+    BatchLaw(const World& world, std::uint16_t number_of_law)
+        : law(world.settings.laws[number_of_law]), number(number_of_law) {}
 
-    Lanes normal_stiffness, shear_stiffness, normal_damping, shear_damping, normal_damping_ratio_term,
-        shear_damping_ratio_term;
-    Lanes limit_stiffness;  // N/m: Coulomb's limit over the overlap
-    Lanes half_stiffness;
-    Lanes break_overlap;
-    LaneBit number;  // into World::laws
-    bool shears;     // has a shear spring
-
-  private:
-    LawLanes(const ContactLaw& law, std::uint16_t of_law)
-        : normal_stiffness(all_lanes(law.normal_stiffness)),
-          shear_stiffness(all_lanes(law.shear_stiffness)),
-          normal_damping(all_lanes(law.normal_damping)),
-          shear_damping(all_lanes(law.shear_damping)),
-          normal_damping_ratio_term(all_lanes(law.normal_damping_ratio_term)),
-          shear_damping_ratio_term(all_lanes(law.shear_damping_ratio_term)),
-          limit_stiffness(all_lanes(law.friction * law.normal_stiffness)),
-          half_stiffness(all_lanes(0.5 * law.normal_stiffness)),
-          break_overlap(all_lanes(law.break_overlap)),
-          number(of_law),
-          shears(law.shear_stiffness > 0.0) {}
+    Law<Lanes> law;
+    LaneBit number;  // into Settings::laws
 };
 
 /// Losses of a block of points, added up apart by the place of the point, so that lanes need not wait for each other.
@@ -326,51 +282,82 @@ struct BlockLosses {
     }
 };
 
+/// What happens to the points of a batch.
+enum class BatchCase : std::uint8_t {
+    all_hold,    // every point was in contact, holds, and stuck before (and is bonded, where there are bonds)
+    some_hold,   // no other was in contact
+    none_holds,  // nor was in contact
+    one_by_one   // something breaks or parts, or the points are of several laws: for the scalar code
+};
+
 /// Which points of a batch carry load, and what they were before.
 struct BatchState {
+    BatchCase what;
     PointState* states;
     LaneBits law_and_flags, bonded, holds;
 };
 
-/// @tparam All every point was in contact, holds, and stuck before (and is bonded, where there are bonds)
-/// @param place of the first point in its block
-template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Ledger, bool All>
-CRACKLE_INLINE void force_lanes(World& world, PointIndex k, PointIndex place, const BatchGeometry& g,
-                                const LawLanes& law, const BatchState& batch, PointForce* out, BlockLosses& loss) {
+constexpr LaneBit bits_of_flags(int flags) { return static_cast<LaneBit>(flags) << 16; }
+
+/// Changes nothing. @param k first point of the batch @param law of the batch before; left as this one's
+template <bool Bonds>
+CRACKLE_INLINE BatchState look_at_batch(World& world, PointIndex k, const Lanes& overlap, BatchLaw& law) {
+    constexpr int at_rest = point_touching | (Bonds ? point_bonded | point_counted : 0);
+    constexpr LaneBit of_law = 0xffff, looked_at = of_law | bits_of_flags(at_rest | point_sliding);
+    PointState* const states = world.points.state.data() + k;
+    const LaneBits law_and_flags = widened(states);
+    LaneBits unlike = law_and_flags ^ (law.number | bits_of_flags(at_rest));
+    if (!none_of(unlike & of_law)) {
+        if (!none_of((law_and_flags ^ law_and_flags[0]) & of_law))
+            return {BatchCase::one_by_one, states, law_and_flags, LaneBits{}, LaneBits{}};
+        law = BatchLaw(world, states[0].law);
+        unlike = law_and_flags ^ (law.number | bits_of_flags(at_rest));
+    }
+    const LaneBits over = overlap > (Bonds ? law.law.break_overlap : Lanes{});
+    if (none_of((unlike & looked_at) | ~over)) return {BatchCase::all_hold, states, law_and_flags, over, over};
+    LaneBits bonded{}, holds = overlap > 0.0;
+    if constexpr (Bonds) {
+        bonded = (law_and_flags & bits_of_flags(point_bonded)) != 0;
+        holds = bonded ? over : holds;
+    }
+    const LaneBits held_before = bonded | ((law_and_flags & bits_of_flags(point_touching)) != 0);
+    if (any(~holds & held_before)) return {BatchCase::one_by_one, states, law_and_flags, bonded, holds};
+    return {any(holds) ? BatchCase::some_hold : BatchCase::none_holds, states, law_and_flags, bonded, holds};
+}
+
+/// Forces of the points of a batch that hold, into `out`; of the others 0.
+/// @tparam All BatchCase::all_hold, else some_hold @param place of the first point in its block
+template <bool Friction, bool Damping, bool Bonds, bool All, class Contact>
+CRACKLE_INLINE void force_lanes(World& world, PointIndex k, PointIndex place, const BatchGeometry<Contact>& g,
+                                const Law<Lanes>& law, const BatchState& batch, PointForce* out, BlockLosses& loss) {
     const Lanes zero{};
     const auto where_held = [&](const Lanes& held, const Lanes& otherwise) -> Lanes {
         if constexpr (All)
             return held;
         else
-            return batch.holds ? held : otherwise;
+            return select(batch.holds, held, otherwise);
     };
     const double dt = world.stepping.drift;
-    Lanes normal = law.normal_stiffness * g.overlap;
+    Lanes normal = spring_force(law, g.contact.overlap);
     [[maybe_unused]] Lanes bond_overlap;
     if constexpr (Bonds) {
         bond_overlap = load_as<Lanes>(&world.points.bond_overlap[k]);
-        normal -= law.normal_stiffness * bond_overlap;
+        normal -= spring_force(law, bond_overlap);
     }
-    Lanes tangential = zero;
+    Lanes shear = zero;
     LaneBits sliding = batch.holds;
     if constexpr (Friction) {
         double* const spring = &world.points.shear_force[k];
         const Lanes before = load_as<Lanes>(spring);
-        const Lanes trial = before - law.shear_stiffness * (g.slipping * dt);
-        const Lanes squeezed = g.overlap < 0.0 ? zero : g.overlap;
-        const Lanes limit = law.limit_stiffness * squeezed;
-        sliding = (magnitude(trial) > limit) | (limit <= 0.0);
-        tangential = trial;
+        const ShearTrial<Lanes> trial = try_shear<Lanes>(law, before, g.motion.slipping * dt, g.contact.overlap);
+        sliding = trial.slides;
+        shear = trial.force;
         const LaneBits slides = sliding & batch.holds;
-        if (mask_of(slides) == 0) {
-            store_as(spring, where_held(trial, before));
-        } else {
-            tangential = sliding ? with_sign(limit, trial) : trial;
-            store_as(spring, where_held(tangential, before));
-            if constexpr (Ledger) {
-                const Lanes lost = 0.5 * (before + tangential) * (trial - tangential) / law.shear_stiffness;
-                for (int l = 0; l < lane_count; ++l) loss.friction += slides[l] != 0 ? lost[l] : 0.0;
-            }
+        if (any(slides)) shear = shear_force(trial);
+        store_as(spring, where_held(shear, before));
+        if (any(slides)) {
+            const Lanes lost = slider_loss(law, trial, shear);
+            for (int l = 0; l < lane_count; ++l) loss.friction += slides[l] != 0 ? lost[l] : 0.0;
             if constexpr (All) {
                 for (int l = 0; l < lane_count; ++l)
                     if (slides[l] != 0) batch.states[l].flags |= point_sliding | point_slid;
@@ -378,9 +365,8 @@ CRACKLE_INLINE void force_lanes(World& world, PointIndex k, PointIndex place, co
         }
     }
     if constexpr (!All) {
-        constexpr auto bit_of = [](PointFlag flag) { return static_cast<LaneBit>(flag) << 16; };
-        LaneBits now = (batch.law_and_flags | bit_of(point_touching)) & ~bit_of(point_sliding);
-        if constexpr (Friction) now |= sliding & (bit_of(point_sliding) | bit_of(point_slid));
+        LaneBits now = (batch.law_and_flags | bits_of_flags(point_touching)) & ~bits_of_flags(point_sliding);
+        if constexpr (Friction) now |= sliding & (bits_of_flags(point_sliding) | bits_of_flags(point_slid));
         if (const unsigned changed = mask_of(batch.holds & ((now ^ batch.law_and_flags) != 0)); changed != 0) {
             for (int l = 0; l < lane_count; ++l)
                 if ((changed >> l & 1) != 0) batch.states[l].flags = static_cast<std::uint16_t>(now[l] >> 16);
@@ -388,88 +374,37 @@ CRACKLE_INLINE void force_lanes(World& world, PointIndex k, PointIndex place, co
     }
     if constexpr (Bonds) {
         if constexpr (!All) {
-            constexpr LaneBit counted = static_cast<LaneBit>(point_counted) << 16;
-            const unsigned uncounted = mask_of(batch.holds & ((batch.law_and_flags & counted) == 0));
+            const unsigned uncounted =
+                mask_of(batch.holds & ((batch.law_and_flags & bits_of_flags(point_counted)) == 0));
             loss.gained += static_cast<std::uint32_t>(__builtin_popcount(uncounted));
         }
-        const Lanes half = law.half_stiffness * bond_overlap;
-        LaneBits strong = normal * normal + tangential * tangential >= half * half;
+        LaneBits strong = carries_half_strength(law, normal, shear, bond_overlap);
         if constexpr (!All) strong &= batch.bonded;
-        if (mask_of(strong) != 0) {  // rare: spares the memory of the others
+        if (any(strong)) {  // rare: spares the memory of the others
             float *const strong_normal = &world.points.strong_normal[k], *const strong_shear =
                                                                              &world.points.strong_shear[k];
-            store_floats(strong_normal, strong ? normal : load_floats(strong_normal));
-            store_floats(strong_shear, strong ? tangential : load_floats(strong_shear));
+            store_floats(strong_normal, select(strong, normal, load_floats(strong_normal)));
+            store_floats(strong_shear, select(strong, shear, load_floats(strong_shear)));
         }
     }
     if constexpr (Damping) {
         const Lanes root_mass = load_as<Lanes>(&world.points.root_mass[k]);
-        const Lanes normal_dashpot = (law.normal_damping + law.normal_damping_ratio_term * root_mass) * g.closing;
-        const Lanes shear_damper =
-            sliding ? zero : (law.shear_damping + law.shear_damping_ratio_term * root_mass) * g.slipping;
-        if constexpr (Ledger) {
-            float *const normal_memory = &world.points.normal_dashpot[k], *const shear_memory =
-                                                                              &world.points.shear_dashpot[k];
-            const Lanes last_normal = load_floats(normal_memory), last_shear = load_floats(shear_memory);
-            const Lanes lost =
-                0.5 * dt * ((last_normal + normal_dashpot) * g.closing + (last_shear + shear_damper) * g.slipping);
-            loss.add_dashpots(place, where_held(lost, zero));
-            store_floats(normal_memory, where_held(normal_dashpot, last_normal));
-            store_floats(shear_memory, where_held(shear_damper, last_shear));
-        }
-        normal += normal_dashpot;
-        tangential -= shear_damper;
+        const Lanes normal_damper = normal_damping(law, root_mass) * g.motion.closing;
+        const Lanes shear_damper = shear_dashpot(law, root_mass, g.motion.slipping, g.contact.overlap, sliding);
+        float *const normal_memory = &world.points.normal_dashpot[k], *const shear_memory =
+                                                                          &world.points.shear_dashpot[k];
+        const Lanes last_normal = load_floats(normal_memory), last_shear = load_floats(shear_memory);
+        const Lanes lost = dashpot_loss<Lanes>(dt, last_normal + normal_damper, g.motion.closing,
+                                               last_shear + shear_damper, g.motion.slipping);
+        loss.add_dashpots(place, where_held(lost, zero));
+        store_floats(normal_memory, where_held(normal_damper, last_normal));
+        store_floats(shear_memory, where_held(shear_damper, last_shear));
+        normal += normal_damper;
+        shear -= shear_damper;
     }
-    const Lanes fx = where_held(-normal * g.nx - tangential * g.ny, zero);
-    const Lanes fy = where_held(-normal * g.ny + tangential * g.nx, zero);
-    Lanes torque_i, torque_j;
-    if constexpr (K == PointKind::circle_circle) {
-        torque_i = g.aix * tangential;
-        torque_j = g.ajx * tangential;
-    } else {
-        torque_i = g.aix * fy - g.aiy * fx;
-        torque_j = g.ajy * fx - g.ajx * fy;
-    }
-    store_quads(out, fx, fy, where_held(torque_i, zero), where_held(torque_j, zero));
-}
-
-/// Forces of points k to k + lane_count - 1, into `out`. @param place of the first in its block @param law of the batch
-/// before; left as this one's @return false, with no force or loss changed, where the scalar code must look
-template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Ledger>
-CRACKLE_INLINE bool force_batch(World& world, PointIndex k, PointIndex place, const BatchGeometry& g, LawLanes& law,
-                                PointForce* out, BlockLosses& loss) {
-    constexpr auto bit_of = [](int flags) { return static_cast<LaneBit>(flags) << 16; };
-    constexpr int at_rest = point_touching | (Bonds ? point_bonded | point_counted : 0);
-    constexpr LaneBit of_law = 0xffff, looked_at = of_law | bit_of(at_rest | point_sliding);
-    PointState* const states = world.points.state.data() + k;
-    const LaneBits law_and_flags = widened(states);
-    LaneBits unlike = law_and_flags ^ (law.number | bit_of(at_rest));
-    if (!none_of(unlike & of_law)) {
-        if (!none_of((law_and_flags ^ law_and_flags[0]) & of_law)) return false;
-        law = LawLanes(world, states[0].law);
-        unlike = law_and_flags ^ (law.number | bit_of(at_rest));
-    }
-    if (Friction && !law.shears) return false;
-    const LaneBits over = g.overlap > (Bonds ? law.break_overlap : Lanes{});
-    if (none_of((unlike & looked_at) | ~over)) {
-        force_lanes<K, Friction, Damping, Bonds, Ledger, true>(world, k, place, g, law,
-                                                               {states, law_and_flags, over, over}, out, loss);
-        return true;
-    }
-    LaneBits bonded{}, holds = g.overlap > 0.0;
-    if constexpr (Bonds) {
-        bonded = (law_and_flags & bit_of(point_bonded)) != 0;
-        holds = bonded ? over : holds;
-    }
-    const LaneBits held_before = bonded | ((law_and_flags & bit_of(point_touching)) != 0);
-    if (mask_of(~holds & held_before) != 0) return false;  // breaks or parts
-    if (mask_of(holds) == 0) {
-        store_quads(out, Lanes{}, Lanes{}, Lanes{}, Lanes{});
-        return true;
-    }
-    force_lanes<K, Friction, Damping, Bonds, Ledger, false>(world, k, place, g, law,
-                                                            {states, law_and_flags, bonded, holds}, out, loss);
-    return true;
+    const ForceOnBodies<Lanes> force = force_on_bodies(g.contact, normal, shear);
+    store_quads(out, where_held(force.fx, zero), where_held(force.fy, zero), where_held(force.torque_i, zero),
+                where_held(force.torque_j, zero));
 }
 
 }  // namespace crackle

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Numbers side by side, one a contact point, and the turning of records into such lanes and back.
 //
+// The contact law is written once, for a Number that is a double (one point) or Lanes (several): select(), root(),
+// magnitude(), with_sign(), any() and none_of() below are there for both.
+//
 // Kernels load records two numbers at a time and turn them in registers: hardware gathers are slower than that on the
 // machines we know (tests/benchmarks/results/README.md). Eight lanes where the target has AVX-512, else four, which the
 // compiler splits where even those are too many. All is IEEE arithmetic in the order of the source, so that any number
@@ -9,29 +12,27 @@
 
 #include <immintrin.h>
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <type_traits>
 
-// Lanes are passed between inlined functions alone.
-#pragma GCC diagnostic ignored "-Wpsabi"
+#include "solver/base/lane_count.hpp"
 
 #define CRACKLE_INLINE inline __attribute__((always_inline))
 
 namespace crackle {
 
-// CRACKLE_EIGHT_LANES is for tests of that form where the machine has no AVX-512.
-#if defined(__AVX512F__) || defined(CRACKLE_EIGHT_LANES)
-inline constexpr int lane_count = 8;
-#else
-inline constexpr int lane_count = 4;
-#endif
 using Lanes = double __attribute__((vector_size(8 * lane_count)));
 using LaneBits = decltype(Lanes{} < Lanes{});  // of a condition: 0 or -1 each
 using LaneBit = std::remove_cvref_t<decltype(LaneBits{}[0])>;
 using Quad = double __attribute__((vector_size(32)));
 using Pair = double __attribute__((vector_size(16)));
+
+/// Outcome of comparing two Numbers: bool, or LaneBits.
+template <class Number>
+using Condition = decltype(Number{} < Number{});
 
 /// Eight-byte numbers wherever they lie, whatever their type. Not memcpy(): g++ does not fold its loads into shuffles.
 template <class V>
@@ -57,8 +58,17 @@ CRACKLE_INLINE void store_floats(float* to, const Lanes& v) {
     *reinterpret_cast<Loose*>(to) = __builtin_convertvector(v, Floats);
 }
 
-CRACKLE_INLINE Lanes all_lanes(double value) { return value - Lanes{}; }
+/// A Number that is `value` in every lane.
+template <class Number>
+CRACKLE_INLINE Number all_of(double value) {
+    return value - Number{};
+}
 
+/// a where the condition holds, else b.
+CRACKLE_INLINE double select(bool condition, double a, double b) { return condition ? a : b; }
+CRACKLE_INLINE Lanes select(const LaneBits& condition, const Lanes& a, const Lanes& b) { return condition ? a : b; }
+
+CRACKLE_INLINE double root(double v) { return std::sqrt(v); }
 CRACKLE_INLINE Lanes root(const Lanes& v) {
     Lanes result;
     const char* from = reinterpret_cast<const char*>(&v);
@@ -85,7 +95,9 @@ CRACKLE_INLINE LaneBits widened(const void* from) {
 }
 
 inline constexpr LaneBit sign_bit = std::numeric_limits<LaneBit>::min();
+CRACKLE_INLINE double magnitude(double v) { return std::abs(v); }
 CRACKLE_INLINE Lanes magnitude(const Lanes& v) { return lanes_of(bits_of(v) & ~sign_bit); }
+CRACKLE_INLINE double with_sign(double size, double sign) { return std::copysign(size, sign); }
 CRACKLE_INLINE Lanes with_sign(const Lanes& size, const Lanes& sign) {
     return lanes_of((bits_of(size) & ~sign_bit) | (bits_of(sign) & sign_bit));
 }
@@ -108,7 +120,12 @@ CRACKLE_INLINE unsigned mask_of(const LaneBits& v) {
 #endif
 }
 
+/// Whether a condition holds in some lane.
+CRACKLE_INLINE bool any(bool condition) { return condition; }
+CRACKLE_INLINE bool any(const LaneBits& condition) { return mask_of(condition) != 0; }
+
 /// Whether every bit of every lane is 0.
+CRACKLE_INLINE bool none_of(bool condition) { return !condition; }
 CRACKLE_INLINE bool none_of(const LaneBits& v) {
     const char* from = reinterpret_cast<const char*>(&v);
 #if defined(__AVX512F__)
@@ -145,10 +162,9 @@ CRACKLE_INLINE Lanes join(const double* a, const double* b, const double* c, con
     return __builtin_shufflevector(join(a, b), join(c, d), 0, 1, 2, 3, 4, 5, 6, 7);
 }
 
-CRACKLE_INLINE Quad all_of_four(double value) { return value - Quad{}; }
 /// Each number four times.
 CRACKLE_INLINE Lanes lanes_of_fours(const double (&numbers)[2]) {
-    return __builtin_shufflevector(all_of_four(numbers[0]), all_of_four(numbers[1]), 0, 1, 2, 3, 4, 5, 6, 7);
+    return __builtin_shufflevector(all_of<Quad>(numbers[0]), all_of<Quad>(numbers[1]), 0, 1, 2, 3, 4, 5, 6, 7);
 }
 
 /// The two numbers at each of the addresses. Pairs meet on their way from memory, which spares shuffles.
@@ -178,7 +194,7 @@ CRACKLE_INLINE void store_quads(void* to, const Lanes& a, const Lanes& b, const 
 #else
 
 /// Each number four times.
-CRACKLE_INLINE Lanes lanes_of_fours(const double (&numbers)[1]) { return all_lanes(numbers[0]); }
+CRACKLE_INLINE Lanes lanes_of_fours(const double (&numbers)[1]) { return all_of<Lanes>(numbers[0]); }
 
 /// The two numbers at each of the addresses. Pairs meet on their way from memory, which spares shuffles.
 CRACKLE_INLINE void gather_pairs(const double* const (&at)[lane_count], Lanes& first, Lanes& second) {

@@ -2,57 +2,55 @@
 // Force of one contact point: linear springs, dashpots, Coulomb limit, back-tension.
 //
 //     f_n = k_n(δ - δ0) + c_n dδ/dt          positive pushes apart; back-tension f_b = -k_n δ0 while bonded
-//     f_t ← f_t - k_s Δu_t, |f_t| <= μ k_n δ  elastic part; plus the dashpot -c_s du_t/dt while not sliding
-//                                             (at most μ k_n δ where k_s = 0, for no spring would ever slide there)
+//     f_t ← f_t - k_s Δu_t, |f_t| <= μ k_n δ  elastic part (friction.hpp); plus the dashpot -c_s du_t/dt while not
+//                                             sliding (dashpot.hpp)
 //
 // δ overlap [m], δ0 overlap at bonding (0: not bonded), u_t displacement of i against j along the normal turned by +90
-// degrees. The limit uses the contact's own compression k_n δ, so a bond keeps the shear strength it had before
-// bonding. The dashpot sees the lagged velocity v(n-½) and may pull just before separation, as the restitution formula
-// assumes. Energy: the slider takes ½(f_t0 + f_t1)(trial - f_t1)/k_s a step, which together with ½f_t²/k_s is exactly
-// the work of the mean shear force. Source: DEMseg guide; solver/MODEL.md 4.
+// degrees. The law is written once for any Number: a double, or Lanes of several points. Here are its constants and the
+// normal spring. Source: DEMseg guide; solver/MODEL.md 4.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
-
-#include "solver/world/world.hpp"
+#include "solver/contact/lanes.hpp"
+#include "solver/world/settings.hpp"
 
 namespace crackle {
 
-/// c_n = c + 2h sqrt(k_n m_eff), N s/m.
-inline double normal_damping(const ContactLaw& law, double root_effective_mass) {
-    return law.normal_damping + law.normal_damping_ratio_term * root_effective_mass;
-}
-inline double shear_damping(const ContactLaw& law, double root_effective_mass) {
-    return law.shear_damping + law.shear_damping_ratio_term * root_effective_mass;
-}
+/// A ContactLaw with its constants in all lanes of a Number, and what follows from them.
+template <class Number>
+struct Law {
+    explicit CRACKLE_INLINE Law(const ContactLaw& law)
+        : normal_stiffness(all_of<Number>(law.normal_stiffness)),
+          shear_stiffness(all_of<Number>(law.shear_stiffness)),
+          normal_damping(all_of<Number>(law.normal_damping)),
+          shear_damping(all_of<Number>(law.shear_damping)),
+          normal_damping_ratio_term(all_of<Number>(law.normal_damping_ratio_term)),
+          shear_damping_ratio_term(all_of<Number>(law.shear_damping_ratio_term)),
+          limit_stiffness(all_of<Number>(law.friction * law.normal_stiffness)),
+          half_stiffness(all_of<Number>(0.5 * law.normal_stiffness)),
+          break_overlap(all_of<Number>(law.break_overlap)),
+          has_shear_spring(law.shear_stiffness > 0.0) {}
 
-struct ShearUpdate {
-    double force;     // N, elastic part after the step
-    double friction;  // J taken by the slider
-    bool sliding;
+    Number normal_stiffness, shear_stiffness;                    // N/m
+    Number normal_damping, shear_damping;                        // N s/m
+    Number normal_damping_ratio_term, shear_damping_ratio_term;  // sqrt(N/m)
+    Number limit_stiffness;                                      // N/m, Coulomb's limit over the overlap: μ k_n
+    Number half_stiffness;                                       // N/m, ½k_n
+    Number break_overlap;                                        // m
+    bool has_shear_spring;
 };
 
-/// Incremental shear spring with Coulomb limit. @param slip displacement of i against j in this step, m.
-inline ShearUpdate shear_force(const ContactLaw& law, double before, double slip, double overlap) {
-    const double trial = before - law.shear_stiffness * slip;
-    const double limit = law.friction * law.normal_stiffness * std::max(overlap, 0.0);
-    // Written so that μ = ∞ (sliding switched off) sticks at δ <= 0 too, where ∞·0 is not a number.
-    // Without resistance a point slides even if its spring is not strained, or its dashpot would drag.
-    if (!(std::abs(trial) > limit) && !(limit <= 0.0)) return {trial, 0.0, false};
-    const double force = std::copysign(limit, trial);
-    const double friction =
-        law.shear_stiffness > 0.0 ? 0.5 * (before + force) * (trial - force) / law.shear_stiffness : 0.0;
-    return {force, friction, true};
+/// Elastic normal force, N, of an overlap counted from no force.
+template <class Number>
+CRACKLE_INLINE Number spring_force(const Law<Number>& law, const Number& overlap) {
+    return law.normal_stiffness * overlap;
 }
 
-/// Shear dashpot of a point that sticks, N against `slip_rate` (m/s). Without a shear spring it is all that resists,
-/// and Coulomb's limit is its own.
-inline double shear_dashpot(const ContactLaw& law, double root_effective_mass, double slip_rate, double overlap) {
-    const double force = shear_damping(law, root_effective_mass) * slip_rate;
-    if (law.shear_stiffness > 0.0) return force;
-    const double limit = law.friction * law.normal_stiffness * std::max(overlap, 0.0);
-    return std::abs(force) > limit ? std::copysign(limit, force) : force;
+/// Whether a bonded point carries at least half its strength k_n δ0.
+template <class Number>
+CRACKLE_INLINE Condition<Number> carries_half_strength(const Law<Number>& law, const Number& normal,
+                                                       const Number& shear, const Number& bond_overlap) {
+    const Number half = law.half_stiffness * bond_overlap;
+    return normal * normal + shear * shear >= half * half;
 }
 
 /// Strain energy of a point, counted from its bonded state. J.

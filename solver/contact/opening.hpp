@@ -23,7 +23,7 @@
 namespace crackle {
 
 /// What a point of the consistent integrator meets in a force pass.
-struct Approach {
+struct ClosingPoint {
     double overlap;       // δ(n), m
     double closing;       // v(n-½) along the normal, m/s
     double acceleration;  // closing, of the last kick, m/s2: this point's own force included
@@ -36,7 +36,7 @@ struct Approach {
 
 /// Closes the account of the last step's force. To be called at every force pass of an unbonded point, before
 /// opening_force(). @return the overlap one step ago, m
-inline double settle_opening(OpeningMemory& memory, bool touched, const Approach& a) {
+inline double settle_opening(OpeningMemory& memory, bool touched, const ClosingPoint& a) {
     const double before = std::isnan(memory.overlap) ? a.overlap - a.closing * a.drift : memory.overlap;
     if (touched) {
         memory.defect += 0.5 * memory.extra_force * a.overlap;
@@ -48,7 +48,7 @@ inline double settle_opening(OpeningMemory& memory, bool touched, const Approach
 }
 
 /// Spring force at δ(n) > 0, N. @param touched in contact in the last pass too  @param before δ(n-1), m
-inline double opening_force(OpeningMemory& memory, bool touched, double before, const Approach& a) {
+inline double opening_force(OpeningMemory& memory, bool touched, double before, const ClosingPoint& a) {
     const double k = a.stiffness, d = a.overlap;
     const double plain = k * d;
     const double u = a.kick * a.step * a.inverse_mass, kappa = k * u;

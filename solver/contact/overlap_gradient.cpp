@@ -60,13 +60,13 @@ Vec2 between(const World& world, const ContactPoint& point) {
 /// dδ_c of a case in contact.
 OverlapGradient case_gradient(const Disc& disc, Vec2 to_j) {
     const DiscCase& c = disc.found;
-    const OverlapGradient along = approach(disc.sense * c.normal, c.at, c.at - to_j);
+    const OverlapGradient along = closing_gradient(disc.sense * c.normal, c.at, c.at - to_j);
     if (c.rule != DiscRule::ramp) return along;
     const double r = disc.radius, q = std::sqrt((r - c.height) / (r + c.height));
     OverlapGradient row{};
     add_to(row, r * c.inside / (q * (r + c.height) * (r + c.height)), along);
     const Vec2 towards_end = (1.0 / c.inside) * (c.end - c.at);
-    add_to(row, -disc.sense * q, approach(towards_end, disc.centre, disc.centre - to_j));
+    add_to(row, -disc.sense * q, closing_gradient(towards_end, disc.centre, disc.centre - to_j));
     return row;
 }
 
@@ -78,7 +78,7 @@ OverlapGradient turning_gradient(const Disc& disc, Vec2 n, Vec2 to_j) {
     const bool disc_of_i = disc.sense > 0.0;
     if (c.rule == DiscRule::end && c.squared_distance > 0.0) {
         const Vec2 on_i = disc_of_i ? disc.centre : c.end, on_j = disc_of_i ? c.end : disc.centre;
-        add_to(row, -dot(n, aside) / std::sqrt(c.squared_distance), approach(aside, on_i, on_j - to_j));
+        add_to(row, -dot(n, aside) / std::sqrt(c.squared_distance), closing_gradient(aside, on_i, on_j - to_j));
     } else {
         row[disc_of_i ? 5 : 2] = dot(n, aside);  // the segment's body turns it
     }
@@ -102,7 +102,7 @@ OverlapGradient guide_gradient(const World& world, PointKind kind, const Contact
     const double size = norm(sum);
     if (!(size > 0.0)) {
         const DiscCase& c = nearest->found;
-        return approach(nearest->sense * c.normal, c.at, c.at - to_j);
+        return closing_gradient(nearest->sense * c.normal, c.at, c.at - to_j);
     }
     const Vec2 n = (1.0 / size) * sum;
     const double share = world.settings.segment_law == SegmentLaw::demseg_mean ? 1.0 / cases : 1.0;
@@ -122,7 +122,7 @@ std::vector<OverlapGradient> idle_discs(const World& world, PointKind kind, cons
         const DiscCase& c = disc.found;
         const double limit = disc.radius + world.list.skin;
         if (c.rule != DiscRule::none || c.squared_distance > limit * limit) continue;
-        rows.push_back(approach(disc.sense * c.normal, c.at, c.at - to_j));
+        rows.push_back(closing_gradient(disc.sense * c.normal, c.at, c.at - to_j));
     }
     return rows;
 }

@@ -11,8 +11,8 @@ namespace crackle {
 /// By the motions of i (x, y in m, rotation in rad) and of j.
 using OverlapGradient = std::array<double, 6>;
 
-/// Approach of the two bodies' materials along `direction`: (d, arm_i × d, -d, -arm_j × d).
-inline OverlapGradient approach(Vec2 direction, Vec2 arm_i, Vec2 arm_j) {
+/// How fast the two bodies' materials close in along `direction`: (d, arm_i × d, -d, -arm_j × d).
+inline OverlapGradient closing_gradient(Vec2 direction, Vec2 arm_i, Vec2 arm_j) {
     return {direction.x, direction.y, cross(arm_i, direction), -direction.x, -direction.y, -cross(arm_j, direction)};
 }
 

@@ -8,9 +8,12 @@
 #include <utility>
 
 #include "solver/contact/batch.hpp"
+#include "solver/contact/dashpot.hpp"
+#include "solver/contact/friction.hpp"
 #include "solver/contact/geometry.hpp"
 #include "solver/contact/law.hpp"
 #include "solver/contact/opening.hpp"
+#include "solver/contact/relative_motion.hpp"
 
 namespace crackle {
 namespace {
@@ -24,12 +27,14 @@ inline void store_work(SpringWork& work, const World& world, const ContactPoint&
 }
 
 /// Out of contact: no force; what the shear spring still held is lost to the slider.
-template <bool Friction, bool Ledger>
-inline void release(World& world, PointIndex k, BlockLosses& loss, double shear_move) {
+template <bool Friction>
+inline void release(World& world, PointIndex k, BlockLosses& loss, double slip) {
     PointState& state = world.points.state[k];
-    if constexpr (Ledger && Friction)
-        loss.friction +=
-            shear_force(world.settings.laws[state.law], world.points.shear_force[k], shear_move, 0.0).friction;
+    if constexpr (Friction) {
+        const Law<double> law(world.settings.laws[state.law]);
+        const ShearTrial<double> trial = try_shear(law, world.points.shear_force[k], slip, 0.0);
+        if (trial.slides) loss.friction += slider_loss(law, trial, shear_force(trial));
+    }
     world.points.shear_force[k] = 0.0;
     state.flags = static_cast<std::uint16_t>(state.flags & ~(point_touching | point_sliding | point_slid));
 }
@@ -37,14 +42,15 @@ inline void release(World& world, PointIndex k, BlockLosses& loss, double shear_
 /// Inverse mass along the normal at the contact position, 1/kg, and the acceleration there in the last kick (closing,
 /// m/s2). A driving force is no part of it: what that costs is in the point's defect.
 template <PointKind K>
-inline void feel_bodies(const World& world, const ContactPoint& point, const ContactGeometry& g, Approach& approach) {
+inline void feel_bodies(const World& world, const ContactPoint& point, const ContactGeometry& g,
+                        ClosingPoint& closing) {
     const auto add = [&](BodyIndex b, double arm_x, double arm_y, double sense) {
         const BodyInertia& inertia = world.bodies.inertia[b];
         const BodyForce& force = world.bodies.last_force[b];
         const double turn = arm_x * g.ny - arm_y * g.nx;
-        approach.inverse_mass += inertia.inverse_mass_x * g.nx * g.nx + inertia.inverse_mass_y * g.ny * g.ny +
-                                 inertia.inverse_moment * turn * turn;
-        approach.acceleration +=
+        closing.inverse_mass += inertia.inverse_mass_x * g.nx * g.nx + inertia.inverse_mass_y * g.ny * g.ny +
+                                inertia.inverse_moment * turn * turn;
+        closing.acceleration +=
             sense * ((force.fx + inertia.mass * world.settings.gravity.x) * inertia.inverse_mass_x * g.nx +
                      (force.fy + inertia.mass * world.settings.gravity.y) * inertia.inverse_mass_y * g.ny +
                      force.torque * inertia.inverse_moment * turn);
@@ -53,56 +59,43 @@ inline void feel_bodies(const World& world, const ContactPoint& point, const Con
     if constexpr (K != PointKind::element_wall) add(point.body_j, g.ajx, g.ajy, -1.0);
 }
 
-/// Lengths of the arms of two single circles, which lie along the normal, m.
-struct Arms {
-    double i, j;
-};
-inline Arms arms_of_circles(const BodyState& i, const BodyState& j, const ContactGeometry& g) {
-    return {i.shape[0] - 0.5 * g.overlap, j.shape[0] - 0.5 * g.overlap};
-}
-
-/// Slip that ω × a at the end of the drift misses, where the arm is not along the normal: the chord of its turn,
-/// ½ω²Δt·a, in m/s. Left out, a bonded specimen that turns as a whole would collect shear, first order in Δt.
-inline double chord(const World& world, const BodyState& body, double arm_x, double arm_y, const ContactGeometry& g) {
-    return 0.5 * world.stepping.drift * body.omega * body.omega * (arm_y * g.nx - arm_x * g.ny);
-}
-
-/// How i moves against j at the contact position, m/s.
-struct Motion {
-    double closing, slipping;  // along the normal and the tangent
-};
-
+/// Geometry of a point: of two single circles as circles, of others with arms.
 template <PointKind K>
-inline Motion relative_motion(const World& world, const ContactPoint& point, const ContactGeometry& g) {
+inline auto geometry_of(const World& world, ContactPoint& point) {
+    if constexpr (K == PointKind::circle_circle) {
+        return single_circles_contact(world.bodies.state[point.body_i], world.bodies.state[point.body_j]);
+    } else {
+        return contact_geometry<K>(world, point, point.feature_j);
+    }
+}
+inline ContactGeometry with_arms(const ContactGeometry& g) { return g; }
+
+template <PointKind K, class Geometry>
+inline RelativeMotion<double> motion_of(const World& world, const ContactPoint& point, const Geometry& g) {
     const BodyState& i = world.bodies.state[point.body_i];
+    const double drift = world.stepping.drift;
     if constexpr (K == PointKind::element_wall) {
-        const double rx = i.vx - i.omega * g.aiy, ry = i.vy + i.omega * g.aix;
-        return {rx * g.nx + ry * g.ny, ry * g.nx - rx * g.ny + chord(world, i, g.aix, g.aiy, g)};
+        return motion_against_wall<double>(g, {i.vx, i.vy, i.omega, 0.0}, drift);
     } else {
         const BodyState& j = world.bodies.state[point.body_j];
-        double rx = i.vx - j.vx, ry = i.vy - j.vy;
+        const PairMotion<double> pair{i.vx - j.vx, i.vy - j.vy, i.omega, j.omega};
         if constexpr (K == PointKind::circle_circle) {
-            const Arms arms = arms_of_circles(i, j, g);
-            return {rx * g.nx + ry * g.ny, (ry * g.nx - rx * g.ny) + (i.omega * arms.i + j.omega * arms.j)};
+            return relative_motion(g, pair);
+        } else {
+            return relative_motion(g, pair, drift);
         }
-        rx -= i.omega * g.aiy - j.omega * g.ajy;
-        ry += i.omega * g.aix - j.omega * g.ajx;
-        double slipping = ry * g.nx - rx * g.ny;
-        slipping += chord(world, i, g.aix, g.aiy, g);
-        slipping -= chord(world, j, g.ajx, g.ajy, g);
-        return {rx * g.nx + ry * g.ny, slipping};
     }
 }
 
 /// Force of one point into `out`, with all that can happen to it. @param place in its block
-template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Ledger, bool Consistent>
+template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Consistent>
 inline void force_point(World& world, PointIndex k, PointIndex place, PointForce& out, BlockLosses& loss) {
     const double dt = world.stepping.drift;
     [[maybe_unused]] const double kick = kick_before(world.stepping) + 0.5 * world.stepping.time_step;
     ContactPoint& point = world.points.contact[k];
     PointState& state = world.points.state[k];
-    const ContactGeometry g = contact_geometry<K>(world, point, point.feature_j);
-    const ContactLaw& law = world.settings.laws[state.law];
+    const auto g = geometry_of<K>(world, point);
+    const Law<double> law(world.settings.laws[state.law]);
     bool bonded = false;
     if constexpr (Bonds) bonded = (state.flags & point_bonded) != 0;
 
@@ -113,25 +106,25 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
         return;
     }
 
-    const auto [closing, slipping] = relative_motion<K>(world, point, g);
+    const auto [closing, slipping] = motion_of<K>(world, point, g);
 
-    [[maybe_unused]] Approach approach{};
+    [[maybe_unused]] ClosingPoint coming{};
     [[maybe_unused]] double before = 0.0;
     // A point that overlaps before anything has moved has not been seen to close.
     [[maybe_unused]] const bool touched = (state.flags & point_touching) != 0 || dt == 0.0;
     if constexpr (Consistent) {
-        approach = {g.overlap, closing, 0.0, 0.0, law.normal_stiffness, 0.0, dt, kick, world.stepping.time_step};
-        if (!bonded) before = settle_opening(world.points.opening[k], touched, approach);
+        coming = {g.overlap, closing, 0.0, 0.0, law.normal_stiffness, 0.0, dt, kick, world.stepping.time_step};
+        if (!bonded) before = settle_opening(world.points.opening[k], touched, coming);
     }
 
     if (!holds) {
         if constexpr (Consistent) rest_opening(world.points.opening[k]);
-        if constexpr (Ledger && Damping) {
-            loss.dashpot[place % BlockLosses::places] +=
-                0.5 * dt * (world.points.normal_dashpot[k] * closing + world.points.shear_dashpot[k] * slipping);
+        if constexpr (Damping) {
+            loss.dashpot[place % BlockLosses::places] += dashpot_loss<double>(
+                dt, world.points.normal_dashpot[k], closing, world.points.shear_dashpot[k], slipping);
             world.points.normal_dashpot[k] = world.points.shear_dashpot[k] = 0.0F;
         }
-        if constexpr (Ledger && by_guide(K)) {
+        if constexpr (by_guide(K)) {
             SpringWork& work = world.points.spring_work[k];
             store_work(work, world, point, 0.0, closing);
             work.last = {0.0, 0.0, 0.0, 0.0};
@@ -145,24 +138,24 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
             ++loss.broken;
             // The event needs the springs as they were; record_breaks() releases the point.
         } else {
-            release<Friction, Ledger>(world, k, loss, slipping * dt);
+            release<Friction>(world, k, loss, slipping * dt);
         }
         out = {0.0, 0.0, 0.0, 0.0};
         return;
     }
 
-    double normal = law.normal_stiffness * g.overlap;
+    double normal = spring_force(law, g.overlap);
     double compression = g.overlap;  // m, what Coulomb's limit goes by
     if constexpr (Consistent) {
         if (!bonded) {
-            feel_bodies<K>(world, point, g, approach);
-            if constexpr (Damping) approach.dashpot = normal_damping(law, world.points.root_mass[k]) * closing;
-            normal = opening_force(world.points.opening[k], touched, before, approach);
+            feel_bodies<K>(world, point, with_arms(g), coming);
+            if constexpr (Damping) coming.dashpot = normal_damping(law, world.points.root_mass[k]) * closing;
+            normal = opening_force(world.points.opening[k], touched, before, coming);
             compression = normal / law.normal_stiffness;
         }
     }
-    if constexpr (Bonds) normal -= law.normal_stiffness * world.points.bond_overlap[k];
-    if constexpr (Ledger && by_guide(K)) {
+    if constexpr (Bonds) normal -= spring_force(law, world.points.bond_overlap[k]);
+    if constexpr (by_guide(K)) {
         SpringWork& work = world.points.spring_work[k];
         if (world.account.begun) {
             store_work(work, world, point, normal, closing);
@@ -172,96 +165,103 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
         const double fx = -normal * g.nx, fy = -normal * g.ny;
         work.last = {fx, fy, g.aix * fy - g.aiy * fx, g.ajy * fx - g.ajx * fy};
     }
-    double tangential = 0.0;
+    double shear = 0.0;
     std::uint16_t flags = static_cast<std::uint16_t>((state.flags | point_touching) & ~point_sliding);
     bool sliding = !Friction;
     if constexpr (Friction) {
-        const ShearUpdate shear = shear_force(law, world.points.shear_force[k], slipping * dt, compression);
-        sliding = shear.sliding;
-        if (sliding) flags |= point_sliding | point_slid;
-        if constexpr (Ledger) loss.friction += shear.friction;
-        world.points.shear_force[k] = shear.force;
-        tangential = shear.force;
+        const ShearTrial<double> trial = try_shear(law, world.points.shear_force[k], slipping * dt, compression);
+        shear = shear_force(trial);
+        sliding = trial.slides;
+        if (sliding) {
+            flags |= point_sliding | point_slid;
+            loss.friction += slider_loss(law, trial, shear);
+        }
+        world.points.shear_force[k] = shear;
     }
     state.flags = flags;
     if constexpr (Bonds) {
         loss.gained += (flags & point_counted) == 0 ? 1u : 0u;
-        if (bonded) {
-            const double half_strength = 0.5 * law.normal_stiffness * world.points.bond_overlap[k];
-            if (normal * normal + tangential * tangential >= half_strength * half_strength) {
-                world.points.strong_normal[k] = static_cast<float>(normal);
-                world.points.strong_shear[k] = static_cast<float>(tangential);
-            }
+        if (bonded && carries_half_strength(law, normal, shear, world.points.bond_overlap[k])) {
+            world.points.strong_normal[k] = static_cast<float>(normal);
+            world.points.strong_shear[k] = static_cast<float>(shear);
         }
     }
     if constexpr (Damping) {
-        const double normal_dashpot = normal_damping(law, world.points.root_mass[k]) * closing;
-        const double shear_damper =
-            sliding ? 0.0 : shear_dashpot(law, world.points.root_mass[k], slipping, compression);
-        if constexpr (Ledger) {
-            loss.dashpot[place % BlockLosses::places] += 0.5 * dt *
-                                                         ((world.points.normal_dashpot[k] + normal_dashpot) * closing +
-                                                          (world.points.shear_dashpot[k] + shear_damper) * slipping);
-            world.points.normal_dashpot[k] = static_cast<float>(normal_dashpot);
-            world.points.shear_dashpot[k] = static_cast<float>(shear_damper);
-        }
-        normal += normal_dashpot;
-        tangential -= shear_damper;
+        const double normal_damper = normal_damping(law, world.points.root_mass[k]) * closing;
+        const double shear_damper = shear_dashpot(law, world.points.root_mass[k], slipping, compression, sliding);
+        loss.dashpot[place % BlockLosses::places] +=
+            dashpot_loss(dt, world.points.normal_dashpot[k] + normal_damper, closing,
+                         world.points.shear_dashpot[k] + shear_damper, slipping);
+        world.points.normal_dashpot[k] = static_cast<float>(normal_damper);
+        world.points.shear_dashpot[k] = static_cast<float>(shear_damper);
+        normal += normal_damper;
+        shear -= shear_damper;
     }
+    const ForceOnBodies<double> force = force_on_bodies(g, normal, shear);
+    out = {force.fx, force.fy, force.torque_i, force.torque_j};
+}
 
-    // Force on i: -f_n along the normal (pushed away from j), f_t along the tangent.
-    const double fx = -normal * g.nx - tangential * g.ny;
-    const double fy = -normal * g.ny + tangential * g.nx;
-    if constexpr (K == PointKind::circle_circle) {
-        const Arms arms = arms_of_circles(world.bodies.state[point.body_i], world.bodies.state[point.body_j], g);
-        out = {fx, fy, arms.i * tangential, arms.j * tangential};
-    } else {
-        out = {fx, fy, g.aix * fy - g.aiy * fx, g.ajy * fx - g.ajx * fy};
+/// Whether kernels look at several points of a kind at once.
+template <PointKind K>
+inline constexpr bool in_batches = K == PointKind::circle_circle || K == PointKind::element_outline;
+
+/// Points of a block from k on, one after the other.
+template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Consistent>
+inline void force_points(World& world, const PointBlock& block, PointIndex k, BlockLosses& loss) {
+    for (; k < block.end; ++k) {
+        const PointIndex place = k - block.begin;
+        force_point<K, Friction, Damping, Bonds, Consistent>(world, k, place, block.forces[place], loss);
     }
 }
 
-/// Whether points of a kind are looked at eight at a time.
-template <PointKind K, bool Consistent>
-inline constexpr bool in_batches = (K == PointKind::circle_circle || K == PointKind::element_outline) && !Consistent;
+/// Kernel of kinds that are looked at one point after the other.
+template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Consistent>
+void force_block(World& world, const PointBlock& block) {
+    BlockLosses loss;
+    force_points<K, Friction, Damping, Bonds, Consistent>(world, block, block.begin, loss);
+    world.account.blocks[block.number] = loss.total();
+}
 
-/// Points of a block from k on, as far as batches go. @return the first point left
-template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Ledger, bool Fours>
-CRACKLE_INLINE PointIndex force_batches(World& world, const PointBlock& block, PointIndex k, PointIndex end,
-                                        BlockLosses& loss) {
+/// Kernel of kinds that are looked at in batches, as far as these fill their lanes.
+template <PointKind K, bool Friction, bool Damping, bool Bonds>
+void force_block_in_batches(World& world, const PointBlock& block) {
     // Geometry first: its roots and divisions then overlap those of the next batches.
     constexpr PointIndex ahead = 64 / lane_count;
-    if (k + lane_count > end) return k;
-    BatchGeometry geometry[ahead];
-    LawLanes law(world, world.points.state[k].law);
-    while (k + lane_count <= end) {
-        const PointIndex batches = std::min<PointIndex>(ahead, (end - k) / lane_count);
-        geometry_batches<K, Fours>(world, k, batches, geometry);
+    BatchOf<K> geometry[ahead];
+    BlockLosses loss;
+    BatchLaw law(world, world.points.state[block.begin].law);
+    const PointIndex fours_end = K == PointKind::element_outline ? std::min(block.end, world.points.fours_end) : 0;
+    PointIndex k = block.begin;
+    while (k + lane_count <= block.end) {
+        const bool fours = k + lane_count <= fours_end;
+        const PointIndex batches = std::min<PointIndex>(ahead, ((fours ? fours_end : block.end) - k) / lane_count);
+        if (fours)
+            geometry_batches<K, true>(world, k, batches, geometry);
+        else
+            geometry_batches<K, false>(world, k, batches, geometry);
         for (PointIndex b = 0; b < batches; ++b, k += lane_count) {
             const PointIndex place = k - block.begin;
             PointForce* const out = block.forces + place;
-            if (force_batch<K, Friction, Damping, Bonds, Ledger>(world, k, place, geometry[b], law, out, loss))
-                continue;
-            for (PointIndex l = 0; l < lane_count; ++l)
-                force_point<K, Friction, Damping, Bonds, Ledger, false>(world, k + l, place + l, out[l], loss);
+            const BatchOf<K>& g = geometry[b];
+            const BatchState batch = look_at_batch<Bonds>(world, k, g.contact.overlap, law);
+            switch (batch.what) {
+                case BatchCase::all_hold:
+                    force_lanes<Friction, Damping, Bonds, true>(world, k, place, g, law.law, batch, out, loss);
+                    break;
+                case BatchCase::some_hold:
+                    force_lanes<Friction, Damping, Bonds, false>(world, k, place, g, law.law, batch, out, loss);
+                    break;
+                case BatchCase::none_holds:
+                    store_quads(out, Lanes{}, Lanes{}, Lanes{}, Lanes{});
+                    break;
+                case BatchCase::one_by_one:
+                    for (PointIndex l = 0; l < lane_count; ++l)
+                        force_point<K, Friction, Damping, Bonds, false>(world, k + l, place + l, out[l], loss);
+                    break;
+            }
         }
     }
-    return k;
-}
-
-template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Ledger, bool Consistent>
-void force_block(World& world, const PointBlock& block) {
-    BlockLosses loss;
-    PointIndex k = block.begin;
-    if constexpr (in_batches<K, Consistent>) {
-        if constexpr (K == PointKind::element_outline)
-            k = force_batches<K, Friction, Damping, Bonds, Ledger, true>(
-                world, block, k, std::min(block.end, std::max(k, world.points.fours_end)), loss);
-        k = force_batches<K, Friction, Damping, Bonds, Ledger, false>(world, block, k, block.end, loss);
-    }
-    for (; k < block.end; ++k) {
-        const PointIndex place = k - block.begin;
-        force_point<K, Friction, Damping, Bonds, Ledger, Consistent>(world, k, place, block.forces[place], loss);
-    }
+    force_points<K, Friction, Damping, Bonds, false>(world, block, k, loss);
     world.account.blocks[block.number] = loss.total();
 }
 
@@ -269,9 +269,9 @@ void force_block(World& world, const PointBlock& block) {
 template <PointKind K>
 void geometry_block(World& world, const PointBlock& block) {
     PointIndex k = block.begin;
-    if constexpr (in_batches<K, false>) {
+    if constexpr (in_batches<K>) {
         for (; k + lane_count <= block.end; k += lane_count) {
-            BatchGeometry g[1];
+            BatchOf<K> g[1];
             geometry_batches<K, false>(world, k, 1, g);
             asm volatile("" : : "m"(g));
         }
@@ -287,22 +287,25 @@ void geometry_block(World& world, const PointBlock& block) {
 template <PointKind K, std::size_t Features>
 constexpr ForceKernel kernel_of() {
     constexpr bool friction = (Features & 1) != 0, damping = (Features & 2) != 0, bonds = (Features & 4) != 0;
-    constexpr bool ledger = (Features & 8) != 0, consistent = (Features & 16) != 0 && !by_guide(K);
-    return &force_block<K, friction, damping, bonds, ledger, consistent>;
+    constexpr bool consistent = (Features & 8) != 0 && !by_guide(K);
+    if constexpr (in_batches<K> && !consistent)
+        return &force_block_in_batches<K, friction, damping, bonds>;
+    else
+        return &force_block<K, friction, damping, bonds, consistent>;
 }
 
 template <PointKind K, std::size_t... Features>
-constexpr std::array<ForceKernel, 32> kernels_of(std::index_sequence<Features...>) {
+constexpr std::array<ForceKernel, 16> kernels_of(std::index_sequence<Features...>) {
     return {kernel_of<K, Features>()...};
 }
 
-constexpr std::array<std::array<ForceKernel, 32>, point_kinds> kernels{
-    kernels_of<PointKind::circle_circle>(std::make_index_sequence<32>{}),
-    kernels_of<PointKind::element_element>(std::make_index_sequence<32>{}),
-    kernels_of<PointKind::element_outline>(std::make_index_sequence<32>{}),
-    kernels_of<PointKind::disc_segment>(std::make_index_sequence<32>{}),
-    kernels_of<PointKind::segment_segment>(std::make_index_sequence<32>{}),
-    kernels_of<PointKind::element_wall>(std::make_index_sequence<32>{}),
+constexpr std::array<std::array<ForceKernel, 16>, point_kinds> kernels{
+    kernels_of<PointKind::circle_circle>(std::make_index_sequence<16>{}),
+    kernels_of<PointKind::element_element>(std::make_index_sequence<16>{}),
+    kernels_of<PointKind::element_outline>(std::make_index_sequence<16>{}),
+    kernels_of<PointKind::disc_segment>(std::make_index_sequence<16>{}),
+    kernels_of<PointKind::segment_segment>(std::make_index_sequence<16>{}),
+    kernels_of<PointKind::element_wall>(std::make_index_sequence<16>{}),
 };
 
 constexpr std::array<ForceKernel, point_kinds> geometry_kernels{
@@ -314,7 +317,7 @@ constexpr std::array<ForceKernel, point_kinds> geometry_kernels{
 }  // namespace
 
 ContactFeatures features_of(const World& world) {
-    ContactFeatures features{false, false, world.bonds.made, world.settings.ledger_on, !world.points.opening.empty()};
+    ContactFeatures features{false, false, world.bonds.made, !world.points.opening.empty()};
     for (const ContactLaw& law : world.settings.laws) {
         features.friction = features.friction || law.friction > 0.0;
         features.damping = features.damping || law.normal_damping > 0.0 || law.shear_damping > 0.0 ||
@@ -343,8 +346,7 @@ PointBlock block_of(const World& world, std::size_t kind, PointIndex block, Poin
 
 ForceKernel force_kernel(const ContactFeatures& features, std::size_t kind) {
     const std::size_t choice = (features.friction ? 1u : 0u) + (features.damping ? 2u : 0u) +
-                               (features.bonds ? 4u : 0u) + (features.ledger ? 8u : 0u) +
-                               (features.consistent ? 16u : 0u);
+                               (features.bonds ? 4u : 0u) + (features.consistent ? 8u : 0u);
     return kernels[kind][choice];
 }
 

@@ -13,13 +13,12 @@ struct ContactFeatures {
     bool friction;  // any law with μ > 0
     bool damping;   // any law with a dashpot
     bool bonds;
-    bool ledger;
-    bool consistent;  // first and last steps of contacts by contact_opening.hpp
+    bool consistent;  // first and last steps of contacts by opening.hpp
 };
 
 ContactFeatures features_of(const World& world);
 
-/// Neighbouring points of one kind, at most block_points.
+/// Neighbouring points of one kind: one at least, at most block_points.
 struct PointBlock {
     PointIndex begin, end;
     std::size_t number;  // into World::loss_blocks

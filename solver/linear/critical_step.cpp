@@ -76,7 +76,7 @@ CriticalStep critical_step(const World& world, ClosedPoints which) {
     constexpr double infinite = std::numeric_limits<double>::infinity();
     const MassScaled pencil(world, which);
     const double guaranteed = stable_step_bound(world);  // over all listed points: never above the limit sought
-    CriticalStep result{guaranteed, infinite, false, std::vector<Motion>(world.bodies.size())};
+    CriticalStep result{guaranteed, infinite, false, std::vector<BodyMotion>(world.bodies.size())};
     if (pencil.size() == 0 || !std::isfinite(guaranteed)) return {infinite, infinite, true, result.mode};
     if (pencil.size() > most_exact_unknowns) return result;
     const bool damped = pencil.damped();

@@ -137,10 +137,10 @@ Vector solve(const ScaledSystem& system, const Vector& load, double& residual) {
 }  // namespace
 
 ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>& prescribed,
-                              const std::vector<Motion>& loads) {
+                              const std::vector<BodyMotion>& loads) {
     if (prescribed.empty()) throw InputError("elastic solve: found no prescribed body, expected at least one platen");
     ElasticSolution solution;
-    solution.displacement.assign(world.bodies.size(), Motion{});
+    solution.displacement.assign(world.bodies.size(), BodyMotion{});
     std::vector<bool> held(world.bodies.size(), false);
     for (const Prescribed& p : prescribed) {
         held[p.body] = true;
@@ -173,7 +173,7 @@ ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>&
             }
         }
     }
-    std::vector<Motion> force(world.bodies.size());
+    std::vector<BodyMotion> force(world.bodies.size());
     for (const Spring& s : springs) {
         const double a = times(s, s.gradient, solution.displacement);
         solution.energy += 0.5 * s.stiffness * a * times(s, s.push, solution.displacement);

@@ -25,22 +25,22 @@ namespace crackle {
 
 struct Prescribed {
     BodyIndex body;
-    Motion motion;  ///< all three degrees of freedom are held at these values
+    BodyMotion motion;  ///< all three degrees of freedom are held at these values
 };
 
 struct ElasticSolution {
-    std::vector<Motion> displacement;  ///< per body
-    std::vector<Motion> reaction;      ///< per entry of `prescribed`: force needed to hold it there
-    double energy = 0.0;               ///< J, ½uᵀKu
-    double residual = 0.0;             ///< |f - Ku| over |f| on the free degrees of freedom, scaled
-    std::int64_t unknowns = 0;         ///< free degrees of freedom
+    std::vector<BodyMotion> displacement;  ///< per body
+    std::vector<BodyMotion> reaction;      ///< per entry of `prescribed`: force needed to hold it there
+    double energy = 0.0;                   ///< J, ½uᵀKu
+    double residual = 0.0;                 ///< |f - Ku| over |f| on the free degrees of freedom, scaled
+    std::int64_t unknowns = 0;             ///< free degrees of freedom
 };
 
 /// @param loads forces (N) and torque (N m) on every body, besides what is prescribed; empty: none
 /// @throws InputError if nothing is prescribed, or the refinement does not reach a residual of 1e-9: loads on bodies
 /// that nothing holds have no solution.
 ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>& prescribed,
-                              const std::vector<Motion>& loads = {});
+                              const std::vector<BodyMotion>& loads = {});
 
 /// Motions without energy of a world whose `held` bodies stay in place.
 struct FreeMotions {

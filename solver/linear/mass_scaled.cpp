@@ -67,8 +67,8 @@ MassScaled::Quotient MassScaled::quotient(const Vector& x) const {
     return {q.damping / length, q.stiffness / length};
 }
 
-std::vector<Motion> MassScaled::motion(const Vector& x) const {
-    std::vector<Motion> motions(number_.size() / 3);
+std::vector<BodyMotion> MassScaled::motion(const Vector& x) const {
+    std::vector<BodyMotion> motions(number_.size() / 3);
     const double largest = x.cwiseAbs().maxCoeff();
     const auto component = [&](std::size_t dof) {
         const int n = number_[dof];

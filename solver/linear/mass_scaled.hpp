@@ -31,7 +31,7 @@ class MassScaled {
     Quotient quotient(const Vector& x) const;
 
     /// u = M^-½ x per body, the largest component of x taken for 1.
-    std::vector<Motion> motion(const Vector& x) const;
+    std::vector<BodyMotion> motion(const Vector& x) const;
 
   private:
     struct Row {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "solver/contact/law.hpp"
+#include "solver/contact/dashpot.hpp"
 #include "solver/measure/point_view.hpp"
 
 namespace crackle {
@@ -23,7 +23,7 @@ bool closed(const World& world, const PointView& view, ClosedPoints which) {
 
 }  // namespace
 
-double times(const Spring& s, const OverlapGradient& row, const std::vector<Motion>& u) {
+double times(const Spring& s, const OverlapGradient& row, const std::vector<BodyMotion>& u) {
     double sum = 0.0;
     for (int d = 0; d < 3; ++d) {
         const auto k = static_cast<std::size_t>(d);
@@ -81,8 +81,8 @@ std::vector<Spring> springs_of(const World& world, ClosedPoints which) {
             if (stiffness == 0.0 && damping == 0.0) return;
             springs.push_back({v.body_i, k < walls ? v.body_j : no_body, k, shear, stiffness, damping, push, gradient});
         };
-        const OverlapGradient along = approach(v.normal, v.arm_i, v.arm_j),
-                              across = approach(perpendicular(v.normal), v.arm_i, v.arm_j);
+        const OverlapGradient along = closing_gradient(v.normal, v.arm_i, v.arm_j),
+                              across = closing_gradient(perpendicular(v.normal), v.arm_i, v.arm_j);
         add(false, v.normal_stiffness, normal_damping(law, root_mass), along, v.overlap_gradient);
         // A frictionless point slides at once: neither its shear spring nor its dashpot ever acts.
         if (v.friction > 0.0) add(true, v.shear_stiffness, shear_damping(law, root_mass), across, across);

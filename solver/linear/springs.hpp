@@ -16,11 +16,11 @@
 namespace crackle {
 
 /// Displacement and rotation of a body, m and rad; or force and moment on it, N and N m.
-struct Motion {
+struct BodyMotion {
     double x = 0.0, y = 0.0, rotation = 0.0;
 };
-inline double component(const Motion& m, int d) { return d == 0 ? m.x : d == 1 ? m.y : m.rotation; }
-inline double& component(Motion& m, int d) { return d == 0 ? m.x : d == 1 ? m.y : m.rotation; }
+inline double component(const BodyMotion& m, int d) { return d == 0 ? m.x : d == 1 ? m.y : m.rotation; }
+inline double& component(BodyMotion& m, int d) { return d == 0 ? m.x : d == 1 ? m.y : m.rotation; }
 
 /// One spring with its dashpot; a point has one along its normal and one along its tangent.
 struct Spring {
@@ -43,7 +43,7 @@ enum class ClosedPoints {
 };
 
 /// row·u, m: with a spring's gradient what the displacements stretch it by, along the normal the growth of the overlap.
-double times(const Spring& spring, const OverlapGradient& row, const std::vector<Motion>& displacement);
+double times(const Spring& spring, const OverlapGradient& row, const std::vector<BodyMotion>& displacement);
 
 /// Springs whose sum of ½k(push·u)² is nowhere less than |u·Ku|: unsymmetric ones become two of half the stiffness,
 /// ½k(s a aᵀ + g gᵀ/s) with s = |g|/|a| in the mass-scaled norm. Bounds every real eigenvalue.

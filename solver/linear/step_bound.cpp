@@ -32,8 +32,8 @@
 #include <limits>
 #include <numbers>
 
+#include "solver/contact/dashpot.hpp"
 #include "solver/contact/geometry.hpp"
-#include "solver/contact/law.hpp"
 #include "solver/linear/springs.hpp"
 #include "solver/measure/point_view.hpp"
 #include "solver/world/world.hpp"
@@ -170,7 +170,7 @@ std::vector<Spring> guide_rows(const World& world) {
         const PointView v = view_point(world, k);
         if (v.touching) {
             touching.push_back({v.body_i, v.body_j, k, false, v.normal_stiffness, 0.0,
-                                approach(v.normal, v.arm_i, v.arm_j), v.overlap_gradient});
+                                closing_gradient(v.normal, v.arm_i, v.arm_j), v.overlap_gradient});
         }
         for (const OverlapGradient& row : idle_discs(world, v.kind, world.points.contact[k]))
             rows.push_back({v.body_i, v.body_j, k, false, v.normal_stiffness, 0.0, row, row});

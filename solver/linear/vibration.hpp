@@ -10,8 +10,8 @@
 namespace crackle {
 
 struct VibrationMode {
-    double frequency;           // rad/s
-    std::vector<Motion> shape;  ///< per body, largest mass-scaled component 1
+    double frequency;               // rad/s
+    std::vector<BodyMotion> shape;  ///< per body, largest mass-scaled component 1
 };
 
 /// Most modes (free motions included) that are looked for at once.

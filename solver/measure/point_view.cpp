@@ -71,8 +71,8 @@ PointView view_point(const World& world, PointIndex k) {
     view.normal = {g.nx, g.ny};
     view.arm_i = {g.aix, g.aiy};
     view.arm_j = {g.ajx, g.ajy};
-    view.overlap_gradient =
-        by_guide(view.kind) ? guide_gradient(world, view.kind, point) : approach(view.normal, view.arm_i, view.arm_j);
+    view.overlap_gradient = by_guide(view.kind) ? guide_gradient(world, view.kind, point)
+                                                : closing_gradient(view.normal, view.arm_i, view.arm_j);
     view.position = {body.x + g.aix, body.y + g.aiy};
     view.bonded = (world.points.state[k].flags & point_bonded) != 0;
     view.touching = view.bonded || g.overlap > 0.0;

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "solver/contact/geometry.hpp"
+#include "solver/neighbours/cell_grid.hpp"
 
 namespace crackle {
 namespace {
@@ -31,65 +32,28 @@ Box bounding_box(const World& world, std::size_t b) {
     return box;
 }
 
-/// Uniform grid over the centroids: body numbers sorted by cell.
-class Grid {
-  public:
-    explicit Grid(const World& world) {
-        Box box;
-        double mean_reach = 0.0;
-        for (std::size_t b = 0; b < world.bodies.size(); ++b) {
-            box.add(centre_of(world.bodies.state[b]), 0.0);
-            mean_reach += world.bodies.info[b].reach;
-        }
-        const auto n = static_cast<double>(world.bodies.size());
-        low_ = box.low;
-        const double width = box.high.x - box.low.x, height = box.high.y - box.low.y;
-        // Cells of about a body; larger where few bodies are spread over a wide area, so that memory stays linear.
-        size_ = std::max({2.0 * mean_reach / n, std::sqrt(width * height / (2.0 * n + 64.0)),
-                          std::max(width, height) / (2.0 * n + 64.0)});
-        columns_ = static_cast<std::int64_t>(width / size_) + 1;
-        rows_ = static_cast<std::int64_t>(height / size_) + 1;
-        begin_.assign(static_cast<std::size_t>(columns_ * rows_) + 1, 0);
-        members_.resize(world.bodies.size());
-        for (const BodyState& body : world.bodies.state) ++begin_[cell_of(centre_of(body)) + 1];
-        for (std::size_t c = 1; c < begin_.size(); ++c) begin_[c] += begin_[c - 1];
-        std::vector<std::uint32_t> next(begin_.begin(), begin_.end() - 1);
-        for (std::size_t b = 0; b < world.bodies.size(); ++b) {
-            members_[next[cell_of(centre_of(world.bodies.state[b]))]++] = static_cast<BodyIndex>(b);
-        }
+/// Cells of about a body; larger where few bodies are spread over a wide area, so that memory stays linear.
+CellLayout layout_for(const World& world) {
+    Box box;
+    double mean_reach = 0.0;
+    for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+        box.add(centre_of(world.bodies.state[b]), 0.0);
+        mean_reach += world.bodies.info[b].reach;
     }
-
-    template <typename Visit>
-    void visit(const Box& box, Visit&& visit_body) const {
-        const std::int64_t x0 = column(box.low.x), x1 = column(box.high.x), y0 = row(box.low.y), y1 = row(box.high.y);
-        for (std::int64_t y = y0; y <= y1; ++y) {
-            const std::uint32_t end = begin_[static_cast<std::size_t>(y * columns_ + x1) + 1];
-            for (std::uint32_t m = begin_[static_cast<std::size_t>(y * columns_ + x0)]; m < end; ++m)
-                visit_body(members_[m]);
-        }
-    }
-
-  private:
-    std::int64_t column(double x) const {
-        return std::clamp(static_cast<std::int64_t>(std::floor((x - low_.x) / size_)), std::int64_t{0}, columns_ - 1);
-    }
-    std::int64_t row(double y) const {
-        return std::clamp(static_cast<std::int64_t>(std::floor((y - low_.y) / size_)), std::int64_t{0}, rows_ - 1);
-    }
-    std::size_t cell_of(Vec2 p) const { return static_cast<std::size_t>(row(p.y) * columns_ + column(p.x)); }
-
-    Vec2 low_;
-    double size_ = 0.0;
-    std::int64_t columns_ = 1, rows_ = 1;
-    std::vector<std::uint32_t> begin_;
-    std::vector<BodyIndex> members_;
-};
+    const auto n = static_cast<double>(world.bodies.size());
+    const double width = box.high.x - box.low.x, height = box.high.y - box.low.y;
+    const double size = std::max({2.0 * mean_reach / n, std::sqrt(width * height / (2.0 * n + 64.0)),
+                                  std::max(width, height) / (2.0 * n + 64.0)});
+    return {box.low, 1.0 / size, 1.0 / size, static_cast<std::size_t>(width / size) + 1,
+            static_cast<std::size_t>(height / size) + 1};
+}
 
 }  // namespace
 
 std::vector<std::uint64_t> near_pairs(const World& world) {
     const PhaseTimer timer(world.workers.profile, Phase::broad_phase);
-    const Grid grid(world);
+    const CellGrid grid(layout_for(world), world.bodies.size(),
+                        [&](std::size_t b) { return centre_of(world.bodies.state[b]); });
     const double widest = world.list.half_skins.empty() ? 0.0 : *std::ranges::max_element(world.list.half_skins);
     std::vector<std::uint64_t> pairs;
     pairs.reserve(4 * world.bodies.size());
@@ -100,7 +64,9 @@ std::vector<std::uint64_t> near_pairs(const World& world) {
         search.add(own.low, margin);
         search.add(own.high, margin);
         const BodyState& body = world.bodies.state[b];
-        grid.visit(search, [&](BodyIndex other) {
+        const std::size_t left = grid.column(search.low.x), right = grid.column(search.high.x);
+        const std::size_t low = grid.row(search.low.y), high = grid.row(search.high.y);
+        grid.visit(left, right, low, high, [&](BodyIndex other) {
             if (world.list.size_rank[other] <= world.list.size_rank[b]) return;
             const BodyState& partner = world.bodies.state[other];
             const double reach = world.bodies.info[other].reach + world.settings.thick +

@@ -171,7 +171,6 @@ struct Scene {
                                   ///< loose_step_share)
     bool allow_unstable = false;  ///< run a given time step above the bound, and beyond runaway energy
     FirstKick first_kick = FirstKick::half;
-    bool ledger = true;  ///< keep the account of dissipated energy
     IntactOptions intact;
     int threads = 1;
     double skin = 0.0;  ///< m; Verlet skin, 0: derived from the body sizes

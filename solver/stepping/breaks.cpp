@@ -13,7 +13,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "solver/contact/law.hpp"
 #include "solver/measure/point_view.hpp"
 
 namespace crackle {

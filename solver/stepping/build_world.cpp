@@ -11,7 +11,6 @@
 #include <span>
 
 #include "solver/base/errors.hpp"
-#include "solver/contact/law.hpp"
 #include "solver/linear/step_bound.hpp"
 #include "solver/scene/convex_pieces.hpp"
 #include "solver/stepping/build_world.hpp"
@@ -273,7 +272,6 @@ World build_world(Scene scene) {
     world.stepping.safety_factor = scene.safety_factor;
     world.stepping.step_scale = scene.step_scale;
     world.stepping.allow_unstable = scene.allow_unstable;
-    world.settings.ledger_on = scene.ledger;
     world.settings.intact = scene.intact;
     world.workers.threads = scene.threads;
     world.workers.blocks_done.assign(static_cast<std::size_t>(scene.threads), 0);

@@ -78,13 +78,17 @@ void sample_geometry(World& world) {
     geometry_pass(world);
 }
 
-/// What the force pass needs to be up to date.
-void prepare_forces(World& world) {
+/// The bound on the step and the neighbour list, where points came to carry load or bodies have used up their skin.
+void update_neighbours(World& world) {
     if (world.stepping.points_gained) {
         count_new_points(world);
         world.stepping.points_gained = false;
     }
     refresh_neighbours(world);
+}
+
+/// Who does which points, and sums of forces that can be added to.
+void prepare_forces(World& world) {
     plan_sweep(world);
     clear_forces(world);
     if (world.workers.profile != nullptr) sample_geometry(world);
@@ -95,6 +99,27 @@ void account_forces(World& world) {
     const PhaseTimer timer(world.workers.profile, Phase::bookkeeping);
     sum_blocks(world);
     account_controls(world);
+}
+
+/// How a sweep moves the bodies whose force is complete.
+struct SweepMotion {
+    bool clears_forces;
+    MoveListed move;
+    double kick;  // s
+};
+
+SweepMotion motion_of_sweep(const World& world) {
+    const bool clears = world.settings.integrator != Integrator::consistent;  // it looks at the last pass's forces
+    return {clears, clears ? move_of_lists<true>(world) : move_of_lists<false>(world), kick_now(world)};
+}
+
+/// Bodies that the sweep has left in place: after a break, and driven ones. @return of all bodies
+Speeds move_remaining(World& world, const SweepMotion& motion) {
+    Speeds speeds = move_the_rest(world, motion.move, motion.kick);
+    kick_controls(world, motion.kick);
+    for (const ControlState& control : world.bodies.controls)
+        speeds.add(move_of_lists<false>(world)(world, motion.kick, &control.body, 1));
+    return speeds;
 }
 
 /// All but the motion of bodies itself. @param speeds of all bodies
@@ -110,20 +135,24 @@ void end_step(World& world, const Speeds& speeds) {
     if (!(world.list.fastest * world.stepping.time_step < world.list.fastest_allowed_move)) check_health(world);
 }
 
+/// The energy that the account starts from is that of the first force pass.
+void begin_account(World& world) {
+    world.account.begun = true;
+    world.account.initial_energy = 0.0;
+    world.account.initial_energy = measure_ledger(world).closing_error;
+}
+
 }  // namespace
 
 void compute_forces(World& world) {
     if (world.stepping.forces_current) return;
+    update_neighbours(world);
     prepare_forces(world);
     sweep(world, features_of(world), nullptr, 0.0);
     world.bodies.forces_clear = false;
     account_forces(world);
     world.stepping.forces_current = true;
-    if (!world.account.begun) {
-        world.account.begun = true;
-        world.account.initial_energy = 0.0;
-        world.account.initial_energy = measure_ledger(world).closing_error;
-    }
+    if (!world.account.begun) begin_account(world);
 }
 
 void advance(World& world) {
@@ -136,22 +165,17 @@ void advance(World& world) {
 void step(World& world) {
     if (world.stepping.forces_current || !world.account.begun) {
         compute_forces(world);
-        advance(world);
-        return;
+        return advance(world);
     }
-    prepare_forces(world);
-    const bool clear = world.settings.integrator != Integrator::consistent;  // it looks at the last pass's forces
-    const MoveListed move = clear ? move_of_lists<true>(world) : move_of_lists<false>(world);
-    const double kick = kick_now(world);
-    sweep(world, features_of(world), move, kick);
-    world.bodies.forces_clear = clear;
-    account_forces(world);
+    update_neighbours(world);  // list of contact points, bound on the step
+    prepare_forces(world);     // order of the sweep, forces set to 0
+    const SweepMotion motion = motion_of_sweep(world);
+    sweep(world, features_of(world), motion.move, motion.kick);  // contact forces, their sums, motion of free bodies
+    world.bodies.forces_clear = motion.clears_forces;
+    account_forces(world);  // breaks, losses, work of driven bodies
     const PhaseTimer timer(world.workers.profile, Phase::integrate);
-    Speeds speeds = move_the_rest(world, move, kick);
-    kick_controls(world, kick);
-    for (const ControlState& control : world.bodies.controls)
-        speeds.add(move_of_lists<false>(world)(world, kick, &control.body, 1));
-    end_step(world, speeds);
+    const Speeds speeds = move_remaining(world, motion);  // bodies held back by a break, driven bodies
+    end_step(world, speeds);                              // time, way travelled, controls' places, health
 }
 
 }  // namespace crackle

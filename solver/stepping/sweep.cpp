@@ -241,13 +241,16 @@ class Sweeper {
             const PointIndex blocks = blocks_of_kind(world_, kind);
             if (kind == plan_.largest_kind || blocks == 0) continue;
             const ForceKernel kernel = force_kernel(features_, kind);
-            for (PointIndex b = share_begin(blocks, thread_, threads_); b < share_begin(blocks, thread_ + 1, threads_);
-                 ++b) {
-                if (threads_ == 1)
-                    do_block(kernel, kind, b, [&](const PointBlock& block) { add_all(block, kind); });
-                else
-                    run(kernel,
-                        block_of(world_, kind, b, plan_.smaller_kinds.data() + before + std::size_t{b} * block_points));
+            PointForce at_hand[block_points];
+            const PointIndex end = share_begin(blocks, thread_ + 1, threads_);
+            for (PointIndex b = share_begin(blocks, thread_, threads_); b < end; ++b) {
+                PointForce* const kept = plan_.smaller_kinds.data() + before + std::size_t{b} * block_points;
+                const PointBlock block =
+                    threads_ == 1 ? block_to_fill(kind, b, at_hand) : block_of(world_, kind, b, kept);
+                compute(kernel, block);
+                if (threads_ > 1) continue;  // added up when all threads have found theirs
+                const PhaseTimer timer(profile_, Phase::gather);
+                add_all(block, kind);
             }
             before += world_.points.kind_begin[kind + 1] - world_.points.kind_begin[kind];
         }
@@ -259,15 +262,18 @@ class Sweeper {
         const std::size_t kind = plan_.largest_kind, first_block = first_block_of(world_, kind);
         const ForceKernel kernel = force_kernel(features_, kind);
         const PointIndex blocks = blocks_of_kind(world_, kind);
+        PointForce at_hand[block_points];
         PointIndex b = share_begin(blocks, thread_, threads_);
         std::uint32_t body = share_.moved_end;
         for (std::uint32_t c = plan_.thread_chunks[thread_]; c < plan_.thread_chunks[thread_ + 1]; ++c) {
             const SweepPlan::Chunk& chunk = plan_.chunks[c];
             const PointIndex first = b, end = std::min(chunk.end_block, blocks);  // none where the kind has no points
-            for (; b < end; ++b)
-                do_block(kernel, kind, b, [&](const PointBlock& block) {
-                    threads_ > 1 && plan_.defers[b] != 0 ? add_or_defer(block, kind) : add_all(block, kind);
-                });
+            for (; b < end; ++b) {
+                const PointBlock block = block_to_fill(kind, b, at_hand);
+                compute(kernel, block);
+                const PhaseTimer timer(profile_, Phase::gather);
+                threads_ > 1 && plan_.defers[b] != 0 ? add_or_defer(block, kind) : add_all(block, kind);
+            }
             share_.broken = share_.broken || some_broke(first_block + first, first_block + end);
             if (move_ != nullptr && !share_.broken) {
                 move_on(body, chunk.end_body);
@@ -322,18 +328,14 @@ class Sweeper {
                   world_.points.force.begin() + world_.points.kind_begin[plan_.largest_kind + 1]);
     }
 
-    /// Forces of a block, kept where somebody wants to see them, then `add_up` while they are at hand.
-    template <class AddUp>
-    void do_block(ForceKernel kernel, std::size_t kind, PointIndex b, AddUp add_up) {
-        PointForce at_hand[block_points];
+    /// A block whose forces go to where somebody wants to see them, else to where they are at hand.
+    PointBlock block_to_fill(std::size_t kind, PointIndex b, PointForce* at_hand) {
         PointBlock block = block_of(world_, kind, b, at_hand);
         if (!world_.points.force.empty()) block.forces = world_.points.force.data() + block.begin;
-        run(kernel, block);
-        const PhaseTimer timer(profile_, Phase::gather);
-        add_up(block);
+        return block;
     }
 
-    void run(ForceKernel kernel, const PointBlock& block) {
+    void compute(ForceKernel kernel, const PointBlock& block) {
         const PhaseTimer timer(profile_, Phase::force);
         kernel(world_, block);
         ++world_.workers.blocks_done[thread_];

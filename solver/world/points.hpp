@@ -123,10 +123,10 @@ struct OpeningMemory {
 /// Which worlds remember a quantity of every point from one neighbour list to the next; in others its array is empty.
 enum class Remembered : std::uint8_t {
     always,
-    with_ledger,        // Settings::ledger_on
-    with_guide_ledger,  // that and the guide's law of segments
-    when_consistent,    // Integrator::consistent
-    when_bonded,        // Bonds::made
+    since_bonding,    // all of them; bonding sets it to 0
+    by_guide_law,     // the guide's law of segments
+    when_consistent,  // Integrator::consistent
+    when_bonded,      // Bonds::made
 };
 
 struct Points {
@@ -161,9 +161,9 @@ struct Points {
         visit("state", s.state, Remembered::always);
         visit("shear_force", s.shear_force, Remembered::always);
         visit("bond_overlap", s.bond_overlap, Remembered::always);
-        visit("normal_dashpot", s.normal_dashpot, Remembered::with_ledger);
-        visit("shear_dashpot", s.shear_dashpot, Remembered::with_ledger);
-        visit("spring_work", s.spring_work, Remembered::with_guide_ledger);
+        visit("normal_dashpot", s.normal_dashpot, Remembered::since_bonding);
+        visit("shear_dashpot", s.shear_dashpot, Remembered::since_bonding);
+        visit("spring_work", s.spring_work, Remembered::by_guide_law);
         visit("opening", s.opening, Remembered::when_consistent);
         visit("strong_normal", s.strong_normal, Remembered::when_bonded);
         visit("strong_shear", s.strong_shear, Remembered::when_bonded);

@@ -37,7 +37,6 @@ struct Settings {
     SegmentLaw segment_law = SegmentLaw::rounded;
     Integrator integrator = Integrator::leapfrog;
     IntactOptions intact;
-    bool ledger_on = true;
     std::vector<Material> materials;
     std::vector<ContactLaw> laws;  // material pairs, row-major: law = a * materials + b; then materials against walls
 
@@ -49,7 +48,6 @@ struct Settings {
         visit("segment_law", s.segment_law);
         visit("integrator", s.integrator);
         visit("intact", s.intact);
-        visit("ledger_on", s.ledger_on);
         visit("materials", s.materials);
         visit("laws", s.laws);
     }

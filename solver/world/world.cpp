@@ -12,11 +12,10 @@ namespace crackle {
 bool keeps(const World& world, Remembered remembered) {
     switch (remembered) {
         case Remembered::always:
+        case Remembered::since_bonding:
             return true;
-        case Remembered::with_ledger:
-            return world.settings.ledger_on;
-        case Remembered::with_guide_ledger:
-            return world.settings.ledger_on && world.settings.segment_law != SegmentLaw::rounded;
+        case Remembered::by_guide_law:
+            return world.settings.segment_law != SegmentLaw::rounded;
         case Remembered::when_consistent:
             return world.settings.integrator == Integrator::consistent;
         case Remembered::when_bonded:

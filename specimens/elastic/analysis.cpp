@@ -21,7 +21,7 @@ struct PointRates {
     double closing = 0.0, slipping = 0.0;
 };
 
-std::vector<PointRates> rates_of(const World& world, const std::vector<Motion>& displacement) {
+std::vector<PointRates> rates_of(const World& world, const std::vector<BodyMotion>& displacement) {
     std::vector<PointRates> rates(world.points.size());
     for (const Spring& spring : springs_of(world, ClosedPoints::bonded)) {
         PointRates& rate = rates[spring.point];

@@ -8,7 +8,7 @@ namespace crackle {
 Moduli solve_moduli(const World& world, const TestSetup& setup) {
     Moduli moduli{};
     moduli.solution = solve_elastic(world, {{setup.bottom, {}}, {setup.top, {0.0, setup.height, 0.0}}});
-    const std::vector<Motion>& reaction = moduli.solution.reaction;
+    const std::vector<BodyMotion>& reaction = moduli.solution.reaction;
     moduli.youngs_modulus = 0.5 * (reaction[1].y - reaction[0].y) / setup.width;
     moduli.poissons_ratio = std::numeric_limits<double>::quiet_NaN();
     if (setup.gauge_length == 0.0) return moduli;

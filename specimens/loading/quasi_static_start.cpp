@@ -16,14 +16,14 @@ namespace crackle {
 namespace {
 
 /// Motion of every body for an axial strain of 1 in the sense of the test.
-std::vector<Motion> elastic_motion(const VirtualTest& test, const std::vector<bool>& elastic) {
+std::vector<BodyMotion> elastic_motion(const VirtualTest& test, const std::vector<bool>& elastic) {
     const TestSetup& setup = test.setup;
     const World& world = test.world;
     const double sense = setup.compression ? -1.0 : 1.0;
     const double bottom = world.bodies.state[setup.bottom].y, height = world.bodies.state[setup.top].y - bottom;
-    std::vector<Motion> motion(world.bodies.size());
+    std::vector<BodyMotion> motion(world.bodies.size());
     for (std::size_t b = 0; b < motion.size(); ++b) {
-        Motion way{0.0, setup.height * (world.bodies.state[b].y - bottom) / height, 0.0};
+        BodyMotion way{0.0, setup.height * (world.bodies.state[b].y - bottom) / height, 0.0};
         if (elastic[b]) way = test.small_strain->moduli.solution.displacement[b];
         if (b == setup.bottom) way = {};
         if (b == setup.top) way = {0.0, setup.height, 0.0};
@@ -32,7 +32,7 @@ std::vector<Motion> elastic_motion(const VirtualTest& test, const std::vector<bo
     return motion;
 }
 
-void set_velocities(World& world, const std::vector<Motion>& motion, double times) {
+void set_velocities(World& world, const std::vector<BodyMotion>& motion, double times) {
     for (std::size_t b = 0; b < motion.size(); ++b) {
         BodyState& body = world.bodies.state[b];
         body.vx = times * motion[b].x;
@@ -45,7 +45,7 @@ void set_velocities(World& world, const std::vector<Motion>& motion, double time
 /// Moves the bodies by w (see the header), shear springs included, in one drift of the integrator without forces.
 void settle_dashpots(World& world, const TestSetup& setup, const std::vector<bool>& elastic) {
     compute_forces(world);
-    std::vector<Motion> loads(world.bodies.size());
+    std::vector<BodyMotion> loads(world.bodies.size());
     for (std::size_t b = 0; b < loads.size(); ++b)
         if (elastic[b]) loads[b] = {world.bodies.force[b].fx, world.bodies.force[b].fy, world.bodies.force[b].torque};
     const ElasticSolution settled = solve_elastic(world, {{setup.bottom, {}}, {setup.top, {}}}, loads);
@@ -96,9 +96,9 @@ void start_by_tolerance(VirtualTest& test) {
     std::vector<bool> elastic(world.bodies.size(), bonded);
     if (bonded)
         for (const BodyIndex b : find_free_motions(world, {setup.bottom, setup.top}).bodies) elastic[b] = false;
-    const std::vector<Motion> motion = elastic_motion(test, elastic);
+    const std::vector<BodyMotion> motion = elastic_motion(test, elastic);
     for (std::size_t b = 0; b < motion.size(); ++b) {
-        const Motion& way = motion[b];
+        const BodyMotion& way = motion[b];
         rule.kinetic_per_rate += 0.5 * (world.bodies.inertia[b].mass * (way.x * way.x + way.y * way.y) +
                                         world.bodies.info[b].moment * way.rotation * way.rotation);
     }

@@ -9,47 +9,23 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <numeric>
 #include <utility>
 
 #include "solver/contact/lanes.hpp"
+#include "solver/neighbours/cell_grid.hpp"
 
 namespace crackle {
 namespace {
 
-/// Uniform grid over the box; cell (column, row) holds the discs whose centres lie in it.
-struct Grid {
-    std::size_t columns, rows;
-    double per_width, per_height;  // cells / m
-    std::vector<std::uint32_t> begin, members;
-
-    Grid(double width, double height, double cell, const std::vector<Disc>& discs)
-        : columns(std::max<std::size_t>(1, static_cast<std::size_t>(width / cell))),
-          rows(std::max<std::size_t>(1, static_cast<std::size_t>(height / cell))),
-          per_width(static_cast<double>(columns) / width),
-          per_height(static_cast<double>(rows) / height) {
-        std::vector<std::uint32_t> cell_of(discs.size());
-        begin.assign(columns * rows + 1, 0);
-        for (std::size_t i = 0; i < discs.size(); ++i) {
-            cell_of[i] = static_cast<std::uint32_t>(row(discs[i].y) * columns + column(discs[i].x));
-            ++begin[cell_of[i] + 1];
-        }
-        std::partial_sum(begin.begin(), begin.end(), begin.begin());
-        members.resize(discs.size());
-        std::vector<std::uint32_t> next(begin.begin(), begin.end() - 1);
-        for (std::size_t i = 0; i < discs.size(); ++i) members[next[cell_of[i]]++] = static_cast<std::uint32_t>(i);
-    }
-
-    std::size_t column(double x) const { return index(x * per_width, columns); }
-    std::size_t row(double y) const { return index(y * per_height, rows); }
-
-  private:
-    // A disc pressed beyond a wall belongs to the cell at the wall.
-    static std::size_t index(double place, std::size_t count) {
-        if (!(place > 0.0)) return 0;
-        return std::min(static_cast<std::size_t>(place), count - 1);
-    }
-};
+/// Over the box; a disc pressed beyond a wall belongs to the cell at the wall. @param cell at least this wide, m
+CellGrid grid_of(double width, double height, double cell, const std::vector<Disc>& discs) {
+    CellLayout layout;
+    layout.columns = std::max<std::size_t>(1, static_cast<std::size_t>(width / cell));
+    layout.rows = std::max<std::size_t>(1, static_cast<std::size_t>(height / cell));
+    layout.per_width = static_cast<double>(layout.columns) / width;
+    layout.per_height = static_cast<double>(layout.rows) / height;
+    return {layout, discs.size(), [&](std::size_t i) { return Vec2{discs[i].x, discs[i].y}; }};
+}
 
 /// Discs whose pairs are measured before their forces are summed: what is kept of them, some 10 kB, stays in the L1
 /// cache. Divides assembly_block.
@@ -96,10 +72,10 @@ void DiscAssembly::strain(double factor_x, double factor_y) {
 }
 
 void DiscAssembly::sort_spatially() {
-    const Grid grid(width, height, 2.0 * mean_radius_, discs);
+    const CellGrid grid = grid_of(width, height, 2.0 * mean_radius_, discs);
     std::vector<Disc> sorted;
     sorted.reserve(discs.size());
-    for (const std::uint32_t i : grid.members) sorted.push_back(discs[i]);
+    for (const std::uint32_t i : grid.members()) sorted.push_back(discs[i]);
     discs = std::move(sorted);
     listed_at_.clear();
 }
@@ -129,7 +105,7 @@ bool DiscAssembly::list_outdated(double largest_moved_square) const {
 }
 
 void DiscAssembly::build_list() {
-    const Grid grid(width, height, 2.0 * largest_radius_ + skin, discs);
+    const CellGrid grid = grid_of(width, height, 2.0 * largest_radius_ + skin, discs);
     const std::size_t count = discs.size();
     listed_at_.resize(count);
     listed_width_ = width;
@@ -146,16 +122,14 @@ void DiscAssembly::build_list() {
             const Disc& disc = discs[i];
             listed_at_[i] = {disc.x / width, disc.y / height};
             const std::size_t column = grid.column(disc.x), row = grid.row(disc.y);
-            for (std::size_t r = row == 0 ? 0 : row - 1; r <= std::min(row + 1, grid.rows - 1); ++r) {
-                const std::size_t first = r * grid.columns + (column == 0 ? 0 : column - 1);
-                const std::size_t last = r * grid.columns + std::min(column + 1, grid.columns - 1);
-                for (std::uint32_t k = grid.begin[first]; k < grid.begin[last + 1]; ++k) {
-                    const std::uint32_t j = grid.members[k];
-                    const double dx = discs[j].x - disc.x, dy = discs[j].y - disc.y;
-                    const double reach = disc.radius + discs[j].radius + skin;
-                    if (j != i && dx * dx + dy * dy < reach * reach) found.push_back(j);
-                }
-            }
+            const auto before = [](std::size_t index) { return index == 0 ? 0 : index - 1; };
+            const std::size_t right = std::min(column + 1, grid.last_column()),
+                              above = std::min(row + 1, grid.last_row());
+            grid.visit(before(column), right, before(row), above, [&](std::uint32_t j) {
+                const double dx = discs[j].x - disc.x, dy = discs[j].y - disc.y;
+                const double reach = disc.radius + discs[j].radius + skin;
+                if (j != i && dx * dx + dy * dy < reach * reach) found.push_back(j);
+            });
             list_begin_[i + 1] = static_cast<std::uint32_t>(found.size());
         }
     }

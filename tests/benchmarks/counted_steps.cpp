@@ -2,8 +2,8 @@
 // Steps of a small scene for instruction_counts to count. Arguments: scene, steps, and how they are done:
 //   step      by the engine, as it does them (if not given)
 //   least     discs alone: forces by the kernels compiled for what the scene has, their sums, kick and drift
-//   friction, dashpots, bonds, ledger   as least, by the kernels compiled for that too
-//   all       by the kernels compiled for all four
+//   friction, dashpots, bonds   as least, by the kernels compiled for that too
+//   all       by the kernels compiled for all three
 
 #include <algorithm>
 #include <cmath>
@@ -39,10 +39,9 @@ void stir(Scene& scene, double speed) {
     }
 }
 
-World bonded_discs(bool ledger) {
+World bonded_discs() {
     Scene scene = triangular_lattice(18, 18, 0.02, 8e-5, rock(0.2));
     stir(scene, 1e-6);
-    scene.ledger = ledger;
     World world = build_world(scene);
     bond_all(world, 0.0);
     return world;
@@ -60,7 +59,6 @@ World bonded_hexagons() {
 World loose_discs() {
     Scene scene = triangular_lattice(18, 18, 0.02, -1e-3, rock(0.0));
     stir(scene, 1.0);
-    scene.ledger = false;
     return build_world(scene);
 }
 
@@ -71,27 +69,21 @@ World springs_alone() {
     Scene scene = triangular_lattice(18, 18, 0.02, 8e-5, material);
     stir(scene, 1e-3);
     throughput::wall_in(scene, 0.0);
-    scene.ledger = false;
     return build_world(scene);
 }
 
 const std::map<std::string, World (*)()>& scenes() {
-    static const std::map<std::string, World (*)()> all{{"discs", [] { return bonded_discs(true); }},
-                                                        {"hexagons", bonded_hexagons},
-                                                        {"loose", loose_discs},
-                                                        {"springs", springs_alone},
-                                                        {"unledgered", [] { return bonded_discs(false); }}};
+    static const std::map<std::string, World (*)()> all{
+        {"discs", bonded_discs}, {"hexagons", bonded_hexagons}, {"loose", loose_discs}, {"springs", springs_alone}};
     return all;
 }
 
 const std::map<std::string, std::vector<bool ContactFeatures::*>>& kernels() {
     using F = ContactFeatures;
-    static const std::map<std::string, std::vector<bool F::*>> all{
-        {"friction", {&F::friction}},
-        {"dashpots", {&F::damping}},
-        {"bonds", {&F::bonds}},
-        {"ledger", {&F::ledger}},
-        {"all", {&F::friction, &F::damping, &F::bonds, &F::ledger}}};
+    static const std::map<std::string, std::vector<bool F::*>> all{{"friction", {&F::friction}},
+                                                                   {"dashpots", {&F::damping}},
+                                                                   {"bonds", {&F::bonds}},
+                                                                   {"all", {&F::friction, &F::damping, &F::bonds}}};
     return all;
 }
 
@@ -104,7 +96,7 @@ int main(int count, char** words) {
     const long steps = count > 2 ? std::atol(words[2]) : 0;
     const bool known = how == "step" || how == "least" || kernels().contains(how);
     if (count < 3 || count > 4 || steps < 1 || !scenes().contains(scene) || !known) {
-        std::cerr << "usage: counted_steps discs|hexagons|loose|springs|unledgered STEPS [HOW]\n";
+        std::cerr << "usage: counted_steps discs|hexagons|loose|springs STEPS [HOW]\n";
         return 2;
     }
     World world = scenes().at(scene)();

@@ -16,7 +16,7 @@
 #include <thread>
 #include <vector>
 
-#include "solver/contact/lanes.hpp"
+#include "solver/base/lane_count.hpp"
 #include "tools/commands/build_info.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/page/page_template.hpp"

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <random>
 
+#include "solver/contact/pass.hpp"
 #include "solver/stepping/bonding.hpp"
 #include "solver/stepping/build_world.hpp"
 #include "solver/stepping/step.hpp"
@@ -142,19 +143,34 @@ TEST(PointBatch, DiscsOnOneAndTheSameSpot) {
     EXPECT_TRUE(same_bytes(together.points.force, apart.points.force));
 }
 
-TEST(PointBatch, WithoutDampingOrAccount) {
-    Material plain = damped_rock();
-    plain.damping_ratio = 0.0;
-    Trial trial{honeycomb(7, 7, 0.02, 1e-3, plain), 1.08e-3, 0.3};
-    trial.scene.ledger = false;
-    World together = made(trial, false), apart = made(trial, true);
-    for (int n = 0; n < 300; ++n) {
-        step(together);
-        step(apart);
+/// All eight sets of features that kernels are compiled for: friction, dashpots, bonds. (The consistent integrator goes
+/// point by point.)
+class EverySetOfFeatures : public ::testing::TestWithParam<int> {};
+
+TEST_P(EverySetOfFeatures, GivesTheBytesOfPointsOneByOne) {
+    const bool friction = (GetParam() & 1) != 0, dashpots = (GetParam() & 2) != 0, bonds = (GetParam() & 4) != 0;
+    Material material = damped_rock();
+    if (!friction) material.friction_angle = 0.0;
+    if (!dashpots) material.damping_ratio = 0.0;
+    for (const Scene& scene : {triangular_lattice(9, 9, 0.02, 8e-5, material), honeycomb(7, 7, 0.02, 1e-3, material)}) {
+        const bool discs = scene.vertices.empty();
+        Trial trial{scene, bonds ? (discs ? 0.01 : 1.08e-3) : 0.0, discs ? 0.3 : 2.0};
+        World together = made(trial, false), apart = made(trial, true);
+        const ContactFeatures features = features_of(together);
+        ASSERT_TRUE(features.friction == friction && features.damping == dashpots && features.bonds == bonds);
+        for (int n = 0; n < 300; ++n) {
+            step(together);
+            step(apart);
+        }
+        testing::expect_same_run(together, apart);
+        EXPECT_TRUE(same_bytes(flags_of(together), flags_of(apart)));
+        EXPECT_EQ(together.account.friction_loss > 0.0, friction);
+        EXPECT_EQ(together.account.dashpot_loss > 0.0, dashpots);
+        EXPECT_EQ(together.bonds.broken > 0, bonds);
     }
-    EXPECT_TRUE(same_bytes(together.bodies.state, apart.bodies.state));
-    EXPECT_GT(together.bonds.broken, 0);
 }
+
+INSTANTIATE_TEST_SUITE_P(PointBatch, EverySetOfFeatures, ::testing::Range(0, 8));
 
 }  // namespace
 }  // namespace crackle

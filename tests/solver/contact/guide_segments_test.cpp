@@ -254,7 +254,7 @@ TEST(SegmentPairs, GradientOfTheOverlapIsThatOfDifferences) {
                 }
                 if (!smooth) continue;
                 ++looked_at;
-                const OverlapGradient rounded = approach(view.normal, view.arm_i, view.arm_j);
+                const OverlapGradient rounded = closing_gradient(view.normal, view.arm_i, view.arm_j);
                 several += std::abs(view.overlap_gradient[0] - rounded[0]) > 0.1 ? 1 : 0;
                 worst = std::max(worst, error);
             }

@@ -28,11 +28,11 @@ TEST(LANES_SUITE, TurnRecordsIntoColumnsAndBack) {
 }
 
 TEST(LANES_SUITE, SignsAndRoots) {
-    const Lanes v = with_sign(all_lanes(2.25), all_lanes(-0.0));
+    const Lanes v = with_sign(all_of<Lanes>(2.25), all_of<Lanes>(-0.0));
     EXPECT_EQ(v[0], -2.25);
     EXPECT_EQ(magnitude(v)[lane_count - 1], 2.25);
     EXPECT_EQ(root(magnitude(v))[lane_count - 1], 1.5);
-    Lanes mixed = all_lanes(1.0);
+    Lanes mixed = all_of<Lanes>(1.0);
     mixed[1] = -1.0;
     EXPECT_EQ(mask_of(mixed < 0.0), 2u);
 }

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "solver/base/errors.hpp"
+#include "solver/base/lane_count.hpp"
 #include "solver/base/replace_file.hpp"
-#include "solver/contact/lanes.hpp"
 #include "tools/bench/commands/bench.hpp"
 #include "tools/bench/commands/gnuplot.hpp"
 #include "tools/bench/commands/results_folder.hpp"

@@ -14,8 +14,8 @@
 #include <vector>
 
 #include "solver/base/errors.hpp"
+#include "solver/base/lane_count.hpp"
 #include "solver/base/replace_file.hpp"
-#include "solver/contact/lanes.hpp"
 #include "solver/stepping/build_world.hpp"
 #include "solver/stepping/step.hpp"
 #include "tools/bench/commands/bench.hpp"

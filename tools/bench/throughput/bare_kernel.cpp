@@ -2,8 +2,12 @@
 #include "tools/bench/throughput/bare_kernel.hpp"
 
 #include "solver/base/errors.hpp"
+#include "solver/contact/circle_geometry.hpp"
+#include "solver/contact/dashpot.hpp"
+#include "solver/contact/friction.hpp"
 #include "solver/contact/lanes.hpp"
 #include "solver/contact/law.hpp"
+#include "solver/contact/relative_motion.hpp"
 #include "solver/measure/point_view.hpp"
 #include "solver/stepping/step.hpp"
 
@@ -27,13 +31,8 @@ BareKernel::BareKernel(const World& world) : time_step_(world.stepping.time_step
             points_.push_back({own[point.body_i], own[point.body_j], world.points.shear_force[k]});
     }
     if (points_.empty()) throw InputError("bare kernel: found no touching circles, expected a packing");
-    const ContactLaw& law = world.settings.laws[world.points.state[begin].law];
-    const double root_mass = world.points.root_mass[begin];
-    normal_stiffness_ = law.normal_stiffness;
-    shear_stiffness_ = law.shear_stiffness;
-    normal_damping_ = normal_damping(law, root_mass);
-    shear_damping_ = shear_damping(law, root_mass);
-    friction_ = law.friction;
+    law_ = world.settings.laws[world.points.state[begin].law];
+    root_mass_ = world.points.root_mass[begin];
 
     real_points_ = points_.size();
     const auto lone = static_cast<std::uint32_t>(bodies_.size());
@@ -61,8 +60,8 @@ BareKernel::BareKernel(const World& world) : time_step_(world.stepping.time_step
 
 void BareKernel::compute_forces() {
     const Body* const bodies = bodies_.data();
-    const double dt = time_step_;
-    const Lanes zero{};
+    const Law<Lanes> law(law_);
+    const Lanes root_mass = all_of<Lanes>(root_mass_), zero{};
     for (std::size_t k = 0; k < points_.size(); k += lane_count) {
         Point* const points = points_.data() + k;
         const double *place_i[lane_count], *place_j[lane_count], *velocity_i[lane_count], *velocity_j[lane_count];
@@ -85,25 +84,18 @@ void BareKernel::compute_forces() {
         gather_pairs(size_j, rj, unused);
         for (int l = 0; l < lane_count; ++l) shear[l] = points[l].shear_force;
 
-        const Lanes dx = xj - xi, dy = yj - yi;
-        const Lanes distance = root(dx * dx + dy * dy);
-        const Lanes inverse = 1.0 / distance;
-        const Lanes nx = dx * inverse, ny = dy * inverse;
-        const Lanes overlap = ri + rj - distance;
-        const Lanes arm_i = ri - 0.5 * overlap, arm_j = rj - 0.5 * overlap;
-        const Lanes rx = vxi - vxj, ry = vyi - vyj;
-        const Lanes closing = rx * nx + ry * ny;
-        const Lanes slipping = ry * nx - rx * ny + (omega_i * arm_i + omega_j * arm_j);
-        const LaneBits touches = overlap > 0.0;
-        const Lanes trial = shear - shear_stiffness_ * dt * slipping;
-        const Lanes limit = friction_ * normal_stiffness_ * overlap;
-        const LaneBits sliding = magnitude(trial) > limit;
-        const Lanes spring = touches ? (sliding ? with_sign(limit, trial) : trial) : zero;
-        const Lanes normal = touches ? normal_stiffness_ * overlap + normal_damping_ * closing : zero;
-        const Lanes tangential = spring - ((sliding | ~touches) ? zero : shear_damping_ * slipping);
+        const auto contact = circle_contact<Lanes>(xj - xi, yj - yi, ri, rj);
+        const auto motion = relative_motion<Lanes>(contact, {vxi - vxj, vyi - vyj, omega_i, omega_j});
+        const LaneBits touches = contact.overlap > 0.0;
+        const auto trial = try_shear<Lanes>(law, shear, motion.slipping * time_step_, contact.overlap);
+        const Lanes spring = select(touches, shear_force(trial), zero);
+        const Lanes normal_damper = normal_damping(law, root_mass) * motion.closing;
+        const Lanes shear_damper = shear_dashpot<Lanes>(law, root_mass, motion.slipping, contact.overlap, trial.slides);
+        const Lanes normal = select(touches, spring_force(law, contact.overlap) + normal_damper, zero);
+        const Lanes tangential = spring - select(touches, shear_damper, zero);
         for (int l = 0; l < lane_count; ++l) points[l].shear_force = spring[l];
-        store_quads(&forces_[k], -normal * nx - tangential * ny, -normal * ny + tangential * nx, arm_i * tangential,
-                    arm_j * tangential);
+        const ForceOnBodies<Lanes> force = force_on_bodies(contact, normal, tangential);
+        store_quads(&forces_[k], force.fx, force.fy, force.torque_i, force.torque_j);
     }
 }
 

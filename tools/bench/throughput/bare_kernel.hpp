@@ -2,9 +2,9 @@
 // A contact step stripped to its arithmetic: what the engine's rate is measured against.
 //
 // Discs of one material touch with normal spring and dashpot, incremental shear spring and dashpot under a Coulomb
-// limit; every point writes one record of 32 bytes, every body adds up its own in a fixed order and is kicked and
-// drifted. No neighbour search, walls, bonds, ledger, controls or observers. A body's state fills a cache line, points
-// are looked at lane_count at a time (solver/contact/lanes.hpp). On one thread.
+// limit, by the same code as in the engine; every point writes one record of 32 bytes, every body adds up its own in a
+// fixed order and is kicked and drifted. No neighbour search, walls, bonds, ledger, controls or observers. A body's
+// state fills a cache line, points are looked at lane_count at a time (solver/contact/lanes.hpp). On one thread.
 #pragma once
 
 #include <cstdint>
@@ -56,7 +56,8 @@ class BareKernel {
     std::vector<PointForce> forces_;
     std::vector<std::uint32_t> begin_, slots_;
     std::vector<BodyIndex> world_body_;
-    double normal_stiffness_, shear_stiffness_, normal_damping_, shear_damping_, friction_;
+    ContactLaw law_;
+    double root_mass_;  // sqrt(kg), of every point
     double time_step_;
 };
 

@@ -57,7 +57,6 @@ Scene settled(Scene scene) {
     constexpr int most_steps = 6000;
     constexpr double rest = 0.1 * stir_speed;
     scene.materials[0].friction_angle = 0.0;
-    scene.ledger = false;
     World world = build_world(scene);
     for (int k = 0; k < most_steps && (k < 100 || world.list.fastest > rest); ++k) step(world);
     for (Body& body : scene.bodies) {
@@ -71,7 +70,7 @@ Scene settled(Scene scene) {
 }
 
 struct Features {
-    bool dashpots = false, friction = false, bonds = false, ledger = false, consistent = false;
+    bool dashpots = false, friction = false, bonds = false, consistent = false;
     bool platens = false, two_materials = false, clumps = false;
 };
 
@@ -122,7 +121,6 @@ World world_with(Scene scene, const Features& features) {
     Material& rock = scene.materials[0];
     rock.friction_angle = features.friction ? timed_rock().friction_angle : 0.0;
     if (!features.dashpots) rock.damping_ratio.reset();
-    scene.ledger = features.ledger;
     if (features.consistent) scene.integrator = Integrator::consistent;
     stir(scene);
     if (features.two_materials) {
@@ -230,16 +228,9 @@ const std::vector<Rung>& rungs() {
         {"friction", "dashpots", {.dashpots = true, .friction = true}},
         {"consistent integrator", "friction", {.dashpots = true, .friction = true, .consistent = true}},
         {"bonds", "friction", {.dashpots = true, .friction = true, .bonds = true}},
-        {"energy ledger", "bonds", {.dashpots = true, .friction = true, .bonds = true, .ledger = true}},
-        {"driven platens",
-         "energy ledger",
-         {.dashpots = true, .friction = true, .bonds = true, .ledger = true, .platens = true}},
-        {"two materials",
-         "energy ledger",
-         {.dashpots = true, .friction = true, .bonds = true, .ledger = true, .two_materials = true}},
-        {"clumps of two",
-         "energy ledger",
-         {.dashpots = true, .friction = true, .bonds = true, .ledger = true, .clumps = true}},
+        {"driven platens", "bonds", {.dashpots = true, .friction = true, .bonds = true, .platens = true}},
+        {"two materials", "bonds", {.dashpots = true, .friction = true, .bonds = true, .two_materials = true}},
+        {"clumps of two", "bonds", {.dashpots = true, .friction = true, .bonds = true, .clumps = true}},
     };
     return all;
 }
@@ -317,17 +308,13 @@ struct Absence {
 
 const std::vector<Absence>& absences() {
     static const std::vector<Absence> all{
-        {"dashpots", {.friction = true}, {true, false, false, false, false}, &ContactFeatures::damping},
-        {"friction", {.dashpots = true}, {false, true, false, false, false}, &ContactFeatures::friction},
+        {"dashpots", {.friction = true}, {true, false, false, false}, &ContactFeatures::damping},
+        {"friction", {.dashpots = true}, {false, true, false, false}, &ContactFeatures::friction},
         {"consistent integrator",
          {.dashpots = true, .friction = true},
-         {true, true, false, false, false},
+         {true, true, false, false},
          &ContactFeatures::consistent},
-        {"bonds", {.dashpots = true, .friction = true}, {true, true, false, false, false}, &ContactFeatures::bonds},
-        {"energy ledger",
-         {.dashpots = true, .friction = true, .bonds = true},
-         {true, true, true, false, false},
-         &ContactFeatures::ledger},
+        {"bonds", {.dashpots = true, .friction = true}, {true, true, false, false}, &ContactFeatures::bonds},
     };
     return all;
 }
@@ -384,12 +371,12 @@ void add_absent_parts(const FeatureStudy& study, const Scene& scene, const Add& 
         return [features](World& world) { least_step(world, features); };
     };
     const auto whole = [](World& world) { step(world); };
-    constexpr ContactFeatures springs{false, false, false, false, false}, unledgered{true, true, true, false, false};
+    constexpr ContactFeatures springs{false, false, false, false}, bonded{true, true, true, false};
     const char* const all_else = "gravity, turning, controls, profile, threads, losses, breaks, list";
     add_parts({}, {{all_else, "least step of springs", least(springs), whole}});
     add_parts({.dashpots = true, .friction = true, .bonds = true},
-              {{all_else, "least step of bonded discs", least(unledgered), whole}});
-    const World start = world_with(scene, {.dashpots = true, .friction = true, .bonds = true, .ledger = true});
+              {{all_else, "least step of bonded discs", least(bonded), whole}});
+    const World start = world_with(scene, {.dashpots = true, .friction = true, .bonds = true});
     World work = start;
     Profile profile;
     const Trial plain = trial_of(start, work, [](World& world) { step(world); });

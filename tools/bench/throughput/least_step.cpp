@@ -27,10 +27,6 @@ void make_room_for(World& world, const ContactFeatures& features) {
         world.points.strong_normal.resize(points, 0.0F);
         world.points.strong_shear.resize(points, 0.0F);
     }
-    if (features.ledger) {
-        world.points.normal_dashpot.resize(points, 0.0F);
-        world.points.shear_dashpot.resize(points, 0.0F);
-    }
     if (features.consistent) {
         world.points.opening.resize(points);
         world.account.opening_defects.resize(world.bodies.size(), 0.0);

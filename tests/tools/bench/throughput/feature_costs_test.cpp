@@ -22,14 +22,13 @@
 namespace crackle::throughput {
 namespace {
 
-/// Stirred, without an account of energy and without bonds.
+/// Stirred, without bonds.
 World loose_discs() {
     Scene scene = triangular_lattice(12, 12, 0.02, 8e-5, timed_rock());
     for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
         const auto k = static_cast<double>(b);
         scene.bodies[b].velocity = {0.01 * std::sin(1.7 * k), 0.01 * std::cos(2.3 * k)};
     }
-    scene.ledger = false;
     World world = build_world(scene);
     step(world);
     return world;
@@ -42,7 +41,7 @@ bool same_bodies(const World& a, const World& b) {
 TEST(LeastStep, GivesTheBytesOfTheEnginesStep) {
     World by_engine = loose_discs(), least = by_engine;
     const ContactFeatures features = features_of(by_engine);
-    ASSERT_TRUE(features.friction && features.damping && !features.bonds && !features.ledger && !features.consistent);
+    ASSERT_TRUE(features.friction && features.damping && !features.bonds && !features.consistent);
     for (int k = 0; k < 50; ++k) {
         step(by_engine);
         least_step(least, features);
@@ -58,7 +57,7 @@ TEST(LeastStep, GivesTheBytesOfTheEnginesStep) {
 
 TEST(LeastStep, KernelsWithFeaturesThatAreNotThereChangeNothing) {
     World plain = loose_discs(), roomy = plain;
-    const ContactFeatures features = features_of(plain), all{true, true, true, true, false};
+    const ContactFeatures features = features_of(plain), all{true, true, true, false};
     make_room_for(roomy, all);
     for (int k = 0; k < 50; ++k) {
         least_step(plain, features);
@@ -82,9 +81,9 @@ TEST(FeatureCosts, EveryRowHasItsNumbersInOrder) {
         EXPECT_EQ(row.difference.low > 0.0, row.ratio.low > 1.0) << row.feature;
     });
     std::filesystem::remove_all(scratch);
-    EXPECT_EQ(kinds["added"], 9 + 8 + 2);
-    EXPECT_EQ(kinds["dispatched"], 5 + 5 + 2);
-    EXPECT_EQ(kinds["forced"], 5 + 5 + 1);
+    EXPECT_EQ(kinds["added"], 8 + 7 + 2);
+    EXPECT_EQ(kinds["dispatched"], 4 + 4 + 2);
+    EXPECT_EQ(kinds["forced"], 4 + 4 + 1);
     // Nothing parts while it is stirred: the rows of loose discs have the same contacts, and clumps fewer bodies.
     EXPECT_EQ(discs.at("normal springs").contacts, discs.at("friction").contacts);
     EXPECT_EQ(discs.at("bonds").contacts, discs.at("two materials").contacts);

@@ -43,7 +43,7 @@ Section strained(int columns, int rows, double shear_share, const Strain& e) {
     std::vector<Prescribed> held;
     const auto affine = [&](std::size_t b) {
         const BodyState& body = world.bodies.state[b];
-        return Motion{e.xx * body.x + e.xy * body.y, e.xy * body.x + e.yy * body.y, 0.0};
+        return BodyMotion{e.xx * body.x + e.xy * body.y, e.xy * body.x + e.yy * body.y, 0.0};
     };
     std::vector<int> bonds(world.bodies.size());
     for (const ContactPoint& point : world.points.contact) ++bonds[point.body_i], ++bonds[point.body_j];
@@ -54,7 +54,7 @@ Section strained(int columns, int rows, double shear_share, const Strain& e) {
     Section section{{}, {}, 0.0};
     double largest = 0.0;
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
-        const Motion expected = affine(b), got = solution.displacement[b];
+        const BodyMotion expected = affine(b), got = solution.displacement[b];
         largest = std::max({largest, std::abs(expected.x), std::abs(expected.y)});
         section.affine_error =
             std::max({section.affine_error, std::abs(got.x - expected.x), std::abs(got.y - expected.y)});

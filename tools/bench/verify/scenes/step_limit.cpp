@@ -51,7 +51,7 @@ double energy_growth(World world, double time_step) {
 /// The unstable mode's motion, from positions.
 class Projection {
   public:
-    Projection(const World& rest, std::vector<Motion> mode) : rest_(rest.bodies.state), mode_(std::move(mode)) {}
+    Projection(const World& rest, std::vector<BodyMotion> mode) : rest_(rest.bodies.state), mode_(std::move(mode)) {}
     double of(const World& world) const {
         double sum = 0.0;
         for (std::size_t b = 0; b < rest_.size(); ++b) {
@@ -64,7 +64,7 @@ class Projection {
 
   private:
     std::vector<BodyState> rest_;
-    std::vector<Motion> mode_;
+    std::vector<BodyMotion> mode_;
 };
 
 struct Growth {
@@ -73,16 +73,16 @@ struct Growth {
 };
 
 /// From the mode itself and a thousandth of noise, until it has grown by 1e6; over the later half.
-Growth measured_growth(World world, const std::vector<Motion>& mode, double time_step, double predicted) {
+Growth measured_growth(World world, const std::vector<BodyMotion>& mode, double time_step, double predicted) {
     const Projection projection(world, mode);
     world.stepping.time_step = time_step;
     double longest = 0.0;
-    for (const Motion& m : mode) longest = std::max({longest, std::abs(m.x), std::abs(m.y)});
+    for (const BodyMotion& m : mode) longest = std::max({longest, std::abs(m.x), std::abs(m.y)});
     double energy = 0.0;
     // 1e-15 m in the first step: a few roundings of the positions, and still 1e-9 m in the end, far from any limit.
     const double speed = 1e-15 / (time_step * longest);
     for (std::size_t b = 0; b < mode.size(); ++b) {
-        const Motion v{speed * mode[b].x, speed * mode[b].y, speed * mode[b].rotation};
+        const BodyMotion v{speed * mode[b].x, speed * mode[b].y, speed * mode[b].rotation};
         energy += 0.5 * world.bodies.inertia[b].mass * (v.x * v.x + v.y * v.y) +
                   0.5 * world.bodies.info[b].moment * v.rotation * v.rotation;
     }

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How many doubles the contact kernels compute side by side (solver/contact/lanes.hpp).
+#pragma once
+
+namespace crackle {
+
+// CRACKLE_EIGHT_LANES is for tests of that form where the machine has no AVX-512.
+#if defined(__AVX512F__) || defined(CRACKLE_EIGHT_LANES)
+inline constexpr int lane_count = 8;
+#else
+inline constexpr int lane_count = 4;
+#endif
+
+}  // namespace crackle

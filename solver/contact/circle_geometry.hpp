@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Two circles in contact: δ = r_i + r_j - d, d the distance of their centres, which lie on the normal with the contact
+// position between them, midway between the two surfaces.
+#pragma once
+
+#include "solver/contact/point_geometry.hpp"
+
+namespace crackle {
+
+template <class Number>
+struct CircleContact {
+    Number overlap;       // m
+    Number nx, ny;        // unit normal, from i to j
+    Number arm_i, arm_j;  // m, from the centres to the contact position, along the normal and against it
+};
+
+/// Two circles, the second dx, dy away from the first (m).
+template <class Number>
+CRACKLE_INLINE CircleContact<Number> circle_contact(const Number& dx, const Number& dy, const Number& radius_i,
+                                                    const Number& radius_j) {
+    const Number squared = dx * dx + dy * dy, distance = root(squared), inverse = distance * (1.0 / squared);
+    const Condition<Number> apart = squared >= least_squared_distance;
+    CircleContact<Number> c;
+    c.overlap = radius_i + radius_j - distance;
+    c.nx = select(apart, dx * inverse, all_of<Number>(1.0));  // coincident centres have no normal: take the x axis
+    c.ny = select(apart, dy * inverse, Number{});
+    c.arm_i = radius_i - 0.5 * c.overlap;
+    c.arm_j = radius_j - 0.5 * c.overlap;
+    return c;
+}
+
+/// The same with arms as vectors, from the circles' centres.
+template <class Number>
+CRACKLE_INLINE PointGeometry<Number> with_arms(const CircleContact<Number>& c) {
+    return {c.overlap, c.nx, c.ny, c.arm_i * c.nx, c.arm_i * c.ny, -c.arm_j * c.nx, -c.arm_j * c.ny};
+}
+
+/// Of two single circles, whose centres are their centroids.
+template <class Number>
+CRACKLE_INLINE ForceOnBodies<Number> force_on_bodies(const CircleContact<Number>& c, const Number& normal,
+                                                     const Number& shear) {
+    return {-normal * c.nx - shear * c.ny, -normal * c.ny + shear * c.nx, c.arm_i * shear, c.arm_j * shear};
+}
+
+}  // namespace crackle
