@@ -152,7 +152,7 @@ CRACKLE_INLINE void prefetch_outlines(const World& world, const ContactPoint* po
 /// Points of outlines beyond which a mesh is taken to be larger than the caches: some 8 MB.
 inline constexpr std::size_t points_in_cache = 50'000;
 
-/// The edge faced last and its corners are tried for all points; the search is left to contact_geometry.hpp where one
+/// The edge faced last and its corners are tried for all points; the search is left to geometry.hpp where one
 /// has got beyond them or the outline is not one convex piece.
 CRACKLE_INLINE void outline_stage(const World& world, ContactPoint* points, const PairLanes& pair,
                                   OutlineStage& stage) {

@@ -113,8 +113,8 @@ struct Domain {
 
 /// Contact law of segments and polygons; circles among themselves and walls are the same in all.
 enum class SegmentLaw : std::uint8_t {
-    rounded,     ///< vertex against the other's outline as a whole (contact_geometry.hpp)
-    demseg,      ///< the guide's: element by element, the disc cases of a pair added up (segment_contact.hpp)
+    rounded,     ///< vertex against the other's outline as a whole (contact/geometry.hpp)
+    demseg,      ///< the guide's: element by element, the disc cases of a pair added up (contact/guide_segments.hpp)
     demseg_mean  ///< the same with the mean of the cases in contact
 };
 
@@ -125,7 +125,7 @@ const char* name_of(SegmentLaw law);
 /// How the contacts' first and last steps are taken.
 enum class Integrator : std::uint8_t {
     leapfrog,   ///< like all others, as the guide does
-    consistent  ///< so that opening and closing conserve energy (contact_opening.hpp); unbonded points, but not the
+    consistent  ///< so that opening and closing conserve energy (contact/opening.hpp); unbonded points, but not the
                 ///< segment kinds of the guide's law, which have no energy to conserve
 };
 

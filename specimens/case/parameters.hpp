@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How one parameter of a case is declared. Used by the case reader alone; see case_parameters.cpp for the declarations.
+// How one parameter of a case is declared. Used by the case reader alone; see parameters.cpp for the declarations.
 #pragma once
 
 #include <cmath>
