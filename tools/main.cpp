@@ -14,7 +14,7 @@
 int main(int argc, char** argv) {
     using namespace crackle::tools;
     // Arrays of large specimens go back to the system when they are freed. By itself glibc soon keeps them for good:
-    // a list of neighbours built anew would then cost as much memory as the whole specimen.
+    // a list of neighbours built again would then cost as much memory as the whole specimen.
     mallopt(M_MMAP_THRESHOLD, 1 << 20);
     mallopt(M_TRIM_THRESHOLD, 1 << 22);
     const auto all = std::span(argv, static_cast<std::size_t>(argc));

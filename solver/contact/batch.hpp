@@ -136,7 +136,7 @@ struct OutlineStage {
 };
 
 /// What points that come later look at. In a mesh beyond the caches it comes from memory, from places that only the
-/// points tell: a sixth of the step of 50,000 cells.
+/// points name: a sixth of the step of 50,000 cells.
 CRACKLE_INLINE void prefetch_outlines(const World& world, const ContactPoint* points) {
     constexpr std::ptrdiff_t points_ahead = 128;
     if (world.points.contact.data() + world.points.fours_end - points < points_ahead + lane_count) return;

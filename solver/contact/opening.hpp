@@ -80,7 +80,7 @@ inline double opening_force(OpeningMemory& memory, bool touched, double before, 
 /// Out of contact, with the account settled.
 inline void rest_opening(OpeningMemory& memory) { memory.force = 0.0; }
 
-/// Energy of a point at time n beyond that of its spring at δ(n), J; open points may still owe some.
+/// Energy of a point at time n beyond that of its spring at δ(n), J; open points may still have some to settle.
 inline double opening_energy(const OpeningMemory& memory) {
     const double overlap = std::isnan(memory.overlap) ? 0.0 : memory.overlap;
     return memory.defect + 0.5 * memory.extra_force * overlap;

@@ -89,7 +89,7 @@ CRACKLE_INLINE PointGeometry<Number> outline_contact(const FacingElement<Number>
 
 /// Closest feature of an outline to a point of its body frame.
 struct OutlineFacing : OutlineDistance<double> {
-    std::uint32_t edge;  // faced, into World::edges
+    std::uint32_t edge;  // faced, into Bodies::edges
 };
 
 namespace detail {

@@ -21,7 +21,7 @@ ContactFeatures features_of(const World& world);
 /// Neighbouring points of one kind: one at least, at most block_points.
 struct PointBlock {
     PointIndex begin, end;
-    std::size_t number;  // into World::loss_blocks
+    std::size_t number;  // into EnergyAccount::blocks
     PointForce* forces;  // of the points, to be filled
 };
 

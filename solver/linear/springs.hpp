@@ -25,7 +25,7 @@ inline double& component(BodyMotion& m, int d) { return d == 0 ? m.x : d == 1 ? 
 /// One spring with its dashpot; a point has one along its normal and one along its tangent.
 struct Spring {
     BodyIndex i, j;            ///< j is no_body for a domain wall
-    PointIndex point;          ///< into World::points
+    PointIndex point;          ///< into Points::contact
     bool shear;                ///< along the tangent
     double stiffness;          // N/m
     double damping;            // N s/m

@@ -139,7 +139,7 @@ struct Least {
     double bound = std::numeric_limits<double>::infinity();
     BodyIndex body = 0;
 
-    /// Most bodies are let off after the cheap estimate.
+    /// Most bodies are ruled out by the cheap estimate.
     void lower_to(const BodyBlocks& blocks, BodyIndex b) {
         if (stable_step_of(eigenvalue_at_most(blocks.stiffness), eigenvalue_at_most(blocks.damping)) >= bound) return;
         const double exact = stable_step_of(largest_eigenvalue(blocks.stiffness), largest_eigenvalue(blocks.damping));
@@ -228,7 +228,7 @@ Surroundings surroundings_of(const World& world) {
     return all;
 }
 
-/// Blocks of all bodies from the points that count. Geometry is found anew in each round: kept, it would be as much
+/// Blocks of all bodies from the points that count. Geometry is found again in each round: kept, it would be as much
 /// memory as all that points remember. @param counts  asked with each point and its overlap, m
 template <class Counts>
 std::vector<BodyBlocks> blocks_of(const World& world, const std::vector<double>& weights,
@@ -289,7 +289,7 @@ constexpr double worth_three_rounds = 5e-4;
 // By how much a bound may differ from that of the last search and count as the same.
 constexpr double unchanged = 2e-3;
 // No weight falls below this share of its first value: a point that comes to carry load later between a body that was
-// let off and one that was not would cost the latter all the more.
+// ruled out and one that was not would cost the latter all the more.
 constexpr double lowest_weight_share = 0.125;
 // How far a list may differ in length from the one that weights were found for.
 constexpr double like_list = 0.01;
@@ -312,19 +312,19 @@ double enough_for(const World& world) {
 
 /// Whether the last search for weights, on a list like this one, has not reached what the step asks for: then
 /// another one is worth its time only where the bound has changed.
-bool searched_in_vain(const World& world, double enough) {
+bool search_was_useless(const World& world, double enough) {
     const auto listed = static_cast<double>(world.points.size()),
                then = static_cast<double>(world.stepping.weighed_points);
     return world.stepping.weighed_bound < enough && std::abs(listed - then) <= like_list * then;
 }
 
 /// Raises the weight of the bodies that limit against those that do not, until the bound is enough; keeps the best
-/// round in World::step_weights. The first round has the weights found last, which as a rule do.
+/// round in StepControl::step_weights. The first round has the weights found last, which as a rule do.
 template <class Counts>
 Least raised(World& world, const Surroundings& all, Counts counts) {
     const double enough = enough_for(world);
     const bool warm = enough > 0.0 && weighed_before(world, all.met);
-    const bool in_vain = warm && searched_in_vain(world, enough);
+    const bool in_vain = warm && search_was_useless(world, enough);
     std::vector<double> first;
     if (!warm) first = first_weights(world, all.rows);
     std::vector<double> trial = warm ? world.stepping.step_weights : first;

@@ -2,7 +2,7 @@
 // The account of energy. Between force pass and kick everything is known at time n: positions x(n), the mean velocity
 // v(n) = v(n-½) + ½a(n)Δt, forces, and the losses and works up to x(n), each taken by the trapezoidal rule over the
 // drifts. Leapfrog then closes the account to second order in the step; what is left is the closing error. Under the
-// consistent integrator the strain energy contains what its points owe.
+// consistent integrator the strain energy contains what its points have yet to settle.
 
 #include <cmath>
 

@@ -43,19 +43,19 @@ class OldPoints {
 };
 
 /// Points of a new list and which points of the old one they are.
-struct Succession {
+struct MergedList {
     std::vector<ContactPoint> points;
     std::vector<PointIndex> old;  // no_point: was not listed
 };
 
-/// An old point that stays though it is not listed anew.
+/// An old point that stays though it is not listed again.
 struct KeptPoint {
     std::size_t place;  // before the point here
     PointIndex old;
 };
 
 /// Inserts kept points, which come in order.
-void insert_kept(const World& world, const std::vector<KeptPoint>& kept, Succession& next) {
+void insert_kept(const World& world, const std::vector<KeptPoint>& kept, MergedList& next) {
     std::size_t from = next.points.size(), to = from + kept.size();
     next.points.resize(to);
     next.old.resize(to);
@@ -73,8 +73,8 @@ void insert_kept(const World& world, const std::vector<KeptPoint>& kept, Success
 
 /// The new list of a kind, in the room of the points found. A bond is carried over whether its point was found or not:
 /// it lasts until the force pass finds it broken, and intact ones hold at any opening.
-Succession succeed(World& world, PointKind kind, std::vector<ContactPoint> found) {
-    Succession next{std::move(found), {}};
+MergedList merge_lists(World& world, PointKind kind, std::vector<ContactPoint> found) {
+    MergedList next{std::move(found), {}};
     next.old.resize(next.points.size());
     const bool consistent = world.settings.integrator == Integrator::consistent;
     const bool closed = world.bonds.made && world.settings.intact.no_new_contacts;
@@ -117,8 +117,8 @@ Succession succeed(World& world, PointKind kind, std::vector<ContactPoint> found
 }
 
 /// The pairs with four points go first. @return how many points these have
-PointIndex put_fours_first(Succession& next) {
-    Succession others;
+PointIndex put_fours_first(MergedList& next) {
+    MergedList others;
     std::size_t fours = 0;
     for (std::size_t first = 0, last = 0; first < next.points.size(); first = last) {
         while (last < next.points.size() && same_pair(next.points[first], next.points[last])) ++last;
@@ -161,9 +161,9 @@ void carry_over(std::vector<T>& values, const std::vector<PointIndex>& old, bool
     values = std::move(now);
 }
 
-/// What points that left the list still owed goes to another of their bodies' points: written off, it would pile up,
-/// for such points owe more often than they are owed.
-void hand_on(World& world) {
+/// The defects of points that left the list go to another of their bodies' points: written off, it would pile up,
+/// for such points are more often left with a debt than with a credit.
+void pass_on_defects(World& world) {
     for (std::size_t kind = 0; kind < point_kinds; ++kind) {
         if (by_guide(static_cast<PointKind>(kind))) continue;
         for (PointIndex k = world.points.kind_begin[kind]; k < world.points.kind_begin[kind + 1]; ++k) {
@@ -212,12 +212,12 @@ void refuse_more_than_countable(std::size_t points) {
 }  // namespace
 
 void exchange_points(World& world, PointLists& lists) {
-    Succession next;
+    MergedList next;
     std::array<PointIndex, point_kinds + 1> kind_begin{};
     PointIndex fours_end = 0;
     for (std::size_t number = 0; number < point_kinds; ++number) {
         const auto kind = static_cast<PointKind>(number);
-        Succession of_kind = succeed(world, kind, std::move(lists[number]));
+        MergedList of_kind = merge_lists(world, kind, std::move(lists[number]));
         if (kind == PointKind::element_outline) fours_end = kind_begin[number] + put_fours_first(of_kind);
         refuse_more_than_countable(next.points.size() + of_kind.points.size());
         append(next.points, std::move(of_kind.points));
@@ -232,7 +232,7 @@ void exchange_points(World& world, PointLists& lists) {
     world.points.kind_begin = kind_begin;
     world.points.fours_end = fours_end;
     find_pairs(world);
-    if (consistent) hand_on(world);
+    if (consistent) pass_on_defects(world);
     world.points.force.assign(world.points.keep_forces ? world.points.size() : 0, PointForce{});
     world.account.blocks.assign(block_count(world), LossBlock{});
 }

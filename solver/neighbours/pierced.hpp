@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bodies that have been pressed through one another. The distance from an open segment has no sign, so that a circle or
 // corner that got past the middle is pushed out behind; a corner deep in an outline is pushed out at the nearest side,
-// whichever it came by. Energy is kept all the while, so nothing else would tell.
+// whichever it came by. Energy is kept all the while, so no other check would notice.
 #pragma once
 
 #include "solver/world/world.hpp"
@@ -9,7 +9,7 @@
 namespace crackle {
 
 /// Compares places now with those when the list was built: a circle or corner on the other side of a segment, or the
-/// centroid of a convex body inside an outline that it was outside of. To be called before the list is built anew,
+/// centroid of a convex body inside an outline that it was outside of. To be called before the list is built again,
 /// which is before anything has moved a tenth of a body's size. The rounded law only: the guide's lets discs through by
 /// its own rules. Two circles are not looked at; packing presses them deep.
 /// @throws UnstableRun naming both bodies (not with allow_unstable)

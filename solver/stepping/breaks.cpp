@@ -80,7 +80,7 @@ void record_breaks(World& world) {
         world.points.shear_force[k] = 0.0;
         world.points.bond_overlap[k] = 0.0;
         world.points.state[k].flags =
-            static_cast<std::uint16_t>(world.points.state[k].flags & point_counted);  // until the bound is found anew
+            static_cast<std::uint16_t>(world.points.state[k].flags & point_counted);  // until the bound is found again
         if (!world.points.spring_work.empty()) world.points.spring_work[k] = {};
         if (!world.points.opening.empty()) world.points.opening[k] = {};
         event.last_of_interface = !interface_holds(world, k);

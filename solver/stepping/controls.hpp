@@ -12,7 +12,7 @@ namespace crackle {
 /// Enters the scene's controls into the world: zero inverse masses, prescribed velocities, starts of ramps.
 /// @param internal_of body numbering: scene index to world index.
 void build_controls(World& world, const Scene& scene, const std::vector<BodyIndex>& internal_of);
-/// Drives a body anew from the present position on (replacing what drove it before).
+/// Drives a body again from the present position on (replacing what drove it before).
 void set_control(World& world, BodyIndex body, const DofControl (&dof)[3], std::int64_t ramp_steps);
 /// Changes the prescribed velocity of a driven degree of freedom from the coming drift on; what that adds to the body's
 /// kinetic energy is displacement work. @param dof 0 x, 1 y, 2 rotation; driven by Drive::velocity

@@ -31,7 +31,7 @@ inline void turn_frame(BodyState& body, double turn) {
 
 /// Bodies number(0) to number(count - 1). @param kick s
 /// @tparam Turning some bodies have a frame that turns with them
-/// @tparam Clear World::forces of these bodies are left as 0
+/// @tparam Clear Bodies::force of these bodies are left as 0
 template <bool Gravity, bool Turning, bool Clear, class Number>
 Speeds move_each(World& world, double kick, std::int64_t count, Number number) {
     const double dt = world.stepping.time_step;

@@ -15,10 +15,10 @@
 
 namespace crackle {
 
-/// World::sweep anew if the list, the driven bodies or the threads have changed since.
+/// Workers::plan again if the list, the driven bodies or the threads have changed since.
 void plan_sweep(World& world);
 
-/// Makes World::forces ready to be added to.
+/// Makes Bodies::force ready to be added to.
 void clear_forces(World& world);
 
 /// Moves the bodies of a list and clears their forces, if they are not needed in the next pass.

@@ -358,7 +358,8 @@ class Judge {
             }
             need("loading.platen_friction_angle", "frictional platens need it");
             if (test_.numerics.intact)
-                refuse("numerics.intact", "true", "false with frictional platens", "they touch only what comes anew");
+                refuse("numerics.intact", "true", "false with frictional platens",
+                       "they touch only what comes into contact later");
         } else {
             exclude("loading.platen_friction_angle",
                     "only platens = \"frictional\" has it: bonded platens take the specimen's");

@@ -27,7 +27,7 @@ struct LinearBond {
     double normal_force = 0.0;   // N, compression positive
     double shear_force = 0.0;    // N, magnitude
     double break_strain = 0.0;   ///< infinite where the point is squeezed
-    double slip_strain = 0.0;    ///< infinite where it sticks for ever
+    double slip_strain = 0.0;    ///< infinite where it sticks forever
 };
 
 struct FirstEvent {

@@ -49,7 +49,7 @@ void take_frame(const World& world, const TestSetup& setup, const ContactHistory
     std::transform(
         world.bodies.state.begin(), world.bodies.state.end(), frame.bodies.begin(),
         [](const BodyState& body) { return Frame::Body{body.x, body.y, body.angle, body.vx, body.vy, body.omega}; });
-    // Bonds are never made anew: what the walk along the list does not meet is broken.
+    // Bonds are never made again: what the walk along the list does not meet is broken.
     const std::vector<Bond>& bonds = setup.bonds;
     frame.shear_force.assign(bonds.size(), 0.0);
     frame.states.assign(bonds.size(), ContactState::broken);
@@ -58,7 +58,7 @@ void take_frame(const World& world, const TestSetup& setup, const ContactHistory
         const PointIndex last = setup.bond_kind_begin[static_cast<std::size_t>(K) + 1];
         PointIndex next = first;
         for (PointIndex k = begin; k < end; ++k) {
-            if (k == world.points.fours_end) next = first;  // here the order of a kind begins anew
+            if (k == world.points.fours_end) next = first;  // here the order of a kind begins again
             const ContactPoint& point = world.points.contact[k];
             const auto flags = world.points.state[k].flags;
             if ((flags & point_bonded) == 0) continue;

@@ -218,7 +218,7 @@ const std::vector<double>& cell_values(const std::filesystem::path& file, const 
 }
 
 void refuse_frame(const std::filesystem::path& file, const std::string& what) {
-    throw InputError(fmt::format("{}: {}; write the frames anew with `crackle test --force`", file.string(), what));
+    throw InputError(fmt::format("{}: {}; write the frames again with `crackle test --force`", file.string(), what));
 }
 
 }  // namespace crackle

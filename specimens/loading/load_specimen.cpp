@@ -19,7 +19,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr std::int64_t steps_between_health_checks = 100;
-constexpr std::int64_t steps_between_clock_looks =
+constexpr std::int64_t steps_between_clock_checks =
     64;  // reading the clock and asking for interrupts stay off the profile
 constexpr double seconds_between_progress = 0.2;
 // Rows that peak, failure and moduli are judged by, at least, however few of them are written: what is reported must
@@ -60,14 +60,14 @@ class LoadingLoop {
     void load() {
         if (files_ != nullptr && state_.rows.empty()) files_->write_checkpoint(setup_, state_, world_);
         while (true) {
-            if (world_.stepping.steps % steps_between_clock_looks == 0 && look_at_clock()) break;
+            if (world_.stepping.steps % steps_between_clock_checks == 0 && check_clock()) break;
             // Platens stand where the last step has put them, whether the forces are known or not.
             strain_ = setup_.axial_strain(world_);
             const bool at_end = strain_ >= max_strain_;
             const bool row_due = at_end || strain_ >= row_spacing_ * static_cast<double>(state_.rows.size());
             const bool check_due = world_.stepping.steps % steps_between_health_checks == 0;
             const bool by_tolerance = setup_.rate_rule.tolerance > 0.0;
-            const bool rate_due = by_tolerance && world_.stepping.time >= state_.rate.next_look;
+            const bool rate_due = by_tolerance && world_.stepping.time >= state_.rate.next_check;
             if (!row_due && !check_due && !rate_due) {
                 const double drift = world_.stepping.drift;
                 step(world_);
@@ -154,7 +154,7 @@ class LoadingLoop {
     }
 
     /// Between steps: progress, checkpoint, interrupt. @return whether to stop
-    bool look_at_clock() {
+    bool check_clock() {
         if (hooks_.interrupted && hooks_.interrupted()) return true;
         const Clock::time_point now = Clock::now();
         if (hooks_.progress && seconds(last_progress_, now) >= seconds_between_progress) {

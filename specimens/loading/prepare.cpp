@@ -40,7 +40,7 @@ constexpr double first_yield_share = 0.02;
 constexpr std::size_t most_bodies_solved = 200'000;
 
 /// Linear solution of a world with bonded platens, or a notice why there is none.
-void take_small_strain(VirtualTest& test, const World& world, const TestSetup& own) {
+void solve_small_strain(VirtualTest& test, const World& world, const TestSetup& own) {
     if (world.bodies.size() > most_bodies_solved) {
         test.setup.notices.push_back(fmt::format(
             "no small-strain modulus: {} bodies, more than {} are not solved beside a test; `crackle elastic` does it",
@@ -70,7 +70,7 @@ void notice_deep_bonds(VirtualTest& test) {
     if (excess <= deep_bond_share * size) return;
     test.setup.notices.push_back(fmt::format(
         "bond.thick = {:.4g} m exceeds the gap of {:.4g} m by {:.2g} of the mean particle size: polygons that share no "
-        "face bond too; the excess is the overlap that bonds them, and wants to be small",
+        "face bond too; the excess is the overlap that bonds them, and should be small",
         setup.bond_thick, setup.mesh_thick, excess / size));
 }
 
@@ -95,9 +95,10 @@ VirtualTest bond_test(const TestCase& description, const TestHooks& hooks) {
     test.description = description;
     const TestCase::MaterialKeys& material = description.material;
     if (description.has_table("packing") && !material.damping_ratio && !material.normal_damping) {
-        hooks.report_stage(fmt::format("damping ratio {:.4g} by default: a particle ringing on its contacts loses 95 % of its "
-                               "energy a period",
-                               default_damping_ratio));
+        hooks.report_stage(
+            fmt::format("damping ratio {:.4g} by default: a particle ringing on its contacts loses 95 % of its "
+                        "energy a period",
+                        default_damping_ratio));
     }
     const Clock::time_point begun = Clock::now();
     const Specimen specimen = make_specimen(description, hooks);
@@ -110,13 +111,13 @@ VirtualTest bond_test(const TestCase& description, const TestHooks& hooks) {
         test.description.output.frames = default_frames(test.setup.particles, description.output.curve_rows);
     test.state.failure.share_of_peak = description.loading.stop_at_share_of_peak;
     hooks.report_stage(fmt::format("bonded {} points of {} interfaces, time step {:.3g} s", test.world.bonds.initial,
-                           test.world.bonds.interfaces_initial, test.world.stepping.time_step));
+                                   test.world.bonds.interfaces_initial, test.world.stepping.time_step));
     report_bonded(hooks, test.world, test.setup, description);
     hooks.report_work("solving for small strain");
     notice_deep_bonds(test);
     if (bonded.platens.bonded) {
         check_platen_hold(test.world, test.setup, bonded.platens, description);
-        take_small_strain(test, test.world, test.setup);
+        solve_small_strain(test, test.world, test.setup);
     } else {
         TestCase::Loading held = description.loading;
         held.platens = "bonded";
@@ -124,14 +125,14 @@ VirtualTest bond_test(const TestCase& description, const TestHooks& hooks) {
         try {
             const TestSetup own = record_setup(twin.world, specimen, twin.platens, test.setup.compression);
             check_platen_hold(twin.world, own, twin.platens, description);
-            take_small_strain(test, twin.world, own);
+            solve_small_strain(test, twin.world, own);
         } catch (const InputError& error) {
             test.setup.notices.push_back(fmt::format("no small-strain modulus: {}", error.what()));
         }
     }
     if (std::isfinite(test.state.youngs_modulus)) {
         hooks.report_stage(fmt::format("small strain: E = {:.4g} N/m, nu = {:.3g}", test.state.youngs_modulus,
-                               test.state.poissons_ratio));
+                                       test.state.poissons_ratio));
     }
     return test;
 }
@@ -141,7 +142,8 @@ VirtualTest prepare_test(const TestCase& description, const TestHooks& hooks) {
     if (description.loading.rate_tolerance) {
         start_by_tolerance(test);
         hooks.report_stage(fmt::format("loading by tolerance {}: first rate {:.3g} 1/s, a wave's transit {:.3g} s",
-                        *description.loading.rate_tolerance, test.state.rate.rate, test.setup.rate_rule.transit_time));
+                                       *description.loading.rate_tolerance, test.state.rate.rate,
+                                       test.setup.rate_rule.transit_time));
     } else {
         notice_fast_loading(test);
     }

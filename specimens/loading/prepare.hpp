@@ -11,7 +11,7 @@
 
 namespace crackle {
 
-/// @throws InputError for everything that makes the case impossible; TestInterrupted.
+/// @throws InputError foreverything that makes the case impossible; TestInterrupted.
 VirtualTest bond_test(const TestCase& description, const TestHooks& hooks = {});
 
 /// @throws as bond_test()

@@ -89,7 +89,8 @@ Scene packed_scene(const TestCase& test, const TestHooks& hooks, Specimen& speci
                         {"anisotropy", report.anisotropy},
                         {"unbalanced", report.residual},
                         {"radius_scale", report.radius_scale}};
-    hooks.report_stage(fmt::format("packed {} circles into {:.4g} m x {:.4g} m: void ratio {:.4g}, mean overlap {:.4g} m, seed {}",
+    hooks.report_stage(
+        fmt::format("packed {} circles into {:.4g} m x {:.4g} m: void ratio {:.4g}, mean overlap {:.4g} m, seed {}",
                     packing.report.circles, packing.report.width, packing.report.height, packing.report.void_ratio,
                     packing.report.mean_overlap, keys.seed));
     return std::move(packing.scene);
@@ -104,7 +105,7 @@ Scene read_particles(const TestCase& test, const TestHooks& hooks) {
 }
 
 /// A test starts from bodies at rest in a world without gravity, whatever the file was made for.
-void quieten(Scene& scene, std::vector<std::string>& notices) {
+void bring_to_rest(Scene& scene, std::vector<std::string>& notices) {
     if (scene.gravity.x != 0.0 || scene.gravity.y != 0.0) {
         notices.push_back("the particle file's gravity is left out: tests run without");
     }
@@ -237,7 +238,7 @@ void mesh_specimen(Specimen& specimen, const TestCase& test, const TestHooks& ho
     specimen.seeds = static_cast<std::int64_t>(seeds.size());
     specimen.segments = mesh.report.segments;
     hooks.report_stage(fmt::format("meshed into {} {} cells with {} segments", mesh.report.cells, specimen.kind,
-                           mesh.report.segments));
+                                   mesh.report.segments));
 }
 
 void measure_polygons(Specimen& specimen, const TestCase& test) {
@@ -260,7 +261,7 @@ Specimen make_specimen(const TestCase& test, const TestHooks& hooks) {
     Specimen specimen;
     specimen.scene = test.has_table("packing") ? packed_scene(test, hooks, specimen) : read_particles(test, hooks);
     classify(specimen, test);
-    quieten(specimen.scene, specimen.notices);
+    bring_to_rest(specimen.scene, specimen.notices);
     measure_circles(specimen);
     if (test.has_table("mesh")) {
         if (specimen.polygons) {

@@ -64,7 +64,7 @@ class DiscAssembly {
     /// @param moved_square  m², what move() returned, if nothing has moved since; spares a pass over the discs.
     AssemblySums compute_forces(const DiscMotion* motion = nullptr, std::optional<double> moved_square = {});
 
-    /// Places the discs anew, in a box that has its new size already.
+    /// Places the discs again, in a box that has its new size already.
     /// @param place  places discs begin..end, a block at a time; called from several threads.
     /// @return square of the largest displacement since the list was built, m² (without what a strain of the box
     /// explains); infinite without a list.

@@ -19,7 +19,7 @@ namespace {
 
 constexpr int max_attempts = 12;
 // Where the count for a box is first looked for, from packings of 304 and 5,000 circles, radii 1 to 2: walls cost room
-// in proportion to their length. The packing drawn then tells what the sizes at hand really fill.
+// in proportion to their length. The packing drawn then shows what the sizes at hand really fill.
 constexpr double fill_without_walls = 0.849, fill_lost_beside_walls = 0.2;
 constexpr int size_samples = 20'000;
 

@@ -13,7 +13,7 @@
 // Box. Its shape is kept while the pressure acts; circles of nearly equal size then trade places until the stress is
 // isotropic (isotropy.hpp), so radii stay as drawn. With a count, that is all. With a width and a height, the count is
 // chosen so that one factor on all lengths, at most max_radius_scaling from 1 (report: radius_scale), meets the box
-// exactly. Packings that miss one of these are drawn anew, with the next stream of random numbers (report: attempts);
+// exactly. Packings that miss one of these are drawn again, with the next stream of random numbers (report: attempts);
 // the one that came nearest is taken, and its report says what it missed (isotropic, box_met). Where circles are all
 // alike there is nothing to trade: with a count the box may then leave its shape by max_aspect_error.
 //
@@ -98,7 +98,7 @@ using PackingCallback = std::function<void(const PackingProgress&)>;
 /// reachable range.
 Packing make_packing(const PackingRequest& request, const PackingCallback& progress = {});
 
-/// Measures a scene of single circles between four walls anew, from nothing but the scene.
+/// Measures a scene of single circles between four walls again, from nothing but the scene.
 PackingReport measure_packing(const Scene& scene, const SizeDistribution& sizes);
 
 /// What the packing misses of what was asked, in words; nothing where all was met.

@@ -35,7 +35,7 @@ bool positive(double value) { return value > 0.0 && std::isfinite(value); }
 
 double normal_share_below(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
 
-/// Inverse of normal_share_below; ±infinity has no circle, so the ends stay where doubles still tell shares apart.
+/// Inverse of normal_share_below; ±infinity has no circle, so the ends stay where doubles still distinguish shares.
 double normal_quantile(double probability) {
     const double share = std::clamp(probability, std::numeric_limits<double>::min(), 1.0 - 0x1p-53);
     return -std::sqrt(2.0) * boost::math::erfc_inv(2.0 * share);

@@ -12,7 +12,7 @@
 namespace crackle {
 
 Vec2 centroid(const std::vector<Vec2>& corners, bool open) {
-    const Vec2 origin = corners.front();  // sums about a corner: a small cell far from nought keeps its digits
+    const Vec2 origin = corners.front();  // sums about a corner: a small cell far from the origin keeps its digits
     Vec2 by_area, by_length;
     double twice_area = 0.0, length = 0.0;
     for (std::size_t k = 0; k + 1 < corners.size() + (open ? 0 : 1); ++k) {

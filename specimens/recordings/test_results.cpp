@@ -40,8 +40,9 @@ void require_columns(const std::filesystem::path& file, const NumberTable& table
                      const std::vector<const char*>& names) {
     for (const char* name : names) {
         if (!table.find(name))
-            throw InputError(fmt::format(
-                "{}:1: found no column '{}'; write the results anew with `crackle test --force`", file.string(), name));
+            throw InputError(
+                fmt::format("{}:1: found no column '{}'; write the results again with `crackle test --force`",
+                            file.string(), name));
     }
 }
 
@@ -65,7 +66,7 @@ nlohmann::ordered_json read_summary(const std::filesystem::path& file) {
         summary = nlohmann::ordered_json::parse(read_text(file));
     } catch (const nlohmann::json::parse_error& error) {
         throw InputError(
-            fmt::format("{}: found broken JSON at byte {}; write the results anew with `crackle test --force`",
+            fmt::format("{}: found broken JSON at byte {}; write the results again with `crackle test --force`",
                         file.string(), error.byte));
     }
     const auto expect = [&](const char* key, bool right, const char* expected) {

@@ -42,7 +42,7 @@ constexpr auto result_names = [] {
 constexpr const char* report_name =
     "report.html";  // made of the results by another command; stale once they are replaced
 constexpr const char* temporary_suffix = ".tmp";
-constexpr const char* staged_mark = "replaces-older-results";  // in OUT.new: a forced test's own, to be begun anew
+constexpr const char* staged_mark = "replaces-older-results";  // in OUT.new: a forced test's own, to be begun again
 constexpr const char* staging_suffix = ".new";
 // First line of the mark once the results are complete and take the old ones' place; names of their frames follow.
 constexpr const char* moving_line = "complete, being moved";
@@ -176,7 +176,7 @@ void refuse_inputs_among_results(const fs::path& target, std::span<const fs::pat
 
 fs::path without_trailing_slash(const fs::path& path) { return path.has_filename() ? path : path.parent_path(); }
 
-/// Making a file tells more than permission bits: full discs and read-only mounts show, too.
+/// Making a file shows more than permission bits do: full discs and read-only mounts show, too.
 void probe(const fs::path& folder) {
     const fs::path file = folder / "probe.tmp";
     errno = 0;

@@ -86,7 +86,7 @@ class OutputFolder {
 /// A text file that grows; knows its length, so that a checkpoint can say where to go on.
 class GrowingFile {
   public:
-    /// Keeps the first `bytes` bytes and goes on behind them; 0 starts afresh.
+    /// Keeps the first `bytes` bytes and goes on behind them; 0 starts again.
     /// @throws InputError if the file is shorter or cannot be written.
     GrowingFile(std::filesystem::path path, std::uint64_t bytes);
     void write(const std::string& text);

@@ -19,7 +19,7 @@ namespace {
 constexpr double circle_thick_share = 0.1;  // of the mean radius
 
 /// The case's step, known to be stable only now that there are bonds.
-void take_given_step(World& world, const TestCase& test) {
+void apply_given_step(World& world, const TestCase& test) {
     if (!test.numerics.time_step) return;
     try {
         set_time_step(world, *test.numerics.time_step);
@@ -49,9 +49,9 @@ BondedSpecimen bond_specimen(const Specimen& specimen, const TestCase& test, con
     bonded.platens = add_platens(scene, specimen, loading, scene.thick);
     const double thick = scene.thick;
     bonded.world = build_world(std::move(scene));
-    forget_point_forces(bonded.world);  // platens tell the stress, the curve's rows the springs
+    forget_point_forces(bonded.world);  // platens give the stress, the curve's rows the energy of springs
     bond_all(bonded.world, thick);
-    take_given_step(bonded.world, test);
+    apply_given_step(bonded.world, test);
     place_platens(bonded.world, bonded.platens);
     compute_forces(bonded.world);
     return bonded;

@@ -20,19 +20,20 @@ double largest_rate(const RateRule& rule) { return std::sqrt(rule.tolerance) * r
 void choose_rate(RateState& state, const RateRule& rule, double kinetic, double stored, double time) {
     const double loading = state.rate * state.rate * rule.kinetic_per_rate;
     const double share = std::max(0.0, kinetic - loading) / std::max(stored, rule.energy_floor);
-    state.kinetic_share += (share - state.kinetic_share) / looks_per_transit;
+    state.kinetic_share += (share - state.kinetic_share) / checks_per_transit;
     const double error = std::max(std::abs(state.out_of_balance), state.kinetic_share);
-    const double steps = rule.transit_time / looks_per_transit;
+    const double steps = rule.transit_time / checks_per_transit;
     const double push = -std::log(std::max(error / rule.tolerance, least_error_share));
     const double root = std::sqrt(rule.tolerance);
-    const double change = std::clamp(gain * root * push, -fastest_fall * root, fastest_rise * root) / looks_per_transit;
+    const double change =
+        std::clamp(gain * root * push, -fastest_fall * root, fastest_rise * root) / checks_per_transit;
     const double limit = largest_rate(rule);
     const double before = state.rate;
     state.rate = std::clamp(before * std::exp(change), slowest_share * limit, limit);
     state.slowest = std::min(state.slowest, state.rate);
     state.fastest = std::max(state.fastest, state.rate);
     if (error > rule.tolerance) state.strain_above += before * steps;
-    state.next_look = time + steps;
+    state.next_check = time + steps;
 }
 
 }  // namespace crackle

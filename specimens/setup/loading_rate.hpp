@@ -42,7 +42,7 @@ struct RateState {
     double out_of_balance = 0.0;          ///< smoothed, signed
     double largest_stress = 0.0;          // N/m, so far, whatever its sign
     double kinetic_share = 0.0;           ///< smoothed
-    double next_look = 0.0;               // s
+    double next_check = 0.0;              // s
     double slowest = 0.0, fastest = 0.0;  // 1/s
     double strain_above = 0.0;            ///< strain gone through while the error lay above the tolerance
 
@@ -52,15 +52,15 @@ struct RateState {
         visit("out_of_balance", s.out_of_balance);
         visit("largest_stress", s.largest_stress);
         visit("kinetic_share", s.kinetic_share);
-        visit("next_look", s.next_look);
+        visit("next_check", s.next_check);
         visit("slowest", s.slowest);
         visit("fastest", s.fastest);
         visit("strain_above", s.strain_above);
     }
 };
 
-/// Looks a transit: the rate changes little from one to the next, so that changing it sends no shock.
-inline constexpr double looks_per_transit = 20.0;
+/// Checks per transit: the rate changes little from one to the next, so that changing it sends no shock.
+inline constexpr double checks_per_transit = 20.0;
 
 /// The rate to begin with, never exceeded.
 double largest_rate(const RateRule& rule);

@@ -55,7 +55,7 @@ World bonded_hexagons() {
     return world;
 }
 
-/// Discs without bonds or dashpots that fly apart and meet: lists are built anew as they go.
+/// Discs without bonds or dashpots that fly apart and meet: lists are built again as they go.
 World loose_discs() {
     Scene scene = triangular_lattice(18, 18, 0.02, -1e-3, rock(0.0));
     stir(scene, 1.0);

@@ -55,7 +55,7 @@ def printed(*words):
 
 
 def help_of(words):
-    """What tells the options of a command line's program, and the words that are left of it."""
+    """What distinguishes the options of a command line's program, and the words that are left of it."""
     name = words[0]
     if name == "crackle":
         commands = words[1:3] if words[1] == "bench" else words[1:2]

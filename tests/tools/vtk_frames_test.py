@@ -203,8 +203,8 @@ class VtkFrames(unittest.TestCase):
 
     @staticmethod
     def ours(mode, *paths):
-        told = subprocess.run([os.environ["FRAME_ARRAYS"], mode, *paths], check=True, capture_output=True, text=True)
-        return json.loads(told.stdout)
+        arrays = subprocess.run([os.environ["FRAME_ARRAYS"], mode, *paths], check=True, capture_output=True, text=True)
+        return json.loads(arrays.stdout)
 
     def files(self, name):
         """Of the collection, in its order: (time, part, path)."""

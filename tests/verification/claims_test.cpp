@@ -99,7 +99,7 @@ TEST(Claims, StandOnTheShippedPage) {
     const std::string page{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
     for (const Claim& claim : claims())
         EXPECT_NE(page.find("\n### " + claim.name + "\n"), std::string::npos)
-            << claim.name << ": make the page anew, crackle bench verify -o tests/benchmarks/results/verification.md";
+            << claim.name << ": make the page again, crackle bench verify -o tests/benchmarks/results/verification.md";
     const auto sections = [&] {
         std::size_t count = 0;
         for (std::size_t at = page.find("\n### "); at != std::string::npos; at = page.find("\n### ", at + 1)) ++count;

@@ -75,7 +75,7 @@ INSTANTIATE_TEST_SUITE_P(GuideExamples, ConservesEnergy,
                                            std::pair{"controlled_segment_displacement", 0.01}),
                          [](const auto& deck) { return std::string(deck.param.first); });
 
-// The circle falls from 5 onto a floor that it touches at height 2 and comes back to 5 for ever (e = 1).
+// The circle falls from 5 onto a floor that it touches at height 2 and comes back to 5 forever (e = 1).
 TEST(GuideCircle, BouncesBackToItsHeightForEver) {
     const ScratchFolder scratch;
     DeckOptions options = options_for("circle", scratch);

@@ -42,7 +42,7 @@ struct CommandLine {
     bool several_operands = false;
     Arguments operand_words = {};  ///< understood; empty: files
     std::vector<Choices> choices = {};
-    std::string verbose = {};  ///< what -v tells beside the usual
+    std::string verbose = {};  ///< what -v reports beside the usual
     std::vector<Example> examples = {};
     Arguments notes = {};                        ///< paragraphs that follow the examples
     Arguments (*prepared)(Arguments) = nullptr;  ///< the words as the parser takes them; absent: as they are

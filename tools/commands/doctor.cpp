@@ -97,7 +97,7 @@ int doctor(const Invocation& given) {
     for (const build_info::Library& library : build_info::libraries) {
         line("library", fmt::format("{} {}: {}", library.name, library.version, library.serves));
     }
-    // Those whose version CMake is not told.
+    // Those whose version CMake does not know.
     line("library", fmt::format("Spectra {}.{}.{}: vibration modes", SPECTRA_MAJOR_VERSION, SPECTRA_MINOR_VERSION,
                                 SPECTRA_PATCH_VERSION));
     line("library",

@@ -78,7 +78,7 @@ std::string text_of(const TestResults& results, const char* key) {
     return found != results.summary.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
-/// «Circles, tension» where that tells the tests apart, else their folders.
+/// «Circles, tension» where that distinguishes the tests, else their folders.
 Words default_labels(const std::vector<Recording>& tests) {
     Words labels;
     for (const Recording& test : tests)

@@ -31,7 +31,7 @@ DeckOptions deck_options(const Invocation& given) {
     return options;
 }
 
-/// What -v tells of a run that has ended.
+/// What -v reports of a run that has ended.
 void tell_details(Talk& talk, const World& world) {
     talk.detail(fmt::format("{} contact points, {} of them bonded; {} threads", world.points.size(),
                             world.bonds.initial - world.bonds.broken, world.workers.threads));

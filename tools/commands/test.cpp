@@ -73,7 +73,7 @@ TestHooks hooks_for(Talk& talk) {
     return hooks;
 }
 
-/// What -v tells of a test that has ended.
+/// What -v reports of a test that has ended.
 void tell_details(Talk& talk, const TestOutcome& outcome) {
     if (!talk.verbose()) return;
     const auto& s = outcome.summary;

@@ -29,7 +29,7 @@ struct PageData {
 };
 
 /// Reads all frames of the recording, one block after the other.
-/// @param packed_frames  told how many frames are packed, now and then; may be empty
+/// @param packed_frames  called with how many frames are packed, now and then; may be empty
 /// @throws InputError where a frame cannot be read or holds what is no finite number
 PageData pack_recording(const Recording& recording, const std::function<void(std::size_t)>& packed_frames = {});
 

@@ -33,7 +33,7 @@ std::string filled_page(std::string_view page, const PageHead& head, const std::
 void write_page(const std::filesystem::path& output, const PageHead& head, const std::vector<Recording>& recordings,
                 Talk& talk);
 
-/// What -v tells of a recording.
+/// What -v reports of a recording.
 void tell_recording(Talk& talk, const Recording& recording);
 
 }  // namespace crackle::tools

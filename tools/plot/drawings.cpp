@@ -54,7 +54,7 @@ struct Motion {
 };
 
 /// The place of the first frame whose two moved places have this mean: both motions are linear, and so is their mean.
-/// @return nothing where the bodies have turned so far against each other that the mean does not tell
+/// @return nothing where the bodies have turned so far against each other that their mean means nothing
 std::optional<Vec2> held_place(const Motion& a, const Motion& b, Vec2 mean) {
     constexpr double least = 0.05;  // of the length of a mean arm: points in frames are in single precision
     const double cosine = 0.5 * (a.cosine + b.cosine), sine = 0.5 * (a.sine + b.sine);

@@ -34,7 +34,7 @@ class ProgressLine {
     bool shown() const { return shown_; }
 
     /// Begins work of `all` pieces; `what` is drawn at once, for the first piece may take long.
-    /// @param unit of the rate, plural; empty: pieces are unlike, and neither rate nor time left can be told
+    /// @param unit of the rate, plural; empty: pieces are unlike, and neither rate nor time left can be estimated
     void begin(const std::string& what, double all, const char* unit);
     /// So many pieces are done: rate and time left by the pace since begin(). Drawn at most five times a second.
     void count(double done, const std::string& detail = {});

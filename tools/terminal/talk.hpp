@@ -23,7 +23,7 @@ class Talk {
     /// One line a stage that is done; not with -q. With -v it begins with the seconds since the command began, and
     /// since the line before.
     void stage(const std::string& text);
-    /// What only -v tells, likewise.
+    /// What only -v reports, likewise.
     void detail(const std::string& text);
     /// What the user should know, one sentence; not with -q.
     void notice(const std::string& text);

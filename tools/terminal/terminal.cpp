@@ -34,8 +34,8 @@ bool is_terminal(Stream stream) {
 
 std::size_t terminal_columns() {
     winsize size{};
-    const bool told = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
-    return told ? size.ws_col : 80;
+    const bool known = ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0;
+    return known ? size.ws_col : 80;
 }
 
 std::string styled(const std::string& text, Style style, Stream stream) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// in_gm.dat: what the guide's examples read as, that writing loses no bit, and what bad decks are told.
+// in_gm.dat: what the guide's examples read as, that writing loses no bit, and what bad decks are answered.
 
 #include "solver/demseg/geometry.hpp"
 

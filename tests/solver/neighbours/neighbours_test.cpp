@@ -305,7 +305,7 @@ TEST(NeighbourList, RebuildKeepsSpringsBondsAndFlags) {
         for (PointIndex k = 0; k < w.points.size(); ++k) {
             const ContactPoint& p = w.points.contact[k];
             const auto flags =
-                static_cast<std::uint16_t>(w.points.state[k].flags & ~point_counted);  // a rebuild counts anew
+                static_cast<std::uint16_t>(w.points.state[k].flags & ~point_counted);  // a rebuild counts again
             if (w.points.shear_force[k] == 0.0 && flags == 0) continue;
             result[{w.bodies.info[p.body_i].id, w.bodies.info[p.body_j].id}] = {w.points.shear_force[k],
                                                                                 w.points.bond_overlap[k], flags};

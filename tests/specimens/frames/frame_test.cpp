@@ -38,7 +38,7 @@ using testing::write_small_case;
 
 class Frames : public ::testing::Test {
   protected:
-    /// Loaded until it has failed: turned bodies, broken bonds, a list built anew.
+    /// Loaded until it has failed: turned bodies, broken bonds, a list built again.
     VirtualTest broken_test(const std::string& mesh, const std::string& law = "rounded") const {
         SmallCase wanted;
         wanted.mesh = mesh;

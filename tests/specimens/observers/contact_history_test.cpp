@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What frames tell of the past of their contacts, and where they draw the cracks.
+// What frames record of the past of their contacts, and where they draw the cracks.
 
 #include "specimens/observers/contact_history.hpp"
 

@@ -191,7 +191,7 @@ TEST_F(TestFolder, ResumedEndsWithTheBytesOfAnUninterruptedTest) {
     }
 }
 
-/// Since when a contact without a bond has touched, no file tells but the checkpoint.
+/// Since when a contact without a bond has touched, is recorded in the checkpoint alone.
 TEST_F(TestFolder, ResumedKnowsHowOldItsContactsAre) {
     SmallCase wanted;
     wanted.kind = "compression";

@@ -296,10 +296,10 @@ TEST_F(CommandLines, ProgressOfEveryLongCommandIsShown) {
 }
 
 TEST_F(CommandLines, DoctorSaysWhatIsThereAndWhatIsMissing) {
-    const std::string told = call("doctor").out;
+    const std::string report = call("doctor").out;
     for (const char* part : {"lanes", "instructions", "threads", "CGAL ", "Eigen ", "Spectra ", "cereal ", "xxHash ",
                              "ISA-L ", "OpenSSL ", "report page", "gnuplot", "missing"})
-        EXPECT_NE(told.find(part), std::string::npos) << part << '\n' << told;
+        EXPECT_NE(report.find(part), std::string::npos) << part << '\n' << report;
     const std::string without = shell("PATH=/nowhere '" + std::string(CRACKLE_PROGRAM) + "' doctor").out;
     EXPECT_NE(without.find("missing       gnuplot: apt-get install gnuplot-nox"), std::string::npos) << without;
     EXPECT_NE(call("doctor -v").out.find("flags"), std::string::npos);

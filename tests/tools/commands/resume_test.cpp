@@ -108,7 +108,7 @@ class Resume : public testing::ProgramCall, public ::testing::WithParamInterface
             << resumed.err;
         const Answer again = call_in("cut", "case.toml -o out -q");
         EXPECT_EQ(again.code, 0) << again.err;
-        return "begun anew";
+        return "begun again";
     }
 
     void expect_the_whole(const std::string& what) const {
@@ -231,8 +231,8 @@ TEST_P(Resume, OfAForcedTestKeepsTheEarlierResultsUntilTheNewOnesHaveTakenTheirP
     const auto forced = contents(folder_ / "forced/out");
 
     const auto identity = [](const fs::path& file) {
-        struct stat told {};
-        return stat(file.c_str(), &told) == 0 ? told.st_ino : 0;
+        struct stat found {};
+        return stat(file.c_str(), &found) == 0 ? found.st_ino : 0;
     };
     for (const char* stage : {"out.new/checkpoint", "out.new/summary.json", "out/case.toml", "out/curve.csv",
                               "out/frames/particles_00000.vtp", "out/checkpoint"}) {

@@ -234,7 +234,7 @@ TEST_F(CrackleTest, VerifyOfAFinishedTestAddsTheErrorsAndTouchesNothingElse) {
         EXPECT_EQ(after[key], before[key]) << key;
     EXPECT_NE(call("--resume out --verify").out.find("nothing is left to do"), std::string::npos);
     fs::remove(folder_ / "out/summary.json");
-    EXPECT_EQ(call("--resume out -q").code, 0) << "a lost summary is written anew";
+    EXPECT_EQ(call("--resume out -q").code, 0) << "a lost summary is written again";
     EXPECT_EQ(read_json(folder_ / "out/summary.json")["peak_stress"], before["peak_stress"]);
 }
 

@@ -64,7 +64,7 @@ void expect_as_finely_as_told(const std::string& what, const std::vector<double>
     EXPECT_LE(worst, 1.0) << what;
 }
 
-/// Largest quantum of the blocks in which the array is not all nought.
+/// Largest quantum of the blocks in which the array is not all zero.
 double quantum_of(const PageContents& shown, const std::string& name) {
     double most = 0.0;
     for (std::size_t g = 0; g < shown.test()["groups"].size(); ++g) {

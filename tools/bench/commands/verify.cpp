@@ -45,7 +45,7 @@ void check_writable(const fs::path& page) {
 }
 
 /// One line a claim, and each row that fails: those even with -q, for they are what was asked.
-void tell(Talk& talk, const CheckedClaim& checked) {
+void report(Talk& talk, const CheckedClaim& checked) {
     const bool fails = checked.fails();
     talk.stage(fmt::format("{:<50} {}", checked.claim.name,
                            !checked.claim.offered ? "not offered"
@@ -108,7 +108,7 @@ int bench_verify(const Invocation& invocation) {
         talk.progress().step(static_cast<double>(checked.size()), claim.name);
         checked.push_back({claim, verification::check_claim(claim)});
         fails = fails || checked.back().fails();
-        tell(talk, checked.back());
+        report(talk, checked.back());
     }
     std::string command = "crackle bench verify";
     if (!page.empty()) command += " -o " + page.filename().string();

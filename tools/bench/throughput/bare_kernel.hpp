@@ -28,7 +28,7 @@ class BareKernel {
     std::size_t bodies() const { return bodies_.size(); }
     std::size_t points() const { return points_.size(); }
 
-    /// A point with its two bodies of the world and the force on i, as World::point_forces has it.
+    /// A point with its two bodies of the world and the force on i, as Points::force has it.
     struct Contact {
         BodyIndex i, j;
         PointForce force;

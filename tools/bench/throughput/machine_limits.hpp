@@ -11,7 +11,7 @@ namespace crackle::throughput {
 /// least `seconds` together.
 double triad_bandwidth(std::size_t bytes, double seconds);
 
-/// Largest resident set since reset_peak_memory(), bytes; 0 where the system does not tell.
+/// Largest resident set since reset_peak_memory(), bytes; 0 where the system does not report it.
 std::size_t peak_memory();
 /// Gives freed memory back first. Needs Linux's /proc.
 void reset_peak_memory();

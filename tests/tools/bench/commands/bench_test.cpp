@@ -198,7 +198,7 @@ TEST_F(BenchCommand, QuickEnsembleOfTheGuideHasItsElasticRowsAndGoesOnFromItsCac
           "\n1,shipped,rounded,circles.elastic.youngs_modulus,N/m,"})
         EXPECT_NE(csv.find(part), std::string::npos) << part;
 
-    // Run times are measured anew where a test is run anew: equal bytes come from the cache alone.
+    // Run times are measured again where a test is run again: equal bytes come from the cache alone.
     ASSERT_EQ(call(words + "guide --jobs 1").code, 0);
     EXPECT_EQ(read("guide/guide.csv"), csv);
     std::filesystem::remove(folder_ / "guide/cache/shipped_demseg_voronoi_elastic_2.json");

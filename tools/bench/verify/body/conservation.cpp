@@ -85,7 +85,7 @@ double force_after_turn(Kind kind, int steps, std::int64_t& broken) {
             }
         }
         world.stepping.drift = dt;
-        world.list.valid = n % 16 != 0;  // the list is found anew along the way
+        world.list.valid = n % 16 != 0;  // the list is found again along the way
         world.stepping.forces_current = false;
         compute_forces(world);
         for (PointIndex k = 0; k < world.points.size(); ++k) {

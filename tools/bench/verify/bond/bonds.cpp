@@ -90,7 +90,7 @@ std::vector<ClaimRow> bond_of_vanishing_strength_equals_no_bond() {
     return rows.take();
 }
 
-/// What tells bonds and breaks apart by their bodies: an interface of polygons holds several.
+/// What distinguishes bonds and breaks of the same bodies: an interface of polygons holds several.
 using Pair = std::pair<int, int>;
 std::vector<Pair> bonded_pairs(const World& world) {
     std::vector<Pair> pairs;
@@ -186,7 +186,7 @@ std::vector<Claim> bond_claims() {
          .check = bond_of_vanishing_strength_equals_no_bond},
         {.name = "break_list_is_the_difference_of_bond_sets",
          .group = group,
-         .statement = "one event for every bond that is gone, and for no other",
+         .statement = "one event forevery bond that is gone, and for no other",
          .check = break_list_is_the_difference_of_bond_sets},
         {.name = "splitting_a_run_loses_no_break",
          .group = group,

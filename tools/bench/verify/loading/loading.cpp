@@ -9,8 +9,8 @@
 
 #include "solver/measure/ledger.hpp"
 #include "solver/stepping/step.hpp"
-#include "specimens/loading/prepare.hpp"
 #include "specimens/loading/load_specimen.hpp"
+#include "specimens/loading/prepare.hpp"
 #include "specimens/loading/virtual_test.hpp"
 #include "tools/bench/verify/groups.hpp"
 #include "tools/bench/verify/rows.hpp"
@@ -140,7 +140,7 @@ struct RateStudy {
 RateStudy study_rate(const char* kind, double rate, int packings) {
     RateStudy study;
     for (int seed = 1; seed <= packings; ++seed) {
-        // Beyond 0.6 % a squeezed specimen may be a pile of pieces that hardens anew.
+        // Beyond 0.6 % a squeezed specimen may be a pile of pieces that hardens again.
         const VirtualTest test = loaded_to_failure(seed, kind, rate, 0.8, 0.006);
         const Imbalance imbalance = imbalance_of(test);
         study.worst.before_breaks = std::max(study.worst.before_breaks, imbalance.before_breaks);
