@@ -14,7 +14,7 @@
 #include "solver/world/world.hpp"
 #include "specimens/making/disordered.hpp"
 #include "tests/support/claim.hpp"
-#include "tests/support/measures.hpp"
+#include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle::testing {
 

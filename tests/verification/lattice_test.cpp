@@ -9,7 +9,7 @@
 #include "solver/stepping/build_world.hpp"
 #include "specimens/making/lattices.hpp"
 #include "tests/support/claim.hpp"
-#include "tests/support/measures.hpp"
+#include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle {
 namespace {
@@ -18,7 +18,7 @@ constexpr double radius = 0.02, overlap = 8e-5, kn = 1e7;
 
 TEST(TriangularLattice, BoundOfTheStepComesFromDoubledBlocks) {
     for (const double share : {0.0, 0.25, 0.5, 1.0}) {
-        World world = build_world(triangular_lattice(14, 15, radius, overlap, testing::rock(45.0, share)));
+        World world = build_world(triangular_lattice(14, 15, radius, overlap, verification::rock(45.0, share)));
         bond_all(world, 0.0);
         // Doubled blocks of a disc with six neighbours: 6(k_n + k_s) for its shift, 24 k_s for its turn.
         const double ks = share * kn, lever = 1.0 - overlap / (2.0 * radius);

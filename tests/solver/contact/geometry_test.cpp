@@ -13,14 +13,14 @@
 #include "solver/stepping/build_world.hpp"
 #include "solver/stepping/step.hpp"
 #include "tests/support/claim.hpp"
-#include "tests/support/measures.hpp"
 #include "tests/support/plain_distance.hpp"
+#include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle {
 namespace {
 
 using testing::distance_to_outline;
-using testing::rock;
+using verification::rock;
 
 /// Corners on an ellipse at random angles: convex, with short edges and sharp corners among them.
 std::vector<Vec2> random_convex(std::mt19937_64& generator) {
@@ -159,7 +159,7 @@ double gradient_error(Scene scene, int samples) {
         World world = start;
         world.bodies.state[0].x += uniform_number(generator, -3.0, 3.0);
         world.bodies.state[0].y += uniform_number(generator, -3.0, 3.0);
-        testing::turn_body(world, 0, uniform_number(generator, -3.0, 3.0));
+        verification::turn_body(world, 0, uniform_number(generator, -3.0, 3.0));
         const auto energy = [](World w) {
             w.list.valid = false;
             w.stepping.forces_current = false;
@@ -182,7 +182,7 @@ double gradient_error(Scene scene, int samples) {
             World plus = world, minus = world;
             if (d == 0) plus.bodies.state[0].x += h, minus.bodies.state[0].x -= h;
             if (d == 1) plus.bodies.state[0].y += h, minus.bodies.state[0].y -= h;
-            if (d == 2) testing::turn_body(plus, 0, h), testing::turn_body(minus, 0, -h);
+            if (d == 2) verification::turn_body(plus, 0, h), verification::turn_body(minus, 0, -h);
             const double slope = (energy(plus) - energy(minus)) / (2.0 * h);
             const double force = d == 0   ? world.bodies.force[0].fx
                                  : d == 1 ? world.bodies.force[0].fy

@@ -12,14 +12,14 @@
 #include "solver/stepping/step.hpp"
 #include "solver/world/world.hpp"
 #include "tests/support/claim.hpp"
-#include "tests/support/measures.hpp"
+#include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle {
 namespace {
 
 using testing::agrees;
-using testing::rock;
 using testing::within;
+using verification::rock;
 
 // Disc of radius 5 with its centre 3 above or below the line: l = 4. Segment of length 20: h_s = 10.
 constexpr double radius = 5.0, height = 3.0;
@@ -226,7 +226,7 @@ TEST(SegmentPairs, GradientOfTheOverlapIsThatOfDifferences) {
             World world = start;
             for (std::size_t b = 0; b < 3; ++b) {
                 world.bodies.state[b].x += uniform(-1.5, 1.5), world.bodies.state[b].y += uniform(-1.5, 1.5);
-                testing::turn_body(world, b, uniform(-3.0, 3.0));
+                verification::turn_body(world, b, uniform(-3.0, 3.0));
             }
             world.list.valid = false;
             compute_forces(world);
@@ -238,7 +238,7 @@ TEST(SegmentPairs, GradientOfTheOverlapIsThatOfDifferences) {
                         World w = world;
                         if (dof == 0) w.bodies.state[b].x += by;
                         if (dof == 1) w.bodies.state[b].y += by;
-                        if (dof == 2) testing::turn_body(w, b, by);
+                        if (dof == 2) verification::turn_body(w, b, by);
                         return view_point(w, p).overlap;
                     };
                     return (moved(h) - moved(-h)) / (2.0 * h);

@@ -13,12 +13,12 @@
 #include "specimens/making/disordered.hpp"
 #include "specimens/making/lattices.hpp"
 #include "tests/support/claim.hpp"
-#include "tests/support/measures.hpp"
+#include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle {
 namespace {
 
-using testing::rock;
+using verification::rock;
 
 /// The bound over the exact limit of the points that touch now; at most 1.
 double share_of_exact(World& world) {
@@ -37,7 +37,7 @@ TEST(StepBound, StaysBelowTheExactLimitWhileBondsBreakAndContactsCome) {
         Scene scene = polygons ? shaken_cells(cells, material) : disordered_discs(discs, material);
         World world = build_world(std::move(scene));
         bond_all(world, polygons ? 1.5 * world.settings.thick : 0.0);
-        testing::shake(world, 1.0 * testing::breaking_energy(world), 3);
+        verification::shake(world, 1.0 * verification::breaking_energy(world), 3);
         double largest = 0.0, smallest = 1.0;
         for (int look = 0; look < 60; ++look) {
             const double share = share_of_exact(world);

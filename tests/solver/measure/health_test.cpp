@@ -19,12 +19,12 @@
 #include "solver/world/world.hpp"
 #include "specimens/making/disordered.hpp"
 #include "tests/support/claim.hpp"
-#include "tests/support/measures.hpp"
+#include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle {
 namespace {
 
-using testing::rock;
+using verification::rock;
 
 Scene heap() {
     DisorderedDiscs request;
@@ -56,7 +56,7 @@ std::string verdict(World& world, int id) {
 TEST(Health, OfASoundRunIsGood) {
     World world = build_world(heap());
     bond_all(world, 0.0);
-    testing::shake(world, 0.5 * testing::breaking_energy(world), 2);
+    verification::shake(world, 0.5 * verification::breaking_energy(world), 2);
     for (int n = 0; n < 2000; ++n) {
         compute_forces(world);
         EXPECT_NO_THROW(check_health(world));
@@ -161,7 +161,7 @@ TEST(Health, RunawayEnergyStopsTheRun) {
     world.stepping.time_step =
         1.3 * world.stepping.step_bound;  // past what build_world would let through, and no point left to notice it
     for (PointState& point : world.points.state) point.flags |= point_counted;
-    testing::shake(world, 1e-4 * testing::breaking_energy(world), 2);
+    verification::shake(world, 1e-4 * verification::breaking_energy(world), 2);
     std::string cause;
     for (int n = 0; n < 2000 && cause.empty(); ++n) {
         try {

@@ -16,14 +16,14 @@
 #include "solver/world/world.hpp"
 #include "specimens/making/disordered.hpp"
 #include "tests/support/claim.hpp"
-#include "tests/support/measures.hpp"
 #include "tests/support/plain_distance.hpp"
+#include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle {
 namespace {
 
 using testing::distance_to_outline;
-using testing::rock;
+using verification::rock;
 
 /// (element's body id, element within the body, partner's id, partner's circle or -1); walls have ids -1 … -4.
 using Touch = std::tuple<int, std::uint32_t, int, std::int64_t>;
@@ -249,7 +249,8 @@ SkinTrace trace_of_skin(Scene scene, double thick, double share) {
     fmt::print("  at rest: skin {:.3g} of {:.3g} m, {} points of {}\n", narrowest, widest, fewest, stays.points.size());
     EXPECT_LT(narrowest, 0.02 * widest);
     const std::size_t spared = stays.points.size() - fewest;
-    for (World* world : {&follows, &stays}) testing::shake(*world, share * testing::breaking_energy(*world), 5);
+    for (World* world : {&follows, &stays})
+        verification::shake(*world, share * verification::breaking_energy(*world), 5);
     run(1500);
     EXPECT_GT(follows.bonds.broken, 50);
     EXPECT_GT(widest_again, 0.2 * widest);
@@ -293,7 +294,7 @@ TEST(NeighbourList, RebuildKeepsSpringsBondsAndFlags) {
     Material material = rock(10.0);
     World world = build_world(disordered_discs(request, material));
     bond_all(world, 0.0);
-    testing::shake(world, 0.3 * testing::breaking_energy(world), 5);
+    verification::shake(world, 0.3 * verification::breaking_energy(world), 5);
     for (int n = 0; n < 200; ++n) step(world);
     World again = world;
     again.list.valid = false;

@@ -13,7 +13,7 @@
 #include "solver/stepping/step.hpp"
 #include "specimens/making/disordered.hpp"
 #include "tests/support/claim.hpp"
-#include "tests/support/measures.hpp"
+#include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace {
 std::atomic<std::int64_t> requests{0};
@@ -46,7 +46,7 @@ void* aligned_alloc(std::size_t alignment, std::size_t size) {
 namespace crackle {
 namespace {
 
-using testing::rock;
+using verification::rock;
 
 Material damped_rock() {
     Material material = rock();
@@ -81,7 +81,7 @@ TEST(Step, AllocatesNothingInTenThousandStepsOfDiscs) {
     for (const int threads : {1, 2}) {
         World world = build_world(scene);
         bond_all(world, 0.0);
-        testing::shake(world, 1.0 * testing::breaking_energy(world), 3);
+        verification::shake(world, 1.0 * verification::breaking_energy(world), 3);
         set_threads(world, threads);
         EXPECT_EQ(requests_in(world, 10000), 0) << threads << " threads";
         fmt::print("  discs, {} threads: no request in 10000 steps, {} bonds broken meanwhile\n", threads,
@@ -100,7 +100,7 @@ TEST(Step, AllocatesNothingUnderTheConsistentIntegrator) {
     scene.integrator = Integrator::consistent;
     World world = build_world(scene);
     bond_all(world, 0.0);
-    testing::shake(world, 1.0 * testing::breaking_energy(world), 3);
+    verification::shake(world, 1.0 * verification::breaking_energy(world), 3);
     EXPECT_EQ(requests_in(world, 5000), 0);
     EXPECT_FALSE(world.points.opening.empty());
 }
@@ -114,7 +114,7 @@ TEST(Step, AllocatesNothingInTenThousandStepsOfPolygonsAndDrivenBodies) {
     scene.controls.push_back({5, {Drive::force, 10.0}, {}, {Drive::force, 0.01}, 0});
     World world = build_world(scene);
     bond_all(world, 1.08e-3);
-    testing::shake(world, 1e-4 * testing::breaking_energy(world), 3);
+    verification::shake(world, 1e-4 * verification::breaking_energy(world), 3);
     EXPECT_EQ(requests_in(world, 10000), 0);
 }
 

@@ -12,8 +12,8 @@
 #include "solver/stepping/step.hpp"
 #include "specimens/making/disordered.hpp"
 #include "tests/support/claim.hpp"
-#include "tests/support/measures.hpp"
 #include "tests/support/same_bytes.hpp"
+#include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle {
 namespace {
@@ -29,7 +29,7 @@ struct SweptScene {
 };
 
 Material lightly_damped_rock() {
-    Material material = testing::rock();
+    Material material = verification::rock();
     material.damping_ratio = 0.05;
     return material;
 }
@@ -57,7 +57,7 @@ Scene driven_cells() {
 World bonded_and_shaken(const SweptScene& swept_scene, int threads) {
     World world = build_world(swept_scene.scene);
     bond_all(world, swept_scene.thick);
-    testing::shake(world, swept_scene.share * testing::breaking_energy(world), 3);
+    verification::shake(world, swept_scene.share * verification::breaking_energy(world), 3);
     set_threads(world, threads);
     return world;
 }

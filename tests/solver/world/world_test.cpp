@@ -23,7 +23,7 @@
 #include "solver/world/state_hash.hpp"
 #include "specimens/making/lattices.hpp"
 #include "tests/solver/world/every_field.hpp"
-#include "tests/support/measures.hpp"
+#include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle {
 namespace {
@@ -76,7 +76,7 @@ TEST(WorldGroups, NamesOfFieldsAreTheirOwn) {
 
 /// Discs that touch, bonded, and a lone one far to their left; every array of points is remembered.
 World bonded_discs_and_a_lone_one() {
-    Scene scene = triangular_lattice(4, 3, 0.02, 1e-4, testing::rock());
+    Scene scene = triangular_lattice(4, 3, 0.02, 1e-4, verification::rock());
     scene.add_circle_body(100, 0, {{-1.0, 0.02}, 0.02});
     scene.segment_law = SegmentLaw::demseg;
     scene.integrator = Integrator::consistent;

@@ -17,8 +17,8 @@
 #include "specimens/making/lattices.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/deck_files.hpp"
-#include "tests/support/measures.hpp"
 #include "tests/support/small_rock.hpp"
+#include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle {
 namespace {
@@ -103,7 +103,7 @@ TEST_F(ElasticAnalysisOf, FirstBreakIsTheLeastOfAllBondsAndNoneBreaksBeforeItSli
 
 TEST(FreeMotions, AreCountedAndNamedAndDoNotSpoilTheSolution) {
     // A held chain of three discs, one hanging on its end by one contact, one floating, two floating together.
-    const Material material = testing::rock();
+    const Material material = verification::rock();
     Scene scene = disc_chain(4, 0.02, 0.0399, material);
     scene.add_circle_body(10, 0, {{0.5, 0.5}, 0.02, 0.0});
     scene.add_circle_body(11, 0, {{0.7, 0.5}, 0.02, 0.0});
@@ -126,7 +126,8 @@ TEST(FreeMotions, AreCountedAndNamedAndDoNotSpoilTheSolution) {
 
 TEST(VibrationModes, OfAHeldChainAreTheClosedForm) {
     constexpr int count = 17;
-    Scene scene = disc_chain(count, 0.02, 0.0399, testing::rock(45.0, 0.0));  // no shear: the discs move along alone
+    Scene scene =
+        disc_chain(count, 0.02, 0.0399, verification::rock(45.0, 0.0));  // no shear: the discs move along alone
     const DofControl held{Drive::velocity, 0.0}, loose{};
     for (int k = 0; k < count; ++k)
         scene.controls.push_back({k, k == 0 || k == count - 1 ? held : loose, held, held, 0});

@@ -20,15 +20,15 @@
 #include "tests/support/claim.hpp"
 #include "tests/support/deck_files.hpp"
 #include "tests/support/folder_contents.hpp"
-#include "tests/support/measures.hpp"
+#include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle {
 namespace {
 
 using testing::contents;
 using testing::expect_same;
-using testing::hash_of;
 using testing::ScratchFolder;
+using verification::hash_of;
 
 constexpr int steps_between_questions = 64;  // of the loading loop, whether to stop
 

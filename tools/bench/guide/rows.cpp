@@ -113,10 +113,6 @@ std::vector<GuideRow> all_rows() {
 
 }  // namespace
 
-bool GuideRow::needs_loading() const {
-    return std::any_of(tests.begin(), tests.end(), [](const Test& test) { return test.second != elastic_test; });
-}
-
 const std::vector<GuideRow>& guide_rows() {
     static const std::vector<GuideRow> all = all_rows();
     return all;

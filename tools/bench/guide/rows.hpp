@@ -32,7 +32,6 @@ struct GuideRow {
     std::function<double(const Measured&)> value;
 
     bool judged() const { return !guide_text.empty(); }
-    bool needs_loading() const;
 };
 
 const std::vector<GuideRow>& guide_rows();

@@ -18,8 +18,8 @@
 #include "tools/bench/verify/groups.hpp"
 #include "tools/bench/verify/rows.hpp"
 #include "tools/bench/verify/scenes/dense_stiffness.hpp"
-#include "tools/bench/verify/scenes/measures.hpp"
 #include "tools/bench/verify/scenes/step_limit.hpp"
+#include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle::verification {
 namespace {

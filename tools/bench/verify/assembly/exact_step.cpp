@@ -21,9 +21,9 @@
 #include "tools/bench/verify/rows.hpp"
 #include "tools/bench/verify/scenes/between_platens.hpp"
 #include "tools/bench/verify/scenes/dense_stiffness.hpp"
-#include "tools/bench/verify/scenes/measures.hpp"
 #include "tools/bench/verify/scenes/packed_case.hpp"
 #include "tools/bench/verify/scenes/step_limit.hpp"
+#include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle::verification {
 namespace {

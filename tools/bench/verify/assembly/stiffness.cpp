@@ -13,16 +13,16 @@
 #include "solver/stepping/bonding.hpp"
 #include "solver/stepping/build_world.hpp"
 #include "solver/stepping/step.hpp"
-#include "specimens/loading/prepare.hpp"
 #include "specimens/loading/load_specimen.hpp"
+#include "specimens/loading/prepare.hpp"
 #include "specimens/loading/virtual_test.hpp"
 #include "specimens/making/disordered.hpp"
 #include "tools/bench/verify/groups.hpp"
 #include "tools/bench/verify/rows.hpp"
 #include "tools/bench/verify/scenes/between_platens.hpp"
 #include "tools/bench/verify/scenes/dense_stiffness.hpp"
-#include "tools/bench/verify/scenes/measures.hpp"
 #include "tools/bench/verify/scenes/packed_case.hpp"
+#include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle::verification {
 namespace {

@@ -15,7 +15,7 @@
 #include "solver/stepping/step.hpp"
 #include "specimens/packing/random_numbers.hpp"
 #include "tools/bench/verify/assembly/stress.hpp"
-#include "tools/bench/verify/scenes/measures.hpp"
+#include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle::verification {
 namespace {

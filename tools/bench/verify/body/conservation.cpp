@@ -15,7 +15,7 @@
 #include "tools/bench/verify/groups.hpp"
 #include "tools/bench/verify/rows.hpp"
 #include "tools/bench/verify/scenes/bonded_bodies.hpp"
-#include "tools/bench/verify/scenes/measures.hpp"
+#include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle::verification {
 namespace {

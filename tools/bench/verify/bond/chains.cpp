@@ -15,7 +15,7 @@
 #include "specimens/making/lattices.hpp"
 #include "tools/bench/verify/groups.hpp"
 #include "tools/bench/verify/rows.hpp"
-#include "tools/bench/verify/scenes/measures.hpp"
+#include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle::verification {
 namespace {

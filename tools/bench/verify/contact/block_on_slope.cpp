@@ -15,7 +15,7 @@
 #include "solver/world/world.hpp"
 #include "tools/bench/verify/groups.hpp"
 #include "tools/bench/verify/rows.hpp"
-#include "tools/bench/verify/scenes/measures.hpp"
+#include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle::verification {
 namespace {
@@ -107,8 +107,8 @@ std::vector<ClaimRow> block_topples_past_its_edge() {
         while (falls.stepping.time < 3.0 && std::abs(falls.bodies.state[body_of_id(falls, 1)].angle) < 0.5) step(falls);
         rows.at_most(fmt::format("{}: turn at 0.995 of the edge, rad", name_of(ground)),
                      std::abs(stays.bodies.state[body_of_id(stays, 1)].angle), 1e-3, "lean of its springs");
-        rows.at_most(fmt::format("{}: time to turn by 0.5 rad at 1.005 of the edge, s", name_of(ground)), falls.stepping.time,
-                     3.0 - 1e-9, "slow start");
+        rows.at_most(fmt::format("{}: time to turn by 0.5 rad at 1.005 of the edge, s", name_of(ground)),
+                     falls.stepping.time, 3.0 - 1e-9, "slow start");
     }
     return rows.take();
 }

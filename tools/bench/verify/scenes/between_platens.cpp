@@ -9,7 +9,7 @@
 #include "solver/stepping/build_world.hpp"
 #include "solver/stepping/time_step.hpp"
 #include "specimens/making/disordered.hpp"
-#include "tools/bench/verify/scenes/measures.hpp"
+#include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle::verification {
 

@@ -6,7 +6,7 @@
 #include "solver/stepping/bonding.hpp"
 #include "solver/stepping/build_world.hpp"
 #include "specimens/making/disordered.hpp"
-#include "tools/bench/verify/scenes/measures.hpp"
+#include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle::verification {
 

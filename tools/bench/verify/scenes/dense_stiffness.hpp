@@ -8,7 +8,7 @@
 
 #include "solver/stepping/step.hpp"
 #include "solver/world/world.hpp"
-#include "tools/bench/verify/scenes/measures.hpp"
+#include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle::verification {
 

@@ -10,7 +10,7 @@
 #include "solver/linear/step_bound.hpp"
 #include "solver/measure/ledger.hpp"
 #include "solver/stepping/step.hpp"
-#include "tools/bench/verify/scenes/measures.hpp"
+#include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle::verification {
 namespace {
