@@ -76,7 +76,7 @@ void counts(Writer& w, const TestSetup& setup, const TestState& state, const Wor
     w.put("initial_width", setup.width, "m");
     w.put("initial_height", setup.height, "m");
     w.put("particles", setup.particles, "bodies without platens");
-    if (setup.seeds > 0) w.put("seeds", setup.seeds, "circles the polygons were meshed from");
+    if (setup.centres > 0) w.put("seeds", setup.centres, "circles the polygons were meshed from");
     if (setup.polygons) w.put("segments", setup.segments, "edges of all polygons");
     w.put("bond_thick", setup.bond_thick, "m, segment thickness at bonding");
     w.put("contacts_initial", setup.contacts_initial, "contact points when loading begins");
