@@ -37,30 +37,30 @@ void check_request(const Rectangle& domain, const MeshRequest& request) {
             fmt::format("mesh: domain: found {} by {}, expected lengths between {} and {}; choose another unit", width,
                         height, shortest_length, longest_length));
     }
-    if (!(request.thick >= 0.0 && std::isfinite(request.thick))) {
-        throw MeshError(fmt::format("mesh: thick: found {}, expected a length >= 0", request.thick));
+    if (!(request.mesh_gap >= 0.0 && std::isfinite(request.mesh_gap))) {
+        throw MeshError(fmt::format("mesh: thick: found {}, expected a length >= 0", request.mesh_gap));
     }
     if (request.inset && !(*request.inset >= 0.0 && std::isfinite(*request.inset))) {
         throw MeshError(fmt::format("mesh: inset: found {}, expected a length >= 0", *request.inset));
     }
 }
 
-void check_seeds(std::span<const Seed> seeds, const Rectangle& domain) {
-    if (seeds.empty()) throw MeshError("mesh: found no seeds, expected at least one");
+void check_centres(std::span<const CellCentre> centres, const Rectangle& domain) {
+    if (centres.empty()) throw MeshError("mesh: found no centres, expected at least one");
     // Triangles are about twice as many and are numbered by int; their corners by 32 bits.
     constexpr std::size_t most = std::numeric_limits<int>::max() / 4;
-    if (seeds.size() > most)
-        throw MeshError(fmt::format("mesh: found {} seeds, expected at most {}", seeds.size(), most));
-    for (std::size_t k = 0; k < seeds.size(); ++k) {
-        const Seed& s = seeds[k];
+    if (centres.size() > most)
+        throw MeshError(fmt::format("mesh: found {} centres, expected at most {}", centres.size(), most));
+    for (std::size_t k = 0; k < centres.size(); ++k) {
+        const CellCentre& s = centres[k];
         if (!std::isfinite(s.x) || !std::isfinite(s.y)) {
-            throw MeshError(fmt::format("mesh: found seed {} at ({}, {}), expected finite coordinates", k, s.x, s.y),
+            throw MeshError(fmt::format("mesh: found centre {} at ({}, {}), expected finite coordinates", k, s.x, s.y),
                             {static_cast<int>(k)});
         }
         if (s.x < domain.x1 || s.x > domain.x2 || s.y < domain.y1 || s.y > domain.y2) {
             throw MeshError(
                 fmt::format(
-                    "mesh: found seed {} at ({:.9g}, {:.9g}), expected it inside the domain x {:.9g} to {:.9g}, y "
+                    "mesh: found centre {} at ({:.9g}, {:.9g}), expected it inside the domain x {:.9g} to {:.9g}, y "
                     "{:.9g} to {:.9g}; remove it or widen the domain",
                     k, s.x, s.y, domain.x1, domain.x2, domain.y1, domain.y2),
                 {static_cast<int>(k)});
@@ -71,13 +71,13 @@ void check_seeds(std::span<const Seed> seeds, const Rectangle& domain) {
 std::string place(Point p) { return fmt::format("({:.9g}, {:.9g})", p.x, p.y); }
 
 [[noreturn]] void refuse_destroyed(const std::string& cell, std::span<const Point> outline, double depth, double scale,
-                                   std::size_t count, std::vector<int> seeds) {
+                                   std::size_t count, std::vector<int> centres) {
     throw MeshError(
         fmt::format(
             "mesh: found {} of inscribed radius {:.6g} destroyed by the inset of {:.6g} ({} cell{} in all), expected "
             "every cell to survive; use a smaller thick or inset, or merge the destroyed cells",
             cell, inscribed_radius(outline, scale), depth, count, count == 1 ? "" : "s"),
-        std::move(seeds));
+        std::move(centres));
 }
 
 // Twice the area over the perimeter: grows with the inscribed radius, and finds the cell to be named quickly.
@@ -91,7 +91,7 @@ double slenderness(std::span<const Point> outline) {
 }
 
 // Of the destroyed cells, some that do not touch each other: where two do, leaving out one may be enough.
-// @param destroyed  in the order of their seeds  @return seeds
+// @param destroyed  in the order of their centres  @return centres
 std::vector<int> apart(const VoronoiCells& voronoi, const std::vector<VoronoiCells::Range>& destroyed) {
     std::set<std::pair<double, double>> taken;
     std::vector<int> chosen;
@@ -99,26 +99,26 @@ std::vector<int> apart(const VoronoiCells& voronoi, const std::vector<VoronoiCel
         const auto outline = voronoi.outline(cell);
         if (std::any_of(outline.begin(), outline.end(), [&](Point p) { return taken.contains({p.x, p.y}); })) continue;
         for (const Point& p : outline) taken.insert({p.x, p.y});
-        chosen.push_back(cell.seed);
+        chosen.push_back(cell.centre);
     }
     return chosen;
 }
 
 // A loop of its own: the memory that it jumps to is waited for once, not cell by cell between insets.
-// @param cells  one a seed that is left  @param seed_of  by number among those left
-std::vector<Cell> in_order_of_seeds(const std::vector<Cell>& cells, const std::vector<int>& seed_of) {
+// @param cells  one a centre that is left  @param centre_of  by number among those left
+std::vector<Cell> in_order_of_centres(const std::vector<Cell>& cells, const std::vector<int>& centre_of) {
     std::vector<Cell> ordered(cells.size());
-    for (const Cell& cell : cells) ordered[static_cast<std::size_t>(cell.seed)] = cell;
-    for (std::size_t k = 0; k < ordered.size(); ++k) ordered[k].seed = seed_of[k];
+    for (const Cell& cell : cells) ordered[static_cast<std::size_t>(cell.centre)] = cell;
+    for (std::size_t k = 0; k < ordered.size(); ++k) ordered[k].centre = centre_of[k];
     return ordered;
 }
 
-Mesh mesh_voronoi(std::span<const Seed> seeds, const Rectangle& domain, const MeshRequest& request, double depth) {
+Mesh mesh_voronoi(std::span<const CellCentre> centres, const Rectangle& domain, const MeshRequest& request, double depth) {
     const double scale = coordinate_scale(domain);
     Inset inset(depth, scale);
-    std::vector<Seed> left(seeds.begin(), seeds.end());
-    std::vector<int> seed_of(seeds.size());
-    std::iota(seed_of.begin(), seed_of.end(), 0);
+    std::vector<CellCentre> left(centres.begin(), centres.end());
+    std::vector<int> centre_of(centres.size());
+    std::iota(centre_of.begin(), centre_of.end(), 0);
     std::int64_t merged = 0;
     while (true) {
         const VoronoiCells voronoi = voronoi_cells(left, domain);
@@ -130,21 +130,21 @@ Mesh mesh_voronoi(std::span<const Seed> seeds, const Rectangle& domain, const Me
                 destroyed.push_back(range);
                 continue;
             }
-            builder.add(before, after).seed = range.seed;
+            builder.add(before, after).centre = range.centre;
         }
         if (destroyed.empty()) {
             Mesh mesh = builder.finish();
-            mesh.cells = in_order_of_seeds(mesh.cells, seed_of);
+            mesh.cells = in_order_of_centres(mesh.cells, centre_of);
             mesh.report.cells_destroyed = merged;
             return mesh;
         }
-        std::ranges::sort(destroyed, {}, &VoronoiCells::Range::seed);
+        std::ranges::sort(destroyed, {}, &VoronoiCells::Range::centre);
         if (!request.merge_destroyed || left.size() == 1) {
             const auto worst = std::ranges::min_element(
                 destroyed, {}, [&](const VoronoiCells::Range& cell) { return slenderness(voronoi.outline(cell)); });
-            const auto number = static_cast<std::size_t>(worst->seed);
-            refuse_destroyed(fmt::format("the cell of seed {} at {}", seed_of[number], place(left[number])),
-                             voronoi.outline(*worst), depth, scale, destroyed.size(), {seed_of[number]});
+            const auto number = static_cast<std::size_t>(worst->centre);
+            refuse_destroyed(fmt::format("the cell of centre {} at {}", centre_of[number], place(left[number])),
+                             voronoi.outline(*worst), depth, scale, destroyed.size(), {centre_of[number]});
         }
         const std::vector<int> dropped = apart(voronoi, destroyed);
         merged += static_cast<std::int64_t>(dropped.size());
@@ -155,21 +155,21 @@ Mesh mesh_voronoi(std::span<const Seed> seeds, const Rectangle& domain, const Me
                 continue;
             }
             left[kept] = left[k];
-            seed_of[kept++] = seed_of[k];
+            centre_of[kept++] = centre_of[k];
         }
         left.resize(kept);
-        seed_of.resize(kept);
+        centre_of.resize(kept);
     }
 }
 
-Mesh mesh_delaunay(std::span<const Seed> seeds, const Rectangle& domain, const MeshRequest& request, double depth) {
+Mesh mesh_delaunay(std::span<const CellCentre> centres, const Rectangle& domain, const MeshRequest& request, double depth) {
     const double scale = coordinate_scale(domain);
-    const Triangles triangles = delaunay_triangles(seeds, domain, request.boundary);
+    const Triangles triangles = delaunay_triangles(centres, domain, request.boundary);
     if (triangles.corners.empty()) {
         throw MeshError(fmt::format(
-            "mesh: found {} seed{} that form no triangle with a circumcentre in the domain, expected at least three "
+            "mesh: found {} centre{} that form no triangle with a circumcentre in the domain, expected at least three "
             "not on one line; use boundary domain",
-            seeds.size(), seeds.size() == 1 ? "" : "s"));
+            centres.size(), centres.size() == 1 ? "" : "s"));
     }
     Inset inset(depth, scale);
     const auto point = [&](int k) { return triangles.points[static_cast<std::size_t>(k)]; };
@@ -177,10 +177,10 @@ Mesh mesh_delaunay(std::span<const Seed> seeds, const Rectangle& domain, const M
         const auto& c = triangles.corners[t];
         return std::array<Point, 3>{point(c[0]), point(c[1]), point(c[2])};
     };
-    const auto seeds_of = [&](std::size_t t) {
+    const auto centres_of = [&](std::size_t t) {
         std::array<int, 3> numbers{};
         for (std::size_t k = 0; k < 3; ++k)
-            numbers[k] = triangles.seed_of[static_cast<std::size_t>(triangles.corners[t][k])];
+            numbers[k] = triangles.centre_of[static_cast<std::size_t>(triangles.corners[t][k])];
         return numbers;
     };
     // Inset twice, to find the destroyed and to keep the rest: keeping outlines until all are known costs more.
@@ -196,11 +196,11 @@ Mesh mesh_delaunay(std::span<const Seed> seeds, const Rectangle& domain, const M
         const auto corners = outline(static_cast<std::size_t>(worst));
         std::vector<int> named;
         std::string numbers;
-        for (const int seed : seeds_of(static_cast<std::size_t>(worst))) {
-            numbers += (numbers.empty() ? "" : ", ") + (seed < 0 ? std::string("wall") : std::to_string(seed));
-            if (seed >= 0) named.push_back(seed);
+        for (const int centre : centres_of(static_cast<std::size_t>(worst))) {
+            numbers += (numbers.empty() ? "" : ", ") + (centre < 0 ? std::string("wall") : std::to_string(centre));
+            if (centre >= 0) named.push_back(centre);
         }
-        refuse_destroyed(fmt::format("triangle {} of seeds {} at {}, {}, {}", worst, numbers, place(corners[0]),
+        refuse_destroyed(fmt::format("triangle {} of centres {} at {}, {}, {}", worst, numbers, place(corners[0]),
                                      place(corners[1]), place(corners[2])),
                          corners, depth, scale, destroyed.size(), std::move(named));
     }
@@ -211,11 +211,11 @@ Mesh mesh_delaunay(std::span<const Seed> seeds, const Rectangle& domain, const M
     for (std::size_t t = 0; t < triangles.corners.size(); ++t) {
         if (!joined.joined[t]) {
             const auto alone = outline(t);
-            builder.add(alone, inset.of(alone)).seeds = seeds_of(t);
+            builder.add(alone, inset.of(alone)).centres = centres_of(t);
         } else if (next != joined.outlines.end() && static_cast<std::size_t>(next->triangle) == t) {
             before.clear();
             for (const int corner : next->corners) before.push_back(point(corner));
-            builder.add(before, inset.of(before)).seeds = seeds_of(t);
+            builder.add(before, inset.of(before)).centres = centres_of(t);
             ++next;
         }
     }
@@ -226,12 +226,12 @@ Mesh mesh_delaunay(std::span<const Seed> seeds, const Rectangle& domain, const M
 
 }  // namespace
 
-Mesh make_mesh(std::span<const Seed> seeds, const Rectangle& domain, const MeshRequest& request) {
+Mesh make_mesh(std::span<const CellCentre> centres, const Rectangle& domain, const MeshRequest& request) {
     check_request(domain, request);
-    check_seeds(seeds, domain);
-    const double depth = request.inset.value_or(0.5 * request.thick);
-    return request.kind == MeshKind::voronoi ? mesh_voronoi(seeds, domain, request, depth)
-                                             : mesh_delaunay(seeds, domain, request, depth);
+    check_centres(centres, domain);
+    const double depth = request.inset.value_or(0.5 * request.mesh_gap);
+    return request.kind == MeshKind::voronoi ? mesh_voronoi(centres, domain, request, depth)
+                                             : mesh_delaunay(centres, domain, request, depth);
 }
 
 }  // namespace crackle

@@ -17,7 +17,7 @@ class MeshBuilder {
     MeshBuilder(const Rectangle& domain, std::size_t cells, std::size_t corners);
 
     /// Takes the next cell along space. @param before, after  its outline without and with the inset, counter-clockwise
-    /// @return the cell, of no seed yet; valid until the next call
+    /// @return the cell, of no centre yet; valid until the next call
     Cell& add(std::span<const Point> before, std::span<const Point> after);
 
     /// The cells in the order in which they came, and the report on them. The builder is empty afterwards.

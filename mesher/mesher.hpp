@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Polygon particles from seeds: Delaunay triangles or Voronoi cells of a rectangle, each inset so that neighbours stand
+// Polygon particles from centres: Delaunay triangles or Voronoi cells of a rectangle, each inset so that neighbours stand
 // apart.
-//   seeds -> partition of the rectangle -> every polygon moved inwards by `inset` along every edge, domain faces
+//   centres -> partition of the rectangle -> every polygon moved inwards by `inset` along every edge, domain faces
 //   included
 // Facing edges of neighbours are then 2·inset apart; the default inset thick/2 makes every gap the segment thickness.
 // Lengths in m (any consistent unit). Follows volonoi.f of the DEMseg guide; where it departs, the declarations below
@@ -27,7 +27,7 @@ struct Point {
 };
 
 /// Centre from which a cell grows: a circle centre of a packing.
-using Seed = Point;
+using CellCentre = Point;
 
 /// The domain to be partitioned, m.
 struct Rectangle {
@@ -38,17 +38,17 @@ enum class MeshKind : std::uint8_t { delaunay, voronoi };
 
 /// How Delaunay triangles end at the domain; Voronoi cells always fill the domain.
 enum class Boundary : std::uint8_t {
-    domain,  ///< seeds next to a wall are also projected onto it and the corners added: flat faces, areas sum to the
+    domain,  ///< centres next to a wall are also projected onto it and the corners added: flat faces, areas sum to the
              ///< domain's
-    seeds,   ///< only triangles between three seeds (the guide's): 2n - 2 - h, h seeds along the outer chain
+    centres,   ///< only triangles between three centres (the guide's): 2n - 2 - h, h centres along the outer chain
 };
 
 struct MeshRequest {
     MeshKind kind = MeshKind::voronoi;
     Boundary boundary = Boundary::domain;
-    double thick = 0.0;           ///< m, >= 0: gap between facing edges
+    double mesh_gap = 0.0; ///< m, >= 0: gap between facing edges
     std::optional<double> inset;  ///< m, >= 0: depth by which each edge moves inwards; thick/2 where absent
-    /// Cells that the inset destroys: false, an error; true, Voronoi: the seed is left out and its neighbours take its
+    /// Cells that the inset destroys: false, an error; true, Voronoi: the centre is left out and its neighbours take its
     /// place; Delaunay: the triangle joins a neighbour with which it is convex (an error where there is none).
     bool merge_destroyed = false;
 };
@@ -60,9 +60,9 @@ enum SideBit : std::uint8_t { side_left = 1, side_right = 2, side_bottom = 4, si
 struct Cell {
     std::uint32_t first_corner = 0;  ///< into Mesh::corners
     std::uint32_t corner_count = 0;
-    int seed = -1;  ///< Voronoi: index of its seed; triangles: -1
-    std::array<int, 3> seeds{-1, -1,
-                             -1};  ///< triangles: seeds at the corners, -1 for a corner added on the domain's face
+    int centre = -1;  ///< Voronoi: index of its centre; triangles: -1
+    std::array<int, 3> centres{-1, -1,
+                             -1};  ///< triangles: centres at the corners, -1 for a corner added on the domain's face
     std::uint8_t sides = 0;        ///< SideBit: domain faces on which the cell had an edge before the inset
 
     bool on_left() const { return (sides & side_left) != 0; }
@@ -83,7 +83,7 @@ struct MeshReport {
 
 struct Mesh {
     std::vector<Point> corners;  ///< of all cells, numbered along space
-    std::vector<Cell> cells;     ///< Voronoi: in the order of the seeds; triangles: along space
+    std::vector<Cell> cells;     ///< Voronoi: in the order of the centres; triangles: along space
     MeshReport report;
 
     std::span<const Point> outline(const Cell& cell) const {
@@ -91,20 +91,20 @@ struct Mesh {
     }
 };
 
-/// Seeds or a request from which no mesh can be made. `seeds` holds the indices it names, if any.
+/// Centres or a request from which no mesh can be made. `centres` holds the indices it names, if any.
 class MeshError : public std::runtime_error {
   public:
     explicit MeshError(const std::string& text, std::vector<int> named = {})
-        : std::runtime_error(text), seeds(std::move(named)) {}
+        : std::runtime_error(text), centres(std::move(named)) {}
 
-    std::vector<int> seeds;
+    std::vector<int> centres;
 };
 
 /// Partitions `domain` and insets every cell. Same input, same bytes.
-/// @param seeds  inside the domain or on its boundary, no two coincident
-/// @throws MeshError no, coincident, outside or NaN seeds; no area; bad thick or inset; no triangle; a destroyed cell
-/// Cost: two to three times CGAL's bare insertion of the seeds (tests/benchmarks/meshing.cpp); as much again for each
+/// @param centres  inside the domain or on its boundary, no two coincident
+/// @throws MeshError no, coincident, outside or NaN centres; no area; bad thick or inset; no triangle; a destroyed cell
+/// Cost: two to three times CGAL's bare insertion of the centres (tests/benchmarks/meshing.cpp); as much again for each
 /// round in which Voronoi cells are merged.
-Mesh make_mesh(std::span<const Seed> seeds, const Rectangle& domain, const MeshRequest& request);
+Mesh make_mesh(std::span<const CellCentre> centres, const Rectangle& domain, const MeshRequest& request);
 
 }  // namespace crackle

@@ -2,13 +2,13 @@
 // Delaunay triangulation and its dual Voronoi partition of a rectangle, by CGAL (exact predicates, inexact
 // constructions).
 //
-// A seed whose cell would cross a wall is mirrored across it, which makes the wall an edge of the partition: beyond a
-// wall every mirror image is nearer than its seed. Images are added until every seed that meets an image across a wall
-// has its own there and no circumcentre of seeds lies outside, which is the partition that mirroring all seeds would
-// give. What is on a wall is then known from the triangulation, not from coordinates: a face of seeds and images across
+// A centre whose cell would cross a wall is mirrored across it, which makes the wall an edge of the partition: beyond a
+// wall every mirror image is nearer than its centre. Images are added until every centre that meets an image across a wall
+// has its own there and no circumcentre of centres lies outside, which is the partition that mirroring all centres would
+// give. What is on a wall is then known from the triangulation, not from coordinates: a face of centres and images across
 // a wall has its circumcentre exactly on that wall (two walls: in the corner). So positions are put there, and cell
-// areas sum to the domain's whatever the rounding. Four guards far away close the cells of outermost seeds from the
-// start; they are further from every point of the domain than any seed is. A seed exactly on a wall is its own image;
+// areas sum to the domain's whatever the rounding. Four guards far away close the cells of outermost centres from the
+// start; they are further from every point of the domain than any centre is. A centre exactly on a wall is its own image;
 // its cell is cut at the wall.
 
 #include "mesher/partition.hpp"
@@ -30,22 +30,22 @@
 namespace crackle {
 namespace {
 
-enum class Origin : std::uint8_t { seed, image, guard, added };
+enum class Origin : std::uint8_t { centre, image, guard, added };
 
-// All that is known of a seed is kept here, not in arrays by seed: neighbours in space are neighbours in memory.
+// All that is known of a centre is kept here, not in arrays by centre: neighbours in space are neighbours in memory.
 struct VertexInfo {
-    int index = -1;  // seed (also an image's); once triangles are numbered, the point
+    int index = -1;  // centre (also an image's); once triangles are numbered, the point
     Origin origin = Origin::guard;
     // Sets of SideBit.
-    std::uint8_t walls = 0;    // a seed: those it lies on; an image: the one it was mirrored across
-    std::uint8_t settled = 0;  // a seed: those it is mirrored across or lies on
-    std::uint8_t wanted = 0;   // a seed: those to be mirrored across in the present round
+    std::uint8_t walls = 0;    // a centre: those it lies on; an image: the one it was mirrored across
+    std::uint8_t settled = 0;  // a centre: those it is mirrored across or lies on
+    std::uint8_t pending = 0;  // a centre: those to be mirrored across in the present round
 };
 
 struct FaceInfo {
     Point dual;            // circumcentre, where the Voronoi cells of the corners meet
     int index = -1;        // triangle, or member of a cluster of equal duals
-    bool outside = false;  // beyond a wall on which all of the face's seeds lie
+    bool outside = false;  // beyond a wall on which all of the face's centres lie
 };
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -58,13 +58,13 @@ using VertexHandle = Triangulation::Vertex_handle;
 using FaceHandle = Triangulation::Face_handle;
 
 constexpr std::array<std::uint8_t, 4> all_sides{side_left, side_right, side_bottom, side_top};
-// Edges shorter than this share of their circumradius are taken for the zero-length edges of co-circular seeds: the
+// Edges shorter than this share of their circumradius are taken for the zero-length edges of co-circular centres: the
 // rounding of a circumcentre is some eps of the radius, and 1e-10 leaves room for badly shaped triangles.
 constexpr double zero_edge_share = 1e-10;
-// Seeds nearer than this share of the mean spacing have a bisector, and cells, made of rounding errors.
+// Centres nearer than this share of the mean spacing have a bisector, and cells, made of rounding errors.
 constexpr double coincidence_share = 1e-9;
 // Distance of the guards from the middle, in diagonals of the domain: none of its points is as far from its nearest
-// seed.
+// centre.
 constexpr double guard_distance = 4.0;
 
 double squared_distance(Point a, Point b) { return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y); }
@@ -83,8 +83,8 @@ Point circumcentre(FaceHandle face) {
 // What the corners of a face have to do with walls: sets of SideBit.
 struct WallsOfFace {
     unsigned images = 0;    // those across which a corner is an image
-    unsigned on_all = ~0U;  // those on which all corners lie that are seeds
-    bool any_seed = false;
+    unsigned on_all = ~0U;  // those on which all corners lie that are centres
+    bool any_centre = false;
 };
 
 WallsOfFace walls_of(FaceHandle face) {
@@ -92,18 +92,18 @@ WallsOfFace walls_of(FaceHandle face) {
     for (int k = 0; k < 3; ++k) {
         const VertexInfo& info = face->vertex(k)->info();
         if (info.origin == Origin::image) walls.images |= info.walls;
-        if (info.origin == Origin::seed) walls.on_all &= info.walls;
-        walls.any_seed = walls.any_seed || info.origin == Origin::seed;
+        if (info.origin == Origin::centre) walls.on_all &= info.walls;
+        walls.any_centre = walls.any_centre || info.origin == Origin::centre;
     }
     return walls;
 }
 
 class Partition {
   public:
-    Partition(std::span<const Seed> seeds, const Rectangle& domain)
-        : seeds_(seeds), domain_(domain), scale_(coordinate_scale(domain)) {
+    Partition(std::span<const CellCentre> centres, const Rectangle& domain)
+        : centres_(centres), domain_(domain), scale_(coordinate_scale(domain)) {
         insert_guards();
-        insert_seeds();
+        insert_centres();
         mirror_where_needed();
     }
 
@@ -112,30 +112,30 @@ class Partition {
 
   private:
     struct Image {
-        VertexHandle vertex, seed;
+        VertexHandle vertex, centre;
         std::uint8_t wall;
     };
 
     void insert_guards();
-    void insert_seeds();
+    void insert_centres();
     void refuse_coincident(int a, int b) const;
     void mirror_where_needed();
     void refuse_near_coincident(FaceHandle face, double too_close) const;
-    void place_dual(FaceHandle face, std::vector<VertexHandle>& wanting);
-    void mirror(VertexHandle seed, std::uint8_t walls, std::vector<VertexHandle>& touched);
+    void place_dual(FaceHandle face, std::vector<VertexHandle>& to_mirror);
+    void mirror(VertexHandle centre, std::uint8_t walls, std::vector<VertexHandle>& touched);
 
-    bool is_seed(VertexHandle v) const { return v->info().origin == Origin::seed; }
+    bool is_centre(VertexHandle v) const { return v->info().origin == Origin::centre; }
     unsigned walls_beyond(Point p) const;
     Point dual(FaceHandle face, const WallsOfFace& walls) const;
     Point on_wall(FaceHandle face, std::uint8_t wall) const;
     bool collect_cells(VoronoiCells& out, bool allow_zero_edges) const;
     void contract_zero_edges();
     void cut_at_walls(std::vector<Point>& polygon, std::vector<Point>& scratch) const;
-    double zero_edge(Point dual_point, Point seed) const;
+    double zero_edge(Point dual_point, Point centre) const;
     bool meets_wall(const Image& image) const;
     void close_with_flat_faces();
 
-    std::span<const Seed> seeds_;
+    std::span<const CellCentre> centres_;
     Rectangle domain_;
     double scale_;
     Triangulation triangulation_;
@@ -151,12 +151,12 @@ void Partition::insert_guards() {
     }
 }
 
-// Along a space-filling curve, each located from the one before; the seed's number travels in the vertex.
-void Partition::insert_seeds() {
+// Along a space-filling curve, each located from the one before; the centre's number travels in the vertex.
+void Partition::insert_centres() {
     using Placed = std::pair<CgalPoint, int>;  // sorted itself: sorting numbers of places would wait for memory
     std::vector<Placed> order;
-    order.reserve(seeds_.size());
-    for (const Seed& seed : seeds_) order.emplace_back(CgalPoint(seed.x, seed.y), static_cast<int>(order.size()));
+    order.reserve(centres_.size());
+    for (const CellCentre& centre : centres_) order.emplace_back(CgalPoint(centre.x, centre.y), static_cast<int>(order.size()));
     using PlaceOf = CGAL::First_of_pair_property_map<Placed>;
     CGAL::spatial_sort(order.begin(), order.end(), CGAL::Spatial_sort_traits_adapter_2<Kernel, PlaceOf>());
     FaceHandle hint = guards_.back()->face();
@@ -165,17 +165,17 @@ void Partition::insert_seeds() {
         const VertexHandle v = triangulation_.insert(place, hint);
         if (triangulation_.number_of_vertices() == before) refuse_coincident(v->info().index, number);
         const auto lies_on = static_cast<std::uint8_t>(sides_at({place.x(), place.y()}, domain_));
-        v->info() = {number, Origin::seed, lies_on, lies_on, 0};
+        v->info() = {number, Origin::centre, lies_on, lies_on, 0};
         hint = v->face();
     }
 }
 
 void Partition::refuse_coincident(int a, int b) const {
     const auto [first, second] = std::minmax(a, b);
-    const Seed& p = seeds_[static_cast<std::size_t>(first)];
-    const Seed& q = seeds_[static_cast<std::size_t>(second)];
-    throw MeshError(fmt::format("mesh: found seeds {} and {} at the same place (({}, {}) and ({}, {}), {:.3g} "
-                                "apart), expected distinct seeds; remove one of them",
+    const CellCentre& p = centres_[static_cast<std::size_t>(first)];
+    const CellCentre& q = centres_[static_cast<std::size_t>(second)];
+    throw MeshError(fmt::format("mesh: found centres {} and {} at the same place (({}, {}) and ({}, {}), {:.3g} "
+                                "apart), expected distinct centres; remove one of them",
                                 first, second, p.x, p.y, q.x, q.y, std::sqrt(squared_distance(p, q))),
                     {first, second});
 }
@@ -186,7 +186,7 @@ unsigned Partition::walls_beyond(Point p) const {
 }
 
 // Where the bisector of the face's corners meets the wall: (p - wall)² + (y - s)² equal for two of them, an image
-// standing for its seed. The pair that is furthest apart along the wall is taken; no difference of nearly equal squares
+// standing for its centre. The pair that is furthest apart along the wall is taken; no difference of nearly equal squares
 // enters.
 Point Partition::on_wall(FaceHandle face, std::uint8_t wall) const {
     const bool upright = wall == side_left || wall == side_right;
@@ -198,7 +198,7 @@ Point Partition::on_wall(FaceHandle face, std::uint8_t wall) const {
     for (int k = 0; k < 3; ++k) {
         const VertexInfo& info = face->vertex(k)->info();
         const bool mirrored = info.origin == Origin::image && info.walls == wall;
-        const Point p = mirrored ? seeds_[static_cast<std::size_t>(info.index)] : position(face->vertex(k));
+        const Point p = mirrored ? centres_[static_cast<std::size_t>(info.index)] : position(face->vertex(k));
         along[static_cast<std::size_t>(k)] = upright ? p.y : p.x;
         off[static_cast<std::size_t>(k)] = (upright ? p.x : p.y) - level;
     }
@@ -212,7 +212,7 @@ Point Partition::on_wall(FaceHandle face, std::uint8_t wall) const {
 }
 
 // The face's circumcentre. It is known to lie on the walls across which the face has an image, but for those on which
-// all of its seeds lie.
+// all of its centres lie.
 Point Partition::dual(FaceHandle face, const WallsOfFace& walls) const {
     const unsigned snapped = walls.images & ~walls.on_all;
     switch (snapped) {
@@ -234,55 +234,55 @@ Point Partition::dual(FaceHandle face, const WallsOfFace& walls) const {
     }
 }
 
-// Puts the face's dual in its place, and notes the walls across which its seeds must still be mirrored.
-void Partition::place_dual(FaceHandle face, std::vector<VertexHandle>& wanting) {
+// Puts the face's dual in its place, and notes the walls across which its centres must still be mirrored.
+void Partition::place_dual(FaceHandle face, std::vector<VertexHandle>& to_mirror) {
     const WallsOfFace walls = walls_of(face);
-    if (!walls.any_seed) return;
+    if (!walls.any_centre) return;
     const Point p = dual(face, walls);
     const unsigned beyond = walls_beyond(p);
     FaceInfo& placed = face->info();
     placed.dual = p;
     placed.outside = (beyond & walls.on_all) != 0;
-    if (beyond != 0 && !placed.outside) {  // by rounding, if the face is still there once its seeds are mirrored
+    if (beyond != 0 && !placed.outside) {  // by rounding, if the face is still there once its centres are mirrored
         placed.dual = {std::clamp(p.x, domain_.x1, domain_.x2), std::clamp(p.y, domain_.y1, domain_.y2)};
     }
     const unsigned needs = walls.images | beyond;
     if (needs == 0) return;
     for (int k = 0; k < 3; ++k) {
         const VertexHandle v = face->vertex(k);
-        if (!is_seed(v)) continue;
+        if (!is_centre(v)) continue;
         const unsigned missing = needs & ~unsigned{v->info().settled};
         if (missing == 0) continue;
-        if (v->info().wanted == 0) wanting.push_back(v);
-        v->info().wanted = static_cast<std::uint8_t>(v->info().wanted | missing);
+        if (v->info().pending == 0) to_mirror.push_back(v);
+        v->info().pending = static_cast<std::uint8_t>(v->info().pending | missing);
     }
 }
 
-void Partition::mirror(VertexHandle seed, std::uint8_t walls, std::vector<VertexHandle>& touched) {
-    const Point s = position(seed);
+void Partition::mirror(VertexHandle centre, std::uint8_t walls, std::vector<VertexHandle>& touched) {
+    const Point s = position(centre);
     for (const std::uint8_t wall : all_sides) {
         if ((walls & wall) == 0) continue;
         const Point place = wall == side_left     ? Point{2.0 * domain_.x1 - s.x, s.y}
                             : wall == side_right  ? Point{2.0 * domain_.x2 - s.x, s.y}
                             : wall == side_bottom ? Point{s.x, 2.0 * domain_.y1 - s.y}
                                                   : Point{s.x, 2.0 * domain_.y2 - s.y};
-        const VertexHandle v = triangulation_.insert(CgalPoint(place.x, place.y), seed->face());
-        v->info() = {seed->info().index, Origin::image, wall};
-        images_.push_back({v, seed, wall});
+        const VertexHandle v = triangulation_.insert(CgalPoint(place.x, place.y), centre->face());
+        v->info() = {centre->info().index, Origin::image, wall};
+        images_.push_back({v, centre, wall});
         auto neighbour = triangulation_.incident_vertices(v);
         const auto end = neighbour;
         do {
-            if (!triangulation_.is_infinite(neighbour) && is_seed(neighbour)) touched.push_back(neighbour);
+            if (!triangulation_.is_infinite(neighbour) && is_centre(neighbour)) touched.push_back(neighbour);
         } while (++neighbour != end);
     }
-    seed->info().settled = static_cast<std::uint8_t>(seed->info().settled | walls);
-    touched.push_back(seed);
+    centre->info().settled = static_cast<std::uint8_t>(centre->info().settled | walls);
+    touched.push_back(centre);
 }
 
 void Partition::refuse_near_coincident(FaceHandle face, double too_close) const {
     for (int k = 0; k < 3; ++k) {
         const VertexHandle a = face->vertex(k), b = face->vertex(Triangulation::ccw(k));
-        if (is_seed(a) && is_seed(b) && squared_distance(position(a), position(b)) < too_close * too_close) {
+        if (is_centre(a) && is_centre(b) && squared_distance(position(a), position(b)) < too_close * too_close) {
             refuse_coincident(a->info().index, b->info().index);
         }
     }
@@ -290,46 +290,46 @@ void Partition::refuse_near_coincident(FaceHandle face, double too_close) const 
 
 void Partition::mirror_where_needed() {
     const double spacing =
-        std::sqrt((domain_.x2 - domain_.x1) * (domain_.y2 - domain_.y1) / static_cast<double>(seeds_.size()));
+        std::sqrt((domain_.x2 - domain_.x1) * (domain_.y2 - domain_.y1) / static_cast<double>(centres_.size()));
     const double too_close = std::max(64.0 * eps * scale_, coincidence_share * spacing);
-    std::vector<VertexHandle> wanting, touched;
+    std::vector<VertexHandle> to_mirror, touched;
     for (const FaceHandle face : triangulation_.finite_face_handles()) {
         refuse_near_coincident(face, too_close);
-        place_dual(face, wanting);
+        place_dual(face, to_mirror);
     }
     // A cell that crosses a wall has a corner beyond it, so one round is all but for rounding. Only faces around new
-    // images and their seeds can have changed.
+    // images and their centres can have changed.
     const auto number = [](VertexHandle v) { return v->info().index; };
-    while (!wanting.empty()) {
+    while (!to_mirror.empty()) {
         touched.clear();
-        for (const VertexHandle seed : wanting)
-            mirror(seed, std::exchange(seed->info().wanted, std::uint8_t{0}), touched);
-        wanting.clear();
+        for (const VertexHandle centre : to_mirror)
+            mirror(centre, std::exchange(centre->info().pending, std::uint8_t{0}), touched);
+        to_mirror.clear();
         std::ranges::sort(touched, {}, number);
         touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
-        for (const VertexHandle seed : touched) {
-            auto face = triangulation_.incident_faces(seed);
+        for (const VertexHandle centre : touched) {
+            auto face = triangulation_.incident_faces(centre);
             const auto end = face;
-            do place_dual(face, wanting);
+            do place_dual(face, to_mirror);
             while (++face != end);
         }
     }
 }
 
-double Partition::zero_edge(Point dual_point, Point seed) const {
+double Partition::zero_edge(Point dual_point, Point centre) const {
     const double rounding = 64.0 * eps * scale_;
-    return std::max(rounding * rounding, zero_edge_share * zero_edge_share * squared_distance(dual_point, seed));
+    return std::max(rounding * rounding, zero_edge_share * zero_edge_share * squared_distance(dual_point, centre));
 }
 
 // @return false if a cell has a zero-length edge, unless they are allowed.
 bool Partition::collect_cells(VoronoiCells& out, bool allow_zero_edges) const {
     out.corners.clear();
-    out.corners.reserve(6 * seeds_.size() + 16);
+    out.corners.reserve(6 * centres_.size() + 16);
     out.cells.clear();
-    out.cells.reserve(seeds_.size());
+    out.cells.reserve(centres_.size());
     std::vector<Point> polygon, scratch;
     for (const VertexHandle v : triangulation_.finite_vertex_handles()) {
-        if (!is_seed(v)) continue;
+        if (!is_centre(v)) continue;
         polygon.clear();
         bool outside = false;
         auto face = triangulation_.incident_faces(v);
@@ -352,7 +352,7 @@ bool Partition::collect_cells(VoronoiCells& out, bool allow_zero_edges) const {
     return true;
 }
 
-// The cell of a seed on a wall reaches beyond it.
+// The cell of a centre on a wall reaches beyond it.
 void Partition::cut_at_walls(std::vector<Point>& polygon, std::vector<Point>& scratch) const {
     clip(polygon, 1.0, 0.0, domain_.x1, scratch);
     clip(polygon, -1.0, 0.0, -domain_.x2, scratch);
@@ -388,10 +388,10 @@ void Partition::contract_zero_edges() {
         const FaceHandle f = edge->first, g = f->neighbor(edge->second);
         const VertexHandle a = f->vertex(Triangulation::ccw(edge->second)),
                            b = f->vertex(Triangulation::cw(edge->second));
-        if (!is_seed(a) && !is_seed(b)) continue;
+        if (!is_centre(a) && !is_centre(b)) continue;
         if (f->info().outside || g->info().outside) continue;
         const Point p = f->info().dual, q = g->info().dual;
-        const double zero = 4.0 * zero_edge(p, position(is_seed(a) ? a : b));
+        const double zero = 4.0 * zero_edge(p, position(is_centre(a) ? a : b));
         if (squared_distance(p, q) < zero) parent[root(member(f))] = root(member(g));
     }
     // A point on walls stands for those beside it; the order decides among equals, whatever the numbering of faces.
@@ -423,14 +423,14 @@ VoronoiCells Partition::cells() {
     return out;
 }
 
-// The cell of the image's seed has an edge on the wall, not just a co-circular touch.
+// The cell of the image's centre has an edge on the wall, not just a co-circular touch.
 bool Partition::meets_wall(const Image& image) const {
     FaceHandle face;
     int k = 0;
-    if (!triangulation_.is_edge(image.seed, image.vertex, face, k)) return false;
+    if (!triangulation_.is_edge(image.centre, image.vertex, face, k)) return false;
     const FaceHandle other = face->neighbor(k);
     const Point p = dual(face, walls_of(face)), q = dual(other, walls_of(other));
-    return squared_distance(p, q) > zero_edge(p, position(image.seed));
+    return squared_distance(p, q) > zero_edge(p, position(image.centre));
 }
 
 void Partition::close_with_flat_faces() {
@@ -441,18 +441,18 @@ void Partition::close_with_flat_faces() {
     std::vector<Foot> feet;
     for (const Image& image : images_) {
         if (!meets_wall(image)) continue;
-        Point foot = position(image.seed);
+        Point foot = position(image.centre);
         if (image.wall == side_left) foot.x = domain_.x1;
         if (image.wall == side_right) foot.x = domain_.x2;
         if (image.wall == side_bottom) foot.y = domain_.y1;
         if (image.wall == side_top) foot.y = domain_.y2;
-        feet.push_back({foot, image.seed});
+        feet.push_back({foot, image.centre});
     }
     for (const Image& image : images_) triangulation_.remove(image.vertex);
     images_.clear();
     const auto add = [&](Point p, FaceHandle hint) {
         const VertexHandle v = triangulation_.insert(CgalPoint(p.x, p.y), hint);
-        if (v->info().origin != Origin::guard) return;  // a seed, or another foot, is there already
+        if (v->info().origin != Origin::guard) return;  // a centre, or another foot, is there already
         v->info() = {-1, Origin::added};
     };
     for (const double x : {domain_.x1, domain_.x2}) {
@@ -466,13 +466,13 @@ Triangles Partition::triangles(Boundary boundary) {
     Triangles out;
     if (boundary == Boundary::domain) close_with_flat_faces();
     const auto kept = [](VertexHandle v) {
-        return v->info().origin == Origin::seed || v->info().origin == Origin::added;
+        return v->info().origin == Origin::centre || v->info().origin == Origin::added;
     };
     out.points.reserve(triangulation_.number_of_vertices());
-    out.seed_of.reserve(triangulation_.number_of_vertices());
+    out.centre_of.reserve(triangulation_.number_of_vertices());
     for (const VertexHandle v : triangulation_.finite_vertex_handles()) {
         if (!kept(v)) continue;
-        out.seed_of.push_back(v->info().index);
+        out.centre_of.push_back(v->info().index);
         v->info().index = static_cast<int>(out.points.size());
         out.points.push_back(position(v));
     }
@@ -496,12 +496,12 @@ Triangles Partition::triangles(Boundary boundary) {
 
 }  // namespace
 
-VoronoiCells voronoi_cells(std::span<const Seed> seeds, const Rectangle& domain) {
-    return Partition(seeds, domain).cells();
+VoronoiCells voronoi_cells(std::span<const CellCentre> centres, const Rectangle& domain) {
+    return Partition(centres, domain).cells();
 }
 
-Triangles delaunay_triangles(std::span<const Seed> seeds, const Rectangle& domain, Boundary boundary) {
-    return Partition(seeds, domain).triangles(boundary);
+Triangles delaunay_triangles(std::span<const CellCentre> centres, const Rectangle& domain, Boundary boundary) {
+    return Partition(centres, domain).triangles(boundary);
 }
 
 }  // namespace crackle

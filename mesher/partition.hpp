@@ -12,11 +12,11 @@
 
 namespace crackle {
 
-/// Voronoi cells of the domain; neighbours share their corners bit for bit (a seed on the boundary: to rounding).
+/// Voronoi cells of the domain; neighbours share their corners bit for bit (a centre on the boundary: to rounding).
 struct VoronoiCells {
     struct Range {
         std::uint32_t first = 0, count = 0;  // into corners, counter-clockwise
-        int seed = -1;
+        int centre = -1;
     };
     std::vector<Point> corners;
     std::vector<Range> cells;  // along space, as are their corners: whoever walks them does not wait for memory
@@ -28,17 +28,17 @@ struct VoronoiCells {
 
 /// Delaunay triangles, counter-clockwise.
 struct Triangles {
-    std::vector<Point> points;                   // seeds, and points added on the domain's faces; along space
-    std::vector<int> seed_of;                    // by point; -1: added
+    std::vector<Point> points;                   // centres, and points added on the domain's faces; along space
+    std::vector<int> centre_of;                    // by point; -1: added
     std::vector<std::array<int, 3>> corners;     // into points
     std::vector<std::array<int, 3>> neighbours;  // across the edge opposite to corner k; -1: none
 };
 
-/// @throws MeshError on coincident seeds. The seeds are finite and inside the domain.
-VoronoiCells voronoi_cells(std::span<const Seed> seeds, const Rectangle& domain);
+/// @throws MeshError on coincident centres. The centres are finite and inside the domain.
+VoronoiCells voronoi_cells(std::span<const CellCentre> centres, const Rectangle& domain);
 
-/// @throws MeshError on coincident seeds. The seeds are finite and inside the domain.
-Triangles delaunay_triangles(std::span<const Seed> seeds, const Rectangle& domain, Boundary boundary);
+/// @throws MeshError on coincident centres. The centres are finite and inside the domain.
+Triangles delaunay_triangles(std::span<const CellCentre> centres, const Rectangle& domain, Boundary boundary);
 
 /// Keeps the part of a convex polygon for which nx·x + ny·y >= offset. @param scratch working memory
 void clip(std::vector<Point>& polygon, double nx, double ny, double offset, std::vector<Point>& scratch);

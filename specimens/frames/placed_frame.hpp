@@ -46,7 +46,7 @@ inline Facing facing_at(const TestSetup& setup, PointKind kind, const BodyState&
     // A pair of segments sums up several overlaps: there the gap is that of the mesh.
     const bool outline = kind == PointKind::element_outline && setup.polygons;
     const double gap = outline                              ? setup.bond_thick - g.overlap
-                       : kind == PointKind::segment_segment ? setup.mesh_thick
+                       : kind == PointKind::segment_segment ? setup.mesh_gap
                                                             : 0.0;
     const Vec2 middle{i.x + g.aix, i.y + g.aiy}, normal{g.nx, g.ny}, half_gap = 0.5 * gap * normal;
     return {middle - half_gap, middle + half_gap, normal, gap};

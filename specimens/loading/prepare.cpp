@@ -66,12 +66,12 @@ void notice_deep_bonds(VirtualTest& test) {
     const TestSetup& setup = test.setup;
     if (!setup.polygons) return;
     const double size = std::sqrt(setup.width * setup.height / static_cast<double>(setup.particles));
-    const double excess = setup.bond_thick - setup.mesh_thick;
+    const double excess = setup.bond_thick - setup.mesh_gap;
     if (excess <= deep_bond_share * size) return;
     test.setup.notices.push_back(fmt::format(
         "bond.thick = {:.4g} m exceeds the gap of {:.4g} m by {:.2g} of the mean particle size: polygons that share no "
         "face bond too; the excess is the overlap that bonds them, and should be small",
-        setup.bond_thick, setup.mesh_thick, excess / size));
+        setup.bond_thick, setup.mesh_gap, excess / size));
 }
 
 // Times the rate that loading by this tolerance would begin with.

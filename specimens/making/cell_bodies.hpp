@@ -11,7 +11,7 @@ namespace crackle {
 
 /// Adds a closed chain for each cell, numbered from 1 in the mesh's order. A Voronoi cell has the material of its seed,
 /// a triangle that of its first corner that is a seed (corners on the domain's faces are none).
-/// @param seed_materials index into scene.materials, by seed
-void add_cell_bodies(Scene& scene, const Mesh& mesh, std::span<const int> seed_materials);
+/// @param centre_materials index into scene.materials, by seed
+void add_cell_bodies(Scene& scene, const Mesh& mesh, std::span<const int> centre_materials);
 
 }  // namespace crackle

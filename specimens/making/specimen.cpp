@@ -182,21 +182,21 @@ void measure_circles(Specimen& specimen) {
 
 /// Triangles between seeds have no edge on the domain: they count as side particles where two of their circles touched
 /// the wall.
-bool cell_on_side(const Cell& cell, Wall side, bool domain_boundary, const std::vector<char>& seed_touches) {
+bool cell_on_side(const Cell& cell, Wall side, bool domain_boundary, const std::vector<char>& centre_touches) {
     if (domain_boundary) return side == Wall::left ? cell.on_left() : cell.on_right();
-    const auto touches = [&](int seed) { return seed >= 0 && seed_touches[static_cast<std::size_t>(seed)] != 0; };
-    return std::count_if(cell.seeds.begin(), cell.seeds.end(), touches) >= 2;
+    const auto touches = [&](int seed) { return seed >= 0 && centre_touches[static_cast<std::size_t>(seed)] != 0; };
+    return std::count_if(cell.centres.begin(), cell.centres.end(), touches) >= 2;
 }
 
 /// Replaces the circles by the polygons of their centres; ids count from 1 in the mesh's order.
 void mesh_specimen(Specimen& specimen, const TestCase& test, const TestHooks& hooks) {
     const Scene circles = specimen.scene;
-    std::vector<Seed> seeds;
+    std::vector<CellCentre> centres;
     std::vector<int> materials;
     std::vector<char> touches_left, touches_right;
     for (const Body& body : circles.bodies) {
         const Vec2 centre = mass_properties(circles, body).centroid;
-        seeds.push_back({centre.x, centre.y});
+        centres.push_back({centre.x, centre.y});
         materials.push_back(body.material);
         touches_left.push_back(circle_overlaps_side(circles, body, Wall::left) ? 1 : 0);
         touches_right.push_back(circle_overlaps_side(circles, body, Wall::right) ? 1 : 0);
@@ -204,15 +204,15 @@ void mesh_specimen(Specimen& specimen, const TestCase& test, const TestHooks& ho
     MeshRequest request;
     const bool voronoi = *test.mesh.kind == "voronoi";
     request.kind = voronoi ? MeshKind::voronoi : MeshKind::delaunay;
-    request.boundary = test.mesh.boundary == "seeds" ? Boundary::seeds : Boundary::domain;
-    request.thick = *test.mesh.thick;
+    request.boundary = test.mesh.boundary == "seeds" ? Boundary::centres : Boundary::domain;
+    request.mesh_gap = *test.mesh.thick;
     request.inset = test.mesh.inset;
     request.merge_destroyed = test.mesh.merge_destroyed;
     const Domain& domain = circles.domain;
     Mesh mesh;
-    hooks.report_work(fmt::format("meshing {} seeds", seeds.size()));
+    hooks.report_work(fmt::format("meshing {} centres", centres.size()));
     try {
-        mesh = make_mesh(seeds, {domain.x1, domain.x2, domain.y1, domain.y2}, request);
+        mesh = make_mesh(centres, {domain.x1, domain.x2, domain.y1, domain.y2}, request);
     } catch (const MeshError& error) {
         throw InputError(fmt::format("{}: {}", test.at("mesh.thick"), error.what()));
     }
@@ -234,21 +234,21 @@ void mesh_specimen(Specimen& specimen, const TestCase& test, const TestHooks& ho
     specimen.scene = std::move(scene);
     specimen.polygons = true;
     specimen.kind = *test.mesh.kind;
-    specimen.thick = request.inset ? 2.0 * *request.inset : request.thick;
-    specimen.seeds = static_cast<std::int64_t>(seeds.size());
+    specimen.mesh_gap = request.inset ? 2.0 * *request.inset : request.mesh_gap;
+    specimen.centres = static_cast<std::int64_t>(centres.size());
     specimen.segments = mesh.report.segments;
     hooks.report_stage(fmt::format("meshed into {} {} cells with {} segments", mesh.report.cells, specimen.kind,
                                    mesh.report.segments));
 }
 
 void measure_polygons(Specimen& specimen, const TestCase& test) {
-    specimen.thick = specimen.scene.thick;
-    if (!test.bond.thick || *test.bond.thick <= specimen.thick) {
+    specimen.mesh_gap = specimen.scene.thick;
+    if (!test.bond.thick || *test.bond.thick <= specimen.mesh_gap) {
         throw InputError(
             fmt::format("{}: found {}, expected more than the particle file's thick = {} m; the excess is the "
                         "overlap that bonds the polygons",
                         test.at("bond.thick"), test.bond.thick ? fmt::format("{} m", *test.bond.thick) : "nothing",
-                        specimen.thick));
+                        specimen.mesh_gap));
     }
     for (const Body& body : specimen.scene.bodies) specimen.segments += body.vertex_count;
     specimen.left_ids = polygons_on_side(specimen.scene, Wall::left);

@@ -17,13 +17,13 @@ struct Specimen {
     Scene scene;       ///< bodies, materials, domain; all velocities 0, no gravity, no controls
     std::string kind;  ///< "circles", "delaunay" or "voronoi" (polygons from a file: delaunay if all are triangles)
     bool polygons = false;
-    double thick = 0.0;                                   ///< m, gap between neighbouring polygons; 0 for circles
+    double mesh_gap = 0.0;                                   ///< m, gap between neighbouring polygons; 0 for circles
     double width = 0.0;                                   ///< m, of the domain
     double height = 0.0;                                  ///< m, of the domain
     std::vector<std::pair<std::string, double>> packing;  ///< its figures by name; empty for a particle file
-    double mean_radius = 0.0;                             ///< m, of the circles (of the seeds, where meshed)
+    double mean_radius = 0.0;                             ///< m, of the circles (of the centres, where meshed)
     std::int64_t segments = 0;                            ///< edges of all polygons
-    std::int64_t seeds = 0;  ///< circles the polygons were meshed from; 0 if not meshed here
+    std::int64_t centres = 0;  ///< circles the polygons were meshed from; 0 if not meshed here
     /// Ids of the bodies on the side faces: circles that overlap the wall, polygons with an edge on the face.
     std::vector<int> left_ids, right_ids;
     std::vector<std::string> notices;  ///< what a user should know

@@ -85,7 +85,7 @@ void counts(Writer& w, const TestSetup& setup, const TestState& state, const Wor
     w.put("initial_width", setup.width);
     w.put("initial_height", setup.height);
     w.put("particles", setup.particles);
-    if (setup.seeds > 0) w.put("seeds", setup.seeds);
+    if (setup.centres > 0) w.put("seeds", setup.centres);
     if (setup.polygons) w.put("segments", setup.segments);
     w.put("bond_thick", setup.bond_thick);
     w.put("contacts_initial", setup.contacts_initial);

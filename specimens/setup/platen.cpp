@@ -33,8 +33,8 @@ Extent vertical_extent(const Scene& scene) {
 /// @param depth how far inside the face the outermost particle ends
 double bonded_offset(const Specimen& specimen, double depth, double thick) {
     if (!specimen.polygons) return thick;
-    const bool flat = depth <= specimen.thick;
-    return flat ? 0.5 * specimen.thick : specimen.thick - depth;
+    const bool flat = depth <= specimen.mesh_gap;
+    return flat ? 0.5 * specimen.mesh_gap : specimen.mesh_gap - depth;
 }
 
 int platen_material(Scene& scene, const TestCase::Loading& loading) {

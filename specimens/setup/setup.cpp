@@ -92,7 +92,7 @@ TestSetup record_setup(const World& world, const Specimen& specimen, const Plate
     setup.width = specimen.width;
     setup.height = specimen.height;
     setup.bond_thick = world.settings.thick;
-    setup.mesh_thick = specimen.thick;
+    setup.mesh_gap = specimen.mesh_gap;
     setup.bottom_id = platens.bottom_id;
     setup.top_id = platens.top_id;
     setup.bottom = body_of_id(world, platens.bottom_id);
@@ -100,7 +100,7 @@ TestSetup record_setup(const World& world, const Specimen& specimen, const Plate
     setup.top_start = world.bodies.state[setup.top].y;
     setup.particles = static_cast<std::int64_t>(specimen.scene.bodies.size());
     setup.segments = specimen.segments;
-    setup.seeds = specimen.seeds;
+    setup.centres = specimen.centres;
     setup.stable_time_step = world.stepping.exact_step;
     setup.stable_time_step_proved =
         world.stepping.exact_step_proved && world.settings.segment_law == SegmentLaw::rounded;

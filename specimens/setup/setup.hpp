@@ -44,14 +44,14 @@ struct TestSetup {
     bool polygons = false;
     double width = 0.0, height = 0.0;    // m, initial
     double bond_thick = 0.0;             // m
-    double mesh_thick = 0.0;             // m
+    double mesh_gap = 0.0;             // m
     int bottom_id = 0, top_id = 0;       // as in outputs
     BodyIndex bottom = 0, top = 0;       // in the world
     double top_start = 0.0;              // m, y of the upper platen's centroid
     std::vector<BodyIndex> left, right;  ///< side particles in the middle half of the height
     double gauge_length = 0.0;           ///< m, initial distance of their mean x; 0 if a side has none
 
-    std::int64_t particles = 0, segments = 0, seeds = 0;
+    std::int64_t particles = 0, segments = 0, centres = 0;
     std::int64_t contacts_initial = 0;         ///< contact points that touch when loading begins
     double mean_bond_overlap = 0.0;            // m, over bonded points
     double mean_back_tension = 0.0;            // N, over bonded points
@@ -81,7 +81,7 @@ struct TestSetup {
         visit("width", s.width);
         visit("height", s.height);
         visit("bond_thick", s.bond_thick);
-        visit("mesh_thick", s.mesh_thick);
+        visit("mesh_gap", s.mesh_gap);
         visit("bottom_id", s.bottom_id);
         visit("top_id", s.top_id);
         visit("bottom", s.bottom);
@@ -92,7 +92,7 @@ struct TestSetup {
         visit("gauge_length", s.gauge_length);
         visit("particles", s.particles);
         visit("segments", s.segments);
-        visit("seeds", s.seeds);
+        visit("centres", s.centres);
         visit("contacts_initial", s.contacts_initial);
         visit("mean_bond_overlap", s.mean_bond_overlap);
         visit("mean_back_tension", s.mean_back_tension);

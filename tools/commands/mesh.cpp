@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle mesh IN`: polygon particles from a packing of circles or a list of seeds.
+// `crackle mesh IN`: polygon particles from a packing of circles or a list of centres.
 
 #include "mesher/mesher.hpp"
 
@@ -17,7 +17,7 @@
 #include "solver/demseg/geometry.hpp"
 #include "specimens/making/cell_bodies.hpp"
 #include "tools/commands/commands.hpp"
-#include "tools/commands/seed_list.hpp"
+#include "tools/commands/centre_list.hpp"
 
 namespace crackle::tools {
 namespace {
@@ -53,32 +53,32 @@ Domain parse_domain(const std::string& text) {
 /// What is to be meshed.
 struct Source {
     Scene scene;  ///< materials and domain of the result; no bodies
-    std::vector<Seed> seeds;
-    std::vector<int> materials;       ///< of each seed
-    std::vector<std::string> origin;  ///< of each seed, as the user knows it
+    std::vector<CellCentre> centres;
+    std::vector<int> materials;       ///< of each centre
+    std::vector<std::string> origin;  ///< of each centre, as the user knows it
 };
 
-Source seeds_of_list(const std::string& name, const std::string& text, const po::variables_map& values) {
-    const SeedList list = parse_seed_list(name, text);
+Source centres_of_list(const std::string& name, const std::string& text, const po::variables_map& values) {
+    const CentreList list = parse_centre_list(name, text);
     Source source;
     for (std::size_t k = 0; k < list.places.size(); ++k) {
-        source.seeds.push_back({list.places[k].x, list.places[k].y});
+        source.centres.push_back({list.places[k].x, list.places[k].y});
         source.origin.push_back(fmt::format("{}:{}", name, list.lines[k]));
     }
     Domain& domain = source.scene.domain;
     if (values.contains("domain") == values.contains("bounding-box")) {
         throw InputError(
             fmt::format("crackle mesh: found {}, expected one of --domain x1 x2 y1 y2 and --bounding-box for "
-                        "the list of seeds {}",
+                        "the list of centres {}",
                         values.contains("domain") ? "both" : "neither", name));
     }
     if (values.contains("domain")) {
         domain = parse_domain(values["domain"].as<std::string>());
     } else {
-        const auto by_x = [](Seed a, Seed b) { return a.x < b.x; };
-        const auto by_y = [](Seed a, Seed b) { return a.y < b.y; };
-        const auto [left, right] = std::minmax_element(source.seeds.begin(), source.seeds.end(), by_x);
-        const auto [bottom, top] = std::minmax_element(source.seeds.begin(), source.seeds.end(), by_y);
+        const auto by_x = [](CellCentre a, CellCentre b) { return a.x < b.x; };
+        const auto by_y = [](CellCentre a, CellCentre b) { return a.y < b.y; };
+        const auto [left, right] = std::minmax_element(source.centres.begin(), source.centres.end(), by_x);
+        const auto [bottom, top] = std::minmax_element(source.centres.begin(), source.centres.end(), by_y);
         domain = {left->x, right->x, bottom->y, top->y};
     }
     Material material;
@@ -87,11 +87,11 @@ Source seeds_of_list(const std::string& name, const std::string& text, const po:
     material.shear_stiffness = values["shear-stiffness"].as<double>();
     material.friction_angle = values["friction-angle"].as<double>();
     source.scene.materials = {material};
-    source.materials.assign(source.seeds.size(), 0);
+    source.materials.assign(source.centres.size(), 0);
     return source;
 }
 
-Source seeds_of_deck(const std::string& name, const std::string& text, const po::variables_map& values) {
+Source centres_of_deck(const std::string& name, const std::string& text, const po::variables_map& values) {
     for (const char* option :
          {"domain", "bounding-box", "density", "normal-stiffness", "shear-stiffness", "friction-angle"}) {
         if (values.contains(option) && !values[option].defaulted()) {
@@ -111,7 +111,7 @@ Source seeds_of_deck(const std::string& name, const std::string& text, const po:
                                       : "chain of segments"));
         }
         const Vec2 centre = circles.circles[body.first_circle].centre;
-        source.seeds.push_back({centre.x, centre.y});
+        source.centres.push_back({centre.x, centre.y});
         source.materials.push_back(body.material);
         source.origin.push_back(fmt::format("circle {} of {}", body.id, name));
     }
@@ -126,12 +126,12 @@ Source seeds_of_deck(const std::string& name, const std::string& text, const po:
 Mesh mesh_source(const Source& source, const MeshRequest& request) {
     const Domain& domain = source.scene.domain;
     try {
-        return make_mesh(source.seeds, {domain.x1, domain.x2, domain.y1, domain.y2}, request);
+        return make_mesh(source.centres, {domain.x1, domain.x2, domain.y1, domain.y2}, request);
     } catch (const MeshError& error) {
         std::string named;
-        for (const int seed : error.seeds) {
-            named += fmt::format("{}seed {} is {}", named.empty() ? " (" : ", ", seed,
-                                 source.origin[static_cast<std::size_t>(seed)]);
+        for (const int centre : error.centres) {
+            named += fmt::format("{}centre {} is {}", named.empty() ? " (" : ", ", centre,
+                                 source.origin[static_cast<std::size_t>(centre)]);
         }
         throw InputError(error.what() + named + (named.empty() ? "" : ")"));
     }
@@ -155,13 +155,13 @@ MeshRequest request_of(const po::variables_map& values) {
     };
     MeshRequest request;
     request.kind = choice("kind", "delaunay", "voronoi") ? MeshKind::delaunay : MeshKind::voronoi;
-    request.boundary = choice("boundary", "domain", "seeds") ? Boundary::domain : Boundary::seeds;
-    if (request.kind == MeshKind::voronoi && request.boundary == Boundary::seeds) {
-        throw InputError("--boundary: found seeds with --kind voronoi, expected domain: Voronoi cells always fill it");
+    request.boundary = choice("boundary", "domain", "centres") ? Boundary::domain : Boundary::centres;
+    if (request.kind == MeshKind::voronoi && request.boundary == Boundary::centres) {
+        throw InputError("--boundary: found centres with --kind voronoi, expected domain: Voronoi cells always fill it");
     }
     if (!values.contains("thick"))
         throw InputError("--thick: found nothing, expected the gap between facing edges in m");
-    request.thick = values["thick"].as<double>();
+    request.mesh_gap = values["thick"].as<double>();
     if (values.contains("inset")) request.inset = values["inset"].as<double>();
     request.merge_destroyed = values.contains("merge");
     return request;
@@ -185,7 +185,7 @@ fs::path output_path(const po::variables_map& values, MeshKind kind, const fs::p
 void print_report(const Source& source, const Mesh& mesh, const MeshRequest& request, const fs::path& output) {
     const MeshReport& report = mesh.report;
     const Domain& domain = source.scene.domain;
-    std::cout << fmt::format("seeds            {} in x {:.6g} to {:.6g}, y {:.6g} to {:.6g}\n", source.seeds.size(),
+    std::cout << fmt::format("centres            {} in x {:.6g} to {:.6g}, y {:.6g} to {:.6g}\n", source.centres.size(),
                              domain.x1, domain.x2, domain.y1, domain.y2)
               << fmt::format("cells            {} ({})\n", report.cells,
                              request.kind == MeshKind::delaunay ? "delaunay" : "voronoi")
@@ -210,31 +210,31 @@ CommandLine describe_mesh() {
         ("thick", number(), "gap between facing edges, m")                               //
         ("inset", number(), "move edges inwards by so much instead of half the gap, m")  //
         ("boundary", word("WHICH")->default_value("domain"),
-         "of triangles. domain: flat faces, made by projecting the outer seeds; seeds: between seeds only")  //
+         "of triangles. domain: flat faces, made by projecting the outer centres; centres: between centres only")  //
         ("merge", "give the place of cells that the inset destroys to neighbours, instead of an error")      //
         ("output,o", word("FILE"), "file to write, or folder (default: in_gm_tri.dat or in_gm_volo.dat)")    //
         ("force", "replace the output if it is there");
     plain.add_options()("domain", word("X1 X2 Y1 Y2"), "the domain, m")               //
-        ("bounding-box", "take the seeds' bounding box as the domain")                //
+        ("bounding-box", "take the centres' bounding box as the domain")                //
         ("density", number()->default_value(usual.density), "kg/m2")                  //
         ("normal-stiffness", number()->default_value(usual.normal_stiffness), "N/m")  //
         ("shear-stiffness", number()->default_value(usual.shear_stiffness), "N/m")    //
         ("friction-angle", number()->default_value(usual.friction_angle), "degrees");
     return {.synopses = {"crackle mesh IN --kind delaunay|voronoi --thick T [OPTIONS]"},
             .description =
-                "Makes polygons of the centres of the circles in IN, an in_gm.dat, or of a list of seeds, one x y a "
+                "Makes polygons of the centres of the circles in IN, an in_gm.dat, or of a list of centres, one x y a "
                 "line. Each polygon is inset along every edge, so that facing edges stand T apart, and T/2 from the "
                 "domain's faces. Writes a particle file of polygons (in_gm_tri.dat or in_gm_volo.dat). Lengths in the "
                 "units of IN.",
-            .options = {{"options", options}, {"options for a list of seeds", plain}},
+            .options = {{"options", options}, {"options for a list of centres", plain}},
             .operand = "IN",
-            .choices = {{"kind", {"delaunay", "voronoi"}}, {"boundary", {"domain", "seeds"}}},
+            .choices = {{"kind", {"delaunay", "voronoi"}}, {"boundary", {"domain", "centres"}}},
             .verbose = "seconds of each stage, counts",
             .examples = {{"crackle mesh in_gm.dat --kind voronoi --thick 1e-3", "the cells of a packing"},
-                         {"crackle mesh in_gm.dat --kind delaunay --thick 1e-3 --boundary seeds",
+                         {"crackle mesh in_gm.dat --kind delaunay --thick 1e-3 --boundary centres",
                           "triangles between circles only"},
-                         {"crackle mesh seeds.txt --kind voronoi --thick 0 --domain 0 1 0 2",
-                          "cells of your own seeds, no gaps"}},
+                         {"crackle mesh centres.txt --kind voronoi --thick 0 --domain 0 1 0 2",
+                          "cells of your own centres, no gaps"}},
             .prepared = join_domain};
 }
 
@@ -242,7 +242,7 @@ int mesh(const Invocation& given) {
     const po::variables_map& values = given.values;
     if (given.operands.empty()) {
         throw InputError(
-            "crackle mesh: found no IN, expected an in_gm.dat or a list of seeds (see crackle mesh --help)");
+            "crackle mesh: found no IN, expected an in_gm.dat or a list of centres (see crackle mesh --help)");
     }
     const MeshRequest request = request_of(values);
     const std::string& name = given.operands.front();
@@ -250,14 +250,14 @@ int mesh(const Invocation& given) {
     Talk& talk = given.talk;
     talk.progress().begin("reading " + name, 3.0, "");
     const std::string text = read_text_file(name);
-    Source source = looks_like_seed_list(text) ? seeds_of_list(name, text, values) : seeds_of_deck(name, text, values);
-    talk.detail(fmt::format("read {} seeds from {}, {} bytes", source.seeds.size(), name, text.size()));
-    talk.progress().step(1.0, fmt::format("meshing {} seeds", source.seeds.size()));
+    Source source = looks_like_centre_list(text) ? centres_of_list(name, text, values) : centres_of_deck(name, text, values);
+    talk.detail(fmt::format("read {} centres from {}, {} bytes", source.centres.size(), name, text.size()));
+    talk.progress().step(1.0, fmt::format("meshing {} centres", source.centres.size()));
     const Mesh made = mesh_source(source, request);
     talk.detail(fmt::format("meshed {} cells of {} segments", made.report.cells, made.report.segments));
     talk.progress().step(2.0, fmt::format("writing {} cells", made.report.cells));
     std::ostringstream deck;
-    write_geometry(deck, scene_of(source, made, request.thick));
+    write_geometry(deck, scene_of(source, made, request.mesh_gap));
     replace_file(output, deck.str());
     talk.make_room();
     talk.detail(fmt::format("wrote {} bytes", deck.str().size()));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include "tools/commands/seed_list.hpp"
+#include "tools/commands/centre_list.hpp"
 
 #include <fmt/format.h>
 
@@ -51,7 +51,7 @@ bool parse_number(std::string_view word, double& value) {
     return error == std::errc{} && end == last && std::isfinite(value);
 }
 
-bool looks_like_seed_list(std::string_view text) {
+bool looks_like_centre_list(std::string_view text) {
     bool pair = false;
     each_line(text, [&pair](const std::vector<std::string_view>& words, int) {
         pair = words.size() == 2;
@@ -60,8 +60,8 @@ bool looks_like_seed_list(std::string_view text) {
     return pair;
 }
 
-SeedList parse_seed_list(const std::string& name, std::string_view text) {
-    SeedList list;
+CentreList parse_centre_list(const std::string& name, std::string_view text) {
+    CentreList list;
     each_line(text, [&](const std::vector<std::string_view>& words, int line) {
         if (words.size() != 2) {
             throw InputError(fmt::format("{}:{}: found {} word{}, expected two numbers x y", name, line, words.size(),
@@ -78,7 +78,7 @@ SeedList parse_seed_list(const std::string& name, std::string_view text) {
         list.lines.push_back(line);
         return true;
     });
-    if (list.places.empty()) throw InputError(fmt::format("{}: found no seeds, expected lines of x y", name));
+    if (list.places.empty()) throw InputError(fmt::format("{}: found no centres, expected lines of x y", name));
     return list;
 }
 
