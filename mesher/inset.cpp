@@ -61,8 +61,8 @@ void Inset::drop_flat_corners(std::vector<Point>& polygon) const {
             const double turn = cross(in, out);
             const double chord = std::hypot(c.x - a.x, c.y - a.y);
             const bool straight_on = dot(in, out) > 0.0;
-            if (lengths == 0.0 ||
-                (straight_on && (turn <= flattest_turn * lengths || turn <= 4.0 * eps * scale_ * chord))) {
+            if (lengths == 0.0 || (straight_on && (turn <= flattest_turn * lengths ||
+                                                   turn <= 4.0 * relative_rounding * scale_ * chord))) {
                 polygon.erase(polygon.begin() + static_cast<std::ptrdiff_t>(k));
                 changed = true;
                 --k;
@@ -77,7 +77,7 @@ bool Inset::straightforward() {
     result_.resize(count);
     double perimeter = 0.0;
     for (const double length : length_) perimeter += length;
-    const double shortest = std::max(shortest_share * perimeter, 16.0 * eps * scale_);
+    const double shortest = std::max(shortest_share * perimeter, 16.0 * relative_rounding * scale_);
     // An edge loses d·tan(turn/2) at each end, tan(turn/2) = (1 - cos)/sin = sin/(1 + cos).
     double lost_before = 0.0, lost_at_first = 0.0;
     for (std::size_t k = 0; k < count; ++k) {
@@ -85,7 +85,7 @@ bool Inset::straightforward() {
         const Point t1 = direction_[before], t2 = direction_[k];
         const double sine = cross(t1, t2), cosine = dot(t1, t2);
         if (sine <= flattest_turn && cosine > 0.0) return false;
-        if (sine * std::min(length_[before], length_[k]) <= 16.0 * eps * scale_) return false;
+        if (sine * std::min(length_[before], length_[k]) <= 16.0 * relative_rounding * scale_) return false;
         Point move;
         double lost;
         if (cosine > 0.0) {  // (t2 - t1)/sine = (n1 + n2)/(1 + cosine), n the inward normals: no small difference
@@ -122,7 +122,7 @@ void Inset::by_half_planes() {
         clip(result_, nx, ny, nx * outline_[k].x + ny * outline_[k].y + depth_, scratch_);
         perimeter += length_[k];
     }
-    const double shortest = std::max(shortest_share * perimeter, 16.0 * eps * scale_);
+    const double shortest = std::max(shortest_share * perimeter, 16.0 * relative_rounding * scale_);
     const auto near = [shortest](Point a, Point b) { return std::hypot(a.x - b.x, a.y - b.y) <= shortest; };
     result_.erase(std::unique(result_.begin(), result_.end(), near), result_.end());
     while (result_.size() > 1 && near(result_.front(), result_.back())) result_.pop_back();

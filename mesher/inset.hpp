@@ -12,7 +12,8 @@ namespace crackle {
 /// Insets polygons one after another with the same working memory.
 class Inset {
   public:
-    /// @param depth  m, >= 0  @param coordinate_scale  largest coordinate, m: positions are rounded at some eps of it
+    /// @param depth  m, >= 0  @param coordinate_scale  largest coordinate, m: positions are rounded at some
+    /// relative_rounding of it
     Inset(double depth, double coordinate_scale) : depth_(depth), scale_(coordinate_scale) {}
 
     /// @param outline  convex, counter-clockwise, m

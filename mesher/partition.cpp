@@ -3,13 +3,13 @@
 // constructions).
 //
 // A centre whose cell would cross a wall is mirrored across it, which makes the wall an edge of the partition: beyond a
-// wall every mirror image is nearer than its centre. Images are added until every centre that meets an image across a wall
-// has its own there and no circumcentre of centres lies outside, which is the partition that mirroring all centres would
-// give. What is on a wall is then known from the triangulation, not from coordinates: a face of centres and images across
-// a wall has its circumcentre exactly on that wall (two walls: in the corner). So positions are put there, and cell
-// areas sum to the domain's whatever the rounding. Four guards far away close the cells of outermost centres from the
-// start; they are further from every point of the domain than any centre is. A centre exactly on a wall is its own image;
-// its cell is cut at the wall.
+// wall every mirror image is nearer than its centre. Images are added until every centre that meets an image across a
+// wall has its own there and no circumcentre of centres lies outside, which is the partition that mirroring all centres
+// would give. What is on a wall is then known from the triangulation, not from coordinates: a face of centres and
+// images across a wall has its circumcentre exactly on that wall (two walls: in the corner). So positions are put
+// there, and cell areas sum to the domain's whatever the rounding. Four guards far away close the cells of outermost
+// centres from the start; they are further from every point of the domain than any centre is. A centre exactly on a
+// wall is its own image; its cell is cut at the wall.
 
 #include "mesher/partition.hpp"
 
@@ -59,7 +59,7 @@ using FaceHandle = Triangulation::Face_handle;
 
 constexpr std::array<std::uint8_t, 4> all_sides{side_left, side_right, side_bottom, side_top};
 // Edges shorter than this share of their circumradius are taken for the zero-length edges of co-circular centres: the
-// rounding of a circumcentre is some eps of the radius, and 1e-10 leaves room for badly shaped triangles.
+// rounding of a circumcentre is some relative_rounding of the radius, and 1e-10 leaves room for badly shaped triangles.
 constexpr double zero_edge_share = 1e-10;
 // Centres nearer than this share of the mean spacing have a bisector, and cells, made of rounding errors.
 constexpr double coincidence_share = 1e-9;
@@ -156,7 +156,8 @@ void Partition::insert_centres() {
     using Placed = std::pair<CgalPoint, int>;  // sorted itself: sorting numbers of places would wait for memory
     std::vector<Placed> order;
     order.reserve(centres_.size());
-    for (const CellCentre& centre : centres_) order.emplace_back(CgalPoint(centre.x, centre.y), static_cast<int>(order.size()));
+    for (const CellCentre& centre : centres_)
+        order.emplace_back(CgalPoint(centre.x, centre.y), static_cast<int>(order.size()));
     using PlaceOf = CGAL::First_of_pair_property_map<Placed>;
     CGAL::spatial_sort(order.begin(), order.end(), CGAL::Spatial_sort_traits_adapter_2<Kernel, PlaceOf>());
     FaceHandle hint = guards_.back()->face();
@@ -181,13 +182,13 @@ void Partition::refuse_coincident(int a, int b) const {
 }
 
 unsigned Partition::walls_beyond(Point p) const {
-    return bit(p.x < domain_.x1, side_left) | bit(p.x > domain_.x2, side_right) | bit(p.y < domain_.y1, side_bottom) |
-           bit(p.y > domain_.y2, side_top);
+    return side_if(p.x < domain_.x1, side_left) | side_if(p.x > domain_.x2, side_right) |
+           side_if(p.y < domain_.y1, side_bottom) | side_if(p.y > domain_.y2, side_top);
 }
 
 // Where the bisector of the face's corners meets the wall: (p - wall)² + (y - s)² equal for two of them, an image
-// standing for its centre. The pair that is furthest apart along the wall is taken; no difference of nearly equal squares
-// enters.
+// standing for its centre. The pair that is furthest apart along the wall is taken; no difference of nearly equal
+// squares enters.
 Point Partition::on_wall(FaceHandle face, std::uint8_t wall) const {
     const bool upright = wall == side_left || wall == side_right;
     const double level = wall == side_left     ? domain_.x1
@@ -291,7 +292,7 @@ void Partition::refuse_near_coincident(FaceHandle face, double too_close) const 
 void Partition::mirror_where_needed() {
     const double spacing =
         std::sqrt((domain_.x2 - domain_.x1) * (domain_.y2 - domain_.y1) / static_cast<double>(centres_.size()));
-    const double too_close = std::max(64.0 * eps * scale_, coincidence_share * spacing);
+    const double too_close = std::max(64.0 * relative_rounding * scale_, coincidence_share * spacing);
     std::vector<VertexHandle> to_mirror, touched;
     for (const FaceHandle face : triangulation_.finite_face_handles()) {
         refuse_near_coincident(face, too_close);
@@ -317,7 +318,7 @@ void Partition::mirror_where_needed() {
 }
 
 double Partition::zero_edge(Point dual_point, Point centre) const {
-    const double rounding = 64.0 * eps * scale_;
+    const double rounding = 64.0 * relative_rounding * scale_;
     return std::max(rounding * rounding, zero_edge_share * zero_edge_share * squared_distance(dual_point, centre));
 }
 
@@ -358,7 +359,7 @@ void Partition::cut_at_walls(std::vector<Point>& polygon, std::vector<Point>& sc
     clip(polygon, -1.0, 0.0, -domain_.x2, scratch);
     clip(polygon, 0.0, 1.0, domain_.y1, scratch);
     clip(polygon, 0.0, -1.0, -domain_.y2, scratch);
-    const double rounding = 64.0 * eps * scale_;
+    const double rounding = 64.0 * relative_rounding * scale_;
     for (Point& p : polygon) {
         for (const double x : {domain_.x1, domain_.x2}) p.x = std::abs(p.x - x) <= rounding ? x : p.x;
         for (const double y : {domain_.y1, domain_.y2}) p.y = std::abs(p.y - y) <= rounding ? y : p.y;

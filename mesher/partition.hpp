@@ -29,7 +29,7 @@ struct VoronoiCells {
 /// Delaunay triangles, counter-clockwise.
 struct Triangles {
     std::vector<Point> points;                   // centres, and points added on the domain's faces; along space
-    std::vector<int> centre_of;                    // by point; -1: added
+    std::vector<int> centre_of;                  // by point; -1: added
     std::vector<std::array<int, 3>> corners;     // into points
     std::vector<std::array<int, 3>> neighbours;  // across the edge opposite to corner k; -1: none
 };
@@ -44,21 +44,21 @@ Triangles delaunay_triangles(std::span<const CellCentre> centres, const Rectangl
 void clip(std::vector<Point>& polygon, double nx, double ny, double offset, std::vector<Point>& scratch);
 
 /// A side's bit, or none.
-inline unsigned bit(bool set, SideBit side) { return set ? unsigned{side} : 0U; }
+inline unsigned side_if(bool set, SideBit side) { return set ? unsigned{side} : 0U; }
 
 /// Bits of the sides on which a point lies.
 inline unsigned sides_at(Point p, const Rectangle& domain) {
-    return bit(p.x == domain.x1, side_left) | bit(p.x == domain.x2, side_right) | bit(p.y == domain.y1, side_bottom) |
-           bit(p.y == domain.y2, side_top);
+    return side_if(p.x == domain.x1, side_left) | side_if(p.x == domain.x2, side_right) |
+           side_if(p.y == domain.y1, side_bottom) | side_if(p.y == domain.y2, side_top);
 }
 
 /// Bits of the sides on which the polygon has an edge.
 std::uint8_t sides_of(std::span<const Point> polygon, const Rectangle& domain);
 
 /// Of one rounding, relative.
-constexpr double eps = std::numeric_limits<double>::epsilon();
+inline constexpr double relative_rounding = std::numeric_limits<double>::epsilon();
 
-/// Largest coordinate of the domain: rounding errors of positions are a few eps of it.
+/// Largest coordinate of the domain: rounding errors of positions are a few relative_rounding of it.
 double coordinate_scale(const Rectangle& domain);
 
 }  // namespace crackle

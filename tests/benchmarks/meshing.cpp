@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Meshing against its yardstick: from random seeds to inset polygons, over CGAL's bare insertion of the same points.
+// Meshing against its yardstick: from random centres to inset polygons, over CGAL's bare insertion of the same points.
 // Both in turn, in processor time of the thread; `over_insertion` is the median of the pairs' quotients, whatever else
 // the machine does. `peak_MB` is what the resident set grows by at most while one mesh is made, the mesh included;
 // `destroyed` are the cells that the inset destroys and that are merged.
-// Arguments: seeds, gap in thousandths of the mean spacing.
+// Arguments: centres, gap in thousandths of the mean spacing.
 
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -37,15 +37,15 @@ double processor_time() {
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-std::vector<Seed> random_seeds(std::int64_t count) {
+std::vector<CellCentre> random_seeds(std::int64_t count) {
     std::mt19937_64 random(1);
     const auto uniform = [&random] { return static_cast<double>(random() >> 11) * 0x1p-53; };
-    std::vector<Seed> seeds(static_cast<std::size_t>(count));
-    for (Seed& seed : seeds) {
+    std::vector<CellCentre> centres(static_cast<std::size_t>(count));
+    for (CellCentre& seed : centres) {
         seed.x = uniform();
         seed.y = uniform();
     }
-    return seeds;
+    return centres;
 }
 
 double time_of_insertion(const BarePoints& points) {
@@ -56,9 +56,9 @@ double time_of_insertion(const BarePoints& points) {
     return processor_time() - start;
 }
 
-double time_of_meshing(const std::vector<Seed>& seeds, const MeshRequest& request) {
+double time_of_meshing(const std::vector<CellCentre>& centres, const MeshRequest& request) {
     const double start = processor_time();
-    const Mesh mesh = make_mesh(seeds, unit_square, request);
+    const Mesh mesh = make_mesh(centres, unit_square, request);
     benchmark::DoNotOptimize(mesh.report);
     return processor_time() - start;
 }
@@ -73,11 +73,11 @@ double status_value(const std::string& name) {
     return 0.0;
 }
 
-void report_one_mesh(benchmark::State& state, const std::vector<Seed>& seeds, const MeshRequest& request) {
+void report_one_mesh(benchmark::State& state, const std::vector<CellCentre>& centres, const MeshRequest& request) {
     malloc_trim(0);                               // what earlier meshes left behind would hide the growth
     std::ofstream("/proc/self/clear_refs") << 5;  // the peak counts from here
     const double before = status_value("VmRSS");
-    const Mesh mesh = make_mesh(seeds, unit_square, request);
+    const Mesh mesh = make_mesh(centres, unit_square, request);
     state.counters["peak_MB"] = (status_value("VmHWM") - before) / 1024.0;
     state.counters["destroyed"] = static_cast<double>(mesh.report.cells_destroyed);
 }
@@ -89,21 +89,21 @@ double median(std::vector<double> values) {
 }
 
 void run(benchmark::State& state, MeshKind kind) {
-    const std::vector<Seed> seeds = random_seeds(state.range(0));
+    const std::vector<CellCentre> centres = random_seeds(state.range(0));
     BarePoints points;
-    for (const Seed& seed : seeds) points.emplace_back(seed.x, seed.y);
+    for (const CellCentre& seed : centres) points.emplace_back(seed.x, seed.y);
     MeshRequest request;
     request.kind = kind;
-    request.thick = 1e-3 * static_cast<double>(state.range(1)) / std::sqrt(static_cast<double>(seeds.size()));
+    request.mesh_gap = 1e-3 * static_cast<double>(state.range(1)) / std::sqrt(static_cast<double>(centres.size()));
     request.merge_destroyed = true;
     std::vector<double> insertion, meshing, quotient;
     for (auto _ : state) {
         insertion.push_back(time_of_insertion(points));
-        meshing.push_back(time_of_meshing(seeds, request));
+        meshing.push_back(time_of_meshing(centres, request));
         quotient.push_back(meshing.back() / insertion.back());
         state.SetIterationTime(meshing.back());
     }
-    report_one_mesh(state, seeds, request);
+    report_one_mesh(state, centres, request);
     state.counters["insertion_ms"] = 1e3 * median(insertion);
     state.counters["meshing_ms"] = 1e3 * median(meshing);
     state.counters["over_insertion"] = median(quotient);
@@ -114,9 +114,9 @@ void delaunay(benchmark::State& state) { run(state, MeshKind::delaunay); }
 
 constexpr int pairs = 7;
 void sizes(benchmark::internal::Benchmark* made, std::initializer_list<int> gaps) {
-    made->ArgNames({"seeds", "gap"})->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(pairs);
+    made->ArgNames({"centres", "gap"})->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(pairs);
     for (const int gap : gaps) {
-        for (const int seeds : {10'000, 100'000, 1'000'000}) made->Args({seeds, gap});
+        for (const int centres : {10'000, 100'000, 1'000'000}) made->Args({centres, gap});
     }
 }
 // Gaps that spare every cell, and that destroy a few in a million.

@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "tests/mesher/seeds.hpp"
+#include "tests/mesher/centres.hpp"
 
 namespace crackle {
 namespace {
@@ -15,14 +15,14 @@ MeshRequest delaunay(Boundary boundary, double thick) {
     MeshRequest request;
     request.kind = MeshKind::delaunay;
     request.boundary = boundary;
-    request.thick = thick;
+    request.mesh_gap = thick;
     return request;
 }
 
-/// Seeds along the outer chain, with repetition where it touches itself: as many as Voronoi edges that end on the
+/// Centres along the outer chain, with repetition where it touches itself: as many as Voronoi edges that end on the
 /// boundary.
-int chain_length(const std::vector<Seed>& seeds, const Rectangle& domain) {
-    const Mesh cells = make_mesh(seeds, domain, MeshRequest{});
+int chain_length(const std::vector<CellCentre>& centres, const Rectangle& domain) {
+    const Mesh cells = make_mesh(centres, domain, MeshRequest{});
     std::set<std::pair<double, double>> ends;
     for (const Point& p : cells.corners) {
         const bool x = p.x == domain.x1 || p.x == domain.x2, y = p.y == domain.y1 || p.y == domain.y2;
@@ -35,37 +35,37 @@ TEST(DelaunayOfSeeds, CountIsTwoNMinusTwoMinusH) {
     for (const int count : {10, 304, 2000}) {
         for (std::uint64_t seed = 1; seed <= 5; ++seed) {
             const Rectangle domain{0.0, 0.7, 0.0, 1.4};
-            const auto seeds = testing::random_seeds(count, domain, seed);
-            const Mesh mesh = make_mesh(seeds, domain, delaunay(Boundary::seeds, 0.0));
-            const int h = chain_length(seeds, domain);
-            EXPECT_EQ(mesh.report.cells, 2 * count - 2 - h) << count << " seeds, " << h << " on the chain";
+            const auto centres = testing::random_seeds(count, domain, seed);
+            const Mesh mesh = make_mesh(centres, domain, delaunay(Boundary::centres, 0.0));
+            const int h = chain_length(centres, domain);
+            EXPECT_EQ(mesh.report.cells, 2 * count - 2 - h) << count << " centres, " << h << " on the chain";
             EXPECT_EQ(mesh.report.segments, 3 * mesh.report.cells);
         }
     }
 }
 
 TEST(DelaunayOfSeeds, TheGuidesSpecimenHasAboutItsTriangles) {
-    // 304 seeds spread like a packing: 537 triangles, so 69 seeds along the chain.
+    // 304 centres spread like a packing: 537 triangles, so 69 centres along the chain.
     const Rectangle domain{0.0, 0.63, 0.0, 1.26};
-    const auto seeds = testing::lattice(12, 25, domain, 0.5, 2);
-    const Mesh mesh = make_mesh(seeds, domain, delaunay(Boundary::seeds, 0.0));
-    EXPECT_TRUE(agrees("triangles of 300 seeds against the guide's share", static_cast<double>(mesh.report.cells),
+    const auto centres = testing::lattice(12, 25, domain, 0.5, 2);
+    const Mesh mesh = make_mesh(centres, domain, delaunay(Boundary::centres, 0.0));
+    EXPECT_TRUE(agrees("triangles of 300 centres against the guide's share", static_cast<double>(mesh.report.cells),
                        300 * 537.0 / 304, 0.02));
 }
 
 TEST(DelaunayOfSeeds, CircumcirclesAreEmptyAndCentredInTheDomain) {
     for (const auto& specimen : testing::specimens()) {
-        if (specimen.seeds.size() < 50 || specimen.seeds.size() > 1300 ||
+        if (specimen.centres.size() < 50 || specimen.centres.size() > 1300 ||
             specimen.name.find("line") != std::string::npos)
             continue;
         SCOPED_TRACE(specimen.name);
-        const Mesh mesh = make_mesh(specimen.seeds, specimen.domain, delaunay(Boundary::seeds, 0.0));
+        const Mesh mesh = make_mesh(specimen.centres, specimen.domain, delaunay(Boundary::centres, 0.0));
         ASSERT_FALSE(mesh.cells.empty());
         const double scale = testing::scale_of(specimen.domain);
         for (const Cell& cell : mesh.cells) {
-            const Point a = specimen.seeds[static_cast<std::size_t>(cell.seeds[0])];
-            const Point b = specimen.seeds[static_cast<std::size_t>(cell.seeds[1])];
-            const Point c = specimen.seeds[static_cast<std::size_t>(cell.seeds[2])];
+            const Point a = specimen.centres[static_cast<std::size_t>(cell.centres[0])];
+            const Point b = specimen.centres[static_cast<std::size_t>(cell.centres[1])];
+            const Point c = specimen.centres[static_cast<std::size_t>(cell.centres[2])];
             const double d = 2.0 * testing::cross(a, b, c);
             ASSERT_GT(d, 0.0);
             const double b2 = (b.x - a.x) * (b.x - a.x) + (b.y - a.y) * (b.y - a.y),
@@ -75,7 +75,7 @@ TEST(DelaunayOfSeeds, CircumcirclesAreEmptyAndCentredInTheDomain) {
             const double radius = std::hypot(o.x - a.x, o.y - a.y), slack = 1e-9 * scale;
             EXPECT_TRUE(o.x > specimen.domain.x1 - slack && o.x < specimen.domain.x2 + slack &&
                         o.y > specimen.domain.y1 - slack && o.y < specimen.domain.y2 + slack);
-            for (const Seed& s : specimen.seeds) EXPECT_GT(std::hypot(s.x - o.x, s.y - o.y), radius - slack);
+            for (const CellCentre& s : specimen.centres) EXPECT_GT(std::hypot(s.x - o.x, s.y - o.y), radius - slack);
         }
     }
 }
@@ -84,7 +84,7 @@ TEST(DelaunayOfTheDomain, AreasSumToTheDomainsAndTrianglesAreConvex) {
     for (const auto& specimen : testing::specimens()) {
         if (specimen.name == "hardly off the wall") continue;  // no room for a triangle: MeshRefusal
         SCOPED_TRACE(specimen.name);
-        const Mesh mesh = make_mesh(specimen.seeds, specimen.domain, delaunay(Boundary::domain, 0.0));
+        const Mesh mesh = make_mesh(specimen.centres, specimen.domain, delaunay(Boundary::domain, 0.0));
         EXPECT_TRUE(
             agrees("area of " + specimen.name, testing::sum_of_areas(mesh), testing::area_of(specimen.domain), 1e-12));
         EXPECT_TRUE(agrees("reported", mesh.report.area_before_inset, testing::area_of(specimen.domain), 1e-12));
@@ -94,44 +94,45 @@ TEST(DelaunayOfTheDomain, AreasSumToTheDomainsAndTrianglesAreConvex) {
 
 TEST(DelaunayOfTheDomain, EverySeedIsACornerAndFacesAreFlat) {
     const Rectangle domain{0.0, 1.0, 0.0, 1.0};
-    const auto seeds = testing::random_seeds(400, domain, 12);
-    const Mesh mesh = make_mesh(seeds, domain, delaunay(Boundary::domain, 0.0));
+    const auto centres = testing::random_seeds(400, domain, 12);
+    const Mesh mesh = make_mesh(centres, domain, delaunay(Boundary::domain, 0.0));
     std::set<int> used;
     std::set<std::pair<double, double>> added;
     double face = 0.0;
     for (const Cell& cell : mesh.cells) {
         const auto corners = mesh.outline(cell);
         for (std::size_t k = 0; k < 3; ++k) {
-            used.insert(cell.seeds[k]);
+            used.insert(cell.centres[k]);
             const Point a = corners[k], b = corners[(k + 1) % 3];
-            if (cell.seeds[k] < 0) added.insert({a.x, a.y});
+            if (cell.centres[k] < 0) added.insert({a.x, a.y});
             if (testing::on_one_side(a, b, domain)) face += std::hypot(b.x - a.x, b.y - a.y);
         }
     }
-    EXPECT_EQ(used.size(), seeds.size() + 1);  // with -1
+    EXPECT_EQ(used.size(), centres.size() + 1);  // with -1
     EXPECT_TRUE(agrees("length of the faces", face, 4.0, 1e-12));
     // Each seed whose Voronoi cell has an edge on a wall has its foot there, beside the four corners.
-    const Mesh cells = make_mesh(seeds, domain, MeshRequest{});
+    const Mesh cells = make_mesh(centres, domain, MeshRequest{});
     std::set<std::pair<double, double>> feet{{0, 0}, {0, 1}, {1, 0}, {1, 1}};
     for (const Cell& cell : cells.cells) {
-        const Seed s = seeds[static_cast<std::size_t>(cell.seed)];
+        const CellCentre s = centres[static_cast<std::size_t>(cell.centre)];
         if (cell.on_left()) feet.insert({0.0, s.y});
         if (cell.on_right()) feet.insert({1.0, s.y});
         if (cell.on_bottom()) feet.insert({s.x, 0.0});
         if (cell.on_top()) feet.insert({s.x, 1.0});
     }
     EXPECT_EQ(added, feet);
-    const auto n = static_cast<std::int64_t>(seeds.size() + added.size()), h = static_cast<std::int64_t>(added.size());
+    const auto n = static_cast<std::int64_t>(centres.size() + added.size()),
+               h = static_cast<std::int64_t>(added.size());
     EXPECT_EQ(mesh.report.cells, 2 * n - 2 - h);
 }
 
 TEST(DelaunayOfTheDomain, FacingGapsEqualThick) {
     const Rectangle domain{-0.3, 0.4, 0.1, 1.5};
-    const auto seeds = testing::lattice(14, 28, domain, 0.5, 3);
-    for (const Boundary boundary : {Boundary::domain, Boundary::seeds}) {
+    const auto centres = testing::lattice(14, 28, domain, 0.5, 3);
+    for (const Boundary boundary : {Boundary::domain, Boundary::centres}) {
         const double thick = 1e-3;
-        const Mesh whole = make_mesh(seeds, domain, delaunay(boundary, 0.0)),
-                   apart = make_mesh(seeds, domain, delaunay(boundary, thick));
+        const Mesh whole = make_mesh(centres, domain, delaunay(boundary, 0.0)),
+                   apart = make_mesh(centres, domain, delaunay(boundary, thick));
         ASSERT_EQ(whole.cells.size(), apart.cells.size());
         EXPECT_TRUE(testing::convex_and_counter_clockwise(apart, 1.5));
         const testing::GapCheck check = testing::check_gaps(whole, apart, domain, thick);
@@ -145,49 +146,50 @@ TEST(DelaunayOfTheDomain, FacingGapsEqualThick) {
 }
 
 TEST(DelaunayOfTheDomain, OneSeedGivesEightTriangles) {
-    const Mesh mesh = make_mesh(std::vector<Seed>{{0.3, 0.6}}, {0.0, 1.0, 0.0, 1.0}, delaunay(Boundary::domain, 1e-3));
+    const Mesh mesh =
+        make_mesh(std::vector<CellCentre>{{0.3, 0.6}}, {0.0, 1.0, 0.0, 1.0}, delaunay(Boundary::domain, 1e-3));
     EXPECT_EQ(mesh.report.cells, 8);
 }
 
 TEST(DelaunayOfTheDomain, SquareLatticeTrianglesAreRight) {
     const Rectangle domain{0.0, 1.0, 0.0, 1.0};
-    const Mesh mesh = make_mesh(testing::lattice(20, 20, domain, 0.0), domain, delaunay(Boundary::seeds, 1e-4));
+    const Mesh mesh = make_mesh(testing::lattice(20, 20, domain, 0.0), domain, delaunay(Boundary::centres, 1e-4));
     EXPECT_EQ(mesh.report.cells, 2 * 19 * 19);
     EXPECT_TRUE(agrees("smallest angle", mesh.report.smallest_angle, 45.0, 1e-9));
 }
 
 TEST(Delaunay, SameSeedsSameBytes) {
     const Rectangle domain{0.0, 1.0, 0.0, 1.0};
-    const auto seeds = testing::random_seeds(2000, domain, 4);
-    for (const Boundary boundary : {Boundary::domain, Boundary::seeds}) {
-        const Mesh once = make_mesh(seeds, domain, delaunay(boundary, 0.0)),
-                   again = make_mesh(seeds, domain, delaunay(boundary, 0.0));
+    const auto centres = testing::random_seeds(2000, domain, 4);
+    for (const Boundary boundary : {Boundary::domain, Boundary::centres}) {
+        const Mesh once = make_mesh(centres, domain, delaunay(boundary, 0.0)),
+                   again = make_mesh(centres, domain, delaunay(boundary, 0.0));
         EXPECT_EQ(once.corners, again.corners);
     }
 }
 
 TEST(Delaunay, MergingASliverMakesAConvexQuadrangle) {
     const Rectangle domain{0.0, 1.0, 0.0, 1.0};
-    // Three seeds 3 degrees apart on a circle that holds no other: a triangle 6e-4 high, sound ones beyond it.
-    std::vector<Seed> seeds;
+    // Three centres 3 degrees apart on a circle that holds no other: a triangle 6e-4 high, sound ones beyond it.
+    std::vector<CellCentre> centres;
     for (const auto& [radius, degrees] :
          {std::pair{0.45, 87.0}, {0.45, 90.0}, {0.45, 93.0}, {0.47, 200.0}, {0.48, 340.0}, {0.46, 270.0}}) {
-        seeds.push_back({0.5 + radius * std::cos(degrees * 0.017453292519943295),
-                         0.5 + radius * std::sin(degrees * 0.017453292519943295)});
+        centres.push_back({0.5 + radius * std::cos(degrees * 0.017453292519943295),
+                           0.5 + radius * std::sin(degrees * 0.017453292519943295)});
     }
-    MeshRequest request = delaunay(Boundary::seeds, 0.0);
-    const Mesh whole = make_mesh(seeds, domain, request);
-    request.thick = 2e-3;
+    MeshRequest request = delaunay(Boundary::centres, 0.0);
+    const Mesh whole = make_mesh(centres, domain, request);
+    request.mesh_gap = 2e-3;
     std::string text;
     try {
-        make_mesh(seeds, domain, request);
+        make_mesh(centres, domain, request);
     } catch (const MeshError& error) {
         text = error.what();
-        EXPECT_EQ(std::set<int>(error.seeds.begin(), error.seeds.end()), (std::set<int>{0, 1, 2}));
+        EXPECT_EQ(std::set<int>(error.centres.begin(), error.centres.end()), (std::set<int>{0, 1, 2}));
     }
     EXPECT_NE(text.find("destroyed by the inset of 0.001 (1 cell in all)"), std::string::npos) << text;
     request.merge_destroyed = true;
-    const Mesh merged = make_mesh(seeds, domain, request);
+    const Mesh merged = make_mesh(centres, domain, request);
     EXPECT_EQ(merged.report.cells, whole.report.cells - 1);
     EXPECT_EQ(merged.report.cells_destroyed, 1);
     EXPECT_TRUE(agrees("area", merged.report.area_before_inset, whole.report.area_before_inset, 1e-14));
@@ -198,11 +200,11 @@ TEST(Delaunay, MergingASliverMakesAConvexQuadrangle) {
 
 TEST(Delaunay, MergingRandomSliversKeepsTheArea) {
     const Rectangle domain{0.0, 1.0, 0.0, 1.0};
-    const auto seeds = testing::random_seeds(1000, domain, 21);
-    MeshRequest request = delaunay(Boundary::seeds, 6e-4);
+    const auto centres = testing::random_seeds(1000, domain, 21);
+    MeshRequest request = delaunay(Boundary::centres, 6e-4);
     request.merge_destroyed = true;
-    const Mesh merged = make_mesh(seeds, domain, request);
-    const Mesh whole = make_mesh(seeds, domain, delaunay(Boundary::seeds, 0.0));
+    const Mesh merged = make_mesh(centres, domain, request);
+    const Mesh whole = make_mesh(centres, domain, delaunay(Boundary::centres, 0.0));
     EXPECT_GT(merged.report.cells_destroyed, 0);
     EXPECT_TRUE(agrees("area", merged.report.area_before_inset, whole.report.area_before_inset, 1e-13));
     EXPECT_TRUE(testing::convex_and_counter_clockwise(merged, 1.0));

@@ -3,7 +3,7 @@
 
 #include "mesher/inset.hpp"
 
-#include "tests/mesher/seeds.hpp"
+#include "tests/mesher/centres.hpp"
 
 namespace crackle {
 namespace {

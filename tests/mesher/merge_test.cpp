@@ -5,7 +5,7 @@
 
 #include <set>
 
-#include "tests/mesher/seeds.hpp"
+#include "tests/mesher/centres.hpp"
 
 namespace crackle {
 namespace {

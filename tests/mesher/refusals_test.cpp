@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "tests/mesher/seeds.hpp"
+#include "tests/mesher/centres.hpp"
 
 namespace crackle {
 namespace {
@@ -11,9 +11,9 @@ namespace {
 const Rectangle unit{0.0, 1.0, 0.0, 1.0};
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-MeshError refusal(const std::vector<Seed>& seeds, const Rectangle& domain, const MeshRequest& request) {
+MeshError refusal(const std::vector<CellCentre>& centres, const Rectangle& domain, const MeshRequest& request) {
     try {
-        make_mesh(seeds, domain, request);
+        make_mesh(centres, domain, request);
     } catch (const MeshError& error) {
         fmt::print("  {}\n", error.what());
         return error;
@@ -26,56 +26,56 @@ void expect_text(const MeshError& error, const std::string& text) {
 }
 
 TEST(MeshRefusal, NamesBothCoincidentSeeds) {
-    auto seeds = testing::random_seeds(100, unit, 2);
-    seeds[70] = seeds[13];
+    auto centres = testing::random_seeds(100, unit, 2);
+    centres[70] = centres[13];
     for (const MeshKind kind : {MeshKind::delaunay, MeshKind::voronoi}) {
         MeshRequest request;
         request.kind = kind;
-        const MeshError error = refusal(seeds, unit, request);
-        expect_text(error, "seeds 13 and 70 at the same place");
-        EXPECT_EQ(error.seeds, (std::vector<int>{13, 70}));
+        const MeshError error = refusal(centres, unit, request);
+        expect_text(error, "centres 13 and 70 at the same place");
+        EXPECT_EQ(error.centres, (std::vector<int>{13, 70}));
     }
-    seeds[70].x += 1e-14;  // distinct, but no bisector can be computed
-    expect_text(refusal(seeds, unit, {}), "seeds 13 and 70 at the same place");
+    centres[70].x += 1e-14;  // distinct, but no bisector can be computed
+    expect_text(refusal(centres, unit, {}), "centres 13 and 70 at the same place");
 }
 
 TEST(MeshRefusal, NamesSeedsThatAreNowhereOrOutside) {
-    auto seeds = testing::random_seeds(5, unit, 2);
-    seeds[3].y = nan;
-    expect_text(refusal(seeds, unit, {}), "seed 3 at (");
-    seeds[3].y = std::numeric_limits<double>::infinity();
-    expect_text(refusal(seeds, unit, {}), "finite coordinates");
-    seeds[3].y = 1.0000001;
-    const MeshError error = refusal(seeds, unit, {});
+    auto centres = testing::random_seeds(5, unit, 2);
+    centres[3].y = nan;
+    expect_text(refusal(centres, unit, {}), "seed 3 at (");
+    centres[3].y = std::numeric_limits<double>::infinity();
+    expect_text(refusal(centres, unit, {}), "finite coordinates");
+    centres[3].y = 1.0000001;
+    const MeshError error = refusal(centres, unit, {});
     expect_text(error, "inside the domain");
-    EXPECT_EQ(error.seeds, std::vector<int>{3});
+    EXPECT_EQ(error.centres, std::vector<int>{3});
 }
 
-TEST(MeshRefusal, NoSeedsNoMesh) { expect_text(refusal({}, unit, {}), "no seeds"); }
+TEST(MeshRefusal, NoSeedsNoMesh) { expect_text(refusal({}, unit, {}), "no centres"); }
 
 TEST(MeshRefusal, TooFewOrCollinearSeedsHaveNoTriangles) {
     MeshRequest request;
     request.kind = MeshKind::delaunay;
-    request.boundary = Boundary::seeds;
+    request.boundary = Boundary::centres;
     expect_text(refusal({{0.5, 0.5}}, unit, request), "1 seed that form");
     expect_text(refusal({{0.5, 0.5}, {0.2, 0.1}}, unit, request), "no triangle");
     expect_text(refusal(testing::lattice(25, 1, unit, 0.0), unit, request), "no triangle");
 }
 
 TEST(MeshRefusal, DomainAndLengthsMustMakeSense) {
-    const std::vector<Seed> seeds{{0.5, 0.5}};
-    expect_text(refusal(seeds, {1.0, 0.0, 0.0, 1.0}, {}), "x1 < x2");
-    expect_text(refusal(seeds, {0.0, 0.0, 0.0, 1.0}, {}), "x1 < x2");
-    expect_text(refusal(seeds, {0.0, nan, 0.0, 1.0}, {}), "finite");
-    expect_text(refusal(seeds, {-1e200, 1e200, -1e200, 1e200}, {}), "choose another unit");
+    const std::vector<CellCentre> centres{{0.5, 0.5}};
+    expect_text(refusal(centres, {1.0, 0.0, 0.0, 1.0}, {}), "x1 < x2");
+    expect_text(refusal(centres, {0.0, 0.0, 0.0, 1.0}, {}), "x1 < x2");
+    expect_text(refusal(centres, {0.0, nan, 0.0, 1.0}, {}), "finite");
+    expect_text(refusal(centres, {-1e200, 1e200, -1e200, 1e200}, {}), "choose another unit");
     MeshRequest request;
-    request.thick = -1.0;
-    expect_text(refusal(seeds, unit, request), "thick: found -1");
-    request.thick = nan;
-    expect_text(refusal(seeds, unit, request), "thick: found nan");
-    request.thick = 1e-3;
+    request.mesh_gap = -1.0;
+    expect_text(refusal(centres, unit, request), "thick: found -1");
+    request.mesh_gap = nan;
+    expect_text(refusal(centres, unit, request), "thick: found nan");
+    request.mesh_gap = 1e-3;
     request.inset = -1e-3;
-    expect_text(refusal(seeds, unit, request), "inset: found -0.001");
+    expect_text(refusal(centres, unit, request), "inset: found -0.001");
 }
 
 TEST(MeshRefusal, SeedsHardlyOffTheWallLeaveNoRoomForATriangle) {
@@ -85,18 +85,18 @@ TEST(MeshRefusal, SeedsHardlyOffTheWallLeaveNoRoomForATriangle) {
 }
 
 TEST(MeshRefusal, NamesTheCellThatTheInsetDestroys) {
-    auto seeds = testing::lattice(10, 10, unit, 0.2);
+    auto centres = testing::lattice(10, 10, unit, 0.2);
     MeshRequest request;
-    request.thick = 0.3;
-    const MeshError all = refusal(seeds, unit, request);
+    request.mesh_gap = 0.3;
+    const MeshError all = refusal(centres, unit, request);
     expect_text(all, "the cell of seed");
     expect_text(all, "destroyed by the inset of 0.15 (100 cells in all)");
-    ASSERT_EQ(all.seeds.size(), 1U);
+    ASSERT_EQ(all.centres.size(), 1U);
     request.merge_destroyed = true;  // one cell may grow to the whole domain and lives then
-    EXPECT_EQ(make_mesh(seeds, unit, request).report.cells + make_mesh(seeds, unit, request).report.cells_destroyed,
+    EXPECT_EQ(make_mesh(centres, unit, request).report.cells + make_mesh(centres, unit, request).report.cells_destroyed,
               100);
-    request.thick = 1.2;  // not even the domain survives
-    expect_text(refusal(seeds, unit, request), "destroyed by the inset of 0.6");
+    request.mesh_gap = 1.2;  // not even the domain survives
+    expect_text(refusal(centres, unit, request), "destroyed by the inset of 0.6");
 }
 
 }  // namespace

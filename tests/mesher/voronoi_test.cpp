@@ -3,7 +3,7 @@
 
 #include <set>
 
-#include "tests/mesher/seeds.hpp"
+#include "tests/mesher/centres.hpp"
 
 namespace crackle {
 namespace {
@@ -13,14 +13,14 @@ using testing::within;
 
 MeshRequest voronoi(double thick) {
     MeshRequest request;
-    request.thick = thick;
+    request.mesh_gap = thick;
     return request;
 }
 
 TEST(Voronoi, CellAreasSumToTheDomains) {
     for (const auto& specimen : testing::specimens()) {
         SCOPED_TRACE(specimen.name);
-        const Mesh mesh = make_mesh(specimen.seeds, specimen.domain, voronoi(0.0));
+        const Mesh mesh = make_mesh(specimen.centres, specimen.domain, voronoi(0.0));
         // Far from the origin a position is rounded at eps times its coordinate, an area at that times the spacing.
         EXPECT_TRUE(
             agrees("area of " + specimen.name, testing::sum_of_areas(mesh), testing::area_of(specimen.domain), 1e-12));
@@ -31,25 +31,25 @@ TEST(Voronoi, CellAreasSumToTheDomains) {
 TEST(Voronoi, NoCellIsLostAndAllAreConvex) {
     for (const auto& specimen : testing::specimens()) {
         SCOPED_TRACE(specimen.name);
-        const Mesh mesh = make_mesh(specimen.seeds, specimen.domain, voronoi(0.0));
-        ASSERT_EQ(mesh.cells.size(), specimen.seeds.size());
-        for (std::size_t k = 0; k < mesh.cells.size(); ++k) EXPECT_EQ(mesh.cells[k].seed, static_cast<int>(k));
+        const Mesh mesh = make_mesh(specimen.centres, specimen.domain, voronoi(0.0));
+        ASSERT_EQ(mesh.cells.size(), specimen.centres.size());
+        for (std::size_t k = 0; k < mesh.cells.size(); ++k) EXPECT_EQ(mesh.cells[k].centre, static_cast<int>(k));
         EXPECT_TRUE(testing::convex_and_counter_clockwise(mesh, testing::scale_of(specimen.domain)));
     }
 }
 
 TEST(Voronoi, EveryPointLiesInTheCellOfItsNearestSeed) {
     for (const auto& specimen : testing::specimens()) {
-        if (specimen.seeds.size() > 1300) continue;
+        if (specimen.centres.size() > 1300) continue;
         SCOPED_TRACE(specimen.name);
-        const Mesh mesh = make_mesh(specimen.seeds, specimen.domain, voronoi(0.0));
+        const Mesh mesh = make_mesh(specimen.centres, specimen.domain, voronoi(0.0));
         const double slack = 1e-11 * testing::scale_of(specimen.domain);
         for (const Point& p : testing::random_seeds(400, specimen.domain, 77)) {
             std::size_t nearest = 0;
             const auto distance = [&](std::size_t k) {
-                return std::hypot(specimen.seeds[k].x - p.x, specimen.seeds[k].y - p.y);
+                return std::hypot(specimen.centres[k].x - p.x, specimen.centres[k].y - p.y);
             };
-            for (std::size_t k = 1; k < specimen.seeds.size(); ++k)
+            for (std::size_t k = 1; k < specimen.centres.size(); ++k)
                 nearest = distance(k) < distance(nearest) ? k : nearest;
             const auto corners = mesh.outline(mesh.cells[nearest]);
             for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -64,7 +64,7 @@ TEST(Voronoi, EveryPointLiesInTheCellOfItsNearestSeed) {
 TEST(Voronoi, EdgesHalveAndAreOrthogonalToTheirDelaunayDuals) {
     for (const auto& specimen : testing::specimens()) {
         SCOPED_TRACE(specimen.name);
-        const Mesh mesh = make_mesh(specimen.seeds, specimen.domain, voronoi(0.0));
+        const Mesh mesh = make_mesh(specimen.centres, specimen.domain, voronoi(0.0));
         const testing::EdgeTable table(mesh);
         double slant = 0.0, off_middle = 0.0;
         int interfaces = 0, unmatched = 0;
@@ -78,7 +78,7 @@ TEST(Voronoi, EdgesHalveAndAreOrthogonalToTheirDelaunayDuals) {
                     continue;
                 }
                 ++interfaces;
-                const Seed s = specimen.seeds[c], t = specimen.seeds[static_cast<std::size_t>(other)];
+                const CellCentre s = specimen.centres[c], t = specimen.centres[static_cast<std::size_t>(other)];
                 const double apart = std::hypot(t.x - s.x, t.y - s.y);
                 slant = std::max(slant, std::abs((b.x - a.x) * (t.x - s.x) + (b.y - a.y) * (t.y - s.y)) / apart);
                 for (const Point& p : {a, b}) {
@@ -92,14 +92,14 @@ TEST(Voronoi, EdgesHalveAndAreOrthogonalToTheirDelaunayDuals) {
         const double tolerance = 1e-11 * testing::scale_of(specimen.domain);
         EXPECT_TRUE(within("slant of Voronoi edges of " + specimen.name, slant, 0.0, tolerance));
         EXPECT_TRUE(within("their distance from the middle", off_middle, 0.0, tolerance));
-        const bool on_walls = std::any_of(specimen.seeds.begin(), specimen.seeds.end(), [&](Seed s) {
+        const bool on_walls = std::any_of(specimen.centres.begin(), specimen.centres.end(), [&](CellCentre s) {
             return s.x == specimen.domain.x1 || s.x == specimen.domain.x2 || s.y == specimen.domain.y1 ||
                    s.y == specimen.domain.y2;
         });
         if (!on_walls) {
             EXPECT_EQ(unmatched, 0) << "edges that are neither shared nor on a wall";
         }
-        if (specimen.seeds.size() > 1 && !on_walls) {
+        if (specimen.centres.size() > 1 && !on_walls) {
             EXPECT_GT(interfaces, 0);
         }
     }
@@ -108,10 +108,10 @@ TEST(Voronoi, EdgesHalveAndAreOrthogonalToTheirDelaunayDuals) {
 TEST(Voronoi, FacingGapsEqualThick) {
     const Rectangle domain{-0.3, 0.4, 0.1, 1.5};
     for (const double thick : {1e-3, 4e-3}) {
-        const auto seeds = testing::lattice(14, 28, domain, 0.7, 3);
-        const Mesh whole = make_mesh(seeds, domain, voronoi(0.0));
-        const Mesh apart = make_mesh(seeds, domain, voronoi(thick));
-        ASSERT_EQ(apart.cells.size(), seeds.size());
+        const auto centres = testing::lattice(14, 28, domain, 0.7, 3);
+        const Mesh whole = make_mesh(centres, domain, voronoi(0.0));
+        const Mesh apart = make_mesh(centres, domain, voronoi(thick));
+        ASSERT_EQ(apart.cells.size(), centres.size());
         EXPECT_TRUE(testing::convex_and_counter_clockwise(apart, 1.5));
         const testing::GapCheck check = testing::check_gaps(whole, apart, domain, thick);
         EXPECT_GT(check.interfaces, 1500);
@@ -123,12 +123,12 @@ TEST(Voronoi, FacingGapsEqualThick) {
 
 TEST(Voronoi, InsetOverridesThick) {
     const Rectangle domain{0.0, 1.0, 0.0, 1.0};
-    const auto seeds = testing::lattice(10, 10, domain, 0.5);
+    const auto centres = testing::lattice(10, 10, domain, 0.5);
     MeshRequest request = voronoi(1e-3);
     request.inset = 2e-3;
-    const Mesh mesh = make_mesh(seeds, domain, request);
-    EXPECT_EQ(mesh.corners, make_mesh(seeds, domain, voronoi(4e-3)).corners);
-    EXPECT_NE(mesh.corners, make_mesh(seeds, domain, voronoi(1e-3)).corners);
+    const Mesh mesh = make_mesh(centres, domain, request);
+    EXPECT_EQ(mesh.corners, make_mesh(centres, domain, voronoi(4e-3)).corners);
+    EXPECT_NE(mesh.corners, make_mesh(centres, domain, voronoi(1e-3)).corners);
 }
 
 TEST(Voronoi, SquareLatticeHasFourCorneredCells) {
@@ -159,8 +159,8 @@ TEST(Voronoi, SidesAreThoseOfTheDomain) {
 
 TEST(Voronoi, SameSeedsSameBytes) {
     const Rectangle domain{0.0, 1.0, 0.0, 1.0};
-    const auto seeds = testing::random_seeds(2000, domain, 4);
-    const Mesh once = make_mesh(seeds, domain, voronoi(1e-6)), again = make_mesh(seeds, domain, voronoi(1e-6));
+    const auto centres = testing::random_seeds(2000, domain, 4);
+    const Mesh once = make_mesh(centres, domain, voronoi(1e-6)), again = make_mesh(centres, domain, voronoi(1e-6));
     EXPECT_EQ(once.corners, again.corners);
     for (std::size_t k = 0; k < once.cells.size(); ++k)
         EXPECT_EQ(once.cells[k].first_corner, again.cells[k].first_corner);
@@ -168,12 +168,12 @@ TEST(Voronoi, SameSeedsSameBytes) {
 
 TEST(Voronoi, OrderOfSeedsChangesTheirNumbersOnly) {
     const Rectangle domain{0.0, 1.0, 0.0, 1.0};
-    const auto seeds = testing::random_seeds(300, domain, 4);
-    const std::vector<Seed> reversed(seeds.rbegin(), seeds.rend());
-    const Mesh one = make_mesh(seeds, domain, voronoi(1e-5)), other = make_mesh(reversed, domain, voronoi(1e-5));
+    const auto centres = testing::random_seeds(300, domain, 4);
+    const std::vector<CellCentre> reversed(centres.rbegin(), centres.rend());
+    const Mesh one = make_mesh(centres, domain, voronoi(1e-5)), other = make_mesh(reversed, domain, voronoi(1e-5));
     double worst = 0.0;
-    for (std::size_t k = 0; k < seeds.size(); ++k) {
-        const auto a = one.outline(one.cells[k]), b = other.outline(other.cells[seeds.size() - 1 - k]);
+    for (std::size_t k = 0; k < centres.size(); ++k) {
+        const auto a = one.outline(one.cells[k]), b = other.outline(other.cells[centres.size() - 1 - k]);
         ASSERT_EQ(a.size(), b.size());
         worst = std::max(worst, std::abs(testing::area_of(a) - testing::area_of(b)));
     }
@@ -182,12 +182,12 @@ TEST(Voronoi, OrderOfSeedsChangesTheirNumbersOnly) {
 
 TEST(Voronoi, MirroredSeedsGiveMirroredCells) {
     const Rectangle domain{0.0, 1.0, 0.0, 1.0};
-    const auto seeds = testing::random_seeds(300, domain, 8);
-    std::vector<Seed> mirrored;
-    for (const Seed& s : seeds) mirrored.push_back({1.0 - s.x, s.y});
-    const Mesh one = make_mesh(seeds, domain, voronoi(1e-5)), other = make_mesh(mirrored, domain, voronoi(1e-5));
+    const auto centres = testing::random_seeds(300, domain, 8);
+    std::vector<CellCentre> mirrored;
+    for (const CellCentre& s : centres) mirrored.push_back({1.0 - s.x, s.y});
+    const Mesh one = make_mesh(centres, domain, voronoi(1e-5)), other = make_mesh(mirrored, domain, voronoi(1e-5));
     double worst = 0.0;
-    for (std::size_t k = 0; k < seeds.size(); ++k) {
+    for (std::size_t k = 0; k < centres.size(); ++k) {
         EXPECT_EQ(one.cells[k].on_left(), other.cells[k].on_right());
         worst = std::max(worst, std::abs(testing::area_of(one.outline(one.cells[k])) -
                                          testing::area_of(other.outline(other.cells[k]))));
@@ -197,18 +197,18 @@ TEST(Voronoi, MirroredSeedsGiveMirroredCells) {
 
 TEST(Voronoi, MergingLeavesNeighboursInPlaceOfADestroyedCell) {
     const Rectangle domain{0.0, 1.0, 0.0, 1.0};
-    auto seeds = testing::lattice(10, 10, domain, 0.3);
-    seeds.push_back({seeds[44].x + 1e-4, seeds[44].y});  // the cells of both are 5e-2 long, half as wide
-    seeds.push_back({seeds[44].x - 1e-4, seeds[44].y});  // leaves 44 a cell 1e-4 wide
+    auto centres = testing::lattice(10, 10, domain, 0.3);
+    centres.push_back({centres[44].x + 1e-4, centres[44].y});  // the cells of both are 5e-2 long, half as wide
+    centres.push_back({centres[44].x - 1e-4, centres[44].y});  // leaves 44 a cell 1e-4 wide
     MeshRequest request = voronoi(1e-3);
-    EXPECT_THROW(make_mesh(seeds, domain, request), MeshError);
+    EXPECT_THROW(make_mesh(centres, domain, request), MeshError);
     request.merge_destroyed = true;
-    const Mesh mesh = make_mesh(seeds, domain, request);
-    EXPECT_EQ(mesh.cells.size(), seeds.size() - 1);
+    const Mesh mesh = make_mesh(centres, domain, request);
+    EXPECT_EQ(mesh.cells.size(), centres.size() - 1);
     EXPECT_EQ(mesh.report.cells_destroyed, 1);
     EXPECT_TRUE(agrees("area", mesh.report.area_before_inset, 1.0, 1e-12));
     std::set<int> left;
-    for (const Cell& cell : mesh.cells) left.insert(cell.seed);
+    for (const Cell& cell : mesh.cells) left.insert(cell.centre);
     EXPECT_FALSE(left.contains(44));
     EXPECT_TRUE(left.contains(101));
     EXPECT_TRUE(testing::convex_and_counter_clockwise(mesh, 1.0));

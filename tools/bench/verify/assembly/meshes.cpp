@@ -25,24 +25,24 @@ constexpr int columns = 14, seed_rows = 28;
 
 const char* name_of(MeshKind kind) { return kind == MeshKind::voronoi ? "Voronoi" : "Delaunay"; }
 
-/// A grid of seeds, each shifted by up to a third of the spacing.
-std::vector<Seed> seeds_of(std::uint64_t number) {
+/// A grid of centres, each shifted by up to a third of the spacing.
+std::vector<CellCentre> seeds_of(std::uint64_t number) {
     std::mt19937_64 generator(number);
-    std::vector<Seed> seeds;
+    std::vector<CellCentre> centres;
     for (int row = 0; row < seed_rows; ++row) {
         for (int column = 0; column < columns; ++column) {
             const double dx = (uniform_number(generator) - 0.5) / 1.5, dy = (uniform_number(generator) - 0.5) / 1.5;
-            seeds.push_back({domain.x1 + (domain.x2 - domain.x1) * (column + 0.5 + dx) / columns,
-                             domain.y1 + (domain.y2 - domain.y1) * (row + 0.5 + dy) / seed_rows});
+            centres.push_back({domain.x1 + (domain.x2 - domain.x1) * (column + 0.5 + dx) / columns,
+                               domain.y1 + (domain.y2 - domain.y1) * (row + 0.5 + dy) / seed_rows});
         }
     }
-    return seeds;
+    return centres;
 }
 
 MeshRequest request_of(MeshKind kind, double gap, Boundary boundary = Boundary::domain) {
     MeshRequest request;
     request.kind = kind;
-    request.thick = gap;
+    request.mesh_gap = gap;
     request.boundary = boundary;
     return request;
 }
@@ -119,9 +119,9 @@ Nearest nearest_edge(std::span<const Point> outline, Point a, Point b) {
 std::vector<ClaimRow> every_gap_equals_the_thickness() {
     Rows rows;
     for (const MeshKind kind : {MeshKind::voronoi, MeshKind::delaunay}) {
-        const std::vector<Seed> seeds = seeds_of(3);
-        const Mesh whole = make_mesh(seeds, domain, request_of(kind, 0.0));
-        const Mesh apart = make_mesh(seeds, domain, request_of(kind, thick));
+        const std::vector<CellCentre> centres = seeds_of(3);
+        const Mesh whole = make_mesh(centres, domain, request_of(kind, 0.0));
+        const Mesh apart = make_mesh(centres, domain, request_of(kind, thick));
         rows.exactly(fmt::format("{}: cells after the inset", name_of(kind)), static_cast<double>(apart.cells.size()),
                      static_cast<double>(whole.cells.size()));
         if (apart.cells.size() != whole.cells.size()) continue;
@@ -149,30 +149,30 @@ std::vector<ClaimRow> every_gap_equals_the_thickness() {
 std::vector<ClaimRow> no_cell_is_lost() {
     Rows rows;
     for (const double gap : {0.0, thick}) {
-        const std::vector<Seed> seeds = seeds_of(4);
-        const Mesh cells = make_mesh(seeds, domain, request_of(MeshKind::voronoi, gap));
+        const std::vector<CellCentre> centres = seeds_of(4);
+        const Mesh cells = make_mesh(centres, domain, request_of(MeshKind::voronoi, gap));
         int in_place = 0;
         for (std::size_t k = 0; k < cells.cells.size(); ++k)
-            in_place += cells.cells[k].seed == static_cast<int>(k) && area_of(cells.outline(cells.cells[k])) > 0.0;
+            in_place += cells.cells[k].centre == static_cast<int>(k) && area_of(cells.outline(cells.cells[k])) > 0.0;
         rows.exactly(fmt::format("Voronoi, gap {} m: cells with the number of their seed", gap), in_place,
-                     static_cast<double>(seeds.size()));
+                     static_cast<double>(centres.size()));
     }
-    const std::vector<Seed> seeds = seeds_of(4);
-    const Mesh triangles = make_mesh(seeds, domain, request_of(MeshKind::delaunay, 0.0, Boundary::seeds));
+    const std::vector<CellCentre> centres = seeds_of(4);
+    const Mesh triangles = make_mesh(centres, domain, request_of(MeshKind::delaunay, 0.0, Boundary::centres));
     const int outer = Edges(triangles).visit_shared([](std::size_t, std::size_t, Point, Point) {});
     rows.exactly("Delaunay between the seeds: triangles 2n - 2 - h", static_cast<double>(triangles.cells.size()),
-                 2.0 * static_cast<double>(seeds.size()) - 2.0 - outer);
+                 2.0 * static_cast<double>(centres.size()) - 2.0 - outer);
     return rows.take();
 }
 
 std::vector<ClaimRow> voronoi_edges_are_orthogonal_to_their_duals() {
     Rows rows;
-    const std::vector<Seed> seeds = seeds_of(5);
-    const Mesh mesh = make_mesh(seeds, domain, request_of(MeshKind::voronoi, 0.0));
+    const std::vector<CellCentre> centres = seeds_of(5);
+    const Mesh mesh = make_mesh(centres, domain, request_of(MeshKind::voronoi, 0.0));
     double slant = 0.0, off_middle = 0.0;
     int edges = 0;
     Edges(mesh).visit_shared([&](std::size_t i, std::size_t j, Point a, Point b) {
-        const Seed s = seeds[i], t = seeds[j];
+        const CellCentre s = centres[i], t = centres[j];
         const double apart = std::hypot(t.x - s.x, t.y - s.y);
         ++edges;
         slant = std::max(slant, std::abs((b.x - a.x) * (t.x - s.x) + (b.y - a.y) * (t.y - s.y)) / apart);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Seed sets for the mesher's tests, and the checks that every mesh has to pass.
+// CellCentre sets for the mesher's tests, and the checks that every mesh has to pass.
 #pragma once
 
 #include <fmt/format.h>
@@ -34,37 +34,38 @@ class Dice {
     std::mt19937_64 engine_;
 };
 
-inline std::vector<Seed> random_seeds(int count, const Rectangle& r, std::uint64_t seed) {
+inline std::vector<CellCentre> random_seeds(int count, const Rectangle& r, std::uint64_t seed) {
     Dice dice(seed);
-    std::vector<Seed> seeds;
+    std::vector<CellCentre> centres;
     for (int k = 0; k < count; ++k) {
         const double x = r.x1 + (r.x2 - r.x1) * dice.next();
-        seeds.push_back({x, r.y1 + (r.y2 - r.y1) * dice.next()});
+        centres.push_back({x, r.y1 + (r.y2 - r.y1) * dice.next()});
     }
-    return seeds;
+    return centres;
 }
 
 /// Lattice of columns × rows, each seed moved by up to jitter/2 spacings; no jitter: co-circular everywhere.
-inline std::vector<Seed> lattice(int columns, int rows, const Rectangle& r, double jitter, std::uint64_t seed = 1) {
+inline std::vector<CellCentre> lattice(int columns, int rows, const Rectangle& r, double jitter,
+                                       std::uint64_t seed = 1) {
     Dice dice(seed);
-    std::vector<Seed> seeds;
+    std::vector<CellCentre> centres;
     for (int j = 0; j < rows; ++j) {
         for (int i = 0; i < columns; ++i) {
             const double dx = jitter * (dice.next() - 0.5), dy = jitter * (dice.next() - 0.5);
-            seeds.push_back(
+            centres.push_back(
                 {r.x1 + (r.x2 - r.x1) * (i + 0.5 + dx) / columns, r.y1 + (r.y2 - r.y1) * (j + 0.5 + dy) / rows});
         }
     }
-    return seeds;
+    return centres;
 }
 
 struct Specimen {
     std::string name;
     Rectangle domain;
-    std::vector<Seed> seeds;
+    std::vector<CellCentre> centres;
 };
 
-/// General, degenerate, thin, shifted, and with seeds on the boundary.
+/// General, degenerate, thin, shifted, and with centres on the boundary.
 inline std::vector<Specimen> specimens() {
     const Rectangle unit{0.0, 1.0, 0.0, 1.0}, rock{-0.3, 0.4, 0.1, 1.5}, thin{0.0, 10.0, 0.0, 0.05},
         far{1000.0, 1001.0, -2000.0, -1999.0};
@@ -86,20 +87,20 @@ inline std::vector<Specimen> specimens() {
     all.push_back({"one on a wall", unit, {{0, 0.3}}});
     Specimen ringed{"random with some on the walls", unit, random_seeds(200, unit, 9)};
     for (const double s : {0.0, 0.11, 0.37, 0.5, 0.93}) {
-        ringed.seeds.push_back({s, 0.0});
-        ringed.seeds.push_back({1.0 - s, 1.0});
-        ringed.seeds.push_back({0.0, 0.07 + 0.9 * s});
+        ringed.centres.push_back({s, 0.0});
+        ringed.centres.push_back({1.0 - s, 1.0});
+        ringed.centres.push_back({0.0, 0.07 + 0.9 * s});
     }
     all.push_back(ringed);
     Specimen circle{"on one circle", unit, {}};
     for (int k = 0; k < 24; ++k)
-        circle.seeds.push_back({0.5 + 0.3 * std::cos(0.2618 * k), 0.5 + 0.3 * std::sin(0.2618 * k)});
+        circle.centres.push_back({0.5 + 0.3 * std::cos(0.2618 * k), 0.5 + 0.3 * std::sin(0.2618 * k)});
     all.push_back(circle);
     all.push_back(
         {"hardly off the wall", unit, {{1e-300, 0.4}, {0.6, 1e-17}, {0.5, 0.5}, {std::nextafter(1.0, 0.0), 0.5}}});
     Specimen graded{"graded", unit, {}};
     for (int k = 0; k < 18; ++k)
-        graded.seeds.push_back({0.31 + std::pow(0.5, k) * 0.6, 0.3 + std::pow(0.5, k) * 0.5 * ((k % 3) - 0.5)});
+        graded.centres.push_back({0.31 + std::pow(0.5, k) * 0.6, 0.3 + std::pow(0.5, k) * 0.5 * ((k % 3) - 0.5)});
     all.push_back(graded);
     return all;
 }
