@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Takes cells one by one into a mesh and measures them while they are at hand.
+// Tested by tests/mesher/voronoi_test.cpp.
 #pragma once
 
 #include <cstddef>

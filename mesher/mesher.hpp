@@ -6,6 +6,7 @@
 // Facing edges of neighbours are then 2·inset apart; the default inset thick/2 makes every gap the segment thickness.
 // Lengths in m (any consistent unit). Follows volonoi.f of the DEMseg guide; where it departs, the declarations below
 // say so.
+// Tested by tests/mesher/voronoi_test.cpp.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Partitions of a rectangle before the inset. The one place that knows CGAL is partition.cpp.
+// Tested by tests/mesher/voronoi_test.cpp.
 #pragma once
 
 #include <array>

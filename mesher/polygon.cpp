@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Small operations on convex polygons that the partition and the inset share.
+// Tested by tests/mesher/voronoi_test.cpp.
 
 #include <algorithm>
 #include <cmath>

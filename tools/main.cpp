@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `crackle COMMAND ...`: runs the command, turns failures into one message and an exit code.
+// Tested by tests/tools/commands/command_line_test.cpp.
 
 #include <fmt/format.h>
 #include <malloc.h>

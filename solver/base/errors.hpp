@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The few kinds of failure that a user can cause or meet. Libraries throw them; only tools/ prints and chooses exit
 // codes.
+// Tested by tests/tools/commands/test_test.cpp.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The hash (XXH3) of any value made of numbers and of structs that list their fields (fields.hpp): of members, not of
 // padding.
+// Tested by tests/solver/world/world_test.cpp.
 #pragma once
 
 #include <xxhash.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Tested by tests/tools/commands/report_test.cpp.
 #pragma once
 
 #include <filesystem>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Two circles in contact: δ = r_i + r_j - d, d the distance of their centres, which lie on the normal with the contact
 // position between them, midway between the two surfaces.
+// Tested by tests/solver/contact/geometry_test.cpp.
 #pragma once
 
 #include "solver/contact/point_geometry.hpp"

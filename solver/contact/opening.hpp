@@ -13,6 +13,7 @@
 // What the energy misses by that goes into the point's defect D, J, and is made good in its next last step.
 // Exact for one disc up to the limit; for many it keeps the error bounded. δ [m], k [N/m], m [kg] effective along the
 // normal. A dashpot is the lagged one, inside p. Restitution stays first order in the step with it.
+// Tested by tests/verification/claims_test.cpp.
 #pragma once
 
 #include <algorithm>

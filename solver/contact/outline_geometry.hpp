@@ -4,6 +4,7 @@
 // A point lies `across` in front of the line of an edge, and `over` beyond one of the edge's ends (negative at the
 // start; 0: before the edge itself). In front of the edge its distance is `across`, the gradient the edge's normal;
 // beyond an end it is that from the corner. Both are needed of one point and of several in lanes.
+// Tested by tests/solver/contact/geometry_test.cpp.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Forces of contact points, a block of points of one kind at a time, by kernels compiled for what the scene has.
+// Tested by tests/solver/contact/batch_test.cpp.
 #pragma once
 
 #include <cstddef>

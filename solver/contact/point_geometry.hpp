@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where two bodies meet, and what the forces there do to them.
+// Tested by tests/solver/contact/geometry_test.cpp.
 #pragma once
 
 #include <limits>

@@ -3,6 +3,7 @@
 //
 // Where an arm is not along the normal, ω × a at the end of the drift misses the chord of its turn, ½ω²Δt·a, in the
 // slip. Left out, a bonded specimen that turns as a whole would collect shear, first order in Δt.
+// Tested by tests/solver/contact/batch_test.cpp.
 #pragma once
 
 #include "solver/contact/circle_geometry.hpp"

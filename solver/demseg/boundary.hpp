@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // in_bc.dat, DEMseg's file of calculation and boundary conditions. Formats: FORMATS.md beside this file.
+// Tested by tests/solver/demseg/files_test.cpp.
 #pragma once
 
 #include <cstdint>

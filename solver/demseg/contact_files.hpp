@@ -4,6 +4,7 @@
 // A contact point is named by its two bodies and their elements: circles and corners are numbered from 1 as in
 // in_gm.dat, 0 stands for a body's whole outline (or for a wall). Walls are bodies -1 left, -2 right, -3 bottom, -4
 // top.
+// Tested by tests/solver/demseg/files_test.cpp.
 #pragma once
 
 #include <filesystem>

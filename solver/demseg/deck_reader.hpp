@@ -4,6 +4,7 @@
 // As Fortran's list-directed READ: values are separated by any number of blanks and line breaks, and an exponent may be
 // written with d, D, e or E. Unlike it, nothing is skipped: text that is no number, a missing value and a value too
 // many are errors that name file, line and key, because a deck that is one value short shifts every number behind it.
+// Tested by tests/solver/demseg/files_test.cpp.
 #pragma once
 
 #include <cstddef>

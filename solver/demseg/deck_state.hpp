@@ -4,6 +4,7 @@
 //
 // It belongs to one set of text files: it carries a hash (XXH3, 64 bits) of each and is good only while they are
 // unchanged.
+// Tested by tests/solver/demseg/split_test.cpp.
 #pragma once
 
 #include <array>

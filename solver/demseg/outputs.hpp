@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a deck run writes on its way: positions and contact forces every nprn1 steps, energies, controlled bodies and
 // velocities every nprn2. Formats: FORMATS.md. Every number reads back to the same bits.
+// Tested by tests/solver/demseg/split_test.cpp.
 #pragma once
 
 #include <array>

@@ -7,6 +7,7 @@
 //
 // A area of the domain, e void ratio. Own distributions on std::mt19937_64, whose sequence the standard fixes, so that
 // a seed gives the same bytes everywhere. Source: DEMseg guide I.7; the count is inferred from its 582 (FORMATS.md).
+// Tested by tests/tools/commands/run_test.cpp.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reads back the frames that a deck run wrote: output.dat, cont.dat and cont2.dat. Formats: FORMATS.md.
+// Tested by tests/tools/commands/view_test.cpp.
 #pragma once
 
 #include <cstdint>

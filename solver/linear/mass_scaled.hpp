@@ -2,6 +2,7 @@
 // Springs and dashpots of a world in mass-scaled coordinates x = M^½ u: M^-½ K M^-½ and M^-½ C M^-½, held degrees of
 // freedom left out (under the guide's law K by its symmetric majorant). What the exact stable step and the vibration
 // modes are found from.
+// Tested by tests/verification/claims_test.cpp.
 #pragma once
 
 #include <Eigen/SparseCore>

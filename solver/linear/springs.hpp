@@ -6,6 +6,7 @@
 // linearised about the present positions, and stores ½k a². Contact forces are zero after back-tension bonding, so
 // there is no geometric stiffness then. Under the guide's law a normal spring pushes so too, but its overlap answers to
 // g·u (PointView::overlap_gradient): its stiffness is k a gᵀ, unsymmetric.
+// Tested by tests/verification/claims_test.cpp.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The account of energy at time n: what a world holds, what it has lost, what was put in.
+// Tested by tests/solver/measure/health_test.cpp.
 #pragma once
 
 #include "solver/world/world.hpp"

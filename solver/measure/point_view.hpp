@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Looking at the world: one contact point with all its numbers, forces on walls, positions in the input's terms. For
 // outputs, solves and checks, never for the step.
+// Tested by tests/solver/contact/law_test.cpp.
 #pragma once
 
 #include <array>

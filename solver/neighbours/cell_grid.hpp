@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Uniform grid over points in the plane: their numbers sorted by cell, in one array. What lies beyond the grid belongs
 // to the cells at its edge.
+// Tested by tests/solver/neighbours/neighbours_test.cpp.
 #pragma once
 
 #include <algorithm>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A new list takes the place of the old one. What a point remembers (shear spring, bond, flags) is carried over by one
 // linear merge of the two, which have the same order (world/point_order.hpp).
+// Tested by tests/solver/neighbours/neighbours_test.cpp.
 #pragma once
 
 #include "solver/neighbours/point_lists.hpp"

@@ -4,6 +4,7 @@
 // Bodies lie in a uniform grid by their centroids. A pair is found by its larger body, which searches its own bounding
 // box widened by the reach of the next smaller body: any mixture of sizes, platens and containers included, needs no
 // user hint.
+// Tested by tests/solver/neighbours/neighbours_test.cpp.
 #pragma once
 
 #include <cstdint>

@@ -2,6 +2,7 @@
 // Bodies that have been pressed through one another. The distance from an open segment has no sign, so that a circle or
 // corner that got past the middle is pushed out behind; a corner deep in an outline is pushed out at the nearest side,
 // whichever it came by. Energy is kept all the while, so no other check would notice.
+// Tested by tests/solver/neighbours/neighbours_test.cpp.
 #pragma once
 
 #include "solver/world/world.hpp"

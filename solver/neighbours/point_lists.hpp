@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The contact points that a pair of near bodies, or a body and a wall, can have.
+// Tested by tests/solver/neighbours/neighbours_test.cpp.
 #pragma once
 
 #include <array>

@@ -4,6 +4,7 @@
 //
 // Units: any consistent set (SI in what we ship, cgs in the guide's decks). Strictly 2D: masses and stiffnesses are per
 // unit thickness (density kg/m2, mass kg, stiffness N/m, force N, stress N/m).
+// Tested by tests/solver/demseg/geometry_test.cpp.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bonds that the last force pass found broken become events.
+// Tested by tests/verification/claims_test.cpp.
 #pragma once
 
 #include "solver/world/world.hpp"

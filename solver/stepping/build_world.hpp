@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Tested by tests/solver/stepping/allocation_test.cpp.
 #pragma once
 
 #include "solver/scene/scene.hpp"

@@ -2,6 +2,7 @@
 // Driven bodies: held or moved at a given velocity, moved along a ramp, or pushed by a given force, a degree of freedom
 // each. A degree of freedom driven in displacement or velocity has inverse mass 0, so the bulk kernels need no branch
 // for it.
+// Tested by tests/verification/two_bodies_test.cpp.
 #pragma once
 
 #include "solver/scene/scene.hpp"

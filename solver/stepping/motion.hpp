@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Kick and drift of bodies, compiled for what the scene has: v += a·kick, x += v·Δt.
+// Tested by tests/solver/stepping/sweep_test.cpp.
 #pragma once
 
 #include <cmath>

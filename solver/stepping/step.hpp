@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One step of the simulation, and its two halves for those who look between them.
+// Tested by tests/solver/stepping/sweep_test.cpp.
 #pragma once
 
 #include "solver/world/world.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The time step while a world changes: its bound is found again where contact points come and go, and the step is kept
 // below it.
+// Tested by tests/solver/measure/health_test.cpp.
 #pragma once
 
 #include "solver/world/world.hpp"

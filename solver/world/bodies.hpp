@@ -3,6 +3,7 @@
 //
 // Bodies are numbered in rows along the shorter side of the scene (stepping/build_world.cpp); BodyInfo::id leads back
 // to the input's numbers.
+// Tested by tests/solver/world/world_test.cpp.
 #pragma once
 
 #include <cstdint>

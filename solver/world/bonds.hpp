@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The bonds of a world in numbers, and those that broke.
+// Tested by tests/solver/world/world_test.cpp.
 #pragma once
 
 #include <cstdint>

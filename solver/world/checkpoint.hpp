@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The complete state of a world as bytes.
+// Tested by tests/verification/determinism_test.cpp.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What has left or entered a world as energy since its account began (measure/ledger.hpp reads it).
+// Tested by tests/verification/two_bodies_test.cpp.
 #pragma once
 
 #include <cstdint>

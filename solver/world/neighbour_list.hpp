@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a world knows of its neighbour list besides the points: where bodies were when it was built, how far they may
 // move until it is rebuilt (neighbours/).
+// Tested by tests/solver/world/world_test.cpp.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Whether a body has passed through a wall of the domain.
+// Tested by tests/solver/world/world_test.cpp.
 #pragma once
 
 #include <cstddef>

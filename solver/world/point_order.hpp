@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which contact points are the same and in which order they are listed, whatever the numbers they have at the moment.
+// Tested by tests/specimens/observers/contact_history_test.cpp.
 #pragma once
 
 #include <algorithm>

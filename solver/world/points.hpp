@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The contact points of a world: compact records grouped by kind, each quantity in an array of its own. The kernels
 // take those of neighbouring points as they lie, and what a step does not change is not written back.
+// Tested by tests/solver/base/fields_test.cpp.
 #pragma once
 
 #include <array>

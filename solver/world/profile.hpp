@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where the time of a run goes, by phase of a step. A world without a profile pays one test of a pointer a phase.
+// Tested by tests/tools/commands/test_test.cpp.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the scene says of a whole world: domain, laws, switches.
+// Tested by tests/solver/world/world_test.cpp.
 #pragma once
 
 #include <vector>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Hashes of a world's state, field by field: where two runs that should agree do not, the first field that differs is
 // named.
+// Tested by tests/solver/world/world_test.cpp.
 #pragma once
 
 #include <cstdint>

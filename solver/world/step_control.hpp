@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How far a world has come in time, how long its step is, and why.
+// Tested by tests/verification/two_bodies_test.cpp.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How the steps of a world are shared out among threads, and timed. None of it changes a result and none is saved.
+// Tested by tests/solver/stepping/sweep_test.cpp.
 #pragma once
 
 #include <cstdint>

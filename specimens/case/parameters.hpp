@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How one parameter of a case is declared. Used by the case reader alone; see parameters.cpp for the declarations.
+// Tested by tests/specimens/case/case_file_test.cpp.
 #pragma once
 
 #include <cmath>

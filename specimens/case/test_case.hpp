@@ -2,6 +2,7 @@
 // A case as data: everything one virtual test needs to know. case_file.hpp reads it, parameters.cpp declares its keys.
 //
 // Units: any consistent set, SI in what we ship. Strictly 2D: stiffnesses, stresses and moduli in N/m.
+// Tested by tests/specimens/case/case_file_test.cpp.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Young's modulus and Poisson's ratio of a bonded specimen by the definitions of the curve, from the linear solution.
+// Tested by tests/specimens/elastic/analysis_test.cpp.
 #pragma once
 
 #include "solver/linear/elastic.hpp"

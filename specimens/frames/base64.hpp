@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Base64 (RFC 4648, padded), the clothing of binary data in XML and HTML.
+// Tested by tests/specimens/frames/frame_test.cpp.
 #pragma once
 
 #include <optional>

@@ -6,6 +6,7 @@
 // runs from the first to the last of them: in the order in which they lie along it each has an equal part. One that is
 // shorter than bond.thick, the width that a point bonds across, is taken as so long, square to the normal. Both bodies
 // carry the face along; it is drawn at the mean of the two places.
+// Tested by tests/specimens/observers/contact_history_test.cpp.
 #pragma once
 
 #include "specimens/frames/placed_frame.hpp"

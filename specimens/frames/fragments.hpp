@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Fragments: particles that bonds still hold together, directly or through others. Two particles are held together
 // while one bonded point between them is intact. Platens belong to none and join none.
+// Tested by tests/specimens/frames/frame_forces_test.cpp.
 #pragma once
 
 #include <cstdint>

@@ -15,6 +15,7 @@
 // Points are Float32 (a hundred-millionth of the specimen), what was computed Float64, ids and indices Int32 (indices
 // Int64 beyond 2³¹), state and mode UInt8. What never changes is packed once and put into every file again, up to 2,000
 // particles; beyond it would be a quarter of all memory, and packing it is little beside the steps between two frames.
+// Tested by tests/specimens/frames/frame_test.cpp.
 #pragma once
 
 #include <iosfwd>

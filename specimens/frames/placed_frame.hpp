@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The bodies of a frame where they lay then, and surfaces of bodies that face each other: what is drawn from.
+// Tested by tests/specimens/frames/frame_test.cpp.
 #pragma once
 
 #include <vector>

@@ -7,6 +7,7 @@
 //     begin_element(out, "Points"), a PackedArray, end_element(out, "Points"); Lines and Polys with connectivity and
 //     offsets; CellData: lines first, then polygons, as VTK counts cells
 //     write_vtp_end(out)
+// Tested by tests/specimens/frames/frame_test.cpp.
 #pragma once
 
 #include <cstddef>

@@ -11,6 +11,7 @@
 //     116, 1994): inertia and dashpots act in proportion to the rate, the step's error is of second order;
 // and what the rows of the curve resolve, added as independent errors are: the root of the sum of squares. What the
 // damping changes is physics as much as error and stands apart.
+// Tested by tests/specimens/setup/loading_rate_test.cpp.
 #pragma once
 
 #include <optional>

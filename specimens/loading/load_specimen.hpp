@@ -3,6 +3,7 @@
 //
 // Observers look in steps that somebody reads, in a fixed order: curve row, failure, frame; broken bonds as they come.
 // Nothing of this reaches the kernels.
+// Tested by tests/specimens/loading/virtual_test_test.cpp.
 #pragma once
 
 #include "specimens/loading/virtual_test.hpp"

@@ -3,6 +3,7 @@
 //
 //   bond_test()     case → specimen → platens → world → bonds → linear solution, at rest
 //   prepare_test()  and the start of loading
+// Tested by tests/specimens/loading/virtual_test_test.cpp.
 #pragma once
 
 #include "specimens/case/case_file.hpp"

@@ -5,6 +5,7 @@
 // With u(ε) = ε û the linear solution of the specimen between its platens and ε̇ the rate, bodies begin with the
 // velocities ε̇ û, and where K w = -C ε̇ û leaves them, w = 0 at the platens: then springs and dashpots balance on every
 // body, nothing accelerates while the specimen stays linear, and the stress rises by E from the first row on.
+// Tested by tests/specimens/setup/loading_rate_test.cpp.
 #pragma once
 
 #include "specimens/loading/virtual_test.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A test with its folder OUT: begun, or gone on with from its checkpoint.
+// Tested by tests/tools/commands/resume_test.cpp.
 #pragma once
 
 #include <chrono>

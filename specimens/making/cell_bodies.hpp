@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The cells of a mesh as rigid bodies.
+// Tested by tests/tools/commands/mesh_test.cpp.
 #pragma once
 
 #include <span>

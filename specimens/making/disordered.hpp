@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Disordered specimens made in one go, without a packing run: discs on a shaken lattice, and cells of a shaken grid.
 // Small, irregular and the same for a seed; for verification, benchmarks and the viewer.
+// Tested by tests/verification/claims_test.cpp.
 #pragma once
 
 #include <cstdint>

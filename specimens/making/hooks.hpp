@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the caller of a test wants to know or to say while it runs.
+// Tested by tests/specimens/loading/virtual_test_test.cpp.
 #pragma once
 
 #include <cstdint>

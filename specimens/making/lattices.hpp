@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Regular arrangements with closed-form stiffness, waves and stable steps; shared by tests, benchmarks and the viewer.
+// Tested by tests/verification/lattice_test.cpp.
 #pragma once
 
 #include "solver/scene/scene.hpp"

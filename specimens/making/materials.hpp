@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A material for scenes made in memory.
+// Tested by tests/specimens/loading/virtual_test_test.cpp.
 #pragma once
 
 #include "solver/scene/scene.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The specimen of a test: bodies in their domain before they are bonded, from a packing or a particle file, as circles
 // or meshed into polygons.
+// Tested by tests/specimens/loading/virtual_test_test.cpp.
 #pragma once
 
 #include <cstdint>

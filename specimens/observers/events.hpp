@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // events.csv: one row a broken bond (the acoustic-emission-like record), in the order in which bonds break.
+// Tested by tests/specimens/results/files_test.cpp.
 #pragma once
 
 #include <string>

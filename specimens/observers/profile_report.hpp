@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The profile of a run as a table: of the stepping loop each phase once, and what lies between them as the rest.
+// Tested by tests/tools/commands/test_test.cpp.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a file of results names: a column, an array or a key, declared once where it is written. The file's header,
 // the `units` and `columns` of summary.json and the page specimens/results/FILES.md come from the declarations.
+// Tested by tests/tools/readme_test.py.
 #pragma once
 
 #include <span>

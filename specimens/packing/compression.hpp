@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One draw of a packing: circles at random places, quenched in a box slightly too small, and the box then opened to the
 // pressure at which the target is met, with its shape kept and the stress made isotropic.
+// Tested by tests/specimens/packing/packing_test.cpp.
 #pragma once
 
 #include <functional>

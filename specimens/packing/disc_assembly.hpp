@@ -7,6 +7,7 @@
 // from both sides): twice the arithmetic of a half list, but no scatter, so the result is the same bytes for any number
 // of threads. A disc's neighbours are measured side by side (solver/contact/lanes.hpp) and added one by one, in their
 // order: the same bytes for any number of lanes, too.
+// Tested by tests/specimens/packing/packing_test.cpp.
 #pragma once
 
 #include <cstdint>

@@ -11,6 +11,7 @@
 //   dT/dr_i = ∂T/∂r_i - (H⁻¹ ∂T/∂z)·∂g/∂r_i,      T = virial_x - virial_y
 //
 // one sparse factorisation (LDLᵀ) for all circles.
+// Tested by tests/specimens/packing/packing_test.cpp.
 #pragma once
 
 #include <vector>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Distributions on std::mt19937_64, whose sequence the standard fixes; what std::uniform_real_distribution and its kin
 // make of it is up to each library, and a seed must give the same specimen everywhere.
+// Tested by tests/specimens/packing/packing_test.cpp.
 #pragma once
 
 #include <cstdint>

@@ -16,6 +16,7 @@
 // that holds back the longest waves just critically. Passes at a free pressure, from quench to equilibrium, radii 1 to
 // 2, mean overlap 0.4 % of the mean radius, FIRE and drag: 20,000 discs 28,300 and 13,500, 50,000 discs 61,700 and
 // 15,500.
+// Tested by tests/specimens/packing/packing_test.cpp.
 #pragma once
 
 #include <functional>

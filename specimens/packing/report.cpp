@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Measures a packing from its scene alone, so that the figures are those of what was written and not of what was meant.
+// Tested by tests/specimens/packing/packing_test.cpp.
 
 #include <fmt/format.h>
 

@@ -9,6 +9,7 @@
 // Sieve curve: size is a diameter [m], passing_by_mass the share of the mass [-] of circles smaller than that. Between
 // two points the share is linear in ln(size), as grading curves are drawn. With mass ∝ size² (2D) the number of circles
 // between two points goes as dN ∝ size⁻³ d(size).
+// Tested by tests/specimens/packing/packing_test.cpp.
 #pragma once
 
 #include <cstddef>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which drawn cell a body's contact belongs to.
+// Tested by tests/tools/commands/view_test.cpp.
 #pragma once
 
 #include <cstdint>

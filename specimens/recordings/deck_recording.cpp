@@ -4,6 +4,7 @@
 // They hold places and forces only. Velocities are those between two frames; a chain is taken to turn by less than half
 // a turn from one to the next. Stress of a body: σ = -1/A Σ f ⊗ (x - x_c), symmetrised, dashpots included, compression
 // positive; f the forces on it, A its area (of a clump the sum of its circles, as for its mass).
+// Tested by tests/tools/commands/view_test.cpp.
 
 #include <fmt/format.h>
 

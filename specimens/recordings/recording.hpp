@@ -4,6 +4,7 @@
 // become one; frames are read when they are asked for, since all of them may be more than fits into memory.
 //
 // m, s, rad, N, N/m, or the deck's own units. Normal forces and stresses are positive in compression.
+// Tested by tests/specimens/results/files_test.cpp.
 #pragma once
 
 #include <array>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The frames that a test left in frames/ (frame_painter.hpp) as a recording.
+// Tested by tests/tools/commands/view_test.cpp.
 
 #include <fmt/format.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The results of one finished test, read back from its folder: summary, curve and breaks.
+// Tested by tests/tools/commands/view_test.cpp.
 #pragma once
 
 #include <filesystem>

@@ -4,6 +4,7 @@
 // Layout: the line "crackle test checkpoint 10", cereal's binary archive of the resolved case's SHA-256, setup, state
 // and world, and the SHA-256 of all that. The hash is checked first, so that damage never reaches the archive. Written
 // as it comes, for the whole is as large as the world.
+// Tested by tests/tools/commands/resume_test.cpp.
 #pragma once
 
 #include <iosfwd>

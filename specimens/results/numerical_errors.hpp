@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The numerical errors that a test states with its peak (loading/companions.hpp says how they are found).
+// Tested by tests/specimens/results/files_test.cpp.
 #pragma once
 
 #include <cstdint>

@@ -4,6 +4,7 @@
 // the old ones' place at the end. Nothing but a test's results is ever replaced. Single files appear under a temporary
 // name and are renamed, so that a full disc leaves the previous one. While an OutputFolder lives its folders are locked
 // against other processes.
+// Tested by tests/specimens/results/files_test.cpp.
 #pragma once
 
 #include <cstdint>

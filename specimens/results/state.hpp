@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a running test knows besides its world: the curve so far, the peak, the frames taken, where its files end.
 // Together with the world and the setup this is all that a checkpoint holds.
+// Tested by tests/specimens/results/files_test.cpp.
 #pragma once
 
 #include <cstdint>

@@ -2,6 +2,7 @@
 // summary.json: what came out of a test in one place, with its numerical errors. Keys, units and signs stand in the
 // file itself (`units`, `columns`), and in FILES.md. Until the specimen has failed, what refers to the peak is called
 // ..._so_far.
+// Tested by tests/specimens/results/files_test.cpp.
 #pragma once
 
 #include <nlohmann/json.hpp>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The declarations of all keys of summary.json, a line a key. New keys are declared here; summary.cpp gives them
 // values.
+// Tested by tests/tools/readme_test.py.
 
 #include "specimens/results/summary.hpp"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A specimen between its platens as a world with bonds.
+// Tested by tests/specimens/loading/virtual_test_test.cpp.
 #pragma once
 
 #include "solver/world/world.hpp"

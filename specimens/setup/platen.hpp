@@ -11,6 +11,7 @@
 // A block and not one segment: behind a single segment a corner pressed in by more than t would be through, and pushed
 // on. Before that, both carry the same force.
 // The lower platen is fixed, the upper one moves at constant velocity; both are held laterally and in rotation.
+// Tested by tests/specimens/loading/virtual_test_test.cpp.
 #pragma once
 
 #include "solver/scene/scene.hpp"

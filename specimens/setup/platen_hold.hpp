@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Whether bonds hold a specimen between its platens, before anything is measured on it.
+// Tested by tests/specimens/loading/virtual_test_test.cpp.
 #pragma once
 
 #include "specimens/case/case_file.hpp"

@@ -2,6 +2,7 @@
 // The subcommands of `crackle`, one file each. A command says how it is called; commands.cpp parses its words, answers
 // --help, and runs it. It prints to stdout (results) and stderr (by Talk: progress, notices), and returns the exit
 // code; errors are thrown and turned into messages by main().
+// Tested by tests/tools/commands/command_line_test.cpp.
 #pragma once
 
 #include <vector>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `crackle completion SHELL`: a script by which a shell completes commands, options, the words they take, and files.
+// Tested by tests/tools/commands/command_line_test.cpp.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

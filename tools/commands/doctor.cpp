@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `crackle doctor` and `crackle --version`: what this build is made of, what it can do, and what is missing.
+// Tested by tests/tools/commands/command_line_test.cpp.
 
 #include <fmt/format.h>
 #include <isa-l.h>

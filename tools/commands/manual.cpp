@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `crackle man`: the manual page, in the man macros of roff.
+// Tested by tests/tools/commands/command_line_test.cpp.
 
 #include <fmt/format.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The report page that the build bundles from tools/viewer and links into the program.
+// Tested by tests/tools/commands/report_test.cpp.
 #pragma once
 
 #include <string_view>

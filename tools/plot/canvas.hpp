@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A sheet to draw on, for print: SVG, PDF or PNG by Cairo, text by Pango. Fonts are embedded (PDF) or drawn as outlines
 // (SVG). Lengths are points, 1/72 inch, from the upper left corner, y down.
+// Tested by tests/tools/commands/plot_test.cpp.
 #pragma once
 
 #include <cairo.h>

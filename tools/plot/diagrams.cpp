@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Stress-strain curves and counts of breaks. Strains are shown in thousandths; stress and strain are positive in the
 // sense of each test.
+// Tested by tests/tools/commands/plot_test.cpp.
 
 #include <fmt/format.h>
 

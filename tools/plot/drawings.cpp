@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Specimens as they lie at a moment: particles, platens, cracks.
+// Tested by tests/tools/commands/plot_test.cpp.
 
 #include <fmt/format.h>
 

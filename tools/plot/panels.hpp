@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a figure is put together of: diagrams and drawings that know how high they are at a width, one below the other
 // or side by side.
+// Tested by tests/tools/commands/plot_test.cpp.
 #pragma once
 
 #include <functional>

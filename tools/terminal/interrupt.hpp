@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Ctrl-C as a wish to end cleanly.
+// Tested by tests/tools/commands/command_line_test.cpp.
 #pragma once
 
 namespace crackle::tools {

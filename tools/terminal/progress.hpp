@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How far long work is: one line on stderr that is written over, on a terminal only, and gone in the end.
+// Tested by tests/tools/commands/command_line_test.cpp.
 #pragma once
 
 #include <chrono>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the program says on stderr beside its results: stages, notices, how far it is, and errors.
+// Tested by tests/tools/commands/command_line_test.cpp.
 #pragma once
 
 #include <chrono>

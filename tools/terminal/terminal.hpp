@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Whether somebody looks at a stream, and what may be shown there. Colours: https://no-color.org.
+// Tested by tests/tools/commands/command_line_test.cpp.
 #pragma once
 
 #include <cstddef>

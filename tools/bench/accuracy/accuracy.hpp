@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Work-precision studies: what an error costs in processor time, for each contact law and integrator.
+// Tested by tests/tools/bench/commands/bench_test.cpp.
 #pragma once
 
 #include <functional>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Work-precision on closed forms: a bouncing disc, an oblique rebound, a wave in a chain; and two colliding squares
 // against their own run at a far smaller step.
+// Tested by tests/tools/bench/commands/bench_test.cpp.
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Work-precision of a strength: packed specimens in tension, over time step, loading rate and rate tolerance, in the
 // mean over packings: single peaks scatter with the order in which bonds happen to break.
+// Tested by tests/tools/bench/commands/bench_test.cpp.
 
 #include <cmath>
 #include <cstring>

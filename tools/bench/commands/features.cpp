@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `crackle bench features`: what each feature costs a contact and step, and what is left of those that a scene lacks.
+// Tested by tests/tools/bench/commands/bench_test.cpp.
 
 #include <fmt/format.h>
 

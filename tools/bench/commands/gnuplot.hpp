@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Pictures by gnuplot, a program of its own.
+// Tested by tests/tools/bench/commands/bench_test.cpp.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `crackle bench guide`: the guide's rock on many packings, each of the guide's numbers beside ours.
+// Tested by tests/tools/bench/commands/bench_test.cpp.
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

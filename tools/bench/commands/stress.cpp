@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `crackle bench stress`: the scenes of the claims «Stability under stress», for as long as wanted.
+// Tested by tests/tools/bench/commands/bench_test.cpp.
 
 #include <fmt/format.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `crackle bench throughput`: the engine's rates beside the machine's limits, taken in the same run.
+// Tested by tests/tools/bench/commands/bench_test.cpp.
 
 #include <fmt/format.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `crackle bench verify`: checks every verification claim and writes them as a page.
+// Tested by tests/tools/bench/commands/bench_test.cpp.
 
 #include <fmt/format.h>
 

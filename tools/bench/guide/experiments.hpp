@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the guide does not say and might have been otherwise: each experiment changes one thing of the shipped cases.
+// Tested by tests/tools/bench/guide/ensemble_test.cpp.
 #pragma once
 
 #include <string>

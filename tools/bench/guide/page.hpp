@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The ensemble of the guide's rock as a page and as CSV. No date, version or time in them, but run times are measured.
+// Tested by tests/tools/bench/guide/ensemble_test.cpp.
 #pragma once
 
 #include <cstdint>

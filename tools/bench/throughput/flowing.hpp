@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Unbonded bodies that flow: a column without its right wall, in the midst of its collapse under gravity.
+// Tested by tests/tools/bench/throughput/feature_costs_test.cpp.
 #pragma once
 
 #include <cstdint>

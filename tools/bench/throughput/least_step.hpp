@@ -6,6 +6,7 @@
 // discs without gravity; the largest speed is found, and whether it is a number: neighbour list and health of a run go
 // by it. Left out is all that a world can have besides: looking whether the list still holds, threads, a profile,
 // gravity, bodies that turn, driven bodies, losses, breaks. Same bytes as step() as long as nothing of that happens.
+// Tested by tests/tools/bench/throughput/feature_costs_test.cpp.
 #pragma once
 
 #include "solver/contact/pass.hpp"

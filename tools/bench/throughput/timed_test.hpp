@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The engine as `crackle test` runs it, timed: bonds, friction, dashpots, platens, curve, events and frames on.
+// Tested by tests/tools/bench/commands/bench_test.cpp.
 #pragma once
 
 #include <cstdint>

@@ -4,6 +4,7 @@
 //
 // A row compares one number. Its tolerance comes from an estimate of the error, named beside it, never from what came
 // out. Where a discretisation error exists, a row carries the observed order of convergence too, and falls with it.
+// Tested by tests/verification/claims_test.cpp.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The claims and what came out, as a Markdown page. No date, version or time in it: the same numbers give the same
 // bytes.
+// Tested by tests/verification/claims_test.cpp.
 #pragma once
 
 #include <string>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Rows of a claim, judged as they are added.
+// Tested by tests/verification/claims_test.cpp.
 #pragma once
 
 #include <string>

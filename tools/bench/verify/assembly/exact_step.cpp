@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The exact stable step: against dense matrices of finite differences of the force routine, and against runs of bonded
 // specimens between platens just below and just above it.
+// Tested by tests/verification/claims_test.cpp.
 
 #include <Eigen/Dense>
 #include <algorithm>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Plane P and S waves along a bond row of the triangular lattice, in free motion: the middle of a lattice that is wide
 // enough not to hear of its edges before a quarter of the period.
+// Tested by tests/verification/claims_test.cpp.
 
 #include <fmt/format.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Meshes of polygon particles: areas, gaps, lost cells, duality of Voronoi edges.
+// Tested by tests/verification/claims_test.cpp.
 
 #include <fmt/format.h>
 

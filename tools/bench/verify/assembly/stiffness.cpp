@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Small-strain stiffness of a specimen: the sparse solve against slow runs, and against the affine bound.
+// Tested by tests/verification/claims_test.cpp.
 
 #include <fmt/format.h>
 

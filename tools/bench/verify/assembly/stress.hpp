@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Scenes that are hard on the engine, and what it makes of them; the claims «Stability under stress» run them briefly,
 // `crackle bench stress` for as long as wanted.
+// Tested by tests/verification/claims_test.cpp.
 #pragma once
 
 #include <cstdint>

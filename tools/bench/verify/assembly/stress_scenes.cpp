@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The scenes of stress.hpp. All are made by rule from a seed, so that they are the same everywhere.
+// Tested by tests/verification/claims_test.cpp.
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Stiffness of the bonded triangular lattice by the sparse solve.
+// Tested by tests/verification/claims_test.cpp.
 
 #include <fmt/format.h>
 

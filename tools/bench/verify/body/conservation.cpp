@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A bonded specimen free in space: what it must keep (momentum, angular momentum, energy, its bonds), what must not
 // pull at it (a rigid motion), and that leapfrog runs backwards.
+// Tested by tests/verification/claims_test.cpp.
 
 #include <fmt/format.h>
 

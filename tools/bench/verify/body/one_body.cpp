@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Discs on one spring and dashpot: restitution, bounces under gravity, two discs stacked between walls.
+// Tested by tests/verification/claims_test.cpp.
 
 #include <fmt/format.h>
 

@@ -3,6 +3,7 @@
 // forces act at one point of both bodies and derive from ½k_n δ² with δ C¹ outside a convex outline, so momentum and
 // angular momentum are kept to rounding and, without friction and dashpots, energy to second order in the step, corners
 // passing corners included. Notched polygons and open chains as well.
+// Tested by tests/verification/claims_test.cpp.
 
 #include <fmt/format.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bonds: what breaks them, what does not, and that every break is booked once.
+// Tested by tests/verification/claims_test.cpp.
 
 #include <fmt/format.h>
 

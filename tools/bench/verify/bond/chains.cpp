@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bonded chains of equal discs: dispersion, catenary, strength.
+// Tested by tests/verification/claims_test.cpp.
 
 #include <fmt/format.h>
 

@@ -2,6 +2,7 @@
 // A rectangular block on a slope stays while tan θ < μ, else slides with a = g(sin θ - μ cos θ), and topples where its
 // weight passes beyond its lower corner. The slope lies along x and gravity is turned; the ground is a domain wall, a
 // fixed segment or a fixed polygon.
+// Tested by tests/verification/claims_test.cpp.
 
 #include <fmt/format.h>
 

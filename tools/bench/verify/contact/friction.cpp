@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A disc with Coulomb friction on a plane: sliding that turns into rolling, slopes below and above the limit of
 // rolling, oblique rebound.
+// Tested by tests/verification/claims_test.cpp.
 
 #include <fmt/format.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What opening and closing contacts do to the energy, under leapfrog and under the consistent integrator.
+// Tested by tests/verification/claims_test.cpp.
 
 #include <fmt/format.h>
 

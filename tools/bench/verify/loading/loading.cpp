@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Loading a packed specimen to failure: the account of energy and the loading rate.
+// Tested by tests/verification/claims_test.cpp.
 
 #include <fmt/format.h>
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Small regular specimens bonded between two flat segments, both held laterally and in rotation, the upper one moving.
+// Tested by tests/verification/claims_test.cpp.
 #pragma once
 
 #include "solver/world/world.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Small bonded specimens that several claims use.
+// Tested by tests/verification/claims_test.cpp.
 #pragma once
 
 #include "solver/world/world.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Dense stiffness of a bonded world by finite differences of the force routine itself: what the step would feel, found
 // without looking at how the sparse solve assembles its springs. Needs a world without damping.
+// Tested by tests/verification/claims_test.cpp.
 #pragma once
 
 #include <Eigen/Dense>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A small packed rock as a case, without a file: the shipped rock's material, fewer circles.
+// Tested by tests/verification/claims_test.cpp.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Runs just below and just above a world's exact stable step.
+// Tested by tests/verification/claims_test.cpp.
 #pragma once
 
 #include <string>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Quantities of a whole world that conservation laws speak of, and small ways of preparing one.
+// Tested by tests/verification/claims_test.cpp.
 #pragma once
 
 #include <algorithm>
