@@ -114,7 +114,8 @@ std::vector<Cell> in_order_of_centres(const std::vector<Cell>& cells, const std:
     return ordered;
 }
 
-Mesh mesh_voronoi(std::span<const CellCentre> centres, const Rectangle& domain, const MeshRequest& request, double depth) {
+Mesh mesh_voronoi(std::span<const CellCentre> centres, const Rectangle& domain, const MeshRequest& request,
+                  double depth) {
     const double scale = coordinate_scale(domain);
     Inset inset(depth, scale);
     std::vector<CellCentre> left(centres.begin(), centres.end());
@@ -163,7 +164,8 @@ Mesh mesh_voronoi(std::span<const CellCentre> centres, const Rectangle& domain, 
     }
 }
 
-Mesh mesh_delaunay(std::span<const CellCentre> centres, const Rectangle& domain, const MeshRequest& request, double depth) {
+Mesh mesh_delaunay(std::span<const CellCentre> centres, const Rectangle& domain, const MeshRequest& request,
+                   double depth) {
     const double scale = coordinate_scale(domain);
     const Triangles triangles = delaunay_triangles(centres, domain, request.boundary);
     if (triangles.corners.empty()) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Polygon particles from centres: Delaunay triangles or Voronoi cells of a rectangle, each inset so that neighbours stand
-// apart.
+// Polygon particles from centres: Delaunay triangles or Voronoi cells of a rectangle, each inset so that neighbours
+// stand apart.
 //   centres -> partition of the rectangle -> every polygon moved inwards by `inset` along every edge, domain faces
 //   included
 // Facing edges of neighbours are then 2·inset apart; the default inset thick/2 makes every gap the segment thickness.
@@ -39,18 +39,18 @@ enum class MeshKind : std::uint8_t { delaunay, voronoi };
 
 /// How Delaunay triangles end at the domain; Voronoi cells always fill the domain.
 enum class Boundary : std::uint8_t {
-    domain,  ///< centres next to a wall are also projected onto it and the corners added: flat faces, areas sum to the
-             ///< domain's
-    centres,   ///< only triangles between three centres (the guide's): 2n - 2 - h, h centres along the outer chain
+    domain,   ///< centres next to a wall are also projected onto it and the corners added: flat faces, areas sum to the
+              ///< domain's
+    centres,  ///< only triangles between three centres (the guide's): 2n - 2 - h, h centres along the outer chain
 };
 
 struct MeshRequest {
     MeshKind kind = MeshKind::voronoi;
     Boundary boundary = Boundary::domain;
-    double mesh_gap = 0.0; ///< m, >= 0: gap between facing edges
+    double mesh_gap = 0.0;        ///< m, >= 0: gap between facing edges
     std::optional<double> inset;  ///< m, >= 0: depth by which each edge moves inwards; thick/2 where absent
-    /// Cells that the inset destroys: false, an error; true, Voronoi: the centre is left out and its neighbours take its
-    /// place; Delaunay: the triangle joins a neighbour with which it is convex (an error where there is none).
+    /// Cells that the inset destroys: false, an error; true, Voronoi: the centre is left out and its neighbours take
+    /// its place; Delaunay: the triangle joins a neighbour with which it is convex (an error where there is none).
     bool merge_destroyed = false;
 };
 
@@ -63,8 +63,8 @@ struct Cell {
     std::uint32_t corner_count = 0;
     int centre = -1;  ///< Voronoi: index of its centre; triangles: -1
     std::array<int, 3> centres{-1, -1,
-                             -1};  ///< triangles: centres at the corners, -1 for a corner added on the domain's face
-    std::uint8_t sides = 0;        ///< SideBit: domain faces on which the cell had an edge before the inset
+                               -1};  ///< triangles: centres at the corners, -1 for a corner added on the domain's face
+    std::uint8_t sides = 0;          ///< SideBit: domain faces on which the cell had an edge before the inset
 
     bool on_left() const { return (sides & side_left) != 0; }
     bool on_right() const { return (sides & side_right) != 0; }

@@ -185,7 +185,7 @@ TestOutcome resume_test(const TestOptions& options, const TestHooks& hooks) {
     fs::remove(folder.path() / "summary.json", error);
     TestFiles files(folder, checkpoint.case_hash, test.state);
     hooks.report_stage(fmt::format("resumed at step {}, axial strain {:.4g}", test.world.stepping.steps,
-                           test.setup.axial_strain(test.world)));
+                                   test.setup.axial_strain(test.world)));
     return run_with_files(test, options, hooks, folder, files);
 }
 

@@ -45,7 +45,7 @@ struct TestSetup {
     bool polygons = false;
     double width = 0.0, height = 0.0;    // m, initial
     double bond_thick = 0.0;             // m
-    double mesh_gap = 0.0;             // m
+    double mesh_gap = 0.0;               // m
     int bottom_id = 0, top_id = 0;       // as in outputs
     BodyIndex bottom = 0, top = 0;       // in the world
     double top_start = 0.0;              // m, y of the upper platen's centroid

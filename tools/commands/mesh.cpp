@@ -16,8 +16,8 @@
 #include "solver/demseg/deck_reader.hpp"
 #include "solver/demseg/geometry.hpp"
 #include "specimens/making/cell_bodies.hpp"
-#include "tools/commands/commands.hpp"
 #include "tools/commands/centre_list.hpp"
+#include "tools/commands/commands.hpp"
 
 namespace crackle::tools {
 namespace {
@@ -157,7 +157,8 @@ MeshRequest request_of(const po::variables_map& values) {
     request.kind = choice("kind", "delaunay", "voronoi") ? MeshKind::delaunay : MeshKind::voronoi;
     request.boundary = choice("boundary", "domain", "centres") ? Boundary::domain : Boundary::centres;
     if (request.kind == MeshKind::voronoi && request.boundary == Boundary::centres) {
-        throw InputError("--boundary: found centres with --kind voronoi, expected domain: Voronoi cells always fill it");
+        throw InputError(
+            "--boundary: found centres with --kind voronoi, expected domain: Voronoi cells always fill it");
     }
     if (!values.contains("thick"))
         throw InputError("--thick: found nothing, expected the gap between facing edges in m");
@@ -211,11 +212,11 @@ CommandLine describe_mesh() {
         ("inset", number(), "move edges inwards by so much instead of half the gap, m")  //
         ("boundary", word("WHICH")->default_value("domain"),
          "of triangles. domain: flat faces, made by projecting the outer centres; centres: between centres only")  //
-        ("merge", "give the place of cells that the inset destroys to neighbours, instead of an error")      //
-        ("output,o", word("FILE"), "file to write, or folder (default: in_gm_tri.dat or in_gm_volo.dat)")    //
+        ("merge", "give the place of cells that the inset destroys to neighbours, instead of an error")            //
+        ("output,o", word("FILE"), "file to write, or folder (default: in_gm_tri.dat or in_gm_volo.dat)")          //
         ("force", "replace the output if it is there");
     plain.add_options()("domain", word("X1 X2 Y1 Y2"), "the domain, m")               //
-        ("bounding-box", "take the centres' bounding box as the domain")                //
+        ("bounding-box", "take the centres' bounding box as the domain")              //
         ("density", number()->default_value(usual.density), "kg/m2")                  //
         ("normal-stiffness", number()->default_value(usual.normal_stiffness), "N/m")  //
         ("shear-stiffness", number()->default_value(usual.shear_stiffness), "N/m")    //
@@ -250,7 +251,8 @@ int mesh(const Invocation& given) {
     Talk& talk = given.talk;
     talk.progress().begin("reading " + name, 3.0, "");
     const std::string text = read_text_file(name);
-    Source source = looks_like_centre_list(text) ? centres_of_list(name, text, values) : centres_of_deck(name, text, values);
+    Source source =
+        looks_like_centre_list(text) ? centres_of_list(name, text, values) : centres_of_deck(name, text, values);
     talk.detail(fmt::format("read {} centres from {}, {} bytes", source.centres.size(), name, text.size()));
     talk.progress().step(1.0, fmt::format("meshing {} centres", source.centres.size()));
     const Mesh made = mesh_source(source, request);

@@ -62,8 +62,9 @@ class Change {
     template <class T>
     void walk(T& value, const std::string& name) {
         if constexpr (HasFields<T>) {
-            T::fields(value,
-                      [&](const char* field, auto& member, const auto&... /*more*/) { walk(member, name + "." + field); });
+            T::fields(value, [&](const char* field, auto& member, const auto&... /*more*/) {
+                walk(member, name + "." + field);
+            });
         } else if (chosen(name)) {
             make_other(value);
         }
