@@ -19,8 +19,6 @@ struct Box {
     }
 };
 
-Vec2 centre_of(const BodyState& body) { return {body.x, body.y}; }
-
 Box bounding_box(const World& world, std::size_t b) {
     const BodyState& body = world.bodies.state[b];
     const BodyInfo& info = world.bodies.info[b];

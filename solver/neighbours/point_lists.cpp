@@ -9,8 +9,6 @@
 namespace crackle {
 namespace {
 
-Vec2 centre_of(const BodyState& body) { return {body.x, body.y}; }
-
 ContactPoint new_point(BodyIndex i, BodyIndex j, std::uint32_t element, std::uint32_t feature) {
     ContactPoint point{};
     point.body_i = i;

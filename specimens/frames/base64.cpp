@@ -22,7 +22,7 @@ constexpr std::array<std::uint8_t, 256> make_values() {
     return values;
 }
 
-constexpr std::array<std::uint8_t, 256> value_of = make_values();
+constexpr std::array<std::uint8_t, 256> digit_values = make_values();
 
 }  // namespace
 
@@ -53,7 +53,7 @@ std::optional<std::vector<unsigned char>> decode_base64(std::string_view text) {
         std::uint32_t group = 0;
         for (std::size_t k = 0; k < 4; ++k) {
             const bool pad = last && k >= 4 - padding;
-            const std::uint8_t value = pad ? std::uint8_t{0} : value_of[static_cast<unsigned char>(text[at + k])];
+            const std::uint8_t value = pad ? std::uint8_t{0} : digit_values[static_cast<unsigned char>(text[at + k])];
             if (value == not_a_letter) return std::nullopt;
             group = (group << 6) | value;
         }
