@@ -20,7 +20,7 @@ namespace crackle::testing {
 
 /// Bodies fly apart from the centre at a few strains a second and at random on top, so that bonds break and lists age.
 inline void burst(World& world, double rate, double noise, std::uint64_t seed) {
-    shake(world, noise * breaking_energy(world), seed);
+    verification::shake(world, noise * verification::breaking_energy(world), seed);
     Vec2 middle;
     for (const BodyState& body : world.bodies.state) middle = middle + Vec2{body.x, body.y};
     middle = (1.0 / static_cast<double>(world.bodies.size())) * middle;
@@ -34,7 +34,7 @@ inline World bursting_discs(int columns, int rows, double rate, double noise,
                             Integrator integrator = Integrator::leapfrog) {
     DisorderedDiscs request;
     request.columns = columns, request.rows = rows, request.shake = 5e-5;
-    Material material = rock();
+    Material material = verification::rock();
     material.damping_ratio = 0.05;
     Scene scene = disordered_discs(request, material);
     scene.domain = {-0.1, 0.04 * columns + 0.1, -0.05, 0.0, {true, true, true, false}};
@@ -50,7 +50,7 @@ inline World bursting_cells(int columns, int rows, double rate, double noise, Se
                             Integrator integrator = Integrator::leapfrog) {
     ShakenCells request;
     request.columns = columns, request.rows = rows;
-    Material material = rock();
+    Material material = verification::rock();
     material.damping_ratio = 0.05;
     Scene scene = shaken_cells(request, material);
     scene.segment_law = law;
@@ -74,7 +74,7 @@ inline Trace trace_of(World world, int threads, int steps) {
     const std::int64_t built = world.list.builds;
     for (int n = 1; n <= steps; ++n) {
         step(world);
-        if (n % 100 == 0) trace.hashes.push_back(hash_of(save_world(world)));
+        if (n % 100 == 0) trace.hashes.push_back(verification::hash_of(save_world(world)));
     }
     trace.last = save_world(world);
     trace.broken = world.bonds.broken;
