@@ -34,7 +34,7 @@ inline Bar bar_of(const World& world, const BodyState& body, std::uint32_t eleme
             edge.length};
 }
 
-/// Calls visit(bar, disc's centre, radius, sense) forevery disc of a point under the guide's law between bodies i and
+/// Calls visit(bar, disc's centre, radius, sense) for every disc of a point under the guide's law between bodies i and
 /// j; positions count from i's centroid, sense is +1 for a disc of i.
 template <PointKind K, typename Visit>
 inline void visit_discs(const World& world, const ContactPoint& point, const BodyState& i, const BodyState& j,

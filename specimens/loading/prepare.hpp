@@ -12,7 +12,7 @@
 
 namespace crackle {
 
-/// @throws InputError foreverything that makes the case impossible; TestInterrupted.
+/// @throws InputError for everything that makes the case impossible; TestInterrupted.
 VirtualTest bond_test(const TestCase& description, const TestHooks& hooks = {});
 
 /// @throws as bond_test()

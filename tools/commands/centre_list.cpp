@@ -26,7 +26,7 @@ std::vector<std::string_view> words_of(std::string_view line) {
     return words;
 }
 
-/// Calls use(words, line number) forevery line that holds words, until it returns false.
+/// Calls use(words, line number) for every line that holds words, until it returns false.
 template <typename Use>
 void each_line(std::string_view text, Use use) {
     int number = 0;

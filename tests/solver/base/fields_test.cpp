@@ -17,8 +17,8 @@
 #include "solver/world/points.hpp"
 
 namespace crackle {
-namespace {
 
+// Archives look for what saves a struct in its own namespace.
 struct FewPoints {
     std::vector<double> root_mass;
     std::vector<double> shear_force;
@@ -43,6 +43,8 @@ struct WearingPoints {
         visit("wear", s.wear, Remembered::when_bonded);
     }
 };
+
+namespace {
 
 template <class T>
 std::string saved(const T& value) {

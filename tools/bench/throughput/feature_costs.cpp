@@ -52,7 +52,7 @@ Scene packed_hexagons(std::int64_t count) {
     return scene;
 }
 
-/// The same scene at rest where springs and dashpots have brought it, with a time step that holds forevery feature.
+/// The same scene at rest where springs and dashpots have brought it, with a time step that holds for every feature.
 Scene settled(Scene scene) {
     constexpr int most_steps = 6000;
     constexpr double rest = 0.1 * stir_speed;

@@ -70,7 +70,7 @@ class Edges {
             }
         }
     }
-    /// Calls `visit(cell, other, a, b)` once forevery shared edge. @return edges without a partner
+    /// Calls `visit(cell, other, a, b)` once for every shared edge. @return edges without a partner
     template <class Visit>
     int visit_shared(const Visit& visit) const {
         int alone = 0;

@@ -187,7 +187,7 @@ std::vector<Claim> bond_claims() {
          .check = bond_of_vanishing_strength_equals_no_bond},
         {.name = "break_list_is_the_difference_of_bond_sets",
          .group = group,
-         .statement = "one event forevery bond that is gone, and for no other",
+         .statement = "one event for every bond that is gone, and for no other",
          .check = break_list_is_the_difference_of_bond_sets},
         {.name = "splitting_a_run_loses_no_break",
          .group = group,

@@ -16,7 +16,7 @@ export function momentText(frame: Frame): string {
     return `ε = ${strain(frame.strain)}${stress === undefined ? '' : `\u2003σ = ${quantity(stress, 'N/m')}`}`;
 }
 
-/// Note on magnified displacements, forevery picture that shows them; else empty.
+/// Note on magnified displacements, for every picture that shows them; else empty.
 export const magnified = (magnification: number): string => (magnification === 1 ? '' : `\u2003displacements ×${magnification}`);
 
 /// The name and the moment; the moment below the name where the pane is too narrow for one line.
