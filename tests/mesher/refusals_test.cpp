@@ -42,7 +42,7 @@ TEST(MeshRefusal, NamesBothCoincidentSeeds) {
 TEST(MeshRefusal, NamesSeedsThatAreNowhereOrOutside) {
     auto centres = testing::random_seeds(5, unit, 2);
     centres[3].y = nan;
-    expect_text(refusal(centres, unit, {}), "seed 3 at (");
+    expect_text(refusal(centres, unit, {}), "centre 3 at (");
     centres[3].y = std::numeric_limits<double>::infinity();
     expect_text(refusal(centres, unit, {}), "finite coordinates");
     centres[3].y = 1.0000001;
@@ -57,7 +57,7 @@ TEST(MeshRefusal, TooFewOrCollinearSeedsHaveNoTriangles) {
     MeshRequest request;
     request.kind = MeshKind::delaunay;
     request.boundary = Boundary::centres;
-    expect_text(refusal({{0.5, 0.5}}, unit, request), "1 seed that form");
+    expect_text(refusal({{0.5, 0.5}}, unit, request), "1 centre that form");
     expect_text(refusal({{0.5, 0.5}, {0.2, 0.1}}, unit, request), "no triangle");
     expect_text(refusal(testing::lattice(25, 1, unit, 0.0), unit, request), "no triangle");
 }
@@ -89,7 +89,7 @@ TEST(MeshRefusal, NamesTheCellThatTheInsetDestroys) {
     MeshRequest request;
     request.mesh_gap = 0.3;
     const MeshError all = refusal(centres, unit, request);
-    expect_text(all, "the cell of seed");
+    expect_text(all, "the cell of centre");
     expect_text(all, "destroyed by the inset of 0.15 (100 cells in all)");
     ASSERT_EQ(all.centres.size(), 1U);
     request.merge_destroyed = true;  // one cell may grow to the whole domain and lives then

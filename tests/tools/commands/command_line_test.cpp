@@ -283,7 +283,7 @@ TEST_F(CommandLines, ProgressOfEveryLongCommandIsShown) {
     const std::string deck = std::string(CRACKLE_SOURCE_DIR) + "/specimens/demseg/circle";
     for (const auto& [words, says] : std::vector<std::pair<std::string, std::string>>{
              {"pack --count 3000 --radius-min 0.01 --radius-max 0.02 --mean-overlap 2e-5 -o rock.dat", "unbalanced by"},
-             {"mesh rock.dat --kind voronoi --thick 1e-4 -o cells.dat", "meshing 3000 seeds"},
+             {"mesh rock.dat --kind voronoi --thick 1e-4 -o cells.dat", "meshing 3000 centres"},
              {"run '" + deck + "' -o deck", "%"},
              {"bench verify --only two_discs_stacked_between_walls -o page.md", "two_discs_stacked_between_walls"},
              {"bench stress --steps 20", "% "}}) {

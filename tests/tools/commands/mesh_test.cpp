@@ -90,7 +90,7 @@ TEST_F(CrackleMesh, ReadsAPlainListOfSeeds) {
 
 TEST_F(CrackleMesh, MergesWhatTheInsetDestroysOnRequest) {
     write("seeds.txt", "0.2 0.5\n0.5 0.5\n0.50001 0.5\n0.50002 0.5\n0.8 0.5\n");
-    expect_refused("seeds.txt --kind voronoi --thick 1e-3 --domain 0 1 0 1", "seed 2 is seeds.txt:3");
+    expect_refused("seeds.txt --kind voronoi --thick 1e-3 --domain 0 1 0 1", "centre 2 is seeds.txt:3");
     const Answer answer = call("seeds.txt --kind voronoi --thick 1e-3 --domain 0 1 0 1 --merge");
     ASSERT_EQ(answer.code, 0) << answer.err;
     EXPECT_NE(answer.out.find("cells            4"), std::string::npos) << answer.out;
@@ -113,7 +113,7 @@ TEST_F(CrackleMesh, RefusesBadInputInOneMessage) {
     write_packing();
     const std::string cells = " --kind voronoi --thick 1e-3";
     expect_refused("absent.dat" + cells, "absent.dat");
-    expect_refused(cells, "expected an in_gm.dat or a list of seeds");
+    expect_refused(cells, "expected an in_gm.dat or a list of centres");
     expect_refused("in_gm.dat --thick 1e-3", "--kind: found nothing, expected delaunay or voronoi");
     expect_refused("in_gm.dat --kind hexagons --thick 1e-3", "--kind: found hexagons");
     expect_refused("in_gm.dat --kind voronoi", "--thick: found nothing");
@@ -134,7 +134,7 @@ TEST_F(CrackleMesh, RefusesBadInputInOneMessage) {
     write("seeds.txt", "0.2 0.5\n0.3 nan\n");
     expect_refused("seeds.txt --domain 0 1 0 1" + cells, "seeds.txt:2: y: found 'nan'");
     write("seeds.txt", "0.2 0.5\n0.3 0.5\n0.2 0.5\n");
-    expect_refused("seeds.txt --domain 0 1 0 1" + cells, "seed 0 is seeds.txt:1, seed 2 is seeds.txt:3");
+    expect_refused("seeds.txt --domain 0 1 0 1" + cells, "centre 0 is seeds.txt:1, centre 2 is seeds.txt:3");
     expect_refused("seeds.txt" + cells, "found neither");
     expect_refused("seeds.txt --bounding-box --domain 0 1 0 1" + cells, "found both");
     expect_refused("seeds.txt --domain 0 1 0" + cells, "expected four numbers");

@@ -59,7 +59,7 @@ TEST_F(BenchCommand, FeaturesWritesBothTablesAndItsPicture) {
     EXPECT_FALSE(exists("costs/scratch"));
     for (const char* part :
          {"Made by `crackle bench features --quick --count 100", "Medians of 6 pairs",
-          "| discs | normal springs | the same again |", "| discs | clumps of two | energy ledger |",
+          "| discs | normal springs | the same again |", "| discs | clumps of two | bonds |",
           "| hexagons | consistent integrator | friction |", "| voronoi | curve, events, frames of a test | its steps",
           "| discs | bonds | dispatched | kernel compiled without it |", "| hexagons | bonds | forced |",
           "| discs | gravity, turning, controls, profile, threads, losses, breaks, list | dispatched | least step of "
@@ -72,7 +72,7 @@ TEST_F(BenchCommand, FeaturesWritesBothTablesAndItsPicture) {
         if (line.starts_with('#') || line.starts_with("kind,")) continue;
         ++rows;
     }
-    EXPECT_EQ(rows, 42);
+    EXPECT_EQ(rows, 36);
     if (answer.err.find("found no gnuplot") == std::string::npos) {
         EXPECT_NE(read("costs/features.svg").find("<svg"), std::string::npos) << answer.err;
     }
