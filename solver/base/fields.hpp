@@ -66,11 +66,20 @@ struct FieldCounter {
     }
 };
 
+/// Room for a T that is never made, since not every T can be made in a constant expression: its members have addresses.
+template <class T>
+union RoomFor {
+    char nothing;
+    T value;
+    constexpr RoomFor() : nothing{} {}
+    constexpr ~RoomFor() {}  // NOLINT(modernize-use-equals-default): a defaulted one is deleted
+};
+
 template <class T>
 constexpr std::size_t listed_fields() {
     FieldCounter counter;
-    T value{};
-    T::fields(value, counter);
+    RoomFor<T> room;
+    T::fields(room.value, counter);
     return counter.count;
 }
 
