@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// make_mesh(): judges the input, partitions the domain, insets the cells, and deals with those that the inset destroys.
+// make_mesh(): checks the input, partitions the domain, insets the cells, and deals with those that the inset destroys.
 // Tested by tests/mesher/voronoi_test.cpp.
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Takes cells one by one into a mesh and measures them while they are at hand.
+// Adds cells one by one to a mesh and measures them while they are at hand.
 // Tested by tests/mesher/voronoi_test.cpp.
 #pragma once
 
@@ -17,7 +17,8 @@ class MeshBuilder {
     /// @param cells, corners  about as many as will come: memory for them is set aside
     MeshBuilder(const Rectangle& domain, std::size_t cells, std::size_t corners);
 
-    /// Takes the next cell along space. @param before, after  its outline without and with the inset, counter-clockwise
+    /// Adds the next cell in the order of space. @param before, after  its outline without and with the inset,
+    /// counter-clockwise
     /// @return the cell, of no centre yet; valid until the next call
     Cell& add(std::span<const Point> before, std::span<const Point> after);
 

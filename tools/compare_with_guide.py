@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Prints what DEMseg's guide says of its rock beside what six virtual tests of it measured.
+"""Prints what DEMseg's guide states of its rock beside what six virtual tests of it measured.
 
   tools/compare_with_guide.py FOLDER
 

@@ -22,17 +22,17 @@ int main(int argc, char** argv) {
     try {
         return call_command({all.begin() + 1, all.end()});
     } catch (const crackle::InputError& error) {
-        tell_error(error.what());
+        report_error(error.what());
         return exit_bad_input;
     } catch (const std::filesystem::filesystem_error& error) {
-        tell_error(fmt::format("{}: {}, expected a path that can be read and written; check its permissions",
-                               error.path1().string(), error.code().message()));
+        report_error(fmt::format("{}: {}, expected a path that can be read and written; check its permissions",
+                                 error.path1().string(), error.code().message()));
         return exit_bad_input;
     } catch (const std::bad_alloc&) {
-        tell_error("found less memory than the input needs; make the specimen smaller");
+        report_error("found less memory than the input needs; make the specimen smaller");
         return exit_bad_input;
     } catch (const crackle::UnstableRun& error) {
-        tell_error(error.what());
+        report_error(error.what());
         return exit_unstable;
     }
 }

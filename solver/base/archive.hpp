@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Any struct that lists its fields (fields.hpp), through cereal's archives: one member after the other, since the bytes
-// of padding belong to nobody.
+// Any struct that lists its fields (fields.hpp), through cereal's archives: one member after the other, since padding
+// has no defined value.
 // Tested by tests/solver/world/world_test.cpp.
 #pragma once
 

@@ -24,7 +24,7 @@ class UnstableRun : public std::runtime_error {
                              ": " + likely_cause),
           step(at_step),
           body(body_id) {}
-    /// The same with what else there is to say, such as where the output is.
+    /// The same with further lines, such as where the output is.
     UnstableRun(const UnstableRun& error, const std::string& more)
         : std::runtime_error(std::string(error.what()) + "; " + more), step(error.step), body(error.body) {}
 

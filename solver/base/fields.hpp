@@ -11,7 +11,7 @@
 //         }
 //     };
 //
-// A visitor that wants to know more of a field takes it as a third argument (world/points.hpp). A list that lacks a
+// A visitor that wants to know more of a field receives it as a third argument (world/points.hpp). A list that lacks a
 // field does not compile where it is walked: lists_all_fields().
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A stream buffer that shows what passes through it to somebody else as well: a hash of what is written, without a copy
+// A stream buffer that shows what passes through it to an observer as well: a hash of what is written, without a copy
 // of it.
 // Tested by tests/tools/commands/resume_test.cpp.
 #pragma once

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The guide's contact of segments («demseg» law): a disc of radius r against a bare segment, judged element by element.
+// The guide's contact of segments («demseg» law): a disc of radius r against a bare segment, decided element by
+// element.
 //
 // With α the normal distance of the disc's centre x1 from the segment's line, p its foot, x2 the segment's midpoint,
 // l = sqrt(r² - α²), k the nearer end, h_p = |p - x2| and h_s = |s_k - x2|:
@@ -38,7 +39,7 @@ struct Bar {
 
 enum class DiscRule : std::uint8_t { none, end, ramp, face };  // (i) to (iv)
 
-/// Where a disc's centre lies before a bar, and what the rules say.
+/// Where a disc's centre lies before a bar, and what the rules give for it.
 struct DiscCase {
     double inside;            // m, of the foot from the nearer end, h_s - h_p
     double height;            // m, |α|

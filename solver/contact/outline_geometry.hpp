@@ -132,7 +132,7 @@ inline OutlineFacing face_every_edge(const Edge* edges, const Piece& piece, doub
 
 /// Signed distance to a convex closed piece, starting from the edge faced last. The normal strips of the edges and the
 /// cones of the corners partition the outside of a convex outline, so a point found in one needs no further search.
-/// A corner is where the edge faced says: the two that meet there agree to rounding.
+/// A corner's place is taken from the edge it faces: the two that meet there agree to rounding.
 inline OutlineFacing face_convex(const Edge* edges, const Piece& piece, std::uint32_t hint, double px, double py) {
     const std::uint32_t first = piece.first_edge, last = first + piece.edge_count - 1;
     std::uint32_t e = hint >= first && hint <= last ? hint : first;

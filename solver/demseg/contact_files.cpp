@@ -80,7 +80,7 @@ class BodyNames {
 
 int element_count(const Body& body) { return static_cast<int>(body.circle_count + body.vertex_count); }
 
-/// Both bodies single circles: the guide's two columns say all.
+/// Both bodies single circles: the guide's two columns suffice.
 bool plain_pair(const Body& a, const Body& b) { return a.circle_count == 1 && b.circle_count == 1; }
 
 /// Per body of the scene `id count`, then its lines.

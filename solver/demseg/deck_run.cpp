@@ -67,8 +67,7 @@ DeckRun::DeckRun(DeckOptions options) : options_(std::move(options)) {
     for (std::size_t k = 0; k < texts.contents.size(); ++k) {
         const std::filesystem::path path = input(deck_text_names[k]);
         texts.names[k] = path.string();
-        texts.present[k] =
-            k < 2 || std::filesystem::exists(path);  // reading in_gm.dat and in_bc.dat says if they are missing
+        texts.present[k] = k < 2 || std::filesystem::exists(path);  // reading in_gm.dat and in_bc.dat reports those two
         if (texts.present[k]) texts.contents[k] = read_text_file(path);
     }
     DeckReader reader = texts.reader(1);

@@ -37,7 +37,7 @@ struct DeckOptions {
 
 class DeckRun {
   public:
-    /// Reads and judges everything, and writes nothing.
+    /// Reads and checks everything, and writes nothing.
     /// @throws InputError on files that cannot be used, and on outputs that are there already.
     explicit DeckRun(DeckOptions options);
 

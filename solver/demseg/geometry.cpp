@@ -163,7 +163,7 @@ class BodyReader {
     std::uint32_t elements_ = 0;  // of the body being read
 };
 
-/// What a scene may say and the format cannot is refused rather than dropped.
+/// What a scene may hold and the format cannot is refused rather than dropped.
 void check_writable(const Scene& scene) {
     for (std::size_t m = 0; m < scene.materials.size(); ++m) {
         if (scene.materials[m].damping_ratio) {

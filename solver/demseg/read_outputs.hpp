@@ -31,7 +31,7 @@ struct DeckContact {
     double normal_force = 0.0, shear_force = 0.0, back_tension = 0.0;  ///< of the springs
 };
 
-/// One of the files as a list of frames: a line `step time count [count]`, then as many lines as the counts say.
+/// One of the files as a list of frames: a line `step time count [count]`, then as many lines as the counts add up to.
 class DeckFrameFile {
   public:
     struct Head {

@@ -52,7 +52,7 @@ Vector extreme_vector(const Matrix& lower) {
     Spectra::SymEigsSolver<Multiply> solver(multiply, 1, lanczos_vectors);
     solver.init();
     solver.compute(Spectra::SortRule::LargestAlge, lanczos_restarts, lanczos_tolerance);
-    // Where it has not converged its best vector still bounds the limit from above; Cholesky judges what comes out.
+    // Where it has not converged its best vector still bounds the limit from above; Cholesky checks the result.
     if (solver.info() == Spectra::CompInfo::Successful) return solver.eigenvectors(1).col(0);
     return Vector();
 }

@@ -49,7 +49,7 @@ void check_bodies(const World& world) {
 
 /// Energy that rounding alone can bring about, J: every spring strained by 64 units in the last place of the largest
 /// coordinate (as many roundings go into an overlap, or have gathered over a few steps), and as much of the large
-/// energies that the account takes from each other. A bonded specimen at rest has no other energy to be judged by.
+/// energies that the account takes from each other. A bonded specimen at rest has no other energy to compare with.
 double rounding_energy(const World& world, const Ledger& ledger) {
     constexpr double rounding = 64.0 * std::numeric_limits<double>::epsilon();
     double farthest = 0.0, stiffness = 0.0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Mass properties of bodies and the one place where a scene is judged; everything after it relies on what passed here.
+// Mass properties of bodies and the one place where a scene is checked; everything after it relies on what passed here.
 
 #include "solver/scene/scene.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A scene: what is to be simulated, as plain data, before any number is derived from it.
-// Readers fill it, validate() judges it, build_world() turns it into the flat arrays that a step touches.
+// Readers fill it, validate() checks it, build_world() turns it into the flat arrays that a step touches.
 //
 // Units: any consistent set (SI in what we ship, cgs in the guide's decks). Strictly 2D: masses and stiffnesses are per
 // unit thickness (density kg/m2, mass kg, stiffness N/m, force N, stress N/m).
@@ -18,7 +18,7 @@
 
 namespace crackle {
 
-/// A number that nobody has set yet; validate() refuses it.
+/// A number not set yet; validate() refuses it.
 inline constexpr double unset = std::numeric_limits<double>::quiet_NaN();
 
 struct Material {

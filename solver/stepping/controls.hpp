@@ -22,7 +22,7 @@ void change_velocity(World& world, BodyIndex body, int dof, double velocity);
 void account_controls(World& world);
 /// Velocities of the coming drift. @param kick length of the kick, s
 void kick_controls(World& world, double kick);
-/// Puts bodies on ramps exactly where the ramp says, and notes how far every drive moved.
+/// Puts bodies on ramps exactly at the ramp's position, and notes how far every drive moved.
 void place_controls(World& world);
 
 }  // namespace crackle

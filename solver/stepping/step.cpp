@@ -4,7 +4,7 @@
 // compute_forces() brings the neighbour list up to date, lets every contact point compute its force from x(n) and
 // v(n-½), adds up each body's forces in a fixed order, and records broken bonds. Observers may look now: everything is
 // known at time n. advance() is leapfrog: v(n+½) = v(n-½) + a(n)Δt, x(n+1) = x(n) + v(n+½)Δt, driven bodies as their
-// controls say. step() does both, in one sweep where nobody looks between (solver/stepping/sweep.hpp).
+// controls prescribe. step() does both, in one sweep where nothing is measured in between (solver/stepping/sweep.hpp).
 
 #include <omp.h>
 

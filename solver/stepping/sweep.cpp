@@ -328,7 +328,7 @@ class Sweeper {
                   world_.points.force.begin() + world_.points.kind_begin[plan_.largest_kind + 1]);
     }
 
-    /// A block whose forces go to where somebody wants to see them, else to where they are at hand.
+    /// A block whose forces go to where they are read later, else to where they are at hand.
     PointBlock block_to_fill(std::size_t kind, PointIndex b, PointForce* at_hand) {
         PointBlock block = block_of(world_, kind, b, at_hand);
         if (!world_.points.force.empty()) block.forces = world_.points.force.data() + block.begin;

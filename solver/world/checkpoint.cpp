@@ -65,7 +65,7 @@ World load_world(const std::string& bytes, const std::string& name) {
             fmt::format("{}: found checkpoint version {}, expected {}; run the test again with this crackle", name,
                         version, checkpoint_version));
     }
-    // Judged before a single length in it is believed.
+    // Checked before a single length in it is used.
     XXH64_hash_t hash = 0;
     std::memcpy(&hash, bytes.data() + bytes.size() - tail, tail);
     if (XXH3_64bits(bytes.data(), bytes.size() - tail) != hash)

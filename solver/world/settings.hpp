@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the scene says of a whole world: domain, laws, switches.
+// What the scene sets for a whole world: domain, laws, switches.
 // Tested by tests/solver/world/world_test.cpp.
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reads a case with toml++ against the declared parameters, and judges what keys say together.
+// Reads a case with toml++ against the declared parameters, and checks the keys against each other.
 
 #include "specimens/case/case_file.hpp"
 
@@ -135,7 +135,7 @@ void take_value(TestCase& test, const fs::path& file, const std::string& table, 
     test.position[p->full_key()] = where;
 }
 
-/// Of ways of saying the same thing, the one that a file takes stands over those that came before it.
+/// Of alternative keys for one quantity, the one that a file uses replaces those of the files before it.
 void forget_other_ways(TestCase& test, const toml::table& content) {
     const auto writes = [&](const std::string& key) { return static_cast<bool>(content.at_path(key)); };
     for (const Alternatives& ways : case_alternatives()) {
@@ -153,7 +153,7 @@ void forget_other_ways(TestCase& test, const toml::table& content) {
     }
 }
 
-/// Puts what the file says into the case, over what is there.
+/// Puts the file's values into the case, over what is there.
 void take_file(TestCase& test, const fs::path& file, const toml::table& content) {
     forget_other_ways(test, content);
     for (const auto& [name, node] : content) {
@@ -176,7 +176,7 @@ void take_file(TestCase& test, const fs::path& file, const toml::table& content)
     }
 }
 
-/// Takes a file after what it includes, so that its own keys stand over it.
+/// Reads a file after what it includes, so that its own keys stand over it.
 /// @param within the files that include this one, the case first: none may come again
 void take_with_includes(TestCase& test, const fs::path& path, std::vector<fs::path> within) {
     const toml::table content = parse(path);
@@ -206,7 +206,7 @@ void take_with_includes(TestCase& test, const fs::path& path, std::vector<fs::pa
     take_file(test, path, content);
 }
 
-/// Whether the case takes another way of saying what this key says.
+/// Whether the case uses an alternative to this key.
 bool said_otherwise(const TestCase& test, const std::string& full_key) {
     const auto is_written = [&](const std::string& key) { return test.position.contains(key); };
     for (const Alternatives& ways : case_alternatives()) {
@@ -237,12 +237,12 @@ void fill_defaults(TestCase& test) {
     if (test.title.empty()) test.title = test.source.stem().string();
 }
 
-/// What keys say together.
-class Judge {
+/// Checks of keys against each other.
+class ConsistencyCheck {
   public:
-    explicit Judge(const TestCase& test) : test_(test) {}
+    explicit ConsistencyCheck(const TestCase& test) : test_(test) {}
 
-    void judge() const {
+    void run() const {
         specimen();
         if (test_.has_table("packing")) packing();
         material();
@@ -278,7 +278,7 @@ class Judge {
         if (file && pack) refuse("packing", "[particles] beside it", "one of them", "remove one");
         if (!file && !pack)
             refuse("particles", "neither [particles] nor [packing]", "one of them",
-                   "say where the specimen comes from");
+                   "state where the specimen comes from");
     }
 
     void packing() const {
@@ -376,7 +376,7 @@ TestCase read_case(const fs::path& path) {
     test.source = path;
     take_with_includes(test, path, {});
     fill_defaults(test);
-    Judge(test).judge();
+    ConsistencyCheck(test).run();
     return test;
 }
 

@@ -14,7 +14,7 @@
 
 namespace crackle {
 
-/// Reads and judges a case. @throws InputError «file:line: key: found X, expected Y; what to do».
+/// Reads and checks a case. @throws InputError «file:line: key: found X, expected Y; what to do».
 TestCase read_case(const std::filesystem::path& path);
 
 /// Writes the case with every value in the open, each with its unit and sentence; reading it back gives the same test.

@@ -26,8 +26,8 @@ enum class ValueKind { flag, integer, real, text };
 enum class Presence {
     required,             ///< every case
     required_with_table,  ///< every case that has the key's table
-    optional,             ///< nobody; absent means absent
-    defaulted,            ///< nobody; absent means the default
+    optional,             ///< not required; absent means absent
+    defaulted,            ///< not required; absent means the default
 };
 
 struct Parameter {
@@ -58,7 +58,7 @@ struct Parameter {
 /// All parameters, in the order in which a case is written.
 const std::vector<Parameter>& case_parameters();
 
-/// Ways of saying the same thing, each by its full keys. Where a file takes one, the others of the files it includes
+/// Alternative keys for one quantity, each by its full keys. Where a file uses one, the others of the files it includes
 /// go.
 using Alternatives = std::vector<std::vector<std::string>>;
 const std::vector<Alternatives>& case_alternatives();

@@ -14,7 +14,7 @@
 
 namespace crackle {
 
-/// Of a packing whose case says nothing of damping: a particle ringing on its contacts loses 95 % of its energy a
+/// Of a packing whose case sets no damping: a particle ringing on its contacts loses 95 % of its energy a
 /// period, exp(-4πh) = 1/20; it shortens the stable step by a fifth.
 inline constexpr double default_damping_ratio = 0.2383941;  // ln(20)/(4π)
 
@@ -99,12 +99,12 @@ struct TestCase {
     double step_scale = 1.0;  ///< of a derived time step
 
     std::filesystem::path source;                 ///< the case file
-    std::map<std::string, std::string> position;  ///< "table.key" → "file:line", for keys that somebody wrote
+    std::map<std::string, std::string> position;  ///< "table.key" → "file:line", for keys that a file sets
     std::map<std::string, bool> table_present;    ///< "packing", "mesh", …
     std::vector<std::filesystem::path> inputs;    ///< files read so far, the case first
 
     bool has_table(const std::string& table) const { return table_present.contains(table); }
-    /// «file:line: table.key», or «file: table.key» for a key nobody wrote.
+    /// «file:line: table.key», or «file: table.key» for a key that no file sets.
     std::string at(const std::string& key) const;
     /// A path written in the case, relative to the file that wrote it.
     std::filesystem::path resolve_path(const std::string& key, const std::string& written) const;

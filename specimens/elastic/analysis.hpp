@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the linear solution says of a bonded specimen between its platens: moduli, the bonds that give way first, the
+// What the linear solution gives for a bonded specimen between its platens: moduli, the bonds that give way first, the
 // stable time step, free motions, vibration modes. No time stepping.
 //
 // With ε the axial strain in the sense of the test and a_n, a_t a point's growth of overlap and slip per unit of it,

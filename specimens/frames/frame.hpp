@@ -71,7 +71,7 @@ struct Frame {
 void take_frame(const World& world, const TestSetup& setup, const ContactHistory& history, const CurveRow& row,
                 std::int64_t row_index, Frame& frame);
 
-/// Frames over max_axial_strain where the case does not say: 100 up to 2,000 bodies, beyond that 200,000 over their
+/// Frames over max_axial_strain where the case states none: 100 up to 2,000 bodies, beyond that 200,000 over their
 /// number, but at least 20, and never more than rows of the curve. A frame costs what some thirty steps cost, and
 /// 340 bytes a circle.
 std::int64_t default_frames(std::int64_t bodies, std::int64_t curve_rows);

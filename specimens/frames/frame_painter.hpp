@@ -8,7 +8,7 @@
 // of a clump have the values of the clump.
 // Contacts: all bonds that loading began with, always in the same order and where they were held, then what else
 // touches at the moment; as lines centre-point-centre between circles and point-point between polygons.
-// Cracks: a line for each bonded point that has broken so far, in the order of events.csv: crack_faces.hpp says where.
+// Cracks: a line for each bonded point that has broken so far, in the order of events.csv, placed by crack_faces.hpp.
 // Cell data and their units: particle_arrays() and its like below; forces and stresses are of springs only,
 // frame_forces.hpp; fragments, fragments.hpp; ages, contact_history.hpp.
 //

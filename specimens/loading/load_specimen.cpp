@@ -22,7 +22,7 @@ constexpr std::int64_t steps_between_health_checks = 100;
 constexpr std::int64_t steps_between_clock_checks =
     64;  // reading the clock and asking for interrupts stay off the profile
 constexpr double seconds_between_progress = 0.2;
-// Rows that peak, failure and moduli are judged by, at least, however few of them are written: what is reported must
+// Fewest rows that peak, failure and moduli are found from, however few of them are written: what is reported must
 // not depend on how much of it is looked at.
 constexpr std::int64_t min_judged_rows = 2000;
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The loading loop: steps the world until it fails, reaches its largest strain or is interrupted.
 //
-// Observers look in steps that somebody reads, in a fixed order: curve row, failure, frame; broken bonds as they come.
-// Nothing of this reaches the kernels.
-// Tested by tests/specimens/loading/virtual_test_test.cpp.
+// Observers are called in the steps that are measured, in a fixed order: curve row, failure, frame; broken bonds as
+// they come. Nothing of this reaches the kernels. Tested by tests/specimens/loading/virtual_test_test.cpp.
 #pragma once
 
 #include "specimens/loading/virtual_test.hpp"

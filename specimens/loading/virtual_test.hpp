@@ -18,7 +18,7 @@ struct VirtualTest {
     TestSetup setup;
     TestState state;
     World world;
-    std::optional<SmallStrain> small_strain;  ///< linear solution with bonded platens; none: a notice says why
+    std::optional<SmallStrain> small_strain;  ///< linear solution with bonded platens; none: a notice gives the reason
     double specimen_seconds = 0.0;            ///< wall clock that making the specimen took
 };
 

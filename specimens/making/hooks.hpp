@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the caller of a test wants to know or to say while it runs.
+// Callbacks of a test's caller while it runs: progress, notices, interrupts.
 // Tested by tests/specimens/loading/virtual_test_test.cpp.
 #pragma once
 

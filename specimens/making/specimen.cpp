@@ -128,7 +128,7 @@ bool circle_overlaps_side(const Scene& scene, const Body& body, Wall side) {
     });
 }
 
-/// Polygons from a file say nothing of faces: an edge lies on a face when both its ends are as near as the nearest
+/// Polygons from a file carry no faces: an edge lies on a face when both its ends are as near as the nearest
 /// corner of all.
 std::vector<int> polygons_on_side(const Scene& scene, Wall side) {
     double nearest = std::numeric_limits<double>::infinity();

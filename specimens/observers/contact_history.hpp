@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What frames record of the past: which bonded points have broken and when, and since when bodies touch without a bond.
 //
-// Breaks are known to the step. Contacts are looked for in the rows of the curve, of which a test judges at least 2000,
+// Breaks are known to the step. Contacts are looked for in the rows of the curve, of which a test has at least 2000,
 // written or not: one is as old as the row that saw it first, and one that opens and closes between two rows stays the
 // same contact. A step does nothing for it.
 #pragma once

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The stress-strain curve: what is measured in a step that somebody reads, and how curve.csv shows it.
+// The stress-strain curve: what is measured in a step, and how curve.csv shows it.
 //
 // Stress = force of the specimen on a platen (dashpots included) over the initial width, axial strain = displacement of
 // the upper platen over the initial height; both positive in the sense of the test (compression in compression, tension

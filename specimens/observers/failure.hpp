@@ -10,7 +10,8 @@
 
 namespace crackle {
 
-/// Judges the rows of a curve one after the other. Stress and strain positive in the sense of the test.
+/// Finds peak and failure in the rows of a curve, one after the other. Stress and strain positive in the sense of the
+/// test.
 struct FailureTracker {
     double share_of_peak = 0.5;
     double peak_stress = 0.0;  // N/m, largest so far
@@ -20,7 +21,7 @@ struct FailureTracker {
     std::int64_t below_row = -1;                                    ///< the row that began it
     bool failed = false;
 
-    /// Takes the next row. @return whether it is a new peak
+    /// Adds the next row. @return whether it is a new peak
     bool update(std::int64_t row, double strain, double stress);
 
     template <class Self, class Visit>

@@ -11,7 +11,7 @@
 namespace crackle {
 
 /// Rows of {phase, seconds, share, calls, ns_per_particle_step}, and figures of the contact points. `narrow_phase` is
-/// the part of `force` that the geometry takes, sampled.
+/// the part of `force` that the geometry costs, sampled.
 /// @param particles bodies whose steps are counted @param step_seconds wall clock of the stepping loop, s
 nlohmann::ordered_json profile_report(const Profile& profile, std::int64_t particles, std::int64_t steps,
                                       double step_seconds);

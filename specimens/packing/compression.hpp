@@ -27,7 +27,7 @@ struct CompressionTarget {
 /// the round-off of the positions; above, discs are no longer bodies that touch.
 inline constexpr double smallest_overlap_share = 1e-5, largest_overlap_share = 0.1;
 
-/// Says what is being done, and the imbalance reached.
+/// Reports what is being done, and the imbalance reached.
 using CompressionCallback = std::function<void(const std::string& stage, double imbalance)>;
 
 struct Compression {

@@ -21,7 +21,7 @@ using Matrix = Eigen::SparseMatrix<double, Eigen::ColMajor, int>;
 
 // A contact with less than this share of the mean overlap carries nothing: the equilibrium is not sharper.
 constexpr double carrying_share = 1e-4;
-// Own stiffness of floating discs, in units of a contact's: makes the matrix regular, and moves nobody else.
+// Own stiffness of floating discs, in units of a contact's: makes the matrix regular, and moves no other disc.
 constexpr double floating_stiffness = 0.05;
 // Added to all diagonals where a disc is about to buckle (matrix not positive definite); grows until it is.
 constexpr double first_shift = 1e-5, largest_shift = 1.0, shift_growth = 10.0;

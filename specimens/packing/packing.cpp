@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From a request to a scene: judges the request, chooses the count for a box, draws packings until one meets it.
+// From a request to a scene: checks the request, chooses the count for a box, draws packings until one meets it.
 
 #include "specimens/packing/packing.hpp"
 

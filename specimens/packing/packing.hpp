@@ -14,7 +14,7 @@
 // isotropic (isotropy.hpp), so radii stay as drawn. With a count, that is all. With a width and a height, the count is
 // chosen so that one factor on all lengths, at most max_radius_scaling from 1 (report: radius_scale), meets the box
 // exactly. Packings that miss one of these are drawn again, with the next stream of random numbers (report: attempts);
-// the one that came nearest is taken, and its report says what it missed (isotropic, box_met). Where circles are all
+// the one that came nearest is taken, and its report states what it missed (isotropic, box_met). Where circles are all
 // alike there is nothing to trade: with a count the box may then leave its shape by max_aspect_error.
 //
 // Reachable void ratios end where frictionless circles jam: looser arrangements cannot carry load at rest.

@@ -50,7 +50,7 @@ struct RelaxationResult {
 double imbalance(const DiscAssembly& assembly, const BoxLoad& load, const AssemblySums& sums);
 
 /// From so many discs on, discs move against a drag instead of by FIRE, except in a fixed box (quenching: starts far
-/// from rest, where FIRE's stops help). Below, about a dozen stops delay nobody, and published packings keep their
+/// from rest, where FIRE's stops help). Below, about a dozen stops cost little, and published packings keep their
 /// bytes.
 inline constexpr std::size_t drag_from = 8000;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Distributions of circle radii, by number: uniform, lognormal, or a sieve curve (grading curve, by mass).
 //
-// A sample is stratified: circle k of n takes a random quantile out of the n-th part k of the distribution, and the
+// A sample is stratified: circle k of n has a random quantile out of the n-th part k of the distribution, and the
 // order is then shuffled. Every circle still follows the distribution, but the sample as a whole follows it far closer
 // than independent draws would (largest distance of the cumulative curves at most 1/n, against about 0.9/sqrt(n)), so
 // that packings of different seeds differ in their arrangement and not in their grading.

@@ -73,7 +73,7 @@ void append_cells(const fs::path& file, const PolyData& data, std::vector<Record
     }
 }
 
-/// Where a contact's line says that it acts: between circles its corner that is no centre, between polygons the middle
+/// Where a contact acts by its line: between circles its corner that is no centre, between polygons the middle
 /// of the gap.
 Vec2 place_of(const PolyData& data, const PolyData::Cell& line, bool first_is_circle, bool second_is_circle) {
     const auto at = [&](std::size_t corner) { return data.points[line.points[corner]]; };

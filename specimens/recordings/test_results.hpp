@@ -11,7 +11,7 @@
 
 namespace crackle {
 
-/// Second line of every report page; a file without it is somebody else's.
+/// Second line of every report page; a file without it was not written by this program.
 inline constexpr std::string_view report_mark = "<!-- crackle report -->";
 bool is_report_page(const std::filesystem::path& file);
 

@@ -14,7 +14,7 @@ namespace crackle {
 
 class TestFiles {
   public:
-    /// Begins from the start (state without rows) or goes on where the state says, taking away what came after it.
+    /// Begins from the start (state without rows) or goes on from the state, removing what came after it.
     TestFiles(const OutputFolder& folder, std::string case_hash, const TestState& state);
 
     void add_row(const CurveRow& row);

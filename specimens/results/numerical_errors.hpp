@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The numerical errors that a test states with its peak (loading/companions.hpp says how they are found).
+// The numerical errors that a test states with its peak (found as loading/companions.hpp explains).
 // Tested by tests/specimens/results/files_test.cpp.
 #pragma once
 
@@ -21,7 +21,7 @@ struct Companion {
 /// Relative errors of one number.
 struct NumberError {
     double time_step = 0.0, rate = 0.0, damping = 0.0;  ///< largest change by the companions; NaN: that one is unstable
-    double resolution = 0.0;                            ///< by the spacing of the rows it was judged by
+    double resolution = 0.0;                            ///< by the spacing of the rows it was found from
     double stated = 0.0;                                ///< NaN where a companion by step or rate is unstable
 };
 

@@ -88,7 +88,7 @@ bool has_only_begun(const fs::path& folder) {
            (!fs::exists(own_case, error) || begins_with(own_case, resolved_case_mark));
 }
 
-/// A case.toml or a frames/ alone may be anybody's.
+/// A case.toml or a frames/ alone may be the user's own.
 bool are_of_a_test(const fs::path& folder) {
     std::error_code error;
     return fs::exists(folder / "summary.json", error) || fs::exists(folder / "checkpoint", error) ||

@@ -32,7 +32,7 @@ bool is_result_name(const std::string& name);
 /// such a test is simply run again.
 bool holds_test_results(const std::filesystem::path& folder);
 
-/// First line of a test's case.toml: by it a folder's case is known to be a result, not somebody's own.
+/// First line of a test's case.toml: by it a folder's case is known to be a result, not a user's own.
 inline constexpr const char* resolved_case_mark = "# Resolved case of crackle ";
 
 /// Holds a folder against other processes as long as it lives.
@@ -61,7 +61,7 @@ class OutputFolder {
 
     OutputFolder(OutputFolder&&) = default;
     OutputFolder& operator=(OutputFolder&&) = delete;
-    /// Takes away what create() made, if nothing was written into it.
+    /// Removes what create() made, if nothing was written into it.
     ~OutputFolder();
 
     const std::filesystem::path& path() const { return working_; }   ///< where files are written now
@@ -84,7 +84,7 @@ class OutputFolder {
     std::vector<FolderLock> locks_;
 };
 
-/// A text file that grows; knows its length, so that a checkpoint can say where to go on.
+/// A text file that grows; knows its length, so that a checkpoint can record where to go on.
 class GrowingFile {
   public:
     /// Keeps the first `bytes` bytes and goes on behind them; 0 starts again.

@@ -231,7 +231,7 @@ std::vector<std::string> notices_of(const TestCase& test, const TestSetup& setup
     return notices;
 }
 
-/// What the companions say of the peak, in words; empty where they agree, or have not run.
+/// What the companions show of the peak, in words; empty where they agree, or have not run.
 std::string notice_of(const FailureTracker& failure, const NumericalErrors& errors) {
     for (const Companion& c : errors.companions) {
         if (c.ended_by == ended_by_instability)

@@ -10,7 +10,7 @@ namespace {
 constexpr double gain = 1.0, fastest_rise = 1.0, fastest_fall = 4.0;
 // The rate never falls below this share of its limit: after a break a specimen rings on for a while at any rate.
 constexpr double slowest_share = 0.15;
-// Errors far below the tolerance say nothing more.
+// Errors far below the tolerance carry no further information.
 constexpr double least_error_share = 1e-6;
 
 }  // namespace

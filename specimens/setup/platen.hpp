@@ -37,7 +37,7 @@ inline constexpr double platen_width_ratio = 2.0;
 /// Depth of a platen over the specimen's height: more than any corner is ever pressed in.
 inline constexpr double platen_depth_ratio = 0.05;
 
-/// Adds both platens and their controls to the specimen's scene, takes the walls away and gives every particle the
+/// Adds both platens and their controls to the specimen's scene, removes the walls and gives every particle the
 /// velocity that grows linearly from the lower to the upper platen, so that loading sends no shock.
 /// @param thick segment thickness at bonding, m
 Platens add_platens(Scene& scene, const Specimen& specimen, const TestCase::Loading& loading, double thick);

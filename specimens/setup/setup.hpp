@@ -110,7 +110,7 @@ struct TestSetup {
     }
 };
 
-/// Takes down the start of loading. Needs a bonded world with its platens in place and compute_forces() done.
+/// Records the start of loading. Needs a bonded world with its platens in place and compute_forces() done.
 TestSetup record_setup(const World& world, const Specimen& specimen, const Platens& platens, bool compression);
 
 /// A body where only its place is known. @param angle rad, as BodyState's

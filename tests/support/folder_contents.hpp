@@ -13,7 +13,7 @@
 
 namespace crackle::testing {
 
-/// Every file by name; summary.json without what the clock says.
+/// Every file by name; summary.json without what depends on the clock.
 inline std::map<std::string, std::string> contents(const std::filesystem::path& folder) {
     std::map<std::string, std::string> files;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""tests/benchmarks/peers/compare_peers with made-up programs in place of crackle and the peers: ratios, medians, exit codes, what it says."""
+"""tests/benchmarks/peers/compare_peers with made-up programs in place of crackle and the peers: ratios, medians, exit codes, messages."""
 import csv
 import importlib.machinery
 import importlib.util

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The guide's examples, run as shipped (specimens/demseg/), against what the guide says comes out. Numbers without a
-// source named beside them are the guide's (solver/MODEL.md 12).
+// The guide's examples, run as shipped (specimens/demseg/), against the results that the guide states. Numbers without
+// a source named beside them are the guide's (solver/MODEL.md 12).
 
 #include <gtest/gtest.h>
 

@@ -3,7 +3,7 @@
 // build (release, sanitizers, any number of lanes and threads). No sparse solve enters. A mismatch names scene, step,
 // field and, of the bodies' state, the first body that differs.
 //
-// A change that is meant to move numbers records them again, and says so in its commit:
+// A change that is meant to move numbers records them again, and its commit states it:
 //     CRACKLE_RECORD_STATES=tests/verification/pinned_states.csv build/release/tests/verification/verification_tests
 //         --gtest_filter='PinnedState*'
 
@@ -134,7 +134,7 @@ TEST_P(PinnedState, IsTheRecordedOneOnAnyNumberOfThreads) {
     if (const char* path = std::getenv("CRACKLE_RECORD_STATES")) write_record(path, hashes_of(name, scene(), 1));
     for (const int threads : {1, 2, 3}) {
         const Hashes got = hashes_of(name, scene(), threads);
-        for (const std::int64_t look : looks) {  // the first step that differs says where runs part
+        for (const std::int64_t look : looks) {  // the first step that differs shows where runs part
             const std::string at = std::string(name) + ',' + std::to_string(look) + ',';
             std::string differing;
             for (auto entry = got.lower_bound(at); entry != got.end() && entry->first.starts_with(at); ++entry) {

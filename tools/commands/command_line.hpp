@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/terminal/talk.hpp"
+#include "tools/terminal/messages.hpp"
 
 namespace crackle::tools {
 
@@ -53,7 +53,7 @@ struct Invocation {
     po::variables_map values;  ///< of the command's own options
     Arguments operands;
     Arguments words;  ///< all that stood behind the command's name
-    Talk& talk;
+    Messages& messages;
 };
 
 /// An option as users know it.

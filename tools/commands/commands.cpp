@@ -68,8 +68,8 @@ int call(const Command& command, const std::string& name, const Arguments& words
         print_help(line);
         return exit_done;
     }
-    Talk talk(parsed.loudness);
-    return command.run({parsed.values, parsed.operands, words, talk});
+    Messages messages(parsed.loudness);
+    return command.run({parsed.values, parsed.operands, words, messages});
 }
 
 }  // namespace
@@ -127,8 +127,8 @@ int call_command(const Arguments& words) {
     if (help) asked.emplace_back("--help");
     const Command* command = named(commands(), asked[0]);
     if (command == nullptr) {
-        tell_error(fmt::format("found command '{}', expected one of those below{}\n", asked[0],
-                               suggestion(asked[0], names_of(commands()))));
+        report_error(fmt::format("found command '{}', expected one of those below{}\n", asked[0],
+                                 suggestion(asked[0], names_of(commands()))));
         print_overview(std::cerr, Stream::err);
         return exit_bad_input;
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The subcommands of `crackle`, one file each. A command says how it is called; commands.cpp parses its words, answers
-// --help, and runs it. It prints to stdout (results) and stderr (by Talk: progress, notices), and returns the exit
+// The subcommands of `crackle`, one file each. A command declares how it is called; commands.cpp parses its words,
+// answers
+// --help, and runs it. It prints to stdout (results) and stderr (by Messages: progress, notices), and returns the exit
 // code; errors are thrown and turned into messages by main().
 // Tested by tests/tools/commands/command_line_test.cpp.
 #pragma once
@@ -50,7 +51,7 @@ int manual(const Invocation& given);
 
 void print_version();  // crackle --version
 
-// Exit codes of the program; exit_codes() says what they mean.
+// Exit codes of the program; exit_codes() explains them.
 inline constexpr int exit_done = 0;
 inline constexpr int exit_claim_fails = 1;
 inline constexpr int exit_bad_input = 2;      // InputError, wrong options

@@ -89,7 +89,7 @@ int doctor(const Invocation& given) {
     const std::string gnuplot = found_program("gnuplot");
     line("crackle", build_info::version);
     line("build", fmt::format("{}, {}", build_info::build_type, build_info::compiler));
-    if (given.talk.verbose()) line("flags", build_info::flags);
+    if (given.messages.verbose()) line("flags", build_info::flags);
     line("instructions", vector_instructions().substr(1));
     line("lanes", fmt::format("{} doubles side by side in the contact kernels", lane_count));
     line("sanitizers", build_info::sanitizers ? "address and undefined behaviour: slow, for tests" : "none");

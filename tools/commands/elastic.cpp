@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle elastic CASE.toml`: what the linear solution says of a specimen, without time stepping.
+// `crackle elastic CASE.toml`: what the linear solution gives for a specimen, without time stepping.
 
 #include <fmt/format.h>
 
@@ -148,7 +148,7 @@ CommandLine describe_elastic() {
 
 int elastic(const Invocation& given) {
     const po::variables_map& values = given.values;
-    Talk& talk = given.talk;
+    Messages& messages = given.messages;
     if (given.operands.empty())
         throw InputError("crackle elastic: found no CASE.toml, expected one (see crackle elastic --help)");
     const double strain = values["strain"].as<double>();
@@ -163,23 +163,24 @@ int elastic(const Invocation& given) {
     }
     TestCase description = read_case(given.operands.front());
     TestHooks hooks;
-    if (!values.contains("json") || talk.verbose())
-        hooks.stage = [&talk](const std::string& text) { talk.stage(text); };
-    if (talk.verbose()) hooks.detail = [&talk](const std::string& text) { talk.detail(text); };
-    if (talk.progress().shown())
-        hooks.working = [&talk](const std::string& what) { talk.progress().draw({.detail = what}); };
+    if (!values.contains("json") || messages.verbose())
+        hooks.stage = [&messages](const std::string& text) { messages.stage(text); };
+    if (messages.verbose()) hooks.detail = [&messages](const std::string& text) { messages.detail(text); };
+    if (messages.progress().shown())
+        hooks.working = [&messages](const std::string& what) { messages.progress().draw({.detail = what}); };
     if (description.loading.platens != "bonded") {
-        talk.notice("the linear solution knows bonded platens alone: taken in place of " + description.loading.platens);
+        messages.notice("the linear solution knows bonded platens alone: taken in place of " +
+                        description.loading.platens);
         description.loading.platens = "bonded";
     }
     const Clock::time_point start = Clock::now();
     const VirtualTest test = bond_test(description, hooks);
-    talk.progress().begin("solving the linear system", 2.0, "");
-    if (modes > 0) talk.progress().step(0.0, fmt::format("solving the linear system, {} modes", modes));
+    messages.progress().begin("solving the linear system", 2.0, "");
+    if (modes > 0) messages.progress().step(0.0, fmt::format("solving the linear system, {} modes", modes));
     const ElasticAnalysis analysis = analyse_elastic(test.world, test.setup, moduli_of(test), strain, modes);
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count() - test.specimen_seconds;
-    talk.make_room();
-    talk.detail(fmt::format("solved for {} unknowns, residual {:.1e}", analysis.unknowns, analysis.residual));
+    messages.make_room();
+    messages.detail(fmt::format("solved for {} unknowns, residual {:.1e}", analysis.unknowns, analysis.residual));
     if (hooks.stage)
         for (const std::string& notice : test.setup.notices) hooks.stage("notice: " + notice);
     if (values.contains("bonds")) write_bonds(values["bonds"].as<std::string>(), analysis);

@@ -248,22 +248,22 @@ int mesh(const Invocation& given) {
     const MeshRequest request = request_of(values);
     const std::string& name = given.operands.front();
     const fs::path output = output_path(values, request.kind, name);
-    Talk& talk = given.talk;
-    talk.progress().begin("reading " + name, 3.0, "");
+    Messages& messages = given.messages;
+    messages.progress().begin("reading " + name, 3.0, "");
     const std::string text = read_text_file(name);
     Source source =
         looks_like_centre_list(text) ? centres_of_list(name, text, values) : centres_of_deck(name, text, values);
-    talk.detail(fmt::format("read {} centres from {}, {} bytes", source.centres.size(), name, text.size()));
-    talk.progress().step(1.0, fmt::format("meshing {} centres", source.centres.size()));
+    messages.detail(fmt::format("read {} centres from {}, {} bytes", source.centres.size(), name, text.size()));
+    messages.progress().step(1.0, fmt::format("meshing {} centres", source.centres.size()));
     const Mesh made = mesh_source(source, request);
-    talk.detail(fmt::format("meshed {} cells of {} segments", made.report.cells, made.report.segments));
-    talk.progress().step(2.0, fmt::format("writing {} cells", made.report.cells));
+    messages.detail(fmt::format("meshed {} cells of {} segments", made.report.cells, made.report.segments));
+    messages.progress().step(2.0, fmt::format("writing {} cells", made.report.cells));
     std::ostringstream deck;
     write_geometry(deck, scene_of(source, made, request.mesh_gap));
     replace_file(output, deck.str());
-    talk.make_room();
-    talk.detail(fmt::format("wrote {} bytes", deck.str().size()));
-    if (!talk.quiet()) print_report(source, made, request, output);
+    messages.make_room();
+    messages.detail(fmt::format("wrote {} bytes", deck.str().size()));
+    if (!messages.quiet()) print_report(source, made, request, output);
     return exit_done;
 }
 

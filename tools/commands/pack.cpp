@@ -129,33 +129,33 @@ CommandLine describe_pack() {
 int pack(const Invocation& given) {
     const po::variables_map& values = given.values;
     const std::string output = values["output"].as<std::string>();
-    std::error_code unreadable;  // writing says what cannot be written
+    std::error_code unreadable;  // writing reports what cannot be written
     if (std::filesystem::exists(output, unreadable) && !values.contains("force")) {
         throw InputError(
             fmt::format("--output: found {} there already, expected a new file; add --force to replace it", output));
     }
     const PackingRequest request = packing_request(values);
-    Talk& talk = given.talk;
+    Messages& messages = given.messages;
     std::string stage;
     const Packing packing = make_packing(request, [&](const PackingProgress& p) {
-        if (talk.verbose() && p.stage != stage) {
+        if (messages.verbose() && p.stage != stage) {
             stage = p.stage;
-            talk.detail(fmt::format("draw {}: {}", p.attempt, stage));
+            messages.detail(fmt::format("draw {}: {}", p.attempt, stage));
         }
-        if (!talk.progress().shown()) return;
-        talk.progress().draw({.detail = fmt::format("{} (draw {}): unbalanced by {:.1e} of the mean contact force",
-                                                    p.stage, p.attempt, p.residual)});
+        if (!messages.progress().shown()) return;
+        messages.progress().draw({.detail = fmt::format("{} (draw {}): unbalanced by {:.1e} of the mean contact force",
+                                                        p.stage, p.attempt, p.residual)});
     });
-    talk.make_room();
-    talk.detail(fmt::format("packed {} circles, {} contacts, in {} draws", packing.report.circles,
-                            packing.report.circle_contacts, packing.report.attempts));
+    messages.make_room();
+    messages.detail(fmt::format("packed {} circles, {} contacts, in {} draws", packing.report.circles,
+                                packing.report.circle_contacts, packing.report.attempts));
     std::ostringstream deck;
     write_geometry(deck, packing.scene);
     const std::filesystem::path folder = std::filesystem::path(output).parent_path();
-    std::error_code refused;  // replace_file() says what cannot be written
+    std::error_code refused;  // replace_file() reports what cannot be written
     if (!folder.empty()) std::filesystem::create_directories(folder, refused);
     replace_file(output, deck.str());
-    if (!talk.quiet()) print_report(packing.report, output);
+    if (!messages.quiet()) print_report(packing.report, output);
     return exit_done;
 }
 

@@ -144,7 +144,7 @@ Panel drawings_of(const Recording& test, const fs::path& folder, const Words& mo
     return drawings(drawn, std::vector<fs::path>(drawn.size(), folder), style);
 }
 
-void plot_tests(const po::variables_map& given, const Words& folders, const Look& look, Talk& talk) {
+void plot_tests(const po::variables_map& given, const Words& folders, const Look& look, Messages& messages) {
     const fs::path output = given["output"].as<std::string>();
     const std::string extension = output.extension().string();
     const Format format =
@@ -157,7 +157,7 @@ void plot_tests(const po::variables_map& given, const Words& folders, const Look
     std::vector<Recording> tests;
     for (const std::string& folder : folders) {
         tests.push_back(read_whole(folder));
-        tell_recording(talk, tests.back());
+        report_recording(messages, tests.back());
     }
     // All of what there is: a test without frames has no drawing.
     const bool have_frames =
@@ -181,11 +181,11 @@ void plot_tests(const po::variables_map& given, const Words& folders, const Look
             panels.push_back(drawings_of(tests[k], folders[k], moments, look.drawing));
     }
     replace_file(output, figure(panels, given["title"].as<std::string>(), look.width, format, look.sheet));
-    if (!talk.quiet()) std::cout << output.string() << '\n';
+    if (!messages.quiet()) std::cout << output.string() << '\n';
 }
 
 /// Figures 26 to 29 of the guide: its circles, the partitions made of them, and what these bear.
-void plot_guide(const po::variables_map& given, const Look& look, Talk& talk) {
+void plot_guide(const po::variables_map& given, const Look& look, Messages& messages) {
     const fs::path folder = given["guide"].as<std::string>(), output = given["output"].as<std::string>();
     const std::string extension = given["format"].as<std::string>();
     const Format format = format_named("--format", extension);
@@ -197,7 +197,7 @@ void plot_guide(const po::variables_map& given, const Look& look, Talk& talk) {
         for (const char* kind : {"tension", "compression"}) {
             const std::string name = fmt::format("{}_{}", specimen, kind);
             tests.emplace(name, read_whole(folder / name));
-            tell_recording(talk, tests.at(name));
+            report_recording(messages, tests.at(name));
         }
     }
     const auto at = [&](const std::string& name, const char* role, const char* caption) {
@@ -230,11 +230,11 @@ void plot_guide(const po::variables_map& given, const Look& look, Talk& talk) {
         {28, {loaded("delaunay"), curves("delaunay")}},
         {29, {loaded("voronoi"), curves("voronoi")}}};
     std::error_code error;
-    fs::create_directories(output, error);  // replace_file() says what cannot be written
+    fs::create_directories(output, error);  // replace_file() reports what cannot be written
     for (const auto& [number, panels] : figures) {
         const fs::path file = output / fmt::format("figure{}.{}", number, extension);
         replace_file(file, figure(panels, given["title"].as<std::string>(), look.width, format, look.sheet));
-        if (!talk.quiet()) std::cout << file.string() << '\n';
+        if (!messages.quiet()) std::cout << file.string() << '\n';
     }
 }
 
@@ -294,8 +294,8 @@ int plot(const Invocation& given) {
     if (!values.contains("output"))
         throw InputError("plot: found no -o, expected the figure's name: -o figure.pdf, .svg or .png");
     const Look look = look_of(values);
-    values.contains("guide") ? plot_guide(values, look, given.talk)
-                             : plot_tests(values, given.operands, look, given.talk);
+    values.contains("guide") ? plot_guide(values, look, given.messages)
+                             : plot_tests(values, given.operands, look, given.messages);
     return exit_done;
 }
 

@@ -37,18 +37,18 @@ int report(const Invocation& given) {
         throw InputError(
             "report: found no folder of results, expected at least one: crackle report OUT... (see --help)");
     }
-    Talk& talk = given.talk;
+    Messages& messages = given.messages;
     std::vector<Recording> tests;
     for (const std::string& folder : folders) {
         tests.push_back(read_test_recording(folder, given.values["frames"].as<std::size_t>()));
-        tell_recording(talk, tests.back());
+        report_recording(messages, tests.back());
     }
     const std::filesystem::path output = given.values.contains("output")
                                              ? std::filesystem::path(given.values["output"].as<std::string>())
                                          : folders.size() == 1 ? std::filesystem::path(folders.front()) / "report.html"
                                                                : std::filesystem::path("report.html");
-    write_page(output, {given.values["title"].as<std::string>(), PageView::report}, tests, talk);
-    if (!talk.quiet()) std::cout << output.string() << '\n';
+    write_page(output, {given.values["title"].as<std::string>(), PageView::report}, tests, messages);
+    if (!messages.quiet()) std::cout << output.string() << '\n';
     return exit_done;
 }
 

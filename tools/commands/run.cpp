@@ -32,9 +32,9 @@ DeckOptions deck_options(const Invocation& given) {
 }
 
 /// What -v reports of a run that has ended.
-void tell_details(Talk& talk, const World& world) {
-    talk.detail(fmt::format("{} contact points, {} of them bonded; {} threads", world.points.size(),
-                            world.bonds.initial - world.bonds.broken, world.workers.threads));
+void report_details(Messages& messages, const World& world) {
+    messages.detail(fmt::format("{} contact points, {} of them bonded; {} threads", world.points.size(),
+                                world.bonds.initial - world.bonds.broken, world.workers.threads));
 }
 
 }  // namespace
@@ -79,30 +79,30 @@ int run_deck(const Invocation& given) {
     if (given.operands.empty())
         throw InputError("crackle run: found no DIR, expected the folder of a deck (see crackle run --help)");
     DeckRun deck(deck_options(given));
-    Talk& talk = given.talk;
-    for (const std::string& notice : deck.notices()) talk.notice(notice);
+    Messages& messages = given.messages;
+    for (const std::string& notice : deck.notices()) messages.notice(notice);
     const World& world = deck.world();
-    if (talk.verbose()) {
-        talk.detail(fmt::format("read {} bodies", world.bodies.size()));
-        talk.detail(fmt::format("time step {:.6g}, stable below {:.6g} as the contacts are", world.stepping.time_step,
-                                world.stepping.step_bound));
+    if (messages.verbose()) {
+        messages.detail(fmt::format("read {} bodies", world.bodies.size()));
+        messages.detail(fmt::format("time step {:.6g}, stable below {:.6g} as the contacts are",
+                                    world.stepping.time_step, world.stepping.step_bound));
     }
     watch_interrupts();
-    talk.progress().begin("", static_cast<double>(deck.last_step() - deck.first_step()), "steps");
+    messages.progress().begin("", static_cast<double>(deck.last_step() - deck.first_step()), "steps");
     deck.run([&](const World& now) {
         // The clock costs as much as a small step.
         if ((now.stepping.steps & 15) == 0)
-            talk.progress().count(static_cast<double>(now.stepping.steps - deck.first_step()));
+            messages.progress().count(static_cast<double>(now.stepping.steps - deck.first_step()));
         return !interrupted();
     });
-    talk.make_room();
-    tell_details(talk, world);
-    if (!talk.quiet()) {
+    messages.make_room();
+    report_details(messages, world);
+    if (!messages.quiet()) {
         std::cout << fmt::format("{} bodies, steps {} to {}: outputs in {}\n", world.bodies.size(), deck.first_step(),
                                  world.stepping.steps, deck.output_folder().string());
     }
     if (!interrupted()) return exit_done;
-    tell_error(fmt::format("interrupted; go on with `crackle run {} --continue`", deck.output_folder().string()));
+    report_error(fmt::format("interrupted; go on with `crackle run {} --continue`", deck.output_folder().string()));
     return exit_interrupted;
 }
 

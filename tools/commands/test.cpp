@@ -55,30 +55,31 @@ void print_figures(const TestOutcome& outcome) {
     std::cout << "  results in " << outcome.folder.string() << '\n';
 }
 
-TestHooks hooks_for(Talk& talk) {
+TestHooks hooks_for(Messages& messages) {
     TestHooks hooks;
     hooks.interrupted = interrupted;
-    if (!talk.quiet()) hooks.stage = [&talk](const std::string& text) { talk.stage(text); };
-    if (talk.verbose()) hooks.detail = [&talk](const std::string& text) { talk.detail(text); };
-    if (!talk.progress().shown()) return hooks;
-    hooks.working = [&talk](const std::string& what) { talk.progress().draw({.detail = what}); };
-    hooks.progress = [&talk](const TestProgress& p) {
-        talk.progress().draw({.share = p.share_done,
-                              .rate = p.steps_per_second,
-                              .unit = "steps",
-                              .seconds_left = p.seconds_left,
-                              .detail = fmt::format("strain {:.3e}, {:.3e} N/m (peak {:.3e}), {} bonds broken",
-                                                    p.axial_strain, p.axial_stress, p.peak_stress, p.bonds_broken)});
+    if (!messages.quiet()) hooks.stage = [&messages](const std::string& text) { messages.stage(text); };
+    if (messages.verbose()) hooks.detail = [&messages](const std::string& text) { messages.detail(text); };
+    if (!messages.progress().shown()) return hooks;
+    hooks.working = [&messages](const std::string& what) { messages.progress().draw({.detail = what}); };
+    hooks.progress = [&messages](const TestProgress& p) {
+        messages.progress().draw(
+            {.share = p.share_done,
+             .rate = p.steps_per_second,
+             .unit = "steps",
+             .seconds_left = p.seconds_left,
+             .detail = fmt::format("strain {:.3e}, {:.3e} N/m (peak {:.3e}), {} bonds broken", p.axial_strain,
+                                   p.axial_stress, p.peak_stress, p.bonds_broken)});
     };
     return hooks;
 }
 
 /// What -v reports of a test that has ended.
-void tell_details(Talk& talk, const TestOutcome& outcome) {
-    if (!talk.verbose()) return;
+void report_details(Messages& messages, const TestOutcome& outcome) {
+    if (!messages.verbose()) return;
     const auto& s = outcome.summary;
-    talk.detail(fmt::format("{} steps in {} s on {} threads; mean time step {} s", shown(s, "steps"),
-                            shown(s, "step_seconds"), shown(s, "threads"), shown(s, "time_step_mean")));
+    messages.detail(fmt::format("{} steps in {} s on {} threads; mean time step {} s", shown(s, "steps"),
+                                shown(s, "step_seconds"), shown(s, "threads"), shown(s, "time_step_mean")));
     std::uintmax_t files = 0, bytes = 0;
     std::error_code vanished;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(outcome.folder, vanished)) {
@@ -86,24 +87,24 @@ void tell_details(Talk& talk, const TestOutcome& outcome) {
         ++files;
         bytes += entry.file_size(vanished);
     }
-    talk.detail(fmt::format("{} files, {} bytes in {}", files, bytes, outcome.folder.string()));
+    messages.detail(fmt::format("{} files, {} bytes in {}", files, bytes, outcome.folder.string()));
 }
 
-int finish(const TestOutcome& outcome, const std::string& wanted, Talk& talk) {
-    const bool quiet = talk.quiet();
-    talk.make_room();
-    tell_details(talk, outcome);
+int finish(const TestOutcome& outcome, const std::string& wanted, Messages& messages) {
+    const bool quiet = messages.quiet();
+    messages.make_room();
+    report_details(messages, outcome);
     if (outcome.was_finished) {
         if (!quiet) std::cout << outcome.folder.string() << ": the test is finished, nothing is left to do\n";
         const std::string newer = outcome.folder.string() + ".new";
         if (holds_test_results(newer))
-            talk.notice(
+            messages.notice(
                 fmt::format("{0} holds one that was to replace it; go on with `crackle test --resume {0}`", newer));
         return exit_done;
     }
     if (!quiet) print_figures(outcome);
     if (outcome.unverified) {
-        tell_error(fmt::format(
+        report_error(fmt::format(
             "the test is complete, its companions were interrupted and no error is stated; `crackle test --resume {} "
             "--verify` runs them again",
             outcome.folder.string()));
@@ -111,9 +112,9 @@ int finish(const TestOutcome& outcome, const std::string& wanted, Talk& talk) {
     }
     if (!outcome.interrupted) return exit_done;
     if (outcome.folder != std::filesystem::path(wanted)) {
-        talk.notice(fmt::format("earlier results in {} are as they were", wanted));
+        messages.notice(fmt::format("earlier results in {} are as they were", wanted));
     }
-    tell_error(fmt::format("interrupted; go on with `crackle test --resume {}`", outcome.folder.string()));
+    report_error(fmt::format("interrupted; go on with `crackle test --resume {}`", outcome.folder.string()));
     return exit_interrupted;
 }
 
@@ -188,7 +189,7 @@ int test(const Invocation& given) {
     options.command = "crackle test";
     for (const std::string& word : given.words) options.command += ' ' + word;
     watch_interrupts();
-    const TestHooks hooks = hooks_for(given.talk);
+    const TestHooks hooks = hooks_for(given.messages);
     TestOutcome outcome;
     if (resume) {
         outcome = resume_test(options, hooks);
@@ -198,12 +199,12 @@ int test(const Invocation& given) {
         try {
             outcome = run_test(description, options, hooks);
         } catch (const TestInterrupted& stop) {
-            given.talk.make_room();
-            tell_error(stop.what());
+            given.messages.make_room();
+            report_error(stop.what());
             return exit_interrupted;
         }
     }
-    return finish(outcome, options.folder.string(), given.talk);
+    return finish(outcome, options.folder.string(), given.messages);
 }
 
 }  // namespace crackle::tools

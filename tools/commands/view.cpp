@@ -52,17 +52,17 @@ int view(const Invocation& given) {
             "(see --help)");
     }
     const po::variables_map& values = given.values;
-    Talk& talk = given.talk;
+    Messages& messages = given.messages;
     std::vector<Recording> recordings;
     for (const std::string& input : inputs) {
         recordings.push_back(
             read_recording(input, values["frames"].as<std::size_t>(), values["seed"].as<std::uint64_t>()));
-        tell_recording(talk, recordings.back());
+        report_recording(messages, recordings.back());
     }
     const std::filesystem::path output =
         values.contains("output") ? std::filesystem::path(values["output"].as<std::string>()) : default_output(inputs);
-    write_page(output, {values["title"].as<std::string>(), PageView::view}, recordings, talk);
-    if (!talk.quiet()) std::cout << output.string() << '\n';
+    write_page(output, {values["title"].as<std::string>(), PageView::view}, recordings, messages);
+    if (!messages.quiet()) std::cout << output.string() << '\n';
     return exit_done;
 }
 

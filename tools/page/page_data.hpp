@@ -7,7 +7,7 @@
 // numbers, rows frames, columns cells or bonds. What is stored are the differences from row
 // to row, zigzag coded (0, -1, 1, -2, ... as 0, 1, 2, 3, ...), lowest bytes of all first, then the second ones: bytes
 // of equal meaning lie together, and most are small. Contacts other than bonds come and go: their tables have one row
-// for all frames of the block, differences from column to column, and `contacts.count` says how many each frame has.
+// for all frames of the block, differences from column to column, and `contacts.count` holds how many each frame has.
 // A number n stands for the value q·n of places (q = 2⁻²² of the specimen's size), angles (2⁻¹⁸ rad) and whole numbers;
 // where an entry has a `growth` g, for q/g·sinh(g·n): velocities, stresses and forces, whose small values mean as much
 // as their large ones. Neighbours are then √(q² + (g·value)²) apart, with g = 2⁻⁷, of forces 2⁻⁶, and q = 2⁻²⁰ of the

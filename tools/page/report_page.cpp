@@ -51,7 +51,7 @@ void append_block(std::string& out, std::size_t recording, std::size_t block, co
 }
 
 void refuse_foreign_file(const std::filesystem::path& output) {
-    std::error_code error;  // replace_file() says what cannot be written
+    std::error_code error;  // replace_file() reports what cannot be written
     if (!std::filesystem::exists(output, error) || is_report_page(output)) return;
     throw InputError(fmt::format(
         "{}: found something that is not a page of crackle, expected a new name or an earlier page; choose another "
@@ -62,7 +62,7 @@ void refuse_foreign_file(const std::filesystem::path& output) {
 }  // namespace
 
 std::string filled_page(std::string_view page, const PageHead& head, const std::vector<Recording>& recordings,
-                        Talk& talk) {
+                        Messages& messages) {
     if (page.empty()) {
         throw InputError(
             "this build of crackle holds no page; configure with -DCRACKLE_VIEWER=ON (needs Node 18 or later and npm)");
@@ -75,10 +75,10 @@ std::string filled_page(std::string_view page, const PageHead& head, const std::
     std::array<std::string, 3> texts;
     std::size_t all_frames = 0, frames_before = 0;
     for (const Recording& recording : recordings) all_frames += recording.frames.size();
-    talk.progress().begin("packing frames", static_cast<double>(all_frames), "frames");
+    messages.progress().begin("packing frames", static_cast<double>(all_frames), "frames");
     for (std::size_t k = 0; k < recordings.size(); ++k) {
         PageData data = pack_recording(recordings[k], [&](std::size_t frames) {
-            talk.progress().count(static_cast<double>(frames_before + frames), recordings[k].name);
+            messages.progress().count(static_cast<double>(frames_before + frames), recordings[k].name);
         });
         frames_before += recordings[k].frames.size();
         manifest["tests"].push_back(std::move(data.manifest));
@@ -100,17 +100,17 @@ std::string filled_page(std::string_view page, const PageHead& head, const std::
 }
 
 void write_page(const std::filesystem::path& output, const PageHead& head, const std::vector<Recording>& recordings,
-                Talk& talk) {
+                Messages& messages) {
     refuse_foreign_file(output);
-    const std::string page = filled_page(page_template(), head, recordings, talk);
+    const std::string page = filled_page(page_template(), head, recordings, messages);
     replace_file(output, page);
-    talk.make_room();
-    talk.detail(fmt::format("{}: {} bytes", output.string(), page.size()));
+    messages.make_room();
+    messages.detail(fmt::format("{}: {} bytes", output.string(), page.size()));
 }
 
-void tell_recording(Talk& talk, const Recording& recording) {
-    talk.detail(fmt::format("{}: {} cells, {} bonds, {} frames to show", recording.name, recording.cells.size(),
-                            recording.bonds.size(), recording.frames.size()));
+void report_recording(Messages& messages, const Recording& recording) {
+    messages.detail(fmt::format("{}: {} cells, {} bonds, {} frames to show", recording.name, recording.cells.size(),
+                                recording.bonds.size(), recording.frames.size()));
 }
 
 }  // namespace crackle::tools

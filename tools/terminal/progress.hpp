@@ -43,7 +43,7 @@ class ProgressLine {
     void step(double done, const std::string& what);
     /// The same of work that knows its own pace.
     void draw(const Progress& progress);
-    /// Takes the line away until it is drawn again.
+    /// Removes the line until it is drawn again.
     void clear();
 
   private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Whether somebody looks at a stream, and what may be shown there. Colours: https://no-color.org.
+// Whether a stream is a terminal, and what may be shown there. Colours: https://no-color.org.
 // Tested by tests/tools/commands/command_line_test.cpp.
 #pragma once
 
@@ -14,7 +14,7 @@ enum class Stream : std::uint8_t { out, err };
 /// A terminal that can write over a line: not a pipe, not a file, not TERM=dumb.
 bool is_terminal(Stream stream);
 
-/// Columns of the terminal on stderr; 80 where it does not say.
+/// Columns of the terminal on stderr; 80 where that is unknown.
 std::size_t terminal_columns();
 
 enum class Style : std::uint8_t { heading, error, notice, faint };

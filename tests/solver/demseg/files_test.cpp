@@ -100,7 +100,7 @@ TEST(ContactFiles, BackTensionsOfEveryKindOfPointComeBack) {
     const std::int64_t bonds = bond_all(world, scene.thick);
     EXPECT_EQ(bonds, 8) << "circle on clump, three circles on the square, four corners between the squares";
     write_back_tensions(bonded, scene, world);
-    EXPECT_EQ(unbonded.str(), bonded.str()) << "without bonds the file says what the overlaps would give";
+    EXPECT_EQ(unbonded.str(), bonded.str()) << "without bonds the file holds what the overlaps would give";
 
     World copy = build_world(scene);
     DeckReader reader("in_cf0.dat", bonded.str());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The shipped rock under the guide's contact law, bonded and not yet loaded: what the guide says of its own specimen.
-// One packing; ratios vary with it.
+// The shipped rock under the guide's contact law, bonded and not yet loaded: against what the guide states of its
+// specimen. One packing; ratios vary with it.
 
 #include <gtest/gtest.h>
 

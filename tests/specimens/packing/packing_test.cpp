@@ -161,7 +161,7 @@ TEST(Packing, GuideRockIsInEquilibriumOnTargetAndIsotropicOverTwentySeeds) {
         coordinations.push_back(packing.report.coordination_of_carrying);
         contacts.push_back(static_cast<double>(f.circle_contacts));
         void_ratios.push_back((d.x2 - d.x1) * (d.y2 - d.y1) / f.circle_area - 1.0);
-        // The report says what brute force finds.
+        // The report agrees with brute force.
         EXPECT_EQ(packing.report.circle_contacts, f.circle_contacts);
         EXPECT_EQ(packing.report.floating, f.floating);
         EXPECT_NEAR(packing.report.anisotropy, f.anisotropy(d), 1e-9);
@@ -338,7 +338,7 @@ TEST(SizeDistribution, SamplesPassTheKolmogorovTestAgainstTheirOwnFormulas) {
                                 return below / (lower + upper);
                             }),
               critical_distance(3000));
-    // And the mass that passes is what the curve says.
+    // And the mass that passes is the curve's.
     double mass = 0.0, passing = 0.0;
     for (const double r : sieved) {
         mass += r * r;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle pack` as a user calls it: what it writes, and what it says of input it cannot use.
+// `crackle pack` as a user calls it: what it writes, and its messages for input it cannot use.
 
 #include <gtest/gtest.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A test that is stopped at any moment, by Ctrl-C or by force, and gone on with as the program says, leaves the very
-// files of an uninterrupted one. CRACKLE_KILLS: how many moments of each kind are tried, CRACKLE_SERIES: what that is
-// called (tests/tools/CMakeLists.txt).
+// A test that is stopped at any moment, by Ctrl-C or by force, and resumed by the command that the program prints,
+// leaves the very files of an uninterrupted one. CRACKLE_KILLS: how many moments of each kind are tried,
+// CRACKLE_SERIES: what that is called (tests/tools/CMakeLists.txt).
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -98,7 +98,7 @@ class Resume : public testing::ProgramCall, public ::testing::WithParamInterface
 
     static int ended(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status); }
 
-    /// What a user does after an interrupt: --resume, and what it says where there is nothing to go on from.
+    /// What a user does after an interrupt: --resume, and its message where there is nothing to go on from.
     std::string go_on() const {
         const Answer resumed = call_in("cut", "--resume out -q");
         if (resumed.code == 0) return "resumed";
@@ -259,7 +259,8 @@ TEST_P(Resume, OfAForcedTestKeepsTheEarlierResultsUntilTheNewOnesHaveTakenTheirP
                    replaced ? "the new results are in place" : "the earlier ones are as they were");
         if (!replaced) {
             expect_same(contents(folder_ / "cut/out"), earlier, std::string(stage) + ", earlier results");
-            EXPECT_NE(resumed.err.find("out.new"), std::string::npos) << "says where the new ones are: " << resumed.err;
+            EXPECT_NE(resumed.err.find("out.new"), std::string::npos)
+                << "names the place of the new ones: " << resumed.err;
             ASSERT_EQ(call_in("cut", "--resume out.new -q").code, 0);
         }
         expect_same(contents(folder_ / (replaced ? "cut/out" : "cut/out.new")), forced, stage);

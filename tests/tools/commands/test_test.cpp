@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle test` as a user calls it: exit codes, what it says of input it cannot use, Ctrl-C and going on.
+// `crackle test` as a user calls it: exit codes, messages for input it cannot use, Ctrl-C and going on.
 
 #include <gtest/gtest.h>
 #include <signal.h>
@@ -252,17 +252,17 @@ TEST_F(CrackleTest, CtrlCAmongTheCompanionsKeepsTheFinishedTest) {
         _exit(127);
     }
     close(errors[1]);
-    std::string said;
+    std::string printed;
     char letter = 0;
-    while (said.find("verifying") == std::string::npos && ::read(errors[0], &letter, 1) == 1) said += letter;
+    while (printed.find("verifying") == std::string::npos && ::read(errors[0], &letter, 1) == 1) printed += letter;
     kill(child, SIGINT);
-    while (::read(errors[0], &letter, 1) == 1) said += letter;
+    while (::read(errors[0], &letter, 1) == 1) printed += letter;
     close(errors[0]);
     int status = 0;
     ASSERT_EQ(waitpid(child, &status, 0), child);
-    ASSERT_TRUE(WIFEXITED(status)) << said;
+    ASSERT_TRUE(WIFEXITED(status)) << printed;
     EXPECT_EQ(WEXITSTATUS(status), 130);
-    EXPECT_NE(said.find("the test is complete"), std::string::npos) << said;
+    EXPECT_NE(printed.find("the test is complete"), std::string::npos) << printed;
     const auto summary = read_json(folder_ / "out/summary.json");
     EXPECT_TRUE(summary["failed"].get<bool>());
     EXPECT_FALSE(summary["interrupted"].get<bool>());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle view` and the pages it fills: what moves on the page is what the files say, to the page's own quanta.
+// `crackle view` and the pages it fills: what moves on the page is what the files hold, to the page's own quanta.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ void expect_near(const std::string& what, const std::vector<double>& expected, c
     EXPECT_LE(worst, most) << what;
 }
 
-constexpr double growth = 0x1p-7, force_growth = 0x1p-6;  // as tools/page/page_data.hpp says
+constexpr double growth = 0x1p-7, force_growth = 0x1p-6;  // as tools/page/page_data.hpp describes
 
 /// Numbers of which each differs by at most half a step of the page's scale at that value; prints the largest
 /// difference as a share of what is allowed.

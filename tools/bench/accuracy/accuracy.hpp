@@ -14,7 +14,7 @@ namespace crackle::accuracy {
 /// One run, or a set of equal runs that differ in their start.
 struct AccuracyRow {
     std::string study;       ///< snake_case, a panel of the picture
-    std::string law;         ///< of polygons; circles are the same in all and say rounded
+    std::string law;         ///< of polygons; circles are the same in all and are listed as rounded
     std::string integrator;  ///< leapfrog or consistent
     std::string parameter;  ///< what varies: time_step (over the stable one), axial_strain_rate (1/s) or rate_tolerance
     double value = 0.0;

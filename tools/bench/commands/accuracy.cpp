@@ -145,7 +145,7 @@ CommandLine describe_bench_accuracy() {
 
 int bench_accuracy(const Invocation& invocation) {
     const po::variables_map& given = invocation.values;
-    Talk& talk = invocation.talk;
+    Messages& messages = invocation.messages;
     const auto only =
         given.contains("only") ? given["only"].as<std::vector<std::string>>() : std::vector<std::string>{};
     const std::vector<const AccuracyStudy*> studies = chosen(only);
@@ -158,18 +158,19 @@ int bench_accuracy(const Invocation& invocation) {
     for (const std::string& name : only) command += " --only " + name;
     replace_file(folder / "accuracy.csv", table_of({}, command));  // before minutes are spent on what cannot be written
     std::vector<AccuracyRow> rows;
-    talk.progress().begin(studies.front()->name, static_cast<double>(studies.size()), "studies");
+    messages.progress().begin(studies.front()->name, static_cast<double>(studies.size()), "studies");
     double done = 0.0;
     for (const AccuracyStudy* study : studies) {
-        talk.progress().step(done++, study->name);
+        messages.progress().step(done++, study->name);
         const std::vector<AccuracyRow> more = study->run(quick);
         rows.insert(rows.end(), more.begin(), more.end());
-        talk.stage(fmt::format("{:<20} {} runs", study->name, more.size()));
+        messages.stage(fmt::format("{:<20} {} runs", study->name, more.size()));
         replace_file(folder / "accuracy.csv", table_of(rows, command));
     }
     replace_file(folder / "accuracy.gp", script_of(studies, rows));
     const std::string problem = draw_with_gnuplot(folder / "accuracy.gp");
-    if (!problem.empty()) talk.notice(problem + ". accuracy.csv is complete; draw it later with gnuplot accuracy.gp");
+    if (!problem.empty())
+        messages.notice(problem + ". accuracy.csv is complete; draw it later with gnuplot accuracy.gp");
     return exit_done;
 }
 

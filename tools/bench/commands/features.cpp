@@ -161,7 +161,7 @@ CommandLine describe_bench_features() {
 
 int bench_features(const Invocation& invocation) {
     const po::variables_map& given = invocation.values;
-    Talk& talk = invocation.talk;
+    Messages& messages = invocation.messages;
     FeatureStudy study = study_of(given);
     const fs::path folder = given["output"].as<std::string>();
     make_results_folder(folder);
@@ -170,12 +170,13 @@ int bench_features(const Invocation& invocation) {
     std::string command = "crackle bench features";
     for (const std::string& word : invocation.words) command += ' ' + word;
     std::vector<FeatureRow> rows;
-    talk.progress().begin("comparing scenes", static_cast<double>(feature_rows), "rows");
+    messages.progress().begin("comparing scenes", static_cast<double>(feature_rows), "rows");
     measure_feature_costs(study, [&](const FeatureRow& row) {
         rows.push_back(row);
-        talk.stage(fmt::format("{:<11}{:<9}{:<46}{:>8.2f} ns, {} times {}", name_of(row.kind), row.bodies, row.feature,
-                               1e9 * row.contact_seconds, interval(row.ratio, 1.0, "{:.3f}"), row.beside));
-        talk.progress().count(static_cast<double>(rows.size()));
+        messages.stage(fmt::format("{:<11}{:<9}{:<46}{:>8.2f} ns, {} times {}", name_of(row.kind), row.bodies,
+                                   row.feature, 1e9 * row.contact_seconds, interval(row.ratio, 1.0, "{:.3f}"),
+                                   row.beside));
+        messages.progress().count(static_cast<double>(rows.size()));
         replace_file(folder / "features.md", page_of(command, study, rows));
         replace_file(folder / "features.csv", table_of(command, rows));
     });
@@ -183,8 +184,8 @@ int bench_features(const Invocation& invocation) {
     fs::remove_all(study.scratch, failed);
     replace_file(folder / "features.gp", script_of(rows));
     const std::string problem = draw_with_gnuplot(folder / "features.gp");
-    talk.make_room();
-    if (!problem.empty()) talk.notice(problem + ". features.csv is complete");
+    messages.make_room();
+    if (!problem.empty()) messages.notice(problem + ". features.csv is complete");
     std::cout << page_of(command, study, rows);
     return exit_done;
 }

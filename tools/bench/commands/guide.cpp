@@ -232,7 +232,7 @@ CommandLine describe_bench_guide() {
 int bench_guide(const Invocation& invocation) {
     const auto begun = std::chrono::steady_clock::now();
     const po::variables_map& given = invocation.values;
-    Talk& talk = invocation.talk;
+    Messages& messages = invocation.messages;
     const Plan plan = plan_of(given);
     const fs::path folder = given["output"].as<std::string>();
     studies::EnsembleOptions ensemble;
@@ -256,15 +256,15 @@ int bench_guide(const Invocation& invocation) {
         const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - begun;
         return interrupted() || spent.count() > 60.0 * minutes;
     };
-    if (talk.verbose() || talk.progress().shown()) {
-        talk.progress().begin("testing", static_cast<double>(tests.size()), "tests");
-        hooks.progress = [&talk](std::size_t done, std::size_t all, const GuideTest& last) {
-            talk.detail(fmt::format("{} of {}: {}", done, all, last.name()));
-            talk.progress().count(static_cast<double>(done), fmt::format("last {}", last.name()));
+    if (messages.verbose() || messages.progress().shown()) {
+        messages.progress().begin("testing", static_cast<double>(tests.size()), "tests");
+        hooks.progress = [&messages](std::size_t done, std::size_t all, const GuideTest& last) {
+            messages.detail(fmt::format("{} of {}: {}", done, all, last.name()));
+            messages.progress().count(static_cast<double>(done), fmt::format("last {}", last.name()));
         };
     }
     const studies::GuideResults results = studies::run_guide_tests(tests, ensemble, hooks);
-    talk.make_room();
+    messages.make_room();
 
     const studies::GuidePage page{command_of(given, plan), plan.laws, plan.packings, ensemble.rate_factor,
                                   tests.size() - results.size()};
@@ -273,7 +273,7 @@ int bench_guide(const Invocation& invocation) {
     replace_file(folder / "guide.md", text);
     std::cout << text;
     if (!interrupted()) return exit_done;
-    tell_error("interrupted; the same command goes on");
+    report_error("interrupted; the same command goes on");
     return exit_interrupted;
 }
 

@@ -36,7 +36,7 @@ CommandLine describe_bench_stress() {
 }
 
 int bench_stress(const Invocation& given) {
-    Talk& talk = given.talk;
+    Messages& messages = given.messages;
     const auto steps = given.values["steps"].as<std::int64_t>();
     if (steps < 1) throw InputError(fmt::format("bench stress: --steps: found {}, expected at least 1", steps));
     fmt::print(
@@ -44,19 +44,19 @@ int bench_stress(const Invocation& given) {
         "| --- | ---: | ---: | ---: | ---: | --- |\n");
     std::fflush(stdout);
     bool fails = false;
-    talk.progress().begin("", static_cast<double>(verification::stress_scenes().size()), "scenes");
+    messages.progress().begin("", static_cast<double>(verification::stress_scenes().size()), "scenes");
     double done = 0.0;
     for (const StressScene& scene : verification::stress_scenes()) {
         const auto start = std::chrono::steady_clock::now();
         World world = scene.build();
-        talk.detail(fmt::format("{}: time step {:.3g} s, bound {:.3g} s", scene.name, world.stepping.time_step,
-                                world.stepping.step_bound));
-        talk.progress().step(done++, fmt::format("{}, {} bodies", scene.name, world.bodies.size()));
+        messages.detail(fmt::format("{}: time step {:.3g} s, bound {:.3g} s", scene.name, world.stepping.time_step,
+                                    world.stepping.step_bound));
+        messages.progress().step(done++, fmt::format("{}, {} bodies", scene.name, world.bodies.size()));
         const Endured endured = verification::endure(world, steps);
         const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         const bool holds = endured.error.empty() && endured.closing_error <= verification::open_account;
         fails = fails || !holds;
-        talk.make_room();
+        messages.make_room();
         fmt::print("| {} | {} | {} | {:.2g} | {:.1f} | {} |\n", scene.name, world.bodies.size(), endured.steps,
                    endured.closing_error, seconds, holds ? "holds" : "FAILS " + endured.error);
         std::fflush(stdout);  // a scene may take minutes

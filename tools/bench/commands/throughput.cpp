@@ -235,7 +235,7 @@ CommandLine describe_bench_throughput() {
 int bench_throughput(const Invocation& invocation) {
     const std::size_t empty_process = peak_memory();
     const po::variables_map& given = invocation.values;
-    Talk& talk = invocation.talk;
+    Messages& messages = invocation.messages;
     const bool quick = given.contains("quick");
     const auto counts = given.contains("counts") ? given["counts"].as<std::vector<std::int64_t>>()
                         : quick                  ? std::vector<std::int64_t>{300, 5000}
@@ -265,9 +265,9 @@ int bench_throughput(const Invocation& invocation) {
     std::vector<Row> rows;
     const auto add = [&](const Row& row) {
         rows.push_back(row);
-        talk.stage(fmt::format("{:<18}{:>9} on {}: {:7.2f} M/s{}", row.scene, row.particles, row.threads,
-                               1e-6 * row.rate,
-                               row.bare > 0.0 ? fmt::format(", {:.2f} of the bare kernel", row.rate / row.bare) : ""));
+        messages.stage(
+            fmt::format("{:<18}{:>9} on {}: {:7.2f} M/s{}", row.scene, row.particles, row.threads, 1e-6 * row.rate,
+                        row.bare > 0.0 ? fmt::format(", {:.2f} of the bare kernel", row.rate / row.bare) : ""));
         replace_file(settings.folder / "throughput.md", page_of(command, limits, rows));
         replace_file(settings.folder / "throughput.csv", table_of(command, limits, rows));
     };
@@ -297,17 +297,17 @@ int bench_throughput(const Invocation& invocation) {
                             [=, &settings] { return measure_flow(settings, polygons, count); }});
         }
     }
-    talk.progress().begin("", static_cast<double>(plan.size()), "rows");
+    messages.progress().begin("", static_cast<double>(plan.size()), "rows");
     for (const Planned& planned : plan) {
-        talk.progress().step(static_cast<double>(rows.size()), planned.what);
+        messages.progress().step(static_cast<double>(rows.size()), planned.what);
         add(planned.measure());
     }
-    talk.make_room();
+    messages.make_room();
     std::error_code failed;
     fs::remove_all(settings.folder / "scratch", failed);
     replace_file(settings.folder / "throughput.gp", script_of(rows));
     const std::string problem = draw_with_gnuplot(settings.folder / "throughput.gp");
-    if (!problem.empty()) talk.notice(problem + ". throughput.csv is complete");
+    if (!problem.empty()) messages.notice(problem + ". throughput.csv is complete");
     std::cout << page_of(command, limits, rows);
     return exit_done;
 }

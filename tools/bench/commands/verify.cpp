@@ -46,13 +46,13 @@ void check_writable(const fs::path& page) {
 }
 
 /// One line a claim, and each row that fails: those even with -q, for they are what was asked.
-void report(Talk& talk, const CheckedClaim& checked) {
+void report(Messages& messages, const CheckedClaim& checked) {
     const bool fails = checked.fails();
-    talk.stage(fmt::format("{:<50} {}", checked.claim.name,
-                           !checked.claim.offered ? "not offered"
-                           : fails                ? "FAILS"
-                                                  : fmt::format("holds, {} rows", checked.rows.size())));
-    talk.make_room();
+    messages.stage(fmt::format("{:<50} {}", checked.claim.name,
+                               !checked.claim.offered ? "not offered"
+                               : fails                ? "FAILS"
+                                                      : fmt::format("holds, {} rows", checked.rows.size())));
+    messages.make_room();
     for (const verification::ClaimRow& row : checked.rows) {
         const std::string text =
             fmt::format("  {}: expected {:.8g}, got {:.8g}, error {:.2g}, tolerance {:.2g}{}", row.label, row.expected,
@@ -61,7 +61,7 @@ void report(Talk& talk, const CheckedClaim& checked) {
         if (fails && !row.holds) {
             fmt::print(stderr, "{}\n", text);
         } else {
-            talk.detail(text);
+            messages.detail(text);
         }
     }
 }
@@ -91,7 +91,7 @@ CommandLine describe_bench_verify() {
 
 int bench_verify(const Invocation& invocation) {
     const po::variables_map& given = invocation.values;
-    Talk& talk = invocation.talk;
+    Messages& messages = invocation.messages;
     if (given.contains("list")) {
         for (const Claim& claim : verification::claims()) std::cout << claim.name << '\n';
         return exit_done;
@@ -104,12 +104,12 @@ int bench_verify(const Invocation& invocation) {
 
     std::vector<CheckedClaim> checked;
     bool fails = false;
-    talk.progress().begin("", static_cast<double>(wanted.size()), "claims");
+    messages.progress().begin("", static_cast<double>(wanted.size()), "claims");
     for (const Claim& claim : wanted) {
-        talk.progress().step(static_cast<double>(checked.size()), claim.name);
+        messages.progress().step(static_cast<double>(checked.size()), claim.name);
         checked.push_back({claim, verification::check_claim(claim)});
         fails = fails || checked.back().fails();
-        report(talk, checked.back());
+        report(messages, checked.back());
     }
     std::string command = "crackle bench verify";
     if (!page.empty()) command += " -o " + page.filename().string();

@@ -55,7 +55,7 @@ struct EnsembleOptions {
 /// The shipped case of a test with the experiment's changes. @throws InputError
 TestCase guide_case(const GuideTest& test, const EnsembleOptions& options);
 
-/// One test, from its case. What makes a specimen impossible (a cell that the inset destroys, say) is its result's
+/// One test, from its case. What makes a specimen impossible (such as a cell that the inset destroys) is its result's
 /// error. @throws TestInterrupted
 GuideResult measure_guide_test(const TestCase& description, const GuideTest& test,
                                const std::function<bool()>& interrupted);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the guide does not say and might have been otherwise: each experiment changes one thing of the shipped cases.
+// What the guide leaves open and might have been otherwise: each experiment changes one thing of the shipped cases.
 // Tested by tests/tools/bench/guide/ensemble_test.cpp.
 #pragma once
 

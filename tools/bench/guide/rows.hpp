@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The numbers that the guide gives of its rock, how each follows from tests of one packing, and how an ensemble judges
-// it.
-// Tested by tests/tools/bench/guide/ensemble_test.cpp.
+// The numbers that the guide gives of its rock, how each follows from tests of one packing, and how an ensemble
+// compares with it. Tested by tests/tools/bench/guide/ensemble_test.cpp.
 #pragma once
 
 #include <functional>
@@ -24,10 +23,10 @@ using Measured =
 struct GuideRow {
     std::string key;
     std::string words;
-    std::string guide_text;  ///< what the guide says; empty: a further reading, shown and not judged
+    std::string guide_text;  ///< what the guide states; empty: a further figure, shown and not compared
     double guide = 0.0;
-    double rounding = 0.0;  ///< half a unit of the last digit that the guide prints; 0 where it says «about»
-    bool at_least = false;  ///< the guide says «larger than»
+    double rounding = 0.0;  ///< half a unit of the last digit that the guide prints; 0 where it reads «about»
+    bool at_least = false;  ///< the guide states «larger than»
     std::string unit;
     std::vector<std::pair<std::string, std::string>> tests;  ///< (specimen, loading) that it takes
     std::function<double(const Measured&)> value;
@@ -51,7 +50,7 @@ struct Spread {
 Spread spread_of(const std::vector<double>& values);
 
 enum class GuideVerdict { inside, outside, open };
-/// Inside: the guide's value lies within two standard deviations (and its rounding) of our mean; where it says
+/// Inside: the guide's value lies within two standard deviations (and its rounding) of our mean; where it reads
 /// «larger», our mean is.
 /// Open: less than two packings.
 GuideVerdict judge(const GuideRow& row, const Spread& ours);

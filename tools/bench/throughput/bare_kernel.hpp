@@ -17,7 +17,7 @@ namespace crackle::throughput {
 
 class BareKernel {
   public:
-    /// Takes over the discs of an unbonded world and its circle-circle points that touch, bonded or not: they go by the
+    /// Copies the discs of an unbonded world and its circle-circle points that touch, bonded or not: they go by the
     /// contact law of the first body's material, with the dashpots of a ratio at the first point's effective mass.
     /// Bodies that are no single circles (platens) are left out.
     explicit BareKernel(const World& world);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A step with nothing but what the discs of a world need: what the engine's step is judged by where a scene lacks a
+// A step with nothing but what the discs of a world need: what the engine's step is compared with where a scene lacks a
 // feature.
 //
 // Forces by the engine's contact kernels of given features, their sums, kick and drift as the engine compiles them for

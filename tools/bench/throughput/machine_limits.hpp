@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the machine can do, measured in the run whose rates are to be judged.
+// What the machine can do, measured in the run whose rates are compared with it.
 // Tested by tests/tools/bench/commands/bench_test.cpp.
 #pragma once
 

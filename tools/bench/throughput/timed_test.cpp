@@ -33,7 +33,7 @@ constexpr double height_to_width = 2.0;
 // Of the mean overlap: so much that a quarter of the lattice's bonds is lost.
 constexpr double shake_share = 1.2;
 constexpr double steps_between_rows = 100.0;
-constexpr double fewest_rows = 2000.0;  // that a test is judged by (load_specimen.cpp)
+constexpr double fewest_rows = 2000.0;  // that a test measures (load_specimen.cpp)
 // No machine does more particle-steps a second; the test must not end before the clock does.
 constexpr double highest_rate = 2e8;
 // A hundredth of what bonds bear: mean overlap over mean diameter is 2e-3.
@@ -57,7 +57,7 @@ std::string case_text(const TimedSpecimen& specimen) {
 
 void write_particles(const fs::path& path, std::int64_t count) {
     Scene scene = timed_discs(count);
-    scene.materials[0].damping_ratio.reset();  // the file has no place for it, the case says it
+    scene.materials[0].damping_ratio.reset();  // the file has no place for it, the case sets it
     std::ofstream out(path);
     write_geometry(out, scene);
 }

@@ -31,7 +31,7 @@ struct ClaimRow {
     std::optional<double> order, expected_order;
     bool holds = false;
     bool relative_error = false;  ///< error and tolerance are over the expected value
-    bool shown_only = false;      ///< a figure that belongs to the claim but is not judged; holds
+    bool shown_only = false;      ///< a figure that belongs to the claim but is not compared; always holds
 };
 
 struct Claim {
@@ -47,7 +47,7 @@ struct Claim {
 /// All claims in the order of the page.
 const std::vector<Claim>& claims();
 
-/// The rows of a claim. A check that ends with an exception (an unstable run, say) is a row that fails and names it.
+/// The rows of a claim. A check that ends with an exception (such as an unstable run) is a row that fails and names it.
 std::vector<ClaimRow> check_claim(const Claim& claim);
 
 /// «holds», «FAILS», «shown» or «not offered».

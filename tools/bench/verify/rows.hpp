@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rows of a claim, judged as they are added.
+// Rows of a claim, compared with their tolerance as they are added.
 // Tested by tests/verification/claims_test.cpp.
 #pragma once
 
@@ -35,7 +35,7 @@ class Rows {
     Rows& at_least(const std::string& label, double got, double limit, const std::string& estimate);
     /// A count or a choice that has to be met exactly.
     Rows& exactly(const std::string& label, double got, double expected);
-    /// A figure that belongs to the claim but is not judged.
+    /// A figure that belongs to the claim but is not compared.
     Rows& shown(const std::string& label, double got);
     /// What would be expected of something that the engine does not offer.
     Rows& unoffered(const std::string& label, double expected);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The bare kernel computes what the engine computes, or its rate says nothing about the engine's.
+// The bare kernel computes what the engine computes, or the two rates could not be compared.
 
 #include "tools/bench/throughput/bare_kernel.hpp"
 

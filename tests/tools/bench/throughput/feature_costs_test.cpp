@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the study of features compares: the least step does what the engine's step does, and its rows say what they are.
+// What the study of features compares: the least step does what the engine's step does, and its rows are labelled by
+// it.
 
 #include "tools/bench/throughput/feature_costs.hpp"
 

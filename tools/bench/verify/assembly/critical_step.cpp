@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Critical steps: one spring and dashpot, chains and lattices of equal discs. Whether the exact step of a specimen
-// is right is for exact_step.cpp to say.
+// is right is shown by exact_step.cpp.
 // Tested by tests/verification/claims_test.cpp.
 
 #include <fmt/format.h>

@@ -59,7 +59,8 @@ PlaneWave s_wave(double q, double share, double mass) {
 /// @param wavelength in spacings  @param step_share of √(m/k)
 double measured_omega(bool shear, double share, int wavelength, double step_share) {
     const double q = 2.0 * std::numbers::pi / (wavelength * spacing);
-    // The edges are heard after half the width over c_p; a quarter of the period of S takes λ/4c_s, c_p/c_s < 1.74.
+    // Reflections from the edges arrive after half the width over c_p; a quarter of the period of S takes λ/4c_s,
+    // c_p/c_s < 1.74.
     const int columns = wavelength + 4, count_rows = static_cast<int>(columns / std::sqrt(0.75)) | 1;
     Scene scene = triangular_lattice(columns, count_rows, radius, overlap, rock(45.0, share));
     const double mass = mass_properties(scene, scene.bodies[0]).mass;

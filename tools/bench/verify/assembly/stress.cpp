@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Stability under stress: long runs, extreme ratios, impacts, stacks, degenerate shapes. Whatever is asked of the
-// engine, energy stays bounded, or a named error says where and why not.
+// engine, energy stays bounded, or a named error gives the place and the reason.
 
 #include <fmt/format.h>
 

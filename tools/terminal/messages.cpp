@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "tools/terminal/talk.hpp"
+#include "tools/terminal/messages.hpp"
 
 #include <fmt/format.h>
 
@@ -15,13 +15,13 @@ constexpr std::string_view notice_mark = "notice:";
 
 }  // namespace
 
-Talk::Talk(Loudness loudness)
+Messages::Messages(Loudness loudness)
     : loudness_(loudness),
       begun_(std::chrono::steady_clock::now()),
       last_line_(begun_),
       progress_(loudness != Loudness::quiet) {}
 
-void Talk::line(const std::string& text) {
+void Messages::line(const std::string& text) {
     progress_.clear();
     if (verbose()) {
         const auto now = std::chrono::steady_clock::now();
@@ -37,21 +37,21 @@ void Talk::line(const std::string& text) {
     std::cerr << '\n';
 }
 
-void Talk::stage(const std::string& text) {
+void Messages::stage(const std::string& text) {
     if (!quiet()) line(text);
 }
 
-void Talk::detail(const std::string& text) {
+void Messages::detail(const std::string& text) {
     if (verbose()) line(text);
 }
 
-void Talk::notice(const std::string& text) {
+void Messages::notice(const std::string& text) {
     if (quiet()) return;
     progress_.clear();
     std::cerr << styled("crackle:", Style::notice, Stream::err) << ' ' << text << '\n';
 }
 
-void tell_error(const std::string& text) {
+void report_error(const std::string& text) {
     const std::string own = "crackle ";
     const std::size_t colon = text.find(": ");
     const bool named = text.starts_with(own) && colon != std::string::npos &&

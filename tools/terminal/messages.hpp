@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the program says on stderr beside its results: stages, notices, how far it is, and errors.
+// What the program prints on stderr beside its results: stages, notices, how far it is, and errors.
 // Tested by tests/tools/commands/command_line_test.cpp.
 #pragma once
 
@@ -13,9 +13,9 @@ namespace crackle::tools {
 
 enum class Loudness : std::uint8_t { quiet, usual, verbose };
 
-class Talk {
+class Messages {
   public:
-    explicit Talk(Loudness loudness);
+    explicit Messages(Loudness loudness);
 
     bool quiet() const { return loudness_ == Loudness::quiet; }
     bool verbose() const { return loudness_ == Loudness::verbose; }
@@ -28,7 +28,7 @@ class Talk {
     void detail(const std::string& text);
     /// What the user should know, one sentence; not with -q.
     void notice(const std::string& text);
-    /// Beside results on stdout: takes the progress line away first.
+    /// Before results on stdout: removes the progress line.
     void make_room() { progress_.clear(); }
 
   private:
@@ -40,6 +40,6 @@ class Talk {
 };
 
 /// "crackle: TEXT", also with -q. A text that begins with "crackle COMMAND:" keeps that as its beginning.
-void tell_error(const std::string& text);
+void report_error(const std::string& text);
 
 }  // namespace crackle::tools
