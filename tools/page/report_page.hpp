@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Fills the bundled page with recordings: one HTML file that needs nothing else. page_data.hpp describes how numbers
-// are laid out. What the first picture needs stands before the page's script, all other blocks after it. Tested by
-// tests/tools/commands/report_test.cpp.
+// are laid out. What the first picture needs stands before the page's script, all other blocks after it.
+// Tested by tests/tools/commands/report_test.cpp.
 #pragma once
 
 #include <filesystem>
