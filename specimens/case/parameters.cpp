@@ -200,6 +200,11 @@ std::vector<Parameter> all_parameters() {
                     "beyond that 200,000 over their number, at least 20 (never more than curve_rows).")
             .at_least(1)
             .at_most(99998),
+        CRACKLE_KEY(output, frame_precision, "",
+                    "Of the points drawn in frames: single is a hundred-millionth of the specimen and a thousandth of "
+                    "an overlap, double loses nothing.")
+            .one_of({"single", "double"})
+            .otherwise(Text("single")),
         CRACKLE_KEY(output, checkpoint_interval, "s", "Wall-clock time between checkpoints.").above(0).otherwise(60.0),
         CRACKLE_KEY(output, out_of_plane_thickness, "m",
                     "Only converts what is reported: stresses in N/m over this give the _pa values.")

@@ -73,10 +73,21 @@ std::vector<BodyIndex> drawing_order(const World& world, const TestSetup& setup)
     return order;
 }
 
-void add_point(PackedArray<float>& points, Vec2 place) {
-    points.add(static_cast<float>(place.x));
-    points.add(static_cast<float>(place.y));
-    points.add(0.0F);
+/// The element Points of so many points. @param add  calls its argument with the place of each
+template <class Add>
+void write_points(std::ostream& out, PointPrecision precision, std::size_t count, const Add& add) {
+    begin_element(out, "Points");
+    const auto write = [&]<class T>(T) {
+        PackedArray<T> points(out, "points", 3, 3 * count);
+        add([&](Vec2 place) {
+            points.add(static_cast<T>(place.x));
+            points.add(static_cast<T>(place.y));
+            points.add(T{});
+        });
+        points.finish();
+    };
+    precision == PointPrecision::single_ ? write(float{}) : write(double{});
+    end_element(out, "Points");
 }
 
 void add_vector(PackedArray<double>& vectors, Vec2 value) {
@@ -136,9 +147,10 @@ std::vector<Vec2> unit_circle_outline(int corners) {
     return outline;
 }
 
-FramePainter::FramePainter(const World& world, const TestSetup& setup)
+FramePainter::FramePainter(const World& world, const TestSetup& setup, PointPrecision precision)
     : world_(world),
       setup_(setup),
+      precision_(precision),
       order_(drawing_order(world, setup)),
       outline_(unit_circle_outline(circle_corners(setup.particles))) {
     visit_cells([&](BodyIndex b, std::uint32_t, std::size_t corners, double) {
@@ -211,24 +223,22 @@ void FramePainter::write_particle_cells(std::ostream& out) const {
 void FramePainter::write_particles(std::ostream& out, const PlacedFrame& placed, const FrameForces& forces) const {
     const Frame& frame = placed.frame();
     write_head(out, frame, particle_counts_);
-    begin_element(out, "Points");
-    PackedArray<float> points(out, "points", 3, 3 * particle_counts_.points);
-    visit_cells([&](BodyIndex b, std::uint32_t element, std::size_t corners, double radius) {
-        const Frame::Body& body = frame.bodies[b];
-        const Vec2 centroid{body.x, body.y}, turn = placed.turn(b);
-        const auto place_of = [&](std::uint32_t e) {
-            return centroid + rotated(turn, {world_.bodies.elements[e].x, world_.bodies.elements[e].y});
-        };
-        if (radius == 0.0) {
-            for (std::uint32_t e = element; e < element + corners; ++e) add_point(points, place_of(e));
-            return;
-        }
-        const Vec2 centre = place_of(element);
-        const Vec2 scaled = radius * turn;
-        for (const Vec2 corner : outline_) add_point(points, centre + rotated(scaled, corner));
+    write_points(out, precision_, particle_counts_.points, [&](const auto& add) {
+        visit_cells([&](BodyIndex b, std::uint32_t element, std::size_t corners, double radius) {
+            const Frame::Body& body = frame.bodies[b];
+            const Vec2 centroid{body.x, body.y}, turn = placed.turn(b);
+            const auto place_of = [&](std::uint32_t e) {
+                return centroid + rotated(turn, {world_.bodies.elements[e].x, world_.bodies.elements[e].y});
+            };
+            if (radius == 0.0) {
+                for (std::uint32_t e = element; e < element + corners; ++e) add(place_of(e));
+                return;
+            }
+            const Vec2 centre = place_of(element);
+            const Vec2 scaled = radius * turn;
+            for (const Vec2 corner : outline_) add(centre + rotated(scaled, corner));
+        });
     });
-    points.finish();
-    end_element(out, "Points");
     particle_cells_.empty() ? write_particle_cells(out) : void(out << particle_cells_);
 
     const std::size_t cells = particle_counts_.lines + particle_counts_.polygons;
@@ -314,37 +324,35 @@ void FramePainter::write_contacts(std::ostream& out, const PlacedFrame& placed, 
     // Between circles the centres, each once, then a point a contact; between polygons two points a contact.
     const VtpCounts counts{setup_.polygons ? 2 * contacts : centres_ + contacts, contacts, 0};
     write_head(out, frame, counts);
-    begin_element(out, "Points");
-    PackedArray<float> points(out, "points", 3, 3 * counts.points);
-    for (BodyIndex b = 0; b < frame.bodies.size() && !setup_.polygons; ++b) {
-        if (is_circles(world_, b)) add_point(points, {frame.bodies[b].x, frame.bodies[b].y});
-    }
-    const auto add_places = [&](Vec2 on_i, Vec2 on_j) {
-        if (setup_.polygons) {
-            add_point(points, on_i);
-            add_point(points, on_j);
-        } else {
-            add_point(points, 0.5 * (on_i + on_j));
+    write_points(out, precision_, counts.points, [&](const auto& add) {
+        for (BodyIndex b = 0; b < frame.bodies.size() && !setup_.polygons; ++b) {
+            if (is_circles(world_, b)) add({frame.bodies[b].x, frame.bodies[b].y});
         }
-    };
-    visit_kinds(setup_.bond_kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
-        for (PointIndex k = begin; k < end; ++k) {
-            const ContactPoint& point = setup_.bonds[k].point;
-            const Facing held = facing_at_start<K>(world_, setup_, point);
-            add_places(placed.carried(point.body_i, held.on_i), placed.carried(point.body_j, held.on_j));
-        }
+        const auto add_places = [&](Vec2 on_i, Vec2 on_j) {
+            if (setup_.polygons) {
+                add(on_i);
+                add(on_j);
+            } else {
+                add(0.5 * (on_i + on_j));
+            }
+        };
+        visit_kinds(setup_.bond_kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
+            for (PointIndex k = begin; k < end; ++k) {
+                const ContactPoint& point = setup_.bonds[k].point;
+                const Facing held = facing_at_start<K>(world_, setup_, point);
+                add_places(placed.carried(point.body_i, held.on_i), placed.carried(point.body_j, held.on_j));
+            }
+        });
+        visit_kinds(frame.loose.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
+            for (PointIndex k = begin; k < end; ++k) {
+                const ContactPoint& point = loose[k].point;
+                std::uint32_t feature = point.feature_j;
+                const BodyState i = placed.body(point.body_i), j = placed.body(point.body_j);
+                const Facing now = facing_at(setup_, K, i, contact_geometry<K>(world_, point, i, j, feature));
+                add_places(now.on_i, now.on_j);
+            }
+        });
     });
-    visit_kinds(frame.loose.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
-        for (PointIndex k = begin; k < end; ++k) {
-            const ContactPoint& point = loose[k].point;
-            std::uint32_t feature = point.feature_j;
-            const BodyState i = placed.body(point.body_i), j = placed.body(point.body_j);
-            const Facing now = facing_at(setup_, K, i, contact_geometry<K>(world_, point, i, j, feature));
-            add_places(now.on_i, now.on_j);
-        }
-    });
-    points.finish();
-    end_element(out, "Points");
     loose.empty() && !bond_cells_.empty() ? void(out << bond_cells_) : write_contact_cells(out, frame.loose);
 
     write_array<double>(out, of_contacts("normal_force"), contacts, [&](const auto& add) {
@@ -377,16 +385,14 @@ void FramePainter::write_cracks(std::ostream& out, const PlacedFrame& placed, st
     write_head(out, placed.frame(), {2 * cracks.size(), cracks.size(), 0});
     std::vector<double> openings;
     openings.reserve(cracks.size());
-    begin_element(out, "Points");
-    PackedArray<float> points(out, "points", 3, 6 * cracks.size());
-    for (const Crack& crack : cracks) {
-        const CrackFace face = find_crack_face(placed, crack.bond);
-        add_point(points, face.begin);
-        add_point(points, face.end);
-        openings.push_back(face.opening);
-    }
-    points.finish();
-    end_element(out, "Points");
+    write_points(out, precision_, 2 * cracks.size(), [&](const auto& add) {
+        for (const Crack& crack : cracks) {
+            const CrackFace face = find_crack_face(placed, crack.bond);
+            add(face.begin);
+            add(face.end);
+            openings.push_back(face.opening);
+        }
+    });
     begin_element(out, "Lines");
     write_indices(out, "connectivity", 2 * cracks.size(), 2 * cracks.size(), [&](const auto& add) {
         for (std::size_t point = 0; point < 2 * cracks.size(); ++point) add(point);

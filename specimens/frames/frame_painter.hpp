@@ -12,12 +12,13 @@
 // Cell data and their units: particle_arrays() and its like below; forces and stresses are of springs only,
 // frame_forces.hpp; fragments, fragments.hpp; ages, contact_history.hpp.
 //
-// Points are Float32 (a hundred-millionth of the specimen), what was computed Float64, ids and indices Int32 (indices
-// Int64 beyond 2³¹), state and mode UInt8. What never changes is packed once and put into every file again, up to 2,000
-// particles; beyond it would be a quarter of all memory, and packing it is little beside the steps between two frames.
-// Tested by tests/specimens/frames/frame_test.cpp.
+// Points are Float32 (a hundred-millionth of the specimen) or Float64, what was computed Float64, ids and indices Int32
+// (indices Int64 beyond 2³¹), state and mode UInt8. What never changes is packed once and put into every file again, up
+// to 2,000 particles; beyond it would be a quarter of all memory, and packing it is little beside the steps between two
+// frames. Tested by tests/specimens/frames/frame_test.cpp.
 #pragma once
 
+#include <cstdint>
 #include <iosfwd>
 #include <span>
 #include <string>
@@ -43,11 +44,13 @@ int circle_corners(std::int64_t particles);
 /// Corners of the regular polygon with the area of the unit circle, the first to the right.
 std::vector<Vec2> unit_circle_outline(int corners);
 
+enum class PointPrecision : std::uint8_t { single_, double_ };
+
 /// Draws the frames of one test.
 class FramePainter {
   public:
     /// Both must outlive the painter.
-    FramePainter(const World& world, const TestSetup& setup);
+    FramePainter(const World& world, const TestSetup& setup, PointPrecision precision);
     bool paints(const World& world, const TestSetup& setup) const { return &world == &world_ && &setup == &setup_; }
 
     void write_particles(std::ostream& out, const PlacedFrame& placed, const FrameForces& forces) const;
@@ -66,6 +69,7 @@ class FramePainter {
 
     const World& world_;
     const TestSetup& setup_;
+    PointPrecision precision_;
     std::vector<BodyIndex> order_;  // in which bodies are drawn
     std::vector<Vec2> outline_;     // of a circle
     VtpCounts particle_counts_;

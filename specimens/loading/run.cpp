@@ -8,8 +8,10 @@
 #include <optional>
 #include <sstream>
 #include <utility>
+#include <vector>
 
 #include "solver/base/errors.hpp"
+#include "solver/demseg/geometry.hpp"
 #include "specimens/loading/companions.hpp"
 #include "specimens/loading/load_specimen.hpp"
 #include "specimens/loading/prepare.hpp"
@@ -32,6 +34,30 @@ std::string read_bytes(const fs::path& path) {
     if (!in) throw InputError(fmt::format("{}: cannot be read, expected a file; check the path", path.string()));
     return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
+
+PointPrecision precision_of(const TestCase& test) {
+    return test.output.frame_precision == "double" ? PointPrecision::double_ : PointPrecision::single_;
+}
+
+/// The specimen's files until there is a place for them: a test that cannot be made leaves none.
+class SpecimenFiles {
+  public:
+    TestHooks collecting(TestHooks hooks) {
+        hooks.made = [this](const std::string& name, Scene scene) {
+            for (Material& material : scene.materials) material.damping_ratio.reset();  // no place in the format
+            std::ostringstream text;
+            write_geometry(text, scene);
+            files_.emplace_back(name, std::move(text).str());
+        };
+        return hooks;
+    }
+    void write(const OutputFolder& folder) const {
+        for (const auto& [name, text] : files_) folder.write(name, text);
+    }
+
+  private:
+    std::vector<std::pair<std::string, std::string>> files_;
+};
 
 std::string resolved_case(const TestCase& test, const fs::path& folder) {
     std::ostringstream text;
@@ -141,15 +167,18 @@ TestOutcome run_test(const TestCase& description, const TestOptions& options, co
     if (description.packing.sieve)
         recorded.inputs.push_back(description.resolve_path("packing.sieve", *description.packing.sieve));
     OutputFolder folder = OutputFolder::create(options.folder, options.force, recorded.inputs);
-    VirtualTest test = prepare_test(description, hooks);
+    std::optional<SpecimenFiles> specimen(std::in_place);
+    VirtualTest test = prepare_test(description, specimen->collecting(hooks));
     if (options.threads > 0) set_threads(test.world, options.threads);
     Profile profile;
     if (options.profile) test.world.workers.profile = &profile;
     test.state.command = options.command;
     recorded.output.frames = test.description.output.frames;  // known only now where the case is silent
     const std::string text = resolved_case(recorded, folder.target());
-    TestFiles files(folder, sha256(text),
-                    test.state);  // empty until loading: by that a test that has only begun is known
+    // Empty until loading: by that a test that has only begun is known.
+    TestFiles files(folder, sha256(text), test.state, precision_of(description));
+    specimen->write(folder);
+    specimen.reset();  // not kept while the test runs
     folder.write("case.toml", text);
     return run_with_files(test, options, hooks, folder, files);
 }
@@ -183,7 +212,7 @@ TestOutcome resume_test(const TestOptions& options, const TestHooks& hooks) {
     if (!test.state.ended_by.empty()) return finished_test(test, options, hooks, folder);
     // That of the interrupt: curve and frames go beyond it from here.
     fs::remove(folder.path() / "summary.json", error);
-    TestFiles files(folder, checkpoint.case_hash, test.state);
+    TestFiles files(folder, checkpoint.case_hash, test.state, precision_of(test.description));
     hooks.report_stage(fmt::format("resumed at step {}, axial strain {:.4g}", test.world.stepping.steps,
                                    test.setup.axial_strain(test.world)));
     return run_with_files(test, options, hooks, folder, files);

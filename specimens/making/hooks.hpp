@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Callbacks of a test's caller while it runs: progress, notices, interrupts.
+// Callbacks of a test's caller while it runs: progress, notices, interrupts, what was made.
 // Tested by tests/specimens/loading/virtual_test_test.cpp.
 #pragma once
 
@@ -7,6 +7,8 @@
 #include <functional>
 #include <stdexcept>
 #include <string>
+
+#include "solver/scene/scene.hpp"
 
 namespace crackle {
 
@@ -26,12 +28,16 @@ struct TestHooks {
     std::function<void(const std::string&)> working;    ///< what is being done before loading, often
     std::function<void(const TestProgress&)> progress;  ///< a few times a second
     std::function<bool()> interrupted;
+    std::function<void(const std::string& name, const Scene&)> made;  ///< circles, then polygons, as they are tested
 
     void report_stage(const std::string& line) const {
         if (stage) stage(line);
     }
     void report_work(const std::string& what) const {
         if (working) working(what);
+    }
+    void report_made(const std::string& name, const Scene& scene) const {
+        if (made) made(name, scene);
     }
 };
 

@@ -263,6 +263,7 @@ Specimen make_specimen(const TestCase& test, const TestHooks& hooks) {
     classify(specimen, test);
     bring_to_rest(specimen.scene, specimen.notices);
     measure_circles(specimen);
+    if (!specimen.polygons) hooks.report_made(circles_file, specimen.scene);
     if (test.has_table("mesh")) {
         if (specimen.polygons) {
             throw InputError(fmt::format(
@@ -272,6 +273,7 @@ Specimen make_specimen(const TestCase& test, const TestHooks& hooks) {
     } else if (specimen.polygons) {
         measure_polygons(specimen, test);
     }
+    if (specimen.polygons) hooks.report_made(polygons_file, specimen.scene);
     for (Material& material : specimen.scene.materials) scale_damping(material, test.damping_scale);
     specimen.width = specimen.scene.domain.x2 - specimen.scene.domain.x1;
     specimen.height = specimen.scene.domain.y2 - specimen.scene.domain.y1;

@@ -30,6 +30,10 @@ struct Specimen {
     std::vector<std::string> notices;  ///< what a user should know
 };
 
+/// Names under which hooks.made() gets the circles, which polygons were meshed from where there are any; the polygons.
+inline constexpr const char* circles_file = "specimen_circles.dat";
+inline constexpr const char* polygons_file = "specimen_polygons.dat";
+
 /// Makes or reads the specimen that the case describes.
 /// @throws InputError for what cannot be read, packed, meshed or tested, naming the case's key; TestInterrupted.
 Specimen make_specimen(const TestCase& test, const TestHooks& hooks);

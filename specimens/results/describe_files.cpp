@@ -89,7 +89,7 @@ constexpr const char* frames_text = R"(
 ## `frames/`
 
 Each moment is three files, named by its row of the judged curve (from 0, five digits or more), which `frames.pvd` lists as parts 0, 1 and 2 of a
-time series. They are VTK's XML PolyData (compressed, `.vtp`), with the moment as field data. Points are Float32, what was computed Float64.
+time series. They are VTK's XML PolyData (compressed, `.vtp`), with the moment as field data. Points are Float32 (Float64 with `output.frame_precision = "double"`), what was computed Float64.
 
 | file | holds |
 | --- | --- |

@@ -33,11 +33,13 @@ void remove_unlisted_frames(const fs::path& frames, const TestState& state) {
 
 }  // namespace
 
-TestFiles::TestFiles(const OutputFolder& folder, std::string case_hash, const TestState& state)
+TestFiles::TestFiles(const OutputFolder& folder, std::string case_hash, const TestState& state,
+                     PointPrecision precision)
     : folder_(folder),
       case_hash_(std::move(case_hash)),
       curve_(folder.path() / "curve.csv", state.curve_bytes),
       events_(folder.path() / "events.csv", state.events_bytes),
+      precision_(precision),
       collection_due_(!state.frames.empty()) {
     if (state.curve_bytes == 0) curve_.write(curve_header());
     if (state.events_bytes == 0) events_.write(events_header());
@@ -55,7 +57,7 @@ void TestFiles::add_frame(const Frame& frame, const TestSetup& setup, TestState&
                                         [](const FrameEntry& entry, std::int64_t row) { return entry.row < row; });
     if (later != state.frames.end() && later->row == frame.row) return;
     state.frames.insert(later, {frame.row, frame.axial_strain, frame.time});
-    if (!painter_ || !painter_->paints(world, setup)) painter_.emplace(world, setup);
+    if (!painter_ || !painter_->paints(world, setup)) painter_.emplace(world, setup, precision_);
     const PlacedFrame placed(world, setup, frame);
     const FrameForces forces = find_forces(placed);
     const auto cracks = std::span(state.history.cracks).first(frame.cracks);

@@ -15,7 +15,7 @@ namespace crackle {
 class TestFiles {
   public:
     /// Begins from the start (state without rows) or goes on from the state, removing what came after it.
-    TestFiles(const OutputFolder& folder, std::string case_hash, const TestState& state);
+    TestFiles(const OutputFolder& folder, std::string case_hash, const TestState& state, PointPrecision precision);
 
     void add_row(const CurveRow& row);
     void add_event(const BreakEvent& event, double axial_strain);
@@ -34,6 +34,7 @@ class TestFiles {
     const OutputFolder& folder_;
     std::string case_hash_;
     GrowingFile curve_, events_;
+    PointPrecision precision_;
     std::optional<FramePainter> painter_;  // once there is a frame
     bool collection_due_;                  // frames.pvd is not of the state
     std::chrono::steady_clock::time_point collected_;

@@ -16,6 +16,7 @@
 
 #include "solver/base/errors.hpp"
 #include "specimens/frames/frame.hpp"
+#include "specimens/making/specimen.hpp"
 #include "specimens/recordings/test_results.hpp"
 
 namespace crackle {
@@ -24,10 +25,14 @@ namespace {
 namespace fs = std::filesystem;
 
 // In the order in which staged results take the old ones' place: the summary, which readers look for, comes last.
-constexpr std::array<ResultFile, 6> files_of_a_test{{
+constexpr std::array<ResultFile, 8> files_of_a_test{{
     {"case.toml",
      "the case with every value in the open and the hashes of its inputs, with a comment on each key "
      "(`crackle test --keys` lists them all); it can be run again"},
+    {"specimen_circles.dat",
+     "circles as packed or read, between the walls that they were packed against, in the layout of DEMseg's in_gm.dat "
+     "(solver/demseg/FORMATS.md); the damping is in case.toml; not of polygons from a file"},
+    {"specimen_polygons.dat", "polygons as meshed or read, likewise; not of circles"},
     {"curve.csv", "one row an observed step"},
     {"events.csv", "one row a broken bonded point"},
     {"frames", "a folder of pictures for ParaView, start, peak and end among them: open `frames/frames.pvd`"},
@@ -148,6 +153,11 @@ void replace_frames(const fs::path& from, const fs::path& to, const std::set<std
 void move_staged(const fs::path& working, const fs::path& target, const std::set<std::string>& names) {
     std::error_code error;
     if (is_report_page(target / report_name)) fs::remove(target / report_name, error);
+    // Nothing has been moved while the first file is still here: what the new results lack is of the old ones.
+    if (fs::exists(working / result_names.front(), error)) {
+        for (const char* name : {circles_file, polygons_file})
+            if (!fs::exists(working / name, error)) fs::remove(target / name, error);
+    }
     for (const std::string name : result_names) {
         if (!fs::exists(working / name, error)) continue;
         if (name == "frames") {

@@ -78,7 +78,7 @@ class Frames : public ::testing::Test {
     }
     PolyData read(const VirtualTest& test, const Frame& frame, Picture picture) const {
         std::ofstream out(scratch_ / "frame.vtp", std::ios::binary);
-        write(out, test, FramePainter(test.world, test.setup), frame, picture);
+        write(out, test, FramePainter(test.world, test.setup, PointPrecision::single_), frame, picture);
         out.close();
         return read_polydata(scratch_ / "frame.vtp");
     }
@@ -199,20 +199,22 @@ TEST_F(Frames, OutlinesAndBondsLieWhereTheBodiesAre) {
 TEST_F(Frames, DoNotDependOnThoseWrittenBefore) {
     for (const std::string mesh : {"", "voronoi"}) {
         VirtualTest test = broken_test(mesh);
-        const FramePainter used(test.world, test.setup);
+        const FramePainter used(test.world, test.setup, PointPrecision::single_);
         const std::string before = all_pictures(test, used, taken(test));
         for (int k = 0; k < 50; ++k) step(test.world);
         compute_forces(test.world);
         const Frame second = taken(test);
         const std::string one = all_pictures(test, used, second);
-        EXPECT_TRUE(one == all_pictures(test, FramePainter(test.world, test.setup), second)) << mesh;
+        EXPECT_TRUE(one == all_pictures(test, FramePainter(test.world, test.setup, PointPrecision::single_), second))
+            << mesh;
         EXPECT_FALSE(one == before) << mesh;
     }
 }
 
 TEST_F(Frames, HaveTheTypesThatAreWrittenDown) {
     VirtualTest test = broken_test("");
-    const std::string text = all_pictures(test, FramePainter(test.world, test.setup), taken(test));
+    const std::string text =
+        all_pictures(test, FramePainter(test.world, test.setup, PointPrecision::single_), taken(test));
     for (const char* array :
          {"Float32\" Name=\"points",    "Int32\" Name=\"connectivity",   "Int32\" Name=\"offsets",
           "Int32\" Name=\"id",          "Float64\" Name=\"radius",       "Float64\" Name=\"displacement",

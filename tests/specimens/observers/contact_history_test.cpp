@@ -52,14 +52,14 @@ class PastOfRock : public ::testing::Test {
     PolyData contacts(const VirtualTest& test, const Frame& frame) const {
         const PlacedFrame placed(test.world, test.setup, frame);
         write([&](std::ostream& out) {
-            FramePainter(test.world, test.setup)
+            FramePainter(test.world, test.setup, PointPrecision::single_)
                 .write_contacts(out, placed, find_forces(placed), std::span(test.state.history.cracks));
         });
         return read_polydata(scratch_ / "frame.vtp");
     }
     PolyData cracks(const VirtualTest& test, const Frame& frame) const {
         write([&](std::ostream& out) {
-            FramePainter(test.world, test.setup)
+            FramePainter(test.world, test.setup, PointPrecision::single_)
                 .write_cracks(out, PlacedFrame(test.world, test.setup, frame),
                               std::span(test.state.history.cracks).first(frame.cracks));
         });

@@ -29,6 +29,7 @@ TestCase packed_case(std::int64_t seed, const char* kind, double rate, double ma
     test.numerics.integrator = "leapfrog";
     test.output.curve_rows = 2000;
     test.output.frames = 1;
+    test.output.frame_precision = "single";
     test.output.checkpoint_interval = 1e9;
     test.output.out_of_plane_thickness = 1.0;
     return test;

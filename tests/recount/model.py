@@ -1,0 +1,300 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The specimen between its platens: masses, contact points, laws, small-strain solution (solver/MODEL.md 2 to 7).
+
+Written from the documents. Everything is an array over bodies or over contact points; SI units, per unit thickness."""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+platen_width, platen_depth = 2.0, 0.05  # of the specimen's width and height (specimens/METHODS.md 3)
+
+
+def dot(a, b):
+    return np.einsum("ij,ij->i", a, b)
+
+
+def turned(v):
+    """By +90 degrees."""
+    return np.stack([-v[:, 1], v[:, 0]], axis=1)
+
+
+def polygon_moments(corners):
+    """Area, centroid and polar second moment about the centroid of a polygon, by Green's theorem."""
+    shift = corners.mean(axis=0)
+    x, y = (corners - shift).T
+    u, v = np.roll(x, -1), np.roll(y, -1)
+    cross = x * v - u * y
+    area = cross.sum() / 2
+    cx, cy = ((x + u) * cross).sum() / (6 * area), ((y + v) * cross).sum() / (6 * area)
+    about_shift = (cross * (x * x + x * u + u * u + y * y + y * v + v * v)).sum() / 12
+    return area, shift + (cx, cy), about_shift - area * (cx * cx + cy * cy)
+
+
+@dataclass
+class Points:
+    """Contact points: element (circle or corner) of body i against body j."""
+
+    i: np.ndarray
+    element: np.ndarray
+    j: np.ndarray
+    overlap: np.ndarray  # m
+    normal: np.ndarray  # from i to j
+    position: np.ndarray  # m
+
+    def chosen(self, which):
+        return Points(*(getattr(self, name)[which] for name in self.__dataclass_fields__))
+
+
+class Model:
+    """Bodies of the specimen in the order of their file, then the lower and the upper platen."""
+
+    def __init__(self, results):
+        self.results = results
+        deck = results.specimen
+        self.deck = deck
+        self.polygons = deck.bodies[0].corners is not None
+        self.width, self.height = deck.width, deck.height
+        self.materials = [dict(m) for m in deck.materials]
+        for m in self.materials:
+            m["ratio"] = results.key("material", "damping_ratio")
+        self.thick = results.summary["bond_thick"] if not self.polygons else results.key("bond", "thick")
+        self.frictional = results.key("loading", "platens") == "frictional"
+        self.sense = 1.0 if results.key("loading", "kind") == "compression" else -1.0
+        largest = max(b.id for b in deck.bodies)
+        self.ids = [b.id for b in deck.bodies] + [largest + 1, largest + 2]
+        self.index = {name: k for k, name in enumerate(self.ids)}
+        self.count = len(deck.bodies)
+        self.bottom, self.top = self.count, self.count + 1
+        self._place_platens()
+        self._measure()
+
+    def _place_platens(self):
+        deck = self.deck
+        if self.polygons:
+            low = min(b.corners[:, 1].min() for b in deck.bodies)
+            high = max(b.corners[:, 1].max() for b in deck.bodies)
+        else:
+            low = min((b.circles[:, 1] - b.circles[:, 2]).min() for b in deck.bodies)
+            high = max((b.circles[:, 1] + b.circles[:, 2]).max() for b in deck.bodies)
+        inset = self.results.key("mesh", "inset")
+        gap = 2 * inset if inset else self.results.key("mesh", "thick", deck.thick)
+
+        def offset(depth):
+            if not self.polygons:
+                return self.thick
+            return gap / 2 if depth <= gap else gap - depth
+
+        if self.frictional:
+            y1, y2 = low - self.thick, high + self.thick
+        else:
+            y1, y2 = deck.y1 - offset(low - deck.y1), deck.y2 + offset(deck.y2 - high)
+        middle, half, depth = (deck.x1 + deck.x2) / 2, platen_width * self.width / 2, platen_depth * self.height
+        left, right = middle - half, middle + half
+        self.platen_corners = [
+            np.array([(right, y1), (left, y1), (left, y1 - depth), (right, y1 - depth)]),
+            np.array([(left, y2), (right, y2), (right, y2 + depth), (left, y2 + depth)]),
+        ]
+        material = self.deck.bodies[0].material
+        if self.frictional:
+            friction = dict(self.materials[material])
+            friction["friction_angle"] = self.results.key("loading", "platen_friction_angle")
+            self.materials.append(friction)
+            material = len(self.materials) - 1
+        self.material = np.array([b.material for b in self.deck.bodies] + [material] * 2)
+
+    def _measure(self):
+        """Masses, centroids, outlines; `circles` rows (body, radius) and `outline` padded with the last corner."""
+        area, inertia, centre, reach = [], [], [], []
+        outlines, self.circle_body, self.circle_at, self.circle_radius = {}, [], [], []
+        shapes = [(b.circles, b.corners) for b in self.deck.bodies] + [(None, c) for c in self.platen_corners]
+        for k, (circles, corners) in enumerate(shapes):
+            if circles is not None:
+                a = math.pi * circles[:, 2] ** 2
+                c = (a[:, None] * circles[:, :2]).sum(axis=0) / a.sum() if len(a) > 1 else circles[0, :2]
+                d2 = ((circles[:, :2] - c) ** 2).sum(axis=1)
+                area.append(a.sum())
+                inertia.append((a * (circles[:, 2] ** 2 / 2 + d2)).sum())
+                self.circle_body += [k] * len(a)
+                self.circle_at += list(circles[:, :2] - c)
+                self.circle_radius += list(circles[:, 2])
+                reach.append((np.sqrt(d2) + circles[:, 2]).max())
+            else:
+                a, c, second = polygon_moments(corners)
+                area.append(a)
+                inertia.append(second)
+                outlines[k] = corners - c
+                reach.append(np.hypot(*(corners - c).T).max())
+            centre.append(c)
+        self.area, self.centre, self.reach = np.array(area), np.array(centre), np.array(reach)
+        density = np.array([self.materials[m]["density"] for m in self.material])
+        self.mass, self.inertia = density * self.area, density * np.array(inertia)
+        self.circle_body, self.circle_radius = np.array(self.circle_body, int), np.array(self.circle_radius)
+        self.circle_at = np.array(self.circle_at).reshape(-1, 2)
+        most = max((len(o) for o in outlines.values()), default=1)
+        self.outline = np.zeros((len(self.mass), most, 2))
+        self.corner_count = np.zeros(len(self.mass), int)
+        for k, corners in outlines.items():
+            self.outline[k] = np.concatenate([corners, np.repeat(corners[-1:], most - len(corners), axis=0)])
+            self.corner_count[k] = len(corners)
+
+    # laws of pairs, solver/MODEL.md 4
+
+    def _pair(self, name, i, j):
+        value = np.array([m[name] for m in self.materials])
+        return value[self.material[i]], value[self.material[j]]
+
+    @staticmethod
+    def _series(a, b):
+        return np.where(a + b > 0, 2 * a * b / np.where(a + b > 0, a + b, 1), 0.0)
+
+    def normal_stiffness(self, p):
+        return self._series(*self._pair("normal_stiffness", p.i, p.j))
+
+    def shear_stiffness(self, p):
+        return self._series(*self._pair("shear_stiffness", p.i, p.j))
+
+    def friction(self, p):
+        return np.tan(np.radians(np.minimum(*self._pair("friction_angle", p.i, p.j))))
+
+    def dashpots(self, p):
+        ratio = self.materials[0]["ratio"]
+        if ratio is None:
+            return tuple(self._series(*self._pair(name, p.i, p.j)) for name in ("normal_damping", "shear_damping"))
+        held_i, held_j = p.i >= self.count, p.j >= self.count
+        mi, mj = self.mass[p.i], self.mass[p.j]
+        mass = np.where(held_j, mi, np.where(held_i, mj, mi * mj / (mi + mj)))
+        return 2 * ratio * np.sqrt(self.normal_stiffness(p) * mass), 2 * ratio * np.sqrt(self.shear_stiffness(p) * mass)
+
+    # contact points, solver/MODEL.md 3
+
+    def near(self, centre, beyond):
+        """Pairs of bodies i < j whose bounding circles, or for platens faces, come within `beyond`."""
+        order = np.argsort(centre[: self.count, 0])
+        x, reach, pairs = centre[order, 0], self.reach[order], []
+        widest = self.reach[: self.count].max()
+        for k, a in enumerate(order):
+            end = np.searchsorted(x, x[k] + self.reach[a] + widest + beyond)
+            others = order[k + 1 : end]
+            apart = np.hypot(*(centre[others] - centre[a]).T) - self.reach[others] - self.reach[a]
+            pairs += [(min(a, b), max(a, b)) for b in others[apart <= beyond]]
+        half = platen_depth * self.height / 2
+        for platen in (self.bottom, self.top):
+            apart = np.abs(centre[: self.count, 1] - centre[platen, 1]) - half - self.reach[: self.count]
+            pairs += [(a, platen) for a in np.flatnonzero(apart <= beyond)]
+        return np.array(pairs, int).reshape(-1, 2)
+
+    def points(self, centre, angle):
+        """All contact points whose surfaces come near, touching or not, of bodies placed so."""
+        c, s = np.cos(angle), np.sin(angle)
+        rotation = np.stack([np.stack([c, -s], -1), np.stack([s, c], -1)], -2)
+        pairs = self.near(centre, 2 * self.thick + 0.05 * self.reach[: self.count].mean())
+        found = []
+        own = [[] for _ in self.mass]
+        for e, b in enumerate(self.circle_body):
+            own[b].append(e)
+        at = centre[self.circle_body] + np.einsum("eij,ej->ei", rotation[self.circle_body], self.circle_at)
+        # Circle and circle, circle and outline, corner and outline.
+        cc = [(a, ea, b, eb) for a, b in pairs for ea in own[a] for eb in own[b]]
+        if cc:
+            a, ea, b, eb = np.array(cc).T
+            way = at[eb] - at[ea]
+            apart = np.hypot(*way.T)
+            n = way / apart[:, None]
+            d = self.circle_radius[ea] + self.circle_radius[eb] - apart
+            found.append(Points(a, ea * len(at) + eb, b, d, n, at[ea] + n * (self.circle_radius[ea] - d / 2)[:, None]))
+        outline = centre[:, None] + np.einsum("bij,bkj->bki", rotation, self.outline)
+        co = [(x, e, y) for a, b in pairs for x, y in ((a, b), (b, a)) if self.corner_count[y] for e in own[x]]
+        if co:
+            a, e, b = np.array(co).T
+            distance, out, _ = self._to_outline(at[e], outline[b])
+            r = self.circle_radius[e]
+            d = r + self.thick - distance
+            found.append(Points(a, e, b, d, -out, at[e] - out * (r - d / 2)[:, None]))
+        vo = [
+            (x, k, y)
+            for a, b in pairs
+            for x, y in ((a, b), (b, a))
+            if self.corner_count[y]
+            for k in range(self.corner_count[x])
+        ]
+        if vo:
+            a, k, b = np.array(vo).T
+            corner = outline[a, k]
+            distance, out, closest = self._to_outline(corner, outline[b])
+            found.append(Points(a, k, b, self.thick - distance, -out, (corner + closest) / 2))
+        joined = [np.concatenate([getattr(p, name) for p in found]) for name in Points.__dataclass_fields__]
+        return Points(*joined)
+
+    @staticmethod
+    def _to_outline(place, outline):
+        """Signed distance from convex outlines (negative inside), its gradient, the closest point of each outline."""
+        begin, end = outline, np.roll(outline, -1, axis=1)
+        edge = end - begin
+        length2 = (edge**2).sum(-1)
+        real = length2 > 0
+        safe = np.where(real, length2, 1.0)
+        away = place[:, None] - begin
+        share = np.clip((away * edge).sum(-1) / safe, 0, 1)
+        foot = begin + share[..., None] * edge
+        way = place[:, None] - foot
+        distance = np.where(real, np.hypot(way[..., 0], way[..., 1]), np.inf)
+        outward = np.stack([edge[..., 1], -edge[..., 0]], -1) / np.sqrt(safe)[..., None]
+        beyond = np.where(real, (away * outward).sum(-1), -np.inf)
+        inside = (beyond <= 0).all(axis=1)
+        rows = np.arange(len(place))
+        nearest = np.where(inside, beyond.argmax(axis=1), distance.argmin(axis=1))
+        near_distance = distance[rows, nearest]
+        gradient = way[rows, nearest] / np.where(near_distance > 0, near_distance, 1)[:, None]
+        flat = inside | (near_distance == 0)
+        gradient = np.where(flat[:, None], outward[rows, nearest], gradient)
+        signed = np.where(inside, beyond[rows, nearest], near_distance)
+        closest = np.where(inside[:, None], place - signed[:, None] * gradient, foot[rows, nearest])
+        return signed, gradient, closest
+
+    # small strain, solver/MODEL.md 7 and 10
+
+    def rows_of(self, p, centre):
+        """How the overlap of each point grows (normal) and how i slides along j (shear), over all 3 N displacements."""
+        n, t = p.normal, turned(p.normal)
+        growth, slip = np.zeros((len(p.i), 3 * len(self.mass))), np.zeros((len(p.i), 3 * len(self.mass)))
+        rows = np.arange(len(p.i))
+        for body, sign in ((p.i, 1.0), (p.j, -1.0)):
+            arm = turned(p.position - centre[body])  # displacement of the point by a turn of 1
+            for matrix, direction in ((growth, n), (slip, t)):
+                matrix[rows, 3 * body] += sign * direction[:, 0]
+                matrix[rows, 3 * body + 1] += sign * direction[:, 1]
+                matrix[rows, 3 * body + 2] += sign * dot(arm, direction)
+        return growth, slip
+
+    def matrices(self, p, centre):
+        """Stiffness and damping over all displacements."""
+        growth, slip = self.rows_of(p, centre)
+        kn, ks = self.normal_stiffness(p), self.shear_stiffness(p)
+        cn, cs = self.dashpots(p)
+        stiffness = growth.T @ (kn[:, None] * growth) + slip.T @ (ks[:, None] * slip)
+        damping = growth.T @ (cn[:, None] * growth) + slip.T @ (cs[:, None] * slip)
+        return stiffness, damping
+
+    def gauge(self):
+        """Indices of the left and right side particles with centres in the middle half of the height."""
+        deck, middle = self.results.circles, (self.deck.y1 + self.deck.y2) / 2
+        tolerance = 1e-6 * self.width
+        chosen = []
+        for side in ("left", "right"):
+            if not self.polygons:
+                touches = [
+                    any((x - deck.x1 if side == "left" else deck.x2 - x) < r for x, _, r in b.circles)
+                    for b in self.deck.bodies
+                ]
+            else:
+                def inward(corners, side=side):
+                    return corners[:, 0] - self.deck.x1 if side == "left" else self.deck.x2 - corners[:, 0]
+
+                nearest = min(inward(b.corners).min() for b in self.deck.bodies)
+                touches = [np.sum(inward(b.corners) <= nearest + tolerance) >= 2 for b in self.deck.bodies]
+            chosen.append(
+                [k for k in range(self.count) if touches[k] and abs(self.centre[k, 1] - middle) <= self.height / 4]
+            )
+        return chosen

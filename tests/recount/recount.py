@@ -1,0 +1,549 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Computes the figures of a test again from what it has left, by another program written from the documents.
+
+A line a figure: name, as stated, as recounted, difference over tolerance. What each tolerance is: README.md."""
+
+import math
+import sys
+
+import numpy as np
+
+from model import Model, dot, turned
+from results import Results, Unreadable
+
+rounding = 1e-9  # relative: sums of thousands of terms and places told apart by 1e-16 of a specimen, overlaps 1e-4 of it
+
+
+class Recount:
+    """Lines of what was compared, and which keys of the summary were."""
+
+    def __init__(self, results):
+        self.results, self.lines, self.keys = results, [], set()
+        self.summary, self.curve, self.events = results.summary, results.curve, results.events
+
+    def compare(self, name, stated, ours, tolerance):
+        """@param tolerance  absolute"""
+        if stated is None:
+            stated = math.nan
+        both_undefined = math.isnan(stated) and math.isnan(ours)
+        difference = 0.0 if both_undefined or stated == ours else abs(stated - ours)
+        holds = difference <= tolerance
+        self.lines.append((name, stated, ours, difference, tolerance, holds))
+
+    def key(self, name, ours, relative=rounding, floor=0.0):
+        """A figure of summary.json, and the same in Pa where there is one."""
+        at = self.summary
+        for part in name.split("."):
+            if not isinstance(at, dict) or part not in at:
+                return
+            at = at[part]
+        self.keys.add(name)
+        if isinstance(at, (str, bool)) or isinstance(ours, (str, bool)):
+            self.lines.append((name, at, ours, 0.0, 0.0, at == ours))
+            return
+        tolerance = max(relative * abs(ours), floor) if not math.isnan(ours) else 0.0
+        self.compare(name, at, ours, tolerance)
+        in_pascal = name + "_pa"
+        if in_pascal in self.summary:
+            self.keys.add(in_pascal)
+            over = self.results.key("output", "out_of_plane_thickness", 1.0)
+            self.compare(in_pascal, self.summary[in_pascal], ours / over, tolerance / over)
+
+    def rows(self, name, stated, ours, tolerance):
+        """A column: the worst row stands for all."""
+        stated, ours = np.asarray(stated, float), np.asarray(ours, float)
+        tolerance = np.broadcast_to(tolerance, stated.shape)
+        if stated.shape != ours.shape:
+            self.lines.append((name + " (rows)", len(stated), len(ours), 0.0, 0.0, False))
+            return
+        if not len(stated):
+            return
+        difference = np.where(np.isnan(stated) & np.isnan(ours), 0.0, np.abs(stated - ours))
+        excess = np.where(np.isnan(difference), np.inf, difference - tolerance)
+        worst = int(np.argmax(excess))
+        self.lines.append(
+            (f"{name} [{worst} of {len(stated)}]", stated[worst], ours[worst], difference[worst],
+             float(tolerance[worst]), bool(excess[worst] <= 0))
+        )
+
+    def true(self, name, holds):
+        self.lines.append((name, "holds" if holds else "does not hold", "holds", 0.0, 0.0, bool(holds)))
+
+
+def slope(x, y):
+    return np.sum((x - x.mean()) * (y - y.mean())) / np.sum((x - x.mean()) ** 2)
+
+
+def find_peak(strain, stress, share):
+    """Row of the peak and the row at which failure is found, or None (specimens/METHODS.md 5)."""
+    peak, below = None, None
+    for k in range(len(stress)):
+        if stress[k] > (stress[peak] if peak is not None else 0.0):
+            peak, below = k, None
+        elif peak is None or stress[k] >= share * stress[peak]:
+            below = None
+        else:
+            below = k if below is None else below
+            if strain[k] - strain[below] >= 0.1 * strain[peak] and k - below >= 10:
+                return peak, k
+    return peak, None
+
+
+def recount_curve(r):
+    """What follows from curve.csv alone."""
+    c, case = r.curve, r.results.key
+    r.rows("curve: axial_stress", c["axial_stress"], (c["stress_top"] + c["stress_bottom"]) / 2,
+           1e-14 * np.abs(c["axial_stress"]) + 1e-12)
+    closing = (c["kinetic_energy"] - c["kinetic_energy"][0] + c["strain_energy"] + c["dashpot_loss"]
+               + c["friction_loss"] + c["fracture_loss"] - c["platen_work"])
+    size = np.abs(c["kinetic_energy"]) + c["strain_energy"] + c["dashpot_loss"] + np.abs(c["platen_work"])
+    if case("numerics", "contact_law", "rounded") == "rounded":
+        r.rows("curve: energy_error", c["energy_error"], closing, 1e-12 * size + 1e-18)
+    r.key("axial_strain_end", c["axial_strain"][-1])
+    r.key("energy_closing_error", c["energy_error"][-1] / c["platen_work"][-1])
+    r.key("simulated_time", c["time"][-1])
+    r.key("steps", c["step"][-1])
+    r.key("time_step_mean", c["time"][-1] / c["step"][-1])
+    r.key("bonds_broken", c["bonds_broken"][-1])
+    r.key("interfaces_lost", c["interfaces_lost"][-1])
+    if case("output", "curve_rows", 2000) < 2000:
+        return  # peak and windows are those of rows that were not written
+    strain, stress, lateral = c["axial_strain"], c["axial_stress"], c["lateral_strain"]
+    peak, end = find_peak(strain, stress, case("loading", "stop_at_share_of_peak", 0.5))
+    r.key("failed", end is not None)
+    if end is not None:
+        r.key("ended_by", "failure")
+        r.compare("row at which failure is found", len(stress) - 1, end, 0)
+    if peak is None:
+        return
+    suffix = "" if end is not None else "_so_far"
+    r.key("peak_stress" + suffix, stress[peak], 0.0)
+    r.key("peak_strain" + suffix, strain[peak], 0.0)
+    r.key("platen_out_of_balance",
+          np.max(np.abs(c["stress_top"] - c["stress_bottom"])[: peak + 1]) / stress[peak])
+    sense = 1.0 if case("loading", "kind") == "compression" else -1.0
+    rising = np.arange(peak + 1)
+    early = rising[strain[: peak + 1] <= strain[peak] / 20]
+    first = np.argmax(stress[: peak + 1] >= 0.4 * stress[peak])
+    last = np.argmax(stress[: peak + 1] >= 0.6 * stress[peak])
+    for name, ratio, window in (
+        ("initial_tangent_modulus", "initial_poissons_ratio", early),
+        ("tangent_modulus_50", "tangent_50_poissons_ratio", np.arange(first, last + 1)),
+    ):
+        few = len(window) < 3
+        r.key(name, math.nan if few else slope(strain[window], stress[window]))
+        r.key(ratio, math.nan if few else sense * slope(strain[window], lateral[window]))
+    if len(early) >= 3:
+        w = "initial_tangent_window."
+        r.key(w + "rows", len(early))
+        r.key(w + "strain_to", strain[early[-1]])
+        r.key(w + "bonds_broken", c["bonds_broken"][early[-1]] - c["bonds_broken"][early[0]])
+        r.key(w + "points_sliding", c["points_sliding"][early[-1]])
+    if case("loading", "rate_tolerance") is not None and case("loading", "axial_strain_rate") is None:
+        r.key("axial_strain_rate", strain[-1] / c["time"][-1])
+        r.key("viscous_stress_share", abs(stress[0]) / np.max(np.abs(stress)))
+    else:
+        r.rows("curve: axial_strain of the rate", strain, case("loading", "axial_strain_rate") * c["time"],
+               1e-9 * strain + 1e-15)
+        r.key("axial_strain_rate", case("loading", "axial_strain_rate"), 0.0)
+
+
+def recount_packing(r):
+    """packing.* from the circles between their walls (specimens/METHODS.md 1)."""
+    deck = r.results.circles
+    if deck is None or "packing" not in r.summary:
+        return
+    circles = np.concatenate([b.circles for b in deck.bodies])
+    x, y, radius = circles.T
+    box, solid = deck.width * deck.height, np.sum(math.pi * radius**2)
+    r.key("packing.void_ratio", (box - solid) / solid)
+    stiffness = deck.materials[0]["normal_stiffness"]
+    apart = np.hypot(x[:, None] - x, y[:, None] - y)
+    overlap = radius[:, None] + radius - apart
+    i, j = np.nonzero(np.triu(overlap > 0, 1))
+    between = overlap[i, j]
+    walls = [radius - (x - deck.x1), radius - (deck.x2 - x), radius - (y - deck.y1), radius - (deck.y2 - y)]
+    left, right, bottom, top = (np.where(w > 0, w, 0.0) for w in walls)
+    ends = np.concatenate([bottom[bottom > 0], top[top > 0]])
+    r.key("packing.mean_overlap", np.concatenate([between, ends]).mean())
+    r.key("packing.coordination", 2 * len(between) / len(x))
+    touches = np.bincount(np.concatenate([i, j]), minlength=len(x)) + sum(w > 0 for w in (left, right, bottom, top))
+    r.key("packing.floating", int(np.sum(touches == 0)))
+    r.key("packing.coordination_of_carrying", touches.sum() / np.sum(touches > 0))
+    stress_x = stiffness * (left.sum() + right.sum()) / 2 / deck.height
+    stress_y = stiffness * (bottom.sum() + top.sum()) / 2 / deck.width
+    r.key("packing.stress_x", stress_x)
+    r.key("packing.stress_y", stress_y)
+    r.key("packing.anisotropy", abs(stress_x - stress_y) / (stress_x + stress_y), floor=1e-9)
+    force = np.zeros((len(x), 2))
+    n = np.stack([x[j] - x[i], y[j] - y[i]], 1) / apart[i, j][:, None]
+    np.add.at(force, i, -n * between[:, None])
+    np.add.at(force, j, n * between[:, None])
+    force += np.stack([left - right, bottom - top], 1)
+    all_walls = np.concatenate([w[w > 0] for w in (left, right, bottom, top)])
+    mean = np.concatenate([between, all_walls]).mean()
+    # A residue of cancelling forces: places carry rounding of 1e-16 of the box.
+    r.key("packing.unbalanced", np.hypot(*force.T).max() / mean, floor=20 * 1e-16 * deck.height / mean)
+
+
+def recount_specimen(r, model):
+    """Counts, bonds, modulus and stable step of the specimen between its platens. @return its bonds"""
+    s = r.summary
+    r.key("kind", r.results.key("loading", "kind"))
+    r.key("initial_width", model.width)
+    r.key("initial_height", model.height)
+    r.key("particles", model.count)
+    r.key("platen_bottom_id", model.ids[model.bottom])
+    r.key("platen_top_id", model.ids[model.top])
+    if model.polygons:
+        r.key("segments", sum(len(b.corners) for b in model.deck.bodies))
+        if r.results.circles is not None:
+            r.key("seeds", len(r.results.circles.bodies))
+        triangles = all(len(b.corners) == 3 for b in model.deck.bodies)
+        r.key("specimen", r.results.key("mesh", "kind", "delaunay" if triangles else "voronoi"))
+        r.key("bond_thick", model.thick)
+    else:
+        r.key("specimen", "circles")
+    points = model.points(model.centre, np.zeros(len(model.mass)))
+    touching = points.chosen(points.overlap > 0)
+    on_platen = (touching.i >= model.count) | (touching.j >= model.count)
+    bonds = touching.chosen(~on_platen) if model.frictional else touching
+    r.key("bonds_initial", len(bonds.i))
+    if not model.frictional:
+        r.key("contacts_initial", len(touching.i))
+    pairs = {(min(a, b), max(a, b)) for a, b in zip(bonds.i, bonds.j)}
+    r.key("interfaces_initial", len(pairs))
+    tension = model.normal_stiffness(bonds) * bonds.overlap
+    r.key("mean_bond_overlap", bonds.overlap.mean())
+    r.key("mean_back_tension", tension.mean())
+    r.key("mean_back_tension_interface", tension.sum() / len(pairs))
+    if model.frictional or len(model.mass) > 1500:
+        return bonds
+    stiffness, damping = model.matrices(bonds, model.centre)
+    free = np.arange(3 * model.count)
+    solution = np.zeros(3 * len(model.mass))
+    solution[3 * model.top + 1] = -model.sense * model.height  # axial strain 1
+    scale = 1 / np.sqrt(np.maximum(np.diag(stiffness)[free], 1e-300))
+    scaled = scale[:, None] * stiffness[np.ix_(free, free)] * scale
+    load = -scale * (stiffness[free] @ solution)
+    values, vectors = np.linalg.eigh(scaled)
+    regular = values > 1e-11  # floating bodies and mechanisms move without a force
+    solution[free] = scale * (vectors[:, regular] @ ((vectors[:, regular].T @ load) / values[regular]))
+    force = stiffness @ solution
+    stress = (force[3 * model.bottom + 1] - force[3 * model.top + 1]) / 2 / model.width * model.sense
+    strained = -solution[3 * model.top + 1] / model.height * model.sense
+    # The eigenvectors of the softest motions carry the rounding of the stiffest, 1e-16 over the smallest eigenvalue.
+    r.key("youngs_modulus", -stress / strained if stress < 0 else stress / strained, 1e-7)
+    left, right = model.gauge()
+    if left and right and (r.results.circles is None or not model.polygons or r.results.key("mesh", "kind") == "voronoi"):
+        length = model.centre[right, 0].mean() - model.centre[left, 0].mean()
+        growth = solution[3 * np.array(right)].mean() - solution[3 * np.array(left)].mean()
+        r.key("poissons_ratio", model.sense * growth / length, 1e-6)
+    if s.get("numerical_errors") is not None and r.results.key("numerics", "contact_law", "rounded") == "rounded":
+        root = np.concatenate([np.repeat(model.mass[: model.count, None], 2, 1), model.inertia[: model.count, None]], 1)
+        root = 1 / np.sqrt(root.ravel())
+        k = root[:, None] * stiffness[np.ix_(free, free)] * root
+        c = root[:, None] * damping[np.ix_(free, free)] * root
+        step = s["stable_time_step"]
+
+        def stable(dt):
+            try:
+                np.linalg.cholesky(4 * np.eye(len(free)) - 2 * dt * c - dt * dt * k)
+            except np.linalg.LinAlgError:
+                return False
+            return True
+
+        r.true("stable_time_step: stable a millionth below", stable(step * (1 - 1e-6)))
+        r.true("stable_time_step: unstable a millionth above", not stable(step * (1 + 1e-6)))
+        r.keys.add("stable_time_step")
+        if r.results.key("numerics", "time_step") is None:
+            r.key("time_step_over_stable", s["time_step"] / step)
+    return bonds
+
+
+def recount_events(r, model, bonds):
+    """Every row of events.csv against the bonds, the curve, and each other."""
+    e, c = r.events, r.curve
+    count = len(e["time"])
+    r.key("bonds_broken", count)
+    if not count:
+        return
+    r.true("events: in the order of steps", np.all(np.diff(e["step"]) >= 0))
+    r.rows("curve: bonds_broken of events", c["bonds_broken"],
+           np.searchsorted(e["step"], c["step"], side="right"), 0)
+    last = np.asarray(e["last_of_interface"])
+    r.rows("curve: interfaces_lost of events", c["interfaces_lost"],
+           [np.sum(last[: np.searchsorted(e["step"], step, side="right")]) for step in c["step"]], 0)
+    mean_step = c["time"][-1] / c["step"][-1]
+    row = np.clip(np.searchsorted(c["step"], e["step"]), 1, len(c["step"]) - 1)
+    inside = (e["step"] - c["step"][row - 1]) / np.maximum(c["step"][row] - c["step"][row - 1], 1)
+    width = c["axial_strain"][row] - c["axial_strain"][row - 1]
+    guess = c["axial_strain"][row - 1] + inside * width
+    if r.results.key("loading", "axial_strain_rate") is not None:
+        guess = r.results.key("loading", "axial_strain_rate") * e["time"]
+        r.rows("events: axial_strain", e["axial_strain"], guess, 1e-9 * guess + 1e-15)
+    else:
+        r.rows("events: axial_strain", e["axial_strain"], guess, np.abs(width) + 1e-12)
+    r.rows("events: time", e["time"], c["time"][row - 1] + inside * (c["time"][row] - c["time"][row - 1]),
+           2 * mean_step)
+    left = {}
+    stiffness = model.normal_stiffness(bonds)
+    for k in range(len(bonds.i)):
+        pair = frozenset((model.ids[bonds.i[k]], model.ids[bonds.j[k]]))
+        left.setdefault(pair, []).append(stiffness[k] * bonds.overlap[k])
+    strength, ours_last, unknown = [], [], 0
+    for k in range(count):
+        pair = frozenset((int(e["body_i"][k]), int(e["body_j"][k])))
+        own = left.get(pair, [])
+        if not own:
+            unknown += 1
+            strength.append(math.nan)
+            ours_last.append(math.nan)
+            continue
+        nearest = min(range(len(own)), key=lambda m: abs(own[m] - e["strength"][k]))
+        strength.append(own.pop(nearest))
+        ours_last.append(0)
+    # The last of an interface is the last row of its pair, once no bond of the pair is left.
+    final = {frozenset((int(a), int(b))): k for k, (a, b) in enumerate(zip(e["body_i"], e["body_j"]))}
+    for pair, k in final.items():
+        if left.get(pair) == []:
+            ours_last[k] = 1
+    r.compare("events: rows of pairs that have no bond left", unknown, 0, 0)
+    r.rows("events: strength", e["strength"], strength, 1e-9 * np.abs(strength))
+    r.rows("events: last_of_interface", e["last_of_interface"], ours_last, 0)
+    force = np.hypot(e["normal_force"], e["shear_force"])
+    # Normal and shear force are kept in single precision.
+    r.true("events: forces at half the strength or more", np.all(force >= 0.5 * e["strength"] * (1 - 1e-6)))
+    shear = (np.asarray(e["slid"]) == 1) & (np.abs(e["shear_force"]) > np.abs(e["normal_force"]))
+    r.compare("events: rows with another mode", sum((m == "shear") != s for m, s in zip(e["mode"], shear)), 0, 0)
+    r.key("bonds_broken_after_sliding", int(np.sum(e["slid"])))
+    r.key("bonds_broken_in_shear", int(np.sum(shear)))
+    r.key("bonds_broken_in_tension", int(np.sum(~shear)))
+    r.compare("fracture_loss of events", c["fracture_loss"][-1], np.sum(e["energy"]), 1e-12 * np.sum(np.abs(e["energy"])))
+
+
+def match(model, points, frame, first_frame, bonds):
+    """Index into `points` of each contact of a frame, by pair and place; bonds by where they were at the start."""
+    names = frame.contacts
+    i = np.array([model.index[n] for n in names["body_i"]])
+    j = np.array([model.index[n] for n in names["body_j"]])
+    places = contact_places(model, frame)
+    start_places = contact_places(model, first_frame)
+    by_pair, start_by_pair = {}, {}
+    for k, pair in enumerate(zip(points.i, points.j)):
+        by_pair.setdefault(frozenset(pair), []).append(k)
+    for k, pair in enumerate(zip(bonds.i, bonds.j)):
+        start_by_pair.setdefault(frozenset(pair), []).append(k)
+    key_of = {(a, b, c): k for k, (a, b, c) in enumerate(zip(points.i, points.element, points.j))}
+    chosen = np.full(len(i), -1)
+    of_bond = np.full(len(i), -1)
+    taken = set()
+    for k in range(len(i)):
+        pair = frozenset((i[k], j[k]))
+        if names["state"][k] != 4:
+            own = [m for m in start_by_pair.get(pair, []) if m not in taken]
+            if not own:
+                continue
+            m = min(own, key=lambda m: np.sum((bonds.position[m] - start_places[k]) ** 2))
+            taken.add(m)
+            of_bond[k] = m
+            chosen[k] = key_of.get((bonds.i[m], bonds.element[m], bonds.j[m]), -1)
+    used = set(chosen)
+    for k in np.flatnonzero(names["state"] == 4):
+        own = [m for m in by_pair.get(frozenset((i[k], j[k])), []) if points.overlap[m] > 0 and m not in used]
+        if own:
+            chosen[k] = min(own, key=lambda m: np.sum((points.position[m] - places[k]) ** 2))
+            used.add(chosen[k])
+    return chosen, of_bond
+
+
+def contact_places(model, frame):
+    drawn = frame.contacts["points"][:, :2]
+    count = len(frame.contacts["body_i"])
+    if model.polygons:
+        return drawn.reshape(count, 2, 2).mean(axis=1)
+    return drawn[len(drawn) - count :]
+
+
+def recount_frame(r, model, bonds, frame, first, row):
+    """Forces, stresses, energies and fragments of one moment. @param row  the curve's, or None if it was not written"""
+    label = f"frame {frame.row}: "
+    p = frame.particles
+    order = np.array([model.index[n] for n in p["id"]])
+    places, angle = model.centre.copy(), np.zeros(len(model.mass))
+    velocity, spin = np.zeros((len(model.mass), 2)), np.zeros(len(model.mass))
+    places[order] += p["displacement"][:, :2]
+    angle[order], spin[order] = p["angle"], p["rotation_rate"]
+    velocity[order] = p["velocity"][:, :2]
+    points = model.points(places, angle)
+    chosen, of_bond = match(model, points, frame, first, bonds)
+    state = frame.contacts["state"]
+    r.compare(label + "contacts without a partner", int(np.sum((chosen < 0) & ((state < 2) | (state > 2)))), 0, 0)
+    loose = int(np.sum(points.overlap > 0)) - int(np.sum((state == 0) | (state == 1) | (state == 3)))
+    r.compare(label + "contacts without a bond", int(np.sum(state == 4)), loose, 0)
+    acting = (chosen >= 0) & (state != 2)
+    q = points.chosen(chosen[acting])
+    held = of_bond[acting] >= 0
+    rest = np.where(held & (state[acting] < 2), bonds.overlap[of_bond[acting]], 0.0)
+    kn, ks = model.normal_stiffness(q), model.shear_stiffness(q)
+    tension = bonds.overlap.mean() * kn.mean()
+    normal = kn * (q.overlap - rest)
+    r.rows(label + "normal_force", frame.contacts["normal_force"][acting], normal, rounding * tension)
+    shear = np.asarray(frame.contacts["shear_force"])[acting].copy()
+    # The file's shear force acts on its body_i: along the same line on ours, whichever of the two we call i.
+    limit = model.friction(q) * kn * q.overlap
+    r.true(label + "shear within the Coulomb limit", np.all(np.abs(shear) <= limit + rounding * tension))
+    arm_i, arm_j = q.position - places[q.i], q.position - places[q.j]
+    relative = (velocity[q.i] + turned(arm_i) * spin[q.i][:, None]) - (velocity[q.j] + turned(arm_j) * spin[q.j][:, None])
+    cn, cs = model.dashpots(q)
+    tangent = turned(q.normal)
+    normal_all = normal + cn * dot(relative, q.normal)
+    sticks = np.abs(shear) < limit * (1 - 1e-9)
+    shear_all = shear - np.where(sticks, cs * dot(relative, tangent), 0.0)
+    force = -q.normal * normal_all[:, None] + tangent * shear_all[:, None]  # on i
+    total, moment = np.zeros_like(velocity), np.zeros(len(spin))
+    for body, arm, sign in ((q.i, arm_i, 1.0), (q.j, arm_j, -1.0)):
+        np.add.at(total, body, sign * force)
+        np.add.at(moment, body, sign * (arm[:, 0] * force[:, 1] - arm[:, 1] * force[:, 0]))
+    stress_top, stress_bottom = (model.sense * total[model.top, 1] / model.width,
+                                 -model.sense * total[model.bottom, 1] / model.width)
+    fine = rounding * tension * math.sqrt(len(kn)) / model.width
+    r.compare(label + "axial_stress", frame.axial_stress, (stress_top + stress_bottom) / 2, fine)
+    strain = model.sense * -p["displacement"][list(p["id"]).index(model.ids[model.top]), 1] / model.height
+    r.compare(label + "axial_strain", frame.axial_strain, strain, 1e-14)
+    # Particles' mean stress by the springs alone, the back-tension left out.
+    springs = -q.normal * normal[:, None] + tangent * shear[:, None]
+    sums = np.zeros((len(spin), 3))
+    for body, arm, sign in ((q.i, arm_i, 1.0), (q.j, arm_j, -1.0)):
+        f = sign * springs
+        sym = np.stack([arm[:, 0] * f[:, 0], arm[:, 1] * f[:, 1],
+                        (arm[:, 0] * f[:, 1] + arm[:, 1] * f[:, 0]) / 2], 1)
+        np.add.at(sums, body, -sym / model.area[body][:, None])
+    sums[model.count :] = 0.0
+    size = tension / model.reach[: model.count].min()
+    for k, name in enumerate(("stress_xx", "stress_yy", "stress_xy")):
+        r.rows(label + name, p[name], sums[order, k], 10 * rounding * size)
+    # Fragments: joined by intact bonds, numbered by falling area, then by lowest id.
+    root = list(range(model.count))
+
+    def find(a):
+        while root[a] != a:
+            root[a] = root[root[a]]
+            a = root[a]
+        return a
+
+    intact = state < 2
+    for a, b in zip(frame.contacts["body_i"][intact], frame.contacts["body_j"][intact]):
+        a, b = model.index[a], model.index[b]
+        if a < model.count and b < model.count:
+            root[find(a)] = find(b)
+    groups = {}
+    for k in range(model.count):
+        groups.setdefault(find(k), []).append(k)
+    ranked = sorted(groups.values(), key=lambda g: (-round(sum(model.area[k] for k in g), 12), min(model.ids[k] for k in g)))
+    number = np.full(len(spin), -1)
+    for n, group in enumerate(ranked):
+        number[group] = n
+    r.rows(label + "fragment", p["fragment"], number[order], 0)
+    broken = int(np.sum((state == 2) | (state == 3)))
+    by_events = int(np.sum(r.events["time"] <= frame.time * (1 + 1e-12))) if len(r.events["time"]) else 0
+    r.compare(label + "broken bonds of events.csv", broken, by_events, 0)
+    gone = sorted(tuple(sorted(pair)) for pair in zip(frame.contacts["body_i"][(state == 2) | (state == 3)],
+                                                      frame.contacts["body_j"][(state == 2) | (state == 3)]))
+    rows = [(int(a), int(b)) for a, b in zip(r.events["body_i"], r.events["body_j"])][:by_events]
+    r.true(label + "broken pairs are those of events.csv", gone == sorted(tuple(sorted(pair)) for pair in rows))
+    if row is None:
+        return
+    c = r.curve
+    r.compare(label + "curve: axial_stress", c["axial_stress"][row], (stress_top + stress_bottom) / 2, fine)
+    r.compare(label + "curve: stress_top", c["stress_top"][row], stress_top, fine)
+    r.compare(label + "curve: stress_bottom", c["stress_bottom"][row], stress_bottom, fine)
+    spring = np.sum(normal**2 / kn / 2 + np.where(ks > 0, shear**2 / np.where(ks > 0, ks, 1) / 2, 0))
+    r.compare(label + "curve: strain_energy", c["strain_energy"][row], spring, rounding * (spring + tension**2 / kn.mean()))
+    step = c["time"][-1] / c["step"][-1]
+    free = slice(0, model.count)
+    middle = velocity[free] + step / 2 * total[free] / model.mass[free, None]
+    middle_spin = spin[free] + step / 2 * moment[free] / model.inertia[free]
+    kinetic = np.sum(model.mass[free] * dot(middle, middle) + model.inertia[free] * middle_spin**2) / 2
+    kinetic += np.sum(model.mass[model.count :] * dot(velocity[model.count :], velocity[model.count :])) / 2
+    # Which sliding points have a dashpot is not in the files: a point at its limit may have come there in this step.
+    steady = len(set(np.round(np.diff(c["time"]) / np.maximum(np.diff(c["step"]), 1), 14))) <= 2
+    r.compare(label + "curve: kinetic_energy", c["kinetic_energy"][row], kinetic, (1e-6 if steady else 0.05) * kinetic)
+    sliding = int(np.sum(np.abs(shear) >= limit * (1 - 1e-9)))
+    r.compare(label + "curve: points_sliding", c["points_sliding"][row], sliding, 0)
+    left, right = model.gauge()
+    by_seeds = model.polygons and r.results.key("mesh", "kind") == "delaunay" and r.results.key("mesh", "boundary") == "seeds"
+    if left and right and not by_seeds:
+        length = model.centre[right, 0].mean() - model.centre[left, 0].mean()
+        now = places[right, 0].mean() - places[left, 0].mean()
+        r.compare(label + "curve: lateral_strain", c["lateral_strain"][row], now / length - 1, 1e-13)
+
+
+def recount_errors(r):
+    """Stated errors from the companions' own results (specimens/METHODS.md 7)."""
+    errors = r.summary.get("numerical_errors") or {}
+    if "companions" not in errors or not r.summary.get("failed"):
+        return
+    peak = {"peak_stress": r.summary["peak_stress"], "peak_strain": r.summary["peak_strain"]}
+    runs = errors["companions"]
+    rows = np.diff(r.curve["axial_strain"]).max()
+    for name, value in peak.items():
+        half_step, half_rate = runs["half_time_step"][name], runs["half_rate"][name]
+        spread = np.std([value, half_step, half_rate], ddof=1)
+        step, rate = abs(half_step - value) / value, abs(half_rate - value) / value
+        r.key(f"numerical_errors.{name}.time_step", step)
+        r.key(f"numerical_errors.{name}.rate", rate)
+        r.key(f"numerical_errors.{name}.damping",
+              max(abs(runs[k][name] - value) / value for k in ("half_damping", "double_damping")))
+        resolution = errors[name]["resolution"]
+        stated = math.hypot(resolution, max(3 * rate, 2.92 * math.sqrt(2) * spread / value))
+        r.key(f"numerical_errors.{name}.stated", stated, 1e-3)  # 2.92 stands for 2.91999
+    r.true("numerical_errors.peak_strain.resolution of the rows' spacing",
+           errors["peak_strain"]["resolution"] <= 2 * rows / peak["peak_strain"])
+    closing = abs(r.summary["energy_closing_error"])
+    r.key("numerical_errors.peak_stress.energy_closing", closing)
+
+
+def recount(folder):
+    r = Recount(Results(folder))
+    recount_curve(r)
+    recount_packing(r)
+    if r.results.key("numerics", "contact_law", "rounded") == "rounded" or r.results.polygons is None:
+        model = Model(r.results)
+        bonds = recount_specimen(r, model)
+        recount_events(r, model, bonds)
+        rows = r.results.frame_rows()
+        first = r.results.frame(rows[0])
+        picked = sorted({rows[round(k * (len(rows) - 1) / 6)] for k in range(7)})
+        for row in picked:
+            frame = r.results.frame(row)
+            at = np.flatnonzero(np.abs(r.curve["time"] - frame.time) <= 1e-12 * max(frame.time, 1e-300))
+            recount_frame(r, model, bonds, frame, first, int(at[0]) if len(at) else None)
+    recount_errors(r)
+    return r
+
+
+def shown(value):
+    return f"{value:.9g}" if isinstance(value, (int, float, np.floating, np.integer)) and not isinstance(value, bool) else str(value)
+
+
+def main(arguments):
+    if len(arguments) != 1 or arguments[0] in ("-h", "--help"):
+        print("Usage: tools/recount OUT\n\nComputes the figures of the test in OUT again from its files; exits 1 if one differs.")
+        return 0 if arguments and arguments[0] in ("-h", "--help") else 2
+    try:
+        r = recount(arguments[0])
+    except Unreadable as error:
+        print(f"recount: {error}", file=sys.stderr)
+        return 2
+    wide = max(len(line[0]) for line in r.lines)
+    for name, stated, ours, difference, tolerance, holds in r.lines:
+        print(f"{'ok    ' if holds else 'DIFFERS'} {name:{wide}}  {shown(stated):>17}  {shown(ours):>17}  "
+              f"{difference:.1e} of {tolerance:.1e}")
+    bad = sum(not line[5] for line in r.lines)
+    print(f"recount: {len(r.lines)} figures, {bad} differ")
+    return 1 if bad else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

@@ -1,0 +1,200 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The files of a test as a user has them (specimens/results/FILES.md): case, specimen, curve, events, frames, summary.
+
+Reads with numpy and the standard library alone, and nothing of the program."""
+
+import base64
+import csv
+import json
+import math
+import re
+import tomllib
+import zlib
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+
+class Unreadable(Exception):
+    """A file that is missing or not as FILES.md describes it; the text names it and what to do."""
+
+
+@dataclass
+class Body:
+    """One rigid body: a circle, a clump of circles, or a polygon (corners counter-clockwise)."""
+
+    id: int
+    material: int
+    circles: np.ndarray | None = None  # rows x, y, radius [m]
+    corners: np.ndarray | None = None  # rows x, y [m]
+
+
+@dataclass
+class Deck:
+    """A specimen in the layout of in_gm.dat (solver/demseg/FORMATS.md)."""
+
+    materials: list[dict]
+    x1: float
+    x2: float
+    y1: float
+    y2: float
+    thick: float
+    bodies: list[Body] = field(default_factory=list)
+
+    @property
+    def width(self):
+        return self.x2 - self.x1
+
+    @property
+    def height(self):
+        return self.y2 - self.y1
+
+
+def read_deck(path):
+    if not path.is_file():
+        return None
+    words = iter(path.read_text().split())
+
+    def real():
+        return float(next(words))
+
+    def whole():
+        return int(next(words))
+
+    for _ in range(3):
+        whole()
+    for _ in range(3):
+        real()
+    names = ("density", "normal_stiffness", "shear_stiffness", "normal_damping", "shear_damping", "friction_angle")
+    materials = [{name: real() for name in names} for _ in range(whole())]
+    deck = Deck(materials, real(), real(), real(), real(), real())
+    circles, small, large = whole(), whole(), whole()
+    for number in range(circles + small + large):
+        body = Body(whole(), whole() - 1)
+        elements = whole()
+        for _ in range(3):
+            real()
+        if number < circles:
+            rows = []
+            for _ in range(elements):
+                whole()
+                radius = real()
+                rows.append((real(), real(), radius))
+                real()
+            body.circles = np.array(rows)
+        else:
+            rows = []
+            for _ in range(elements):
+                whole()
+                rows.append((real(), real()))
+                real(), real()
+            corners = np.array(rows)
+            x, y = corners.T
+            if np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y) < 0:
+                corners = corners[::-1]
+            body.corners = corners
+        deck.bodies.append(body)
+    return deck
+
+
+def read_table(path):
+    """Columns of a CSV by name: numbers as arrays, words as lists."""
+    with path.open(newline="") as lines:
+        rows = list(csv.reader(lines))
+    head, rows = rows[0], rows[1:]
+    table = {}
+    for k, name in enumerate(head):
+        column = [row[k] for row in rows]
+        try:
+            table[name] = np.array([float(word) for word in column])
+        except ValueError:
+            table[name] = column
+    return table
+
+
+_types = {"Float64": "<f8", "Float32": "<f4", "Int32": "<i4", "Int64": "<i8", "UInt8": "u1"}
+_array = re.compile(r"<DataArray ([^>]*)>([^<]*)</DataArray>")
+_attribute = re.compile(r'(\w+)="([^"]*)"')
+
+
+def _unpack(text, kind):
+    """One array in VTK's inline form: a packed header of block sizes, then the zlib blocks."""
+    text = text.strip()
+    count = int.from_bytes(base64.b64decode(text[:12])[:8], "little")
+    header_letters = 4 * math.ceil(8 * (3 + count) / 3)
+    header = np.frombuffer(base64.b64decode(text[:header_letters])[: 8 * (3 + count)], "<u8")
+    data = base64.b64decode(text[header_letters:])
+    blocks, at = [], 0
+    for size in header[3:]:
+        blocks.append(zlib.decompress(data[at : at + int(size)]))
+        at += int(size)
+    return np.frombuffer(b"".join(blocks), _types[kind])
+
+
+def read_vtp(path):
+    """Arrays of a .vtp by name; field data as numbers; those of three components as rows."""
+    arrays = {}
+    text = path.read_text()
+    for attributes, values in _array.findall(text):
+        a = dict(_attribute.findall(attributes))
+        if a.get("format") == "binary":
+            array = _unpack(values, a["type"])
+        else:
+            array = np.array([float(word) for word in values.split()])
+        if int(a.get("NumberOfComponents", 1)) == 3:
+            array = array.reshape(-1, 3)
+        name = a["Name"]
+        arrays[name if name not in arrays else "polygon " + name] = array
+    return arrays
+
+
+@dataclass
+class Frame:
+    """One moment: particles, contacts and cracks, each by the names of FILES.md."""
+
+    row: int
+    particles: dict
+    contacts: dict
+    cracks: dict
+
+    def __getattr__(self, name):
+        if name in ("axial_strain", "axial_stress", "time"):
+            return float(self.particles[name][0])
+        raise AttributeError(name)
+
+
+class Results:
+    """All that a folder OUT holds."""
+
+    def __init__(self, folder):
+        self.folder = Path(folder)
+        for name in ("case.toml", "curve.csv", "events.csv", "summary.json"):
+            if not (self.folder / name).is_file():
+                raise Unreadable(f"{self.folder}: found no {name}, expected the results of crackle test; check the path")
+        self.case = tomllib.loads((self.folder / "case.toml").read_text())
+        self.summary = json.loads((self.folder / "summary.json").read_text())
+        self.curve = read_table(self.folder / "curve.csv")
+        self.events = read_table(self.folder / "events.csv")
+        self.circles = read_deck(self.folder / "specimen_circles.dat")
+        self.polygons = read_deck(self.folder / "specimen_polygons.dat")
+        if self.circles is None and self.polygons is None:
+            raise Unreadable(
+                f"{self.folder}: found neither specimen_circles.dat nor specimen_polygons.dat, expected one; "
+                "these are results of an older version: run the test again"
+            )
+
+    @property
+    def specimen(self):
+        return self.polygons or self.circles
+
+    def key(self, table, name, otherwise=None):
+        return self.case.get(table, {}).get(name, otherwise)
+
+    def frame_rows(self):
+        files = sorted((self.folder / "frames").glob("particles_*.vtp"), key=lambda f: int(f.stem.split("_")[1]))
+        return [int(f.stem.split("_")[1]) for f in files]
+
+    def frame(self, row):
+        read = [read_vtp(self.folder / f"frames/{kind}_{row:05d}.vtp") for kind in ("particles", "contacts", "cracks")]
+        return Frame(row, *read)
