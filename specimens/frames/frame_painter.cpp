@@ -40,7 +40,7 @@ constexpr Quantity arrays_of_particles[]{
      "falling, equal ones by their lowest id; platens are -1 and join nothing"},
 };
 constexpr Quantity arrays_of_contacts[]{
-    {"body_i", "", "id of one body"},
+    {"body_i", "", "id of one body; of polygons that whose corner touches the other's outline"},
     {"body_j", "", "id of the other"},
     {"normal_force", "N", "elastic, positive pushes apart"},
     {"shear_force", "N", "elastic, on body_i along the normal from i to j turned by +90°"},

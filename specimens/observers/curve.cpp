@@ -81,7 +81,7 @@ const std::vector<CurveColumn>& curve_columns() {
         {{"friction_loss", "J", "so far"}, [](Row r) { return r.friction_loss; }, false},
         {{"fracture_loss", "J", "so far", "taken by broken bonds"}, [](Row r) { return r.fracture_loss; }, false},
         {{"platen_work", "J", "done on the specimen so far"}, [](Row r) { return r.platen_work; }, false},
-        {{"energy_error", "J", "kinetic - initial kinetic + strain + losses - work",
+        {{"energy_error", "J", "kinetic + strain - both at the start of loading + losses - work",
           "what the account of energy leaves open; under the guide's law what the law itself takes or makes, "
           "energy_lost_to_contact_law of summary.json, counts among the losses"},
          [](Row r) { return r.energy_error; },

@@ -255,27 +255,26 @@ class Model:
 
     # small strain, solver/MODEL.md 7 and 10
 
-    def rows_of(self, p, centre):
-        """How the overlap of each point grows (normal) and how i slides along j (shear), over all 3 N displacements."""
-        n, t = p.normal, turned(p.normal)
-        growth, slip = np.zeros((len(p.i), 3 * len(self.mass))), np.zeros((len(p.i), 3 * len(self.mass)))
-        rows = np.arange(len(p.i))
-        for body, sign in ((p.i, 1.0), (p.j, -1.0)):
-            arm = turned(p.position - centre[body])  # displacement of the point by a turn of 1
-            for matrix, direction in ((growth, n), (slip, t)):
-                matrix[rows, 3 * body] += sign * direction[:, 0]
-                matrix[rows, 3 * body + 1] += sign * direction[:, 1]
-                matrix[rows, 3 * body + 2] += sign * dot(arm, direction)
-        return growth, slip
-
     def matrices(self, p, centre):
-        """Stiffness and damping over all displacements."""
-        growth, slip = self.rows_of(p, centre)
-        kn, ks = self.normal_stiffness(p), self.shear_stiffness(p)
-        cn, cs = self.dashpots(p)
-        stiffness = growth.T @ (kn[:, None] * growth) + slip.T @ (ks[:, None] * slip)
-        damping = growth.T @ (cn[:, None] * growth) + slip.T @ (cs[:, None] * slip)
-        return stiffness, damping
+        """Stiffness and damping over all 3 N displacements (x, y, turn of each body): sums of g gᵀ over the points.
+
+        g: growth of the overlap along the normal, slip of i along j across it, by the displacements of both bodies."""
+        size = 3 * len(self.mass)
+        places = np.concatenate([3 * p.i[:, None] + np.arange(3), 3 * p.j[:, None] + np.arange(3)], axis=1)
+        stiffness, damping = np.zeros(size * size), np.zeros(size * size)
+        flat = (places[:, :, None] * size + places[:, None, :]).ravel()
+        along = [p.normal, turned(p.normal)]
+        springs, dashpots = (self.normal_stiffness(p), self.shear_stiffness(p)), self.dashpots(p)
+        for direction, k, c in zip(along, springs, dashpots):
+            g = [
+                sign * np.stack([*direction.T, dot(turned(p.position - centre[body]), direction)], axis=1)
+                for body, sign in ((p.i, 1.0), (p.j, -1.0))
+            ]
+            g = np.concatenate(g, axis=1)
+            outer = g[:, :, None] * g[:, None, :]
+            stiffness += np.bincount(flat, (k[:, None, None] * outer).ravel(), size * size)
+            damping += np.bincount(flat, (c[:, None, None] * outer).ravel(), size * size)
+        return stiffness.reshape(size, size), damping.reshape(size, size)
 
     def gauge(self):
         """Indices of the left and right side particles with centres in the middle half of the height."""

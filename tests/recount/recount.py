@@ -94,8 +94,8 @@ def recount_curve(r):
     c, case = r.curve, r.results.key
     r.rows("curve: axial_stress", c["axial_stress"], (c["stress_top"] + c["stress_bottom"]) / 2,
            1e-14 * np.abs(c["axial_stress"]) + 1e-12)
-    closing = (c["kinetic_energy"] - c["kinetic_energy"][0] + c["strain_energy"] + c["dashpot_loss"]
-               + c["friction_loss"] + c["fracture_loss"] - c["platen_work"])
+    closing = (c["kinetic_energy"] - c["kinetic_energy"][0] + c["strain_energy"] - c["strain_energy"][0]
+               + c["dashpot_loss"] + c["friction_loss"] + c["fracture_loss"] - c["platen_work"])
     size = np.abs(c["kinetic_energy"]) + c["strain_energy"] + c["dashpot_loss"] + np.abs(c["platen_work"])
     if case("numerics", "contact_law", "rounded") == "rounded":
         r.rows("curve: energy_error", c["energy_error"], closing, 1e-12 * size + 1e-18)
@@ -253,8 +253,8 @@ def recount_specimen(r, model):
                 return False
             return True
 
-        r.true("stable_time_step: stable a millionth below", stable(step * (1 - 1e-6)))
-        r.true("stable_time_step: unstable a millionth above", not stable(step * (1 + 1e-6)))
+        r.true("stable_time_step: stable", stable(step))
+        r.true("stable_time_step: unstable two millionths above", not stable(step * (1 + 2e-6)))
         r.keys.add("stable_time_step")
         if r.results.key("numerics", "time_step") is None:
             r.key("time_step_over_stable", s["time_step"] / step)
@@ -344,7 +344,8 @@ def match(model, points, frame, first_frame, bonds):
             own = [m for m in start_by_pair.get(pair, []) if m not in taken]
             if not own:
                 continue
-            m = min(own, key=lambda m: np.sum((bonds.position[m] - start_places[k]) ** 2))
+            # Corner against corner makes two points at one place: the file names the corner's body first.
+            m = min(own, key=lambda m: (bonds.i[m] != i[k], math.dist(bonds.position[m], start_places[k])))
             taken.add(m)
             of_bond[k] = m
             chosen[k] = key_of.get((bonds.i[m], bonds.element[m], bonds.j[m]), -1)
@@ -352,7 +353,7 @@ def match(model, points, frame, first_frame, bonds):
     for k in np.flatnonzero(names["state"] == 4):
         own = [m for m in by_pair.get(frozenset((i[k], j[k])), []) if points.overlap[m] > 0 and m not in used]
         if own:
-            chosen[k] = min(own, key=lambda m: np.sum((points.position[m] - places[k]) ** 2))
+            chosen[k] = min(own, key=lambda m: (points.i[m] != i[k], math.dist(points.position[m], places[k])))
             used.add(chosen[k])
     return chosen, of_bond
 
@@ -398,7 +399,10 @@ def recount_frame(r, model, bonds, frame, first, row):
     cn, cs = model.dashpots(q)
     tangent = turned(q.normal)
     normal_all = normal + cn * dot(relative, q.normal)
-    sticks = np.abs(shear) < limit * (1 - 1e-9)
+    # A limit is known to the rounding of places only: whether a point that hardly touches slides is open.
+    open_question = limit <= 2e-15 * model.height * kn
+    slides = np.abs(shear) >= limit * (1 - rounding) - 1e-15 * model.height * kn
+    sticks = ~slides
     shear_all = shear - np.where(sticks, cs * dot(relative, tangent), 0.0)
     force = -q.normal * normal_all[:, None] + tangent * shear_all[:, None]  # on i
     total, moment = np.zeros_like(velocity), np.zeros(len(spin))
@@ -459,18 +463,29 @@ def recount_frame(r, model, bonds, frame, first, row):
     r.compare(label + "curve: stress_top", c["stress_top"][row], stress_top, fine)
     r.compare(label + "curve: stress_bottom", c["stress_bottom"][row], stress_bottom, fine)
     spring = np.sum(normal**2 / kn / 2 + np.where(ks > 0, shear**2 / np.where(ks > 0, ks, 1) / 2, 0))
-    r.compare(label + "curve: strain_energy", c["strain_energy"][row], spring, rounding * (spring + tension**2 / kn.mean()))
-    step = c["time"][-1] / c["step"][-1]
+    # The consistent integrator's forces and energies hold defects of points, which are in no file.
+    leapfrog = r.results.key("numerics", "integrator", "leapfrog") == "leapfrog"
+    if leapfrog:
+        r.compare(label + "curve: strain_energy", c["strain_energy"][row], spring,
+                  rounding * (spring + tension**2 / kn.mean()))
     free = slice(0, model.count)
-    middle = velocity[free] + step / 2 * total[free] / model.mass[free, None]
-    middle_spin = spin[free] + step / 2 * moment[free] / model.inertia[free]
-    kinetic = np.sum(model.mass[free] * dot(middle, middle) + model.inertia[free] * middle_spin**2) / 2
-    kinetic += np.sum(model.mass[model.count :] * dot(velocity[model.count :], velocity[model.count :])) / 2
-    # Which sliding points have a dashpot is not in the files: a point at its limit may have come there in this step.
-    steady = len(set(np.round(np.diff(c["time"]) / np.maximum(np.diff(c["step"]), 1), 14))) <= 2
-    r.compare(label + "curve: kinetic_energy", c["kinetic_energy"][row], kinetic, (1e-6 if steady else 0.05) * kinetic)
-    sliding = int(np.sum(np.abs(shear) >= limit * (1 - 1e-9)))
-    r.compare(label + "curve: points_sliding", c["points_sliding"][row], sliding, 0)
+
+    def kinetic_after(kick):
+        middle = velocity[free] + kick / 2 * total[free] / model.mass[free, None]
+        middle_spin = spin[free] + kick / 2 * moment[free] / model.inertia[free]
+        own = model.mass[free] * dot(middle, middle) + model.inertia[free] * middle_spin**2
+        return (own.sum() + np.sum(model.mass[model.count :] * dot(velocity, velocity)[model.count :])) / 2
+
+    # A step that changes is known as its mean between two rows; at the start there has been no kick.
+    steps = np.diff(c["time"]) / np.diff(c["step"])
+    before, after = steps[max(row - 1, 0)], steps[min(row, len(steps) - 1)]
+    kinetic = kinetic_after((before + after) / 2 if row > 0 else 0.0)
+    either = abs(kinetic_after(before) - kinetic_after(after)) if row > 0 else 0.0
+    if leapfrog:
+        r.compare(label + "curve: kinetic_energy", c["kinetic_energy"][row], kinetic, 1e-6 * kinetic + either)
+    if leapfrog:
+        r.compare(label + "curve: points_sliding", c["points_sliding"][row], int(np.sum(slides)),
+                  int(np.sum(open_question)))
     left, right = model.gauge()
     by_seeds = model.polygons and r.results.key("mesh", "kind") == "delaunay" and r.results.key("mesh", "boundary") == "seeds"
     if left and right and not by_seeds:

@@ -1,0 +1,223 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Small tests of each kind, recounted; and files made wrong on purpose, each of which the recount must find."""
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parent))
+sys.dont_write_bytecode = True
+from recount import recount  # noqa: E402
+
+program = os.environ["CRACKLE_PROGRAM"]
+scratch = Path(tempfile.mkdtemp(prefix="recount"))
+
+rock = """
+[packing]
+count = 80
+height_to_width = 2.0
+radius_min = 1.333e-2
+radius_max = 2.667e-2
+mean_overlap = 7.74e-5
+seed = 3
+[material]
+density = 2500.0
+normal_stiffness = 1.0e7
+shear_stiffness = 2.5e6
+friction_angle = 27.0
+damping_ratio = 0.2
+"""
+output = '[output]\nframe_precision = "double"\nframes = 12\n'
+voronoi = '[mesh]\nkind = "voronoi"\nthick = 1e-3\n[bond]\nthick = 1.08e-3\n'
+triangles = '[mesh]\nkind = "delaunay"\nboundary = "domain"\nthick = 1e-3\n[bond]\nthick = 1.08e-3\n'
+between_seeds = triangles.replace('boundary = "domain"\n', "")
+squeezed = '[loading]\nkind = "compression"\nmax_axial_strain = 0.02\n'
+pulled = '[loading]\nkind = "tension"\nmax_axial_strain = 0.005\n'
+rate = "axial_strain_rate = 0.02\n"
+friction = 'platens = "frictional"\nplaten_friction_angle = 15.0\n'
+
+
+def run(name, case, *options):
+    """Runs a case once. @return its folder"""
+    folder = scratch / name
+    if not folder.exists():
+        file = scratch / f"{name}.toml"
+        file.write_text(case)
+        subprocess.run([program, "test", "-q", str(file), "-o", str(folder), *options], check=True)
+    return folder
+
+
+def circles():
+    return run("circles", rock + squeezed + rate + output + "out_of_plane_thickness = 0.05\n", "--verify")
+
+
+def differing(folder):
+    return [line[0] for line in recount(folder).lines if not line[5]]
+
+
+class Recount(unittest.TestCase):
+    def agrees(self, folder, fewest):
+        r = recount(folder)
+        for name, stated, ours, difference, tolerance, holds in r.lines:
+            with self.subTest(folder=folder.name, figure=name):
+                self.assertTrue(holds, f"expected {ours} within {tolerance:.1e}, got {stated}, error {difference:.1e}")
+        self.assertGreaterEqual(len(r.lines), fewest, "figures recounted")
+        print(f"{folder.name}: {len(r.lines)} figures")
+
+    def test_circles_squeezed_at_a_rate_with_a_thickness_and_companions(self):
+        self.agrees(circles(), 200)
+
+    def test_circles_pulled_by_tolerance(self):
+        self.agrees(run("pulled", rock + pulled + output), 150)
+
+    def test_voronoi_polygons_squeezed_by_tolerance(self):
+        self.agrees(run("voronoi", rock + voronoi + squeezed + output), 150)
+
+    def test_voronoi_polygons_pulled_at_a_rate(self):
+        self.agrees(run("voronoi_pulled", rock + voronoi + pulled + rate + output), 150)
+
+    def test_triangles_between_frictional_platens(self):
+        self.agrees(run("triangles", rock + triangles + squeezed + friction + output), 100)
+
+    def test_triangles_between_seeds(self):
+        self.agrees(run("seeds", rock + between_seeds + pulled + output), 150)
+
+    def test_guides_law(self):
+        self.agrees(run("demseg", rock + voronoi + pulled + '[numerics]\ncontact_law = "demseg"\n' + output), 20)
+
+    def test_consistent_integrator(self):
+        self.agrees(run("consistent", rock + squeezed + '[numerics]\nintegrator = "consistent"\n' + output), 100)
+
+    def test_restarted(self):
+        folder, case = scratch / "restarted", scratch / "restarted.toml"
+        case.write_text(rock.replace("count = 80", "count = 300") + squeezed + output)
+        process = subprocess.Popen([program, "test", "-q", str(case), "-o", str(folder)], stderr=subprocess.DEVNULL)
+        while process.poll() is None:
+            if len(list(folder.glob("frames/particles_*.vtp"))) > 2:
+                process.send_signal(signal.SIGINT)
+                break
+            time.sleep(0.002)
+        process.wait()
+        self.assertTrue(json.loads((folder / "summary.json").read_text())["interrupted"], "stopped in between")
+        subprocess.run([program, "test", "-q", "--resume", str(folder)], check=True)
+        self.agrees(folder, 150)
+
+
+class FaultsAreFound(unittest.TestCase):
+    """Each a fault as a program might have it, put into the files of a test that agrees."""
+
+    def spoilt(self, what):
+        folder = scratch / "spoilt"
+        shutil.rmtree(folder, ignore_errors=True)
+        shutil.copytree(circles(), folder)
+        what(folder)
+        return differing(folder)
+
+    def spoil_summary(self, change):
+        def what(folder):
+            summary = json.loads((folder / "summary.json").read_text())
+            change(summary)
+            (folder / "summary.json").write_text(json.dumps(summary))
+
+        return self.spoilt(what)
+
+    def spoil_column(self, file, column, change):
+        def what(folder):
+            lines = [line.split(",") for line in (folder / file).read_text().splitlines()]
+            k = lines[0].index(column)
+            values = change([line[k] for line in lines[1:]])
+            for line, value in zip(lines[1:], values):
+                line[k] = value
+            (folder / file).write_text("".join(",".join(line) + "\n" for line in lines))
+
+        return self.spoilt(what)
+
+    def found(self, differing_figures, word):
+        self.assertTrue(any(word in figure for figure in differing_figures), f"expected {word}, got {differing_figures}")
+
+    def test_second_body_of_an_event(self):
+        found = self.spoil_column("events.csv", "body_j", lambda column: [column[-1]] + column[1:])
+        self.found(found, "events")
+
+    def test_strain_of_row_0_in_every_event(self):
+        self.found(self.spoil_column("events.csv", "axial_strain", lambda column: ["0"] * len(column)), "axial_strain")
+
+    def test_strength_and_energy_of_events(self):
+        halved = lambda column: [str(float(value) / 2) for value in column]  # noqa: E731
+        self.found(self.spoil_column("events.csv", "strength", halved), "strength")
+        self.found(self.spoil_column("events.csv", "energy", halved), "fracture_loss")
+
+    def test_one_break_after_sliding_too_many(self):
+        def change(summary):
+            summary["bonds_broken_after_sliding"] += 1
+
+        self.found(self.spoil_summary(change), "bonds_broken_after_sliding")
+
+    def test_stress_in_pascal_times_the_thickness(self):
+        def change(summary):
+            summary["peak_stress_pa"] = summary["peak_stress"] * 0.05
+
+        self.found(self.spoil_summary(change), "peak_stress_pa")
+
+    def test_shares_and_stated_errors_divided_by_ten(self):
+        for path in (
+            ("energy_closing_error",),
+            ("platen_out_of_balance",),
+            ("packing", "coordination"),
+            ("packing", "anisotropy"),
+            ("numerical_errors", "peak_stress", "stated"),
+            ("numerical_errors", "peak_strain", "damping"),
+        ):
+
+            def change(summary, path=path):
+                for part in path[:-1]:
+                    summary = summary[part]
+                summary[path[-1]] /= 10
+
+            with self.subTest(figure=".".join(path)):
+                self.found(self.spoil_summary(change), ".".join(path))
+
+    def test_peak_one_row_late(self):
+        curve = (circles() / "curve.csv").read_text().splitlines()
+        head = curve[0].split(",")
+        stress = [float(line.split(",")[head.index("axial_stress")]) for line in curve[1:]]
+        late = curve[1 + stress.index(max(stress)) + 1].split(",")
+
+        def change(summary):
+            summary["peak_stress"] = float(late[head.index("axial_stress")])
+            summary["peak_strain"] = float(late[head.index("axial_strain")])
+
+        found = self.spoil_summary(change)
+        self.found(found, "peak_stress")
+        self.found(found, "peak_strain")
+
+    def test_companion_of_another_peak(self):
+        def change(summary):
+            summary["numerical_errors"]["companions"]["half_rate"]["peak_stress"] *= 1.01
+
+        self.found(self.spoil_summary(change), "numerical_errors.peak_stress")
+
+    def test_gauge_of_all_side_particles(self):
+        widened = lambda column: [str(1.01 * float(value)) for value in column]  # noqa: E731
+        self.found(self.spoil_column("curve.csv", "lateral_strain", widened), "lateral_strain")
+
+    def test_energies_and_sliding_points_of_the_curve(self):
+        for column in ("strain_energy", "kinetic_energy", "points_sliding", "stress_top"):
+            with self.subTest(column=column):
+                more = lambda values: [str(float(value) * 1.001 + 1) for value in values]  # noqa: E731
+                self.found(self.spoil_column("curve.csv", column, more), column)
+
+
+if __name__ == "__main__":
+    try:
+        unittest.main()
+    finally:
+        shutil.rmtree(scratch, ignore_errors=True)
