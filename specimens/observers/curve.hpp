@@ -5,6 +5,7 @@
 // the upper platen over the initial height; both positive in the sense of the test (compression in compression, tension
 // in tension). Lateral strain = change of the distance between the mean x of the right and of the left side particles
 // over its initial value, positive when the specimen widens. Strictly 2D: stress in N/m.
+// Tested by tests/recount/recount_test.py.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Moduli and ratios read off a stress-strain curve, by least squares over windows that are defined by the curve's peak.
-// Tested by tests/specimens/observers/curve_test.cpp.
 #pragma once
 
 #include <cstdint>

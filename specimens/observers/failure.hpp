@@ -2,7 +2,6 @@
 // When a test has failed: the stress stays below a share of its peak (half, settable) for a tenth of the strain at
 // peak, and for ten rows (of at least 2000 over the largest strain): where loading has hardly begun a tenth of the
 // strain is nothing, and the first rows of a specimen that its platens only just touch go up and down.
-// Tested by tests/specimens/observers/curve_test.cpp.
 #pragma once
 
 #include <cstdint>

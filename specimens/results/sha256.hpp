@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // SHA-256 (FIPS 180-4): names the inputs of a test so that `sha256sum` can check them, and guards checkpoints.
-// Tested by tests/specimens/observers/curve_test.cpp.
 #pragma once
 
 #include <memory>

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Windows, moduli and ratios of curves written by hand and of curves whose moduli are known.
+
+#include "specimens/observers/curve_analysis.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "tests/specimens/observers/straight_curve.hpp"
+#include "tests/support/claim.hpp"
+
+namespace crackle {
+namespace {
+
+using testing::agrees;
+using testing::straight_curve;
+
+TEST(Moduli, OfAStraightCurveAreItsSlope) {
+    for (const bool compression : {true, false}) {
+        const auto curve = straight_curve(5e6, 1e-3, 0.2, compression ? 0.3 : -0.3, 200);
+        constexpr std::int64_t peak = 200;
+        const Tangent initial = initial_tangent(curve, peak, compression);
+        const Tangent half = tangent_at_half_peak(curve, peak, compression);
+        EXPECT_TRUE(agrees("initial tangent modulus", initial.modulus, 5e6, 1e-9));
+        EXPECT_TRUE(agrees("its Poisson's ratio", initial.poissons_ratio, 0.3, 1e-9));
+        EXPECT_EQ(initial.rows, 11) << "the first twentieth";
+        EXPECT_EQ(initial.bonds_broken, 1);
+        EXPECT_TRUE(agrees("modulus at half the peak", half.modulus, 5e6, 1e-9));
+        EXPECT_TRUE(agrees("platens out of balance", platen_out_of_balance(curve, peak), 4.0 / 5e3, 1e-9));
+    }
+}
+
+TEST(Moduli, OfACurvedCurveDiffer) {
+    std::vector<CurveRow> curve;  // σ = E ε (1 - ε/(2ε_p)): slope E at the start, 0.707 E at half the peak
+    for (int k = 0; k <= 1000; ++k) {
+        CurveRow row;
+        row.axial_strain = 1e-6 * k;
+        row.axial_stress = 5e6 * row.axial_strain * (1.0 - row.axial_strain / 2e-3);
+        curve.push_back(row);
+    }
+    EXPECT_TRUE(
+        agrees("initial tangent modulus", initial_tangent(curve, 1000, true).modulus, 5e6 * (1.0 - 0.025), 1e-3));
+    EXPECT_TRUE(agrees("modulus at half the peak", tangent_at_half_peak(curve, 1000, true).modulus,
+                       5e6 * std::sqrt(0.5), 1e-2));
+}
+
+TEST(Moduli, OfTooFewRowsAreNotNumbers) {
+    const std::vector<CurveRow> two(2);
+    EXPECT_TRUE(std::isnan(initial_tangent(two, 1, true).modulus));
+    EXPECT_TRUE(std::isnan(initial_tangent({}, -1, true).modulus));
+    EXPECT_TRUE(std::isnan(platen_out_of_balance({}, -1)));
+}
+
+/// Rows 1/1024 of strain apart. Besides: lateral strain a quarter of the axial, counts that differ in every row.
+std::vector<CurveRow> by_hand(const std::vector<double>& stress) {
+    std::vector<CurveRow> rows;
+    for (const double value : stress) {
+        const auto k = static_cast<std::int64_t>(rows.size());
+        CurveRow row;
+        row.axial_strain = static_cast<double>(k) / 1024;
+        row.axial_stress = row.stress_top = row.stress_bottom = value;
+        row.lateral_strain = row.axial_strain / 4;
+        row.bonds_broken = 1 + k * k;
+        row.points_sliding = 100 + k;
+        row.contacts_gained = 7 + k * k * k;
+        rows.push_back(row);
+    }
+    return rows;
+}
+
+std::vector<double> rising(int rows) {
+    std::vector<double> stress;
+    for (int k = 0; k < rows; ++k) stress.push_back(10.0 * k);
+    return stress;
+}
+
+TEST(InitialWindow, EndsWithTheRowAtATwentiethOfTheStrainAtPeak) {
+    auto stress = rising(41);  // peak in row 40: two rows of strain
+    stress[1] = 3;
+    stress[2] = 4;
+    const Tangent t = initial_tangent(by_hand(stress), 40, true);
+    EXPECT_EQ(t.rows, 3);
+    EXPECT_EQ(t.strain_to, 2.0 / 1024);
+    EXPECT_EQ(t.bonds_broken, 5 - 1);
+    EXPECT_EQ(t.points_sliding, 102);
+    EXPECT_EQ(t.contacts_gained, 15 - 7);
+    EXPECT_DOUBLE_EQ(t.modulus, 2.0 * 1024) << "least squares through 0, 3, 4";
+    EXPECT_DOUBLE_EQ(t.poissons_ratio, 0.25);
+}
+
+TEST(InitialWindow, OfTwoRowsHasNoModulus) {
+    const Tangent t = initial_tangent(by_hand(rising(40)), 39, true);  // 1.95 rows of strain
+    EXPECT_EQ(t.rows, 2);
+    EXPECT_TRUE(std::isnan(t.modulus));
+    EXPECT_TRUE(std::isnan(t.poissons_ratio));
+}
+
+TEST(InitialWindow, LooksAtNothingBehindThePeak) {
+    auto stress = rising(41);
+    for (int k = 0; k < 10; ++k) stress.push_back(0.0);
+    const Tangent t = initial_tangent(by_hand(stress), 40, true);
+    EXPECT_EQ(t.rows, 3);
+    EXPECT_DOUBLE_EQ(t.modulus, 10.0 * 1024);
+}
+
+TEST(WindowAtHalfThePeak, ReachesFromTheFirstRowAtTwoFifthsToTheFirstAtThree) {
+    // Reaches 4 in row 2, falls, reaches 6 in row 5; 4 and 6 are 40 % and 60 % of 10.
+    const Tangent t = tangent_at_half_peak(by_hand({0, 3, 5, 2, 5.5, 7, 10, 8}), 6, true);
+    EXPECT_EQ(t.rows, 4);
+    EXPECT_EQ(t.strain_to, 5.0 / 1024);
+    EXPECT_EQ(t.bonds_broken, 25 - 4);
+    EXPECT_EQ(t.points_sliding, 105);
+    EXPECT_EQ(t.contacts_gained, 125 - 8);
+    EXPECT_DOUBLE_EQ(t.modulus, 0.95 * 1024) << "least squares through 5, 2, 5.5, 7";
+    EXPECT_DOUBLE_EQ(t.poissons_ratio, 0.25);
+}
+
+TEST(WindowAtHalfThePeak, HoldsTheRowsThatMeetItsLimits) {
+    const Tangent at = tangent_at_half_peak(by_hand({0, 4, 5, 6, 10}), 4, true);
+    EXPECT_EQ(at.rows, 3);
+    EXPECT_EQ(at.strain_to, 3.0 / 1024);
+    EXPECT_EQ(tangent_at_half_peak(by_hand({0, 3.9, 5, 5.9, 7, 10}), 5, true).rows, 3);
+}
+
+TEST(PoissonsRatio, IsOfNarrowingInTension) {
+    EXPECT_DOUBLE_EQ(initial_tangent(by_hand(rising(41)), 40, false).poissons_ratio, -0.25);
+}
+
+TEST(PlatensOutOfBalance, IsTheLargestDifferenceUpToThePeak) {
+    auto rows = by_hand({0, 5, 8, 10, 2});
+    rows[1].stress_top = 4;
+    rows[1].stress_bottom = 6;
+    rows[3].stress_top = 11.5;
+    rows[3].stress_bottom = 8.5;
+    EXPECT_DOUBLE_EQ(platen_out_of_balance(rows, 3), 0.3);
+    rows[2].stress_top = 6;
+    rows[2].stress_bottom = 10;
+    EXPECT_DOUBLE_EQ(platen_out_of_balance(rows, 3), 0.4) << "without its sign";
+    rows[4].stress_top = 100;
+    EXPECT_DOUBLE_EQ(platen_out_of_balance(rows, 3), 0.4) << "not behind the peak";
+}
+
+}  // namespace
+}  // namespace crackle
