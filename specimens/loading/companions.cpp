@@ -68,6 +68,25 @@ double post_peak_difference(const VirtualTest& test, const VirtualTest& other) {
     return count > 0 ? sum / static_cast<double>(count) / test.state.failure.peak_stress : 0.0;
 }
 
+/// Dashpots of the first law, N s/m where given as such, sqrt(N/m) where by ratio.
+double damping_of(const World& world) {
+    const ContactLaw& law = world.settings.laws.front();
+    return law.normal_damping + law.normal_damping_ratio_term;
+}
+
+/// Read off its own world and rows, not off the plan: what was planned and not done would show.
+Companion what_it_did(const Plan& plan, const VirtualTest& test, const VirtualTest& other) {
+    Companion c;
+    c.name = plan.name;
+    c.ended_by = other.state.ended_by;
+    c.steps = other.world.stepping.steps;
+    c.time_step = other.world.stepping.time / static_cast<double>(c.steps);
+    if (!other.state.rows.empty())
+        c.axial_strain_rate = other.state.rows.back().axial_strain / other.state.rows.back().time;
+    c.damping = damping_of(other.world) / damping_of(test.world);
+    return c;
+}
+
 /// @return nothing if interrupted
 std::optional<Companion> run_one(const Plan& plan, const VirtualTest& test, const TestHooks& hooks) {
     TestHooks quiet;
@@ -79,16 +98,17 @@ std::optional<Companion> run_one(const Plan& plan, const VirtualTest& test, cons
     } catch (const TestInterrupted&) {
         return std::nullopt;
     } catch (const UnstableRun&) {
-        return Companion{plan.name, undefined, undefined, ended_by_instability, other.world.stepping.steps, undefined};
+        Companion unstable = what_it_did(plan, test, other);
+        unstable.peak_stress = unstable.peak_strain = unstable.post_peak_difference = undefined;
+        unstable.ended_by = ended_by_instability;
+        return unstable;
     }
     if (other.state.ended_by.empty()) return std::nullopt;
-    const FailureTracker& f = other.state.failure;
-    return Companion{plan.name,
-                     f.peak_stress,
-                     f.peak_strain,
-                     other.state.ended_by,
-                     other.world.stepping.steps,
-                     post_peak_difference(test, other)};
+    Companion done = what_it_did(plan, test, other);
+    done.peak_stress = other.state.failure.peak_stress;
+    done.peak_strain = other.state.failure.peak_strain;
+    done.post_peak_difference = post_peak_difference(test, other);
+    return done;
 }
 
 NumberError error_of(double asked, double resolution, const std::vector<Companion>& companions,

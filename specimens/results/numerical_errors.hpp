@@ -15,7 +15,9 @@ struct Companion {
     double peak_stress = 0.0, peak_strain = 0.0;
     std::string ended_by;  ///< as the test's own; "instability": it has no numbers worth comparing
     std::int64_t steps = 0;
-    double post_peak_difference = 0.0;  ///< mean |stress - the test's| from the peak on, over the peak
+    double time_step = 0.0, axial_strain_rate = 0.0;  ///< s, 1/s; means of its run
+    double damping = 0.0;                             ///< of its contacts, over the test's; NaN where that has none
+    double post_peak_difference = 0.0;                ///< mean |stress - the test's| from the peak on, over the peak
 };
 
 /// Relative errors of one number.

@@ -176,6 +176,9 @@ void numerical_errors(Writer& w, const TestState& state, const NumericalErrors* 
                                          {"peak_strain", number(c.peak_strain)},
                                          {"ended_by", c.ended_by},
                                          {"steps", c.steps},
+                                         {"time_step", number(c.time_step)},
+                                         {"axial_strain_rate", number(c.axial_strain_rate)},
+                                         {"damping", number(c.damping)},
                                          {"post_peak_difference", number(c.post_peak_difference)}};
         }
     }

@@ -499,6 +499,22 @@ def recount_errors(r):
     errors = r.summary.get("numerical_errors") or {}
     if "companions" not in errors or not r.summary.get("failed"):
         return
+    asked = {"half_time_step": (0.5, 1, 1), "half_rate": (1, 0.5, 1), "half_damping": (1, 1, 0.5),
+             "double_damping": (1, 1, 2)}
+    at_a_rate = r.results.key("loading", "axial_strain_rate") is not None
+    for name, (step, rate, damping) in asked.items():
+        run = errors["companions"][name]
+        label = f"companion {name}: "
+        # More damping lowers the stable step, less raises it: theirs is not compared.
+        if damping == 1:
+            over = run["time_step"] / r.summary["time_step_mean"]
+            # The bound of a mean over rows moves where contacts open and close otherwise.
+            r.compare(label + "time step over the test's", over, step, 0.02 * step)
+        # By tolerance the rate follows what breaks, between 0.15 and 1 of its limit.
+        over = run["axial_strain_rate"] / r.summary["axial_strain_rate"]
+        r.compare(label + "rate over the test's", over, rate, 1e-3 * rate if at_a_rate else 0.4 * rate)
+        if run["damping"] is not None:  # the test has some
+            r.compare(label + "damping over the test's", run["damping"], damping, 1e-12)
     peak = {"peak_stress": r.summary["peak_stress"], "peak_strain": r.summary["peak_strain"]}
     runs = errors["companions"]
     rows = np.diff(r.curve["axial_strain"]).max()

@@ -199,6 +199,17 @@ class FaultsAreFound(unittest.TestCase):
         self.found(found, "peak_stress")
         self.found(found, "peak_strain")
 
+    def test_companion_at_the_full_step_rate_or_damping(self):
+        for name, figure in (("half_time_step", "time_step"), ("half_rate", "axial_strain_rate"),
+                             ("half_damping", "damping"), ("double_damping", "damping")):
+
+            def change(summary, name=name, figure=figure):
+                run = summary["numerical_errors"]["companions"][name]
+                run[figure] *= 2 if name.startswith("half") else 0.5
+
+            with self.subTest(companion=name):
+                self.found(self.spoil_summary(change), "companion " + name)
+
     def test_companion_of_another_peak(self):
         def change(summary):
             summary["numerical_errors"]["companions"]["half_rate"]["peak_stress"] *= 1.01
