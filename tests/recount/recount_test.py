@@ -147,6 +147,11 @@ class FaultsAreFound(unittest.TestCase):
         found = self.spoil_column("events.csv", "body_j", lambda column: [column[-1]] + column[1:])
         self.found(found, "events")
 
+    def test_place_and_orientation_of_events(self):
+        self.found(self.spoil_column("events.csv", "x", lambda column: column[1:] + column[:1]), "events: place")
+        more = lambda column: [str(float(value) / 2) for value in column]  # noqa: E731
+        self.found(self.spoil_column("events.csv", "orientation", more), "events: orientation")
+
     def test_strain_of_row_0_in_every_event(self):
         self.found(self.spoil_column("events.csv", "axial_strain", lambda column: ["0"] * len(column)), "axial_strain")
 

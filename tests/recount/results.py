@@ -195,6 +195,9 @@ class Results:
         files = sorted((self.folder / "frames").glob("particles_*.vtp"), key=lambda f: int(f.stem.split("_")[1]))
         return [int(f.stem.split("_")[1]) for f in files]
 
+    def particles(self, row):
+        return read_vtp(self.folder / f"frames/particles_{row:05d}.vtp")
+
     def frame(self, row):
         read = [read_vtp(self.folder / f"frames/{kind}_{row:05d}.vtp") for kind in ("particles", "contacts", "cracks")]
         return Frame(row, *read)
