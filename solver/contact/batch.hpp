@@ -313,7 +313,8 @@ CRACKLE_INLINE BatchState look_at_batch(World& world, PointIndex k, const Lanes&
         law = BatchLaw(world, states[0].law);
         unlike = law_and_flags ^ (law.number | bits_of_flags(at_rest));
     }
-    const LaneBits over = overlap > (Bonds ? law.law.break_overlap : Lanes{});
+    LaneBits over = overlap > 0.0;
+    if constexpr (Bonds) over = bond_holds(law.law, overlap);
     if (none_of((unlike & looked_at) | ~over)) return {BatchCase::all_hold, states, law_and_flags, over, over};
     LaneBits bonded{}, holds = overlap > 0.0;
     if constexpr (Bonds) {

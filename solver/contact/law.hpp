@@ -45,6 +45,12 @@ CRACKLE_INLINE Number spring_force(const Law<Number>& law, const Number& overlap
     return law.normal_stiffness * overlap;
 }
 
+/// Whether a bond holds at this overlap, m; else it breaks in this force pass (stepping/breaks.cpp records that).
+template <class Number>
+CRACKLE_INLINE Condition<Number> bond_holds(const Law<Number>& law, const Number& overlap) {
+    return overlap > law.break_overlap;
+}
+
 /// Whether a bonded point carries at least half its strength k_n δ0.
 template <class Number>
 CRACKLE_INLINE Condition<Number> carries_half_strength(const Law<Number>& law, const Number& normal,

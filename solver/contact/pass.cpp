@@ -99,7 +99,7 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
     bool bonded = false;
     if constexpr (Bonds) bonded = (state.flags & point_bonded) != 0;
 
-    const bool holds = bonded ? g.overlap > law.break_overlap : g.overlap > 0.0;
+    const bool holds = bonded ? bond_holds(law, g.overlap) : g.overlap > 0.0;
     if (!holds && !bonded && (state.flags & point_touching) == 0) {
         if constexpr (Consistent) world.points.opening[k].overlap = g.overlap;
         out = {0.0, 0.0, 0.0, 0.0};

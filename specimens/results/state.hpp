@@ -12,7 +12,7 @@
 #include "specimens/frames/frame.hpp"
 #include "specimens/observers/contact_history.hpp"
 #include "specimens/observers/curve.hpp"
-#include "specimens/observers/failure.hpp"
+#include "specimens/observers/peak_and_failure.hpp"
 #include "specimens/setup/loading_rate.hpp"
 
 namespace crackle {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// When a test has failed: the stress stays below a share of its peak (half, settable) for a tenth of the strain at
-// peak, and for ten rows (of at least 2000 over the largest strain): where loading has hardly begun a tenth of the
-// strain is nothing, and the first rows of a specimen that its platens only just touch go up and down.
+// The peak of a test, its largest stress so far, and when it has failed: the stress stays below a share of its peak
+// (half, settable) for a tenth of the strain at peak, and for ten rows (of at least 2000 over the largest strain):
+// where loading has hardly begun a tenth of the strain is nothing, and the first rows of a specimen that its platens
+// only just touch go up and down.
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Peak and failure of curves written by hand: the exact row of each.
 
-#include "specimens/observers/failure.hpp"
+#include "specimens/observers/peak_and_failure.hpp"
 
 #include <gtest/gtest.h>
 

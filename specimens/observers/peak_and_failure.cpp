@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "specimens/observers/failure.hpp"
+#include "specimens/observers/peak_and_failure.hpp"
 
 #include <cmath>
 
