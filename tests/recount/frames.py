@@ -1,0 +1,228 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What follows from the frames of a test: contacts, forces, stresses, energies, fragments, places of events.
+
+`r` is a recount.Recount, `model` the specimen between its platens, `bonds` its bonded points at the start."""
+
+import math
+
+import numpy as np
+
+from model import dot, platen_depth, rounding, turned
+
+
+def recount_places(r, model, rows):
+    """Places and orientations of events against the bodies in the frames before and after each."""
+    e, times, places = r.events, [], []
+    for row in rows:
+        p = r.results.particles(row)
+        centre = model.centre.copy()
+        centre[[model.index[n] for n in p["id"]]] += p["displacement"][:, :2]
+        times.append(float(p["time"][0]))
+        places.append(centre)
+    circle = {b: radius for b, radius in zip(model.circle_body, model.circle_radius)}
+    off, apart, turned_by, allowed, allowed_turn = [], [], [], [], []
+    for k in range(len(e["time"])):
+        after = min(int(np.searchsorted(times, e["time"][k])), len(times) - 1)
+        before = max(after - 1, 0)
+        i, j = model.index[int(e["body_i"][k])], model.index[int(e["body_j"][k])]
+        moved = max(math.dist(places[after][b], places[before][b]) for b in (i, j))
+        at = np.array([e["x"][k], e["y"][k]])
+        for b in (i, j):
+            if b >= model.count:  # platens: their face
+                face = places[before][b, 1] + (1 if b == model.bottom else -1) * platen_depth * model.height / 2
+                off.append(abs(at[1] - face))
+                apart.append(0.0)
+                allowed.append(moved + 2 * model.thick)
+                continue
+            distance = math.dist(at, places[before][b])
+            if b in circle:
+                off.append(distance - circle[b])
+                apart.append(0.0)
+            else:
+                off.append(max(distance - model.reach[b], 0.0))
+                apart.append(0.0)
+            allowed.append(moved + 2 * model.thick)
+        if not model.polygons:
+            way = places[before][j] - places[before][i]
+            if max(i, j) >= model.count:
+                way = np.array([0.0, 1.0])
+            difference = (e["orientation"][k] - math.atan2(way[1], way[0]) + math.pi / 2) % math.pi - math.pi / 2
+            turned_by.append(difference)
+            allowed_turn.append(1e-9 + 2 * moved / model.circle_radius.min())
+    r.rows("events: place on the surfaces of both bodies", off, apart, allowed)
+    if turned_by:
+        r.rows("events: orientation along the centres", turned_by, np.zeros(len(turned_by)), allowed_turn)
+    half = np.abs(e["orientation"]) <= math.pi / 2
+    r.true("events: orientation in (-pi/2, pi/2]", np.all(half))
+
+
+def match(model, points, frame, first_frame, bonds):
+    """Index into `points` of each contact of a frame, by pair and place; bonds by where they were at the start."""
+    names = frame.contacts
+    i = np.array([model.index[n] for n in names["body_i"]])
+    j = np.array([model.index[n] for n in names["body_j"]])
+    places = contact_places(model, frame)
+    start_places = contact_places(model, first_frame)
+    by_pair, start_by_pair = {}, {}
+    for k, pair in enumerate(zip(points.i, points.j)):
+        by_pair.setdefault(frozenset(pair), []).append(k)
+    for k, pair in enumerate(zip(bonds.i, bonds.j)):
+        start_by_pair.setdefault(frozenset(pair), []).append(k)
+    key_of = {(a, b, c): k for k, (a, b, c) in enumerate(zip(points.i, points.element, points.j))}
+    chosen = np.full(len(i), -1)
+    of_bond = np.full(len(i), -1)
+    taken = set()
+    for k in range(len(i)):
+        pair = frozenset((i[k], j[k]))
+        if names["state"][k] != 4:
+            own = [m for m in start_by_pair.get(pair, []) if m not in taken]
+            if not own:
+                continue
+            # Corner against corner makes two points at one place: the file names the corner's body first.
+            m = min(own, key=lambda m: (bonds.i[m] != i[k], math.dist(bonds.position[m], start_places[k])))
+            taken.add(m)
+            of_bond[k] = m
+            chosen[k] = key_of.get((bonds.i[m], bonds.element[m], bonds.j[m]), -1)
+    used = set(chosen)
+    for k in np.flatnonzero(names["state"] == 4):
+        own = [m for m in by_pair.get(frozenset((i[k], j[k])), []) if points.overlap[m] > 0 and m not in used]
+        if own:
+            chosen[k] = min(own, key=lambda m: (points.i[m] != i[k], math.dist(points.position[m], places[k])))
+            used.add(chosen[k])
+    return chosen, of_bond
+
+
+def contact_places(model, frame):
+    drawn = frame.contacts["points"][:, :2]
+    count = len(frame.contacts["body_i"])
+    if model.polygons:
+        return drawn.reshape(count, 2, 2).mean(axis=1)
+    return drawn[len(drawn) - count :]
+
+
+def recount_frame(r, model, bonds, frame, first, row):
+    """Forces, stresses, energies and fragments of one moment. @param row  the curve's, or None if it was not written"""
+    label = f"frame {frame.row}: "
+    p = frame.particles
+    order = np.array([model.index[n] for n in p["id"]])
+    places, angle = model.centre.copy(), np.zeros(len(model.mass))
+    velocity, spin = np.zeros((len(model.mass), 2)), np.zeros(len(model.mass))
+    places[order] += p["displacement"][:, :2]
+    angle[order], spin[order] = p["angle"], p["rotation_rate"]
+    velocity[order] = p["velocity"][:, :2]
+    points = model.points(places, angle)
+    chosen, of_bond = match(model, points, frame, first, bonds)
+    state = frame.contacts["state"]
+    r.compare(label + "contacts without a partner", int(np.sum((chosen < 0) & ((state < 2) | (state > 2)))), 0, 0)
+    loose = int(np.sum(points.overlap > 0)) - int(np.sum((state == 0) | (state == 1) | (state == 3)))
+    r.compare(label + "contacts without a bond", int(np.sum(state == 4)), loose, 0)
+    acting = (chosen >= 0) & (state != 2)
+    q = points.chosen(chosen[acting])
+    held = of_bond[acting] >= 0
+    rest = np.where(held & (state[acting] < 2), bonds.overlap[of_bond[acting]], 0.0)
+    kn, ks = model.normal_stiffness(q), model.shear_stiffness(q)
+    tension = bonds.overlap.mean() * kn.mean()
+    normal = kn * (q.overlap - rest)
+    r.rows(label + "normal_force", frame.contacts["normal_force"][acting], normal, rounding * tension)
+    shear = np.asarray(frame.contacts["shear_force"])[acting].copy()
+    # The file's shear force acts on its body_i: along the same line on ours, whichever of the two we call i.
+    limit = model.friction(q) * kn * q.overlap
+    r.true(label + "shear within the Coulomb limit", np.all(np.abs(shear) <= limit + rounding * tension))
+    arm_i, arm_j = q.position - places[q.i], q.position - places[q.j]
+    relative = (velocity[q.i] + turned(arm_i) * spin[q.i][:, None]) - (velocity[q.j] + turned(arm_j) * spin[q.j][:, None])
+    cn, cs = model.dashpots(q)
+    tangent = turned(q.normal)
+    normal_all = normal + cn * dot(relative, q.normal)
+    # A limit is known to the rounding of places only: whether a point that hardly touches slides is open.
+    open_question = limit <= 2e-15 * model.height * kn
+    slides = np.abs(shear) >= limit * (1 - rounding) - 1e-15 * model.height * kn
+    sticks = ~slides
+    shear_all = shear - np.where(sticks, cs * dot(relative, tangent), 0.0)
+    force = -q.normal * normal_all[:, None] + tangent * shear_all[:, None]  # on i
+    total, moment = np.zeros_like(velocity), np.zeros(len(spin))
+    for body, arm, sign in ((q.i, arm_i, 1.0), (q.j, arm_j, -1.0)):
+        np.add.at(total, body, sign * force)
+        np.add.at(moment, body, sign * (arm[:, 0] * force[:, 1] - arm[:, 1] * force[:, 0]))
+    stress_top, stress_bottom = (model.sense * total[model.top, 1] / model.width,
+                                 -model.sense * total[model.bottom, 1] / model.width)
+    fine = rounding * tension * math.sqrt(len(kn)) / model.width
+    r.compare(label + "axial_stress", frame.axial_stress, (stress_top + stress_bottom) / 2, fine)
+    strain = model.sense * -p["displacement"][list(p["id"]).index(model.ids[model.top]), 1] / model.height
+    r.compare(label + "axial_strain", frame.axial_strain, strain, 1e-14)
+    # Particles' mean stress by the springs alone, the back-tension left out.
+    springs = -q.normal * normal[:, None] + tangent * shear[:, None]
+    sums = np.zeros((len(spin), 3))
+    for body, arm, sign in ((q.i, arm_i, 1.0), (q.j, arm_j, -1.0)):
+        f = sign * springs
+        sym = np.stack([arm[:, 0] * f[:, 0], arm[:, 1] * f[:, 1],
+                        (arm[:, 0] * f[:, 1] + arm[:, 1] * f[:, 0]) / 2], 1)
+        np.add.at(sums, body, -sym / model.area[body][:, None])
+    sums[model.count :] = 0.0
+    size = tension / model.reach[: model.count].min()
+    for k, name in enumerate(("stress_xx", "stress_yy", "stress_xy")):
+        r.rows(label + name, p[name], sums[order, k], 10 * rounding * size)
+    # Fragments: joined by intact bonds, numbered by falling area, then by lowest id.
+    root = list(range(model.count))
+
+    def find(a):
+        while root[a] != a:
+            root[a] = root[root[a]]
+            a = root[a]
+        return a
+
+    intact = state < 2
+    for a, b in zip(frame.contacts["body_i"][intact], frame.contacts["body_j"][intact]):
+        a, b = model.index[a], model.index[b]
+        if a < model.count and b < model.count:
+            root[find(a)] = find(b)
+    groups = {}
+    for k in range(model.count):
+        groups.setdefault(find(k), []).append(k)
+    ranked = sorted(groups.values(), key=lambda g: (-round(sum(model.area[k] for k in g), 12), min(model.ids[k] for k in g)))
+    number = np.full(len(spin), -1)
+    for n, group in enumerate(ranked):
+        number[group] = n
+    r.rows(label + "fragment", p["fragment"], number[order], 0)
+    broken = int(np.sum((state == 2) | (state == 3)))
+    by_events = int(np.sum(r.events["time"] <= frame.time * (1 + 1e-12))) if len(r.events["time"]) else 0
+    r.compare(label + "broken bonds of events.csv", broken, by_events, 0)
+    gone = sorted(tuple(sorted(pair)) for pair in zip(frame.contacts["body_i"][(state == 2) | (state == 3)],
+                                                      frame.contacts["body_j"][(state == 2) | (state == 3)]))
+    rows = [(int(a), int(b)) for a, b in zip(r.events["body_i"], r.events["body_j"])][:by_events]
+    r.true(label + "broken pairs are those of events.csv", gone == sorted(tuple(sorted(pair)) for pair in rows))
+    if row is None:
+        return
+    c = r.curve
+    r.compare(label + "curve: axial_stress", c["axial_stress"][row], (stress_top + stress_bottom) / 2, fine)
+    r.compare(label + "curve: stress_top", c["stress_top"][row], stress_top, fine)
+    r.compare(label + "curve: stress_bottom", c["stress_bottom"][row], stress_bottom, fine)
+    spring = np.sum(normal**2 / kn / 2 + np.where(ks > 0, shear**2 / np.where(ks > 0, ks, 1) / 2, 0))
+    # The consistent integrator's forces and energies hold defects of points, which are in no file.
+    leapfrog = r.results.key("numerics", "integrator", "leapfrog") == "leapfrog"
+    if leapfrog:
+        r.compare(label + "curve: strain_energy", c["strain_energy"][row], spring,
+                  rounding * (spring + tension**2 / kn.mean()))
+    free = slice(0, model.count)
+
+    def kinetic_after(kick):
+        middle = velocity[free] + kick / 2 * total[free] / model.mass[free, None]
+        middle_spin = spin[free] + kick / 2 * moment[free] / model.inertia[free]
+        own = model.mass[free] * dot(middle, middle) + model.inertia[free] * middle_spin**2
+        return (own.sum() + np.sum(model.mass[model.count :] * dot(velocity, velocity)[model.count :])) / 2
+
+    # A step that changes is known as its mean between two rows; at the start there has been no kick.
+    steps = np.diff(c["time"]) / np.diff(c["step"])
+    before, after = steps[max(row - 1, 0)], steps[min(row, len(steps) - 1)]
+    kinetic = kinetic_after((before + after) / 2 if row > 0 else 0.0)
+    either = abs(kinetic_after(before) - kinetic_after(after)) if row > 0 else 0.0
+    if leapfrog:
+        r.compare(label + "curve: kinetic_energy", c["kinetic_energy"][row], kinetic, 1e-6 * kinetic + either)
+    if leapfrog:
+        r.compare(label + "curve: points_sliding", c["points_sliding"][row], int(np.sum(slides)),
+                  int(np.sum(open_question)))
+    left, right = model.gauge()
+    by_seeds = model.polygons and r.results.key("mesh", "kind") == "delaunay" and r.results.key("mesh", "boundary") == "seeds"
+    if left and right and not by_seeds:
+        length = model.centre[right, 0].mean() - model.centre[left, 0].mean()
+        now = places[right, 0].mean() - places[left, 0].mean()
+        r.compare(label + "curve: lateral_strain", c["lateral_strain"][row], now / length - 1, 1e-13)
