@@ -174,7 +174,7 @@ class Model:
     def near(self, centre, beyond):
         """Pairs of bodies i < j whose bounding circles, or for platens faces, come within `beyond`."""
         order = np.argsort(centre[: self.count, 0])
-        x, reach, pairs = centre[order, 0], self.reach[order], []
+        x, pairs = centre[order, 0], []
         widest = self.reach[: self.count].max()
         for k, a in enumerate(order):
             end = np.searchsorted(x, x[k] + self.reach[a] + widest + beyond)
