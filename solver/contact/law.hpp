@@ -45,7 +45,8 @@ CRACKLE_INLINE Number spring_force(const Law<Number>& law, const Number& overlap
     return law.normal_stiffness * overlap;
 }
 
-/// Whether a bond holds at this overlap, m; else it breaks in this force pass (stepping/breaks.cpp records that).
+/// Whether a bond holds at this overlap, m; else it breaks in this force pass (stepping/record_breaks.cpp records
+/// that).
 template <class Number>
 CRACKLE_INLINE Condition<Number> bond_holds(const Law<Number>& law, const Number& overlap) {
     return overlap > law.break_overlap;

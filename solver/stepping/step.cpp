@@ -13,9 +13,9 @@
 
 #include "solver/measure/health.hpp"
 #include "solver/measure/ledger.hpp"
-#include "solver/stepping/breaks.hpp"
 #include "solver/stepping/controls.hpp"
 #include "solver/stepping/motion.hpp"
+#include "solver/stepping/record_breaks.hpp"
 #include "solver/stepping/step.hpp"
 #include "solver/stepping/sweep.hpp"
 #include "solver/stepping/time_step.hpp"

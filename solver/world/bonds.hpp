@@ -18,7 +18,7 @@ struct BreakEvent {
     int body_i, body_j;   // input ids
     Vec2 position;        // m
     double orientation;   // rad, direction of the contact normal, in (-π/2, π/2]
-    double energy;        // J: taken by the break, stepping/breaks.cpp
+    double energy;        // J: taken by the break, stepping/record_breaks.cpp
     double strength;      // N: k_n δ0
     double normal_force;  // N, of Points::strong_normal
     double shear_force;   // N

@@ -9,7 +9,7 @@
 
 namespace crackle {
 
-/// What a pair of materials does at a contact point; the one place where joints or weak interfaces would come in.
+/// What a pair of materials does at a contact point; its formulas: contact/, measure/, linear/.
 struct ContactLaw {
     double normal_stiffness, shear_stiffness;  // N/m
     double normal_damping, shear_damping;      // N s/m, plus the ratio terms times sqrt(m_eff)

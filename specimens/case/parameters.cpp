@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The declarations of all case keys: one line a key. New keys are added here and nowhere else.
+// The declarations of all case keys: a key each; its value is a member of TestCase (test_case.hpp).
 
 #include "specimens/case/parameters.hpp"
 

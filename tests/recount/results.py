@@ -173,7 +173,11 @@ class Results:
             if not (self.folder / name).is_file():
                 raise Unreadable(f"{self.folder}: found no {name}, expected the results of crackle test; check the path")
         self.case = tomllib.loads((self.folder / "case.toml").read_text())
-        self.summary = json.loads((self.folder / "summary.json").read_text())
+        try:
+            self.summary = json.loads((self.folder / "summary.json").read_text())
+        except json.JSONDecodeError as error:
+            raise Unreadable(f"{self.folder}/summary.json: found broken JSON ({error}), expected that of a test; "
+                             "run the test again") from error
         self.curve = read_table(self.folder / "curve.csv")
         self.events = read_table(self.folder / "events.csv")
         self.circles = read_deck(self.folder / "specimen_circles.dat")

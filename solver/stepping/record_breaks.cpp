@@ -8,7 +8,7 @@
 // break is `shear` if the point had been at its Coulomb limit since bonding and |f_t| > |f_n| in the last step in which
 // it carried at least half its strength; else `tension`. Source: solver/MODEL.md 5.
 
-#include "solver/stepping/breaks.hpp"
+#include "solver/stepping/record_breaks.hpp"
 
 #include <cmath>
 #include <numbers>
