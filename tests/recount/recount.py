@@ -216,6 +216,9 @@ def recount_specimen(r, model):
     r.key("mean_bond_overlap", bonds.overlap.mean())
     r.key("mean_back_tension", tension.mean())
     r.key("mean_back_tension_interface", tension.sum() / len(pairs))
+    if s.get("youngs_modulus"):
+        density = model.mass[: model.count].sum() / (model.width * model.height)
+        r.key("wave_transit_time", model.height / math.sqrt(s["youngs_modulus"] / density))
     if model.frictional or len(model.mass) > 1500:
         return bonds
     stiffness, damping = model.matrices(bonds, model.centre)
