@@ -76,6 +76,11 @@ union RoomFor {
 };
 
 template <class T>
+constexpr bool has_fields() {
+    return requires { T::fields(std::declval<T&>(), AnyVisitor{}); };
+}
+
+template <class T>
 constexpr std::size_t listed_fields() {
     FieldCounter counter;
     RoomFor<T> room;
@@ -86,7 +91,7 @@ constexpr std::size_t listed_fields() {
 }  // namespace detail
 
 template <class T>
-concept HasFields = requires(T& value) { T::fields(value, detail::AnyVisitor{}); };
+concept HasFields = detail::has_fields<T>();
 
 /// Whether T::fields() visits every member of T.
 template <HasFields T>

@@ -44,7 +44,7 @@ BodyIndex body_of_id(const World& world, int id);
 std::vector<Vec2> element_positions(const World& world, BodyIndex body);
 /// Force of the bodies on each wall at the last force pass, N. @throws std::logic_error where they are not kept
 std::array<Vec2, 4> measure_wall_forces(const World& world);
-/// Saves time and memory where the forces are never read of single points or those on walls.
+/// Saves time and memory where the forces of single points, and those on walls, are never read.
 void forget_point_forces(World& world);
 
 }  // namespace crackle

@@ -70,6 +70,7 @@ double post_peak_difference(const VirtualTest& test, const VirtualTest& other) {
 
 /// Dashpots of the first law, N s/m where given as such, sqrt(N/m) where by ratio.
 double damping_of(const World& world) {
+    if (world.settings.laws.empty()) return undefined;  // it became unstable before there was a world
     const ContactLaw& law = world.settings.laws.front();
     return law.normal_damping + law.normal_damping_ratio_term;
 }

@@ -29,10 +29,10 @@ constexpr std::array<ResultFile, 8> files_of_a_test{{
     {"case.toml",
      "the case with every value in the open and the hashes of its inputs, with a comment on each key "
      "(`crackle test --keys` lists them all); it can be run again"},
-    {"specimen_circles.dat",
+    {circles_file,
      "circles as packed or read, between the walls that they were packed against, in the layout of DEMseg's in_gm.dat "
      "(solver/demseg/FORMATS.md); the damping is in case.toml; not of polygons from a file"},
-    {"specimen_polygons.dat", "polygons as meshed or read, likewise; not of circles"},
+    {polygons_file, "polygons as meshed or read, likewise; not of circles"},
     {"curve.csv", "one row an observed step"},
     {"events.csv", "one row a broken bonded point"},
     {"frames", "a folder of pictures for ParaView, start, peak and end among them: open `frames/frames.pvd`"},

@@ -140,7 +140,7 @@ def recount_curve(r):
         r.key(w + "points_sliding", c["points_sliding"][early[-1]])
     if case("loading", "rate_tolerance") is not None and case("loading", "axial_strain_rate") is None:
         r.key("axial_strain_rate", strain[-1] / c["time"][-1])
-        r.key("viscous_stress_share", abs(stress[0]) / np.max(np.abs(stress)))
+        r.key("viscous_stress_share", stress[0] / stress[peak])
     else:
         r.rows("curve: axial_strain of the rate", strain, case("loading", "axial_strain_rate") * c["time"],
                1e-9 * strain + 1e-15)
@@ -235,7 +235,7 @@ def recount_specimen(r, model):
     stress = (force[3 * model.bottom + 1] - force[3 * model.top + 1]) / 2 / model.width * model.sense
     strained = -solution[3 * model.top + 1] / model.height * model.sense
     # The eigenvectors of the softest motions carry the rounding of the stiffest, 1e-16 over the smallest eigenvalue.
-    r.key("youngs_modulus", -stress / strained if stress < 0 else stress / strained, 1e-7)
+    r.key("youngs_modulus", stress / strained, 1e-7)
     left, right = model.gauge()
     if left and right and (r.results.circles is None or not model.polygons or r.results.key("mesh", "kind") == "voronoi"):
         length = model.centre[right, 0].mean() - model.centre[left, 0].mean()

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The numbers that the guide gives of its rock, how each follows from tests of one packing, and how an ensemble
-// compares with it. Tested by tests/tools/bench/guide/ensemble_test.cpp.
+// compares with it.
+// Tested by tests/tools/bench/guide/ensemble_test.cpp.
 #pragma once
 
 #include <functional>
