@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a loaded specimen was when loading began: everything that a measurement refers back to.
-// Tested by tests/specimens/loading/virtual_test_test.cpp.
 #pragma once
 
 #include <array>

@@ -110,6 +110,8 @@ def recount_frame(r, model, bonds, frame, first, row):
     places[order] += p["displacement"][:, :2]
     angle[order], spin[order] = p["angle"], p["rotation_rate"]
     velocity[order] = p["velocity"][:, :2]
+    asked = r.results.key("output", "frame_precision", "single")
+    r.true(label + f"points in {asked} precision", p["points"].dtype == (np.float64 if asked == "double" else np.float32))
     points = model.points(places, angle)
     chosen, of_bond = match(model, points, frame, first, bonds)
     state = frame.contacts["state"]

@@ -78,6 +78,9 @@ class Recount(unittest.TestCase):
     def test_circles_pulled_by_tolerance(self):
         self.agrees(run("pulled", rock + pulled + output), 150)
 
+    def test_default_frames_in_single_precision(self):
+        self.agrees(run("plain", rock + pulled), 150)
+
     def test_voronoi_polygons_squeezed_by_tolerance(self):
         self.agrees(run("voronoi", rock + voronoi + squeezed + output), 150)
 

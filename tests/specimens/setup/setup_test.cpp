@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is recorded of a specimen when loading begins: its gauge against a lattice of known Poisson's ratio, its counts.
+
+#include "specimens/setup/setup.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <utility>
+#include <vector>
+
+#include "specimens/elastic/analysis.hpp"
+#include "specimens/loading/load_specimen.hpp"
+#include "specimens/loading/prepare.hpp"
+#include "specimens/making/lattices.hpp"
+#include "tests/support/claim.hpp"
+#include "tests/support/deck_files.hpp"
+#include "tests/support/small_rock.hpp"
+
+namespace crackle {
+namespace {
+
+using testing::agrees;
+using testing::SmallCase;
+
+/// A tall triangular lattice with columns along y, its sides and ends overlapped by four walls. Uniaxial stress along
+/// the columns deforms it alike everywhere, sides included: at a disc of the side two inclined bonds balance as at any.
+Scene tall_lattice(const Material& material) {
+    const double overlap = testing::rock_overlap, spacing = 2.0 * testing::rock_radius - overlap;
+    Scene scene = triangular_lattice(56, 9, testing::rock_radius, overlap, material);
+    for (CircleElement& circle : scene.circles)
+        circle.centre = {circle.centre.y + 0.5 * spacing, circle.centre.x + 0.5 * spacing};
+    scene.time_step = 1e-5;
+    scene.domain = {0.0, spacing * (1.0 + 8.0 * std::sqrt(0.75)), 0.0, spacing * 56.0, {true, true, true, true}};
+    return scene;
+}
+
+/// Axial strain between the ends of the middle half of the height, by where discs of the left side are and were.
+double strain_of_middle(const TestSetup& setup, const std::vector<double>& rise) {
+    const auto by_height = [&](BodyIndex a, BodyIndex b) { return setup.start[a].y < setup.start[b].y; };
+    const auto [low, high] = std::ranges::minmax_element(setup.left, by_height);
+    return (rise[*high] - rise[*low]) / (setup.start[*high].y - setup.start[*low].y);
+}
+
+TEST(Gauge, GivesThePoissonsRatioOfATriangularLattice) {
+    // Springs kn and ks at every contact: nu = (kn - ks)/(3 kn + ks), from the energy of a uniform strain of its three
+    // directions of bonds. The ends, held and touched at every other column, give more than the middle; what they
+    // disturb fades as exp(-4.2 y/width) (Saint-Venant), to 6e-4 where the gauge begins.
+    const testing::ScratchFolder scratch;
+    const auto path = testing::write_small_case(scratch / "", [] {
+        SmallCase wanted;
+        wanted.kind = "compression";
+        wanted.max_strain = 2e-5;
+        return wanted;
+    }());
+    Material material = testing::small_rock_scene().materials.front();
+    for (const double share : {0.25, 0.6, 1.0}) {
+        material.shear_stiffness = share * material.normal_stiffness;
+        {
+            std::ofstream out(scratch / "rock.dat");
+            write_geometry(out, tall_lattice(material));
+        }
+        TestCase description = read_case(path);
+        description.loading.axial_strain_rate.reset();
+        description.loading.rate_tolerance = 0.01;
+        description.numerics.intact = true;
+        VirtualTest test = prepare_test(description);
+        const double expected = (1.0 - share) / (3.0 + share);
+        const Moduli moduli = moduli_of(test);
+        std::vector<double> rise;
+        for (const BodyMotion& motion : moduli.solution.displacement) rise.push_back(motion.y);
+        EXPECT_TRUE(testing::within(fmt::format("ks/kn = {}: of the solve", share),
+                                    moduli.poissons_ratio / strain_of_middle(test.setup, rise), expected, 1e-3));
+        load_specimen(test);
+        for (std::size_t b = 0; b < rise.size(); ++b) rise[b] = test.setup.start[b].y - test.world.bodies.state[b].y;
+        const CurveRow &first = test.state.rows.front(), &last = test.state.rows.back();
+        EXPECT_TRUE(testing::within(fmt::format("ks/kn = {}: of the run", share),
+                                    (last.lateral_strain - first.lateral_strain) / strain_of_middle(test.setup, rise),
+                                    expected, 2e-3));
+    }
+}
+
+TEST(Setup, CountsContactsThatTouchAndBondsApart) {
+    const testing::ScratchFolder scratch;
+    VirtualTest test = prepare_test(read_case(testing::write_small_case(scratch / "", {})));
+    const auto bonds = static_cast<std::int64_t>(test.setup.bonds.size());
+    EXPECT_EQ(test.setup.contacts_initial, bonds);
+    for (PointIndex k = 0, loosened = 0; k < test.world.points.size() && loosened < 3; ++k) {
+        if ((test.world.points.state[k].flags & point_bonded) == 0) continue;
+        test.world.points.state[k].flags &= static_cast<std::uint16_t>(~point_bonded);
+        ++loosened;
+    }
+    Platens platens;
+    platens.bottom_id = test.setup.bottom_id;
+    platens.top_id = test.setup.top_id;
+    const TestSetup again = record_setup(test.world, Specimen{}, platens, false);
+    EXPECT_EQ(again.contacts_initial, bonds);
+    EXPECT_EQ(static_cast<std::int64_t>(again.bonds.size()), bonds - 3);
+}
+
+}  // namespace
+}  // namespace crackle
