@@ -15,7 +15,7 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
 sys.dont_write_bytecode = True
-from recount import recount  # noqa: E402
+from recount import figures, recount  # noqa: E402
 
 program = os.environ["CRACKLE_PROGRAM"]
 scratch = Path(tempfile.mkdtemp(prefix="recount"))
@@ -43,6 +43,25 @@ squeezed = '[loading]\nkind = "compression"\nmax_axial_strain = 0.02\n'
 pulled = '[loading]\nkind = "tension"\nmax_axial_strain = 0.005\n'
 rate = "axial_strain_rate = 0.02\n"
 friction = 'platens = "frictional"\nplaten_friction_angle = 15.0\n'
+
+
+# Every figure of a summary of circles squeezed at a rate with companions.
+words = """
+axial_strain_end axial_strain_rate bond_thick bonds_broken bonds_broken_after_sliding bonds_broken_in_shear
+bonds_broken_in_tension bonds_initial contacts_initial ended_by energy_closing_error failed initial_height
+initial_poissons_ratio initial_tangent_modulus initial_tangent_modulus_pa initial_tangent_window.bonds_broken
+initial_tangent_window.points_sliding initial_tangent_window.rows initial_tangent_window.strain_to initial_width
+interfaces_initial interfaces_lost kind mean_back_tension mean_back_tension_interface mean_bond_overlap
+numerical_errors.peak_strain.damping numerical_errors.peak_strain.energy_closing
+numerical_errors.peak_strain.rate numerical_errors.peak_strain.stated numerical_errors.peak_strain.time_step
+numerical_errors.peak_stress.damping numerical_errors.peak_stress.energy_closing numerical_errors.peak_stress.rate
+numerical_errors.peak_stress.stated numerical_errors.peak_stress.time_step out_of_plane_thickness packing.anisotropy
+packing.coordination packing.coordination_of_carrying packing.floating packing.mean_overlap packing.radius_scale
+packing.stress_x packing.stress_y packing.unbalanced packing.void_ratio frame_end frame_peak frame_start particles particle_steps_per_second peak_converged peak_strain
+peak_stress peak_stress_pa platen_bottom_id platen_out_of_balance platen_top_id poissons_ratio seed simulated_time specimen
+stable_time_step steps tangent_50_poissons_ratio tangent_modulus_50 tangent_modulus_50_pa time_step time_step_bound
+time_step_mean time_step_over_stable youngs_modulus youngs_modulus_pa
+"""
 
 
 def run(name, case, *options):
@@ -74,6 +93,19 @@ class Recount(unittest.TestCase):
 
     def test_circles_squeezed_at_a_rate_with_a_thickness_and_companions(self):
         self.agrees(circles(), 200)
+
+    def test_every_figure_is_recounted_but_those_that_no_file_holds(self):
+        r = recount(circles())
+        left = {name for name in figures(r.summary) - r.keys if ".companions." not in name}
+        self.assertEqual(left, {
+            "initial_tangent_window.contacts_gained",  # needs every step
+            "numerical_errors.peak_strain.resolution", "numerical_errors.peak_stress.resolution",  # only bounded
+            *(f"numerical_errors.youngs_modulus.{name}" for name in
+              ("damping", "rate", "resolution", "stated", "time_step")),  # the solve's own residual
+            "list_builds", "threads",
+            "step_seconds", "wall_seconds",
+        })
+        self.assertEqual(set(words.split()) - r.keys, set(), "figures that the summary lacks")
 
     def test_circles_pulled_by_tolerance(self):
         self.agrees(run("pulled", rock + pulled + output), 150)

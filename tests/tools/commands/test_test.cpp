@@ -172,15 +172,19 @@ TEST_F(CrackleTest, ProfileAccountsForTheLoopAndChangesNoNumber) {
     EXPECT_NE(answer.out.find("where the time went"), std::string::npos) << answer.out;
     const auto summary = nlohmann::json::parse(read("profiled/summary.json"));
     const auto& profile = summary["profile"];
-    double shares = 0.0;
+    double shares = 0.0, seconds = 0.0;
     std::map<std::string, double> calls;
     for (const auto& row : profile["phases"]) {
         const std::string phase = row["phase"];
         calls[phase] = row["calls"];
-        EXPECT_GE(row["seconds"].get<double>(), 0.0) << phase;
-        if (phase != "  narrow_phase") shares += row["share"].get<double>();
+        if (phase == "  narrow_phase") continue;
+        shares += row["share"].get<double>();
+        seconds += row["seconds"].get<double>();
     }
     EXPECT_NEAR(shares, 1.0, 1e-9);
+    EXPECT_LE(seconds, summary["wall_seconds"].get<double>());
+    for (const auto& row : profile["phases"])
+        EXPECT_NEAR(row["seconds"].get<double>(), row["share"].get<double>() * seconds, 1e-9 * seconds) << row["phase"];
     const double steps = summary["steps"];
     // The first pass is made at bonding, the last one is followed by no drift.
     EXPECT_EQ(profile["force_passes"].get<double>(), steps);

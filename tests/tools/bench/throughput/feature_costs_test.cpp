@@ -76,8 +76,6 @@ TEST(FeatureCosts, EveryRowHasItsNumbersInOrder) {
         if (row.kind == FeatureRowKind::added && row.bodies == "discs") discs[row.feature] = row;
         EXPECT_GT(row.contact_seconds, 0.0) << row.feature;
         EXPECT_GT(row.contacts, row.particles) << row.bodies << ' ' << row.feature;
-        EXPECT_LE(row.ratio.low, row.ratio.median) << row.feature;
-        EXPECT_LE(row.ratio.median, row.ratio.high) << row.feature;
         // A difference and its ratio are of the same pairs.
         EXPECT_EQ(row.difference.low > 0.0, row.ratio.low > 1.0) << row.feature;
     });
