@@ -131,6 +131,16 @@ class Recount(unittest.TestCase):
     def test_consistent_integrator(self):
         self.agrees(run("consistent", rock + squeezed + '[numerics]\nintegrator = "consistent"\n' + output), 100)
 
+    def test_every_step_of_circles_and_polygons(self):
+        for name, case, speed in (("pulled", pulled, 0.2), ("squeezed", squeezed, 0.2), ("cells", voronoi + pulled, 0.2),
+                                  ("frictional", triangles + squeezed.replace("0.02", "0.003") + friction, 1.0)):
+            quick = case + f"axial_strain_rate = {speed}\n"
+            text = rock.replace("count = 80", "count = 30") + quick + output.replace("frames = 12", "frames = 2000")
+            with self.subTest(case=name):
+                folder = run("every_step_" + name, text)
+                self.assertTrue(any("history" in line[0] for line in recount(folder).lines), "a frame a step")
+                self.agrees(folder, 180)
+
     def test_restarted(self):
         folder, case = scratch / "restarted", scratch / "restarted.toml"
         case.write_text(rock.replace("count = 80", "count = 300") + squeezed + output)
@@ -149,10 +159,10 @@ class Recount(unittest.TestCase):
 class FaultsAreFound(unittest.TestCase):
     """Each a fault as a program might have it, put into the files of a test that agrees."""
 
-    def spoilt(self, what):
+    def spoilt(self, what, sound=None):
         folder = scratch / "spoilt"
         shutil.rmtree(folder, ignore_errors=True)
-        shutil.copytree(circles(), folder)
+        shutil.copytree(sound or circles(), folder)
         what(folder)
         return differing(folder)
 
@@ -164,7 +174,7 @@ class FaultsAreFound(unittest.TestCase):
 
         return self.spoilt(what)
 
-    def spoil_column(self, file, column, change):
+    def spoil_column(self, file, column, change, sound=None):
         def what(folder):
             lines = [line.split(",") for line in (folder / file).read_text().splitlines()]
             k = lines[0].index(column)
@@ -173,7 +183,7 @@ class FaultsAreFound(unittest.TestCase):
                 line[k] = value
             (folder / file).write_text("".join(",".join(line) + "\n" for line in lines))
 
-        return self.spoilt(what)
+        return self.spoilt(what, sound)
 
     def found(self, differing_figures, word):
         self.assertTrue(any(word in figure for figure in differing_figures), f"expected {word}, got {differing_figures}")
@@ -259,6 +269,19 @@ class FaultsAreFound(unittest.TestCase):
     def test_gauge_of_all_side_particles(self):
         widened = lambda column: [str(1.01 * float(value)) for value in column]  # noqa: E731
         self.found(self.spoil_column("curve.csv", "lateral_strain", widened), "lateral_strain")
+
+    def test_losses_and_single_energies_of_a_frame_a_step(self):
+        text = rock.replace("count = 80", "count = 30") + pulled + "axial_strain_rate = 0.2\n"
+        sound = run("every_step_pulled", text + output.replace("frames = 12", "frames = 2000"))
+        more = lambda values: [str(float(value) * 1.001) for value in values]  # noqa: E731
+        for file, column, change in (
+            ("curve.csv", "dashpot_loss", more), ("curve.csv", "friction_loss", more),
+            ("curve.csv", "platen_work", more), ("events.csv", "energy", more),
+            ("events.csv", "normal_force", more), ("events.csv", "shear_force", more),
+        ):
+            with self.subTest(column=column):
+                figure = "history: " + (column if file == "curve.csv" else column.replace("_", " ") + " of breaks")
+                self.found(self.spoil_column(file, column, change, sound), figure)
 
     def test_energies_and_sliding_points_of_the_curve(self):
         for column in ("strain_energy", "kinetic_energy", "points_sliding", "stress_top"):
