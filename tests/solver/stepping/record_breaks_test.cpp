@@ -109,5 +109,17 @@ TEST(BreakEvent, ThatSlidAndLastCarriedHalfItsStrengthByShearIsShear) {
     EXPECT_TRUE(agrees("shear force, N", std::abs(event.shear_force), 0.7 * strength, 10.0 * turn));
 }
 
+TEST(BreakEvent, RemembersTheForcesOfTheLastStepAtHalfTheStrength) {
+    World world = pulled_pair(89.9, 0.6, 0.5);
+    step(world);  // opening 0.6, shear 0.125: beyond half the strength
+    change_velocity(world, 1, 0, -0.3 * overlap / time_step);
+    step(world);  // 0.3 and 0.25: below it
+    change_velocity(world, 1, 0, 0.8 * overlap / time_step);
+    const BreakEvent event = broken(world);
+    EXPECT_EQ(event.step, 3);
+    EXPECT_TRUE(agrees("normal force, N", event.normal_force, -0.6 * strength, turn));
+    EXPECT_TRUE(agrees("shear force, N", std::abs(event.shear_force), 0.5 * shear_share * strength, turn));
+}
+
 }  // namespace
 }  // namespace crackle
