@@ -15,10 +15,8 @@ def recount_places(r, model, rows):
     e, times, places = r.events, [], []
     for row in rows:
         p = r.results.particles(row)
-        centre = model.centre.copy()
-        centre[[model.index[n] for n in p["id"]]] += p["displacement"][:, :2]
         times.append(float(p["time"][0]))
-        places.append(centre)
+        places.append(bodies_of(model, p)[1])
     circle = {b: radius for b, radius in zip(model.circle_body, model.circle_radius)}
     off, apart, turned_by, allowed, allowed_turn = [], [], [], [], []
     for k in range(len(e["time"])):
@@ -100,16 +98,29 @@ def contact_places(model, frame):
     return drawn[len(drawn) - count :]
 
 
+def bodies_of(model, p):
+    """Order of a frame's particles in the model; then by body place, angle, velocity and rotation rate."""
+    order = np.array([model.index[n] for n in p["id"]])
+    places, velocity = model.centre.copy(), np.zeros((len(model.mass), 2))
+    angle, spin = np.zeros(len(model.mass)), np.zeros(len(model.mass))
+    places[order] += p["displacement"][:, :2]
+    velocity[order] = p["velocity"][:, :2]
+    angle[order], spin[order] = p["angle"], p["rotation_rate"]
+    return order, places, angle, velocity, spin
+
+
+def relative_motion(q, places, velocity, spin):
+    """Arms of both bodies to each point, and the velocity of i against j there."""
+    arm_i, arm_j = q.position - places[q.i], q.position - places[q.j]
+    way = (velocity[q.i] + turned(arm_i) * spin[q.i][:, None]) - (velocity[q.j] + turned(arm_j) * spin[q.j][:, None])
+    return arm_i, arm_j, way
+
+
 def recount_frame(r, model, bonds, frame, first, row):
     """Forces, stresses, energies and fragments of one moment. @param row  the curve's, or None if it was not written"""
     label = f"frame {frame.row}: "
     p = frame.particles
-    order = np.array([model.index[n] for n in p["id"]])
-    places, angle = model.centre.copy(), np.zeros(len(model.mass))
-    velocity, spin = np.zeros((len(model.mass), 2)), np.zeros(len(model.mass))
-    places[order] += p["displacement"][:, :2]
-    angle[order], spin[order] = p["angle"], p["rotation_rate"]
-    velocity[order] = p["velocity"][:, :2]
+    order, places, angle, velocity, spin = bodies_of(model, p)
     asked = r.results.key("output", "frame_precision", "single")
     r.true(label + f"points in {asked} precision", p["points"].dtype == (np.float64 if asked == "double" else np.float32))
     points = model.points(places, angle)
@@ -130,8 +141,7 @@ def recount_frame(r, model, bonds, frame, first, row):
     # The file's shear force acts on its body_i: along the same line on ours, whichever of the two we call i.
     limit = model.friction(q) * kn * q.overlap
     r.true(label + "shear within the Coulomb limit", np.all(np.abs(shear) <= limit + rounding * tension))
-    arm_i, arm_j = q.position - places[q.i], q.position - places[q.j]
-    relative = (velocity[q.i] + turned(arm_i) * spin[q.i][:, None]) - (velocity[q.j] + turned(arm_j) * spin[q.j][:, None])
+    arm_i, arm_j, relative = relative_motion(q, places, velocity, spin)
     cn, cs = model.dashpots(q)
     tangent = turned(q.normal)
     normal_all = normal + cn * dot(relative, q.normal)

@@ -7,10 +7,10 @@ import math
 
 import numpy as np
 
-from model import dot, turned
+from frames import bodies_of, relative_motion
+from model import dot, rounding, turned
 
-# Losses hold the dashpots' forces of the step before in single precision.
-single = 1e-6
+single = 1e-7  # relative, of numbers kept in single precision: forces of events, dashpots' of the step before
 
 
 def holds_every_step(r, rows):
@@ -35,15 +35,9 @@ class Point:
 def moment(model, r, row, dt):
     """Contact points of a frame: their keys, overlaps, closing and slip rates, laws; and the frame's own contacts."""
     frame = r.results.frame(row)
-    p = frame.particles
-    order = np.array([model.index[n] for n in p["id"]])
-    places, angle = model.centre.copy(), np.zeros(len(model.mass))
-    velocity, spin = np.zeros((len(model.mass), 2)), np.zeros(len(model.mass))
-    places[order] += p["displacement"][:, :2]
-    angle[order], spin[order], velocity[order] = p["angle"], p["rotation_rate"], p["velocity"][:, :2]
+    _, places, angle, velocity, spin = bodies_of(model, frame.particles)
     q = model.points(places, angle)
-    arm_i, arm_j = q.position - places[q.i], q.position - places[q.j]
-    way = (velocity[q.i] + turned(arm_i) * spin[q.i][:, None]) - (velocity[q.j] + turned(arm_j) * spin[q.j][:, None])
+    arm_i, arm_j, way = relative_motion(q, places, velocity, spin)
     tangent = turned(q.normal)
     # Over a step an arm turns by w = spin dt; what a turn of both bodies as one moves along the face is w x arm less
     # w^2/2 arm, since places are those at the end.
@@ -96,7 +90,7 @@ def recount_history(r, model, bonds, rows):
     }
     friction, dashpot, speed, breaks = [], [], [], []
     strength = (model.normal_stiffness(bonds) * bonds.overlap).max()
-    worst, allowed = 0.0, 1e-6 * strength
+    worst = 0.0
     for n, row in enumerate(rows):
         dt = c["time"][n] - c["time"][n - 1] if n else 0.0
         frame, found = moment(model, r, row, dt)
@@ -116,15 +110,15 @@ def recount_history(r, model, bonds, rows):
             worst = math.inf
         else:
             worst = max([worst, *(abs(d[2] - o[2]) for d, o in zip(drawn, ours))])
-    r.compare("history: shear forces of all frames", worst, 0, allowed)
+    r.compare("history: shear forces of all frames", worst, 0, rounding * strength)
     scale = max(dashpot[-1], friction[-1], c["platen_work"][-1])
     r.rows("history: dashpot_loss", c["dashpot_loss"], dashpot, single * scale)
-    r.rows("history: friction_loss", c["friction_loss"], friction, single * scale)
+    r.rows("history: friction_loss", c["friction_loss"], friction, rounding * scale)
     # The upper platen moves alone; the speed that its drive gives it brings its kinetic energy.
     force = (c["stress_top"][1:] + c["stress_top"][:-1]) / 2 * model.width
     work = np.concatenate([[0.0], np.cumsum(force * np.diff(c["axial_strain"]) * model.height)])
     work += model.mass[model.top] / 2 * (np.array(speed) ** 2 - speed[0] ** 2)
-    r.rows("history: platen_work", c["platen_work"], work, 1e-9 * work[-1])
+    r.rows("history: platen_work", c["platen_work"], work, rounding * work[-1])
     # Breaks of one step stand in the order of the points: by pair and strength here.
     stated = sorted(
         (*sorted((model.index[int(e["body_i"][k])], model.index[int(e["body_j"][k])])), e["strength"][k], k)
@@ -138,8 +132,8 @@ def recount_history(r, model, bonds, rows):
         return
     at, ours = [s[3] for s in stated], [breaks[x[3]] for x in expected]
     energy = 0.5 * strength * bonds.overlap.max()
-    r.rows("history: energy of breaks", np.asarray(e["energy"])[at], [b[1] for b in ours], single * energy)
+    r.rows("history: energy of breaks", np.asarray(e["energy"])[at], [b[1] for b in ours], 10 * rounding * energy)
     r.rows("history: slid of breaks", np.asarray(e["slid"])[at], [float(b[2].slid) for b in ours], 0)
-    r.rows("history: normal force of breaks", np.asarray(e["normal_force"])[at], [b[2].strong[0] for b in ours], allowed)
+    r.rows("history: normal force of breaks", np.asarray(e["normal_force"])[at], [b[2].strong[0] for b in ours], single * strength)
     r.rows("history: shear force of breaks", np.abs(np.asarray(e["shear_force"])[at]),
-           [abs(b[2].strong[1]) for b in ours], allowed)
+           [abs(b[2].strong[1]) for b in ours], single * strength)

@@ -309,7 +309,7 @@ def recount_start(r, model, bonds, solution, modulus, elastic):
     expected = limit * motion
     kept = np.concatenate([elastic, [True, True]])[order]
     size = np.abs(expected[:, :2]).max()
-    # What the softest motions of the solution carry of its rounding; frames keep velocities in single precision.
+    # The softest motions carry the rounding of the stiffest, as Poisson's ratio does.
     r.compare("first rate by tolerance", np.abs(p["velocity"][order == model.top, 1])[0] / model.height, limit, 1e-6 * limit)
     r.rows("first velocities along x", p["velocity"][kept, 0], expected[order[kept], 0], 1e-6 * size)
     r.rows("first velocities along y", p["velocity"][kept, 1], expected[order[kept], 1], 1e-6 * size)
@@ -396,8 +396,9 @@ def recount_given(r, model):
             r.keys.add("packing.radius_scale")
     if not model.polygons:
         r.key("bond_thick", r.results.key("bond", "thick", model.circle_radius[: model.count].mean() / 10))
-    rate = r.summary["particles"] * r.summary["steps"] / r.summary["step_seconds"]
-    r.key("particle_steps_per_second", rate)
+    if r.summary["step_seconds"] > 0:
+        rate = r.summary["particles"] * r.summary["steps"] / r.summary["step_seconds"]
+        r.key("particle_steps_per_second", rate)
     given, stable = r.results.key("numerics", "time_step"), r.summary.get("stable_time_step")
     if given is not None:
         r.key("time_step", given, 0.0)
@@ -408,7 +409,7 @@ def recount_given(r, model):
         r.keys.add("time_step_bound")
     errors = r.summary.get("numerical_errors") or {}
     for name in ("peak_stress", "peak_strain"):
-        if name in errors and not math.isnan(r.summary["energy_closing_error"]):
+        if name in errors and r.summary["energy_closing_error"] is not None:
             r.key(f"numerical_errors.{name}.energy_closing", abs(r.summary["energy_closing_error"]))
 
 

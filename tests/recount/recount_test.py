@@ -16,6 +16,7 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parent))
 sys.dont_write_bytecode = True
 from recount import figures, recount  # noqa: E402
+from results import Unreadable  # noqa: E402
 
 program = os.environ["CRACKLE_PROGRAM"]
 scratch = Path(tempfile.mkdtemp(prefix="recount"))
@@ -45,8 +46,8 @@ rate = "axial_strain_rate = 0.02\n"
 friction = 'platens = "frictional"\nplaten_friction_angle = 15.0\n'
 
 
-# Every figure of a summary of circles squeezed at a rate with companions.
-words = """
+# Figures of a test of circles squeezed at a rate with companions.
+figures_expected = """
 axial_strain_end axial_strain_rate bond_thick bonds_broken bonds_broken_after_sliding bonds_broken_in_shear
 bonds_broken_in_tension bonds_initial contacts_initial ended_by energy_closing_error failed initial_height
 initial_poissons_ratio initial_tangent_modulus initial_tangent_modulus_pa initial_tangent_window.bonds_broken
@@ -57,8 +58,8 @@ numerical_errors.peak_strain.rate numerical_errors.peak_strain.stated numerical_
 numerical_errors.peak_stress.damping numerical_errors.peak_stress.energy_closing numerical_errors.peak_stress.rate
 numerical_errors.peak_stress.stated numerical_errors.peak_stress.time_step out_of_plane_thickness packing.anisotropy
 packing.coordination packing.coordination_of_carrying packing.floating packing.mean_overlap packing.radius_scale
-packing.stress_x packing.stress_y packing.unbalanced packing.void_ratio frame_end frame_peak frame_start particles particle_steps_per_second peak_converged peak_strain
-peak_stress peak_stress_pa platen_bottom_id platen_out_of_balance platen_top_id poissons_ratio seed simulated_time specimen
+packing.stress_x packing.stress_y packing.unbalanced packing.void_ratio frame_end frame_peak frame_start particles
+particle_steps_per_second peak_converged peak_strain peak_stress peak_stress_pa platen_bottom_id platen_out_of_balance platen_top_id poissons_ratio seed simulated_time specimen
 stable_time_step steps tangent_50_poissons_ratio tangent_modulus_50 tangent_modulus_50_pa time_step time_step_bound
 time_step_mean time_step_over_stable youngs_modulus youngs_modulus_pa
 """
@@ -105,7 +106,7 @@ class Recount(unittest.TestCase):
             "list_builds", "threads",
             "step_seconds", "wall_seconds",
         })
-        self.assertEqual(set(words.split()) - r.keys, set(), "figures that the summary lacks")
+        self.assertEqual(set(figures_expected.split()) - r.keys, set(), "figures that the summary lacks")
 
     def test_circles_pulled_by_tolerance(self):
         self.agrees(run("pulled", rock + pulled + output), 150)
@@ -154,6 +155,18 @@ class Recount(unittest.TestCase):
         self.assertTrue(json.loads((folder / "summary.json").read_text())["interrupted"], "stopped in between")
         subprocess.run([program, "test", "-q", "--resume", str(folder)], check=True)
         self.agrees(folder, 150)
+
+
+class Refuses(unittest.TestCase):
+    def test_folders_without_frames_or_rows(self):
+        for word, spoil in (("frame", lambda folder: shutil.rmtree(folder / "frames")),
+                            ("row", lambda folder: (folder / "curve.csv").write_text("step,time\n0,0\n"))):
+            folder = scratch / "lacking"
+            shutil.rmtree(folder, ignore_errors=True)
+            shutil.copytree(circles(), folder)
+            spoil(folder)
+            with self.subTest(lacking=word), self.assertRaisesRegex(Unreadable, f"found (no|fewer than two) {word}.*expected"):
+                recount(folder)
 
 
 class FaultsAreFound(unittest.TestCase):
@@ -274,14 +287,12 @@ class FaultsAreFound(unittest.TestCase):
         text = rock.replace("count = 80", "count = 30") + pulled + "axial_strain_rate = 0.2\n"
         sound = run("every_step_pulled", text + output.replace("frames = 12", "frames = 2000"))
         more = lambda values: [str(float(value) * 1.001) for value in values]  # noqa: E731
-        for file, column, change in (
-            ("curve.csv", "dashpot_loss", more), ("curve.csv", "friction_loss", more),
-            ("curve.csv", "platen_work", more), ("events.csv", "energy", more),
-            ("events.csv", "normal_force", more), ("events.csv", "shear_force", more),
-        ):
-            with self.subTest(column=column):
-                figure = "history: " + (column if file == "curve.csv" else column.replace("_", " ") + " of breaks")
-                self.found(self.spoil_column(file, column, change, sound), figure)
+        for file, columns in (("curve.csv", ("dashpot_loss", "friction_loss", "platen_work")),
+                              ("events.csv", ("energy", "normal_force", "shear_force"))):
+            for column in columns:
+                figure = column if file == "curve.csv" else column.replace("_", " ") + " of breaks"
+                with self.subTest(column=column):
+                    self.found(self.spoil_column(file, column, more, sound), "history: " + figure)
 
     def test_energies_and_sliding_points_of_the_curve(self):
         for column in ("strain_energy", "kinetic_energy", "points_sliding", "stress_top"):

@@ -180,6 +180,9 @@ class Results:
                              "run the test again") from error
         self.curve = read_table(self.folder / "curve.csv")
         self.events = read_table(self.folder / "events.csv")
+        if len(self.curve.get("step", [])) < 2:
+            raise Unreadable(f"{self.folder}/curve.csv: found fewer than two rows, expected those of a test that was loaded; "
+                             "--resume goes on with it")
         self.circles = read_deck(self.folder / "specimen_circles.dat")
         self.polygons = read_deck(self.folder / "specimen_polygons.dat")
         if self.circles is None and self.polygons is None:
@@ -197,6 +200,8 @@ class Results:
 
     def frame_rows(self):
         files = sorted((self.folder / "frames").glob("particles_*.vtp"), key=lambda f: int(f.stem.split("_")[1]))
+        if not files:
+            raise Unreadable(f"{self.folder}/frames: found no frame, expected those of the test; run it again")
         return [int(f.stem.split("_")[1]) for f in files]
 
     def particles(self, row):

@@ -133,6 +133,14 @@ class ByTolerance : public ::testing::Test {
     TestCase small_case(const SmallCase& wanted) const {
         return read_case(testing::write_small_case(scratch_ / "", wanted));
     }
+    TestCase by_tolerance(const std::string& mesh, double tolerance) const {
+        SmallCase wanted;
+        wanted.mesh = mesh;
+        TestCase description = small_case(wanted);
+        description.loading.axial_strain_rate.reset();
+        description.loading.rate_tolerance = tolerance;
+        return description;
+    }
     VirtualTest tested(const TestCase& description) const {
         VirtualTest test = prepare_test(description);
         load_specimen(test);
@@ -143,11 +151,7 @@ class ByTolerance : public ::testing::Test {
 
 TEST_F(ByTolerance, StartsAsTheElasticSolutionMovesWithoutAShock) {
     for (const char* mesh : {"", "voronoi"}) {
-        SmallCase wanted;
-        wanted.mesh = mesh;
-        TestCase description = small_case(wanted);
-        description.loading.axial_strain_rate.reset();
-        description.loading.rate_tolerance = 0.01;
+        TestCase description = by_tolerance(mesh, 0.01);
         description.loading.max_axial_strain = 2e-5;  // nothing slides yet
         description.numerics.intact = true;
         const VirtualTest test = tested(description);
@@ -168,12 +172,7 @@ TEST_F(ByTolerance, StartsAsTheElasticSolutionMovesWithoutAShock) {
 
 TEST_F(ByTolerance, RuleHoldsTheSpecimensOwnScales) {
     for (const char* mesh : {"", "voronoi"}) {
-        SmallCase wanted;
-        wanted.mesh = mesh;
-        TestCase description = small_case(wanted);
-        description.loading.axial_strain_rate.reset();
-        description.loading.rate_tolerance = 0.01;
-        const VirtualTest test = prepare_test(description);
+        const VirtualTest test = prepare_test(by_tolerance(mesh, 0.01));
         const RateRule& rule = test.setup.rate_rule;
         const double modulus = test.small_strain->moduli.youngs_modulus, strain = test.small_strain->yield_strain;
         const double area = test.setup.width * test.setup.height;
@@ -199,11 +198,7 @@ TEST_F(ByTolerance, RuleHoldsTheSpecimensOwnScales) {
 
 TEST_F(ByTolerance, FirstRowsRiseByTheSolvedModulusAtTheRateOfAWholeTest) {
     for (const char* mesh : {"", "delaunay", "voronoi"}) {
-        SmallCase wanted;
-        wanted.mesh = mesh;
-        TestCase description = small_case(wanted);
-        description.loading.axial_strain_rate.reset();
-        description.loading.rate_tolerance = 0.01;
+        TestCase description = by_tolerance(mesh, 0.01);
         description.numerics.intact = true;
         VirtualTest test = prepare_test(description);
         test.description.loading.max_axial_strain = 2e-5;  // the rate is that of the whole test
@@ -238,9 +233,7 @@ TEST_F(ByTolerance, GivesThePeakOfASlowRunInFewerSteps) {
 }
 
 TEST_F(ByTolerance, TakesTheSameStepsHoweverFarApartTheRowsOfTheCurveAre) {
-    TestCase description = small_case({});
-    description.loading.axial_strain_rate.reset();
-    description.loading.rate_tolerance = 0.02;
+    TestCase description = by_tolerance("", 0.02);
     const VirtualTest close = tested(description);
     description.loading.max_axial_strain *= 7.0;  // rows share it out
     const VirtualTest apart = tested(description);
