@@ -179,7 +179,15 @@ void add_body(World& world, const Scene& scene, const Body& body, const MassProp
 /// Springs in series, k = 2k₁k₂/(k₁+k₂), so that equal materials give their own; 0 with 0 gives 0.
 double in_series(double a, double b) { return a + b > 0.0 ? 2.0 * a * b / (a + b) : 0.0; }
 
-ContactLaw law_between(const Material& a, const Material& b, const IntactOptions& intact) {
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// Its bonds cannot break.
+void hold(ContactLaw& law) {
+    law.break_overlap = -infinite;
+    law.tensile_strength = law.cohesion = infinite;
+}
+
+ContactLaw law_between(const Material& a, const Material& b, const Settings& settings) {
     ContactLaw law{};
     law.normal_stiffness = in_series(a.normal_stiffness, b.normal_stiffness);
     law.shear_stiffness = in_series(a.shear_stiffness, b.shear_stiffness);
@@ -192,19 +200,32 @@ ContactLaw law_between(const Material& a, const Material& b, const IntactOptions
     law.normal_damping = in_series(a.damping_ratio ? 0.0 : a.normal_damping, b.damping_ratio ? 0.0 : b.normal_damping);
     law.shear_damping = in_series(a.damping_ratio ? 0.0 : a.shear_damping, b.damping_ratio ? 0.0 : b.shear_damping);
     const double angle = std::min(a.friction_angle, b.friction_angle) * std::numbers::pi / 180.0;
-    law.friction = intact.no_sliding ? std::numeric_limits<double>::infinity() : std::tan(angle);
-    law.break_overlap = intact.no_breaking ? -std::numeric_limits<double>::infinity() : 0.0;
+    law.friction = std::tan(angle);
+    law.tensile_strength = std::min(a.tensile_strength, b.tensile_strength);
+    law.cohesion = std::min(a.cohesion, b.cohesion);
+    law.bond_friction = law.friction;
+    if (settings.bond_law == BondLaw::coulomb)
+        law.friction =
+            std::tan(std::min(a.residual_friction_angle, b.residual_friction_angle) * std::numbers::pi / 180.0);
+    if (settings.intact.no_sliding) law.friction = infinite;
+    if (settings.intact.no_breaking) hold(law);
     return law;
 }
 
+/// In the order that Settings::laws states.
 void build_laws(World& world) {
-    for (const Material& a : world.settings.materials) {
-        for (const Material& b : world.settings.materials)
-            world.settings.laws.push_back(law_between(a, b, world.settings.intact));
+    Settings& settings = world.settings;
+    const std::vector<Material>& materials = settings.materials;
+    for (std::size_t b = 0; b < materials.size(); ++b)
+        for (std::size_t a = 0; a <= b; ++a) settings.laws.push_back(law_between(materials[a], materials[b], settings));
+    for (std::size_t pair = 0; pair < settings.pair_count(); ++pair) {
+        ContactLaw law = settings.laws[pair];
+        hold(law);
+        law.friction = infinite;  // and sticks
+        settings.laws.push_back(law);
     }
     // A domain wall has the touching body's own stiffness, damping and friction.
-    for (const Material& a : world.settings.materials)
-        world.settings.laws.push_back(law_between(a, a, world.settings.intact));
+    for (const Material& a : materials) settings.laws.push_back(law_between(a, a, settings));
     if (world.settings.laws.size() > std::numeric_limits<std::uint16_t>::max()) {
         throw InputError(fmt::format("materials: found {}, expected at most 255", world.settings.materials.size()));
     }
@@ -268,6 +289,8 @@ World build_world(Scene scene) {
     world.settings.thick = scene.thick;
     world.settings.segment_law = scene.segment_law;
     world.settings.integrator = scene.integrator;
+    world.settings.bond_law = scene.bond_law;
+    world.settings.units = scene.units;
     world.settings.gravity = scene.gravity;
     world.stepping.safety_factor = scene.safety_factor;
     world.stepping.step_scale = scene.step_scale;
