@@ -366,11 +366,14 @@ class ConsistencyCheck {
     void bond() const {
         const auto& b = test_.bond;
         if (!test_.coulomb_bonds()) {
+            constexpr const char* because =
+                "only bond.law = \"coulomb\" has it: by back-tension the overlap is the strength";
             for (const char* key :
                  {"material.tensile_strength", "material.cohesion", "material.residual_friction_angle", "bond.gap",
-                  "bond.tensile_factor", "bond.cohesion_factor", "bond.strength_cv", "bond.strength_seed", "bond.range",
-                  "bond.strength_distribution"})
-                exclude(key, "only bond.law = \"coulomb\" has it: by back-tension the overlap is the strength");
+                  "bond.tensile_factor", "bond.cohesion_factor", "bond.strength_cv", "bond.strength_seed"})
+                exclude(key, because);
+            if (b.range > 0.0) exclude("bond.range", because);
+            if (b.strength_distribution != "none") exclude("bond.strength_distribution", because);
             return;
         }
         if (test_.numerics.contact_law != "rounded")
@@ -391,7 +394,8 @@ class ConsistencyCheck {
         if (b.strength_distribution == "normal" && *b.strength_cv > largest_normal_cv)
             refuse("bond.strength_cv", fmt::format("{}", *b.strength_cv), fmt::format("at most {}", largest_normal_cv),
                    "a normal distribution truncated at 0 has no more; take weibull or lognormal");
-        if (test_.has_table("mesh")) exclude("bond.range", "only circles reach beyond their neighbours");
+        if (test_.has_table("mesh") && b.range > 0.0)
+            exclude("bond.range", "only circles reach beyond their neighbours");
     }
 
     /// A strength is a number or a factor.
