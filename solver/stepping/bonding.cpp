@@ -193,13 +193,14 @@ void finish_bonding(World& world) {
     world.stepping.step_goal =
         world.stepping.automatic_step && world.bonds.initial > 0 ? world.stepping.safety_factor * exact.step : 0.0;
     evaluate_step_bound(world);
-    world.bonds.broken = 0;
+    world.bonds.broken = world.bonds.broken_after_sliding = 0;
     world.bonds.interfaces_lost = 0;
     visit_remembered(world.points, [&]<class T>(std::vector<T>& values, Remembered remembered) {
         if (remembered != Remembered::always && remembered != Remembered::own_shares)
             values.assign(keeps(world, remembered) ? world.points.size() : 0, T{});
     });
     world.bonds.events.clear();
+    world.bonds.slips.clear();
     world.bonds.events.reserve(static_cast<std::size_t>(std::min<std::int64_t>(world.bonds.initial, events_at_once)));
     restart_account(world);
     world.stepping.drift = 0.0;  // nothing has moved since

@@ -21,14 +21,6 @@
 namespace crackle {
 namespace {
 
-/// Direction of a normal without its sense, in (-π/2, π/2].
-double orientation_of(Vec2 normal) {
-    double angle = std::atan2(normal.y, normal.x);
-    if (angle > 0.5 * std::numbers::pi) angle -= std::numbers::pi;
-    if (angle <= -0.5 * std::numbers::pi) angle += std::numbers::pi;
-    return angle;
-}
-
 /// Energy that a break takes, J (see above). Under the guide's law the normal spring's work has been added up just so.
 double fracture_energy(const World& world, PointIndex k, const PointView& view) {
     const ContactPoint& point = world.points.contact[k];
@@ -97,6 +89,13 @@ void part_coulomb(World& world, PointIndex k, BreakEvent& event) {
 
 }  // namespace
 
+double orientation_of(Vec2 normal) {
+    double angle = std::atan2(normal.y, normal.x);
+    if (angle > 0.5 * std::numbers::pi) angle -= std::numbers::pi;
+    if (angle <= -0.5 * std::numbers::pi) angle += std::numbers::pi;
+    return angle;
+}
+
 void record_breaks(World& world) {
     visit_kinds(world.points.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
         for (PointIndex k = begin; k < end && K != PointKind::element_wall; ++k) {
@@ -122,6 +121,7 @@ void record_breaks(World& world) {
             event.point = point;
             world.account.fracture_loss += event.energy;
             world.bonds.broken += 1;
+            world.bonds.broken_after_sliding += event.slid ? 1 : 0;
             world.bonds.interfaces_lost += event.last_of_interface ? 1 : 0;
             world.bonds.events.push_back(event);
         }

@@ -265,6 +265,9 @@ std::vector<Parameter> all_parameters() {
                     "an overlap, double loses nothing.")
             .one_of({"single", "double"})
             .otherwise(Text("single")),
+        CRACKLE_KEY(output, slips, "",
+                    "Writes slips.csv: the first arrival of each back-tension bond at its Coulomb limit.")
+            .otherwise(false),
         CRACKLE_KEY(output, checkpoint_interval, "s", "Wall-clock time between checkpoints.").above(0).otherwise(60.0),
         CRACKLE_KEY(output, out_of_plane_thickness, "m",
                     "Only converts what is reported: stresses in N/m over this give the _pa values.")

@@ -107,6 +107,7 @@ VirtualTest bond_test(const TestCase& description, const TestHooks& hooks) {
     hooks.report_work("bonding");
     BondedSpecimen bonded = bond_specimen(specimen, description, description.loading);
     test.world = std::move(bonded.world);
+    test.world.bonds.watch_slips = description.output.slips;
     const double grip = description.loading.grip.value_or(0.0);
     test.setup = record_setup(test.world, specimen, bonded.platens, description.loading.kind == "compression", grip);
     if (!description.output.frames)

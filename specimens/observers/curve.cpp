@@ -21,7 +21,10 @@ CurveRow observe_row(const World& world, const TestSetup& setup) {
     row.interfaces_lost = world.bonds.interfaces_lost;
     row.time = world.stepping.time;
     row.step = world.stepping.steps;
+    row.bonds_slid = world.bonds.broken_after_sliding;
     for (const PointState& point : world.points.state) {
+        constexpr int bond_that_slid = point_bonded | point_slid;
+        if ((point.flags & bond_that_slid) == bond_that_slid) ++row.bonds_slid;
         const bool touching = (point.flags & point_touching) != 0;
         if (touching && (point.flags & point_sliding) != 0) ++row.points_sliding;
         if (touching && (point.flags & point_bonded) == 0) ++row.contacts_gained;
@@ -93,6 +96,10 @@ const std::vector<CurveColumn>& curve_columns() {
           "without the grips, or without the outer tenths where there are none; nan where an end has none"},
          [](Row r) { return r.gauge_strain; },
          false},
+        {{"bonds_slid", "", "bonded points that have been at their Coulomb limit so far, broken ones among them",
+          "each has its row in slips.csv, where that is asked for"},
+         [](Row r) { return static_cast<double>(r.bonds_slid); },
+         true},
     };
     return columns;
 }

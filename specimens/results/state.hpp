@@ -54,9 +54,9 @@ struct TestState {
     double gauge_modulus = std::numeric_limits<double>::quiet_NaN();  ///< N/m, stress over strain of the gauge length
     double modulus_residual = std::numeric_limits<double>::quiet_NaN();  ///< of the solve, its relative error
 
-    std::uint64_t curve_bytes = 0, events_bytes = 0;  ///< lengths of the files at the checkpoint
-    double wall_seconds = 0.0, step_seconds = 0.0;    ///< spent before this process
-    std::string command;                              ///< that began the test
+    std::uint64_t curve_bytes = 0, events_bytes = 0, slips_bytes = 0;  ///< lengths of the files at the checkpoint
+    double wall_seconds = 0.0, step_seconds = 0.0;                     ///< spent before this process
+    std::string command;                                               ///< that began the test
 
     template <class Self, class Visit>
     static constexpr void fields(Self& s, Visit&& visit) {
@@ -77,6 +77,7 @@ struct TestState {
         visit("modulus_residual", s.modulus_residual);
         visit("curve_bytes", s.curve_bytes);
         visit("events_bytes", s.events_bytes);
+        visit("slips_bytes", s.slips_bytes);
         visit("wall_seconds", s.wall_seconds);
         visit("step_seconds", s.step_seconds);
         visit("command", s.command);

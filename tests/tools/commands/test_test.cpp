@@ -112,7 +112,7 @@ TEST_F(CrackleTest, NotANumber) {
 
 TEST_F(CrackleTest, AbsurdTimeStep) {
     write_small_case(folder_, {.numerics = "time_step = 1e3"});
-    expect_refused("case.toml -o out -q", "case.toml:11: numerics.time_step: found 1000 s, expected at most");
+    expect_refused("case.toml -o out -q", "case.toml:12: numerics.time_step: found 1000 s, expected at most");
 }
 
 TEST_F(CrackleTest, ZeroCircles) {
