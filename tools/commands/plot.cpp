@@ -217,12 +217,13 @@ void plot_guide(const po::variables_map& given, const Look& look, Messages& mess
                               {&tests.at(specimen + "_compression").results, "compression", 0, false}});
     };
     const auto loaded = [&](const std::string& specimen) {
-        return row({at(specimen + "_tension", "end", "pulled"), at(specimen + "_compression", "end", "squeezed")});
+        return row({at(specimen + "_tension", "end", "end of tension"),
+                    at(specimen + "_compression", "end", "end of compression")});
     };
     const std::map<int, std::vector<Panel>> figures{
         {26,
-         {row({at("circles_tension", "start", "packing"), at("circles_tension", "end", "pulled"),
-               at("circles_compression", "end", "squeezed")}),
+         {row({at("circles_tension", "start", "packing"), at("circles_tension", "end", "end of tension"),
+               at("circles_compression", "end", "end of compression")}),
           curves("circles"), breaks({{&tests.at("circles_tension").results, "tension", 0, false}})}},
         {27,
          {row({at("circles_tension", "start", "circles"), at("delaunay_tension", "start", "Delaunay"),

@@ -119,6 +119,9 @@ std::vector<Legend::Entry> entries_of(const std::vector<PlottedTest>& tests) {
     return entries;
 }
 
+/// The width that a diagram's height is a share of: a page's width is no reason to be as high as half a page.
+double proportional(double width) { return std::min(width, 340.0); }
+
 constexpr double small_text = 0.75;     // of the font size
 constexpr double beside_letter = 20.0;  // pt, from the left of a panel, where its letter stands
 
@@ -288,10 +291,10 @@ void draw_inset(Canvas& canvas, const Rect& place, const std::vector<PlottedTest
 
 Panel stress_strain(const std::vector<PlottedTest>& tests) {
     const bool single = tests.size() == 1;
-    const auto strip = [single](double width) { return (single ? 0.23 : 0.2) * width; };
+    const auto strip = [single](double width) { return (single ? 0.23 : 0.2) * proportional(width); };
     Panel panel;
     panel.height = [strip, tests](const Canvas& measure, double width) {
-        return 0.62 * width + strip(width) + legend_of(measure, entries_of(tests), width).more_rows();
+        return 0.62 * proportional(width) + strip(width) + legend_of(measure, entries_of(tests), width).more_rows();
     };
     panel.draw = [tests, strip, single](Canvas& canvas, const Rect& place) {
         const Unit unit = unit_for(largest_of(tests, "axial_stress"), "N/m");
@@ -349,7 +352,8 @@ Panel stress_strain(const std::vector<PlottedTest>& tests) {
 Panel breaks(const std::vector<PlottedTest>& tests) {
     Panel panel;
     panel.height = [tests](const Canvas& measure, double width) {
-        return 0.5 * width + (tests.size() == 1 ? 0.0 : legend_of(measure, entries_of(tests), width).more_rows());
+        return 0.5 * proportional(width) +
+               (tests.size() == 1 ? 0.0 : legend_of(measure, entries_of(tests), width).more_rows());
     };
     panel.draw = [tests](Canvas& canvas, const Rect& place) {
         const bool single = tests.size() == 1;

@@ -313,15 +313,17 @@ Panel drawings(const std::vector<DrawnMoment>& drawn, const std::vector<fs::path
         moment.extent.y2 = y2 + beyond;
     }
     const double gaps = between_drawings * (static_cast<double>(moments.size()) - 1.0);
-    const auto scale_at = [widths, widest, gaps](double width) {
-        return std::min((width - gaps) / widths, 0.45 * width / widest);  // a single specimen need not fill the sheet
-    };
     Key key;
     key.magnify = style.magnify;
     for (const Moment& moment : moments) {
         for (const CrackLine& crack : moment.cracks) (crack.shear ? key.shear : key.tension) = true;
     }
     const double height = y2 - y1 + 2.0 * beyond;
+    const auto scale_at = [widths, widest, gaps, height](double width) {
+        constexpr double highest = 300.0;  // pt: on a page's width there may be more figures below
+        // A single specimen need not fill the sheet.
+        return std::min({(width - gaps) / widths, 0.45 * width / widest, highest / height});
+    };
     Panel panel;
     panel.letter_above = true;
     panel.height = [moments, height, scale_at](const Canvas& measure, double width) {

@@ -147,7 +147,7 @@ export function fit(extent: Extent, {width, height}: Rectangle): number {
     return Math.max(1e-9, Math.min((width - 2 * sideRoom) / (extent.x2 - extent.x1), (height - titleRoom - footRoom) / (extent.y2 - extent.y1)));
 }
 
-const leastPane = 104; // px wide, for the name of a test
+const leastPane = 136; // px wide, for the name of a test
 
 /// A grid of panes that shows specimens of this aspect ratio as large as possible.
 export function grid(count: number, width: number, height: number, aspect: number): Rectangle[] {

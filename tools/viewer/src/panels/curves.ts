@@ -241,7 +241,7 @@ export function panelOption(panel: Panel, {top, legendTop, legendWidth, stressHe
             {text: panel.title, left, top: 8, padding: 0, textStyle: {...text, fontSize: 15, fontWeight: 600}},
             ...titles,
             {
-                text: note.text, left: note.left, bottom: 2, padding: 0, textStyle: {...small, fontSize: noteSize, fontWeight: 400},
+                text: note.text, left: note.left, bottom: 6, padding: 0, textStyle: {...small, fontSize: noteSize, fontWeight: 400},
             },
         ],
         legend: {
