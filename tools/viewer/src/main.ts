@@ -148,8 +148,8 @@ class Page {
                 this.drawBreaks();
             })),
             this.breakHolder,
-            element('p', {class: 'caption'}, 'Left: position of each broken bond, the area of its circle proportional to its energy (', mark('tension'), ' tension, ', mark('shear'),
-                ' shear; by time: dark is early, bright is late). Right: directions of the cracks, perpendicular to the contact normals; breaks in each ',
+            element('p', {class: 'caption'}, 'Map: position of each broken bond, the area of its circle proportional to its energy (', mark('tension'), ' tension, ', mark('shear'),
+                ' shear; by time: dark is early, bright is late). Rose: directions of the cracks, perpendicular to the contact normals; breaks in each ',
                 `${directionWidth}°, counted in both directions. The loading axis is at 90°.`));
     }
 

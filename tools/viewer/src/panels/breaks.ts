@@ -60,7 +60,7 @@ export function breakCard({test, label}: LabelledTest, colour: MapColour, theme:
 function drawMap(container: HTMLElement, test: TestData, colour: MapColour, largest: number, theme: Theme): ECharts {
     const {events} = test, extent = extentOfBreaks(test);
     const width = container.clientWidth, scale = scaleFor([0.9 * Math.max(extent.x2 - extent.x1, extent.y2 - extent.y1)], 'm'); // less the room for marks
-    const left = 46, right = 12, top = 10, bottom = 40;
+    const left = 54, right = 12, top = 10, bottom = 40;
     // Equal scales on both axes.
     const perMetre = Math.min((mapHeight - top - bottom) / (extent.y2 - extent.y1), (width - left - right) / (extent.x2 - extent.x1));
     container.style.height = `${(extent.y2 - extent.y1) * perMetre + top + bottom}px`;
@@ -77,7 +77,7 @@ function drawMap(container: HTMLElement, test: TestData, colour: MapColour, larg
     chart.setOption({
         animation: false, grid: {left, width: inner, top, bottom},
         xAxis: {...axis, min: extent.x1 / scale.factor, max: extent.x2 / scale.factor, name: `x [${scale.unit}]`, nameGap: 24, splitNumber: 3},
-        yAxis: {...axis, min: extent.y1 / scale.factor, max: extent.y2 / scale.factor, name: `y [${scale.unit}]`, nameGap: 32},
+        yAxis: {...axis, min: extent.y1 / scale.factor, max: extent.y2 / scale.factor, name: `y [${scale.unit}]`, nameGap: 40},
         series: [{
             type: 'scatter', silent: true,
             data: order.map((event) => ({

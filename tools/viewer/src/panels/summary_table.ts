@@ -64,7 +64,7 @@ function errorOf(number: string, part: string): Read {
 }
 
 const errorRows = (number: string, title: string): Row[] => [
-    percent(`${title}: stated`, errorOf(number, 'stated'), 'covers 95 of 100 runs however slow (crackle test --verify)'),
+    percent(`${title}: stated`, errorOf(number, 'stated'), 'the error to report: covers about 90 of 100 tests (crackle test --verify)'),
     percent(`${title}: time step`, errorOf(number, 'time_step'), 'change at half the time step'),
     percent(`${title}: loading rate`, errorOf(number, 'rate'), 'change at half the rate'),
     percent(`${title}: damping`, errorOf(number, 'damping'), 'largest change at half and at double the damping; a physical effect as well as an error'),
