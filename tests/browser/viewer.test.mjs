@@ -182,6 +182,16 @@ test('a test alone has its curve beside it, with the cursor', async () => {
     await close();
 });
 
+test('the residual of the solve for the modulus is not shown as its error', async () => {
+    const {page, close} = await open('pulled.html');
+    const {stated} = results(join(root, 'pulled')).summary.numerical_errors.youngs_modulus;
+    assert.ok(stated > 0 && stated < 1e-9, `this test is of a residual, found ${stated}`);
+    const rows = await page.locator('table.summary th[scope="row"]').allTextContents();
+    assert.ok(rows.includes('Peak stress: energy closing'), 'other errors are listed');
+    assert.deepEqual(rows.filter((name) => /modulus.*stated/.test(name)), []);
+    await close();
+});
+
 test('no stress is printed where there is none', async () => {
     const {page, close} = await open('pulled.html');
     const {summary, curve} = results(join(root, 'pulled'));
