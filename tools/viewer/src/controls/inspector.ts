@@ -72,7 +72,7 @@ export class Inspector {
                 select('History of', choices.map(({key, name}) => ({value: key, text: name})), this.shown, (key) => {
                     this.shown = key;
                     this.update();
-                }, {class: 'history-of'}),
+                }, {class: 'history-of'}, true),
                 this.figure,
             ] : []));
     }
@@ -159,7 +159,7 @@ function contactTable(view: SpecimenView, frame: Frame, cell: number, open: bool
         element('summary', {}, `${touches.length} contact ${touches.length === 1 ? 'point' : 'points'}`),
         ...(touches.length === 0 ? [] : [element('table', {class: 'touches'},
             element('tr', {}, element('th', {scope: 'col'}, 'with'), element('th', {scope: 'col', title: 'compression positive'}, `Fn [${scale.unit}]`), element('th', {scope: 'col'}, `Fs [${scale.unit}]`), element('th', {scope: 'col'}, '')),
-            ...touches.map(({with: other, fn, fs, array, kind}) => element('tr', {}, element('td', {}, other), element('td', {}, force(fn, array)), element('td', {}, force(fs, array)), element('td', {}, kind))))]));
+            ...touches.map(({with: other, fn, fs, array, kind}) => element('tr', {}, element('td', {}, other), element('td', {}, force(fn, array)), element('td', {}, force(fs, array)), element('td', {class: 'kind'}, kind))))]));
 }
 
 function touching(view: SpecimenView, frame: Frame, cell: number): Touch[] {

@@ -32,10 +32,11 @@ export interface GroupEntry {
 }
 
 interface TestEntry {
-    name: string; // the folder's or file's
+    name: string; // unique on the page
     kind: 'test' | 'deck' | 'particles';
     summary: Summary;
     walls?: [number, number, number, number];
+    sides?: [number, number]; // m, left and right of what the frames show, splinters far off left out
     velocities?: 'mean'; // between two frames
     arrays: Record<string, ArrayEntry>;
     frames: FrameEntry[];
@@ -92,6 +93,7 @@ export interface TestData {
     failed: boolean;
     summary: Summary;
     walls: TestEntry['walls'];
+    sides: TestEntry['sides'];
     curve: Curve | undefined; // only of a test
     events: Events;
     cells: Cells;
@@ -130,6 +132,7 @@ async function unpackTest(entry: TestEntry, index: number): Promise<TestData> {
         failed: entry.summary['failed'] === true,
         summary: entry.summary,
         walls: entry.walls,
+        sides: entry.sides,
         curve: entry.arrays['curve.axial_strain'] ? {
             strain: array('curve.axial_strain'),
             stress: array('curve.axial_stress'),
@@ -185,6 +188,13 @@ export async function readReport(source: HTMLElement | null): Promise<Report> {
         view: manifest.view,
         tests: await Promise.all(manifest.tests.map(unpackTest)),
     };
+}
+
+/// The largest of the values, at least 0.
+export function largestOf(values: ArrayLike<number>): number {
+    let largest = 0;
+    for (let at = 0; at < values.length; ++at) largest = Math.max(largest, values[at]!);
+    return largest;
 }
 
 /// Time of the last frame or break, s: a run may have no frames.
