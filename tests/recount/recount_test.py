@@ -41,7 +41,6 @@ damping_ratio = 0.2
 output = '[output]\nframe_precision = "double"\nframes = 12\n'
 voronoi = '[mesh]\nkind = "voronoi"\nthick = 1e-3\n[bond]\nthick = 1.08e-3\n'
 triangles = '[mesh]\nkind = "delaunay"\nboundary = "domain"\nthick = 1e-3\n[bond]\nthick = 1.08e-3\n'
-between_seeds = triangles.replace('boundary = "domain"\n', "")
 squeezed = '[loading]\nkind = "compression"\nmax_axial_strain = 0.02\n'
 pulled = '[loading]\nkind = "tension"\nmax_axial_strain = 0.005\n'
 rate = "axial_strain_rate = 0.02\n"
@@ -123,8 +122,8 @@ class Recount(unittest.TestCase):
     def test_triangles_between_frictional_platens(self):
         self.agrees(run("triangles", rock + triangles + squeezed + friction + output), 100)
 
-    def test_triangles_between_seeds(self):
-        self.agrees(run("seeds", rock + between_seeds + pulled + output), 150)
+    def test_triangles_pulled_by_tolerance(self):
+        self.agrees(run("triangles_pulled", rock + triangles + pulled + output), 150)
 
     def test_guides_law(self):
         self.agrees(run("demseg", rock + voronoi + pulled + '[numerics]\ncontact_law = "demseg"\n' + output), 20)
