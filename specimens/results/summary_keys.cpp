@@ -50,7 +50,8 @@ std::vector<SummaryKey> all_summary_keys() {
         {{"initial_tangent_window.rows", "", "rows of the curve"}},
         {{"initial_tangent_window.strain_to", "-", "axial strain at its end"}},
         {{"initial_tangent_window.bonds_broken", "", "bonded points"}},
-        {{"initial_tangent_window.points_sliding", "", "contact points at the Coulomb limit at its end"}},
+        {{"initial_tangent_window.points_sliding", "",
+          "contact points at the Coulomb limit at its end, as in curve.csv"}},
         {{"initial_tangent_window.contacts_gained", "", "points touching without a bond, more than at its beginning"}},
         {{"tangent_modulus_50", "N/m", "regression from 40 % to 60 % of the peak"}, listed, converted},
         {{"tangent_50_poissons_ratio", "-", "over the same rows"}},
@@ -135,11 +136,12 @@ std::vector<SummaryKey> all_summary_keys() {
           "solve, its residual. post_peak_difference: mean difference of stress from the peak on, over the peak; "
           "breaks there are chaotic, so it is no error of step or rate"}},
         {{"numerical_errors.*.time_step", "-",
-          "of youngs_modulus, peak_stress and peak_strain: change at half the step"}},
-        {{"numerical_errors.*.rate", "-", "change at half the rate"}},
+          "of youngs_modulus, peak_stress and peak_strain: change at half the step; 0 of a solve"}},
+        {{"numerical_errors.*.rate", "-", "change at half the rate; 0 of a solve"}},
         {{"numerical_errors.*.energy_closing", "-", "energy_closing_error without its sign; null of a solve"}},
-        {{"numerical_errors.*.damping", "-", "larger change at half and double the damping"}},
-        {{"numerical_errors.*.resolution", "-", "by the spacing of the rows"}},
+        {{"numerical_errors.*.damping", "-", "larger change at half and double the damping; 0 of a solve"}},
+        {{"numerical_errors.*.resolution", "-",
+          "by the spacing of the rows: what the row before the peak differs by; 0 of a solve"}},
         {{"numerical_errors.*.stated", "-", "the error to report, see numerical_errors"}},
         {{"numerical_errors.companions.*.peak_stress", "N/m",
           "with --verify, of half_time_step, half_rate, half_damping and double_damping: peak, or largest stress so "
@@ -151,7 +153,9 @@ std::vector<SummaryKey> all_summary_keys() {
         {{"numerical_errors.companions.*.axial_strain_rate", "1/s", "mean of its run"}},
         {{"numerical_errors.companions.*.damping", "-", "of its contacts, over the test's"}},
         {{"numerical_errors.companions.*.post_peak_difference", "-",
-          "mean difference of stress from the peak on, over the peak"}},
+          "mean over the rows from the peak to the earlier end of the two: difference of its stress there, between its "
+          "rows, "
+          "over the peak"}},
         {{"peak_converged", "",
           "whether the peak at half the step and half the rate lies on the same branch; null: not run, or no failure",
           "on the same branch: stress within 3 %, strain within 10 %"}},

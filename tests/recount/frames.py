@@ -145,10 +145,9 @@ def recount_frame(r, model, bonds, frame, first, row):
     cn, cs = model.dashpots(q)
     tangent = turned(q.normal)
     normal_all = normal + cn * dot(relative, q.normal)
-    # A limit is known to the rounding of places only: whether a point that hardly touches slides is open.
-    open_question = limit <= 2e-15 * model.height * kn
     slides = np.abs(shear) >= limit * (1 - rounding) - 1e-15 * model.height * kn
     sticks = ~slides
+    counted = np.abs(shear) > 1e-9 * np.mean(model.normal_stiffness(bonds) * bonds.overlap)
     shear_all = shear - np.where(sticks, cs * dot(relative, tangent), 0.0)
     force = -q.normal * normal_all[:, None] + tangent * shear_all[:, None]  # on i
     total, moment = np.zeros_like(velocity), np.zeros(len(spin))
@@ -230,8 +229,7 @@ def recount_frame(r, model, bonds, frame, first, row):
     if leapfrog:
         r.compare(label + "curve: kinetic_energy", c["kinetic_energy"][row], kinetic, 1e-6 * kinetic + either)
     if leapfrog:
-        r.compare(label + "curve: points_sliding", c["points_sliding"][row], int(np.sum(slides)),
-                  int(np.sum(open_question)))
+        r.compare(label + "curve: points_sliding", c["points_sliding"][row], int(np.sum(slides & counted)), 0)
     left, right = model.gauge()
     by_seeds = model.polygons and r.results.key("mesh", "kind") == "delaunay" and r.results.key("mesh", "boundary") == "seeds"
     if left and right and not by_seeds:

@@ -14,7 +14,8 @@ except ImportError:
 
 from frames import recount_frame, recount_places
 from history import holds_every_step, recount_history
-from model import Model, dot, rounding, turned
+from loading_by_tolerance import by_tolerance, recount_start
+from model import Model, rounding
 from results import Results, Unreadable
 
 
@@ -147,7 +148,10 @@ def recount_curve(r):
         r.key(w + "strain_to", strain[early[-1]])
         r.key(w + "bonds_broken", c["bonds_broken"][early[-1]] - c["bonds_broken"][early[0]])
         r.key(w + "points_sliding", c["points_sliding"][early[-1]])
-    if case("loading", "rate_tolerance") is not None and case("loading", "axial_strain_rate") is None:
+        if {int(early[0]), int(early[-1])} <= set(r.results.frame_rows()):  # states 3 and 4: touching without a bond
+            loose = [np.sum(r.results.frame(row).contacts["state"] >= 3) for row in (early[0], early[-1])]
+            r.key(w + "contacts_gained", int(loose[1]) - int(loose[0]))
+    if by_tolerance(r):
         r.key("axial_strain_rate", strain[-1] / c["time"][-1])
         r.key("viscous_stress_share", stress[0] / stress[peak])
     else:
@@ -250,7 +254,7 @@ def recount_specimen(r, model):
     strained = -solution[3 * model.top + 1] / model.height * model.sense
     # The eigenvectors of the softest motions carry the rounding of the stiffest, 1e-16 over the smallest eigenvalue.
     r.key("youngs_modulus", stress / strained, 1e-7)
-    if r.results.key("loading", "rate_tolerance") is not None and r.results.key("loading", "axial_strain_rate") is None:
+    if by_tolerance(r):
         loose = np.abs(scale[:, None] * vectors[:, ~regular]).reshape(model.count, -1).max(axis=1, initial=0.0)
         recount_start(r, model, bonds, solution, stress / strained, loose <= 1e-6 * scale.max())
     left, right = model.gauge()
@@ -278,43 +282,6 @@ def recount_specimen(r, model):
         if r.results.key("numerics", "time_step") is None:
             r.key("time_step_over_stable", s["time_step"] / step)
     return bonds
-
-
-def recount_start(r, model, bonds, solution, modulus, elastic):
-    """First rate and first velocities of loading by tolerance (specimens/METHODS.md 4), in the first frame.
-
-    @param solution  motion for an axial strain of 1   @param elastic  bodies that it moves"""
-    motion = solution.reshape(-1, 3)
-
-    def at(body):
-        arm = bonds.position - model.centre[body]
-        return motion[body, :2] + turned(arm) * motion[body, 2:]
-
-    way = at(bonds.i) - at(bonds.j)
-    closing, slipping = dot(way, bonds.normal), np.abs(dot(way, turned(bonds.normal)))
-    friction, kn, ks = model.friction(bonds), model.normal_stiffness(bonds), model.shear_stiffness(bonds)
-    with np.errstate(divide="ignore"):
-        parting = np.where(closing < 0, -bonds.overlap / closing, math.inf)
-        margin = friction * kn * closing - ks * slipping
-        sliding = np.where((margin < 0) & (ks * slipping > 0), -friction * kn * bonds.overlap / margin, math.inf)
-    first = np.sort(np.minimum(parting, sliding))[len(closing) // 50]
-    if not math.isfinite(first):
-        first = r.results.key("loading", "max_axial_strain")
-    transit = model.height / math.sqrt(modulus / (model.mass[: model.count].sum() / (model.width * model.height)))
-    limit = math.sqrt(r.results.key("loading", "rate_tolerance")) * first / transit
-    p = r.results.particles(r.results.frame_rows()[0])
-    order = np.array([model.index[n] for n in p["id"]])
-    if p["time"][0] > 0:
-        return
-    expected = limit * motion
-    kept = np.concatenate([elastic, [True, True]])[order]
-    size = np.abs(expected[:, :2]).max()
-    # The softest motions carry the rounding of the stiffest, as Poisson's ratio does.
-    r.compare("first rate by tolerance", np.abs(p["velocity"][order == model.top, 1])[0] / model.height, limit, 1e-6 * limit)
-    r.rows("first velocities along x", p["velocity"][kept, 0], expected[order[kept], 0], 1e-6 * size)
-    r.rows("first velocities along y", p["velocity"][kept, 1], expected[order[kept], 1], 1e-6 * size)
-    turns = expected[order[kept], 2]
-    r.rows("first rotation rates", p["rotation_rate"][kept], turns, 1e-6 * np.abs(turns).max())
 
 
 def recount_events(r, model, bonds):
@@ -439,7 +406,9 @@ def recount_errors(r):
             r.compare(label + "damping over the test's", run["damping"], damping, 1e-12)
     peak = {"peak_stress": r.summary["peak_stress"], "peak_strain": r.summary["peak_strain"]}
     runs = errors["companions"]
-    rows = np.diff(r.curve["axial_strain"]).max()
+    every_row = r.results.key("output", "curve_rows", 2000) >= 2000
+    share = r.results.key("loading", "stop_at_share_of_peak", 0.5)
+    row, _ = find_peak(r.curve["axial_strain"], r.curve["axial_stress"], share)
     for name, value in peak.items():
         half_step, half_rate = runs["half_time_step"][name], runs["half_rate"][name]
         spread = np.std([value, half_step, half_rate], ddof=1)
@@ -449,10 +418,13 @@ def recount_errors(r):
         r.key(f"numerical_errors.{name}.damping",
               max(abs(runs[k][name] - value) / value for k in ("half_damping", "double_damping")))
         resolution = errors[name]["resolution"]
+        if every_row and row > 0:
+            column = r.curve["axial_stress" if name == "peak_stress" else "axial_strain"]
+            r.key(f"numerical_errors.{name}.resolution", abs(column[row] - column[row - 1]) / value)
         stated = math.hypot(resolution, max(3 * rate, 2.92 * math.sqrt(2) * spread / value))
         r.key(f"numerical_errors.{name}.stated", stated, 1e-3)  # 2.92 stands for 2.91999
-    r.true("numerical_errors.peak_strain.resolution of the rows' spacing",
-           errors["peak_strain"]["resolution"] <= 2 * rows / peak["peak_strain"])
+    for part in ("time_step", "rate", "damping", "resolution"):
+        r.key(f"numerical_errors.youngs_modulus.{part}", 0.0)
     moved = {name: max(errors[name]["time_step"], errors[name]["rate"]) for name in peak}
     r.key("peak_converged", bool(moved["peak_stress"] <= 0.03 and moved["peak_strain"] <= 0.1))
 

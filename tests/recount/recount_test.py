@@ -15,7 +15,9 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
 sys.dont_write_bytecode = True
+import numpy as np  # noqa: E402
 from recount import figures, recount  # noqa: E402
+from results import Results as read  # noqa: E402
 from results import Unreadable  # noqa: E402
 
 program = os.environ["CRACKLE_PROGRAM"]
@@ -39,7 +41,6 @@ damping_ratio = 0.2
 output = '[output]\nframe_precision = "double"\nframes = 12\n'
 voronoi = '[mesh]\nkind = "voronoi"\nthick = 1e-3\n[bond]\nthick = 1.08e-3\n'
 triangles = '[mesh]\nkind = "delaunay"\nboundary = "domain"\nthick = 1e-3\n[bond]\nthick = 1.08e-3\n'
-between_seeds = triangles.replace('boundary = "domain"\n', "")
 squeezed = '[loading]\nkind = "compression"\nmax_axial_strain = 0.02\n'
 pulled = '[loading]\nkind = "tension"\nmax_axial_strain = 0.005\n'
 rate = "axial_strain_rate = 0.02\n"
@@ -54,9 +55,9 @@ initial_poissons_ratio initial_tangent_modulus initial_tangent_modulus_pa initia
 initial_tangent_window.points_sliding initial_tangent_window.rows initial_tangent_window.strain_to initial_width
 interfaces_initial interfaces_lost kind mean_back_tension mean_back_tension_interface mean_bond_overlap
 numerical_errors.peak_strain.damping numerical_errors.peak_strain.energy_closing
-numerical_errors.peak_strain.rate numerical_errors.peak_strain.stated numerical_errors.peak_strain.time_step
+numerical_errors.peak_strain.rate numerical_errors.peak_strain.resolution numerical_errors.peak_strain.stated numerical_errors.peak_strain.time_step
 numerical_errors.peak_stress.damping numerical_errors.peak_stress.energy_closing numerical_errors.peak_stress.rate
-numerical_errors.peak_stress.stated numerical_errors.peak_stress.time_step out_of_plane_thickness packing.anisotropy
+numerical_errors.peak_stress.resolution numerical_errors.peak_stress.stated numerical_errors.peak_stress.time_step out_of_plane_thickness packing.anisotropy
 packing.coordination packing.coordination_of_carrying packing.floating packing.mean_overlap packing.radius_scale
 packing.stress_x packing.stress_y packing.unbalanced packing.void_ratio frame_end frame_peak frame_start particles
 particle_steps_per_second peak_converged peak_strain peak_stress peak_stress_pa platen_bottom_id platen_out_of_balance platen_top_id poissons_ratio seed simulated_time specimen
@@ -99,10 +100,8 @@ class Recount(unittest.TestCase):
         r = recount(circles())
         left = {name for name in figures(r.summary) - r.keys if ".companions." not in name}
         self.assertEqual(left, {
-            "initial_tangent_window.contacts_gained",  # needs every step
-            "numerical_errors.peak_strain.resolution", "numerical_errors.peak_stress.resolution",  # only bounded
-            *(f"numerical_errors.youngs_modulus.{name}" for name in
-              ("damping", "rate", "resolution", "stated", "time_step")),  # the solve's own residual
+            "initial_tangent_window.contacts_gained",  # needs a frame at the window's last row
+            "numerical_errors.youngs_modulus.stated",  # the solve's own residual
             "list_builds", "threads",
             "step_seconds", "wall_seconds",
         })
@@ -123,8 +122,8 @@ class Recount(unittest.TestCase):
     def test_triangles_between_frictional_platens(self):
         self.agrees(run("triangles", rock + triangles + squeezed + friction + output), 100)
 
-    def test_triangles_between_seeds(self):
-        self.agrees(run("seeds", rock + between_seeds + pulled + output), 150)
+    def test_triangles_pulled_by_tolerance(self):
+        self.agrees(run("triangles_pulled", rock + triangles + pulled + output), 150)
 
     def test_guides_law(self):
         self.agrees(run("demseg", rock + voronoi + pulled + '[numerics]\ncontact_law = "demseg"\n' + output), 20)
@@ -134,13 +133,57 @@ class Recount(unittest.TestCase):
 
     def test_every_step_of_circles_and_polygons(self):
         for name, case, speed in (("pulled", pulled, 0.2), ("squeezed", squeezed, 0.2), ("cells", voronoi + pulled, 0.2),
-                                  ("frictional", triangles + squeezed.replace("0.02", "0.003") + friction, 1.0)):
+                                  ("frictional", triangles + squeezed.replace("0.02", "0.003") + friction, 0.5)):
             quick = case + f"axial_strain_rate = {speed}\n"
             text = rock.replace("count = 80", "count = 30") + quick + output.replace("frames = 12", "frames = 2000")
             with self.subTest(case=name):
                 folder = run("every_step_" + name, text)
-                self.assertTrue(any("history" in line[0] for line in recount(folder).lines), "a frame a step")
+                r = recount(folder)
+                self.assertTrue(any("history" in line[0] for line in r.lines), "a frame a step")
+                if name == "frictional":
+                    self.assertIn("initial_tangent_window.contacts_gained", r.keys)
+                    self.assertGreater(r.summary["initial_tangent_window"]["contacts_gained"], 0)
                 self.agrees(folder, 180)
+
+    def test_rate_rule_of_every_step(self):
+        for name, case in (("pulled", pulled), ("squeezed", squeezed), ("cells", voronoi + squeezed)):
+            text = rock.replace("count = 80", "count = 30") + case + output + "curve_rows = 99998\n"
+            with self.subTest(case=name):
+                folder = run("rule_" + name, text)
+                r = recount(folder)
+                self.assertIn("strain_share_above_tolerance", r.keys)
+                self.assertGreater(r.summary["strain_share_above_tolerance"], 0.0, "the rule had something to do")
+                self.agrees(folder, 100)
+
+    def test_companions_are_the_tests_that_they_say(self):
+        small = rock.replace("count = 80", "count = 30")
+        step = "[numerics]\ntime_step = 1e-4\n"
+        for loading, slower in ((squeezed + rate, ("rate = 0.02", "rate = 0.01")),
+                                (squeezed + "rate_tolerance = 0.01\n", ("= 0.01\n", "= 0.0025\n"))):
+            text = small + loading + step
+            kind = "rate" if rate in loading else "tolerance"
+            of = read(run(f"verified_{kind}", text, "--verify"))
+            for name, own in (("half_time_step", text.replace("1e-4", "0.5e-4")), ("half_rate", text.replace(*slower)),
+                              ("half_damping", text.replace("ratio = 0.2", "ratio = 0.1")),
+                              ("double_damping", text.replace("ratio = 0.2", "ratio = 0.4").replace(step, ""))):
+                other = read(run(f"{kind}_{name}", own))
+                stated = of.summary["numerical_errors"]["companions"][name]
+                for figure, from_summary in (("peak_stress", "peak_stress"), ("peak_strain", "peak_strain"), ("steps", "steps"),
+                                             ("time_step", "time_step_mean"), ("axial_strain_rate", "axial_strain_rate"),
+                                             ("ended_by", "ended_by")):
+                    expected = other.summary[from_summary]
+                    with self.subTest(kind=kind, companion=name, figure=figure):
+                        if figure == "axial_strain_rate":  # off its rows, and as given
+                            self.assertAlmostEqual(stated[figure], expected, delta=1e-9 * expected)
+                        else:
+                            self.assertEqual(stated[figure], expected)
+                strain, theirs = of.curve["axial_strain"], other.curve["axial_strain"]
+                after = (strain >= of.summary["peak_strain"]) & (strain <= min(strain[-1], theirs[-1]))
+                apart = np.abs(np.interp(strain[after], theirs, other.curve["axial_stress"]) - of.curve["axial_stress"][after])
+                expected = apart.mean() / of.summary["peak_stress"]
+                with self.subTest(kind=kind, companion=name, figure="post_peak_difference"):
+                    self.assertGreater(after.sum(), 5, "rows after the peak")
+                    self.assertAlmostEqual(stated["post_peak_difference"], expected, delta=1e-9)
 
     def test_restarted(self):
         folder, case = scratch / "restarted", scratch / "restarted.toml"
