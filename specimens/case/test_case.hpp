@@ -66,6 +66,7 @@ struct TestCase {
         std::optional<double> axial_strain_rate;  // 1/s; or:
         std::optional<double> rate_tolerance;
         double max_axial_strain = 0.0;
+        double strength_drop = 0.0;
         double stop_at_share_of_peak = 0.0;
         std::string platens;                          // "bonded" or "frictional"
         std::optional<double> platen_friction_angle;  // degrees
@@ -89,10 +90,10 @@ struct TestCase {
 
     struct Output {
         std::int64_t curve_rows = 0;
-        std::optional<std::int64_t> frames;   ///< absent until the bodies are counted: default_frames()
-        std::string frame_precision;          ///< of points: "single" or "double"
-        double checkpoint_interval = 0.0;     // s, wall clock
-        double out_of_plane_thickness = 0.0;  // m
+        std::optional<std::int64_t> frames;            ///< absent until the bodies are counted: default_frames()
+        std::string frame_precision;                   ///< of points: "single" or "double"
+        double checkpoint_interval = 0.0;              // s, wall clock
+        std::optional<double> out_of_plane_thickness;  // m
     } output;
 
     /// No key: the companions of a test are made with it. Times the damping of every material, after packing.

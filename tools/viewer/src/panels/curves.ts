@@ -13,7 +13,7 @@ import {SVGRenderer} from 'echarts/renderers';
 import type {CustomSeriesRenderItemAPI, CustomSeriesRenderItemParams} from 'echarts/types/dist/shared';
 
 import type {Theme} from '../colours/theme';
-import {peakOf, type TestData} from '../data/report';
+import {numberOf, peakOf, type TestData} from '../data/report';
 import {Cursor} from '../elements/chart_cursor';
 import {element} from '../elements/dom';
 import {counted, quantity, scaleFor, significant, strain as strainText, strainFactor, strainUnit, type Scale} from '../quantities/units';
@@ -115,7 +115,8 @@ function tooltip(at: number, prepared: Prepared[], theme: Theme): HTMLElement {
 }
 
 function peakLabel(test: TestData, stress: number): string {
-    return quantity(stress, 'N/m') + (test.failed ? '' : ', peak so far');
+    const thickness = numberOf(test.summary, 'out_of_plane_thickness');
+    return quantity(stress, 'N/m') + (thickness === undefined ? '' : `, ${quantity(stress / thickness, 'Pa')}`) + (test.failed ? '' : ', peak so far');
 }
 
 function stressSeries(member: Member, range: number, scale: Scale, theme: Theme) {
