@@ -41,7 +41,7 @@ std::vector<SummaryKey> all_summary_keys() {
         {{"peak_strain_so_far", "-", "positive in the sense of the test",
           "in place of it while the specimen has not failed"}},
         {{"largest_stress", "N/m", "positive in the sense of the test",
-          "of the whole test; after the peak it is that of pieces which carry again, and a notice says so"},
+          "of the whole test; where it comes after the peak a notice says so"},
          listed,
          converted},
         {{"strain_at_largest_stress", "-", "positive in the sense of the test"}},
@@ -74,7 +74,7 @@ std::vector<SummaryKey> all_summary_keys() {
         {{"area_strain_peak", "-",
           "axial less lateral strain, shortening and widening positive: positive where the specimen's area shrinks",
           "at the peak"}},
-        {{"area_strain_end", "-", "likewise", "at the end"}},
+        {{"area_strain_end", "-", "likewise, side particles that have come off included", "at the end"}},
         {{"fragments", "",
           "groups of particles that intact bonds join, at the end; a particle that nothing holds is one, one that "
           "nothing held from the start too"}},
