@@ -203,8 +203,14 @@ std::vector<Parameter> all_parameters() {
         CRACKLE_KEY(loading, max_axial_strain, "", "The test ends here if the specimen has not failed before.")
             .above(0)
             .below(1),
+        CRACKLE_KEY(loading, strength_drop, "",
+                    "The strength is the first maximum of the stress that a drop of this share follows and stays for a "
+                    "tenth of the strain there.")
+            .above(0)
+            .below(1)
+            .otherwise(0.1),
         CRACKLE_KEY(loading, stop_at_share_of_peak, "",
-                    "Failure: stress below this share of its peak for a tenth of the strain at peak.")
+                    "The test ends: stress below this share of its largest for a tenth of the strain there.")
             .above(0)
             .below(1)
             .otherwise(0.5),
@@ -270,9 +276,9 @@ std::vector<Parameter> all_parameters() {
             .otherwise(false),
         CRACKLE_KEY(output, checkpoint_interval, "s", "Wall-clock time between checkpoints.").above(0).otherwise(60.0),
         CRACKLE_KEY(output, out_of_plane_thickness, "m",
-                    "Only converts what is reported: stresses in N/m over this give the _pa values.")
-            .above(0)
-            .otherwise(1.0),
+                    "Only converts what is reported: stresses in N/m over this give the _pa values, and MPa beside "
+                    "them on terminal and page; if not given the _pa values are those of 1 m.")
+            .above(0),
     };
 }
 

@@ -83,6 +83,7 @@ struct TestCase {
         std::optional<double> axial_strain_rate;  // 1/s; or:
         std::optional<double> rate_tolerance;
         double max_axial_strain = 0.0;
+        double strength_drop = 0.0;
         double stop_at_share_of_peak = 0.0;
         std::string platens;                          // "bonded", "glued" or "frictional"
         std::optional<double> grip;                   // -, of the height; glued platens only
@@ -107,11 +108,11 @@ struct TestCase {
 
     struct Output {
         std::int64_t curve_rows = 0;
-        std::optional<std::int64_t> frames;  ///< absent until the bodies are counted: default_frames()
-        std::string frame_precision;         ///< of points: "single" or "double"
+        std::optional<std::int64_t> frames;            ///< absent until the bodies are counted: default_frames()
+        std::string frame_precision;                   ///< of points: "single" or "double"
         bool slips = false;
-        double checkpoint_interval = 0.0;     // s, wall clock
-        double out_of_plane_thickness = 0.0;  // m
+        double checkpoint_interval = 0.0;              // s, wall clock
+        std::optional<double> out_of_plane_thickness;  // m
     } output;
 
     /// No key: the companions of a test are made with it. Times the damping of every material, after packing.

@@ -143,7 +143,11 @@ class LoadingLoop {
         const CurveRow row = observe_row(world_, setup_);
         state_.rows.push_back(row);
         const bool new_peak = state_.failure.update(index, row.axial_strain, row.axial_stress);
-        if (state_.failure.failed) {
+        if (new_peak) {
+            state_.breaks_in_shear_to_peak = state_.breaks_in_shear;
+            state_.breaks_in_tension_to_peak = state_.breaks_in_tension;
+        }
+        if (state_.failure.collapsed) {
             state_.ended_by = ended_by_failure;
         } else if (at_end) {
             state_.ended_by = ended_by_strain;

@@ -46,6 +46,7 @@ struct TestState {
     std::int64_t next_frame = 0;     ///< due at this multiple of the strain between frames
     RateState rate;                  ///< loading by tolerance
     std::int64_t breaks_in_shear = 0, breaks_in_tension = 0, breaks_after_sliding = 0;
+    std::int64_t breaks_in_shear_to_peak = 0, breaks_in_tension_to_peak = 0;
     std::string ended_by;  ///< empty while the test runs
 
     // Of the specimen with all bonds intact and sticking (sparse solve); not a number where there is no solution.
@@ -70,6 +71,8 @@ struct TestState {
         visit("breaks_in_shear", s.breaks_in_shear);
         visit("breaks_in_tension", s.breaks_in_tension);
         visit("breaks_after_sliding", s.breaks_after_sliding);
+        visit("breaks_in_shear_to_peak", s.breaks_in_shear_to_peak);
+        visit("breaks_in_tension_to_peak", s.breaks_in_tension_to_peak);
         visit("ended_by", s.ended_by);
         visit("youngs_modulus", s.youngs_modulus);
         visit("poissons_ratio", s.poissons_ratio);

@@ -20,6 +20,7 @@ before(async () => {
     execFileSync(process.env.SAMPLE_RESULTS, [root]);
     report(sixFolders, 'six.html');
     report(['stopped'], 'stopped.html');
+    report(['rubble', 'stopped'], 'rubble.html');
     report(['markup', 'stopped'], 'markup.html');
     report(['markup'], 'markup-title.html');
     for (const [lab, seed] of [['first', 1], ['second', 2]]) {
@@ -148,6 +149,7 @@ test('the table states the summaries in one unit a row', async () => {
     assert.deepEqual((await cells('Peak stress: time step')).slice(0, 2), ['%', '0.40']);
     assert.deepEqual(await cells('Peak stress: loading rate'), [], 'a row of nothing is left out');
     assert.deepEqual((await cells('Peak converged')).slice(1), sixFolders.map(() => 'yes'));
+    assert.deepEqual(await cells('Larger stress after the peak'), []);
     assert.deepEqual((await cells('Time step over the stable one')).slice(0, 2), ['%', '80']);
     await close();
 });
@@ -256,6 +258,22 @@ test('curves of one kind that would be slivers beside the other have panels of t
     });
     console.log(`  panels: ${titles.join('; ')}`);
     assert.deepEqual(titles, expected);
+    await close();
+});
+
+test('a larger stress after the peak is marked, and a thickness gives stresses in MPa', async () => {
+    const {page, close} = await open('rubble.html');
+    const {summary} = results(join(root, 'rubble'));
+    const row = (name) => page.locator('table.summary tr', {has: page.locator(`th:text-is("${name}")`)}).locator('td');
+    const [unit, rubble, stopped] = await row('Larger stress after the peak').allTextContents();
+    assert.deepEqual([unit, rubble, stopped], ['kN/m', '6.00', '–']);
+    assert.deepEqual(await row('Larger stress after the peak').evaluateAll((cells) => cells.map((cell) => cell.classList.contains('warning'))), [false, true, false]);
+    assert.deepEqual((await row('Peak stress over the thickness').allTextContents()).slice(0, 2), ['kPa', (summary.peak_stress / 0.05 / 1000).toPrecision(3)]);
+    assert.deepEqual((await row('Larger stress after the peak over the thickness').allTextContents()).slice(0, 2), ['kPa', '120']);
+    assert.match(await page.locator('[data-panel]').first().textContent(), new RegExp(`${(summary.peak_stress / 0.05 / 1000).toPrecision(3)}\\s?kPa`));
+    assert.deepEqual((await row('Fragments at the end').allTextContents()).slice(0, 2), ['–', '3']);
+    assert.deepEqual((await row('up to the peak in tension').allTextContents()).slice(1), ['2', '2']);
+    assert.deepEqual((await row('Area strain at peak').allTextContents()).slice(1, 2), [(0.4 * summary.peak_strain * 1000).toPrecision(3)]);
     await close();
 });
 

@@ -194,6 +194,9 @@ def recount_frame(r, model, bonds, frame, first, row):
     for n, group in enumerate(ranked):
         number[group] = n
     r.rows(label + "fragment", p["fragment"], number[order], 0)
+    if frame.time == r.curve["time"][-1]:
+        r.key("fragments", len(ranked))
+        r.key("largest_fragment_share", model.area[ranked[0]].sum() / model.area[: model.count].sum())
     broken = int(np.sum((state == 2) | (state == 3)))
     by_events = int(np.sum(r.events["time"] <= frame.time * (1 + 1e-12))) if len(r.events["time"]) else 0
     r.compare(label + "broken bonds of events.csv", broken, by_events, 0)

@@ -16,6 +16,7 @@ from frames import recount_frame, recount_places
 from history import holds_every_step, recount_history
 from loading_by_tolerance import by_tolerance, recount_start
 from model import Model, rounding
+from peaks import find_fall
 from results import Results, Unreadable
 
 
@@ -24,6 +25,7 @@ class Recount:
 
     def __init__(self, results):
         self.results, self.lines, self.keys = results, [], set()
+        self.peak = None  # row of the peak, where all rows are written
         self.summary, self.curve, self.events = results.summary, results.curve, results.events
 
     def compare(self, name, stated, ours, tolerance):
@@ -79,21 +81,6 @@ def slope(x, y):
     return np.sum((x - x.mean()) * (y - y.mean())) / np.sum((x - x.mean()) ** 2)
 
 
-def find_peak(strain, stress, share):
-    """Row of the peak and the row at which failure is found, or None (specimens/METHODS.md 5)."""
-    peak, below = None, None
-    for k in range(len(stress)):
-        if stress[k] > (stress[peak] if peak is not None else 0.0):
-            peak, below = k, None
-        elif peak is None or stress[k] >= share * stress[peak]:
-            below = None
-        else:
-            below = k if below is None else below
-            if strain[k] - strain[below] >= 0.1 * strain[peak] and k - below >= 10:
-                return peak, k
-    return peak, None
-
-
 def recount_curve(r):
     """What follows from curve.csv alone."""
     c, case = r.curve, r.results.key
@@ -111,26 +98,37 @@ def recount_curve(r):
     r.key("time_step_mean", c["time"][-1] / c["step"][-1])
     r.key("bonds_broken", c["bonds_broken"][-1])
     r.key("interfaces_lost", c["interfaces_lost"][-1])
+    strain, stress, lateral = c["axial_strain"], c["axial_stress"], c["lateral_strain"]
+    sense = 1.0 if case("loading", "kind") == "compression" else -1.0
+    r.key("area_strain_end", sense * strain[-1] - lateral[-1])
     if case("output", "curve_rows", 2000) < 2000:
         return  # peak and windows are those of rows that were not written
-    strain, stress, lateral = c["axial_strain"], c["axial_stress"], c["lateral_strain"]
-    peak, end = find_peak(strain, stress, case("loading", "stop_at_share_of_peak", 0.5))
-    r.key("failed", end is not None)
+    peak, dropped = find_fall(strain, stress, 1 - case("loading", "strength_drop", 0.1))
+    _, end = find_fall(strain, stress, case("loading", "stop_at_share_of_peak", 0.5))
+    failed = dropped is not None or end is not None
+    r.key("failed", failed)
     if end is not None:
         r.key("ended_by", "failure")
         r.compare("row at which failure is found", len(stress) - 1, end, 0)
+    else:
+        r.true("ended_by: not failure", r.summary["ended_by"] != "failure")
     if peak is None:
         return
-    suffix = "" if end is not None else "_so_far"
+    r.peak, largest = peak, int(np.argmax(stress))
+    r.key("largest_stress", stress[largest], 0.0)
+    r.key("strain_at_largest_stress", strain[largest], 0.0)
+    r.true("notice of a larger stress after the peak",
+           any("the largest stress" in notice for notice in r.summary["notices"]) == (largest > peak))
+    suffix = "" if failed else "_so_far"
     r.key("peak_stress" + suffix, stress[peak], 0.0)
     r.key("peak_strain" + suffix, strain[peak], 0.0)
     drawn = [f"frames/particles_{row:05d}.vtp" for row in r.results.frame_rows()]
     for name, frame in (("start", drawn[0]), ("peak", f"frames/particles_{peak:05d}.vtp"), ("end", drawn[-1])):
         r.key("frame_" + name, frame)
         r.true(f"frame_{name}: is there", frame in drawn)
+    r.key("area_strain_peak", sense * strain[peak] - lateral[peak])
     r.key("platen_out_of_balance",
           np.max(np.abs(c["stress_top"] - c["stress_bottom"])[: peak + 1]) / stress[peak])
-    sense = 1.0 if case("loading", "kind") == "compression" else -1.0
     rising = np.arange(peak + 1)
     early = rising[strain[: peak + 1] <= strain[peak] / 20]
     first = np.argmax(stress[: peak + 1] >= 0.4 * stress[peak])
@@ -153,7 +151,7 @@ def recount_curve(r):
             r.key(w + "contacts_gained", int(loose[1]) - int(loose[0]))
     if by_tolerance(r):
         r.key("axial_strain_rate", strain[-1] / c["time"][-1])
-        r.key("viscous_stress_share", stress[0] / stress[peak])
+        r.key("viscous_stress_share", stress[0] / stress[largest])
     else:
         r.rows("curve: axial_strain of the rate", strain, case("loading", "axial_strain_rate") * c["time"],
                1e-9 * strain + 1e-15)
@@ -344,6 +342,10 @@ def recount_events(r, model, bonds):
     r.key("bonds_broken_after_sliding", int(np.sum(e["slid"])))
     r.key("bonds_broken_in_shear", int(np.sum(shear)))
     r.key("bonds_broken_in_tension", int(np.sum(~shear)))
+    if r.peak is not None:
+        to_peak = np.asarray(e["step"]) <= c["step"][r.peak]
+        r.key("bonds_broken_in_shear_to_peak", int(np.sum(shear & to_peak)))
+        r.key("bonds_broken_in_tension_to_peak", int(np.sum(~shear & to_peak)))
     r.compare("fracture_loss of events", c["fracture_loss"][-1], np.sum(e["energy"]), 1e-12 * np.sum(np.abs(e["energy"])))
 
 

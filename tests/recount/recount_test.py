@@ -59,6 +59,8 @@ numerical_errors.peak_strain.rate numerical_errors.peak_strain.resolution numeri
 numerical_errors.peak_stress.damping numerical_errors.peak_stress.energy_closing numerical_errors.peak_stress.rate
 numerical_errors.peak_stress.resolution numerical_errors.peak_stress.stated numerical_errors.peak_stress.time_step out_of_plane_thickness packing.anisotropy
 packing.coordination packing.coordination_of_carrying packing.floating packing.mean_overlap packing.radius_scale
+area_strain_end area_strain_peak bonds_broken_in_shear_to_peak bonds_broken_in_tension_to_peak fragments
+largest_fragment_share largest_stress largest_stress_pa strain_at_largest_stress
 packing.stress_x packing.stress_y packing.unbalanced packing.void_ratio frame_end frame_peak frame_start particles
 particle_steps_per_second peak_converged peak_strain peak_stress peak_stress_pa platen_bottom_id platen_out_of_balance platen_top_id poissons_ratio seed simulated_time specimen
 stable_time_step steps tangent_50_poissons_ratio tangent_modulus_50 tangent_modulus_50_pa time_step time_step_bound
@@ -78,6 +80,11 @@ def run(name, case, *options):
 
 def circles():
     return run("circles", rock + squeezed + rate + output + "out_of_plane_thickness = 0.05\n", "--verify")
+
+
+def rubble():
+    """Circles that carry again, and more, once they are wedged."""
+    return run("rubble", rock + squeezed + "stop_at_share_of_peak = 0.3\n" + rate + output)
 
 
 def differing(folder):
@@ -106,6 +113,12 @@ class Recount(unittest.TestCase):
             "step_seconds", "wall_seconds",
         })
         self.assertEqual(set(figures_expected.split()) - r.keys, set(), "figures that the summary lacks")
+
+    def test_pieces_that_carry_more_than_the_specimen(self):
+        folder = rubble()
+        summary = json.loads((folder / "summary.json").read_text())
+        self.assertGreater(summary["largest_stress"], 1.5 * summary["peak_stress"], "the case that the rule is for")
+        self.agrees(folder, 200)
 
     def test_circles_pulled_by_tolerance(self):
         self.agrees(run("pulled", rock + pulled + output), 150)
@@ -222,13 +235,13 @@ class FaultsAreFound(unittest.TestCase):
         what(folder)
         return differing(folder)
 
-    def spoil_summary(self, change):
+    def spoil_summary(self, change, sound=None):
         def what(folder):
             summary = json.loads((folder / "summary.json").read_text())
             change(summary)
             (folder / "summary.json").write_text(json.dumps(summary))
 
-        return self.spoilt(what)
+        return self.spoilt(what, sound)
 
     def spoil_column(self, file, column, change, sound=None):
         def what(folder):
@@ -294,8 +307,9 @@ class FaultsAreFound(unittest.TestCase):
     def test_peak_one_row_late(self):
         curve = (circles() / "curve.csv").read_text().splitlines()
         head = curve[0].split(",")
-        stress = [float(line.split(",")[head.index("axial_stress")]) for line in curve[1:]]
-        late = curve[1 + stress.index(max(stress)) + 1].split(",")
+        strain = [float(line.split(",")[head.index("axial_strain")]) for line in curve[1:]]
+        peak = json.loads((circles() / "summary.json").read_text())["peak_strain"]
+        late = curve[1 + strain.index(peak) + 1].split(",")
 
         def change(summary):
             summary["peak_stress"] = float(late[head.index("axial_stress")])
@@ -304,6 +318,27 @@ class FaultsAreFound(unittest.TestCase):
         found = self.spoil_summary(change)
         self.found(found, "peak_stress")
         self.found(found, "peak_strain")
+
+    def test_figures_of_the_other_peak(self):
+        def strength(summary):
+            summary["peak_stress"], summary["peak_strain"] = summary["largest_stress"], summary["strain_at_largest_stress"]
+
+        def area(summary):
+            for name in ("peak", "end"):
+                summary[f"area_strain_{name}"] *= -1
+
+        def damage(summary):
+            summary["bonds_broken_in_tension_to_peak"] = summary["bonds_broken_in_tension"]
+            summary["fragments"] += 1
+            summary["largest_fragment_share"] *= 0.99
+            summary["notices"] = [notice for notice in summary["notices"] if "largest stress" not in notice]
+
+        for change, figures_found in ((strength, ("peak_stress", "peak_strain")), (area, ("area_strain_peak", "area_strain_end")),
+                                      (damage, ("bonds_broken_in_tension_to_peak", "fragments", "largest_fragment_share", "notice"))):
+            found = self.spoil_summary(change, rubble())
+            for figure in figures_found:
+                with self.subTest(figure=figure):
+                    self.found(found, figure)
 
     def test_companion_at_the_full_step_rate_or_damping(self):
         for name, figure in (("half_time_step", "time_step"), ("half_rate", "axial_strain_rate"),

@@ -68,9 +68,11 @@ TEST_F(CaseFile, ReadsWhatIsWrittenAndFillsInDefaults) {
     EXPECT_EQ(test.loading.kind, "tension");
     EXPECT_EQ(test.loading.platens, "glued") << "what pulls is stronger than the rock";
     EXPECT_EQ(test.loading.grip, default_grip);
+    EXPECT_EQ(test.loading.strength_drop, 0.1);
     EXPECT_EQ(test.loading.stop_at_share_of_peak, 0.5);
     EXPECT_EQ(test.packing.seed, 1);
     EXPECT_EQ(test.mesh.boundary, "domain");
+    EXPECT_FALSE(test.output.out_of_plane_thickness.has_value());
     EXPECT_EQ(test.output.curve_rows, 2000);
     EXPECT_EQ(test.output.checkpoint_interval, 60.0);
     EXPECT_FALSE(test.numerics.time_step.has_value());
@@ -192,6 +194,10 @@ INSTANTIATE_TEST_SUITE_P(
                 ":13: loading.kind: found \"torsion\", expected \"compression\" or \"tension\""},
         Refusal{"FrictionalPull", "kind = \"tension\"", "kind = \"tension\"\nplatens = \"frictional\"",
                 ":14: loading.platens: found \"frictional\", expected \"bonded\" in tension"},
+        Refusal{"DropOfAllStress", "kind = \"tension\"", "kind = \"tension\"\nstrength_drop = 1.0",
+                ":14: loading.strength_drop: found 1, expected a number > 0 and < 1"},
+        Refusal{"NoDropAtAll", "kind = \"tension\"", "kind = \"tension\"\nstrength_drop = 0.0",
+                ":14: loading.strength_drop: found 0, expected a number > 0 and < 1"},
         Refusal{"MissingKey", "kind = \"tension\"\n", "",
                 ":12: loading.kind: found nothing, expected \"compression\" or \"tension\"; add it to [loading]"},
         Refusal{"MissingMaterial", "density = 2500\n", "", ":6: material.density: found nothing"},

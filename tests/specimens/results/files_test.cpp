@@ -85,7 +85,7 @@ TEST_F(TestFolder, HoldsWhatReadersLookFor) {
     EXPECT_EQ(static_cast<std::ptrdiff_t>(results.curve.rows()), std::count(curve.begin(), curve.end(), '\n') - 1);
     EXPECT_EQ(results.events.rows(), results.summary["bonds_broken"].get<std::size_t>());
     const std::vector<double>& stress = *results.curve.find("axial_stress");
-    EXPECT_EQ(*std::max_element(stress.begin(), stress.end()), results.summary["peak_stress"].get<double>())
+    EXPECT_EQ(*std::max_element(stress.begin(), stress.end()), results.summary["largest_stress"].get<double>())
         << "the same number in both files";
     const std::vector<double>& ids = *results.events.find("body_i");
     EXPECT_GT(*std::min_element(ids.begin(), ids.end()), 100.0) << "ids of the input";

@@ -13,7 +13,7 @@ import {SVGRenderer} from 'echarts/renderers';
 import type {CustomSeriesRenderItemAPI, CustomSeriesRenderItemParams} from 'echarts/types/dist/shared';
 
 import type {Theme} from '../colours/theme';
-import {largestOf, peakOf, type TestData} from '../data/report';
+import {largestOf, numberOf, peakOf, type TestData} from '../data/report';
 import {Cursor} from '../elements/chart_cursor';
 import {element} from '../elements/dom';
 import {fontFamily} from '../elements/sheet';
@@ -143,7 +143,8 @@ function valuesAt(at: number, prepared: readonly Prepared[], theme: Theme): HTML
 }
 
 function peakLabel(test: TestData, stress: number): string {
-    return quantity(stress, 'N/m') + (test.failed ? '' : ', peak so far');
+    const thickness = numberOf(test.summary, 'out_of_plane_thickness');
+    return quantity(stress, 'N/m') + (thickness === undefined ? '' : `, ${quantity(stress / thickness, 'Pa')}`) + (test.failed ? '' : ', peak so far');
 }
 
 function stressSeries(member: Member, range: number, scale: Scale, theme: Theme) {
