@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Linear axes: ticks at 1, 2 or 5 times a power of ten, SI prefixes, and the frame that curves are drawn into.
-// Tested by tests/tools/commands/plot_test.cpp.
+// Tested by tests/tools/plot/axes_test.cpp.
 #pragma once
 
 #include <string>
