@@ -395,7 +395,8 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"ColourWord", "[[mineral]]\nname = \"a\"\ncolour = \"red\"\n",
                 ":17: mineral[1].colour: found \"red\", expected \"#rrggbb\""},
         Refusal{"ColourTwice",
-                "[[mineral]]\nname = \"a\"\ncolour = \"#AA0000\"\narea_share = 0.5\n[[mineral]]\nname = \"b\"\ncolour = \"#aa0000\"\n",
+                "[[mineral]]\nname = \"a\"\ncolour = \"#AA0000\"\narea_share = 0.5\n[[mineral]]\nname = \"b\"\ncolour "
+                "= \"#aa0000\"\n",
                 ":21: mineral[2].colour: found \"#aa0000\", which a has"},
         Refusal{"PairUnknown",
                 "[[mineral]]\nname = \"a\"\n[[mineral_pair]]\nbetween = [\"a\", \"b\"]\nfriction_angle = 1\n",
