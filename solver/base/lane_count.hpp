@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How many doubles the contact kernels compute side by side (solver/contact/lanes.hpp).
-// Tested by tests/solver/contact/lanes_test.cpp.
+// How many doubles the contact kernels compute side by side (solver/base/lanes.hpp).
+// Tested by tests/solver/base/lanes_test.cpp.
 #pragma once
 
 namespace crackle {

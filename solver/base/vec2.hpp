@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Plane vectors. Axes: x to the right, y up, angles counter-clockwise in rad.
-// Tested by tests/solver/contact/geometry_test.cpp.
+// Tested by tests/solver/geometry/geometry_test.cpp.
 #pragma once
 
 #include <cmath>

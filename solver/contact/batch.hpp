@@ -1,18 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Forces of several contact points at once, for what nearly all points do in nearly all steps: a contact or bond that
-// holds, or a listed pair that does not touch. Where one of them begins to part, or they are of different
-// materials, the batch is left to the scalar code; both give the same bytes.
+// holds, or a listed pair that does not touch. Where one of them begins to part the batch is left to the scalar code;
+// both give the same bytes.
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <type_traits>
 
+#include "solver/base/lanes.hpp"
+#include "solver/contact/coulomb_bond.hpp"
 #include "solver/contact/dashpot.hpp"
+#include "solver/contact/features.hpp"
 #include "solver/contact/friction.hpp"
-#include "solver/contact/geometry.hpp"
-#include "solver/contact/lanes.hpp"
 #include "solver/contact/law.hpp"
-#include "solver/contact/relative_motion.hpp"
+#include "solver/geometry/geometry.hpp"
+#include "solver/geometry/relative_motion.hpp"
 #include "solver/world/world.hpp"
 
 namespace crackle {
@@ -248,14 +251,47 @@ CRACKLE_INLINE void geometry_batches(World& world, PointIndex k, PointIndex batc
     }
 }
 
-/// Law of a batch, kept from one batch to the next of the same law.
+/// Law of the points of a batch: kept from one batch to the next where they are all of one, else loaded for each.
 struct BatchLaw {
     BatchLaw(const World& world, std::uint16_t number_of_law)
         : law(world.settings.laws[number_of_law]), number(number_of_law) {}
 
     Law<Lanes> law;
-    LaneBit number;  // into Settings::laws
+    LaneBit number;  // into Settings::laws; none: of several
 };
+
+inline constexpr LaneBit several_laws = -1;
+
+/// Each point's law. @return whether lanes can have them: all with a shear spring, or none
+CRACKLE_INLINE bool load_laws(const World& world, const PointState* states, bool damping, bool coulomb,
+                              Law<Lanes>& law) {
+    const ContactLaw* laws[lane_count];
+    int springs = 0;
+    for (int l = 0; l < lane_count; ++l) {
+        laws[l] = &world.settings.laws[states[l].law];
+        springs += laws[l]->shear_stiffness > 0.0 ? 1 : 0;
+    }
+    if (springs != 0 && springs != lane_count) return false;
+    law.has_shear_spring = springs != 0;
+    const auto load = [&](double ContactLaw::*first, Lanes& a, Lanes& b) {
+        const double* at[lane_count];
+        for (int l = 0; l < lane_count; ++l) at[l] = &(laws[l]->*first);
+        gather_pairs(at, a, b);
+    };
+    load(&ContactLaw::normal_stiffness, law.normal_stiffness, law.shear_stiffness);
+    load(&ContactLaw::friction, law.friction, law.break_overlap);
+    if (damping) {
+        load(&ContactLaw::normal_damping, law.normal_damping, law.shear_damping);
+        load(&ContactLaw::normal_damping_ratio_term, law.normal_damping_ratio_term, law.shear_damping_ratio_term);
+    }
+    if (coulomb) {
+        Lanes unused;
+        load(&ContactLaw::tensile_strength, law.tensile_strength, law.cohesion);
+        load(&ContactLaw::bond_friction, law.bond_friction, unused);
+    }
+    law.follow_stiffness();
+    return true;
+}
 
 /// Losses of a block of points, added up apart by the place of the point, so that lanes need not wait for each other.
 /// Always eight, so that a sum does not depend on the number of lanes.
@@ -287,7 +323,7 @@ enum class BatchCase : std::uint8_t {
     all_hold,    // every point was in contact, holds, and stuck before (and is bonded, where there are bonds)
     some_hold,   // no other was in contact
     none_holds,  // nor was in contact
-    one_by_one   // something breaks or parts, or the points are of several laws: for the scalar code
+    one_by_one   // something breaks or parts: for the scalar code
 };
 
 /// Which points of a batch carry load, and what they were before.
@@ -297,27 +333,59 @@ struct BatchState {
     LaneBits law_and_flags, bonded, holds;
 };
 
+/// Of the shear force of a bond that sticks, N.
+inline constexpr double infinite_limit = std::numeric_limits<double>::infinity();
+
 constexpr LaneBit bits_of_flags(int flags) { return static_cast<LaneBit>(flags) << 16; }
 
+/// Whether bonds fail under their elastic forces. @param law with the points' shares
+CRACKLE_INLINE LaneBits fail(const World& world, PointIndex k, const Law<Lanes>& law, const Lanes& opening,
+                             const Lanes& slip) {
+    const Lanes strength = load_floats(&world.points.strength_share[k]);
+    const BondStrength<Lanes> bond{law.tensile_strength * strength, law.cohesion * strength, law.bond_friction};
+    const Lanes normal = spring_force(law, opening);
+    const Lanes shear = load_as<Lanes>(&world.points.shear_force[k]) - law.shear_stiffness * slip;
+    return fails_in_tension(bond, normal) | fails_in_shear(bond, normal, shear);
+}
+
+/// The law of the points of a batch with their shares.
+template <ContactFeatures F>
+CRACKLE_INLINE Law<Lanes> law_of_batch(const World& world, PointIndex k, const BatchLaw& law) {
+    if constexpr (F.own_shares)
+        return law.law.with_share(load_floats(&world.points.stiffness_share[k]));
+    else
+        return law.law;
+}
+
 /// Changes nothing. @param k first point of the batch @param law of the batch before; left as this one's
-template <bool Bonds>
-CRACKLE_INLINE BatchState look_at_batch(World& world, PointIndex k, const Lanes& overlap, BatchLaw& law) {
-    constexpr int at_rest = point_touching | (Bonds ? point_bonded | point_counted : 0);
+template <ContactFeatures F, class Contact>
+CRACKLE_INLINE BatchState look_at_batch(World& world, PointIndex k, const BatchGeometry<Contact>& g, BatchLaw& law) {
+    constexpr int at_rest = point_touching | (F.bonds ? point_bonded | point_counted : 0);
     constexpr LaneBit of_law = 0xffff, looked_at = of_law | bits_of_flags(at_rest | point_sliding);
+    const Lanes& overlap = g.contact.overlap;
     PointState* const states = world.points.state.data() + k;
     const LaneBits law_and_flags = widened(states);
     LaneBits unlike = law_and_flags ^ (law.number | bits_of_flags(at_rest));
     if (!none_of(unlike & of_law)) {
-        if (!none_of((law_and_flags ^ law_and_flags[0]) & of_law))
-            return {BatchCase::one_by_one, states, law_and_flags, LaneBits{}, LaneBits{}};
-        law = BatchLaw(world, states[0].law);
-        unlike = law_and_flags ^ (law.number | bits_of_flags(at_rest));
+        if (none_of((law_and_flags ^ law_and_flags[0]) & of_law)) {
+            law = BatchLaw(world, states[0].law);
+        } else {
+            law.number = several_laws;
+            if (!load_laws(world, states, F.damping, F.coulomb, law.law))
+                return {BatchCase::one_by_one, states, law_and_flags, LaneBits{}, LaneBits{}};
+        }
+        unlike = (law_and_flags ^ bits_of_flags(at_rest)) & ~of_law;
     }
-    LaneBits over = overlap > 0.0;
-    if constexpr (Bonds) over = bond_holds(law.law, overlap);
+    Lanes beyond_rest = overlap;  // m, of the overlap without force
+    if constexpr (F.coulomb) beyond_rest -= load_as<Lanes>(&world.points.bond_overlap[k]);
+    LaneBits over = beyond_rest > 0.0;
+    if constexpr (F.coulomb)
+        over = ~fail(world, k, law_of_batch<F>(world, k, law), beyond_rest, g.motion.slipping * world.stepping.drift);
+    else if constexpr (F.bonds)
+        over = bond_holds(law.law, overlap);
     if (none_of((unlike & looked_at) | ~over)) return {BatchCase::all_hold, states, law_and_flags, over, over};
-    LaneBits bonded{}, holds = overlap > 0.0;
-    if constexpr (Bonds) {
+    LaneBits bonded{}, holds = beyond_rest > 0.0;
+    if constexpr (F.bonds) {
         bonded = (law_and_flags & bits_of_flags(point_bonded)) != 0;
         holds = bonded ? over : holds;
     }
@@ -328,7 +396,8 @@ CRACKLE_INLINE BatchState look_at_batch(World& world, PointIndex k, const Lanes&
 
 /// Forces of the points of a batch that hold, into `out`; of the others 0.
 /// @tparam All BatchCase::all_hold, else some_hold @param place of the first point in its block
-template <bool Friction, bool Damping, bool Bonds, bool All, class Contact>
+/// @param law with the points' shares
+template <ContactFeatures F, bool All, class Contact>
 CRACKLE_INLINE void force_lanes(World& world, PointIndex k, PointIndex place, const BatchGeometry<Contact>& g,
                                 const Law<Lanes>& law, const BatchState& batch, PointForce* out, BlockLosses& loss) {
     const Lanes zero{};
@@ -339,18 +408,31 @@ CRACKLE_INLINE void force_lanes(World& world, PointIndex k, PointIndex place, co
             return select(batch.holds, held, otherwise);
     };
     const double dt = world.stepping.drift;
-    Lanes normal = spring_force(law, g.contact.overlap);
+    Lanes normal;
     [[maybe_unused]] Lanes bond_overlap;
-    if constexpr (Bonds) {
-        bond_overlap = load_as<Lanes>(&world.points.bond_overlap[k]);
-        normal -= spring_force(law, bond_overlap);
+    if constexpr (F.bonds) bond_overlap = load_as<Lanes>(&world.points.bond_overlap[k]);
+    if constexpr (F.coulomb) {
+        normal = spring_force(law, g.contact.overlap - bond_overlap);
+    } else {
+        normal = spring_force(law, g.contact.overlap);
+        if constexpr (F.bonds) normal -= spring_force(law, bond_overlap);
     }
     Lanes shear = zero;
     LaneBits sliding = batch.holds;
-    if constexpr (Friction) {
+    if constexpr (F.friction) {
         double* const spring = &world.points.shear_force[k];
         const Lanes before = load_as<Lanes>(spring);
-        const ShearTrial<Lanes> trial = try_shear<Lanes>(law, before, g.motion.slipping * dt, g.contact.overlap);
+        Lanes limit;
+        if constexpr (F.coulomb) {
+            limit = law.friction * normal;
+            if constexpr (All)
+                limit = all_of<Lanes>(infinite_limit);
+            else
+                limit = select(batch.bonded, all_of<Lanes>(infinite_limit), limit);
+        } else {
+            limit = coulomb_limit(law, g.contact.overlap);
+        }
+        const ShearTrial<Lanes> trial = try_shear_within<Lanes>(law, before, g.motion.slipping * dt, limit);
         sliding = trial.slides;
         shear = trial.force;
         const LaneBits slides = sliding & batch.holds;
@@ -367,18 +449,17 @@ CRACKLE_INLINE void force_lanes(World& world, PointIndex k, PointIndex place, co
     }
     if constexpr (!All) {
         LaneBits now = (batch.law_and_flags | bits_of_flags(point_touching)) & ~bits_of_flags(point_sliding);
-        if constexpr (Friction) now |= sliding & (bits_of_flags(point_sliding) | bits_of_flags(point_slid));
+        if constexpr (F.friction) now |= sliding & (bits_of_flags(point_sliding) | bits_of_flags(point_slid));
         if (const unsigned changed = mask_of(batch.holds & ((now ^ batch.law_and_flags) != 0)); changed != 0) {
             for (int l = 0; l < lane_count; ++l)
                 if ((changed >> l & 1) != 0) batch.states[l].flags = static_cast<std::uint16_t>(now[l] >> 16);
         }
     }
-    if constexpr (Bonds) {
-        if constexpr (!All) {
-            const unsigned uncounted =
-                mask_of(batch.holds & ((batch.law_and_flags & bits_of_flags(point_counted)) == 0));
-            loss.gained += static_cast<std::uint32_t>(__builtin_popcount(uncounted));
-        }
+    if constexpr (F.bonds && !All) {
+        const unsigned uncounted = mask_of(batch.holds & ((batch.law_and_flags & bits_of_flags(point_counted)) == 0));
+        loss.gained += static_cast<std::uint32_t>(__builtin_popcount(uncounted));
+    }
+    if constexpr (F.bonds && !F.coulomb) {
         LaneBits strong = carries_half_strength(law, normal, shear, bond_overlap);
         if constexpr (!All) strong &= batch.bonded;
         if (any(strong)) {  // rare: spares the memory of the others
@@ -388,7 +469,7 @@ CRACKLE_INLINE void force_lanes(World& world, PointIndex k, PointIndex place, co
             store_floats(strong_shear, select(strong, shear, load_floats(strong_shear)));
         }
     }
-    if constexpr (Damping) {
+    if constexpr (F.damping) {
         const Lanes root_mass = load_as<Lanes>(&world.points.root_mass[k]);
         const Lanes normal_damper = normal_damping(law, root_mass) * g.motion.closing;
         const Lanes shear_damper = shear_dashpot(law, root_mass, g.motion.slipping, g.contact.overlap, sliding);

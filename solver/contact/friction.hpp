@@ -26,18 +26,25 @@ struct ShearTrial {
     Condition<Number> slides;
 };
 
-/// @param slip displacement of i against j in this step, m
+/// @param slip displacement of i against j in this step, m @param limit N
 template <class Number>
-CRACKLE_INLINE ShearTrial<Number> try_shear(const Law<Number>& law, const Number& before, const Number& slip,
-                                            const Number& overlap) {
+CRACKLE_INLINE ShearTrial<Number> try_shear_within(const Law<Number>& law, const Number& before, const Number& slip,
+                                                   const Number& limit) {
     ShearTrial<Number> trial;
     trial.before = before;
     trial.force = before - law.shear_stiffness * slip;
-    trial.limit = coulomb_limit(law, overlap);
+    trial.limit = limit;
     // Written so that μ = ∞ (sliding switched off) sticks at δ <= 0 too, where ∞·0 is not a number.
     // Without resistance a point slides even if its spring is not strained, or its dashpot would drag.
     trial.slides = (magnitude(trial.force) > trial.limit) | (trial.limit <= 0.0);
     return trial;
+}
+
+/// @param slip displacement of i against j in this step, m
+template <class Number>
+CRACKLE_INLINE ShearTrial<Number> try_shear(const Law<Number>& law, const Number& before, const Number& slip,
+                                            const Number& overlap) {
+    return try_shear_within(law, before, slip, coulomb_limit(law, overlap));
 }
 
 /// The shear spring after the step, N.

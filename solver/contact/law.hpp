@@ -10,7 +10,7 @@
 // normal spring. Source: DEMseg guide; solver/MODEL.md 4.
 #pragma once
 
-#include "solver/contact/lanes.hpp"
+#include "solver/base/lanes.hpp"
 #include "solver/world/settings.hpp"
 
 namespace crackle {
@@ -18,6 +18,7 @@ namespace crackle {
 /// A ContactLaw with its constants in all lanes of a Number, and what follows from them.
 template <class Number>
 struct Law {
+    Law() = default;
     explicit CRACKLE_INLINE Law(const ContactLaw& law)
         : normal_stiffness(all_of<Number>(law.normal_stiffness)),
           shear_stiffness(all_of<Number>(law.shear_stiffness)),
@@ -25,17 +26,36 @@ struct Law {
           shear_damping(all_of<Number>(law.shear_damping)),
           normal_damping_ratio_term(all_of<Number>(law.normal_damping_ratio_term)),
           shear_damping_ratio_term(all_of<Number>(law.shear_damping_ratio_term)),
-          limit_stiffness(all_of<Number>(law.friction * law.normal_stiffness)),
-          half_stiffness(all_of<Number>(0.5 * law.normal_stiffness)),
+          friction(all_of<Number>(law.friction)),
           break_overlap(all_of<Number>(law.break_overlap)),
-          has_shear_spring(law.shear_stiffness > 0.0) {}
+          tensile_strength(all_of<Number>(law.tensile_strength)),
+          cohesion(all_of<Number>(law.cohesion)),
+          bond_friction(all_of<Number>(law.bond_friction)),
+          has_shear_spring(law.shear_stiffness > 0.0) {
+        follow_stiffness();
+    }
+
+    /// The same of points with these shares of its stiffness; damping terms go by Points::root_mass, which has them.
+    CRACKLE_INLINE Law with_share(const Number& share) const {
+        Law own = *this;
+        own.normal_stiffness *= share;
+        own.shear_stiffness *= share;
+        own.follow_stiffness();
+        return own;
+    }
+
+    CRACKLE_INLINE void follow_stiffness() {
+        limit_stiffness = friction * normal_stiffness;
+        half_stiffness = 0.5 * normal_stiffness;
+    }
 
     Number normal_stiffness, shear_stiffness;                    // N/m
     Number normal_damping, shear_damping;                        // N s/m
     Number normal_damping_ratio_term, shear_damping_ratio_term;  // sqrt(N/m)
+    Number friction, break_overlap;                              // -, m
+    Number tensile_strength, cohesion, bond_friction;            // N, N, - : of BondLaw::coulomb
     Number limit_stiffness;                                      // N/m, Coulomb's limit over the overlap: μ k_n
     Number half_stiffness;                                       // N/m, ½k_n
-    Number break_overlap;                                        // m
     bool has_shear_spring;
 };
 

@@ -8,12 +8,14 @@
 #include <utility>
 
 #include "solver/contact/batch.hpp"
+#include "solver/contact/coulomb_bond.hpp"
 #include "solver/contact/dashpot.hpp"
 #include "solver/contact/friction.hpp"
-#include "solver/contact/geometry.hpp"
 #include "solver/contact/law.hpp"
 #include "solver/contact/opening.hpp"
-#include "solver/contact/relative_motion.hpp"
+#include "solver/contact/point_motion.hpp"
+#include "solver/geometry/geometry.hpp"
+#include "solver/geometry/relative_motion.hpp"
 
 namespace crackle {
 namespace {
@@ -27,11 +29,10 @@ inline void store_work(SpringWork& work, const World& world, const ContactPoint&
 }
 
 /// Out of contact: no force; what the shear spring still held is lost to the slider.
-template <bool Friction>
-inline void release(World& world, PointIndex k, BlockLosses& loss, double slip) {
+template <ContactFeatures F>
+inline void release(World& world, PointIndex k, const Law<double>& law, BlockLosses& loss, double slip) {
     PointState& state = world.points.state[k];
-    if constexpr (Friction) {
-        const Law<double> law(world.settings.laws[state.law]);
+    if constexpr (F.friction) {
         const ShearTrial<double> trial = try_shear(law, world.points.shear_force[k], slip, 0.0);
         if (trial.slides) loss.friction += slider_loss(law, trial, shear_force(trial));
     }
@@ -59,67 +60,83 @@ inline void feel_bodies(const World& world, const ContactPoint& point, const Con
     if constexpr (K != PointKind::element_wall) add(point.body_j, g.ajx, g.ajy, -1.0);
 }
 
-/// Geometry of a point: of two single circles as circles, of others with arms.
-template <PointKind K>
-inline auto geometry_of(const World& world, ContactPoint& point) {
-    if constexpr (K == PointKind::circle_circle) {
-        return single_circles_contact(world.bodies.state[point.body_i], world.bodies.state[point.body_j]);
-    } else {
-        return contact_geometry<K>(world, point, point.feature_j);
-    }
+/// Law of a point with its share.
+template <ContactFeatures F>
+inline Law<double> law_of_point(const World& world, PointIndex k) {
+    const Law<double> law(world.settings.laws[world.points.state[k].law]);
+    if constexpr (F.own_shares)
+        return law.with_share(world.points.stiffness_share[k]);
+    else
+        return law;
 }
-inline ContactGeometry with_arms(const ContactGeometry& g) { return g; }
 
-template <PointKind K, class Geometry>
-inline RelativeMotion<double> motion_of(const World& world, const ContactPoint& point, const Geometry& g) {
-    const BodyState& i = world.bodies.state[point.body_i];
-    const double drift = world.stepping.drift;
-    if constexpr (K == PointKind::element_wall) {
-        return motion_against_wall<double>(g, {i.vx, i.vy, i.omega, 0.0}, drift);
-    } else {
-        const BodyState& j = world.bodies.state[point.body_j];
-        const PairMotion<double> pair{i.vx - j.vx, i.vy - j.vy, i.omega, j.omega};
-        if constexpr (K == PointKind::circle_circle) {
-            return relative_motion(g, pair);
-        } else {
-            return relative_motion(g, pair, drift);
-        }
+/// A coulomb bond breaks: what is left of its forces acts. record_breaks() writes that into the point.
+template <ContactFeatures F>
+inline PointForce break_point(World& world, PointIndex k, PointIndex place, const Law<double>& law,
+                              const ContactGeometry& g, const PointMotion& motion, BlockLosses& loss) {
+    const double dt = world.stepping.drift;
+    const BrokenBond broken = broken_bond(world, k, law, motion);
+    PointState& state = world.points.state[k];
+    state.flags = static_cast<std::uint16_t>((state.flags & ~point_bonded) | point_just_broken);
+    ++loss.broken;
+    double normal = broken.normal;
+    if constexpr (F.damping) {
+        const bool touches = normal > 0.0;
+        const double damper = touches ? normal_damping(law, world.points.root_mass[k]) * motion.closing : 0.0;
+        loss.dashpot[place % BlockLosses::places] +=
+            dashpot_loss<double>(dt, world.points.normal_dashpot[k] + damper, motion.closing,
+                                 world.points.shear_dashpot[k], motion.slipping);
+        world.points.normal_dashpot[k] = static_cast<float>(damper);
+        world.points.shear_dashpot[k] = 0.0F;
+        normal += damper;
     }
+    const ForceOnBodies<double> force = force_on_bodies(g, normal, broken.shear);
+    return {force.fx, force.fy, force.torque_i, force.torque_j};
 }
 
 /// Force of one point into `out`, with all that can happen to it. @param place in its block
-template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Consistent>
+template <PointKind K, ContactFeatures F>
 inline void force_point(World& world, PointIndex k, PointIndex place, PointForce& out, BlockLosses& loss) {
     const double dt = world.stepping.drift;
     [[maybe_unused]] const double kick = kick_before(world.stepping) + 0.5 * world.stepping.time_step;
     ContactPoint& point = world.points.contact[k];
     PointState& state = world.points.state[k];
-    const auto g = geometry_of<K>(world, point);
-    const Law<double> law(world.settings.laws[state.law]);
+    const auto g = geometry_of_point<K>(world, point);
+    const Law<double> law = law_of_point<F>(world, k);
     bool bonded = false;
-    if constexpr (Bonds) bonded = (state.flags & point_bonded) != 0;
+    if constexpr (F.bonds) bonded = (state.flags & point_bonded) != 0;
+    double overlap = g.overlap;  // m, of a point without a bond beyond the one without force
+    if constexpr (F.coulomb) overlap -= world.points.bond_overlap[k];
 
-    const bool holds = bonded ? bond_holds(law, g.overlap) : g.overlap > 0.0;
-    if (!holds && !bonded && (state.flags & point_touching) == 0) {
-        if constexpr (Consistent) world.points.opening[k].overlap = g.overlap;
+    const bool held_before = bonded || (state.flags & point_touching) != 0;
+    if (!held_before && overlap <= 0.0) {
+        if constexpr (F.consistent) world.points.opening[k].overlap = overlap;
         out = {0.0, 0.0, 0.0, 0.0};
         return;
     }
 
-    const auto [closing, slipping] = motion_of<K>(world, point, g);
+    const auto [closing, slipping] = motion_of_point<K>(world, point, g);
+    if constexpr (F.coulomb) {
+        const PointMotion motion{overlap, closing, slipping};
+        if (bonded && bond_fails(world, k, law, motion)) {
+            out = break_point<F>(world, k, place, law, with_arms(g), motion, loss);
+            return;
+        }
+    }
+    const bool holds = bonded ? F.coulomb || bond_holds(law, g.overlap) : overlap > 0.0;
 
     [[maybe_unused]] ClosingPoint coming{};
     [[maybe_unused]] double before = 0.0;
     // A point that overlaps before anything has moved has not been seen to close.
     [[maybe_unused]] const bool touched = (state.flags & point_touching) != 0 || dt == 0.0;
-    if constexpr (Consistent) {
-        coming = {g.overlap, closing, 0.0, 0.0, law.normal_stiffness, 0.0, dt, kick, world.stepping.time_step};
+    if constexpr (F.consistent) {
+        coming = {overlap, closing, 0.0, 0.0, law.normal_stiffness, 0.0, dt, kick, world.stepping.time_step};
         if (!bonded) before = settle_opening(world.points.opening[k], touched, coming);
     }
 
     if (!holds) {
-        if constexpr (Consistent) rest_opening(world.points.opening[k]);
-        if constexpr (Damping) {
+        if constexpr (F.consistent) rest_opening(world.points.opening[k]);
+        if constexpr (F.damping) {
             loss.dashpot[place % BlockLosses::places] += dashpot_loss<double>(
                 dt, world.points.normal_dashpot[k], closing, world.points.shear_dashpot[k], slipping);
             world.points.normal_dashpot[k] = world.points.shear_dashpot[k] = 0.0F;
@@ -138,23 +155,23 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
             ++loss.broken;
             // The event needs the springs as they were; record_breaks() releases the point.
         } else {
-            release<Friction>(world, k, loss, slipping * dt);
+            release<F>(world, k, law, loss, slipping * dt);
         }
         out = {0.0, 0.0, 0.0, 0.0};
         return;
     }
 
-    double normal = spring_force(law, g.overlap);
-    double compression = g.overlap;  // m, what Coulomb's limit goes by
-    if constexpr (Consistent) {
+    double normal = spring_force(law, overlap);
+    double compression = overlap;  // m, what Coulomb's limit goes by
+    if constexpr (F.consistent) {
         if (!bonded) {
             feel_bodies<K>(world, point, with_arms(g), coming);
-            if constexpr (Damping) coming.dashpot = normal_damping(law, world.points.root_mass[k]) * closing;
+            if constexpr (F.damping) coming.dashpot = normal_damping(law, world.points.root_mass[k]) * closing;
             normal = opening_force(world.points.opening[k], touched, before, coming);
             compression = normal / law.normal_stiffness;
         }
     }
-    if constexpr (Bonds) normal -= spring_force(law, world.points.bond_overlap[k]);
+    if constexpr (F.bonds && !F.coulomb) normal -= spring_force(law, world.points.bond_overlap[k]);
     if constexpr (by_guide(K)) {
         SpringWork& work = world.points.spring_work[k];
         if (world.account.begun) {
@@ -167,9 +184,11 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
     }
     double shear = 0.0;
     std::uint16_t flags = static_cast<std::uint16_t>((state.flags | point_touching) & ~point_sliding);
-    bool sliding = !Friction;
-    if constexpr (Friction) {
-        const ShearTrial<double> trial = try_shear(law, world.points.shear_force[k], slipping * dt, compression);
+    bool sliding = !F.friction;
+    if constexpr (F.friction) {
+        const double limit =
+            F.coulomb ? (bonded ? infinite_limit : law.friction * normal) : coulomb_limit(law, compression);
+        const ShearTrial<double> trial = try_shear_within(law, world.points.shear_force[k], slipping * dt, limit);
         shear = shear_force(trial);
         sliding = trial.slides;
         if (sliding) {
@@ -179,14 +198,14 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
         world.points.shear_force[k] = shear;
     }
     state.flags = flags;
-    if constexpr (Bonds) {
-        loss.gained += (flags & point_counted) == 0 ? 1u : 0u;
+    if constexpr (F.bonds) loss.gained += (flags & point_counted) == 0 ? 1u : 0u;
+    if constexpr (F.bonds && !F.coulomb) {
         if (bonded && carries_half_strength(law, normal, shear, world.points.bond_overlap[k])) {
             world.points.strong_normal[k] = static_cast<float>(normal);
             world.points.strong_shear[k] = static_cast<float>(shear);
         }
     }
-    if constexpr (Damping) {
+    if constexpr (F.damping) {
         const double normal_damper = normal_damping(law, world.points.root_mass[k]) * closing;
         const double shear_damper = shear_dashpot(law, world.points.root_mass[k], slipping, compression, sliding);
         loss.dashpot[place % BlockLosses::places] +=
@@ -206,24 +225,24 @@ template <PointKind K>
 inline constexpr bool in_batches = K == PointKind::circle_circle || K == PointKind::element_outline;
 
 /// Points of a block from k on, one after the other.
-template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Consistent>
+template <PointKind K, ContactFeatures F>
 inline void force_points(World& world, const PointBlock& block, PointIndex k, BlockLosses& loss) {
     for (; k < block.end; ++k) {
         const PointIndex place = k - block.begin;
-        force_point<K, Friction, Damping, Bonds, Consistent>(world, k, place, block.forces[place], loss);
+        force_point<K, F>(world, k, place, block.forces[place], loss);
     }
 }
 
 /// Kernel of kinds that are looked at one point after the other.
-template <PointKind K, bool Friction, bool Damping, bool Bonds, bool Consistent>
+template <PointKind K, ContactFeatures F>
 void force_block(World& world, const PointBlock& block) {
     BlockLosses loss;
-    force_points<K, Friction, Damping, Bonds, Consistent>(world, block, block.begin, loss);
+    force_points<K, F>(world, block, block.begin, loss);
     world.account.blocks[block.number] = loss.total();
 }
 
 /// Kernel of kinds that are looked at in batches, as far as these fill their lanes.
-template <PointKind K, bool Friction, bool Damping, bool Bonds>
+template <PointKind K, ContactFeatures F>
 void force_block_in_batches(World& world, const PointBlock& block) {
     // Geometry first: its roots and divisions then overlap those of the next batches.
     constexpr PointIndex ahead = 64 / lane_count;
@@ -232,7 +251,7 @@ void force_block_in_batches(World& world, const PointBlock& block) {
     BatchLaw law(world, world.points.state[block.begin].law);
     const PointIndex fours_end = K == PointKind::element_outline ? std::min(block.end, world.points.fours_end) : 0;
     PointIndex k = block.begin;
-    while (k + lane_count <= block.end) {
+    while (k + lane_count <= block.end && !world.workers.one_by_one) {
         const bool fours = k + lane_count <= fours_end;
         const PointIndex batches = std::min<PointIndex>(ahead, ((fours ? fours_end : block.end) - k) / lane_count);
         if (fours)
@@ -243,25 +262,25 @@ void force_block_in_batches(World& world, const PointBlock& block) {
             const PointIndex place = k - block.begin;
             PointForce* const out = block.forces + place;
             const BatchOf<K>& g = geometry[b];
-            const BatchState batch = look_at_batch<Bonds>(world, k, g.contact.overlap, law);
+            const BatchState batch = look_at_batch<F>(world, k, g, law);
             switch (batch.what) {
                 case BatchCase::all_hold:
-                    force_lanes<Friction, Damping, Bonds, true>(world, k, place, g, law.law, batch, out, loss);
+                    force_lanes<F, true>(world, k, place, g, law_of_batch<F>(world, k, law), batch, out, loss);
                     break;
                 case BatchCase::some_hold:
-                    force_lanes<Friction, Damping, Bonds, false>(world, k, place, g, law.law, batch, out, loss);
+                    force_lanes<F, false>(world, k, place, g, law_of_batch<F>(world, k, law), batch, out, loss);
                     break;
                 case BatchCase::none_holds:
                     store_quads(out, Lanes{}, Lanes{}, Lanes{}, Lanes{});
                     break;
                 case BatchCase::one_by_one:
                     for (PointIndex l = 0; l < lane_count; ++l)
-                        force_point<K, Friction, Damping, Bonds, false>(world, k + l, place + l, out[l], loss);
+                        force_point<K, F>(world, k + l, place + l, out[l], loss);
                     break;
             }
         }
     }
-    force_points<K, Friction, Damping, Bonds, false>(world, block, k, loss);
+    force_points<K, F>(world, block, k, loss);
     world.account.blocks[block.number] = loss.total();
 }
 
@@ -283,29 +302,48 @@ void geometry_block(World& world, const PointBlock& block) {
     }
 }
 
-/// The kernel of a set of features, numbered by their bits as force_kernel() does.
-template <PointKind K, std::size_t Features>
+/// The sets of features that kernels are compiled for: any of the first five, and what coulomb bonds can have.
+constexpr std::size_t plain_sets = 32, all_sets = plain_sets + 4;
+
+constexpr ContactFeatures features_numbered(std::size_t number) {
+    const auto has = [&](std::size_t bit) { return (number & bit) != 0; };
+    if (number >= plain_sets) return {true, has(1), true, has(2), true, true};
+    return {has(1), has(2), has(4), has(8), has(16), false};
+}
+
+constexpr std::size_t number_of(const ContactFeatures& f) {
+    if (f.coulomb) return plain_sets + (f.damping ? 1u : 0u) + (f.consistent ? 2u : 0u);
+    return (f.friction ? 1u : 0u) + (f.damping ? 2u : 0u) + (f.bonds ? 4u : 0u) + (f.consistent ? 8u : 0u) +
+           (f.own_shares ? 16u : 0u);
+}
+
+/// What a kind can have: the guide's segments know of no others.
+constexpr ContactFeatures features_for(PointKind kind, ContactFeatures f) {
+    if (by_guide(kind)) f.consistent = f.own_shares = f.coulomb = false;
+    return f;
+}
+
+template <PointKind K, std::size_t Number>
 constexpr ForceKernel kernel_of() {
-    constexpr bool friction = (Features & 1) != 0, damping = (Features & 2) != 0, bonds = (Features & 4) != 0;
-    constexpr bool consistent = (Features & 8) != 0 && !by_guide(K);
-    if constexpr (in_batches<K> && !consistent)
-        return &force_block_in_batches<K, friction, damping, bonds>;
+    constexpr ContactFeatures features = features_for(K, features_numbered(Number));
+    if constexpr (in_batches<K> && !features.consistent)
+        return &force_block_in_batches<K, features>;
     else
-        return &force_block<K, friction, damping, bonds, consistent>;
+        return &force_block<K, features>;
 }
 
-template <PointKind K, std::size_t... Features>
-constexpr std::array<ForceKernel, 16> kernels_of(std::index_sequence<Features...>) {
-    return {kernel_of<K, Features>()...};
+template <PointKind K, std::size_t... Number>
+constexpr std::array<ForceKernel, all_sets> kernels_of(std::index_sequence<Number...>) {
+    return {kernel_of<K, Number>()...};
 }
 
-constexpr std::array<std::array<ForceKernel, 16>, point_kinds> kernels{
-    kernels_of<PointKind::circle_circle>(std::make_index_sequence<16>{}),
-    kernels_of<PointKind::element_element>(std::make_index_sequence<16>{}),
-    kernels_of<PointKind::element_outline>(std::make_index_sequence<16>{}),
-    kernels_of<PointKind::disc_segment>(std::make_index_sequence<16>{}),
-    kernels_of<PointKind::segment_segment>(std::make_index_sequence<16>{}),
-    kernels_of<PointKind::element_wall>(std::make_index_sequence<16>{}),
+constexpr std::array<std::array<ForceKernel, all_sets>, point_kinds> kernels{
+    kernels_of<PointKind::circle_circle>(std::make_index_sequence<all_sets>{}),
+    kernels_of<PointKind::element_element>(std::make_index_sequence<all_sets>{}),
+    kernels_of<PointKind::element_outline>(std::make_index_sequence<all_sets>{}),
+    kernels_of<PointKind::disc_segment>(std::make_index_sequence<all_sets>{}),
+    kernels_of<PointKind::segment_segment>(std::make_index_sequence<all_sets>{}),
+    kernels_of<PointKind::element_wall>(std::make_index_sequence<all_sets>{}),
 };
 
 constexpr std::array<ForceKernel, point_kinds> geometry_kernels{
@@ -317,9 +355,18 @@ constexpr std::array<ForceKernel, point_kinds> geometry_kernels{
 }  // namespace
 
 ContactFeatures features_of(const World& world) {
-    ContactFeatures features{false, false, world.bonds.made, !world.points.opening.empty()};
-    for (const ContactLaw& law : world.settings.laws) {
-        features.friction = features.friction || law.friction > 0.0;
+    ContactFeatures features{false,
+                             false,
+                             world.bonds.made,
+                             !world.points.opening.empty(),
+                             world.settings.own_shares(),
+                             world.bonds.made && world.settings.bond_law == BondLaw::coulomb};
+    features.friction = features.coulomb || world.bonds.held > 0;
+    const std::size_t pairs = world.settings.pair_count();
+    for (std::size_t number = 0; number < world.settings.laws.size(); ++number) {
+        const ContactLaw& law = world.settings.laws[number];
+        const bool of_held_bonds = number >= pairs && number < 2 * pairs;
+        features.friction = features.friction || (law.friction > 0.0 && !of_held_bonds);
         features.damping = features.damping || law.normal_damping > 0.0 || law.shear_damping > 0.0 ||
                            law.normal_damping_ratio_term > 0.0 || law.shear_damping_ratio_term > 0.0;
     }
@@ -345,9 +392,7 @@ PointBlock block_of(const World& world, std::size_t kind, PointIndex block, Poin
 }
 
 ForceKernel force_kernel(const ContactFeatures& features, std::size_t kind) {
-    const std::size_t choice = (features.friction ? 1u : 0u) + (features.damping ? 2u : 0u) +
-                               (features.bonds ? 4u : 0u) + (features.consistent ? 8u : 0u);
-    return kernels[kind][choice];
+    return kernels[kind][number_of(features)];
 }
 
 void geometry_pass(World& world) {

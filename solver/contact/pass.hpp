@@ -5,17 +5,10 @@
 
 #include <cstddef>
 
+#include "solver/contact/features.hpp"
 #include "solver/world/world.hpp"
 
 namespace crackle {
-
-/// What the scene has; absent features cost nothing because a kernel compiled without them is picked.
-struct ContactFeatures {
-    bool friction;  // any law with μ > 0
-    bool damping;   // any law with a dashpot
-    bool bonds;
-    bool consistent;  // first and last steps of contacts by opening.hpp
-};
 
 ContactFeatures features_of(const World& world);
 

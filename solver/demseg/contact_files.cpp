@@ -97,13 +97,13 @@ void write_lists(std::ostream& out, const Scene& scene, LinesOfBodies& lines) {
 
 double back_tension(const World& world, PointIndex k) {
     return (world.points.state[k].flags & point_bonded) != 0
-               ? -world.settings.laws[world.points.state[k].law].normal_stiffness * world.points.bond_overlap[k]
+               ? -law_of(world, k).normal_stiffness * world.points.bond_overlap[k]
                : 0.0;
 }
 
 /// δ0 as back_tension() would give it back.
 double bond_overlap(const World& world, PointIndex k, double tension) {
-    return -tension / world.settings.laws[world.points.state[k].law].normal_stiffness;
+    return -tension / law_of(world, k).normal_stiffness;
 }
 
 /// Reads `id count` of the next list; the lists follow the bodies of the scene.
@@ -208,9 +208,7 @@ void write_back_tensions(std::ostream& out, const Scene& scene, const World& wor
     LinesOfBodies lines;
     for (PointIndex k = 0; k < world.points.size() && !is_wall(k, world); ++k) {
         double tension = back_tension(world, k);
-        if (!world.bonds.made)
-            tension =
-                -world.settings.laws[world.points.state[k].law].normal_stiffness * std::max(0.0, overlap_of(world, k));
+        if (!world.bonds.made) tension = -law_of(world, k).normal_stiffness * std::max(0.0, overlap_of(world, k));
         if (!(tension < 0.0)) continue;
         const PointName name = name_of(world, k);
         const bool plain = plain_pair(*names.find(name.body), *names.find(name.other));

@@ -74,7 +74,7 @@ std::vector<Spring> springs_of(const World& world, ClosedPoints which) {
     for (PointIndex k = 0; k < count; ++k) {
         const PointView v = view_point(world, k);
         if (!closed(world, v, which)) continue;
-        const ContactLaw& law = world.settings.laws[world.points.state[k].law];
+        const ContactLaw law = law_of(world, k);
         const double root_mass = world.points.root_mass[k];
         const auto add = [&](bool shear, double stiffness, double damping, const OverlapGradient& push,
                              const OverlapGradient& gradient) {
@@ -85,7 +85,7 @@ std::vector<Spring> springs_of(const World& world, ClosedPoints which) {
                               across = closing_gradient(perpendicular(v.normal), v.arm_i, v.arm_j);
         add(false, v.normal_stiffness, normal_damping(law, root_mass), along, v.overlap_gradient);
         // A frictionless point slides at once: neither its shear spring nor its dashpot ever acts.
-        if (v.friction > 0.0) add(true, v.shear_stiffness, shear_damping(law, root_mass), across, across);
+        if (v.sticks) add(true, v.shear_stiffness, shear_damping(law, root_mass), across, across);
     }
     return springs;
 }

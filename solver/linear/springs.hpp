@@ -11,7 +11,7 @@
 
 #include <vector>
 
-#include "solver/contact/overlap_gradient.hpp"
+#include "solver/geometry/overlap_gradient.hpp"
 #include "solver/world/world.hpp"
 
 namespace crackle {

@@ -33,7 +33,7 @@
 #include <numbers>
 
 #include "solver/contact/dashpot.hpp"
-#include "solver/contact/geometry.hpp"
+#include "solver/geometry/geometry.hpp"
 #include "solver/linear/springs.hpp"
 #include "solver/measure/point_view.hpp"
 #include "solver/world/world.hpp"
@@ -190,9 +190,8 @@ void add_point(BodyBlocks& blocks, const World& world, const std::vector<double>
     const ContactPoint& point = world.points.contact[k];
     const bool first = b == point.body_i;
     const double partner = first && with_wall(world, k) ? 0.0 : weights[first ? point.body_j : point.body_i];
-    add_side(blocks, side_of(roots, arms.normal, first ? arms.arm_i : arms.arm_j),
-             world.settings.laws[world.points.state[k].law], world.points.root_mass[k], share_of(weights[b], partner),
-             !has_rows(world, k));
+    add_side(blocks, side_of(roots, arms.normal, first ? arms.arm_i : arms.arm_j), law_of(world, k),
+             world.points.root_mass[k], share_of(weights[b], partner), !has_rows(world, k));
 }
 
 /// What a body without points is stable with: the first thing it meets, a circle head-on or a corner at the longest
@@ -200,10 +199,17 @@ void add_point(BodyBlocks& blocks, const World& world, const std::vector<double>
 void lower_to_first_meeting(Least& least, const World& world, BodyIndex b) {
     const BodyInfo& info = world.bodies.info[b];
     const Roots roots = roots_of(world.bodies.inertia[b]);
-    const ContactLaw& law =
-        world.settings.laws[world.settings.materials.size() * world.settings.materials.size() + info.material];
+    ContactLaw law = world.settings.laws[law_with_wall(world, b)];
     const Vec2 along{info.reach, 0.0};
-    const double root_mass = std::sqrt(world.bodies.inertia[b].mass);
+    double root_mass = std::sqrt(world.bodies.inertia[b].mass);
+    if (world.settings.units == StiffnessUnits::area) {
+        // At most the share of a face as long as the body is wide, at the distance of its equivalent radius.
+        const double area = world.bodies.inertia[b].mass / world.settings.materials[info.material].density;
+        const double share = 2.0 * info.reach / std::sqrt(area / std::numbers::pi);
+        law.normal_stiffness *= share;
+        law.shear_stiffness *= share;
+        root_mass *= std::sqrt(share);
+    }
     BodyBlocks head_on;
     add_side(head_on, side_of(roots, {1.0, 0.0}, along), law, root_mass, 1.0);
     least.lower_to(head_on, b);

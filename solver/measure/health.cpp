@@ -57,8 +57,8 @@ double rounding_energy(const World& world, const Ledger& ledger) {
         farthest = std::max(farthest, std::max(std::abs(world.bodies.state[b].x), std::abs(world.bodies.state[b].y)) +
                                           world.bodies.info[b].reach);
     }
-    for (const PointState& point : world.points.state) {
-        const ContactLaw& law = world.settings.laws[point.law];
+    for (PointIndex k = 0; k < world.points.size(); ++k) {
+        const ContactLaw law = law_of(world, k);
         stiffness += law.normal_stiffness + law.shear_stiffness;
     }
     const double strain = rounding * farthest;

@@ -6,9 +6,9 @@
 
 #include <cmath>
 
-#include "solver/contact/geometry.hpp"
 #include "solver/contact/law.hpp"
 #include "solver/contact/opening.hpp"
+#include "solver/geometry/geometry.hpp"
 #include "solver/measure/ledger.hpp"
 #include "solver/world/world.hpp"
 
@@ -65,7 +65,7 @@ double potential_energy(const World& world) {
 }
 
 double energy_at(const World& world, PointIndex k, double overlap) {
-    const ContactLaw& law = world.settings.laws[world.points.state[k].law];
+    const ContactLaw law = law_of(world, k);
     const bool guide = !world.points.spring_work.empty() && k >= world.points.kind_begin[first_guide_kind] &&
                        k < world.points.kind_begin[first_guide_kind + guide_kinds];
     if (!guide) return strain_energy(law, overlap, world.points.bond_overlap[k], world.points.shear_force[k]);
@@ -81,7 +81,8 @@ double strain_of_points(const World& world) {
         for (PointIndex k = begin; k < end; ++k) {
             if ((world.points.state[k].flags & point_touching) == 0) continue;
             const double overlap = overlap_at<K>(world, world.points.contact[k]);
-            if ((world.points.state[k].flags & point_bonded) != 0 || overlap > 0.0) sum += energy_at(world, k, overlap);
+            const bool bonded = (world.points.state[k].flags & point_bonded) != 0;
+            if (bonded || overlap > world.points.bond_overlap[k]) sum += energy_at(world, k, overlap);
         }
     });
     for (const OpeningMemory& memory : world.points.opening) sum += opening_energy(memory);

@@ -6,8 +6,8 @@
 #include <stdexcept>
 
 #include "solver/base/errors.hpp"
-#include "solver/contact/geometry.hpp"
-#include "solver/contact/overlap_gradient.hpp"
+#include "solver/geometry/geometry.hpp"
+#include "solver/geometry/overlap_gradient.hpp"
 #include "solver/measure/point_view.hpp"
 #include "solver/world/world.hpp"
 
@@ -60,7 +60,7 @@ double overlap_of(const World& world, PointIndex k) { return geometry_at(world, 
 
 PointView view_point(const World& world, PointIndex k) {
     const ContactPoint& point = world.points.contact[k];
-    const ContactLaw& law = world.settings.laws[world.points.state[k].law];
+    const ContactLaw law = law_of(world, k);
     PointView view{};
     view.kind = kind_of(world, k);
     const ContactGeometry g = geometry_of(world, view.kind, point);
@@ -75,11 +75,12 @@ PointView view_point(const World& world, PointIndex k) {
                                                 : closing_gradient(view.normal, view.arm_i, view.arm_j);
     view.position = {body.x + g.aix, body.y + g.aiy};
     view.bonded = (world.points.state[k].flags & point_bonded) != 0;
-    view.touching = view.bonded || g.overlap > 0.0;
+    view.touching = view.bonded || g.overlap > world.points.bond_overlap[k];
     view.sliding = (world.points.state[k].flags & point_sliding) != 0;
     view.slid = (world.points.state[k].flags & point_slid) != 0;
     view.normal_stiffness = law.normal_stiffness;
-    view.shear_stiffness = law.friction > 0.0 ? law.shear_stiffness : 0.0;
+    view.sticks = law.friction > 0.0 || (view.bonded && world.settings.bond_law == BondLaw::coulomb);
+    view.shear_stiffness = view.sticks ? law.shear_stiffness : 0.0;
     view.friction = law.friction;
     view.bond_overlap = world.points.bond_overlap[k];
     view.normal_force = view.touching ? law.normal_stiffness * (g.overlap - world.points.bond_overlap[k]) : 0.0;

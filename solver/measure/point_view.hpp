@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "solver/contact/geometry.hpp"
+#include "solver/geometry/geometry.hpp"
 #include "solver/world/world.hpp"
 
 namespace crackle {
@@ -29,6 +29,7 @@ struct PointView {
     /// opposite, the directions in which the force works; under the guide's it differs from them.
     std::array<double, 6> overlap_gradient;
     bool bonded, touching, sliding, slid;
+    bool sticks;  // its shear spring can act
 };
 
 PointView view_point(const World& world, PointIndex point);

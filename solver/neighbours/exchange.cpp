@@ -10,6 +10,8 @@
 
 #include "solver/base/errors.hpp"
 #include "solver/contact/pass.hpp"
+#include "solver/geometry/contact_share.hpp"
+#include "solver/geometry/geometry.hpp"
 #include "solver/world/point_order.hpp"
 
 namespace crackle {
@@ -72,7 +74,8 @@ void insert_kept(const World& world, const std::vector<KeptPoint>& kept, MergedL
 }
 
 /// The new list of a kind, in the room of the points found. A bond is carried over whether its point was found or not:
-/// it lasts until the force pass finds it broken, and intact ones hold at any opening.
+/// it lasts until the force pass finds it broken, and intact ones hold at any opening. So is a point that had a bond
+/// and keeps properties from it: what it is must not depend on when the list was built.
 MergedList merge_lists(World& world, PointKind kind, std::vector<ContactPoint> found) {
     MergedList next{std::move(found), {}};
     next.old.resize(next.points.size());
@@ -89,7 +92,7 @@ MergedList merge_lists(World& world, PointKind kind, std::vector<ContactPoint> f
     const auto pass_unlisted = [&] {
         // One that touched a step ago has its last force to settle, however far it has gone.
         const bool settles = consistent && !by_guide(kind) && flagged(old.at(), point_touching) && !closed;
-        if (flagged(old.at(), point_bonded) || settles) {
+        if (flagged(old.at(), point_bonded) || (flagged(old.at(), point_had_bond) && !closed) || settles) {
             kept.push_back({count, old.at()});
         } else {
             leave_out(old.at());
@@ -193,13 +196,29 @@ void find_pairs(World& world) {
     world.points.root_mass.resize(world.points.size());
     for (PointIndex k = 0; k < world.points.size(); ++k) {
         const BodyIndex i = world.points.contact[k].body_i, j = world.points.contact[k].body_j;
-        const std::size_t materials = world.settings.materials.size();
-        const std::size_t law =
-            k < walls ? law_between(world, i, j) : materials * materials + world.bodies.info[i].material;
+        const bool held = (world.points.state[k].flags & point_held) != 0;
+        const std::size_t law = k >= walls ? law_with_wall(world, i)
+                                : held     ? held_law_between(world, i, j)
+                                           : law_between(world, i, j);
         world.points.state[k].law = static_cast<std::uint16_t>(law);
         world.points.root_mass[k] =
             k < walls ? root_effective_mass(world, i, j) : std::sqrt(world.bodies.inertia[i].mass);
     }
+}
+
+/// Of points that have none yet, the shares of a contact without a bond; and of each its part in the effective mass.
+void find_shares(World& world) {
+    if (!world.settings.own_shares()) return;
+    const bool by_area = world.settings.units == StiffnessUnits::area;
+    visit_kinds(world.points.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
+        for (PointIndex k = begin; k < end; ++k) {
+            float& share = world.points.stiffness_share[k];
+            if (share == 0.0F)
+                share = by_area ? static_cast<float>(share_of_contact(world, K, world.points.contact[k]).stiffness())
+                                : 1.0F;
+            world.points.root_mass[k] *= std::sqrt(static_cast<double>(share));
+        }
+    });
 }
 
 void refuse_more_than_countable(std::size_t points) {
@@ -210,6 +229,11 @@ void refuse_more_than_countable(std::size_t points) {
 }
 
 }  // namespace
+
+void find_point_properties(World& world) {
+    find_pairs(world);
+    find_shares(world);
+}
 
 void exchange_points(World& world, PointLists& lists) {
     MergedList next;
@@ -231,7 +255,7 @@ void exchange_points(World& world, PointLists& lists) {
     world.points.contact = std::move(next.points);
     world.points.kind_begin = kind_begin;
     world.points.fours_end = fours_end;
-    find_pairs(world);
+    find_point_properties(world);
     if (consistent) pass_on_defects(world);
     world.points.force.assign(world.points.keep_forces ? world.points.size() : 0, PointForce{});
     world.account.blocks.assign(block_count(world), LossBlock{});

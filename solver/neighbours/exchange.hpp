@@ -12,4 +12,8 @@ namespace crackle {
 /// Replaces the points of the world, carrying over what the old ones remember. @param lists left empty
 void exchange_points(World& world, PointLists& lists);
 
+/// Of each point its law, its shares where it has none yet, and its effective mass: to be called where bonds were made
+/// or held.
+void find_point_properties(World& world);
+
 }  // namespace crackle

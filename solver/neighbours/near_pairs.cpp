@@ -5,7 +5,7 @@
 #include <cmath>
 #include <utility>
 
-#include "solver/contact/geometry.hpp"
+#include "solver/geometry/geometry.hpp"
 #include "solver/neighbours/cell_grid.hpp"
 
 namespace crackle {

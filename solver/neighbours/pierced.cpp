@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "solver/base/errors.hpp"
-#include "solver/contact/geometry.hpp"
+#include "solver/geometry/geometry.hpp"
 
 namespace crackle {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "solver/contact/geometry.hpp"
+#include "solver/geometry/geometry.hpp"
 #include "solver/neighbours/near_pairs.hpp"
 
 namespace crackle {

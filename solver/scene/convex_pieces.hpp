@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Splits a simple polygon into convex pieces, so that its signed distance can be taken piece by piece.
-// Tested by tests/solver/contact/geometry_test.cpp.
+// Tested by tests/solver/geometry/geometry_test.cpp.
 #pragma once
 
 #include <cstdint>

@@ -109,6 +109,34 @@ void validate_material(const Material& material, std::size_t index) {
     if (!(material.friction_angle >= 0.0 && material.friction_angle < 90.0)) {
         refuse(name + "friction angle", material.friction_angle, "degrees in 0 <= φ < 90");
     }
+    require_not_negative(name + "tensile strength", material.tensile_strength, "N");
+    require_not_negative(name + "cohesion", material.cohesion, "N");
+    if (!(material.residual_friction_angle >= 0.0 && material.residual_friction_angle <= material.friction_angle)) {
+        refuse(name + "residual friction angle", material.residual_friction_angle,
+               fmt::format("degrees from 0 to the friction angle, {:g}", material.friction_angle));
+    }
+}
+
+/// What the laws of bonds and faces do not go with.
+void validate_laws(const Scene& scene) {
+    const auto any_material = [&](auto has) { return std::ranges::any_of(scene.materials, has); };
+    const auto guide = [&] { return scene.segment_law != SegmentLaw::rounded; };
+    if (scene.bond_law == BondLaw::coulomb) {
+        if (guide()) throw InputError("bond law: found coulomb with the guide's segments, expected the rounded law");
+        if (any_material([](const Material& m) { return m.shear_stiffness == 0.0; }))
+            throw InputError("shear stiffness: found 0 with coulomb bonds, expected a number > 0; they hold in shear");
+    } else if (any_material([](const Material& m) { return m.tensile_strength > 0.0 || m.cohesion > 0.0; })) {
+        throw InputError(
+            "materials: found a tensile strength or a cohesion with back-tension bonds, whose strength is their "
+            "overlap, expected the bond law coulomb");
+    }
+    if (scene.units == StiffnessUnits::area) {
+        if (guide()) throw InputError("units: found area with the guide's segments, expected the rounded law");
+        if (any_material([](const Material& m) {
+                return !m.damping_ratio && (m.normal_damping > 0.0 || m.shear_damping > 0.0);
+            }))
+            throw InputError("materials: found dashpots by value in area units, expected a damping ratio");
+    }
 }
 
 void validate_pairs(const Scene& scene) {
@@ -250,6 +278,24 @@ Integrator integrator_named(const std::string& where, const std::string& word) {
     throw InputError(fmt::format("{}: found \"{}\", expected \"leapfrog\" or \"consistent\"", where, word));
 }
 
+const char* name_of(BondLaw law) { return law == BondLaw::coulomb ? "coulomb" : "back_tension"; }
+
+BondLaw bond_law_named(const std::string& where, const std::string& word) {
+    for (const BondLaw law : {BondLaw::back_tension, BondLaw::coulomb}) {
+        if (word == name_of(law)) return law;
+    }
+    throw InputError(fmt::format("{}: found \"{}\", expected \"back_tension\" or \"coulomb\"", where, word));
+}
+
+const char* name_of(StiffnessUnits units) { return units == StiffnessUnits::area ? "area" : "point"; }
+
+StiffnessUnits stiffness_units_named(const std::string& where, const std::string& word) {
+    for (const StiffnessUnits units : {StiffnessUnits::point, StiffnessUnits::area}) {
+        if (word == name_of(units)) return units;
+    }
+    throw InputError(fmt::format("{}: found \"{}\", expected \"point\" or \"area\"", where, word));
+}
+
 std::uint32_t Scene::add_circle_body(int id, int material, const CircleElement& circle) {
     Body body;
     body.id = id;
@@ -302,6 +348,7 @@ void validate(Scene& scene) {
             "materials: found damping by ratio in one and by value in another, expected one way for all; two such "
             "dashpots in series have no common form");
     }
+    validate_laws(scene);
     if (scene.bodies.empty()) throw InputError("bodies: found none, expected at least one particle");
     require_not_negative("thick", scene.thick, "m");
     require_finite("gravity x", scene.gravity.x);

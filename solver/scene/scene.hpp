@@ -23,13 +23,17 @@ inline constexpr double unset = std::numeric_limits<double>::quiet_NaN();
 
 struct Material {
     double density = unset;           ///< kg/m2, > 0
-    double normal_stiffness = unset;  ///< k_n, N/m, > 0
-    double shear_stiffness = unset;   ///< k_s, N/m, >= 0
+    double normal_stiffness = unset;  ///< k_n, N/m, > 0; in StiffnessUnits::area the contact modulus, Pa
+    double shear_stiffness = unset;   ///< k_s, N/m, >= 0; likewise
     double normal_damping = 0.0;      ///< c_n, N s/m, >= 0
     double shear_damping = 0.0;       ///< c_s, N s/m, >= 0
     /// h, >= 0: where given, c_n = 2h·sqrt(k_n·m_eff) and c_s = 2h·sqrt(k_s·m_eff) take the place of the two above.
     std::optional<double> damping_ratio;
     double friction_angle = 0.0;  ///< φ, degrees, 0 <= φ < 90; μ = tan φ
+    // Under BondLaw::coulomb only; in StiffnessUnits::area strengths are stresses, Pa.
+    double tensile_strength = 0.0;         ///< T of a bond, N, >= 0
+    double cohesion = 0.0;                 ///< C of a bond, N, >= 0
+    double residual_friction_angle = 0.0;  ///< degrees, of contacts without a bond, at most φ
 
     friend bool operator==(const Material&, const Material&) = default;
 
@@ -42,6 +46,9 @@ struct Material {
         visit("shear_damping", s.shear_damping);
         visit("damping_ratio", s.damping_ratio);
         visit("friction_angle", s.friction_angle);
+        visit("tensile_strength", s.tensile_strength);
+        visit("cohesion", s.cohesion);
+        visit("residual_friction_angle", s.residual_friction_angle);
     }
 };
 
@@ -122,14 +129,34 @@ struct Domain {
 
 /// Contact law of segments and polygons; circles among themselves and walls are the same in all.
 enum class SegmentLaw : std::uint8_t {
-    rounded,     ///< vertex against the other's outline as a whole (contact/geometry.hpp)
-    demseg,      ///< the guide's: element by element, the disc cases of a pair added up (contact/guide_segments.hpp)
+    rounded,     ///< vertex against the other's outline as a whole (geometry/geometry.hpp)
+    demseg,      ///< the guide's: element by element, the disc cases of a pair added up (geometry/guide_segments.hpp)
     demseg_mean  ///< the same with the mean of the cases in contact
 };
 
 /// "rounded", "demseg" or "demseg_mean". @throws InputError on another word, naming `where`.
 SegmentLaw segment_law_named(const std::string& where, const std::string& word);
 const char* name_of(SegmentLaw law);
+
+/// What a bond carries and how it fails.
+enum class BondLaw : std::uint8_t {
+    back_tension,  ///< the guide's: strength is the overlap at bonding, a bond slides within Coulomb's limit
+    coulomb        ///< tension cut-off, cohesion and friction; sticks until it fails (contact/coulomb_bond.hpp)
+};
+
+/// "back_tension" or "coulomb". @throws InputError on another word, naming `where`.
+BondLaw bond_law_named(const std::string& where, const std::string& word);
+const char* name_of(BondLaw law);
+
+/// What stiffnesses and strengths of a material are given for.
+enum class StiffnessUnits : std::uint8_t {
+    point,  ///< a contact point: N/m and N
+    area    ///< a face: a contact modulus and stresses, Pa; a point has its share (geometry/contact_share.hpp)
+};
+
+/// "point" or "area". @throws InputError on another word, naming `where`.
+StiffnessUnits stiffness_units_named(const std::string& where, const std::string& word);
+const char* name_of(StiffnessUnits units);
 
 /// How the contacts' first and last steps are taken.
 enum class Integrator : std::uint8_t {
@@ -173,6 +200,8 @@ struct Scene {
         0.0;  ///< segment thickness t, m, >= 0: a disc of radius t at each vertex against the other's bare outline
     SegmentLaw segment_law = SegmentLaw::rounded;
     Integrator integrator = Integrator::leapfrog;
+    BondLaw bond_law = BondLaw::back_tension;
+    StiffnessUnits units = StiffnessUnits::point;
     Vec2 gravity;  ///< m/s2
 
     double time_step = 0.0;       ///< s; 0: derived from the stiffness bound times safety_factor

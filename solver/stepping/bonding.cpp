@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Back-tension bonding: every contact of overlap δ0 > 0 gets f_b = -k_n δ0, so a packing under pressure becomes a
+// Bonding. By back-tension every contact of overlap δ0 > 0 gets f_b = -k_n δ0, so a packing under pressure becomes a
 // stress-free solid without added springs; stiffness is the same before and after breakage, tensile strength is k_n δ0.
-// Source: DEMseg guide.
+// Source: DEMseg guide. Coulomb bonds start without force likewise, at gaps too, and have strengths of their own.
+
+#include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+
+#include "solver/base/errors.hpp"
+#include "solver/geometry/contact_share.hpp"
 
 #include "solver/contact/pass.hpp"
 #include "solver/linear/critical_step.hpp"
 #include "solver/measure/point_view.hpp"
+#include "solver/neighbours/exchange.hpp"
 #include "solver/stepping/bonding.hpp"
 #include "solver/stepping/time_step.hpp"
 #include "solver/world/world.hpp"
@@ -29,6 +36,98 @@ std::int64_t count_interfaces(const World& world) {
     return std::distance(pairs.begin(), std::unique(pairs.begin(), pairs.end()));
 }
 
+/// m, at which a point is still bonded.
+double largest_gap(const World& world, const PointView& view, const Bonding& bonding) {
+    if (view.kind != PointKind::circle_circle) return bonding.gap;
+    const double radii = world.bodies.state[view.body_i].shape[0] + world.bodies.state[view.body_j].shape[0];
+    return bonding.range * 0.5 * radii;
+}
+
+/// The list reaches as far as bonds do.
+void widen_skin(World& world, const Bonding& bonding) {
+    double reach = bonding.gap;
+    if (bonding.range > 0.0)
+        for (const BodyInfo& info : world.bodies.info)
+            if (info.single_circle) reach = std::max(reach, bonding.range * info.reach);
+    if (reach == 0.0 || world.list.skin > 1.01 * reach) return;
+    world.list.skin = 1.01 * reach;  // lists leave out what is just beyond
+    world.list.valid = false;
+}
+
+bool bonded(const World& world, PointIndex k) { return (world.points.state[k].flags & point_bonded) != 0; }
+
+/// Shares of bonded points: of a face divided among its points, in StiffnessUnits::point 1; strength with the random
+/// factor of the pair.
+void share_faces(World& world, const Bonding& bonding) {
+    const PointIndex walls = world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
+    const bool by_area = world.settings.units == StiffnessUnits::area;
+    for (PointIndex begin = 0; begin < walls;) {
+        const PointIndex end = points_between(world, begin).second;
+        std::int64_t count = 0;
+        double opening = 0.0;  // m
+        for (PointIndex k = begin; k < end; ++k) {
+            if (!bonded(world, k)) continue;
+            ++count;
+            opening = std::max(opening, world.settings.thick - world.points.bond_overlap[k]);
+        }
+        const ContactPoint& first = world.points.contact[begin];
+        const double factor =
+            bonding.factors.between(world.bodies.info[first.body_i].id, world.bodies.info[first.body_j].id);
+        for (PointIndex k = begin; k < end; ++k) {
+            if (!bonded(world, k)) continue;
+            double stiffness = 1.0, length = 1.0;
+            if (by_area) {
+                const PointView view = view_point(world, k);
+                std::optional<ContactShare> face;
+                if (view.kind == PointKind::element_outline && world.bodies.info[view.body_i].piece_count > 0)
+                    face = share_of_face(world, view.body_i, view.body_j, opening);
+                const ContactShare share = face ? *face : share_of_contact(world, view.kind, world.points.contact[k]);
+                const double points = face ? static_cast<double>(count) : 1.0;
+                stiffness = share.stiffness() / points;
+                length = share.length / points;
+            }
+            world.points.stiffness_share[k] = static_cast<float>(stiffness);
+            world.points.strength_share[k] = static_cast<float>(length * factor);
+        }
+        begin = end;
+    }
+}
+
+/// Strengths by factors, and whether the envelopes have their apex.
+void set_strengths(World& world, const Bonding& bonding) {
+    const std::size_t pairs = world.settings.pair_count();
+    if ((bonding.tensile_factor || bonding.cohesion_factor) && !world.settings.intact.no_breaking) {
+        double sum = 0.0;
+        std::int64_t count = 0;
+        for (PointIndex k = 0; k < world.points.size(); ++k) {
+            if (!bonded(world, k)) continue;
+            sum += law_of(world, k).normal_stiffness * world.points.bond_overlap[k];
+            ++count;
+        }
+        const double mean = count > 0 ? sum / static_cast<double>(count) : 0.0;
+        if (count > 0 && !(mean > 0.0)) {
+            throw InputError(fmt::format(
+                "strength factors: found a mean back-tension of {:.6g} N, expected one > 0 to take a share of; cells "
+                "bond without overlap, give tensile_strength and cohesion",
+                mean));
+        }
+        for (std::size_t number = 0; number < pairs; ++number) {
+            ContactLaw& law = world.settings.laws[number];
+            if (bonding.tensile_factor) law.tensile_strength = *bonding.tensile_factor * mean;
+            if (bonding.cohesion_factor) law.cohesion = *bonding.cohesion_factor * mean;
+        }
+    }
+    constexpr double rounding = 1e-12;
+    for (std::size_t number = 0; number < pairs; ++number) {
+        const ContactLaw& law = world.settings.laws[number];
+        if (!(law.bond_friction * law.tensile_strength > law.cohesion * (1.0 + rounding))) continue;
+        throw InputError(fmt::format(
+            "strengths: found a tensile strength of {:.6g} beyond the apex of the envelope, cohesion over friction, "
+            "{:.6g}, expected at most that; give more cohesion, or less tensile strength",
+            law.tensile_strength, law.cohesion / law.bond_friction));
+    }
+}
+
 }  // namespace
 
 void set_thickness(World& world, double thick) {
@@ -44,7 +143,15 @@ void set_thickness(World& world, double thick) {
 }
 
 std::int64_t bond_all(World& world, double thick) {
-    if (thick != world.settings.thick) set_thickness(world, thick);
+    Bonding bonding;
+    bonding.thick = thick;
+    return bond_all(world, bonding);
+}
+
+std::int64_t bond_all(World& world, const Bonding& bonding) {
+    if (bonding.thick != world.settings.thick) set_thickness(world, bonding.thick);
+    const double skin = world.list.skin;
+    widen_skin(world, bonding);
     refresh_neighbours(world);
     std::int64_t bonds = 0;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
@@ -53,12 +160,22 @@ std::int64_t bond_all(World& world, double thick) {
         world.points.bond_overlap[k] = 0.0;
         if (k >= world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)]) continue;
         const PointView view = view_point(world, k);
-        if (view.overlap <= 0.0) continue;
+        if (view.overlap + largest_gap(world, view, bonding) <= 0.0) continue;
         world.points.bond_overlap[k] = view.overlap;
         world.points.state[k].flags = point_bonded | point_touching;
+        if (bonding.holds && bonding.holds(view.position, view.body_i, view.body_j))
+            world.points.state[k].flags |= point_held;
         ++bonds;
     }
+    if (world.settings.own_shares()) share_faces(world, bonding);
+    find_point_properties(world);
+    if (world.settings.bond_law == BondLaw::coulomb) set_strengths(world, bonding);
+    if (world.list.skin != skin) {
+        world.list.skin = skin;
+        world.list.valid = false;
+    }
     finish_bonding(world);
+    if (!world.list.valid) refresh_neighbours(world);
     return bonds;
 }
 
@@ -66,6 +183,9 @@ void finish_bonding(World& world) {
     world.bonds.made = true;
     world.bonds.initial = std::count_if(world.points.state.begin(), world.points.state.end(),
                                         [](const PointState& p) { return (p.flags & point_bonded) != 0; });
+    world.bonds.held = std::count_if(world.points.state.begin(), world.points.state.end(), [](const PointState& p) {
+        return (p.flags & point_held) != 0 && (p.flags & point_bonded) != 0;
+    });
     world.bonds.interfaces_initial = count_interfaces(world);
     const CriticalStep exact = critical_step(world, ClosedPoints::touching);
     world.stepping.exact_step = exact.step;
@@ -76,7 +196,8 @@ void finish_bonding(World& world) {
     world.bonds.broken = 0;
     world.bonds.interfaces_lost = 0;
     visit_remembered(world.points, [&]<class T>(std::vector<T>& values, Remembered remembered) {
-        if (remembered != Remembered::always) values.assign(keeps(world, remembered) ? world.points.size() : 0, T{});
+        if (remembered != Remembered::always && remembered != Remembered::own_shares)
+            values.assign(keeps(world, remembered) ? world.points.size() : 0, T{});
     });
     world.bonds.events.clear();
     world.bonds.events.reserve(static_cast<std::size_t>(std::min<std::int64_t>(world.bonds.initial, events_at_once)));

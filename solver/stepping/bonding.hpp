@@ -3,13 +3,32 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 
+#include "solver/scene/bond_strength.hpp"
 #include "solver/world/world.hpp"
 
 namespace crackle {
 
-/// Back-tension bonding: every point of overlap δ > 0 between bodies gets δ0 = δ and loses its shear spring. Walls stay
-/// unbonded. Sets the segment thickness first. @return points bonded.
+/// Which points are bonded, and how strongly.
+struct Bonding {
+    double thick = 0.0;  ///< segment thickness, m
+    /// Share of the mean radius of two discs up to whose gap they are bonded; such bonds have δ0 < 0.
+    double range = 0.0;
+    /// m; corners whose gap to an outline is at most this are bonded, at their own δ0.
+    double gap = 0.0;
+    StrengthFactors factors;
+    /// Strengths of BondLaw::coulomb as factors of k_n δ0 averaged over all bonds, in place of the materials' own.
+    std::optional<double> tensile_factor, cohesion_factor;
+    /// Whether a bond at a place between two bodies can never break; none where not given.
+    std::function<bool(Vec2 position, BodyIndex i, BodyIndex j)> holds;
+};
+
+/// Bonds points between bodies, by back-tension those of overlap δ > 0; each gets δ0 = δ and loses its shear spring.
+/// Walls stay unbonded. Sets the segment thickness first. @return points bonded.
+/// @throws InputError where the strengths that result have μT > C, and factors that no mean overlap makes a strength of
+std::int64_t bond_all(World& world, const Bonding& bonding);
 std::int64_t bond_all(World& world, double thick);
 /// After bonds have been entered in the points (flags, bond_overlap), by bond_all() or a reader of back-tensions:
 /// counts them, clears what was remembered of the time before, and starts the account of energy again.

@@ -180,7 +180,15 @@ void add_body(World& world, const Scene& scene, const Body& body, const MassProp
 /// Springs in series, k = 2k₁k₂/(k₁+k₂). Equal ones give their own, which the formula may miss in the last bit.
 double in_series(double a, double b) { return a == b ? a : 2.0 * a * b / (a + b); }
 
-ContactLaw law_between(const Material& a, const Material& b, const MaterialPair& pair, const IntactOptions& intact) {
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// Its bonds cannot break.
+void hold(ContactLaw& law) {
+    law.break_overlap = -infinite;
+    law.tensile_strength = law.cohesion = infinite;
+}
+
+ContactLaw law_between(const Material& a, const Material& b, const MaterialPair& pair, const Settings& settings) {
     ContactLaw law{};
     law.normal_stiffness = pair.normal_stiffness.value_or(in_series(a.normal_stiffness, b.normal_stiffness));
     law.shear_stiffness = pair.shear_stiffness.value_or(in_series(a.shear_stiffness, b.shear_stiffness));
@@ -196,9 +204,16 @@ ContactLaw law_between(const Material& a, const Material& b, const MaterialPair&
     law.normal_damping = in_series(a.damping_ratio ? 0.0 : a.normal_damping, b.damping_ratio ? 0.0 : b.normal_damping);
     law.shear_damping = in_series(a.damping_ratio ? 0.0 : a.shear_damping, b.damping_ratio ? 0.0 : b.shear_damping);
     const double angle = pair.friction_angle.value_or(std::min(a.friction_angle, b.friction_angle));
-    law.friction =
-        intact.no_sliding ? std::numeric_limits<double>::infinity() : std::tan(angle * std::numbers::pi / 180.0);
-    law.break_overlap = intact.no_breaking ? -std::numeric_limits<double>::infinity() : 0.0;
+    law.friction = std::tan(angle * std::numbers::pi / 180.0);
+    law.tensile_strength = std::min(a.tensile_strength, b.tensile_strength);
+    law.cohesion = std::min(a.cohesion, b.cohesion);
+    law.bond_friction = law.friction;
+    if (settings.bond_law == BondLaw::coulomb) {
+        const double residual = std::min({a.residual_friction_angle, b.residual_friction_angle, angle});
+        law.friction = std::tan(residual * std::numbers::pi / 180.0);
+    }
+    if (settings.intact.no_sliding) law.friction = infinite;
+    if (settings.intact.no_breaking) hold(law);
     return law;
 }
 
@@ -210,16 +225,21 @@ MaterialPair pair_of(const Scene& scene, std::size_t a, std::size_t b) {
     return {};
 }
 
+/// In the order that Settings::laws states.
 void build_laws(World& world, const Scene& scene) {
-    const std::vector<Material>& materials = world.settings.materials;
-    for (std::size_t a = 0; a < materials.size(); ++a) {
-        for (std::size_t b = 0; b < materials.size(); ++b)
-            world.settings.laws.push_back(
-                law_between(materials[a], materials[b], pair_of(scene, a, b), world.settings.intact));
+    Settings& settings = world.settings;
+    const std::vector<Material>& materials = settings.materials;
+    for (std::size_t b = 0; b < materials.size(); ++b)
+        for (std::size_t a = 0; a <= b; ++a)
+            settings.laws.push_back(law_between(materials[a], materials[b], pair_of(scene, a, b), settings));
+    for (std::size_t pair = 0; pair < settings.pair_count(); ++pair) {
+        ContactLaw law = settings.laws[pair];
+        hold(law);
+        law.friction = infinite;  // and sticks
+        settings.laws.push_back(law);
     }
     // A domain wall has the touching body's own stiffness, damping and friction.
-    for (const Material& a : world.settings.materials)
-        world.settings.laws.push_back(law_between(a, a, {}, world.settings.intact));
+    for (const Material& a : materials) settings.laws.push_back(law_between(a, a, {}, settings));
     if (world.settings.laws.size() > std::numeric_limits<std::uint16_t>::max()) {
         throw InputError(fmt::format("materials: found {}, expected at most 255", world.settings.materials.size()));
     }
@@ -283,6 +303,8 @@ World build_world(Scene scene) {
     world.settings.thick = scene.thick;
     world.settings.segment_law = scene.segment_law;
     world.settings.integrator = scene.integrator;
+    world.settings.bond_law = scene.bond_law;
+    world.settings.units = scene.units;
     world.settings.gravity = scene.gravity;
     world.stepping.safety_factor = scene.safety_factor;
     world.stepping.step_scale = scene.step_scale;

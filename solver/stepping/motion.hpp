@@ -6,7 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
-#include "solver/contact/lanes.hpp"
+#include "solver/base/lanes.hpp"
 #include "solver/world/speeds.hpp"
 #include "solver/world/world.hpp"
 

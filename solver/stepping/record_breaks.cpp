@@ -6,13 +6,16 @@
 // is taken, they still do half their work over that drift. What is left of the stored energy goes to the account of
 // fracture: ½k_n(δ-δ0)' (δ-δ0) + ½f_t' f_t/k_s, the primed values those of n-1; ½k_n(δ-δ0)² + ½f_t²/k_s as Δt → 0. A
 // break is `shear` if the point had been at its Coulomb limit since bonding and |f_t| > |f_n| in the last step in which
-// it carried at least half its strength; else `tension`. Source: solver/MODEL.md 5.
+// it carried at least half its strength; else `tension`. Of a coulomb bond contact/coulomb_bond.hpp says the same.
+// Source: solver/MODEL.md 5.
 
 #include "solver/stepping/record_breaks.hpp"
 
 #include <cmath>
 #include <numbers>
 
+#include "solver/contact/point_motion.hpp"
+#include "solver/geometry/geometry.hpp"
 #include "solver/measure/point_view.hpp"
 
 namespace crackle {
@@ -29,7 +32,7 @@ double orientation_of(Vec2 normal) {
 /// Energy that a break takes, J (see above). Under the guide's law the normal spring's work has been added up just so.
 double fracture_energy(const World& world, PointIndex k, const PointView& view) {
     const ContactPoint& point = world.points.contact[k];
-    const ContactLaw& law = world.settings.laws[world.points.state[k].law];
+    const ContactLaw law = law_of(world, k);
     const BodyState &i = world.bodies.state[point.body_i], &j = world.bodies.state[point.body_j];
     const Vec2 speed{i.vx - i.omega * view.arm_i.y - (j.vx - j.omega * view.arm_j.y),
                      i.vy + i.omega * view.arm_i.x - (j.vy + j.omega * view.arm_j.x)};
@@ -56,41 +59,73 @@ bool interface_holds(const World& world, PointIndex k) {
     return false;
 }
 
+/// What a back-tension bond's event says beyond place and time; the point is as after a break.
+void part_back_tension(World& world, PointIndex k, const PointView& view, BreakEvent& event) {
+    event.energy = fracture_energy(world, k, view);
+    event.strength = law_of(world, k).normal_stiffness * world.points.bond_overlap[k];
+    event.normal_force = world.points.strong_normal[k];
+    event.shear_force = world.points.strong_shear[k];
+    event.slid = (world.points.state[k].flags & point_slid) != 0;
+    event.shear_mode = event.slid && std::abs(event.shear_force) > std::abs(event.normal_force);
+    world.points.shear_force[k] = 0.0;
+    world.points.bond_overlap[k] = 0.0;
+    const int had_bond = world.settings.own_shares() ? point_had_bond : 0;
+    world.points.state[k].flags = static_cast<std::uint16_t>((world.points.state[k].flags & point_counted) |
+                                                             had_bond);  // until the bound is found again
+}
+
+/// The same of a coulomb bond, which can go on to push and to rub.
+template <PointKind K>
+void part_coulomb(World& world, PointIndex k, BreakEvent& event) {
+    const Law<double> law(law_of(world, k));
+    const auto g = geometry_of_point<K>(world, world.points.contact[k]);
+    const RelativeMotion<double> moves = motion_of_point<K>(world, world.points.contact[k], g);
+    const PointMotion motion{g.overlap - world.points.bond_overlap[k], moves.closing, moves.slipping};
+    const BondForces now = forces_now(world, k, law, motion);
+    const BrokenBond broken = broken_bond(world, k, law, motion);
+    event.energy = broken.energy;
+    event.strength = broken.strength;
+    event.normal_force = now.normal;
+    event.shear_force = now.shear;
+    event.shear_mode = broken.in_shear;
+    world.points.shear_force[k] = broken.shear;
+    world.points.bond_overlap[k] = broken.rest_overlap;
+    const int touching = broken.normal > 0.0 ? point_touching : 0;
+    world.points.state[k].flags =
+        static_cast<std::uint16_t>((world.points.state[k].flags & point_counted) | touching | point_had_bond);
+}
+
 }  // namespace
 
 void record_breaks(World& world) {
-    for (PointIndex k = 0; k < world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)]; ++k) {
-        ContactPoint& point = world.points.contact[k];
-        if ((world.points.state[k].flags & point_just_broken) == 0) continue;
-        const PointView view = view_point(world, k);
-        const ContactLaw& law = world.settings.laws[world.points.state[k].law];
-        BreakEvent event{};
-        event.step = world.stepping.steps;
-        event.time = world.stepping.time;
-        event.body_i = world.bodies.info[point.body_i].id;
-        event.body_j = world.bodies.info[point.body_j].id;
-        event.position = view.position;
-        event.orientation = orientation_of(view.normal);
-        event.energy = fracture_energy(world, k, view);
-        event.strength = law.normal_stiffness * world.points.bond_overlap[k];
-        event.normal_force = world.points.strong_normal[k];
-        event.shear_force = world.points.strong_shear[k];
-        event.slid = (world.points.state[k].flags & point_slid) != 0;
-        event.shear_mode = event.slid && std::abs(event.shear_force) > std::abs(event.normal_force);
-        world.points.shear_force[k] = 0.0;
-        world.points.bond_overlap[k] = 0.0;
-        world.points.state[k].flags =
-            static_cast<std::uint16_t>(world.points.state[k].flags & point_counted);  // until the bound is found again
-        if (!world.points.spring_work.empty()) world.points.spring_work[k] = {};
-        if (!world.points.opening.empty()) world.points.opening[k] = {};
-        event.last_of_interface = !interface_holds(world, k);
-        event.kind = view.kind;
-        event.point = point;
-        world.account.fracture_loss += event.energy;
-        world.bonds.broken += 1;
-        world.bonds.interfaces_lost += event.last_of_interface ? 1 : 0;
-        world.bonds.events.push_back(event);
-    }
+    visit_kinds(world.points.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
+        for (PointIndex k = begin; k < end && K != PointKind::element_wall; ++k) {
+            if ((world.points.state[k].flags & point_just_broken) == 0) continue;
+            const PointView view = view_point(world, k);
+            const ContactPoint& point = world.points.contact[k];
+            BreakEvent event{};
+            event.step = world.stepping.steps;
+            event.time = world.stepping.time;
+            event.body_i = world.bodies.info[point.body_i].id;
+            event.body_j = world.bodies.info[point.body_j].id;
+            event.position = view.position;
+            event.orientation = orientation_of(view.normal);
+            if (world.settings.bond_law == BondLaw::coulomb) {
+                part_coulomb<K>(world, k, event);
+            } else {
+                part_back_tension(world, k, view, event);
+            }
+            if (!world.points.spring_work.empty()) world.points.spring_work[k] = {};
+            if (!world.points.opening.empty()) world.points.opening[k] = {};
+            event.last_of_interface = !interface_holds(world, k);
+            event.kind = view.kind;
+            event.point = point;
+            world.account.fracture_loss += event.energy;
+            world.bonds.broken += 1;
+            world.bonds.interfaces_lost += event.last_of_interface ? 1 : 0;
+            world.bonds.events.push_back(event);
+        }
+    });
 }
 
 }  // namespace crackle

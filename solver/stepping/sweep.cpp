@@ -7,7 +7,7 @@
 #include <limits>
 #include <span>
 
-#include "solver/contact/lanes.hpp"
+#include "solver/base/lanes.hpp"
 #include "solver/world/profile.hpp"
 
 namespace crackle {

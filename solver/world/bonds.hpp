@@ -14,16 +14,16 @@ namespace crackle {
 /// One broken bond.
 struct BreakEvent {
     std::int64_t step;
-    double time;          // s
-    int body_i, body_j;   // input ids
-    Vec2 position;        // m
-    double orientation;   // rad, direction of the contact normal, in (-π/2, π/2]
-    double energy;        // J: taken by the break, stepping/record_breaks.cpp
-    double strength;      // N: k_n δ0
-    double normal_force;  // N, of Points::strong_normal
-    double shear_force;   // N
-    bool slid;
-    bool shear_mode;         // slid and |f_t| > |f_n|; else tension
+    double time;             // s
+    int body_i, body_j;      // input ids
+    Vec2 position;           // m
+    double orientation;      // rad, direction of the contact normal, in (-π/2, π/2]
+    double energy;           // J: taken by the break, stepping/record_breaks.cpp
+    double strength;         // N: k_n δ0; of a coulomb bond the limit that it met, T or C + μ f_n
+    double normal_force;     // N, of Points::strong_normal; of a coulomb bond those that it failed under
+    double shear_force;      // N
+    bool slid;               // back-tension only
+    bool shear_mode;         // slid and |f_t| > |f_n|, of a coulomb bond by the limit met first; else tension
     bool last_of_interface;  // no bonded point is left between the two bodies
     PointKind kind;          // of the point
     ContactPoint point;      // by internal numbers, for readers that keep books by points
@@ -51,6 +51,7 @@ struct BreakEvent {
 struct Bonds {
     bool made = false;  // bonding is done, whether it found points to bond or not
     std::int64_t initial = 0, broken = 0;
+    std::int64_t held = 0;  // of the initial ones, that cannot break
     std::int64_t interfaces_initial = 0, interfaces_lost = 0;
     std::vector<BreakEvent> events;  // broken bonds; readers may clear it
 
@@ -59,6 +60,7 @@ struct Bonds {
         visit("made", s.made);
         visit("initial", s.initial);
         visit("broken", s.broken);
+        visit("held", s.held);
         visit("interfaces_initial", s.interfaces_initial);
         visit("interfaces_lost", s.interfaces_lost);
         visit("events", s.events);

@@ -20,7 +20,7 @@ enum class PointKind : std::uint8_t {
     circle_circle = 0,    // two single circles
     element_element = 1,  // circles of which at least one belongs to a clump
     element_outline = 2,  // circle or vertex of body_i against the outline of body_j
-    // The guide's law only (contact/guide_segments.hpp); a segment goes by the element it begins at.
+    // The guide's law only (geometry/guide_segments.hpp); a segment goes by the element it begins at.
     disc_segment = 3,     // circle of body_i against segment feature_j of body_j
     segment_segment = 4,  // segments element_i of body_i and feature_j of body_j
     element_wall = 5,  // circle or vertex of body_i against a domain wall (body_j = Wall); feature_j = 1: a bare vertex
@@ -38,7 +38,9 @@ enum PointFlag : std::uint16_t {
     point_sliding = 4,       // at the Coulomb limit in the last force pass
     point_slid = 8,          // has been at the limit since bonding (or since contact began)
     point_just_broken = 16,  // bond lost in the last force pass; cleared when its event is recorded
-    point_counted = 32       // counts in StepControl::step_bound
+    point_counted = 32,      // counts in StepControl::step_bound
+    point_held = 64,         // its bond cannot break
+    point_had_bond = 128     // was bonded and has properties of its own left: a rest overlap, shares
 };
 
 /// What meets at one contact point.
@@ -124,10 +126,11 @@ struct OpeningMemory {
 /// Which worlds remember a quantity of every point from one neighbour list to the next; in others its array is empty.
 enum class Remembered : std::uint8_t {
     always,
-    since_bonding,    // all of them; bonding sets it to 0
-    by_guide_law,     // the guide's law of segments
-    when_consistent,  // Integrator::consistent
-    when_bonded,      // Bonds::made
+    since_bonding,     // all of them; bonding sets it to 0
+    by_guide_law,      // the guide's law of segments
+    when_consistent,   // Integrator::consistent
+    by_half_strength,  // Bonds::made, of BondLaw::back_tension
+    own_shares,        // Settings::own_shares()
 };
 
 struct Points {
@@ -136,16 +139,21 @@ struct Points {
     /// Points of element_outline up to here lie in fours, each four between the same two bodies: the interfaces of a
     /// mesh. The others of that kind follow.
     PointIndex fours_end = 0;
-    std::vector<double> root_mass;  // square root of the effective mass, sqrt(kg)
+    std::vector<double> root_mass;  // square root of the effective mass times stiffness_share, sqrt(kg)
     std::vector<PointState> state;
-    std::vector<double> shear_force;   // elastic, N on body_i along the normal (i to j) turned by +90 degrees
-    std::vector<double> bond_overlap;  // δ0, m; back-tension f_b = -k_n δ0
+    std::vector<double> shear_force;  // elastic, N on body_i along the normal (i to j) turned by +90 degrees
+    /// δ0, m; back-tension f_b = -k_n δ0. Of a coulomb bond that broke the overlap without force, max(δ0, 0).
+    std::vector<double> bond_overlap;
+    /// What a point has of the law's stiffness, and of its strength, the bond's random factor included: of a face its
+    /// length over the distance of centroids, and its length (geometry/contact_share.hpp). Floats: no digit is lost
+    /// that a rock would have. Empty where all are 1.
+    std::vector<float> stiffness_share, strength_share;
     // Dashpot forces of the last force pass, N: their work is taken by the trapezoidal rule. Floats, like strong
     // forces: they are reported, no motion follows from them, and they are much of what is moved.
     std::vector<float> normal_dashpot, shear_dashpot;
     std::vector<SpringWork> spring_work;
     std::vector<OpeningMemory> opening;
-    // Elastic forces of a bonded point in the last step in which it carried at least half its strength, N: normal,
+    // Elastic forces of a back-tension bond in the last step in which it carried at least half its strength, N: normal,
     // compression positive, and shear.
     std::vector<float> strong_normal, strong_shear;
     std::vector<PointForce> force;  // of the last force pass; empty unless kept
@@ -162,12 +170,14 @@ struct Points {
         visit("state", s.state, Remembered::always);
         visit("shear_force", s.shear_force, Remembered::always);
         visit("bond_overlap", s.bond_overlap, Remembered::always);
+        visit("stiffness_share", s.stiffness_share, Remembered::own_shares);
+        visit("strength_share", s.strength_share, Remembered::own_shares);
         visit("normal_dashpot", s.normal_dashpot, Remembered::since_bonding);
         visit("shear_dashpot", s.shear_dashpot, Remembered::since_bonding);
         visit("spring_work", s.spring_work, Remembered::by_guide_law);
         visit("opening", s.opening, Remembered::when_consistent);
-        visit("strong_normal", s.strong_normal, Remembered::when_bonded);
-        visit("strong_shear", s.strong_shear, Remembered::when_bonded);
+        visit("strong_normal", s.strong_normal, Remembered::by_half_strength);
+        visit("strong_shear", s.strong_shear, Remembered::by_half_strength);
         visit("force", s.force);
         visit("keep_forces", s.keep_forces);
     }

@@ -3,20 +3,28 @@
 // Tested by tests/solver/world/world_test.cpp.
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
 #include "solver/scene/scene.hpp"
 
 namespace crackle {
 
-/// What a pair of materials does at a contact point; its formulas: contact/, measure/, linear/.
+/// What a pair of materials does at a contact point; its formulas: contact/, measure/, linear/. In
+/// StiffnessUnits::area stiffnesses are those of a point whose share is 1 (Points::stiffness_share), strengths
+/// stresses. Numbers lie in pairs as the kernels load them.
 struct ContactLaw {
     double normal_stiffness, shear_stiffness;  // N/m
-    double normal_damping, shear_damping;      // N s/m, plus the ratio terms times sqrt(m_eff)
+    double normal_damping, shear_damping;      // N s/m, plus the ratio terms times Points::root_mass
     double normal_damping_ratio_term;          // 2h sqrt(k_n), sqrt(N/m)
     double shear_damping_ratio_term;           // 2h sqrt(k_s)
-    double friction;                           // μ = tan φ; infinite when sliding is switched off
-    double break_overlap;  // m; a bond is lost at or below: 0, or -infinity when breaking is switched off
+    /// μ = tan φ of Coulomb's limit, under BondLaw::coulomb the residual one; infinite when sliding is switched off.
+    double friction;
+    double break_overlap;  // m; a back-tension bond is lost at or below: 0, or -infinity where it cannot break
+    // Of BondLaw::coulomb; infinite where a bond cannot break.
+    double tensile_strength, cohesion;  // N
+    double bond_friction;               // μ of the bond's envelope
+    double unused = 0.0;
 
     template <class Self, class Visit>
     static constexpr void fields(Self& s, Visit&& visit) {
@@ -28,8 +36,17 @@ struct ContactLaw {
         visit("shear_damping_ratio_term", s.shear_damping_ratio_term);
         visit("friction", s.friction);
         visit("break_overlap", s.break_overlap);
+        visit("tensile_strength", s.tensile_strength);
+        visit("cohesion", s.cohesion);
+        visit("bond_friction", s.bond_friction);
+        visit("unused", s.unused);
     }
 };
+
+/// Number of a pair of materials, in either order.
+constexpr std::size_t pair_number(std::size_t a, std::size_t b) {
+    return a < b ? b * (b + 1) / 2 + a : a * (a + 1) / 2 + b;
+}
 
 struct Settings {
     Domain domain;
@@ -37,9 +54,17 @@ struct Settings {
     double thick = 0.0;  // m
     SegmentLaw segment_law = SegmentLaw::rounded;
     Integrator integrator = Integrator::leapfrog;
+    BondLaw bond_law = BondLaw::back_tension;
+    StiffnessUnits units = StiffnessUnits::point;
     IntactOptions intact;
     std::vector<Material> materials;
-    std::vector<ContactLaw> laws;  // material pairs, row-major: law = a * materials + b; then materials against walls
+    /// By pair_number(): of material pairs, then of the same where a bond cannot break, then of materials against
+    /// walls.
+    std::vector<ContactLaw> laws;
+
+    /// Whether points have a share of stiffness and strength of their own.
+    bool own_shares() const { return bond_law == BondLaw::coulomb || units == StiffnessUnits::area; }
+    std::size_t pair_count() const { return materials.size() * (materials.size() + 1) / 2; }
 
     template <class Self, class Visit>
     static constexpr void fields(Self& s, Visit&& visit) {
@@ -48,6 +73,8 @@ struct Settings {
         visit("thick", s.thick);
         visit("segment_law", s.segment_law);
         visit("integrator", s.integrator);
+        visit("bond_law", s.bond_law);
+        visit("units", s.units);
         visit("intact", s.intact);
         visit("materials", s.materials);
         visit("laws", s.laws);

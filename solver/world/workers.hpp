@@ -55,6 +55,7 @@ struct Workers {
     std::vector<std::int64_t> blocks_done;  // blocks of points that each thread has done
     std::vector<std::uint8_t> marks;        // per body, 0 but within count_new_points()
     Profile* profile = nullptr;             // times the phases where set
+    bool one_by_one = false;                // no points side by side: what they must give the bytes of
 };
 
 }  // namespace crackle

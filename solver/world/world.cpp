@@ -18,10 +18,12 @@ bool keeps(const World& world, Remembered remembered) {
             return world.settings.segment_law != SegmentLaw::rounded;
         case Remembered::when_consistent:
             return world.settings.integrator == Integrator::consistent;
-        case Remembered::when_bonded:
+        case Remembered::own_shares:
+            return world.settings.own_shares();
+        case Remembered::by_half_strength:
             break;
     }
-    return world.bonds.made;
+    return world.bonds.made && world.settings.bond_law == BondLaw::back_tension;
 }
 
 void restart_account(World& world) {

@@ -44,7 +44,29 @@ struct World {
 
 /// Of two bodies, into Settings::laws.
 inline std::size_t law_between(const World& world, BodyIndex i, BodyIndex j) {
-    return world.bodies.info[i].material * world.settings.materials.size() + world.bodies.info[j].material;
+    return pair_number(world.bodies.info[i].material, world.bodies.info[j].material);
+}
+
+/// The same where their bond cannot break.
+inline std::size_t held_law_between(const World& world, BodyIndex i, BodyIndex j) {
+    return world.settings.pair_count() + law_between(world, i, j);
+}
+
+/// Of a body against the domain's walls, into Settings::laws.
+inline std::size_t law_with_wall(const World& world, BodyIndex i) {
+    return 2 * world.settings.pair_count() + world.bodies.info[i].material;
+}
+
+/// Law of a point with its own share of stiffness and strength.
+inline ContactLaw law_of(const World& world, PointIndex k) {
+    ContactLaw law = world.settings.laws[world.points.state[k].law];
+    if (world.points.stiffness_share.empty()) return law;
+    const double share = world.points.stiffness_share[k], strength = world.points.strength_share[k];
+    law.normal_stiffness *= share;
+    law.shear_stiffness *= share;
+    law.tensile_strength *= strength;
+    law.cohesion *= strength;
+    return law;
 }
 
 /// Whether this world keeps the arrays of points that are `remembered` so.

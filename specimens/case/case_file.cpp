@@ -9,6 +9,8 @@
 #include <toml++/toml.h>
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 #include <ostream>
 #include <sstream>
 #include <system_error>
@@ -16,6 +18,7 @@
 #include <vector>
 
 #include "solver/base/errors.hpp"
+#include "solver/scene/bond_strength.hpp"
 #include "specimens/case/mineral_checks.hpp"
 #include "specimens/case/parameters.hpp"
 
@@ -286,6 +289,10 @@ void fill_defaults(TestCase& test) {
         const std::size_t entries = table.repeated() ? table.count(test) : 1;
         for (std::size_t entry = 0; entry < entries; ++entry) fill_default(test, p, entry);
     }
+    // A real grip is stronger than the rock.
+    if (test.loading.kind == "tension" && !test.position.contains("loading.platens")) test.loading.platens = "glued";
+    if (test.loading.platens == "glued" && !test.loading.grip)
+        test.loading.grip = test.loading.kind == "tension" ? default_grip : 0.0;
     if (test.title.empty()) test.title = test.source.stem().string();
 }
 
@@ -298,6 +305,7 @@ class ConsistencyCheck {
         specimen();
         if (test_.has_table("packing")) packing();
         material();
+        bond();
         check_minerals(test_);
         mesh();
         loading();
@@ -376,13 +384,95 @@ class ConsistencyCheck {
             refuse("material.damping_ratio", "a ratio and dashpots", "one way of damping",
                    "remove damping_ratio or the dashpots");
         }
+        const bool area = test_.area_units();
+        if (area) {
+            for (const char* key : {"normal_stiffness", "shear_stiffness"})
+                exclude(std::string("material.") + key, "units = \"area\" has contact_modulus and stiffness_ratio");
+            for (const char* key : {"normal_damping", "shear_damping"})
+                exclude(std::string("material.") + key, "units = \"area\" has damping_ratio");
+            for (const char* key : {"contact_modulus", "stiffness_ratio"})
+                need(std::string("material.") + key, "units = \"area\" needs it");
+            if (test_.numerics.contact_law != "rounded")
+                refuse("material.units", "\"area\"", "\"point\" with the guide's contact law",
+                       "that law knows of no faces; use contact_law = \"rounded\"");
+        } else {
+            for (const char* key : {"contact_modulus", "stiffness_ratio"})
+                exclude(std::string("material.") + key, "only units = \"area\" has it");
+        }
+        if (m.residual_friction_angle && m.friction_angle && *m.residual_friction_angle > *m.friction_angle) {
+            refuse("material.residual_friction_angle", fmt::format("{} deg", *m.residual_friction_angle),
+                   fmt::format("at most friction_angle = {} deg", *m.friction_angle), "a broken bond is no rougher");
+        }
         if (!test_.has_table("packing")) return;
-        for (const char* key : {"density", "normal_stiffness", "shear_stiffness", "friction_angle"}) {
-            need(std::string("material.") + key, "a packing has no file to take it from");
+        need("material.density", "a packing has no file to take it from");
+        need("material.friction_angle", "a packing has no file to take it from");
+        if (!area) {
+            need("material.normal_stiffness", "a packing has no file to take it from");
+            need("material.shear_stiffness", "a packing has no file to take it from");
         }
         if (!m.normal_damping && !m.shear_damping) return;  // a ratio, or the default one
         need("material.normal_damping", "dashpots come in pairs");
         need("material.shear_damping", "dashpots come in pairs");
+    }
+
+    /// What a bond law has, and needs.
+    void bond() const {
+        const auto& b = test_.bond;
+        if (!test_.coulomb_bonds()) {
+            constexpr const char* because =
+                "only bond.law = \"coulomb\" has it: by back-tension the overlap is the strength";
+            for (const char* key :
+                 {"material.tensile_strength", "material.cohesion", "material.residual_friction_angle", "bond.gap",
+                  "bond.tensile_factor", "bond.cohesion_factor", "bond.strength_cv", "bond.strength_seed"})
+                exclude(key, because);
+            if (b.range > 0.0) exclude("bond.range", because);
+            if (b.strength_distribution != "none") exclude("bond.strength_distribution", because);
+            return;
+        }
+        if (test_.numerics.contact_law != "rounded")
+            refuse("bond.law", "\"coulomb\"", "\"back_tension\" with the guide's contact law",
+                   "or use contact_law = \"rounded\"");
+        if (test_.material.shear_stiffness && *test_.material.shear_stiffness == 0.0)
+            refuse("material.shear_stiffness", "0 N/m", "a number > 0 with coulomb bonds", "they hold in shear");
+        strength("tensile");
+        strength("cohesion");
+        apex();
+        const bool random = b.strength_distribution != "none";
+        for (const char* key : {"bond.strength_cv", "bond.strength_seed"}) {
+            if (random)
+                need(key, "strength_distribution = \"" + b.strength_distribution + "\" needs it");
+            else
+                exclude(key, "strength_distribution = \"none\" has no random factor");
+        }
+        if (b.strength_distribution == "normal" && *b.strength_cv > largest_normal_cv)
+            refuse("bond.strength_cv", fmt::format("{}", *b.strength_cv), fmt::format("at most {}", largest_normal_cv),
+                   "a normal distribution truncated at 0 has no more; take weibull or lognormal");
+        if (test_.has_table("mesh") && b.range > 0.0)
+            exclude("bond.range", "only circles reach beyond their neighbours");
+    }
+
+    /// A strength is a number or a factor.
+    void strength(const std::string& which) const {
+        const std::string number = "material." + (which == "tensile" ? std::string("tensile_strength") : which);
+        const std::string factor = "bond." + which + "_factor";
+        if (written(number) && written(factor)) exclude(factor, "a strength is a number or a factor: remove one");
+        if (!written(number) && !written(factor)) need(number, "bond.law = \"coulomb\" needs it, or " + factor);
+        if (!written(factor)) return;
+        if (test_.has_table("mesh"))
+            exclude(factor, "polygons with coulomb bonds have no overlap to take a factor of; give " + number);
+        if (test_.area_units()) exclude(factor, "units = \"area\" has strengths in Pa; give " + number);
+    }
+
+    /// Tensile strength beyond cohesion over friction would never be reached.
+    void apex() const {
+        const auto& m = test_.material;
+        if (!m.tensile_strength || !m.cohesion || !m.friction_angle) return;
+        const double friction = std::tan(*m.friction_angle * std::numbers::pi / 180.0);
+        if (!(friction * *m.tensile_strength > *m.cohesion * (1.0 + 1e-12))) return;
+        const std::string unit = test_.area_units() ? "Pa" : "N";
+        refuse("material.tensile_strength", fmt::format("{} {}", *m.tensile_strength, unit),
+               fmt::format("at most cohesion over tan(friction_angle) = {:.6g} {}", *m.cohesion / friction, unit),
+               "the apex of the bond's envelope would cut it off; give more cohesion or less tensile strength");
     }
 
     void mesh() const {
@@ -390,8 +480,14 @@ class ConsistencyCheck {
         if (*test_.mesh.kind == "voronoi" && test_.mesh.boundary == "seeds") {
             refuse("mesh.boundary", "\"seeds\"", "\"domain\" with kind = \"voronoi\"", "Voronoi cells always fill it");
         }
-        need("bond.thick", "polygons bond at the excess of bond.thick over mesh.thick");
         const double gap = test_.mesh.inset ? 2.0 * *test_.mesh.inset : *test_.mesh.thick;
+        if (test_.coulomb_bonds()) {
+            if (test_.bond.thick && *test_.bond.thick < gap)
+                refuse("bond.thick", fmt::format("{} m", *test_.bond.thick), fmt::format("at least {} m", gap),
+                       "faces that far apart would not bond; leave it out");
+            return;
+        }
+        need("bond.thick", "polygons bond at the excess of bond.thick over mesh.thick");
         if (*test_.bond.thick <= gap) {
             refuse("bond.thick", fmt::format("{} m", *test_.bond.thick),
                    fmt::format("more than {} = {} m", test_.mesh.inset ? "twice mesh.inset" : "mesh.thick", gap),
@@ -415,8 +511,9 @@ class ConsistencyCheck {
                        "they touch only what comes into contact later");
         } else {
             exclude("loading.platen_friction_angle",
-                    "only platens = \"frictional\" has it: bonded platens take the specimen's");
+                    "only platens = \"frictional\" has it: bonded and glued platens take the specimen's");
         }
+        if (test_.loading.platens != "glued") exclude("loading.grip", "only platens = \"glued\" has grips");
     }
 
     const TestCase& test_;

@@ -186,6 +186,28 @@ std::vector<Parameter> all_parameters() {
         CRACKLE_KEY(material, normal_damping, "N s/m", "Normal dashpot, in place of damping_ratio.").at_least(0),
         CRACKLE_KEY(material, shear_damping, "N s/m", "Shear dashpot, in place of damping_ratio.").at_least(0),
 
+        CRACKLE_KEY(material, units, "",
+                    "What stiffness and strengths are given for: a contact point (N/m, N), or the area of a face (Pa), "
+                    "which its points share, so that neither depends on the size of the grains.")
+            .one_of({"point", "area"})
+            .otherwise(Text("point")),
+        CRACKLE_KEY(material, contact_modulus, "Pa",
+                    "E_c of area units: a face of length L between centroids at the distance l has k_n = E_c L/l.")
+            .above(0),
+        CRACKLE_KEY(material, stiffness_ratio, "", "k_n over k_s, in area units.").above(0),
+        CRACKLE_KEY(material, tensile_strength, "N or Pa",
+                    "Of a bond with law = \"coulomb\": N a point, in area units Pa.")
+            .at_least(0),
+        CRACKLE_KEY(
+            material, cohesion, "N or Pa",
+            "Shear strength of a bond without normal force, likewise; at least friction times tensile_strength.")
+            .at_least(0),
+        CRACKLE_KEY(material, residual_friction_angle, "deg",
+                    "Of contacts without a bond with law = \"coulomb\", at most friction_angle, which is the bonds'; "
+                    "friction_angle if not given.")
+            .at_least(0)
+            .below(90),
+
         CRACKLE_KEY(minerals, assign, "",
                     "Which grain has which mineral: drawn until the areas are as asked; by size, the largest grains "
                     "the mineral listed first; from a file of labels; from an image.")
@@ -211,11 +233,40 @@ std::vector<Parameter> all_parameters() {
         CRACKLE_LIST_KEY(mineral_pair, between, "Names of two minerals; of one twice for contacts among its grains.")
             .needed_with_table(),
 
+        CRACKLE_KEY(bond, law, "",
+                    "back_tension: the overlap at bonding is the strength, as the guide has it. coulomb: tensile "
+                    "strength, cohesion and friction of the material's own.")
+            .one_of({"back_tension", "coulomb"})
+            .otherwise(Text("back_tension")),
         CRACKLE_KEY(bond, thick, "m",
-                    "Segment thickness at bonding: polygons need more than mesh.thick, the excess is the overlap that "
-                    "bonds them; circles bond at the overlaps they have (a tenth of the mean radius if not given, "
+                    "Segment thickness at bonding: polygons with back-tension need more than mesh.thick, the excess is "
+                    "the overlap that bonds them; with coulomb bonds mesh.thick if not given; circles bond at the "
+                    "overlaps they have (a tenth of the mean radius if not given, "
                     "which changes nothing but where the platens' centre lines are drawn).")
             .above(0),
+        CRACKLE_KEY(
+            bond, gap, "m",
+            "Polygons with coulomb bonds: corners whose gap is at most this are bonded, too, each at its own; a "
+            "twentieth of bond.thick if not given, for the corners that overhang after the inset.")
+            .at_least(0),
+        CRACKLE_KEY(bond, range, "",
+                    "Circles with coulomb bonds: pairs whose gap is below this share of their mean radius bond, too.")
+            .at_least(0)
+            .at_most(1)
+            .otherwise(0.0),
+        CRACKLE_KEY(bond, tensile_factor, "",
+                    "Tensile strength as a factor of the back-tension averaged over all bonds, in place of "
+                    "material.tensile_strength.")
+            .at_least(0),
+        CRACKLE_KEY(bond, cohesion_factor, "", "Cohesion, likewise, in place of material.cohesion.").at_least(0),
+        CRACKLE_KEY(bond, strength_distribution, "",
+                    "Of a random factor, one each pair of particles, on tensile strength and cohesion; mean 1.")
+            .one_of({"none", "normal", "lognormal", "weibull"})
+            .otherwise(Text("none")),
+        CRACKLE_KEY(bond, strength_cv, "", "Its coefficient of variation (normal: at most 0.7555).")
+            .above(0)
+            .at_most(2),
+        CRACKLE_KEY(bond, strength_seed, "", "Its seed.").at_least(0),
 
         CRACKLE_KEY(loading, kind, "", "What the platens do.").one_of({"compression", "tension"}),
         CRACKLE_KEY(loading, axial_strain_rate, "1/s",
@@ -237,9 +288,18 @@ std::vector<Parameter> all_parameters() {
             .above(0)
             .below(1)
             .otherwise(0.5),
-        CRACKLE_KEY(loading, platens, "", "Bonded to the specimen, or touching it with friction (compression only).")
-            .one_of({"bonded", "frictional"})
+        CRACKLE_KEY(
+            loading, platens, "",
+            "Bonded to the specimen by bonds like the others; glued, whose bonds never break, with those within "
+            "the grips; or touching it with friction (compression only). In tension glued if not given.")
+            .one_of({"bonded", "glued", "frictional"})
             .otherwise(Text("bonded")),
+        CRACKLE_KEY(
+            loading, grip, "",
+            "Share of the height at each end whose bonds never break, with glued platens; in tension 0.1 if not "
+            "given, else 0.")
+            .at_least(0)
+            .below(0.5),
         CRACKLE_KEY(loading, platen_friction_angle, "deg", "Friction angle of frictional platens.")
             .at_least(0)
             .below(90),
@@ -327,6 +387,10 @@ const std::vector<Alternatives>& case_alternatives() {
         {{"packing.count", "packing.height_to_width"}, {"packing.width", "packing.height"}},
         {{"packing.mean_overlap"}, {"packing.void_ratio"}},
         {{"material.damping_ratio"}, {"material.normal_damping", "material.shear_damping"}},
+        {{"material.normal_stiffness", "material.shear_stiffness"},
+         {"material.contact_modulus", "material.stiffness_ratio"}},
+        {{"material.tensile_strength"}, {"bond.tensile_factor"}},
+        {{"material.cohesion"}, {"bond.cohesion_factor"}},
         {{"loading.axial_strain_rate"}, {"loading.rate_tolerance"}},
     };
     return all;
@@ -346,7 +410,7 @@ const std::vector<TableDescription>& case_tables() {
          "Contacts between two minerals, in place of springs in series and the smaller friction of the two.",
          [](const TestCase& c) { return c.mineral_pair.size(); },
          [](TestCase& c, std::size_t n) { c.mineral_pair.resize(n); }},
-        {"bond", "Back-tension bonding."},
+        {"bond", "What holds the particles together, and how it breaks."},
         {"loading", "Platens: the lower one is fixed, the upper one moves."},
         {"numerics", "How it is computed."},
         {"output", "What is written."},

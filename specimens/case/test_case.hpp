@@ -19,6 +19,9 @@ namespace crackle {
 /// period, exp(-4πh) = 1/20; it shortens the stable step by a fifth.
 inline constexpr double default_damping_ratio = 0.2383941;  // ln(20)/(4π)
 
+/// Share of the height at each end that glued platens hold in tension, unless the case gives another.
+inline constexpr double default_grip = 0.1;
+
 /// One virtual test as the user wrote it, defaults filled in. Units and ranges: parameters.cpp.
 struct TestCase {
     std::string title;
@@ -49,13 +52,19 @@ struct TestCase {
     } mesh;
 
     struct MaterialKeys {
-        std::optional<double> density;           // kg/m2
-        std::optional<double> normal_stiffness;  // N/m
-        std::optional<double> shear_stiffness;   // N/m
-        std::optional<double> friction_angle;    // degrees
-        std::optional<double> damping_ratio;     // -
-        std::optional<double> normal_damping;    // N s/m
-        std::optional<double> shear_damping;     // N s/m
+        std::optional<double> density;                  // kg/m2
+        std::optional<double> normal_stiffness;         // N/m
+        std::optional<double> shear_stiffness;          // N/m
+        std::optional<double> friction_angle;           // degrees
+        std::optional<double> damping_ratio;            // -
+        std::optional<double> normal_damping;           // N s/m
+        std::optional<double> shear_damping;            // N s/m
+        std::string units = "point";                    // or "area": the five below, strengths in Pa
+        std::optional<double> contact_modulus;          // Pa
+        std::optional<double> stiffness_ratio;          // -, k_n over k_s
+        std::optional<double> tensile_strength;         // N, or Pa
+        std::optional<double> cohesion;                 // N, or Pa
+        std::optional<double> residual_friction_angle;  // degrees
     } material;
 
     struct Minerals {
@@ -79,7 +88,15 @@ struct TestCase {
     std::vector<MineralPair> mineral_pair;
 
     struct Bond {
-        std::optional<double> thick;  // m
+        std::string law = "back_tension";       // or "coulomb"
+        std::optional<double> thick;            // m
+        std::optional<double> gap;              // m
+        double range = 0.0;                     // -
+        std::optional<double> tensile_factor;   // -
+        std::optional<double> cohesion_factor;  // -
+        std::string strength_distribution = "none";
+        std::optional<double> strength_cv;  // -
+        std::optional<std::int64_t> strength_seed;
     } bond;
 
     struct Loading {
@@ -88,7 +105,8 @@ struct TestCase {
         std::optional<double> rate_tolerance;
         double max_axial_strain = 0.0;
         double stop_at_share_of_peak = 0.0;
-        std::string platens;                          // "bonded" or "frictional"
+        std::string platens;                          // "bonded", "glued" or "frictional"
+        std::optional<double> grip;                   // -, of the height; glued platens only
         std::optional<double> platen_friction_angle;  // degrees
 
         /// So many times as fast: a tolerance goes by the square of the rate it allows.
@@ -127,6 +145,8 @@ struct TestCase {
     std::vector<std::filesystem::path> inputs;  ///< files read so far, the case first
 
     bool has_table(const std::string& table) const { return table_present.contains(table); }
+    bool coulomb_bonds() const { return bond.law == "coulomb"; }
+    bool area_units() const { return material.units == "area"; }
     /// «file:line: table.key», or «file: table.key» for a key that no file sets.
     std::string at(const std::string& key) const;
     /// A path written in the case, relative to the file that wrote it.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/contact/point_motion.hpp"
 #include "solver/linear/vibration.hpp"
 #include "solver/measure/point_view.hpp"
 
@@ -30,15 +31,31 @@ std::vector<PointRates> rates_of(const World& world, const std::vector<BodyMotio
     return rates;
 }
 
+/// The limit that is met first under forces that grow with the strain. A coulomb bond does not slide.
+/// @param normal, shear N a unit of strain
+void fail_by_envelope(LinearBond& bond, const BondStrength<double>& strength, double normal, double shear) {
+    bond.strength = strength.tensile;
+    const double parts = strain_of_loss(strength.tensile, normal);
+    const double shears = strain_of_loss(strength.cohesion, strength.friction * normal - shear);
+    bond.break_strain = std::min(parts, shears);
+    bond.slip_strain = infinite;
+}
+
 LinearBond linear_bond(const World& world, PointIndex k, const PointRates& rate, double strain) {
     const PointView view = view_point(world, k);
     LinearBond bond;
     bond.body_i = world.bodies.info[view.body_i].id;
     bond.body_j = world.bodies.info[view.body_j].id;
     bond.position = view.position;
-    bond.strength = view.normal_stiffness * view.bond_overlap;
     bond.normal_force = view.normal_stiffness * rate.closing * strain;
     bond.shear_force = view.shear_stiffness * std::abs(rate.slipping) * strain;
+    if (world.settings.bond_law == BondLaw::coulomb) {
+        fail_by_envelope(bond, bond_strength(world, k, Law<double>(world.settings.laws[world.points.state[k].law])),
+                         view.normal_stiffness * rate.closing, view.shear_stiffness * std::abs(rate.slipping));
+        return bond;
+    }
+    const bool held = (world.points.state[k].flags & point_held) != 0;
+    bond.strength = held ? infinite : view.normal_stiffness * view.bond_overlap;
     bond.break_strain = strain_of_loss(bond.strength, view.normal_stiffness * rate.closing);
     // Limit less shear force; without a shear spring or a limit nothing ever slides.
     const double shear = view.shear_stiffness * std::abs(rate.slipping);

@@ -11,6 +11,7 @@ namespace crackle {
 struct Moduli {
     double youngs_modulus;     // N/m
     double poissons_ratio;     ///< not a number without side particles
+    double gauge_modulus;      ///< N/m, over the strain of the axial gauge length; not a number without its particles
     ElasticSolution solution;  ///< for an axial strain of 1 in tension, the lower platen in place
 };
 

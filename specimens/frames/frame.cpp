@@ -7,7 +7,7 @@
 #include <array>
 #include <stdexcept>
 
-#include "solver/contact/geometry.hpp"
+#include "solver/geometry/geometry.hpp"
 #include "solver/world/point_order.hpp"
 #include "specimens/observers/curve.hpp"
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "specimens/frames/frame_forces.hpp"
 
+#include "solver/geometry/contact_share.hpp"
+
 namespace crackle {
 namespace {
 
@@ -30,12 +32,12 @@ FrameForces find_forces(const PlacedFrame& placed) {
     FrameForces forces;
     forces.normal.reserve(setup.bonds.size() + frame.loose.contacts.size());
     forces.stress.resize(frame.bodies.size());
-    const auto add = [&]<PointKind K>(const ContactPoint& point, double bond_overlap, double shear) {
+    const auto add = [&]<PointKind K>(const ContactPoint& point, double rest_overlap, double share, double shear) {
         std::uint32_t feature = point.feature_j;
         const ContactGeometry g =
             contact_geometry<K>(world, point, placed.body(point.body_i), placed.body(point.body_j), feature);
         const ContactLaw& law = world.settings.laws[law_between(world, point.body_i, point.body_j)];
-        const double normal = law.normal_stiffness * (g.overlap - bond_overlap);
+        const double normal = share * law.normal_stiffness * (g.overlap - rest_overlap);
         forces.normal.push_back(normal);
         add_contact(forces.stress, point, g, normal, shear);
     };
@@ -46,13 +48,17 @@ FrameForces find_forces(const PlacedFrame& placed) {
                 continue;
             }
             const Bond& bond = setup.bonds[k];
-            add.template operator()<K>(bond.point, holds(frame.states[k]) ? bond.overlap : 0.0, frame.shear_force[k]);
+            add.template operator()<K>(bond.point, holds(frame.states[k]) ? bond.overlap : bond.rest_overlap,
+                                       bond.stiffness_share, frame.shear_force[k]);
         }
     });
     visit_kinds(frame.loose.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
         for (PointIndex k = begin; k < end; ++k) {
             const LooseContact& contact = frame.loose.contacts[k];
-            add.template operator()<K>(contact.point, 0.0, contact.shear_force);
+            const double share = world.settings.units == StiffnessUnits::area
+                                     ? static_cast<float>(share_of_contact(world, K, contact.point).stiffness())
+                                     : 1.0;
+            add.template operator()<K>(contact.point, 0.0, share, contact.shear_force);
         }
     });
     for (BodyIndex b = 0; b < forces.stress.size(); ++b) {

@@ -10,7 +10,7 @@
 #include <sstream>
 #include <utility>
 
-#include "solver/contact/geometry.hpp"
+#include "solver/geometry/geometry.hpp"
 #include "specimens/frames/crack_faces.hpp"
 #include "specimens/frames/fragments.hpp"
 
@@ -408,11 +408,6 @@ void FramePainter::write_cracks(std::ostream& out, const PlacedFrame& placed, st
         });
     };
     const auto point_of = [&](const Crack& crack) { return setup_.bonds[crack.bond].point; };
-    const auto strength = [&](const Crack& crack) {
-        const ContactPoint point = point_of(crack);
-        const ContactLaw& law = world_.settings.laws[law_between(world_, point.body_i, point.body_j)];
-        return law.normal_stiffness * setup_.bonds[crack.bond].overlap;
-    };
     write_values("body_i", std::int32_t{},
                  [&](const Crack& crack) { return world_.bodies.info[point_of(crack).body_i].id; });
     write_values("body_j", std::int32_t{},
@@ -421,7 +416,7 @@ void FramePainter::write_cracks(std::ostream& out, const PlacedFrame& placed, st
     write_values("mode", std::uint8_t{}, [](const Crack& crack) { return crack.shear_mode ? 1 : 0; });
     write_values("energy", double{}, [](const Crack& crack) { return crack.energy; });
     write_values("orientation", double{}, [](const Crack& crack) { return crack.orientation; });
-    write_values("strength", double{}, strength);
+    write_values("strength", double{}, [](const Crack& crack) { return crack.strength; });
     write_array<double>(out, of_cracks("opening"), cracks.size(), [&](const auto& add) {
         for (const double opening : openings) add(opening);
     });

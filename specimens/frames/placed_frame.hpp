@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "solver/contact/geometry.hpp"
+#include "solver/geometry/geometry.hpp"
 #include "specimens/frames/frame.hpp"
 
 namespace crackle {

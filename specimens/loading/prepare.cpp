@@ -52,6 +52,7 @@ void solve_small_strain(VirtualTest& test, const World& world, const TestSetup& 
         solved.yield_strain = yield_strain(world, own, solved.moduli, first_yield_share);
         test.state.youngs_modulus = solved.moduli.youngs_modulus;
         test.state.poissons_ratio = solved.moduli.poissons_ratio;
+        test.state.gauge_modulus = solved.moduli.gauge_modulus;
         test.state.modulus_residual = solved.moduli.solution.residual;
         test.small_strain = std::move(solved);
     } catch (const InputError& error) {
@@ -106,7 +107,8 @@ VirtualTest bond_test(const TestCase& description, const TestHooks& hooks) {
     hooks.report_work("bonding");
     BondedSpecimen bonded = bond_specimen(specimen, description, description.loading);
     test.world = std::move(bonded.world);
-    test.setup = record_setup(test.world, specimen, bonded.platens, description.loading.kind == "compression");
+    const double grip = description.loading.grip.value_or(0.0);
+    test.setup = record_setup(test.world, specimen, bonded.platens, description.loading.kind == "compression", grip);
     if (!description.output.frames)
         test.description.output.frames = default_frames(test.setup.particles, description.output.curve_rows);
     test.state.failure.share_of_peak = description.loading.stop_at_share_of_peak;
@@ -123,7 +125,7 @@ VirtualTest bond_test(const TestCase& description, const TestHooks& hooks) {
         held.platens = "bonded";
         const BondedSpecimen twin = bond_specimen(specimen, description, held);
         try {
-            const TestSetup own = record_setup(twin.world, specimen, twin.platens, test.setup.compression);
+            const TestSetup own = record_setup(twin.world, specimen, twin.platens, test.setup.compression, grip);
             check_platen_hold(twin.world, own, twin.platens, description);
             solve_small_strain(test, twin.world, own);
         } catch (const InputError& error) {

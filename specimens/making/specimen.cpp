@@ -24,7 +24,14 @@ void apply_material(const TestCase::MaterialKeys& keys, Material& material) {
     if (keys.density) material.density = *keys.density;
     if (keys.normal_stiffness) material.normal_stiffness = *keys.normal_stiffness;
     if (keys.shear_stiffness) material.shear_stiffness = *keys.shear_stiffness;
+    if (keys.contact_modulus) {
+        material.normal_stiffness = *keys.contact_modulus;
+        material.shear_stiffness = *keys.contact_modulus / *keys.stiffness_ratio;
+    }
     if (keys.friction_angle) material.friction_angle = *keys.friction_angle;
+    material.tensile_strength = keys.tensile_strength.value_or(0.0);
+    material.cohesion = keys.cohesion.value_or(0.0);
+    material.residual_friction_angle = keys.residual_friction_angle.value_or(material.friction_angle);
     if (keys.damping_ratio) material.damping_ratio = *keys.damping_ratio;
     if (keys.normal_damping || keys.shear_damping) material.damping_ratio.reset();
     if (keys.normal_damping) material.normal_damping = *keys.normal_damping;
@@ -68,6 +75,7 @@ Scene packed_scene(const TestCase& test, const TestHooks& hooks, Specimen& speci
     request.threads = static_cast<int>(test.numerics.threads);
     request.material.damping_ratio = default_damping_ratio;
     apply_material(test.material, request.material);
+    request.material.tensile_strength = request.material.cohesion = 0.0;  // nothing is bonded yet
     Packing packing;
     try {
         packing = make_packing(request, [&](const PackingProgress& p) {
@@ -94,6 +102,7 @@ Scene packed_scene(const TestCase& test, const TestHooks& hooks, Specimen& speci
         fmt::format("packed {} circles into {:.4g} m x {:.4g} m: void ratio {:.4g}, mean overlap {:.4g} m, seed {}",
                     packing.report.circles, packing.report.width, packing.report.height, packing.report.void_ratio,
                     packing.report.mean_overlap, keys.seed));
+    for (Material& material : packing.scene.materials) apply_material(test.material, material);
     return std::move(packing.scene);
 }
 
@@ -244,12 +253,13 @@ void mesh_specimen(Specimen& specimen, const TestCase& test, const TestHooks& ho
 
 void measure_polygons(Specimen& specimen, const TestCase& test) {
     specimen.mesh_gap = specimen.scene.thick;
-    if (!test.bond.thick || *test.bond.thick <= specimen.mesh_gap) {
+    if (test.coulomb_bonds() ? test.bond.thick && *test.bond.thick < specimen.mesh_gap
+                             : !test.bond.thick || *test.bond.thick <= specimen.mesh_gap) {
         throw InputError(
-            fmt::format("{}: found {}, expected more than the particle file's thick = {} m; the excess is the "
+            fmt::format("{}: found {}, expected {} the particle file's thick = {} m; the excess is the "
                         "overlap that bonds the polygons",
                         test.at("bond.thick"), test.bond.thick ? fmt::format("{} m", *test.bond.thick) : "nothing",
-                        specimen.mesh_gap));
+                        test.coulomb_bonds() ? "at least" : "more than", specimen.mesh_gap));
     }
     for (const Body& body : specimen.scene.bodies) specimen.segments += body.vertex_count;
     specimen.left_ids = polygons_on_side(specimen.scene, Wall::left);

@@ -5,7 +5,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "solver/contact/geometry.hpp"
+#include "solver/geometry/geometry.hpp"
 #include "solver/world/point_order.hpp"
 
 namespace crackle {
@@ -24,7 +24,7 @@ PointIndex bond_of(const TestSetup& setup, PointKind kind, const ContactPoint& p
 void note_break(const TestSetup& setup, const BreakEvent& event, ContactHistory& history) {
     const PointIndex bond = bond_of(setup, event.kind, event.point);
     if (bond == setup.bonds.size()) throw std::logic_error("a point broke that was not bonded when loading began");
-    history.cracks.push_back({event.time, event.energy, event.orientation, bond, event.shear_mode});
+    history.cracks.push_back({event.time, event.energy, event.strength, event.orientation, bond, event.shear_mode});
 }
 
 void look_at_contacts(const World& world, ContactHistory& history) {

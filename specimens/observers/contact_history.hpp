@@ -19,6 +19,7 @@ namespace crackle {
 struct Crack {
     double time = 0.0;         // s
     double energy = 0.0;       // J, taken by the break
+    double strength = 0.0;     // N, as BreakEvent's
     double orientation = 0.0;  // rad, of the contact normal at the break, in (-π/2, π/2]
     PointIndex bond = 0;       // into TestSetup::bonds
     bool shear_mode = false;
@@ -27,6 +28,7 @@ struct Crack {
     static constexpr void fields(Self& s, Visit&& visit) {
         visit("time", s.time);
         visit("energy", s.energy);
+        visit("strength", s.strength);
         visit("orientation", s.orientation);
         visit("bond", s.bond);
         visit("shear_mode", s.shear_mode);

@@ -16,6 +16,7 @@ CurveRow observe_row(const World& world, const TestSetup& setup) {
     row.stress_bottom = -sense * world.bodies.force[setup.bottom].fy / setup.width;
     row.axial_stress = 0.5 * (row.stress_top + row.stress_bottom);
     row.lateral_strain = setup.lateral_strain(world);
+    row.gauge_strain = setup.gauge_strain(world);
     row.bonds_broken = world.bonds.broken;
     row.interfaces_lost = world.bonds.interfaces_lost;
     row.time = world.stepping.time;
@@ -85,6 +86,12 @@ const std::vector<CurveColumn>& curve_columns() {
           "what the account of energy leaves open; under the guide's law what the law itself takes or makes, "
           "energy_lost_to_contact_law of summary.json, counts among the losses"},
          [](Row r) { return r.energy_error; },
+         false},
+        {{"gauge_strain", "-", "positive in the sense of the test",
+          "axial, between the particles within half a mean particle of the ends of the gauge length, which is the "
+          "height "
+          "without the grips, or without the outer tenths where there are none; nan where an end has none"},
+         [](Row r) { return r.gauge_strain; },
          false},
     };
     return columns;

@@ -32,11 +32,12 @@ struct CurveRow {
     std::int64_t step = 0;
     std::int64_t interfaces_lost = 0;
     std::int64_t points_sliding = 0;
-    double dashpot_loss = 0.0;         // J
-    double friction_loss = 0.0;        // J
-    double fracture_loss = 0.0;        // J
-    double platen_work = 0.0;          // J
-    double energy_error = 0.0;         // J
+    double dashpot_loss = 0.0;   // J
+    double friction_loss = 0.0;  // J
+    double fracture_loss = 0.0;  // J
+    double platen_work = 0.0;    // J
+    double energy_error = 0.0;   // J
+    double gauge_strain = 0.0;
     std::int64_t contacts_gained = 0;  ///< points touching without a bond; kept for the summary, not a column
 
     template <class Self, class Visit>
@@ -58,6 +59,7 @@ struct CurveRow {
         visit("fracture_loss", s.fracture_loss);
         visit("platen_work", s.platen_work);
         visit("energy_error", s.energy_error);
+        visit("gauge_strain", s.gauge_strain);
         visit("contacts_gained", s.contacts_gained);
     }
 };

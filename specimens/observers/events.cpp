@@ -23,17 +23,23 @@ const std::vector<EventColumn>& event_columns() {
         {{"energy", "J", "taken by the break",
           "½k_n(δ-δ0)'(δ-δ0) + ½f_t'f_t/k_s, primed one step before the break was found (solver/MODEL.md 5)"},
          [](Event e, double) { return written(e.energy); }},
-        {{"strength", "N", "tensile strength k_n δ0 that the point had"},
+        {{"strength", "N",
+          "tensile strength k_n δ0 that the point had; of a coulomb bond the limit that it met: T, or C + μ f_n"},
          [](Event e, double) { return written(e.strength); }},
         {{"normal_force", "N",
-          "elastic, positive pushes apart; in the last step in which the point carried at least half its strength"},
+          "elastic, positive pushes apart; in the last step in which the point carried at least half its strength; of "
+          "a "
+          "coulomb bond when it failed"},
          [](Event e, double) { return written(e.normal_force); }},
         {{"shear_force", "N", "elastic, on body_i along the normal from i to j turned by +90°; in the same step"},
          [](Event e, double) { return written(e.shear_force); }},
-        {{"slid", "0 or 1", "1 if the point had reached the Coulomb limit since bonding"},
+        {{"slid", "0 or 1", "1 if the point had reached the Coulomb limit since bonding; a coulomb bond sticks, 0"},
          [](Event e, double) { return written(e.slid ? 1 : 0); }},
-        {{"mode", "word", "`shear` if it had slid and shear outweighed the normal force then, else `tension`",
-          "nearly all are `tension`: a bond breaks where its overlap is used up, and its Coulomb limit with it; "
+        {{"mode", "word",
+          "`shear` if it had slid and shear outweighed the normal force then, else `tension`; of a coulomb bond by the "
+          "limit that it met first",
+          "by back-tension nearly all are `tension`: a bond breaks where its overlap is used up, and its Coulomb limit "
+          "with it; "
           "whether "
           "it failed by sliding first is in `slid`"},
          [](Event e, double) { return std::string(e.shear_mode ? "shear" : "tension"); }},

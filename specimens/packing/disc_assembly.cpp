@@ -11,7 +11,7 @@
 #include <numbers>
 #include <utility>
 
-#include "solver/contact/lanes.hpp"
+#include "solver/base/lanes.hpp"
 #include "solver/neighbours/cell_grid.hpp"
 
 namespace crackle {

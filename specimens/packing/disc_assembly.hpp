@@ -5,7 +5,7 @@
 //
 // The box spans 0..width × 0..height. Each disc adds up its own forces over a full neighbour list (every pair is seen
 // from both sides): twice the arithmetic of a half list, but no scatter, so the result is the same bytes for any number
-// of threads. A disc's neighbours are measured side by side (solver/contact/lanes.hpp) and added one by one, in their
+// of threads. A disc's neighbours are measured side by side (solver/base/lanes.hpp) and added one by one, in their
 // order: the same bytes for any number of lanes, too.
 // Tested by tests/specimens/packing/packing_test.cpp.
 #pragma once

@@ -51,6 +51,7 @@ struct TestState {
     // Of the specimen with all bonds intact and sticking (sparse solve); not a number where there is no solution.
     double youngs_modulus = std::numeric_limits<double>::quiet_NaN();  // N/m
     double poissons_ratio = std::numeric_limits<double>::quiet_NaN();
+    double gauge_modulus = std::numeric_limits<double>::quiet_NaN();  ///< N/m, stress over strain of the gauge length
     double modulus_residual = std::numeric_limits<double>::quiet_NaN();  ///< of the solve, its relative error
 
     std::uint64_t curve_bytes = 0, events_bytes = 0;  ///< lengths of the files at the checkpoint
@@ -72,6 +73,7 @@ struct TestState {
         visit("ended_by", s.ended_by);
         visit("youngs_modulus", s.youngs_modulus);
         visit("poissons_ratio", s.poissons_ratio);
+        visit("gauge_modulus", s.gauge_modulus);
         visit("modulus_residual", s.modulus_residual);
         visit("curve_bytes", s.curve_bytes);
         visit("events_bytes", s.events_bytes);

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "specimens/observers/curve_analysis.hpp"
+#include "specimens/observers/parting.hpp"
 #include "specimens/observers/profile_report.hpp"
 #include "specimens/results/numerical_errors.hpp"
 
@@ -30,17 +31,24 @@ struct Writer {
     Json& json;
     Json& units;
     double out_of_plane_thickness;
+    bool area_units;  ///< stresses are in Pa as they are
+
+    std::string unit_of(const Quantity& what) const {
+        std::string text = stated(what);
+        const std::size_t at = area_units ? text.find("N/m") : std::string::npos;
+        return at == std::string::npos ? text : text.replace(at, 3, "Pa");
+    }
 
     void put(const std::string& key, Json value, int which = 0) {
         const SummaryKey& found = declared_key(key, which);
         json[key] = std::move(value);
-        if (found.in_units) units[key] = stated(found.what);
+        if (found.in_units) units[key] = unit_of(found.what);
     }
     /// A stress or modulus, with its conversion beside it.
     void stress(const std::string& key, double value) {
         put(key, number(value));
         const std::string converted = key + converted_suffix;
-        json[converted] = number(value / out_of_plane_thickness);
+        json[converted] = number(area_units ? value : value / out_of_plane_thickness);
         units[converted] = converted_unit;
     }
 };
@@ -50,6 +58,8 @@ void describe(Writer& w, const TestCase& test, const TestSetup& setup, const Tes
     w.put("kind", test.loading.kind);
     w.put("specimen", setup.specimen);
     w.put("platens", test.loading.platens);
+    w.put("bond_law", test.bond.law);
+    w.put("material_units", test.material.units);
     w.put("failed", state.failure.failed);
     w.put("interrupted", state.ended_by == ended_by_interrupt);
     w.put("ended_by", state.ended_by.empty() ? Json(nullptr) : Json(state.ended_by));
@@ -67,6 +77,7 @@ void strength(Writer& w, const TestSetup& setup, const TestState& state) {
     w.put("peak_strain" + so_far, number(f.peak_row < 0 ? NAN : f.peak_strain));
     w.stress("youngs_modulus", state.youngs_modulus);
     w.put("poissons_ratio", number(state.poissons_ratio));
+    w.stress("gauge_modulus", state.gauge_modulus);
 
     const Tangent initial = initial_tangent(state.rows, f.peak_row, setup.compression);
     w.stress("initial_tangent_modulus", initial.modulus);
@@ -99,6 +110,17 @@ void counts(Writer& w, const TestSetup& setup, const TestState& state, const Wor
     w.put("mean_back_tension", setup.mean_back_tension);
     w.put("mean_back_tension_interface", setup.mean_back_tension_interface);
     w.put("mean_bond_overlap", setup.mean_bond_overlap);
+    if (setup.coulomb_bonds) {
+        w.put("mean_tensile_strength", setup.mean_tensile_strength);
+        w.put("mean_cohesion", setup.mean_cohesion);
+    }
+    w.put("bonds_unbreakable", world.bonds.held);
+    w.put("grip", setup.grip);
+    const std::optional<Parting> parting = find_parting(setup, state.history);
+    w.put("failed_at", parting ? Json(parting->place) : Json(nullptr));
+    w.put("largest_crack",
+          parting ? Json{{"bonds", parting->bonds}, {"of_platen", parting->of_platen}, {"height", parting->height}}
+                  : Json(nullptr));
     w.put("platen_bottom_id", setup.bottom_id);
     w.put("platen_top_id", setup.top_id);
 }
@@ -229,6 +251,15 @@ std::vector<std::string> notices_of(const TestCase& test, const TestSetup& setup
                         "compare",
                         last.energy_error / last.platen_work));
     }
+    const std::optional<Parting> parting = find_parting(setup, state.history);
+    if (f.failed && !setup.compression && parting && parting->place != "gauge") {
+        notices.push_back(fmt::format(
+            "the specimen parted at its {}: {} of the {} bonds of the largest crack are a platen's; the strength is "
+            "not the "
+            "rock's{}",
+            parting->place, parting->of_platen, parting->bonds,
+            parting->place == "platen" ? "; platens = \"glued\" hold it" : "; a deeper grip, or a longer specimen"));
+    }
     if (!test.loading.rate_tolerance) return notices;
     const double above = state.rate.strain_above / last.axial_strain;
     if (above > share_above_to_mention) {
@@ -278,7 +309,7 @@ void frames(Writer& w, const TestState& state) {
 nlohmann::ordered_json make_summary(const TestCase& test, const TestSetup& setup, const TestState& state,
                                     const World& world, const TestTiming& timing, const NumericalErrors* errors) {
     Json json, units;
-    Writer w{json, units, test.output.out_of_plane_thickness};
+    Writer w{json, units, test.output.out_of_plane_thickness, test.area_units()};
     describe(w, test, setup, state);
     strength(w, setup, state);
     counts(w, setup, state, world);
@@ -305,7 +336,7 @@ nlohmann::ordered_json make_summary(const TestCase& test, const TestSetup& setup
         w.put("profile",
               profile_report(*world.workers.profile, setup.particles, world.stepping.steps, timing.step_seconds));
     Json columns;
-    for (const CurveColumn& column : curve_columns()) columns[column.what.name] = stated(column.what);
+    for (const CurveColumn& column : curve_columns()) columns[column.what.name] = w.unit_of(column.what);
     w.put("columns", columns);
     w.put("units", units);
     return json;

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <functional>
 #include <utility>
 
 #include "solver/base/errors.hpp"
@@ -31,11 +32,47 @@ void apply_given_step(World& world, const TestCase& test) {
     }
 }
 
+/// How deep corners of a mesh overhang after the inset: some 0.01 of the thickness, hardly ever more than this.
+constexpr double overhang_share = 0.05;
+
+Bonding bonding_of(const Specimen& specimen, const TestCase& test, double thick) {
+    Bonding bonding;
+    bonding.thick = thick;
+    if (!test.coulomb_bonds()) return bonding;
+    const TestCase::Bond& keys = test.bond;
+    if (specimen.polygons) bonding.gap = keys.gap.value_or(overhang_share * thick);
+    bonding.range = keys.range;
+    bonding.tensile_factor = keys.tensile_factor;
+    bonding.cohesion_factor = keys.cohesion_factor;
+    if (keys.strength_distribution != "none") {
+        bonding.factors = StrengthFactors(
+            strength_distribution_named(test.at("bond.strength_distribution"), keys.strength_distribution),
+            *keys.strength_cv, *keys.strength_seed);
+    }
+    return bonding;
+}
+
+/// Glued platens and the grips beside them never let go.
+std::function<bool(Vec2, BodyIndex, BodyIndex)> grips_of(const World& world, const Specimen& specimen,
+                                                         const Platens& platens, double grip) {
+    const BodyIndex bottom = body_of_id(world, platens.bottom_id), top = body_of_id(world, platens.top_id);
+    const Domain& domain = specimen.scene.domain;
+    const double depth = grip * specimen.height;
+    return [=](Vec2 position, BodyIndex i, BodyIndex j) {
+        const auto is_platen = [&](BodyIndex b) { return b == bottom || b == top; };
+        return is_platen(i) || is_platen(j) || position.y < domain.y1 + depth || position.y > domain.y2 - depth;
+    };
+}
+
 }  // namespace
 
 BondedSpecimen bond_specimen(const Specimen& specimen, const TestCase& test, const TestCase::Loading& loading) {
     Scene scene = specimen.scene;
-    scene.thick = test.bond.thick ? *test.bond.thick : circle_thick_share * specimen.mean_radius;
+    scene.thick = test.bond.thick     ? *test.bond.thick
+                  : specimen.polygons ? specimen.mesh_gap
+                                      : circle_thick_share * specimen.mean_radius;
+    scene.bond_law = bond_law_named("bond.law", test.bond.law);
+    scene.units = stiffness_units_named("material.units", test.material.units);
     scene.segment_law = segment_law_named("numerics.contact_law", test.numerics.contact_law);
     scene.integrator = integrator_named("numerics.integrator", test.numerics.integrator);
     scene.time_step = 0.0;  // a particle file's own is of its packing
@@ -50,7 +87,14 @@ BondedSpecimen bond_specimen(const Specimen& specimen, const TestCase& test, con
     const double thick = scene.thick;
     bonded.world = build_world(std::move(scene));
     forget_point_forces(bonded.world);  // platens give the stress, the curve's rows the energy of springs
-    bond_all(bonded.world, thick);
+    Bonding bonding = bonding_of(specimen, test, thick);
+    if (loading.platens == "glued")
+        bonding.holds = grips_of(bonded.world, specimen, bonded.platens, loading.grip.value_or(0.0));
+    try {
+        bond_all(bonded.world, bonding);
+    } catch (const InputError& error) {
+        throw InputError(fmt::format("{}: {}", test.at("bond.law"), error.what()));
+    }
     apply_given_step(bonded.world, test);
     place_platens(bonded.world, bonded.platens);
     compute_forces(bonded.world);

@@ -41,7 +41,7 @@ int platen_material(Scene& scene, const Specimen& specimen, const TestCase::Load
     const int of_specimen = specimen.platen_material;
     if (loading.platens != "frictional") return of_specimen;
     Material material = scene.materials[static_cast<std::size_t>(of_specimen)];
-    material.friction_angle = *loading.platen_friction_angle;
+    material.friction_angle = material.residual_friction_angle = *loading.platen_friction_angle;
     scene.materials.push_back(material);
     return static_cast<int>(scene.materials.size()) - 1;
 }

@@ -22,7 +22,8 @@ struct Hold {
 
 Hold hold_of(const World& world, const TestSetup& setup, BodyIndex platen) {
     Hold hold;
-    for (const auto& [bond, overlap] : setup.bonds) {
+    for (const Bond& one : setup.bonds) {
+        const ContactPoint& bond = one.point;
         if (bond.body_i != platen && bond.body_j != platen) continue;
         ++hold.bonds;
         const BodyIndex particle = bond.body_i == platen ? bond.body_j : bond.body_i;
@@ -39,7 +40,7 @@ Hold hold_of(const World& world, const TestSetup& setup, BodyIndex platen) {
 
 bool connected(const TestSetup& setup, std::size_t bodies) {
     boost::disjoint_sets_with_storage<> pieces(bodies);
-    for (const auto& [bond, overlap] : setup.bonds) pieces.union_set(bond.body_i, bond.body_j);
+    for (const Bond& bond : setup.bonds) pieces.union_set(bond.point.body_i, bond.point.body_j);
     return pieces.find_set(setup.bottom) == pieces.find_set(setup.top);
 }
 

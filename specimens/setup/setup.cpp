@@ -8,7 +8,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include "solver/contact/geometry.hpp"
+#include "solver/geometry/geometry.hpp"
 #include "solver/measure/point_view.hpp"
 #include "solver/world/point_order.hpp"
 
@@ -36,9 +36,30 @@ std::vector<BodyIndex> gauge(const World& world, const std::vector<int>& ids, co
     return bodies;
 }
 
+double mean_y(const World& world, const std::vector<BodyIndex>& bodies) {
+    double sum = 0.0;
+    for (const BodyIndex b : bodies) sum += world.bodies.state[b].y;
+    return sum / static_cast<double>(bodies.size());
+}
+
+constexpr double outer_share = 0.1;  // of the height, left out of the axial gauge length where there are no grips
+
+/// Particles with centres within half a mean particle of the gauge's ends.
+void find_axial_gauge(TestSetup& setup, const World& world, double outer) {
+    const double size = std::sqrt(setup.width * setup.height / static_cast<double>(setup.particles));
+    const double bottom = setup.low_end + outer * setup.height, top = setup.low_end + (1.0 - outer) * setup.height;
+    for (BodyIndex b = 0; b < world.bodies.size(); ++b) {
+        if (setup.is_platen(b)) continue;
+        if (std::abs(world.bodies.state[b].y - bottom) <= 0.5 * size) setup.gauge_bottom.push_back(b);
+        if (std::abs(world.bodies.state[b].y - top) <= 0.5 * size) setup.gauge_top.push_back(b);
+    }
+    if (setup.gauge_bottom.empty() || setup.gauge_top.empty()) return;
+    setup.gauge_height = mean_y(world, setup.gauge_top) - mean_y(world, setup.gauge_bottom);
+}
+
 void record_bonds(TestSetup& setup, const World& world) {
     std::map<std::pair<BodyIndex, BodyIndex>, double> interfaces;  // ordered: the sum must not depend on hashing
-    double overlap = 0.0, tension = 0.0;
+    double overlap = 0.0, tension = 0.0, tensile = 0.0, cohesion = 0.0;
     setup.bonds.reserve(static_cast<std::size_t>(world.bonds.initial));
     visit_kinds(world.points.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
         for (PointIndex k = begin; k < end; ++k) {
@@ -46,8 +67,16 @@ void record_bonds(TestSetup& setup, const World& world) {
             const PointState& state = world.points.state[k];
             if ((state.flags & point_touching) != 0) ++setup.contacts_initial;
             if ((state.flags & point_bonded) == 0) continue;
-            setup.bonds.push_back({point, world.points.bond_overlap[k]});
-            const double back_tension = world.settings.laws[state.law].normal_stiffness * world.points.bond_overlap[k];
+            const ContactLaw law = law_of(world, k);
+            const double bond_overlap = world.points.bond_overlap[k];
+            setup.bonds.push_back({point, bond_overlap,
+                                   world.points.stiffness_share.empty() ? 1.0F : world.points.stiffness_share[k],
+                                   setup.coulomb_bonds ? std::max(bond_overlap, 0.0) : 0.0});
+            if (setup.coulomb_bonds && (state.flags & point_held) == 0) {
+                tensile += law.tensile_strength;
+                cohesion += law.cohesion;
+            }
+            const double back_tension = law.normal_stiffness * bond_overlap;
             overlap += world.points.bond_overlap[k];
             tension += back_tension;
             interfaces[std::minmax(point.body_i, point.body_j)] += back_tension;
@@ -61,6 +90,11 @@ void record_bonds(TestSetup& setup, const World& world) {
     setup.mean_bond_overlap = overlap / static_cast<double>(setup.bonds.size());
     setup.mean_back_tension = tension / static_cast<double>(setup.bonds.size());
     setup.mean_back_tension_interface = tension / static_cast<double>(interfaces.size());
+    const auto breakable = static_cast<double>(world.bonds.initial - world.bonds.held);
+    if (setup.coulomb_bonds && breakable > 0.0) {
+        setup.mean_tensile_strength = tensile / breakable;
+        setup.mean_cohesion = cohesion / breakable;
+    }
 }
 
 }  // namespace
@@ -84,8 +118,17 @@ double TestSetup::lateral_strain(const World& world) const {
     return (mean_x(world, right) - mean_x(world, left)) / gauge_length - 1.0;
 }
 
-TestSetup record_setup(const World& world, const Specimen& specimen, const Platens& platens, bool compression) {
+double TestSetup::gauge_strain(const World& world) const {
+    if (gauge_height == 0.0) return std::numeric_limits<double>::quiet_NaN();
+    const double growth = (mean_y(world, gauge_top) - mean_y(world, gauge_bottom)) / gauge_height - 1.0;
+    return compression ? 0.0 - growth : growth;  // not -0 at the start
+}
+
+TestSetup record_setup(const World& world, const Specimen& specimen, const Platens& platens, bool compression,
+                       double grip) {
     TestSetup setup;
+    setup.grip = grip * specimen.height;
+    setup.low_end = world.settings.domain.y1;
     setup.compression = compression;
     setup.specimen = specimen.kind;
     setup.polygons = specimen.polygons;
@@ -105,6 +148,7 @@ TestSetup record_setup(const World& world, const Specimen& specimen, const Plate
     setup.stable_time_step_proved =
         world.stepping.exact_step_proved && world.settings.segment_law == SegmentLaw::rounded;
     setup.time_step_bound = world.stepping.step_bound;
+    setup.coulomb_bonds = world.settings.bond_law == BondLaw::coulomb;
     setup.notices = specimen.notices;
     setup.packing = specimen.packing;
     setup.minerals = specimen.minerals;
@@ -116,6 +160,7 @@ TestSetup record_setup(const World& world, const Specimen& specimen, const Plate
     } else {
         setup.gauge_length = mean_x(world, setup.right) - mean_x(world, setup.left);
     }
+    find_axial_gauge(setup, world, grip > 0.0 ? grip : outer_share);
     record_bonds(setup, world);
     return setup;
 }

@@ -29,12 +29,17 @@ struct StartPlace {
 /// A point bonded when loading began.
 struct Bond {
     ContactPoint point;
-    double overlap = 0.0;  ///< δ0, m
+    double overlap = 0.0;          ///< δ0, m
+    float stiffness_share = 1.0F;  ///< as Points::stiffness_share
+    /// m: the overlap without force once it has broken
+    double rest_overlap = 0.0;
 
     template <class Self, class Visit>
     static constexpr void fields(Self& s, Visit&& visit) {
         visit("point", s.point);
         visit("overlap", s.overlap);
+        visit("stiffness_share", s.stiffness_share);
+        visit("rest_overlap", s.rest_overlap);
     }
 };
 
@@ -56,9 +61,17 @@ struct TestSetup {
     double mean_bond_overlap = 0.0;            // m, over bonded points
     double mean_back_tension = 0.0;            // N, over bonded points
     double mean_back_tension_interface = 0.0;  // N, over pairs of bodies
-    double stable_time_step = 0.0;             // s, exact, when bonds were made
-    bool stable_time_step_proved = false;      ///< by factorisation; else it is a bound
-    double time_step_bound = 0.0;              // s, kept up during the run; when loading began
+    bool coulomb_bonds = false;
+    double mean_tensile_strength = 0.0, mean_cohesion = 0.0;  // N, over bonded points that can break, coulomb bonds
+    double grip = 0.0;                                        // m, depth at each end whose bonds never break
+    double low_end = 0.0;                                     // m, y of the specimen's lower face
+    /// Particles about the two ends of the axial gauge length, the specimen without its grips (without the outer tenths
+    /// where there are none), and the distance of their mean y, m; 0 where an end has none.
+    std::vector<BodyIndex> gauge_bottom, gauge_top;
+    double gauge_height = 0.0;
+    double stable_time_step = 0.0;         // s, exact, when bonds were made
+    bool stable_time_step_proved = false;  ///< by factorisation; else it is a bound
+    double time_step_bound = 0.0;          // s, kept up during the run; when loading began
 
     RateRule rate_rule;
 
@@ -74,6 +87,8 @@ struct TestSetup {
     double axial_strain(const World& world) const;
     /// Not a number if the specimen has no side particles in the middle half of its height.
     double lateral_strain(const World& world) const;
+    /// Axial strain between the ends of the axial gauge length; not a number where one has no particles.
+    double gauge_strain(const World& world) const;
 
     template <class Self, class Visit>
     static constexpr void fields(Self& s, Visit&& visit) {
@@ -99,6 +114,14 @@ struct TestSetup {
         visit("mean_bond_overlap", s.mean_bond_overlap);
         visit("mean_back_tension", s.mean_back_tension);
         visit("mean_back_tension_interface", s.mean_back_tension_interface);
+        visit("coulomb_bonds", s.coulomb_bonds);
+        visit("mean_tensile_strength", s.mean_tensile_strength);
+        visit("mean_cohesion", s.mean_cohesion);
+        visit("grip", s.grip);
+        visit("low_end", s.low_end);
+        visit("gauge_bottom", s.gauge_bottom);
+        visit("gauge_top", s.gauge_top);
+        visit("gauge_height", s.gauge_height);
         visit("stable_time_step", s.stable_time_step);
         visit("stable_time_step_proved", s.stable_time_step_proved);
         visit("time_step_bound", s.time_step_bound);
@@ -113,7 +136,9 @@ struct TestSetup {
 };
 
 /// Records the start of loading. Needs a bonded world with its platens in place and compute_forces() done.
-TestSetup record_setup(const World& world, const Specimen& specimen, const Platens& platens, bool compression);
+/// @param grip share of the height at each end whose bonds never break
+TestSetup record_setup(const World& world, const Specimen& specimen, const Platens& platens, bool compression,
+                       double grip);
 
 /// A body where only its place is known. @param angle rad, as BodyState's
 BodyState placed_body(const World& world, const TestSetup& setup, BodyIndex body, double x, double y, double angle);

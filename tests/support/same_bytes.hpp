@@ -22,6 +22,9 @@ inline void expect_same_run(const World& one, const World& other) {
     EXPECT_TRUE(same_bytes(one.points.shear_force, other.points.shear_force));
     EXPECT_TRUE(same_bytes(one.points.normal_dashpot, other.points.normal_dashpot));
     EXPECT_TRUE(same_bytes(one.points.shear_dashpot, other.points.shear_dashpot));
+    EXPECT_TRUE(same_bytes(one.points.bond_overlap, other.points.bond_overlap));
+    EXPECT_TRUE(same_bytes(one.points.stiffness_share, other.points.stiffness_share));
+    EXPECT_TRUE(same_bytes(one.points.strength_share, other.points.strength_share));
     EXPECT_TRUE(same_bytes(one.points.strong_normal, other.points.strong_normal));
     EXPECT_TRUE(same_bytes(one.points.strong_shear, other.points.strong_shear));
     EXPECT_EQ(one.bonds.broken, other.bonds.broken);

@@ -40,7 +40,7 @@ struct WearingPoints {
     static constexpr void fields(Self& s, Visit&& visit) {
         visit("root_mass", s.root_mass);
         visit("shear_force", s.shear_force, Remembered::always);
-        visit("wear", s.wear, Remembered::when_bonded);
+        visit("wear", s.wear, Remembered::by_half_strength);
     }
 };
 
@@ -82,7 +82,7 @@ TEST(Fields, OneMoreIsCarriedToTheNextList) {
         return all;
     };
     EXPECT_EQ(carried(FewPoints{}), (std::vector{Remembered::always}));
-    EXPECT_EQ(carried(WearingPoints{}), (std::vector{Remembered::always, Remembered::when_bonded}));
+    EXPECT_EQ(carried(WearingPoints{}), (std::vector{Remembered::always, Remembered::by_half_strength}));
 }
 
 struct Complete {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Points side by side give the bytes of points one by one. A batch of points of different laws goes the scalar way, so
-// a scene of one material is run against the same scene with two that are alike.
+// Points side by side give the bytes of points one by one, of one law in all lanes and of several: the same scene with
+// two materials that are alike.
 
 #include "solver/contact/batch.hpp"
 
@@ -60,15 +60,16 @@ std::vector<std::uint16_t> flags_of(const World& world) {
 }
 
 void expect_the_same(const Trial& trial, int steps, bool breaks) {
-    World together = made(trial, false), apart = made(trial, true);
-    for (int n = 0; n < steps; ++n) {
-        step(together);
-        step(apart);
+    World together = made(trial, false), two_laws = made(trial, true), apart = made(trial, false);
+    apart.workers.one_by_one = true;
+    for (World* world : {&together, &two_laws, &apart}) {
+        for (int n = 0; n < steps; ++n) step(*world);
+        compute_forces(*world);
     }
-    compute_forces(together);
-    compute_forces(apart);
-    testing::expect_same_run(together, apart);
-    EXPECT_TRUE(same_bytes(flags_of(together), flags_of(apart)));
+    for (const World* side_by_side : {&together, &two_laws}) {
+        testing::expect_same_run(*side_by_side, apart);
+        EXPECT_TRUE(same_bytes(flags_of(*side_by_side), flags_of(apart)));
+    }
     EXPECT_EQ(together.account.friction_loss > 0.0, trial.slides);
     EXPECT_EQ(together.bonds.broken > 0, breaks);
     EXPECT_LE(together.bonds.broken, together.bonds.initial * 9 / 10) << "some hold";
@@ -136,7 +137,8 @@ TEST(PointBatch, DiscsOnOneAndTheSameSpot) {
     // Their normal is no direction: whatever the scalar way makes of it, the batch makes the same.
     Scene scene = triangular_lattice(9, 9, 0.02, 0.0, damped_rock());
     scene.circles[scene.bodies[40].first_circle].centre = scene.circles[scene.bodies[41].first_circle].centre;
-    World together = made({scene}, false), apart = made({scene}, true);
+    World together = made({scene}, false), apart = made({scene}, false);
+    apart.workers.one_by_one = true;
     compute_forces(together);
     compute_forces(apart);
     EXPECT_TRUE(same_bytes(together.bodies.force, apart.bodies.force));
@@ -155,7 +157,8 @@ TEST_P(EverySetOfFeatures, GivesTheBytesOfPointsOneByOne) {
     for (const Scene& scene : {triangular_lattice(9, 9, 0.02, 8e-5, material), honeycomb(7, 7, 0.02, 1e-3, material)}) {
         const bool discs = scene.vertices.empty();
         Trial trial{scene, bonds ? (discs ? 0.01 : 1.08e-3) : 0.0, discs ? 0.3 : 2.0};
-        World together = made(trial, false), apart = made(trial, true);
+        World together = made(trial, false), apart = made(trial, false);
+        apart.workers.one_by_one = true;
         const ContactFeatures features = features_of(together);
         ASSERT_TRUE(features.friction == friction && features.damping == dashpots && features.bonds == bonds);
         for (int n = 0; n < 300; ++n) {
@@ -171,6 +174,37 @@ TEST_P(EverySetOfFeatures, GivesTheBytesOfPointsOneByOne) {
 }
 
 INSTANTIATE_TEST_SUITE_P(PointBatch, EverySetOfFeatures, ::testing::Range(0, 8));
+
+/// Scenes whose points have shares of their own.
+Trial with_shares(Trial trial, BondLaw law, StiffnessUnits units) {
+    trial.scene.bond_law = law;
+    trial.scene.units = units;
+    if (law != BondLaw::coulomb) return trial;
+    for (Material& material : trial.scene.materials) {
+        material.residual_friction_angle = 20.0;
+        // N where bonds of the trials break within its steps; in area units over a face of some centimetres.
+        material.tensile_strength = units == StiffnessUnits::area ? 1e4 : 400.0;
+        material.cohesion = 2.0 * material.tensile_strength;
+    }
+    return trial;
+}
+
+TEST(PointBatch, OfFacesByTheirArea) {
+    const auto area = [](const Trial& trial) {
+        return with_shares(trial, BondLaw::back_tension, StiffnessUnits::area);
+    };
+    expect_the_same(area({triangular_lattice(9, 9, 0.02, 8e-5, damped_rock()), 0.01, 0.3}), 400, true);
+    expect_the_same(area({honeycomb(7, 7, 0.02, 1e-3, damped_rock()), 1.08e-3, 2.0}), 400, true);
+    expect_the_same(area({triangular_lattice(9, 9, 0.02, 0.0, damped_rock()), 0.0, 1.0}), 2000, false);
+}
+
+TEST(PointBatch, CoulombBondsThatBreak) {
+    for (const StiffnessUnits units : {StiffnessUnits::point, StiffnessUnits::area}) {
+        const auto coulomb = [&](const Trial& trial) { return with_shares(trial, BondLaw::coulomb, units); };
+        expect_the_same(coulomb({triangular_lattice(9, 9, 0.02, 8e-5, damped_rock()), 0.01, 0.3}), 800, true);
+        expect_the_same(coulomb({honeycomb(7, 7, 0.02, 1e-3, damped_rock()), 1.08e-3, 1.0}), 800, true);
+    }
+}
 
 }  // namespace
 }  // namespace crackle

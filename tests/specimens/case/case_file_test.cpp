@@ -66,7 +66,8 @@ TEST_F(CaseFile, ReadsWhatIsWrittenAndFillsInDefaults) {
     EXPECT_EQ(test.packing.count, 50);
     EXPECT_EQ(test.material.density, 2500.0) << "a whole number is a number";
     EXPECT_EQ(test.loading.kind, "tension");
-    EXPECT_EQ(test.loading.platens, "bonded");
+    EXPECT_EQ(test.loading.platens, "glued") << "what pulls is stronger than the rock";
+    EXPECT_EQ(test.loading.grip, default_grip);
     EXPECT_EQ(test.loading.stop_at_share_of_peak, 0.5);
     EXPECT_EQ(test.output.curve_rows, 2000);
     EXPECT_EQ(test.output.checkpoint_interval, 60.0);

@@ -90,7 +90,7 @@ TEST_F(TestFolder, HoldsWhatReadersLookFor) {
         curve.find("axial_strain,axial_stress,stress_top,stress_bottom,lateral_strain,bonds_broken,kinetic_energy,"
                    "strain_energy,time,"
                    "step,interfaces_lost,points_sliding,dashpot_loss,friction_loss,fracture_loss,platen_work,"
-                   "energy_error\n"),
+                   "energy_error,gauge_strain\n"),
         std::string::npos);
     EXPECT_NE(read_text_file(scratch_ / "out/case.toml").find("rock.dat"), std::string::npos)
         << "inputs and their hashes";

@@ -2,12 +2,12 @@
 #include "tools/bench/throughput/bare_kernel.hpp"
 
 #include "solver/base/errors.hpp"
-#include "solver/contact/circle_geometry.hpp"
+#include "solver/base/lanes.hpp"
 #include "solver/contact/dashpot.hpp"
 #include "solver/contact/friction.hpp"
-#include "solver/contact/lanes.hpp"
 #include "solver/contact/law.hpp"
-#include "solver/contact/relative_motion.hpp"
+#include "solver/geometry/circle_geometry.hpp"
+#include "solver/geometry/relative_motion.hpp"
 #include "solver/measure/point_view.hpp"
 #include "solver/stepping/step.hpp"
 

@@ -4,7 +4,7 @@
 // Discs of one material touch with normal spring and dashpot, incremental shear spring and dashpot under a Coulomb
 // limit, by the same code as in the engine; every point writes one record of 32 bytes, every body adds up its own in a
 // fixed order and is kicked and drifted. No neighbour search, walls, bonds, ledger, controls or observers. A body's
-// state fills a cache line, points are looked at lane_count at a time (solver/contact/lanes.hpp). On one thread.
+// state fills a cache line, points are looked at lane_count at a time (solver/base/lanes.hpp). On one thread.
 #pragma once
 
 #include <cstdint>

@@ -72,6 +72,7 @@ Scene settled(Scene scene) {
 struct Features {
     bool dashpots = false, friction = false, bonds = false, consistent = false;
     bool platens = false, two_materials = false, clumps = false;
+    bool area = false, coulomb = false, random_strengths = false;
 };
 
 /// Blocks as wide as the specimen on its lower and upper side, held and driven as a test's platens are.
@@ -128,6 +129,15 @@ World world_with(Scene scene, const Features& features) {
         scene.materials[1].friction_angle += 3.0;
         for (std::size_t b = 0; b < scene.bodies.size(); b += 2) scene.bodies[b].material = 1;
     }
+    if (features.area) scene.units = StiffnessUnits::area;
+    if (features.coulomb) {
+        scene.bond_law = BondLaw::coulomb;
+        for (Material& material : scene.materials) {
+            material.tensile_strength = 1e3 * material.normal_stiffness * overlap;  // nothing breaks
+            material.cohesion = 2.0 * material.tensile_strength;
+            material.residual_friction_angle = material.friction_angle;
+        }
+    }
     if (features.clumps) join_to_clumps(scene);
     if (features.platens) {
         put_between_platens(scene);
@@ -136,7 +146,10 @@ World world_with(Scene scene, const Features& features) {
         scene.domain.x2 += overlap, scene.domain.y2 += overlap;
     }
     World world = build_world(scene);
-    if (features.bonds) bond_all(world, scene.thick);
+    Bonding bonding;
+    bonding.thick = scene.thick;
+    if (features.random_strengths) bonding.factors = StrengthFactors(StrengthDistribution::weibull, 0.3, 1);
+    if (features.bonds) bond_all(world, bonding);
     for (int k = 0; k < steps_before_start; ++k) step(world);
     return world;
 }
@@ -230,6 +243,11 @@ const std::vector<Rung>& rungs() {
         {"bonds", "friction", {.dashpots = true, .friction = true, .bonds = true}},
         {"driven platens", "bonds", {.dashpots = true, .friction = true, .bonds = true, .platens = true}},
         {"two materials", "bonds", {.dashpots = true, .friction = true, .bonds = true, .two_materials = true}},
+        {"area units", "bonds", {.dashpots = true, .friction = true, .bonds = true, .area = true}},
+        {"coulomb bonds", "bonds", {.dashpots = true, .friction = true, .bonds = true, .coulomb = true}},
+        {"random strengths",
+         "coulomb bonds",
+         {.dashpots = true, .friction = true, .bonds = true, .coulomb = true, .random_strengths = true}},
         {"clumps of two", "bonds", {.dashpots = true, .friction = true, .bonds = true, .clumps = true}},
     };
     return all;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Two circles in contact: δ = r_i + r_j - d, d the distance of their centres, which lie on the normal with the contact
 // position between them, midway between the two surfaces.
-// Tested by tests/solver/contact/geometry_test.cpp.
+// Tested by tests/solver/geometry/geometry_test.cpp.
 #pragma once
 
-#include "solver/contact/point_geometry.hpp"
+#include "solver/geometry/point_geometry.hpp"
 
 namespace crackle {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How the overlap of a point answers to small motions of its two bodies, for linear solves and the stable step.
-// Tested by tests/solver/contact/geometry_test.cpp.
+// Tested by tests/solver/geometry/geometry_test.cpp.
 #pragma once
 
 #include <array>
 
-#include "solver/contact/geometry.hpp"
+#include "solver/geometry/geometry.hpp"
 
 namespace crackle {
 

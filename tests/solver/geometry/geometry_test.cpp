@@ -2,7 +2,7 @@
 // Closest feature of outlines against plain reference geometry, the remembered edge as a mere hint, and forces as the
 // gradient of the stored energy.
 
-#include "solver/contact/geometry.hpp"
+#include "solver/geometry/geometry.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -10,7 +10,7 @@
 // and (iv), and as the line from centre to corner does in (ii). Checked against differences of the force routine in
 // the tests of segment contacts.
 
-#include "solver/contact/overlap_gradient.hpp"
+#include "solver/geometry/overlap_gradient.hpp"
 
 namespace crackle {
 namespace {

@@ -6,8 +6,8 @@
 // Tested by tests/solver/contact/batch_test.cpp.
 #pragma once
 
-#include "solver/contact/circle_geometry.hpp"
-#include "solver/contact/point_geometry.hpp"
+#include "solver/geometry/circle_geometry.hpp"
+#include "solver/geometry/point_geometry.hpp"
 
 namespace crackle {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where two bodies meet, and what the forces there do to them.
-// Tested by tests/solver/contact/geometry_test.cpp.
+// Tested by tests/solver/geometry/geometry_test.cpp.
 #pragma once
 
 #include <limits>
 
-#include "solver/contact/lanes.hpp"
+#include "solver/base/lanes.hpp"
 
 namespace crackle {
 

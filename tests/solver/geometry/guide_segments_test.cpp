@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The guide's contact of segments by hand: rules (i) to (iv), their resultant, corners, joints and free ends.
 
-#include "solver/contact/guide_segments.hpp"
+#include "solver/geometry/guide_segments.hpp"
 
 #include <algorithm>
 #include <cmath>
 
-#include "solver/contact/overlap_gradient.hpp"
+#include "solver/geometry/overlap_gradient.hpp"
 #include "solver/measure/point_view.hpp"
 #include "solver/stepping/build_world.hpp"
 #include "solver/stepping/step.hpp"

@@ -4,14 +4,14 @@
 // A point lies `across` in front of the line of an edge, and `over` beyond one of the edge's ends (negative at the
 // start; 0: before the edge itself). In front of the edge its distance is `across`, the gradient the edge's normal;
 // beyond an end it is that from the corner. Both are needed of one point and of several in lanes.
-// Tested by tests/solver/contact/geometry_test.cpp.
+// Tested by tests/solver/geometry/geometry_test.cpp.
 #pragma once
 
 #include <cstdint>
 #include <limits>
 #include <type_traits>
 
-#include "solver/contact/point_geometry.hpp"
+#include "solver/geometry/point_geometry.hpp"
 #include "solver/world/world.hpp"
 
 namespace crackle {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Lanes by themselves; built with four of them and with eight, whatever the machine.
 
-#include "solver/contact/lanes.hpp"
+#include "solver/base/lanes.hpp"
 
 #include <gtest/gtest.h>
 

@@ -12,9 +12,9 @@
 #include <array>
 #include <cstdint>
 
-#include "solver/contact/circle_geometry.hpp"
-#include "solver/contact/guide_segments.hpp"
-#include "solver/contact/outline_geometry.hpp"
+#include "solver/geometry/circle_geometry.hpp"
+#include "solver/geometry/guide_segments.hpp"
+#include "solver/geometry/outline_geometry.hpp"
 #include "solver/world/world.hpp"
 
 namespace crackle {

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/geometry/contact_share.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "solver/geometry/geometry.hpp"
+
+namespace crackle {
+namespace {
+
+/// Edges that face each other are turned by at most this against each other: cells of a mesh lie parallel.
+constexpr double least_facing = 0.9;  // minus the cosine between their directions
+
+bool held(const World& world, BodyIndex b) {
+    return world.bodies.inertia[b].inverse_mass_x == 0.0 && world.bodies.inertia[b].inverse_mass_y == 0.0;
+}
+
+/// Radius of the disc of the same area, m; of a body that is held nothing, of an open chain half its length.
+double equivalent_radius(const World& world, BodyIndex b) {
+    if (held(world, b)) return 0.0;
+    const BodyInfo& info = world.bodies.info[b];
+    if (info.single_circle) return world.bodies.state[b].shape[0];
+    if (info.piece_count > 0 && !info.closed) return info.reach;
+    const double area = world.bodies.inertia[b].mass / world.settings.materials[info.material].density;
+    return std::sqrt(area / std::numbers::pi);
+}
+
+Vec2 centre_of(const World& world, BodyIndex b) { return {world.bodies.state[b].x, world.bodies.state[b].y}; }
+
+std::vector<Vec2> corners_of(const World& world, BodyIndex b) {
+    const BodyInfo& info = world.bodies.info[b];
+    std::vector<Vec2> corners;
+    corners.reserve(info.element_count);
+    for (std::uint32_t e = info.first_element; e < info.first_element + info.element_count; ++e)
+        corners.push_back(centre_of(world, b) + turned(world.bodies.state[b], world.bodies.elements[e]));
+    return corners;
+}
+
+/// An edge of an outline, shifted outwards with its neighbours.
+struct OutsetEdge {
+    Vec2 start, along;  // m; unit direction
+    double length;      // m
+};
+
+Vec2 unit(Vec2 v) { return (1.0 / norm(v)) * v; }
+
+/// tan of half the angle from direction a to b.
+double half_turn(Vec2 a, Vec2 b) {
+    const double sine = a.x * b.y - a.y * b.x, cosine = dot(a, b);
+    return sine / (1.0 + cosine);
+}
+
+std::vector<OutsetEdge> outset_edges(const std::vector<Vec2>& corners, double by) {
+    const std::size_t n = corners.size();
+    const auto direction = [&](std::size_t k) { return unit(corners[(k + 1) % n] - corners[k % n]); };
+    std::vector<OutsetEdge> edges;
+    edges.reserve(n);
+    for (std::size_t k = 0; k < n; ++k) {
+        const Vec2 along = direction(k);
+        const double before = by * half_turn(direction(k + n - 1), along),
+                     beyond = by * half_turn(along, direction(k + 1));
+        const Vec2 outwards{along.y, -along.x};
+        edges.push_back({corners[k] + by * outwards - before * along, along,
+                         norm(corners[(k + 1) % n] - corners[k]) + before + beyond});
+    }
+    return edges;
+}
+
+/// Length over which two edges face each other, m; 0 where they do not. @param reach m, that they may lie apart
+double facing_length(const OutsetEdge& a, const OutsetEdge& b, double reach) {
+    if (dot(a.along, b.along) > -least_facing) return 0.0;
+    const Vec2 end = b.start + b.length * b.along;
+    const Vec2 outwards{a.along.y, -a.along.x};
+    const double from = dot(end - a.start, a.along), to = dot(b.start - a.start, a.along);
+    const double apart = dot(0.5 * (b.start + end) - a.start, outwards);
+    if (std::abs(apart) > reach) return 0.0;
+    return std::max(0.0, std::min(a.length, to) - std::max(0.0, from));
+}
+
+/// Half the sum of the edges that meet in a corner, m.
+double length_of_corner(const World& world, BodyIndex b, std::uint32_t element) {
+    const BodyInfo& info = world.bodies.info[b];
+    const std::uint32_t n = info.element_count, k = element - info.first_element;
+    const auto place = [&](std::uint32_t e) {
+        const Element& corner = world.bodies.elements[info.first_element + e % n];
+        return Vec2{corner.x, corner.y};
+    };
+    double sum = 0.0;
+    if (info.closed || k > 0) sum += norm(place(k) - place(k + n - 1));
+    if (info.closed || k + 1 < n) sum += norm(place(k + 1) - place(k));
+    return 0.5 * sum;
+}
+
+/// Diameter of an element that is a circle, or length of one that is a corner, m.
+double length_of(const World& world, BodyIndex b, std::uint32_t element) {
+    return world.bodies.info[b].piece_count > 0 ? length_of_corner(world, b, element)
+                                                : 2.0 * world.bodies.elements[element].radius;
+}
+
+}  // namespace
+
+ContactShare share_of_contact(const World& world, PointKind kind, const ContactPoint& point) {
+    ContactShare share;
+    share.length = length_of(world, point.body_i, point.element_i);
+    share.distance = equivalent_radius(world, point.body_i);
+    if (kind == PointKind::element_wall) return share;
+    share.distance += equivalent_radius(world, point.body_j);
+    const bool circles = kind == PointKind::circle_circle || kind == PointKind::element_element;
+    if (circles) share.length = std::min(share.length, length_of(world, point.body_j, point.feature_j));
+    return share;
+}
+
+std::optional<ContactShare> share_of_face(const World& world, BodyIndex i, BodyIndex j, double gap) {
+    const std::vector<OutsetEdge> edges_i = outset_edges(corners_of(world, i), 0.5 * gap),
+                                  edges_j = outset_edges(corners_of(world, j), 0.5 * gap);
+    ContactShare share;
+    Vec2 outwards;
+    Vec2 on_face;
+    for (const OutsetEdge& a : edges_i) {
+        for (const OutsetEdge& b : edges_j) {
+            const double length = facing_length(a, b, gap);
+            if (length <= share.length) continue;
+            share.length = length;
+            const OutsetEdge& of_held = held(world, i) ? a : b;
+            outwards = {of_held.along.y, -of_held.along.x};
+            on_face = of_held.start;
+        }
+    }
+    if (share.length == 0.0) return std::nullopt;
+    const Vec2 centre_i = centre_of(world, i), centre_j = centre_of(world, j);
+    share.distance = held(world, i)   ? std::abs(dot(centre_j - on_face, outwards))
+                     : held(world, j) ? std::abs(dot(centre_i - on_face, outwards))
+                                      : norm(centre_j - centre_i);
+    return share;
+}
+
+}  // namespace crackle

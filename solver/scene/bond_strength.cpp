@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/scene/bond_strength.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <boost/math/distributions/lognormal.hpp>
+#include <boost/math/distributions/normal.hpp>
+#include <boost/math/distributions/weibull.hpp>
+#include <boost/math/tools/toms748_solve.hpp>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "solver/base/errors.hpp"
+
+namespace crackle {
+namespace {
+
+/// Root of a monotonous function between two arguments, to the last digits.
+template <class F>
+double root_between(F f, double low, double high) {
+    std::uintmax_t tries = 200;
+    const auto [a, b] =
+        boost::math::tools::toms748_solve(f, low, high, boost::math::tools::eps_tolerance<double>(50), tries);
+    return 0.5 * (a + b);
+}
+
+/// Mean and coefficient of variation of a normal distribution of mean 1 and deviation s, truncated at 0.
+std::pair<double, double> truncated_normal(double s) {
+    const boost::math::normal standard;
+    const double above = boost::math::cdf(standard, 1.0 / s), ratio = boost::math::pdf(standard, 1.0 / s) / above;
+    const double mean = 1.0 + s * ratio, variance = s * s * (1.0 - ratio / s - ratio * ratio);
+    return {mean, std::sqrt(variance) / mean};
+}
+
+/// Weyl sequence and mixer of SplitMix64 (Steele, Lea, Flood 2014).
+std::uint64_t mixed(std::uint64_t x) {
+    x += 0x9e3779b97f4a7c15u;
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+    return x ^ (x >> 31);
+}
+
+constexpr StrengthDistribution all_distributions[] = {StrengthDistribution::none, StrengthDistribution::normal,
+                                                      StrengthDistribution::lognormal, StrengthDistribution::weibull};
+
+}  // namespace
+
+const char* name_of(StrengthDistribution distribution) {
+    switch (distribution) {
+        case StrengthDistribution::none:
+            return "none";
+        case StrengthDistribution::normal:
+            return "normal";
+        case StrengthDistribution::lognormal:
+            return "lognormal";
+        case StrengthDistribution::weibull:
+            break;
+    }
+    return "weibull";
+}
+
+StrengthDistribution strength_distribution_named(const std::string& where, const std::string& word) {
+    for (const StrengthDistribution distribution : all_distributions)
+        if (word == name_of(distribution)) return distribution;
+    throw InputError(
+        fmt::format("{}: found \"{}\", expected \"none\", \"normal\", \"lognormal\" or \"weibull\"", where, word));
+}
+
+double weibull_modulus(double cv) {
+    return root_between(
+        [&](double m) {
+            return std::exp(std::lgamma(1.0 + 2.0 / m) - 2.0 * std::lgamma(1.0 + 1.0 / m)) - 1.0 - cv * cv;
+        },
+        0.2, 1e5);
+}
+
+StrengthFactors::StrengthFactors(StrengthDistribution distribution, double cv, std::int64_t seed)
+    : distribution_(distribution), seed_(seed) {
+    if (distribution == StrengthDistribution::none) return;
+    const double highest = distribution == StrengthDistribution::normal ? largest_normal_cv : 2.0;
+    if (!(cv >= 1e-4 && cv <= highest)) {
+        throw InputError(fmt::format("coefficient of variation of strengths: found {}, expected 0.0001 to {} ({})", cv,
+                                     highest, name_of(distribution)));
+    }
+    if (distribution == StrengthDistribution::normal) {
+        // Of the deviation over the mean before truncation; the mode is at that mean.
+        const double s = root_between([&](double x) { return truncated_normal(x).second - cv; }, 0.5e-4, 1e6);
+        first_ = 1.0 / truncated_normal(s).first;
+        second_ = s * first_;
+    } else if (distribution == StrengthDistribution::lognormal) {
+        second_ = std::sqrt(std::log1p(cv * cv));
+        first_ = -0.5 * second_ * second_;
+    } else {
+        first_ = weibull_modulus(cv);
+        second_ = 1.0 / std::tgamma(1.0 + 1.0 / first_);
+    }
+}
+
+double StrengthFactors::quantile(double p) const {
+    switch (distribution_) {
+        case StrengthDistribution::none:
+            return 1.0;
+        case StrengthDistribution::normal: {
+            const boost::math::normal whole(first_, second_);
+            const double below = boost::math::cdf(whole, 0.0);
+            return boost::math::quantile(whole, below + p * (1.0 - below));
+        }
+        case StrengthDistribution::lognormal:
+            return boost::math::quantile(boost::math::lognormal(first_, second_), p);
+        case StrengthDistribution::weibull:
+            break;
+    }
+    return boost::math::quantile(boost::math::weibull(first_, second_), p);
+}
+
+double StrengthFactors::probability(double x) const {
+    switch (distribution_) {
+        case StrengthDistribution::none:
+            return x >= 1.0 ? 1.0 : 0.0;
+        case StrengthDistribution::normal: {
+            const boost::math::normal whole(first_, second_);
+            const double below = boost::math::cdf(whole, 0.0);
+            return std::max(0.0, (boost::math::cdf(whole, x) - below) / (1.0 - below));
+        }
+        case StrengthDistribution::lognormal:
+            return boost::math::cdf(boost::math::lognormal(first_, second_), x);
+        case StrengthDistribution::weibull:
+            break;
+    }
+    return boost::math::cdf(boost::math::weibull(first_, second_), x);
+}
+
+double StrengthFactors::between(int id_a, int id_b) const {
+    if (distribution_ == StrengthDistribution::none) return 1.0;
+    const auto low = static_cast<std::uint32_t>(std::min(id_a, id_b)),
+               high = static_cast<std::uint32_t>(std::max(id_a, id_b));
+    const std::uint64_t pair = (static_cast<std::uint64_t>(low) << 32) | high;
+    const std::uint64_t bits = mixed(mixed(static_cast<std::uint64_t>(seed_)) ^ pair);
+    // In the middle of one of 2^53 equal parts: never 0 or 1.
+    const double p = (static_cast<double>(bits >> 11) + 0.5) * 0x1p-53;
+    return quantile(p);
+}
+
+}  // namespace crackle

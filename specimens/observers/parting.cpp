@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/observers/parting.hpp"
+
+#include <boost/pending/disjoint_sets.hpp>
+#include <map>
+
+namespace crackle {
+namespace {
+
+struct CrackSum {
+    std::int64_t bonds = 0, of_platen = 0;
+    double height = 0.0;  // m, sum
+};
+
+}  // namespace
+
+std::optional<Parting> find_parting(const TestSetup& setup, const ContactHistory& history) {
+    if (history.cracks.empty()) return std::nullopt;
+    boost::disjoint_sets_with_storage<> cracked(setup.start.size());
+    const auto point_of = [&](const Crack& crack) -> const ContactPoint& { return setup.bonds[crack.bond].point; };
+    for (const Crack& crack : history.cracks) cracked.union_set(point_of(crack).body_i, point_of(crack).body_j);
+    std::map<std::size_t, CrackSum> sums;  // ordered, so that of two alike the choice is always the same
+    for (const Crack& crack : history.cracks) {
+        const ContactPoint& point = point_of(crack);
+        CrackSum& sum = sums[cracked.find_set(point.body_i)];
+        ++sum.bonds;
+        const bool platen_i = setup.is_platen(point.body_i), platen_j = setup.is_platen(point.body_j);
+        sum.of_platen += platen_i || platen_j ? 1 : 0;
+        const double y_i = setup.start[point.body_i].y, y_j = setup.start[point.body_j].y;
+        sum.height += platen_i ? y_j : platen_j ? y_i : 0.5 * (y_i + y_j);
+    }
+    const CrackSum* largest = nullptr;
+    for (const auto& [root, sum] : sums)
+        if (largest == nullptr || sum.bonds > largest->bonds) largest = &sum;
+    Parting parting;
+    parting.bonds = largest->bonds;
+    parting.of_platen = largest->of_platen;
+    parting.height = largest->height / static_cast<double>(largest->bonds) - setup.low_end;
+    const bool in_grip = parting.height < setup.grip || parting.height > setup.height - setup.grip;
+    parting.place = 2 * parting.of_platen >= parting.bonds ? "platen" : in_grip ? "grip" : "gauge";
+    return parting;
+}
+
+}  // namespace crackle
