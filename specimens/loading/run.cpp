@@ -166,6 +166,10 @@ TestOutcome run_test(const TestCase& description, const TestOptions& options, co
         recorded.inputs.push_back(description.resolve_path("particles.file", *description.particles.file));
     if (description.packing.sieve)
         recorded.inputs.push_back(description.resolve_path("packing.sieve", *description.packing.sieve));
+    if (description.minerals.labels)
+        recorded.inputs.push_back(description.resolve_path("minerals.labels", *description.minerals.labels));
+    if (description.minerals.image)
+        recorded.inputs.push_back(description.resolve_path("minerals.image", *description.minerals.image));
     OutputFolder folder = OutputFolder::create(options.folder, options.force, recorded.inputs);
     std::optional<SpecimenFiles> specimen(std::in_place);
     VirtualTest test = prepare_test(description, specimen->collecting(hooks));

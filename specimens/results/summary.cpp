@@ -191,6 +191,18 @@ void packing(Writer& w, const TestSetup& setup) {
     w.put("packing", figures);
 }
 
+void minerals(Writer& w, const TestSetup& setup) {
+    if (setup.minerals.empty()) return;
+    Json all = Json::array();
+    for (const MineralShare& m : setup.minerals) {
+        all.push_back({{"name", m.name},
+                       {"area_share", m.asked ? number(*m.asked) : Json(nullptr)},
+                       {"area_share_reached", number(m.reached)},
+                       {"grains", m.grains}});
+    }
+    w.put("minerals", all);
+}
+
 Json error_of(const NumberError* measured, double closing) {
     const auto value = [&](double NumberError::*part) {
         return measured != nullptr ? number(measured->*part) : Json(nullptr);
@@ -333,6 +345,7 @@ nlohmann::ordered_json make_summary(const TestCase& test, const TestSetup& setup
     numerics(w, test, setup, state, world);
     numerical_errors(w, state, errors);
     packing(w, setup);
+    minerals(w, setup);
     frames(w, state);
     w.put("out_of_plane_thickness", thickness ? Json(*thickness) : Json(nullptr));
     w.put("notices", notices_of(test, setup, state, world));

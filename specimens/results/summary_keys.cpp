@@ -201,6 +201,13 @@ std::vector<SummaryKey> all_summary_keys() {
         {{"packing.unbalanced", "-", "largest force on a circle over the mean contact force"}},
         {{"packing.radius_scale", "-", "radii made over radii drawn; 1 with a count"}},
 
+        {{"minerals", "", "in the order of the case: area shares and grains", "of a rock of several minerals"}},
+        {{"minerals[].name", "", "the case's"}},
+        {{"minerals[].area_share", "-", "asked, of the area of all grains",
+          "null of labels or an image where the case asks for none"}},
+        {{"minerals[].area_share_reached", "-", "of the grains that have it: discs, or polygons as meshed"}},
+        {{"minerals[].grains", "", "bodies that have it"}},
+
         {{"frame_start", "", "file of the particles at the start"}, unlisted},
         {{"frame_peak", "", "at the peak, or the largest stress so far"}, unlisted},
         {{"frame_end", "", "at the end"}, unlisted},

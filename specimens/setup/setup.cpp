@@ -151,6 +151,7 @@ TestSetup record_setup(const World& world, const Specimen& specimen, const Plate
     setup.coulomb_bonds = world.settings.bond_law == BondLaw::coulomb;
     setup.notices = specimen.notices;
     setup.packing = specimen.packing;
+    setup.minerals = specimen.minerals;
     for (const BodyState& body : world.bodies.state) setup.start.push_back({body.x, body.y, body.angle});
     setup.left = gauge(world, specimen.left_ids, world.settings.domain);
     setup.right = gauge(world, specimen.right_ids, world.settings.domain);

@@ -81,6 +81,8 @@ struct TestSetup {
     std::vector<std::string> notices;
     std::vector<std::pair<std::string, double>> packing;  ///< figures of the packing by name; empty for a particle file
 
+    std::vector<MineralShare> minerals;  ///< empty of a rock of one material
+
     bool is_platen(BodyIndex body) const { return body == bottom || body == top; }
     double axial_strain(const World& world) const;
     /// Not a number if the specimen has no side particles in the middle half of its height.
@@ -129,6 +131,7 @@ struct TestSetup {
         visit("bond_kind_begin", s.bond_kind_begin);
         visit("notices", s.notices);
         visit("packing", s.packing);
+        visit("minerals", s.minerals);
     }
 };
 

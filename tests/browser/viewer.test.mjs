@@ -21,6 +21,9 @@ const open = (file, options) => openPage(browser, join(root, file), options);
 const deckOf = (corners) => ['1 0 0', '1.0d-4 0.0 0.0', '1', '1.0 1.0d8 1.0d8 0.0 0.0 0.0', '-1.0 4.0 -1.0 4.0 0.0', '0 1 0', `1 1 ${corners.length}`, '0.0 0.0 0.0',
     ...corners.flatMap(([x, y], at) => [`${at + 1} ${x}.0 ${y}.0`, corners[(at + 1) % corners.length].map((value) => `${value}.0`).join(' ')])].join('\n');
 
+/// Of a case: the largest grains are quartz.
+const minerals = '[minerals]\nassign = "size"\n[[mineral]]\nname = "quartz"\narea_share = 0.5\n[[mineral]]\nname = "feldspar"\n';
+
 before(async () => {
     root = mkdtempSync(join(tmpdir(), 'crackle-viewer-'));
     execFileSync(process.env.SAMPLE_RESULTS, [root]);
@@ -40,6 +43,9 @@ before(async () => {
     crackle('view', join(root, 'deck'), '-o', join(root, 'deck.html'));
     writeFileSync(join(root, 'in_gm_notched.dat'), deckOf([[0, 0], [3, 0], [3, 3], [2, 3], [2, 1], [1, 1], [1, 3], [0, 3]]));
     crackle('view', join(root, 'in_gm_notched.dat'), '-o', join(root, 'notched.html'));
+    writeFileSync(join(root, 'minerals.toml'), `include = "${join(process.env.SPECIMENS, 'guide_rock', 'circles_tension.toml')}"\n[packing]\ncount = 60\n[loading]\nmax_axial_strain = 1e-4\n[output]\nframes = 2\n${minerals}`);
+    crackle('test', join(root, 'minerals.toml'), '-o', join(root, 'minerals'));
+    crackle('view', join(root, 'minerals'), '-o', join(root, 'minerals.html'));
     browser = await launch();
 });
 
@@ -342,6 +348,24 @@ test('outlines leave small particles their colour', async () => {
         if (!options.viewport) assert.ok(more > 0.03, 'outlines are seen');
         await close();
     }
+});
+
+test('minerals are told by name', async () => {
+    const {page, close} = await open('minerals.html');
+    const plain = await picture(page);
+    await choose(page, 'quantity', 'material');
+    assert.notEqual(await picture(page), plain);
+    const legend = await page.locator('.stage').textContent();
+    assert.match(legend, /quartz\s*feldspar/);
+    assert.doesNotMatch(legend, /feldspar\s*3/, "the platens' material is no mineral");
+    const [{test: name}] = await shown(page);
+    const sizes = [...particles(join(root, 'minerals', results(join(root, 'minerals')).summary.frame_start))].filter(([, {radius}]) => radius > 0).sort(([, a], [, b]) => a.radius - b.radius);
+    for (const [[id], mineral] of [[sizes[0], 'feldspar'], [sizes.at(-1), 'quartz']]) {
+        const at = await page.evaluate(([test, number]) => window.crackle.place(test, number), [name, id]);
+        await page.mouse.click(at.x, at.y);
+        assert.equal(await page.locator('[data-value="material"]').textContent(), mineral, `particle ${id}`);
+    }
+    await close();
 });
 
 test('saves the view as PNG and SVG', async () => {

@@ -59,8 +59,11 @@ class Model:
         self.polygons = deck.bodies[0].corners is not None
         self.width, self.height = deck.width, deck.height
         self.materials = [dict(m) for m in deck.materials]
-        for m in self.materials:
-            m["ratio"] = results.key("material", "damping_ratio")
+        self.minerals = results.case.get("mineral", [])
+        for k, m in enumerate(self.materials):
+            own = self.minerals[k] if k < len(self.minerals) else {}
+            m["ratio"] = own.get("damping_ratio", results.key("material", "damping_ratio"))
+        self.pairs = self._named_pairs()
         self.thick = results.summary["bond_thick"] if not self.polygons else results.key("bond", "thick")
         self.frictional = results.key("loading", "platens") == "frictional"
         self.sense = 1.0 if results.key("loading", "kind") == "compression" else -1.0
@@ -71,6 +74,12 @@ class Model:
         self.bottom, self.top = self.count, self.count + 1
         self._place_platens()
         self._measure()
+
+    def _named_pairs(self):
+        """Of [[mineral_pair]]: (indices of its materials, its keys)."""
+        names = [m["name"] for m in self.minerals]
+        tables = self.results.case.get("mineral_pair", [])
+        return [([names.index(name) for name in table["between"]], table) for table in tables]
 
     def _place_platens(self):
         deck = self.deck
@@ -98,7 +107,8 @@ class Model:
             np.array([(right, y1), (left, y1), (left, y1 - depth), (right, y1 - depth)]),
             np.array([(left, y2), (right, y2), (right, y2 + depth), (left, y2 + depth)]),
         ]
-        material = self.deck.bodies[0].material
+        # That of [material] stands behind the minerals'.
+        material = len(self.minerals) if self.minerals else self.deck.bodies[0].material
         if self.frictional:
             friction = dict(self.materials[material])
             friction["friction_angle"] = self.results.key("loading", "platen_friction_angle")
@@ -151,23 +161,38 @@ class Model:
     def _series(a, b):
         return np.where(a + b > 0, 2 * a * b / np.where(a + b > 0, a + b, 1), 0.0)
 
+    def _overridden(self, name, p, value):
+        """By a table of the pair, where there is one."""
+        a, b = self.material[p.i], self.material[p.j]
+        for (c, d), table in self.pairs:
+            if name in table:
+                value = np.where(((a == c) & (b == d)) | ((a == d) & (b == c)), table[name], value)
+        return value
+
     def normal_stiffness(self, p):
-        return self._series(*self._pair("normal_stiffness", p.i, p.j))
+        return self._overridden("normal_stiffness", p, self._series(*self._pair("normal_stiffness", p.i, p.j)))
 
     def shear_stiffness(self, p):
-        return self._series(*self._pair("shear_stiffness", p.i, p.j))
+        return self._overridden("shear_stiffness", p, self._series(*self._pair("shear_stiffness", p.i, p.j)))
 
     def friction(self, p):
-        return np.tan(np.radians(np.minimum(*self._pair("friction_angle", p.i, p.j))))
+        angle = np.minimum(*self._pair("friction_angle", p.i, p.j))
+        return np.tan(np.radians(self._overridden("friction_angle", p, angle)))
+
+    def _root_term(self, name, p):
+        """2 h sqrt(k) of two materials in series; of a pair's own stiffness with the two h in series."""
+        (h_i, h_j), (k_i, k_j) = self._pair("ratio", p.i, p.j), self._pair(name, p.i, p.j)
+        term = self._series(2 * h_i * np.sqrt(k_i), 2 * h_j * np.sqrt(k_j))
+        own = self._overridden(name, p, np.full(len(p.i), np.nan))
+        return np.where(np.isnan(own), term, 2 * self._series(h_i, h_j) * np.sqrt(own))
 
     def dashpots(self, p):
-        ratio = self.materials[0]["ratio"]
-        if ratio is None:
+        if self.materials[0]["ratio"] is None:
             return tuple(self._series(*self._pair(name, p.i, p.j)) for name in ("normal_damping", "shear_damping"))
         held_i, held_j = p.i >= self.count, p.j >= self.count
         mi, mj = self.mass[p.i], self.mass[p.j]
         mass = np.where(held_j, mi, np.where(held_i, mj, mi * mj / (mi + mj)))
-        return 2 * ratio * np.sqrt(self.normal_stiffness(p) * mass), 2 * ratio * np.sqrt(self.shear_stiffness(p) * mass)
+        return tuple(self._root_term(name, p) * np.sqrt(mass) for name in ("normal_stiffness", "shear_stiffness"))
 
     # contact points, solver/MODEL.md 3
 

@@ -167,7 +167,7 @@ def recount_packing(r):
     x, y, radius = circles.T
     box, solid = deck.width * deck.height, np.sum(math.pi * radius**2)
     r.key("packing.void_ratio", (box - solid) / solid)
-    stiffness = deck.materials[0]["normal_stiffness"]
+    stiffness = deck.materials[-1]["normal_stiffness"]  # [material]'s, behind the minerals'
     apart = np.hypot(x[:, None] - x, y[:, None] - y)
     overlap = radius[:, None] + radius - apart
     i, j = np.nonzero(np.triu(overlap > 0, 1))
@@ -194,6 +194,42 @@ def recount_packing(r):
     mean = np.concatenate([between, all_walls]).mean()
     # A residue of cancelling forces: places carry rounding of 1e-16 of the box.
     r.key("packing.unbalanced", np.hypot(*force.T).max() / mean, floor=20 * 1e-16 * deck.height / mean)
+
+
+def recount_minerals(r, model):
+    """Shares and grains of each mineral, and what it is made of (specimens/METHODS.md 3)."""
+    stated, case = r.summary.get("minerals", []), r.results.case
+    r.true("minerals: as many as the case has", len(stated) == len(model.minerals))
+    material, area = model.material[: model.count], model.area[: model.count]
+    grain = area.max() / area.sum()
+    assign = r.results.key("minerals", "assign")
+    rest = 1 - sum(m.get("area_share", 0.0) for m in model.minerals)
+    for k, (m, s) in enumerate(zip(model.minerals, stated)):
+        name, mine = f"minerals[{k}]", material == k
+        share = area[mine].sum() / area.sum()
+        asked = m.get("area_share", rest if assign in ("random", "size") else None)
+        r.true(f"{name}.name", s["name"] == m["name"])
+        r.compare(f"{name}.grains", s["grains"], mine.sum(), 0)
+        r.compare(f"{name}.area_share_reached", s["area_share_reached"], share, rounding)
+        r.true(f"{name}.area_share: stated where asked", (s["area_share"] is None) == (asked is None))
+        if asked is not None:
+            r.compare(f"{name}.area_share", s["area_share"], asked, rounding)
+        if assign in ("random", "size"):
+            r.compare(f"{name}: asked by whole grains", share, asked, grain)
+        for key, value in model.deck.materials[k].items():
+            given = m.get(key, case.get("material", {}).get(key))
+            if given is not None:
+                r.compare(f"{name}: {key} of its grains", value, given, 0)
+    if assign == "size":
+        largest = [[area[material == k].min(initial=math.inf), area[material == k].max(initial=0)] for k in range(len(stated))]
+        r.true("minerals: larger grains have those listed first",
+               all(a[0] >= b[1] * (1 - rounding) for a, b in zip(largest, largest[1:])))
+    if assign == "labels":
+        lines = [line.strip() for line in (r.results.folder / case["minerals"]["labels"]).read_text().splitlines()]
+        labels = [line for line in lines if line and not line.startswith("#")]
+        names = [m["name"] for m in model.minerals]
+        wanted = [names.index(one) if one in names else int(one) - 1 for one in labels]
+        r.true("minerals: as labelled", wanted == list(material))
 
 
 def recount_specimen(r, model):
@@ -437,6 +473,8 @@ def recount(folder):
     recount_packing(r)
     if r.results.key("numerics", "contact_law", "rounded") == "rounded" or r.results.polygons is None:
         model = Model(r.results)
+        if model.minerals:
+            recount_minerals(r, model)
         bonds = recount_specimen(r, model)
         recount_given(r, model)
         recount_events(r, model, bonds)

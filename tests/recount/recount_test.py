@@ -41,6 +41,30 @@ damping_ratio = 0.2
 output = '[output]\nframe_precision = "double"\nframes = 12\n'
 voronoi = '[mesh]\nkind = "voronoi"\nthick = 1e-3\n[bond]\nthick = 1.08e-3\n'
 triangles = '[mesh]\nkind = "delaunay"\nboundary = "domain"\nthick = 1e-3\n[bond]\nthick = 1.08e-3\n'
+minerals = '''
+[minerals]
+seed = 5
+[[mineral]]
+name = "quartz"
+area_share = 0.3
+normal_stiffness = 2.0e7
+shear_stiffness = 6.0e6
+density = 2650.0
+damping_ratio = 0.1
+[[mineral]]
+name = "feldspar"
+[[mineral]]
+name = "mica"
+area_share = 0.2
+friction_angle = 15.0
+[[mineral_pair]]
+between = ["quartz", "mica"]
+normal_stiffness = 5.0e6
+friction_angle = 20.0
+[[mineral_pair]]
+between = ["feldspar", "feldspar"]
+shear_stiffness = 3.0e6
+'''
 squeezed = '[loading]\nkind = "compression"\nmax_axial_strain = 0.02\n'
 pulled = '[loading]\nkind = "tension"\nmax_axial_strain = 0.005\n'
 rate = "axial_strain_rate = 0.02\n"
@@ -197,6 +221,28 @@ class Recount(unittest.TestCase):
                 with self.subTest(kind=kind, companion=name, figure="post_peak_difference"):
                     self.assertGreater(after.sum(), 5, "rows after the peak")
                     self.assertAlmostEqual(stated["post_peak_difference"], expected, delta=1e-9)
+    def test_minerals(self):
+        labels = scratch / "labels.txt"
+        labels.write_text("".join(("1\n", "mica\n", "feldspar\n")[k % 3] for k in range(80)))
+        by_labels = minerals.replace("seed = 5", f'assign = "labels"\nlabels = "{labels}"')
+        for name, case in (("drawn", rock + minerals + squeezed + rate), ("sizes", rock + voronoi + pulled +
+                           minerals.replace("seed = 5", 'assign = "size"')), ("labelled", rock + by_labels + squeezed)):
+            with self.subTest(assign=name):
+                folder = run("minerals_" + name, case + output)
+                self.assertGreater(len([1 for line in recount(folder).lines if line[0].startswith("minerals")]), 20)
+                self.agrees(folder, 150)
+        text = rock.replace("count = 80", "count = 30") + minerals + pulled + "axial_strain_rate = 0.2\n"
+        self.agrees(run("minerals_every_step", text + output.replace("frames = 12", "frames = 2000")), 180)
+
+    def test_wrong_shares_of_minerals_are_found(self):
+        folder = run("minerals_drawn", rock + minerals + squeezed + rate + output)
+        wrong = scratch / "minerals_wrong"
+        shutil.copytree(folder, wrong)
+        summary = json.loads((folder / "summary.json").read_text())
+        summary["minerals"][0]["area_share_reached"] += 1e-6
+        summary["minerals"][2]["grains"] += 1
+        (wrong / "summary.json").write_text(json.dumps(summary))
+        self.assertEqual(differing(wrong), ["minerals[0].area_share_reached", "minerals[2].grains"])
 
     def test_restarted(self):
         folder, case = scratch / "restarted", scratch / "restarted.toml"

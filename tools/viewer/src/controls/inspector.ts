@@ -7,6 +7,7 @@ import type {ECharts} from 'echarts/core';
 import {currentTheme} from '../colours/theme';
 import {area} from '../data/cells';
 import type {Frame} from '../data/frames';
+import {mineralsOf} from '../data/report';
 import type {SpecimenView} from '../drawing/specimen_view';
 import {Cursor} from '../elements/chart_cursor';
 import {button, element, select} from '../elements/dom';
@@ -130,7 +131,7 @@ function valueTable({view, cell}: Picked, frame: Frame): HTMLElement {
     const [vx, vy, sxx, syy, sxy, fragment, rate] = ['vx', 'vy', 'sxx', 'syy', 'sxy', 'fragment', 'rate'].map(field);
     const rows: [string, string, string, number?][] = [
         ['id', 'Number', String(cells.id[cell]), cells.id[cell]!],
-        ['material', 'Material', String(cells.material[cell]), cells.material[cell]!],
+        ['material', 'Material', mineralsOf(view.test.summary)[cells.material[cell]! - 1] ?? String(cells.material[cell]), cells.material[cell]!],
         radius > 0 ? ['radius', 'Radius', withUnit(radius, 'm'), radius] : ['area', 'Area', areaText(area(cells, cell)), area(cells, cell)],
         ['place', 'Centre', pair(centre.x, centre.y, 'm', 'ux')],
         ['displacement', 'Displacement', pair(frame.ux[cell]!, frame.uy[cell]!, 'm', 'ux'), Math.hypot(frame.ux[cell]!, frame.uy[cell]!)],

@@ -5,7 +5,7 @@ import {colouring, type Colouring} from '../colours/colouring';
 import {categoricalPalette, sequentialPalette} from '../colours/palettes';
 import {currentTheme} from '../colours/theme';
 import type {Frame} from '../data/frames';
-import {lastTimeOf, type TestData} from '../data/report';
+import {lastTimeOf, mineralsOf, type TestData} from '../data/report';
 import type {CrackColours} from '../drawing/drawn_lines';
 import {Picture, type Shown} from '../drawing/picture';
 import {initialSettings, type Layer, type Settings} from '../drawing/settings';
@@ -227,7 +227,10 @@ export class Viewer {
 
     private colours(frames: {view: SpecimenView; frame: Frame}[]): Colouring {
         const {quantity, settings} = this;
-        return colouring(quantity, quantity.scaling === 'categorical' ? categories(frames.map(({view, frame}) => ({frame, cells: view.test.cells})), quantity) : this.range(frames, quantity), settings.map, currentTheme());
+        // Numbers stand for different minerals in tests of different rocks.
+        const minerals = frames.map(({view}) => mineralsOf(view.test.summary));
+        const names = quantity.key === 'material' && minerals.every((one) => one.join('\n') === minerals[0]!.join('\n')) ? minerals[0] : [];
+        return colouring(quantity, quantity.scaling === 'categorical' ? categories(frames.map(({view, frame}) => ({frame, cells: view.test.cells})), quantity) : this.range(frames, quantity), settings.map, currentTheme(), names);
     }
 
     /// Over all frames or those up to the peak, once that is known; until then, or if so set, over the shown frames.

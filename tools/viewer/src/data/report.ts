@@ -204,6 +204,12 @@ export function lastTimeOf({frames, events}: TestData): number {
     return last;
 }
 
+/// Names of the minerals in the order of their material numbers; none of a rock of one material.
+export function mineralsOf(summary: Summary): string[] {
+    const minerals = summary['minerals'];
+    return Array.isArray(minerals) ? minerals.map((mineral: {name: string}) => mineral.name) : [];
+}
+
 /// A number of summary.json, or undefined where the test does not state it.
 export function numberOf(summary: Summary, key: string): number | undefined {
     const value = summary[key];
