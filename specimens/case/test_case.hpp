@@ -129,8 +129,8 @@ struct TestCase {
 
     struct Output {
         std::int64_t curve_rows = 0;
-        std::optional<std::int64_t> frames;            ///< absent until the bodies are counted: default_frames()
-        std::string frame_precision;                   ///< of points: "single" or "double"
+        std::optional<std::int64_t> frames;  ///< absent until the bodies are counted: default_frames()
+        std::string frame_precision;         ///< of points: "single" or "double"
         bool slips = false;
         double checkpoint_interval = 0.0;              // s, wall clock
         std::optional<double> out_of_plane_thickness;  // m

@@ -104,7 +104,8 @@ const std::vector<CurveColumn>& curve_columns() {
          [](Row r) { return r.energy_error; },
          false},
         {{"gauge_strain", "-", "positive in the sense of the test",
-          "axial, between the particles within half a mean particle of the ends of the gauge length, which is the "
+          "axial, between the bonded particles within half a mean particle of the ends of the gauge length, which is "
+          "the "
           "height "
           "without the grips, or without the outer tenths where there are none; nan where an end has none"},
          [](Row r) { return r.gauge_strain; },

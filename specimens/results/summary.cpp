@@ -115,6 +115,11 @@ void damage(Writer& w, const TestSetup& setup, const TestState& state, const Wor
     const FragmentFigures fragments = measure_fragments(world, setup, now);
     w.put("fragments", fragments.count);
     w.put("largest_fragment_share", fragments.largest_share);
+    const std::optional<Parting> parting = find_parting(setup, state.history);
+    w.put("failed_at", parting ? Json(parting->place) : Json(nullptr));
+    w.put("largest_crack",
+          parting ? Json{{"bonds", parting->bonds}, {"of_platen", parting->of_platen}, {"height", parting->height}}
+                  : Json(nullptr));
 }
 
 void counts(Writer& w, const TestSetup& setup, const World& world) {
@@ -136,11 +141,6 @@ void counts(Writer& w, const TestSetup& setup, const World& world) {
     }
     w.put("bonds_unbreakable", world.bonds.held);
     w.put("grip", setup.grip);
-    const std::optional<Parting> parting = find_parting(setup, state.history);
-    w.put("failed_at", parting ? Json(parting->place) : Json(nullptr));
-    w.put("largest_crack",
-          parting ? Json{{"bonds", parting->bonds}, {"of_platen", parting->of_platen}, {"height", parting->height}}
-                  : Json(nullptr));
     w.put("platen_bottom_id", setup.bottom_id);
     w.put("platen_top_id", setup.top_id);
 }

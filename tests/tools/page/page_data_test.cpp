@@ -40,7 +40,8 @@ TEST(PageData, HoldsEveryNumberToHalfAStep) {
     const testing::ScratchFolder scratch;
     {
         std::ofstream page(scratch / "page.html");
-        page << "<script id=\"crackle-data\">" << "{\"tests\":[" << packed.manifest.dump() << "]}</script>";
+        page << "<script id=\"crackle-data\">"
+             << "{\"tests\":[" << packed.manifest.dump() << "]}</script>";
         for (std::size_t b = 0; b < packed.blocks.size(); ++b)
             page << "<script id=\"crackle-0-" << b << "\">" << packed.blocks[b] << "</script>";
     }
