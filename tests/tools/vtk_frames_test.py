@@ -113,7 +113,7 @@ def covered_by(shapes, view):
 
 def drawn_by_plot(folder, picture):
     """Our figure's silhouette, upside up as arrays of VTK are: warm greys are particles, cold ones platens and letters."""
-    subprocess.run([os.environ["CRACKLE_PROGRAM"], "plot", folder, "--what", "specimen", "--at", "end", "--width", "1000", "--dpi", "72",
+    subprocess.run([os.environ["CRACKLE_PROGRAM"], "plot", folder, "--what", "specimen", "--at", "end", "--width", "1000", "--dpi", "288",
                     "-o", picture, "--quiet"], check=True)
     reader = vtkPNGReader()
     reader.SetFileName(str(picture))

@@ -268,7 +268,7 @@ TEST_F(MineralRock, LabelsByNameOrNumberInTheOrderOfTheFile) {
               rock.notices.end())
         << "asked for 0.1";
     std::ofstream(scratch_ / "labels.txt", std::ios::app) << "mica\n";
-    EXPECT_NE(refusal(minerals + three_minerals).find(":17: minerals.labels: found 78 labels"), std::string::npos);
+    EXPECT_NE(refusal(minerals + three_minerals).find(":18: minerals.labels: found 78 labels"), std::string::npos);
     std::ofstream(scratch_ / "labels.txt") << "quartz\nfelspar\n";
     EXPECT_NE(refusal(minerals + three_minerals).find("labels.txt:2: label: found \"felspar\", expected a mineral"),
               std::string::npos);
@@ -333,7 +333,7 @@ TEST_F(MineralRock, GrainHasTheColourOfMostOfItsPixels) {
 TEST_F(MineralRock, ImagesThatDoNotFitAreRefused) {
     const std::string minerals =
         std::string("[minerals]\nassign = \"image\"\nimage = \"section.png\"\n") + three_minerals;
-    EXPECT_NE(refusal(minerals).find(":17: minerals.image: found no file"), std::string::npos);
+    EXPECT_NE(refusal(minerals).find(":18: minerals.image: found no file"), std::string::npos);
     std::ofstream(scratch_ / "section.png") << "GIF89a";
     EXPECT_NE(refusal(minerals).find("cannot be read as PNG"), std::string::npos);
     write_png(scratch_ / "section.png", 2, {red, green, blue, 0xff0000fe});
@@ -365,58 +365,58 @@ INSTANTIATE_TEST_SUITE_P(
     ::testing::Values(
         Refusal{"SharesOverOne",
                 "[[mineral]]\nname = \"a\"\narea_share = 0.7\n[[mineral]]\nname = \"b\"\narea_share = 0.6\n",
-                ":20: mineral[2].area_share: found 0.6, with those before it 1.3, expected at most 1 in sum"},
+                ":21: mineral[2].area_share: found 0.6, with those before it 1.3, expected at most 1 in sum"},
         Refusal{"SharesUnderOne", "[[mineral]]\nname = \"a\"\narea_share = 0.7\n",
-                ":15: mineral[1]: found shares of 0.7 in sum, expected 1 in sum"},
+                ":16: mineral[1]: found shares of 0.7 in sum, expected 1 in sum"},
         Refusal{"TwoRests", "[[mineral]]\nname = \"a\"\n[[mineral]]\nname = \"b\"\n",
                 "found 2 minerals without area_share, expected at most one"},
         Refusal{"NoRest", "[[mineral]]\nname = \"a\"\narea_share = 1\n[[mineral]]\nname = \"b\"\n",
                 "found a mineral without area_share where the others fill all"},
         Refusal{"NoShare", "[[mineral]]\nname = \"a\"\narea_share = 0\n",
-                ":17: mineral[1].area_share: found 0, expected a number > 0 and <= 1"},
+                ":18: mineral[1].area_share: found 0, expected a number > 0 and <= 1"},
         Refusal{"NamedTwice", "[[mineral]]\nname = \"a\"\n[[mineral]]\nname = \"a\"\n",
-                ":18: mineral[2].name: found \"a\" a second time"},
-        Refusal{"NameLikeANumber", "[[mineral]]\nname = \"12\"\n", ":16: mineral[1].name: found \"12\""},
+                ":19: mineral[2].name: found \"a\" a second time"},
+        Refusal{"NameLikeANumber", "[[mineral]]\nname = \"12\"\n", ":17: mineral[1].name: found \"12\""},
         Refusal{"NoName", "[[mineral]]\narea_share = 1\n",
-                ":15: mineral[1].name: found nothing, expected a text in quotes; add it to [[mineral]]"},
+                ":16: mineral[1].name: found nothing, expected a text in quotes; add it to [[mineral]]"},
         Refusal{"UnknownKey", "[[mineral]]\nname = \"a\"\nhardness = 7\n",
-                ":17: mineral.hardness: found an unknown key, expected one of name"},
+                ":18: mineral.hardness: found an unknown key, expected one of name"},
         Refusal{"NegativeDensity", "[[mineral]]\nname = \"a\"\ndensity = -1\n",
-                ":17: mineral[1].density: found -1, expected a number > 0 in kg/m2"},
+                ":18: mineral[1].density: found -1, expected a number > 0 in kg/m2"},
         Refusal{"OneTable", "[mineral]\nname = \"a\"\n",
-                ":15: mineral: found a table, expected a list of tables; write [[mineral]] above each"},
+                ":16: mineral: found a table, expected a list of tables; write [[mineral]] above each"},
         Refusal{"Dashpot", "[[mineral]]\nname = \"a\"\nnormal_damping = 3\n",
-                ":17: mineral[1].normal_damping: found a dashpot where [material] has none"},
+                ":18: mineral[1].normal_damping: found a dashpot where [material] has none"},
         Refusal{"NegativeSeed", "[minerals]\nseed = -1\n[[mineral]]\nname = \"a\"\n",
-                ":16: minerals.seed: found -1, expected a whole number >= 0"},
+                ":17: minerals.seed: found -1, expected a whole number >= 0"},
         Refusal{"AssignWord", "[minerals]\nassign = \"best\"\n[[mineral]]\nname = \"a\"\n",
-                ":16: minerals.assign: found \"best\", expected \"random\" or"},
-        Refusal{"NoMinerals", "[minerals]\nseed = 1\n", ":15: minerals: found no [[mineral]]"},
+                ":17: minerals.assign: found \"best\", expected \"random\" or"},
+        Refusal{"NoMinerals", "[minerals]\nseed = 1\n", ":16: minerals: found no [[mineral]]"},
         Refusal{"LabelsUnused", "[minerals]\nlabels = \"x\"\n[[mineral]]\nname = \"a\"\n",
-                ":16: minerals.labels: found a file, expected none; only assign = \"labels\" reads it"},
+                ":17: minerals.labels: found a file, expected none; only assign = \"labels\" reads it"},
         Refusal{"LabelsMissing", "[minerals]\nassign = \"labels\"\n[[mineral]]\nname = \"a\"\n",
-                ":15: minerals.labels: found nothing, expected a file name"},
+                ":16: minerals.labels: found nothing, expected a file name"},
         Refusal{"ColourMissing", "[minerals]\nassign = \"image\"\nimage = \"x\"\n[[mineral]]\nname = \"a\"\n",
-                ":18: mineral[1].colour: found nothing, expected \"#rrggbb\""},
+                ":19: mineral[1].colour: found nothing, expected \"#rrggbb\""},
         Refusal{"ColourWord", "[[mineral]]\nname = \"a\"\ncolour = \"red\"\n",
-                ":17: mineral[1].colour: found \"red\", expected \"#rrggbb\""},
+                ":18: mineral[1].colour: found \"red\", expected \"#rrggbb\""},
         Refusal{"ColourTwice",
                 "[[mineral]]\nname = \"a\"\ncolour = \"#AA0000\"\narea_share = 0.5\n[[mineral]]\nname = \"b\"\ncolour "
                 "= \"#aa0000\"\n",
-                ":21: mineral[2].colour: found \"#aa0000\", which a has"},
+                ":22: mineral[2].colour: found \"#aa0000\", which a has"},
         Refusal{"PairUnknown",
                 "[[mineral]]\nname = \"a\"\n[[mineral_pair]]\nbetween = [\"a\", \"b\"]\nfriction_angle = 1\n",
-                ":18: mineral_pair[1].between: found \"b\", expected names of minerals: a"},
+                ":19: mineral_pair[1].between: found \"b\", expected names of minerals: a"},
         Refusal{"PairOfOne", "[[mineral]]\nname = \"a\"\n[[mineral_pair]]\nbetween = [\"a\"]\n",
-                ":18: mineral_pair[1].between: found an array, expected two texts in square brackets"},
+                ":19: mineral_pair[1].between: found an array, expected two texts in square brackets"},
         Refusal{"PairTwice",
                 "[[mineral]]\nname = \"a\"\n[[mineral_pair]]\nbetween = [\"a\", \"a\"]\nfriction_angle = 1\n"
                 "[[mineral_pair]]\nbetween = [\"a\", \"a\"]\nfriction_angle = 1\n",
-                ":21: mineral_pair[2].between: found a and a a second time"},
+                ":22: mineral_pair[2].between: found a and a a second time"},
         Refusal{"PairOfNames", "[[mineral]]\nname = \"a\"\n[[mineral_pair]]\nbetween = [\"a\", \"a\"]\n",
-                ":17: mineral_pair[1]: found names alone, expected one at least of normal_stiffness"},
+                ":18: mineral_pair[1]: found names alone, expected one at least of normal_stiffness"},
         Refusal{"PairDensity", "[[mineral]]\nname = \"a\"\n[[mineral_pair]]\nbetween = [\"a\", \"a\"]\ndensity = 1\n",
-                ":19: mineral_pair.density: found an unknown key, expected one of between"}),
+                ":20: mineral_pair.density: found an unknown key, expected one of between"}),
     [](const auto& refused) { return refused.param.name; });
 
 TEST_F(MineralRock, FileWithMaterialsOfItsOwnIsRefused) {

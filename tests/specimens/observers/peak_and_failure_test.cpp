@@ -145,8 +145,14 @@ TEST(Failure, ShareIsAsSet) {
     EXPECT_EQ(failing_row(below, then({0, 8}, 5.5, 40)), 12);
 }
 
-TEST(Strength, IsTheFirstMaximumThatADropFollows) {
+FailureTracker by_a_tenth() {
     FailureTracker tracker;
+    tracker.strength_drop = 0.1;
+    return tracker;
+}
+
+TEST(Strength, IsTheFirstMaximumThatADropFollows) {
+    FailureTracker tracker = by_a_tenth();
     EXPECT_EQ(known_row(tracker, then({0, 8}, 7.0, 20)), 12) << "below 7.2 from row 2 on, ten rows later";
     EXPECT_EQ(tracker.peak_row, 1);
     EXPECT_FALSE(tracker.collapsed) << "above half the peak";
@@ -154,7 +160,7 @@ TEST(Strength, IsTheFirstMaximumThatADropFollows) {
 }
 
 TEST(Strength, IsNotALaterPeakOfRubble) {
-    FailureTracker tracker;
+    FailureTracker tracker = by_a_tenth();
     std::vector<double> stress = then({0, 8}, 6.0, 11);  // rows 2 to 12
     stress.insert(stress.end(), {9.0, 12.0, 16.0});
     std::vector<bool> new_peak;
@@ -175,14 +181,14 @@ TEST(Strength, IsNotALaterPeakOfRubble) {
 }
 
 TEST(Strength, OfAPlateauIsItsFirstRow) {
-    FailureTracker flat, falling;
+    FailureTracker flat = by_a_tenth(), falling = by_a_tenth();
     EXPECT_EQ(known_row(flat, then({0, 8, 8, 8}, 7.5, 40)), -1) << "not by a tenth";
     EXPECT_EQ(known_row(falling, then({0, 8, 8, 8}, 7.0, 40)), 4 + 10);
     EXPECT_EQ(falling.peak_row, 1);
 }
 
 TEST(Strength, ADropThatRecoversTooSoonCountsForNothing) {
-    FailureTracker higher, lower;
+    FailureTracker higher = by_a_tenth(), lower = by_a_tenth();
     std::vector<double> stress = then({0, 8}, 5.0, 10);  // rows 2 to 11: nine rows from the first to the last
     stress.push_back(9.0);
     EXPECT_EQ(known_row(higher, then(stress, 7.0, 20)), 13 + 10);
@@ -193,14 +199,14 @@ TEST(Strength, ADropThatRecoversTooSoonCountsForNothing) {
 }
 
 TEST(Strength, ADropOfExactlyTheShareIsNotBelowIt) {
-    FailureTracker at, below;
+    FailureTracker at = by_a_tenth(), below = by_a_tenth();
     at.strength_drop = below.strength_drop = 0.125;
     EXPECT_EQ(known_row(at, then({0, 8}, 7.0, 40)), -1);
     EXPECT_EQ(known_row(below, then({0, 8}, 6.999, 40)), 12);
 }
 
 TEST(Strength, WithoutADropIsTheLargestStressSoFar) {
-    FailureTracker tracker;
+    FailureTracker tracker = by_a_tenth();
     EXPECT_EQ(known_row(tracker, {0, 1, 2, 3, 2.9, 4, 5}), -1);
     EXPECT_EQ(tracker.peak_row, 6);
     EXPECT_EQ(tracker.largest_row, 6);
@@ -209,12 +215,12 @@ TEST(Strength, WithoutADropIsTheLargestStressSoFar) {
 TEST(Strength, NeedsATenthOfTheStrainAtItsPeak) {
     std::vector<double> rise;
     for (int row = 0; row <= 205; ++row) rise.push_back(row);
-    FailureTracker tracker;
+    FailureTracker tracker = by_a_tenth();
     EXPECT_EQ(known_row(tracker, then(rise, 150.0, 100)), 206 + 21) << "20.5 rows of strain decide";
 }
 
 TEST(Strength, IsTheLargestStressWhereTheTestEndsBeforeSuchADrop) {
-    FailureTracker tracker;
+    FailureTracker tracker = by_a_tenth();
     tracker.strength_drop = 0.75;
     EXPECT_EQ(known_row(tracker, then({0, 8}, 3.0, 20)), 12) << "below half the peak";
     EXPECT_TRUE(tracker.collapsed);
@@ -223,7 +229,7 @@ TEST(Strength, IsTheLargestStressWhereTheTestEndsBeforeSuchADrop) {
 
 /// Stress is positive in the sense of the test: pulled apart it falls to nothing, and swings beyond.
 TEST(Strength, OfASpecimenPulledApart) {
-    FailureTracker tracker;
+    FailureTracker tracker = by_a_tenth();
     std::vector<double> stress{0, 4, 8, 0, -1};
     EXPECT_EQ(known_row(tracker, then(stress, 0.01, 20)), 3 + 10);
     EXPECT_TRUE(tracker.collapsed);

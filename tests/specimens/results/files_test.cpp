@@ -108,7 +108,7 @@ TEST_F(TestFolder, HoldsWhatReadersLookFor) {
 TEST_F(TestFolder, FramesAreReadInTheOrderOfTheirRows) {
     run_test(small_case(), options("out"));
     const Recording recording = read_test_recording(scratch_ / "out", 100);
-    ASSERT_GT(recording.frames.size(), 10u);
+    ASSERT_GT(recording.frames.size(), 3u);
     for (std::size_t k = 1; k < recording.frames.size(); ++k)
         EXPECT_GT(recording.frames[k].time, recording.frames[k - 1].time);
 }
