@@ -33,6 +33,10 @@ const std::vector<Claim>& claims() {
                  conservation_claims(),
                  invariance_claims(),
                  bond_claims(),
+                 coulomb_bond_claims(),
+                 strength_factor_claims(),
+                 bundle_claims(),
+                 face_claims(),
                  mesh_claims(),
                  stress_claims(),
              }) {

@@ -25,6 +25,10 @@ std::vector<Claim> loading_claims();
 std::vector<Claim> conservation_claims();
 std::vector<Claim> invariance_claims();
 std::vector<Claim> bond_claims();
+std::vector<Claim> coulomb_bond_claims();
+std::vector<Claim> strength_factor_claims();
+std::vector<Claim> bundle_claims();
+std::vector<Claim> face_claims();
 std::vector<Claim> mesh_claims();
 std::vector<Claim> stress_claims();
 
