@@ -67,7 +67,7 @@ TEST_F(CaseFile, ReadsWhatIsWrittenAndFillsInDefaults) {
     EXPECT_EQ(test.material.density, 2500.0) << "a whole number is a number";
     EXPECT_EQ(test.loading.kind, "tension");
     EXPECT_EQ(test.loading.platens, "bonded");
-    EXPECT_EQ(test.loading.strength_drop, 0.05);
+    EXPECT_EQ(test.loading.strength_drop, 0.1);
     EXPECT_EQ(test.loading.stop_at_share_of_peak, 0.5);
     EXPECT_FALSE(test.output.out_of_plane_thickness.has_value());
     EXPECT_EQ(test.output.curve_rows, 2000);
