@@ -288,7 +288,7 @@ std::vector<Parameter> all_parameters() {
                     "tenth of the strain there.")
             .above(0)
             .below(1)
-            .otherwise(0.05),
+            .otherwise(0.1),
         CRACKLE_KEY(loading, stop_at_share_of_peak, "",
                     "The test ends: stress below this share of its largest for a tenth of the strain there.")
             .above(0)

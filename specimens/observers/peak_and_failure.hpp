@@ -29,9 +29,9 @@ struct StressDrop {
 /// Finds peak, largest stress and failure in the rows of a curve, one after the other. Stress and strain positive in
 /// the sense of the test.
 struct FailureTracker {
-    double strength_drop = 0.05;  ///< share of the peak
-    double share_of_peak = 0.5;   ///< of the largest stress: the test ends below
-    double peak_stress = 0.0;     // N/m
+    double strength_drop = 0.1;  ///< share of the peak
+    double share_of_peak = 0.5;  ///< of the largest stress: the test ends below
+    double peak_stress = 0.0;    // N/m
     double peak_strain = 0.0;
     std::int64_t peak_row = -1;   ///< -1: no stress yet
     double largest_stress = 0.0;  // N/m, so far

@@ -103,7 +103,7 @@ def recount_curve(r):
     r.key("area_strain_end", sense * strain[-1] - lateral[-1])
     if case("output", "curve_rows", 2000) < 2000:
         return  # peak and windows are those of rows that were not written
-    peak, dropped = find_fall(strain, stress, 1 - case("loading", "strength_drop", 0.05))
+    peak, dropped = find_fall(strain, stress, 1 - case("loading", "strength_drop", 0.1))
     _, end = find_fall(strain, stress, case("loading", "stop_at_share_of_peak", 0.5))
     failed = dropped is not None or end is not None
     r.key("failed", failed)

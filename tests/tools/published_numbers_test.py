@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """tests/benchmarks/published_numbers: small studies end with their pages, and another program's results are not taken over."""
 import csv
+import json
 import os
 import pathlib
 import subprocess
@@ -47,6 +48,22 @@ class PublishedNumbers(unittest.TestCase):
         before = {path: path.stat().st_mtime_ns for path in self.out.rglob("summary.json")}
         self.assertEqual(study("modulus", self.out).returncode, 0)
         self.assertEqual({path: path.stat().st_mtime_ns for path in self.out.rglob("summary.json")}, before)
+
+    def test_strengths_by_four_drops_and_what_moves_them(self):
+        done = study("strength", self.out, "--slow-packings-of", "voronoi_tension", "1")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        first, second = self.rows("strength")
+        for row in (first, second):
+            summary = json.loads((self.out / f"voronoi_tension/{row['seed']}_as_shipped/summary.json").read_text())
+            self.assertEqual(float(row["as_shipped_0.1"]), summary["peak_stress"], "the program's own")
+            self.assertEqual(float(row["as_shipped_largest"]), summary["largest_stress"])
+            half = json.loads((self.out / f"voronoi_tension/{row['seed']}_half_step/summary.json").read_text())
+            self.assertAlmostEqual(half["time_step_mean"] / summary["time_step_mean"], 0.5, delta=0.01)
+            strengths = [float(row[f"as_shipped_{drop}"]) for drop in ("0.05", "0.1", "0.2", "0.5", "largest")]
+            self.assertEqual(strengths, sorted(strengths), "a deeper drop finds no smaller maximum")
+        self.assertEqual(second["slow_0.1"], "", "not run")
+        self.assertNotEqual(first["slow_0.1"], "")
+        self.assertIn("| voronoi, tension | 0.1 |", (self.out / "strength.md").read_text())
 
     def test_refuses_results_of_another_program(self):
         self.out.mkdir()

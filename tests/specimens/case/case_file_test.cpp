@@ -68,7 +68,7 @@ TEST_F(CaseFile, ReadsWhatIsWrittenAndFillsInDefaults) {
     EXPECT_EQ(test.loading.kind, "tension");
     EXPECT_EQ(test.loading.platens, "glued") << "what pulls is stronger than the rock";
     EXPECT_EQ(test.loading.grip, default_grip);
-    EXPECT_EQ(test.loading.strength_drop, 0.05);
+    EXPECT_EQ(test.loading.strength_drop, 0.1);
     EXPECT_EQ(test.loading.stop_at_share_of_peak, 0.5);
     EXPECT_EQ(test.packing.seed, 1);
     EXPECT_EQ(test.mesh.boundary, "domain");

@@ -22,7 +22,7 @@ TestCase packed_case(std::int64_t seed, const char* kind, double rate, double ma
     test.loading.kind = kind;
     test.loading.axial_strain_rate = rate;
     test.loading.max_axial_strain = max_strain;
-    test.loading.strength_drop = 0.05;
+    test.loading.strength_drop = 0.1;
     test.loading.stop_at_share_of_peak = 0.5;
     test.loading.platens = "bonded";
     test.numerics.safety_factor = 0.8;
