@@ -434,8 +434,8 @@ def recount_envelope(r, model, bonds, of_bond, in_shear):
     # Of two limits exceeded in one step the way decides, which only a frame a step holds (history.py).
     r.compare("events: rows with another mode", int(np.sum(np.where(in_shear, ~shears, ~parts))), 0, 0)
     r.compare("events: coulomb bonds that slid", int(np.sum(e["slid"])), 0, 0)
-    over = np.where(in_shear, shear - limit, -normal - tensile) / (tensile + bonds.cohesion[m])
-    r.rows("events: force beyond the limit", over, np.zeros(len(over)), one_step)
+    over = np.where(in_shear, shear - limit, -normal - tensile)
+    r.rows("events: force beyond the limit", over, np.zeros(len(over)), one_step * (bonds.tensile + bonds.cohesion).mean())
     r.true("events: no energy below 0", np.all(np.asarray(e["energy"]) >= 0))
     kn, ks = model.normal_stiffness(bonds)[m], model.shear_stiffness(bonds)[m]
     kept = np.maximum(0.0, normal + kn * (bonds.overlap[m] - rest_after(model, bonds.overlap[m])))
@@ -444,7 +444,7 @@ def recount_envelope(r, model, bonds, of_bond, in_shear):
     # The account takes the mean force of the last step: at most as much beyond as the force grew in it.
     size = (np.abs(normal) + kept) ** 2 / 2 / kn + shear**2 / 2 / ks
     energy = np.asarray(e["energy"])[known]
-    r.rows("events: energy of the forces", energy, stored, one_step * size)
+    r.rows("events: energy of the forces", energy, stored, size)
     r.compare("events: energy of all their forces", energy.sum(), stored.sum(), mean_step * size.sum())
 
 
