@@ -226,6 +226,11 @@ def recount_frame(r, model, bonds, frame, first, row):
     broken = int(np.sum((state == 2) | (state == 3)))
     by_events = int(np.sum(r.events["time"] <= frame.time * (1 + 1e-12))) if len(r.events["time"]) else 0
     r.compare(label + "broken bonds of events.csv", broken, by_events, 0)
+    for name in ("time", "energy", "strength", "orientation", "body_i", "body_j"):
+        drawn = frame.cracks.get("polygon time" if name == "time" else name, [])  # the moment's own comes first
+        r.rows(label + f"cracks: {name} of events.csv", drawn, r.events[name][:by_events], 0)
+    shears = [float(mode == "shear") for mode in r.events["mode"][:by_events]]
+    r.rows(label + "cracks: mode of events.csv", frame.cracks.get("mode", []), shears, 0)
     gone = sorted(tuple(sorted(pair)) for pair in zip(frame.contacts["body_i"][(state == 2) | (state == 3)],
                                                       frame.contacts["body_j"][(state == 2) | (state == 3)]))
     rows = [(int(a), int(b)) for a, b in zip(r.events["body_i"], r.events["body_j"])][:by_events]
