@@ -10,7 +10,8 @@ import numpy as np
 from frames import bodies_of, match, relative_motion, rest_after, touching_floor
 from model import dot, rounding, turned
 
-single = 1e-7  # relative, of numbers kept in single precision: forces of events, dashpots' of the step before
+# Relative, of numbers kept in single precision: forces of events by back-tension, dashpots' of the step before.
+single = 1e-7
 
 
 def holds_every_step(r, rows):
@@ -207,7 +208,7 @@ def recount_history(r, model, bonds, rows):
     r.rows("history: slid of breaks", np.asarray(e["slid"])[at], [float(p.slid) for p in parted], 0)
     if model.coulomb:
         r.compare("history: mode of breaks", sum((e["mode"][k] == "shear") != p.in_shear for k, p in zip(at, parted)), 0, 0)
-    r.rows("history: normal force of breaks", np.asarray(e["normal_force"])[at], [p.failing[0] for p in parted],
-           single * strength)
+    kept = (rounding if model.coulomb else single) * strength
+    r.rows("history: normal force of breaks", np.asarray(e["normal_force"])[at], [p.failing[0] for p in parted], kept)
     r.rows("history: shear force of breaks", np.abs(np.asarray(e["shear_force"])[at]),
-           [abs(p.failing[1]) for p in parted], single * strength)
+           [abs(p.failing[1]) for p in parted], kept)

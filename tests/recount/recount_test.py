@@ -66,6 +66,7 @@ def scattered(distribution, cv):
 
 
 factors = "tensile_factor = 1.0\ncohesion_factor = 3.0\nrange = 0.05\n" + scattered("lognormal", 0.3)
+circles_every_step = rock[len(packing) :] + cohesive + factors + squeezed + "axial_strain_rate = 0.3\n"
 
 
 # Figures of a test of circles squeezed at a rate with companions.
@@ -108,6 +109,11 @@ def cells_of_an_area_pulled():
 
 def circles_by_factors():
     return run("factors", rock + cohesive + factors + squeezed + rate + output)
+
+
+def every_step_of_few(name, case):
+    small, every = packing.replace("count = 80", "count = 24"), output.replace("frames = 12", "frames = 2000")
+    return run("every_step_" + name, small + case + every)
 
 
 def differing(folder):
@@ -202,16 +208,15 @@ class Recount(unittest.TestCase):
         self.assertEqual(json.loads((folder / "summary.json").read_text())["failed_at"], "platen")
 
     def test_every_step_of_coulomb_bonds(self):
-        small, every = packing.replace("count = 80", "count = 24"), output.replace("frames = 12", "frames = 2000")
         weak = strengths.replace("1.0e7", "0.5e7").replace("3.0e7", "0.5e7")
         for name, case in (
             ("cells", area + strengths + cells + cohesive + scattered("weibull", 0.3) + pulled + "axial_strain_rate = 0.8\n"),
             ("frictional", area + weak + cells + cohesive + squeezed.replace("0.02", "0.006") + "axial_strain_rate = 3.0\n"
              + friction.replace("15.0", "30.0")),
-            ("circles", rock[len(packing) :] + cohesive + factors + squeezed + "axial_strain_rate = 0.3\n"),
+            ("circles", circles_every_step),
         ):
             with self.subTest(case=name):
-                folder = run("every_step_coulomb_" + name, small + case + every)
+                folder = every_step_of_few("coulomb_" + name, case)
                 self.assertTrue(any("history" in line[0] for line in recount(folder).lines), "a frame a step")
                 self.agrees(folder, 180)
 
@@ -403,6 +408,19 @@ class FaultsAreFound(unittest.TestCase):
         whole = [line.split(",")[0] for line in lines[1:]]
         found = self.spoil_column("curve.csv", "gauge_strain", lambda column: whole, cells_of_an_area_pulled())
         self.found(found, "gauge_strain")
+
+    def test_single_breaks_of_coulomb_bonds(self):
+        sound = every_step_of_few("coulomb_circles", circles_every_step)
+        more = lambda values: [str(float(value) * 1.001) for value in values]  # noqa: E731
+        for column in ("energy", "normal_force", "shear_force"):
+            with self.subTest(column=column):
+                found = self.spoil_column("events.csv", column, more, sound)
+                self.found(found, f"history: {column.replace('_', ' ')} of breaks")
+
+        def last(words):
+            return words[:-1] + ["tension" if words[-1] == "shear" else "shear"]
+
+        self.found(self.spoil_column("events.csv", "mode", last, sound), "history: mode of breaks")
 
     def test_energies_and_sliding_points_of_the_curve(self):
         for column in ("strain_energy", "kinetic_energy", "points_sliding", "stress_top"):
