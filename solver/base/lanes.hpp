@@ -124,6 +124,18 @@ CRACKLE_INLINE unsigned mask_of(const LaneBits& v) {
 CRACKLE_INLINE bool any(bool condition) { return condition; }
 CRACKLE_INLINE bool any(const LaneBits& condition) { return mask_of(condition) != 0; }
 
+/// Of each lane the number that its index names. @param table of lane_count numbers
+CRACKLE_INLINE Lanes looked_up(const double* table, const LaneBits& index) {
+#if defined(__AVX512F__)
+    const __m512d found = _mm512_maskz_permutexvar_pd(0xff, load_as<__m512i>(&index), load_as<__m512d>(table));
+    return load_as<Lanes>(&found);
+#else
+    Lanes result;
+    for (int l = 0; l < lane_count; ++l) result[l] = table[index[l]];
+    return result;
+#endif
+}
+
 /// Whether every bit of every lane is 0.
 CRACKLE_INLINE bool none_of(bool condition) { return !condition; }
 CRACKLE_INLINE bool none_of(const LaneBits& v) {

@@ -4,9 +4,12 @@
 // both give the same bytes.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <type_traits>
+#include <vector>
 
 #include "solver/base/lanes.hpp"
 #include "solver/contact/coulomb_bond.hpp"
@@ -251,20 +254,80 @@ CRACKLE_INLINE void geometry_batches(World& world, PointIndex k, PointIndex batc
     }
 }
 
-/// Law of the points of a batch: kept from one batch to the next where they are all of one, else loaded for each.
-struct BatchLaw {
-    BatchLaw(const World& world, std::uint16_t number_of_law)
-        : law(world.settings.laws[number_of_law]), number(number_of_law) {}
+/// The numbers of all laws, those of one kind side by side, where there are no more laws than lanes.
+struct LawTable {
+    bool filled = false;
+    bool fits = false;  // no more laws than lanes, all with a shear spring or none
+    alignas(64) double numbers[11][lane_count];
 
-    Law<Lanes> law;
-    LaneBit number;  // into Settings::laws; none: of several
+    void fill(const World& world) {
+        const std::vector<ContactLaw>& laws = world.settings.laws;
+        const auto has_spring = [](const ContactLaw& law) { return law.shear_stiffness > 0.0; };
+        const auto springs = std::count_if(laws.begin(), laws.end(), has_spring);
+        filled = true;
+        fits = laws.size() <= lane_count && (springs == 0 || springs == static_cast<std::ptrdiff_t>(laws.size()));
+        if (!fits) return;
+        for (std::size_t k = 0; k < lane_count; ++k) {
+            const ContactLaw& law = laws[std::min(k, laws.size() - 1)];
+            const double all[] = {law.normal_stiffness,
+                                  law.shear_stiffness,
+                                  law.normal_damping,
+                                  law.shear_damping,
+                                  law.normal_damping_ratio_term,
+                                  law.shear_damping_ratio_term,
+                                  law.friction,
+                                  law.break_overlap,
+                                  law.tensile_strength,
+                                  law.cohesion,
+                                  law.bond_friction};
+            for (std::size_t n = 0; n < std::size(all); ++n) numbers[n][k] = all[n];
+        }
+    }
 };
 
-inline constexpr LaneBit several_laws = -1;
+/// Law of the points of a batch: kept from one batch to the next where they are all of one, else found for each.
+struct BatchLaw {
+    BatchLaw(const World& world, std::uint16_t number_of_law) { take(world, number_of_law); }
 
-/// Each point's law. @return whether lanes can have them: all with a shear spring, or none
-CRACKLE_INLINE bool load_laws(const World& world, const PointState* states, bool damping, bool coulomb,
-                              Law<Lanes>& law) {
+    void take(const World& world, std::uint16_t number_of_law) {
+        law = Law<Lanes>(world.settings.laws[number_of_law]);
+        number = number_of_law;
+    }
+
+    Law<Lanes> law;
+    LaneBit number = several_laws;  // into Settings::laws
+    LawTable table;
+
+    static constexpr LaneBit several_laws = -1;
+};
+
+/// Each point's law. @param numbers of the laws @return whether lanes can have them: all with a shear spring, or none
+template <ContactFeatures F>
+CRACKLE_INLINE bool load_laws(const World& world, const PointState* states, const LaneBits& numbers, BatchLaw& batch) {
+    Law<Lanes>& law = batch.law;
+    batch.number = BatchLaw::several_laws;
+    if (!batch.table.filled) batch.table.fill(world);
+    if (batch.table.fits) {
+        const auto& table = batch.table.numbers;
+        law.normal_stiffness = looked_up(table[0], numbers);
+        law.shear_stiffness = looked_up(table[1], numbers);
+        if constexpr (F.damping) {
+            law.normal_damping = looked_up(table[2], numbers);
+            law.shear_damping = looked_up(table[3], numbers);
+            law.normal_damping_ratio_term = looked_up(table[4], numbers);
+            law.shear_damping_ratio_term = looked_up(table[5], numbers);
+        }
+        if constexpr (F.friction) law.friction = looked_up(table[6], numbers);
+        if constexpr (F.bonds && !F.coulomb) law.break_overlap = looked_up(table[7], numbers);
+        if constexpr (F.coulomb) {
+            law.tensile_strength = looked_up(table[8], numbers);
+            law.cohesion = looked_up(table[9], numbers);
+            law.bond_friction = looked_up(table[10], numbers);
+        }
+        law.has_shear_spring = world.settings.laws.front().shear_stiffness > 0.0;
+        law.follow_stiffness();
+        return true;
+    }
     const ContactLaw* laws[lane_count];
     int springs = 0;
     for (int l = 0; l < lane_count; ++l) {
@@ -280,11 +343,11 @@ CRACKLE_INLINE bool load_laws(const World& world, const PointState* states, bool
     };
     load(&ContactLaw::normal_stiffness, law.normal_stiffness, law.shear_stiffness);
     load(&ContactLaw::friction, law.friction, law.break_overlap);
-    if (damping) {
+    if constexpr (F.damping) {
         load(&ContactLaw::normal_damping, law.normal_damping, law.shear_damping);
         load(&ContactLaw::normal_damping_ratio_term, law.normal_damping_ratio_term, law.shear_damping_ratio_term);
     }
-    if (coulomb) {
+    if constexpr (F.coulomb) {
         Lanes unused;
         load(&ContactLaw::tensile_strength, law.tensile_strength, law.cohesion);
         load(&ContactLaw::bond_friction, law.bond_friction, unused);
@@ -368,11 +431,9 @@ CRACKLE_INLINE BatchState look_at_batch(World& world, PointIndex k, const BatchG
     LaneBits unlike = law_and_flags ^ (law.number | bits_of_flags(at_rest));
     if (!none_of(unlike & of_law)) {
         if (none_of((law_and_flags ^ law_and_flags[0]) & of_law)) {
-            law = BatchLaw(world, states[0].law);
-        } else {
-            law.number = several_laws;
-            if (!load_laws(world, states, F.damping, F.coulomb, law.law))
-                return {BatchCase::one_by_one, states, law_and_flags, LaneBits{}, LaneBits{}};
+            law.take(world, states[0].law);
+        } else if (!load_laws<F>(world, states, law_and_flags & of_law, law)) {
+            return {BatchCase::one_by_one, states, law_and_flags, LaneBits{}, LaneBits{}};
         }
         unlike = (law_and_flags ^ bits_of_flags(at_rest)) & ~of_law;
     }

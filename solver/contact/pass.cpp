@@ -60,14 +60,13 @@ inline void feel_bodies(const World& world, const ContactPoint& point, const Con
     if constexpr (K != PointKind::element_wall) add(point.body_j, g.ajx, g.ajy, -1.0);
 }
 
-/// Law of a point with its share.
+/// Law of a point, with its share where it has one.
 template <ContactFeatures F>
-inline Law<double> law_of_point(const World& world, PointIndex k) {
-    const Law<double> law(world.settings.laws[world.points.state[k].law]);
+inline Law<double> law_for(const World& world, PointIndex k) {
     if constexpr (F.own_shares)
-        return law.with_share(world.points.stiffness_share[k]);
+        return law_of_point(world, k);
     else
-        return law;
+        return Law<double>(world.settings.laws[world.points.state[k].law]);
 }
 
 /// A coulomb bond breaks: what is left of its forces acts. record_breaks() writes that into the point.
@@ -102,7 +101,7 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
     ContactPoint& point = world.points.contact[k];
     PointState& state = world.points.state[k];
     const auto g = geometry_of_point<K>(world, point);
-    const Law<double> law = law_of_point<F>(world, k);
+    const Law<double> law = law_for<F>(world, k);
     bool bonded = false;
     if constexpr (F.bonds) bonded = (state.flags & point_bonded) != 0;
     double overlap = g.overlap;  // m, of a point without a bond beyond the one without force

@@ -39,14 +39,20 @@ inline RelativeMotion<double> motion_of_point(const World& world, const ContactP
     }
 }
 
+/// Law of a point with its share of stiffness.
+inline Law<double> law_of_point(const World& world, PointIndex k) {
+    const Law<double> law(world.settings.laws[world.points.state[k].law]);
+    return world.points.stiffness_share.empty() ? law : law.with_share(world.points.stiffness_share[k]);
+}
+
 /// Of a bonded point.
 struct PointMotion {
     double opening;            // m, δ - δ0
     double closing, slipping;  // m/s
 };
 
-/// @param law of the point
-inline BondStrength<double> bond_strength(const World& world, PointIndex k, const Law<double>& law) {
+inline BondStrength<double> bond_strength(const World& world, PointIndex k) {
+    const ContactLaw& law = world.settings.laws[world.points.state[k].law];
     const double share = world.points.strength_share[k];
     return {law.tensile_strength * share, law.cohesion * share, law.bond_friction};
 }
@@ -62,13 +68,13 @@ inline BondForces forces_now(const World& world, PointIndex k, const Law<double>
 }
 
 inline bool bond_fails(const World& world, PointIndex k, const Law<double>& law, const PointMotion& motion) {
-    const BondStrength<double> strength = bond_strength(world, k, law);
+    const BondStrength<double> strength = bond_strength(world, k);
     const BondForces now = forces_now(world, k, law, motion);
     return fails_in_tension(strength, now.normal) || fails_in_shear(strength, now.normal, now.shear);
 }
 
 inline BrokenBond broken_bond(const World& world, PointIndex k, const Law<double>& law, const PointMotion& motion) {
-    return break_bond(law, bond_strength(world, k, law), forces_before(world, k, law, motion),
+    return break_bond(law, bond_strength(world, k), forces_before(world, k, law, motion),
                       forces_now(world, k, law, motion), motion.opening, world.points.bond_overlap[k]);
 }
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "solver/geometry/geometry.hpp"
@@ -114,6 +115,7 @@ ContactShare share_of_contact(const World& world, PointKind kind, const ContactP
 }
 
 std::optional<ContactShare> share_of_face(const World& world, BodyIndex i, BodyIndex j, double gap) {
+    if (world.bodies.info[i].id > world.bodies.info[j].id) std::swap(i, j);
     const std::vector<OutsetEdge> edges_i = outset_edges(corners_of(world, i), 0.5 * gap),
                                   edges_j = outset_edges(corners_of(world, j), 0.5 * gap);
     ContactShare share;

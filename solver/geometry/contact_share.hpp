@@ -31,7 +31,8 @@ struct ContactShare {
 ContactShare share_of_contact(const World& world, PointKind kind, const ContactPoint& point);
 
 /// Of the face between two bodies at least one of which is a polygon, as they lie. @param gap between the two
-/// outlines, m @return nothing where no two edges face each other
+/// outlines, m. The same for both orders: edges are laid over those of the body with the smaller id. @return nothing
+/// where no two edges face each other
 std::optional<ContactShare> share_of_face(const World& world, BodyIndex i, BodyIndex j, double gap);
 
 }  // namespace crackle

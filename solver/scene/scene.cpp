@@ -9,8 +9,10 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <set>
 #include <span>
 #include <unordered_set>
+#include <utility>
 
 #include "solver/base/errors.hpp"
 
@@ -134,6 +136,25 @@ void validate_laws(const Scene& scene) {
                 return !m.damping_ratio && (m.normal_damping > 0.0 || m.shear_damping > 0.0);
             }))
             throw InputError("materials: found dashpots by value in area units, expected a damping ratio");
+    }
+}
+
+void validate_pairs(const Scene& scene) {
+    std::set<std::pair<int, int>> seen;
+    for (std::size_t k = 0; k < scene.material_pairs.size(); ++k) {
+        const MaterialPair& pair = scene.material_pairs[k];
+        const std::string name = fmt::format("material pair {}: ", k + 1);
+        for (const int m : {pair.a, pair.b}) {
+            if (m < 0 || static_cast<std::size_t>(m) >= scene.materials.size())
+                refuse(name + "material", m + 1, fmt::format("1 to {}", scene.materials.size()));
+        }
+        if (!seen.insert(std::minmax(pair.a, pair.b)).second)
+            throw InputError(fmt::format("{}found materials {} and {} a second time, expected one entry a pair", name,
+                                         pair.a + 1, pair.b + 1));
+        if (pair.normal_stiffness) require_positive(name + "normal stiffness", *pair.normal_stiffness, "N/m");
+        if (pair.shear_stiffness) require_not_negative(name + "shear stiffness", *pair.shear_stiffness, "N/m");
+        if (pair.friction_angle && !(*pair.friction_angle >= 0.0 && *pair.friction_angle < 90.0))
+            refuse(name + "friction angle", *pair.friction_angle, "degrees in 0 <= φ < 90");
     }
 }
 
@@ -317,6 +338,7 @@ MassProperties mass_properties(const Scene& scene, const Body& body) {
 void validate(Scene& scene) {
     if (scene.materials.empty()) throw InputError("materials: found none, expected at least one");
     for (std::size_t k = 0; k < scene.materials.size(); ++k) validate_material(scene.materials[k], k);
+    validate_pairs(scene);
     const auto by_ratio = [](const Material& m) { return m.damping_ratio && *m.damping_ratio > 0.0; };
     const auto by_value = [](const Material& m) {
         return !m.damping_ratio && (m.normal_damping > 0.0 || m.shear_damping > 0.0);

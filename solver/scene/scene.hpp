@@ -52,6 +52,14 @@ struct Material {
     }
 };
 
+/// What holds between two materials in place of what they give together; unordered.
+struct MaterialPair {
+    int a = 0, b = 0;                        ///< indices into Scene::materials; alike for contacts within one
+    std::optional<double> normal_stiffness;  ///< N/m, > 0
+    std::optional<double> shear_stiffness;   ///< N/m, >= 0
+    std::optional<double> friction_angle;    ///< degrees, 0 <= φ < 90
+};
+
 struct CircleElement {
     Vec2 centre;            ///< m
     double radius = unset;  ///< m, > 0
@@ -182,6 +190,7 @@ struct IntactOptions {
 
 struct Scene {
     std::vector<Material> materials;
+    std::vector<MaterialPair> material_pairs;  ///< at most one of two materials
     std::vector<Body> bodies;
     std::vector<CircleElement> circles;
     std::vector<Vec2> vertices;

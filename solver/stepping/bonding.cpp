@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "solver/base/errors.hpp"
 #include "solver/geometry/contact_share.hpp"
@@ -64,11 +65,11 @@ void share_faces(World& world, const Bonding& bonding) {
     for (PointIndex begin = 0; begin < walls;) {
         const PointIndex end = points_between(world, begin).second;
         std::int64_t count = 0;
-        double opening = 0.0;  // m
+        double gap = std::numeric_limits<double>::infinity();  // m, of the faces: corners overhang
         for (PointIndex k = begin; k < end; ++k) {
             if (!bonded(world, k)) continue;
             ++count;
-            opening = std::max(opening, world.settings.thick - world.points.bond_overlap[k]);
+            gap = std::min(gap, world.settings.thick - world.points.bond_overlap[k]);
         }
         const ContactPoint& first = world.points.contact[begin];
         const double factor =
@@ -80,7 +81,7 @@ void share_faces(World& world, const Bonding& bonding) {
                 const PointView view = view_point(world, k);
                 std::optional<ContactShare> face;
                 if (view.kind == PointKind::element_outline && world.bodies.info[view.body_i].piece_count > 0)
-                    face = share_of_face(world, view.body_i, view.body_j, opening);
+                    face = share_of_face(world, view.body_i, view.body_j, gap);
                 const ContactShare share = face ? *face : share_of_contact(world, view.kind, world.points.contact[k]);
                 const double points = face ? static_cast<double>(count) : 1.0;
                 stiffness = share.stiffness() / points;
@@ -193,13 +194,14 @@ void finish_bonding(World& world) {
     world.stepping.step_goal =
         world.stepping.automatic_step && world.bonds.initial > 0 ? world.stepping.safety_factor * exact.step : 0.0;
     evaluate_step_bound(world);
-    world.bonds.broken = 0;
+    world.bonds.broken = world.bonds.broken_after_sliding = 0;
     world.bonds.interfaces_lost = 0;
     visit_remembered(world.points, [&]<class T>(std::vector<T>& values, Remembered remembered) {
         if (remembered != Remembered::always && remembered != Remembered::own_shares)
             values.assign(keeps(world, remembered) ? world.points.size() : 0, T{});
     });
     world.bonds.events.clear();
+    world.bonds.slips.clear();
     world.bonds.events.reserve(static_cast<std::size_t>(std::min<std::int64_t>(world.bonds.initial, events_at_once)));
     restart_account(world);
     world.stepping.drift = 0.0;  // nothing has moved since

@@ -9,6 +9,7 @@
 #include <numbers>
 #include <numeric>
 #include <span>
+#include <utility>
 
 #include "solver/base/errors.hpp"
 #include "solver/linear/step_bound.hpp"
@@ -176,8 +177,8 @@ void add_body(World& world, const Scene& scene, const Body& body, const MassProp
     world.bodies.some_turn = world.bodies.some_turn || !info.single_circle;
 }
 
-/// Springs in series, k = 2k₁k₂/(k₁+k₂), so that equal materials give their own; 0 with 0 gives 0.
-double in_series(double a, double b) { return a + b > 0.0 ? 2.0 * a * b / (a + b) : 0.0; }
+/// Springs in series, k = 2k₁k₂/(k₁+k₂). Equal ones give their own, which the formula may miss in the last bit.
+double in_series(double a, double b) { return a == b ? a : 2.0 * a * b / (a + b); }
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
@@ -187,37 +188,50 @@ void hold(ContactLaw& law) {
     law.tensile_strength = law.cohesion = infinite;
 }
 
-ContactLaw law_between(const Material& a, const Material& b, const Settings& settings) {
+ContactLaw law_between(const Material& a, const Material& b, const MaterialPair& pair, const Settings& settings) {
     ContactLaw law{};
-    law.normal_stiffness = in_series(a.normal_stiffness, b.normal_stiffness);
-    law.shear_stiffness = in_series(a.shear_stiffness, b.shear_stiffness);
+    law.normal_stiffness = pair.normal_stiffness.value_or(in_series(a.normal_stiffness, b.normal_stiffness));
+    law.shear_stiffness = pair.shear_stiffness.value_or(in_series(a.shear_stiffness, b.shear_stiffness));
     // A material's ratio stands for dashpots of its own stiffness; two materials combine as their dashpots would.
     const auto ratio_term = [](const Material& m, double stiffness) {
         return m.damping_ratio ? 2.0 * *m.damping_ratio * std::sqrt(stiffness) : 0.0;
     };
     law.normal_damping_ratio_term = in_series(ratio_term(a, a.normal_stiffness), ratio_term(b, b.normal_stiffness));
     law.shear_damping_ratio_term = in_series(ratio_term(a, a.shear_stiffness), ratio_term(b, b.shear_stiffness));
+    const double ratio = in_series(a.damping_ratio.value_or(0.0), b.damping_ratio.value_or(0.0));
+    if (pair.normal_stiffness) law.normal_damping_ratio_term = 2.0 * ratio * std::sqrt(law.normal_stiffness);
+    if (pair.shear_stiffness) law.shear_damping_ratio_term = 2.0 * ratio * std::sqrt(law.shear_stiffness);
     law.normal_damping = in_series(a.damping_ratio ? 0.0 : a.normal_damping, b.damping_ratio ? 0.0 : b.normal_damping);
     law.shear_damping = in_series(a.damping_ratio ? 0.0 : a.shear_damping, b.damping_ratio ? 0.0 : b.shear_damping);
-    const double angle = std::min(a.friction_angle, b.friction_angle) * std::numbers::pi / 180.0;
-    law.friction = std::tan(angle);
+    const double angle = pair.friction_angle.value_or(std::min(a.friction_angle, b.friction_angle));
+    law.friction = std::tan(angle * std::numbers::pi / 180.0);
     law.tensile_strength = std::min(a.tensile_strength, b.tensile_strength);
     law.cohesion = std::min(a.cohesion, b.cohesion);
     law.bond_friction = law.friction;
-    if (settings.bond_law == BondLaw::coulomb)
-        law.friction =
-            std::tan(std::min(a.residual_friction_angle, b.residual_friction_angle) * std::numbers::pi / 180.0);
+    if (settings.bond_law == BondLaw::coulomb) {
+        const double residual = std::min({a.residual_friction_angle, b.residual_friction_angle, angle});
+        law.friction = std::tan(residual * std::numbers::pi / 180.0);
+    }
     if (settings.intact.no_sliding) law.friction = infinite;
     if (settings.intact.no_breaking) hold(law);
     return law;
 }
 
+/// What the scene says of two materials; nothing where it is silent.
+MaterialPair pair_of(const Scene& scene, std::size_t a, std::size_t b) {
+    const std::pair<int, int> wanted = std::minmax(static_cast<int>(a), static_cast<int>(b));
+    for (const MaterialPair& pair : scene.material_pairs)
+        if (std::pair<int, int>(std::minmax(pair.a, pair.b)) == wanted) return pair;
+    return {};
+}
+
 /// In the order that Settings::laws states.
-void build_laws(World& world) {
+void build_laws(World& world, const Scene& scene) {
     Settings& settings = world.settings;
     const std::vector<Material>& materials = settings.materials;
     for (std::size_t b = 0; b < materials.size(); ++b)
-        for (std::size_t a = 0; a <= b; ++a) settings.laws.push_back(law_between(materials[a], materials[b], settings));
+        for (std::size_t a = 0; a <= b; ++a)
+            settings.laws.push_back(law_between(materials[a], materials[b], pair_of(scene, a, b), settings));
     for (std::size_t pair = 0; pair < settings.pair_count(); ++pair) {
         ContactLaw law = settings.laws[pair];
         hold(law);
@@ -225,7 +239,7 @@ void build_laws(World& world) {
         settings.laws.push_back(law);
     }
     // A domain wall has the touching body's own stiffness, damping and friction.
-    for (const Material& a : materials) settings.laws.push_back(law_between(a, a, settings));
+    for (const Material& a : materials) settings.laws.push_back(law_between(a, a, {}, settings));
     if (world.settings.laws.size() > std::numeric_limits<std::uint16_t>::max()) {
         throw InputError(fmt::format("materials: found {}, expected at most 255", world.settings.materials.size()));
     }
@@ -322,7 +336,7 @@ World build_world(Scene scene) {
         world.bodies.last_force.assign(world.bodies.size(), BodyForce{});
     }
     world.bodies.force.assign(world.bodies.size(), BodyForce{});
-    build_laws(world);
+    build_laws(world, scene);
     rank_by_size(world);
     build_controls(world, scene, internal_of);  // inverse masses of driven bodies enter m_eff and the bound
     refuse_bodies_outside(world);

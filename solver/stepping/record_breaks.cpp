@@ -21,29 +21,19 @@
 namespace crackle {
 namespace {
 
-/// Direction of a normal without its sense, in (-π/2, π/2].
-double orientation_of(Vec2 normal) {
-    double angle = std::atan2(normal.y, normal.x);
-    if (angle > 0.5 * std::numbers::pi) angle -= std::numbers::pi;
-    if (angle <= -0.5 * std::numbers::pi) angle += std::numbers::pi;
-    return angle;
-}
-
 /// Energy that a break takes, J (see above). Under the guide's law the normal spring's work has been added up just so.
-double fracture_energy(const World& world, PointIndex k, const PointView& view) {
-    const ContactPoint& point = world.points.contact[k];
+template <PointKind K>
+double fracture_energy(World& world, PointIndex k, const PointView& view) {
+    ContactPoint& point = world.points.contact[k];
     const ContactLaw law = law_of(world, k);
-    const BodyState &i = world.bodies.state[point.body_i], &j = world.bodies.state[point.body_j];
-    const Vec2 speed{i.vx - i.omega * view.arm_i.y - (j.vx - j.omega * view.arm_j.y),
-                     i.vy + i.omega * view.arm_i.x - (j.vy + j.omega * view.arm_j.x)};
+    const RelativeMotion<double> motion = motion_of_point<K>(world, point, geometry_of_point<K>(world, point));
     const double opening = view.overlap - world.points.bond_overlap[k];
-    const double before = opening - world.stepping.drift * dot(speed, view.normal);
+    const double before = opening - world.stepping.drift * motion.closing;
     const double normal = by_guide(view.kind) && !world.points.spring_work.empty()
                               ? world.points.spring_work[k].stored
                               : 0.5 * law.normal_stiffness * before * opening;
     if (law.shear_stiffness == 0.0) return normal;
-    const double shear = world.points.shear_force[k] -
-                         law.shear_stiffness * world.stepping.drift * dot(speed, perpendicular(view.normal));
+    const double shear = world.points.shear_force[k] - law.shear_stiffness * world.stepping.drift * motion.slipping;
     return normal + 0.5 * world.points.shear_force[k] * shear / law.shear_stiffness;
 }
 
@@ -60,8 +50,9 @@ bool interface_holds(const World& world, PointIndex k) {
 }
 
 /// What a back-tension bond's event says beyond place and time; the point is as after a break.
+template <PointKind K>
 void part_back_tension(World& world, PointIndex k, const PointView& view, BreakEvent& event) {
-    event.energy = fracture_energy(world, k, view);
+    event.energy = fracture_energy<K>(world, k, view);
     event.strength = law_of(world, k).normal_stiffness * world.points.bond_overlap[k];
     event.normal_force = world.points.strong_normal[k];
     event.shear_force = world.points.strong_shear[k];
@@ -77,7 +68,7 @@ void part_back_tension(World& world, PointIndex k, const PointView& view, BreakE
 /// The same of a coulomb bond, which can go on to push and to rub.
 template <PointKind K>
 void part_coulomb(World& world, PointIndex k, BreakEvent& event) {
-    const Law<double> law(law_of(world, k));
+    const Law<double> law = law_of_point(world, k);
     const auto g = geometry_of_point<K>(world, world.points.contact[k]);
     const RelativeMotion<double> moves = motion_of_point<K>(world, world.points.contact[k], g);
     const PointMotion motion{g.overlap - world.points.bond_overlap[k], moves.closing, moves.slipping};
@@ -97,6 +88,13 @@ void part_coulomb(World& world, PointIndex k, BreakEvent& event) {
 
 }  // namespace
 
+double orientation_of(Vec2 normal) {
+    double angle = std::atan2(normal.y, normal.x);
+    if (angle > 0.5 * std::numbers::pi) angle -= std::numbers::pi;
+    if (angle <= -0.5 * std::numbers::pi) angle += std::numbers::pi;
+    return angle;
+}
+
 void record_breaks(World& world) {
     visit_kinds(world.points.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
         for (PointIndex k = begin; k < end && K != PointKind::element_wall; ++k) {
@@ -113,7 +111,7 @@ void record_breaks(World& world) {
             if (world.settings.bond_law == BondLaw::coulomb) {
                 part_coulomb<K>(world, k, event);
             } else {
-                part_back_tension(world, k, view, event);
+                part_back_tension<K>(world, k, view, event);
             }
             if (!world.points.spring_work.empty()) world.points.spring_work[k] = {};
             if (!world.points.opening.empty()) world.points.opening[k] = {};
@@ -122,6 +120,7 @@ void record_breaks(World& world) {
             event.point = point;
             world.account.fracture_loss += event.energy;
             world.bonds.broken += 1;
+            world.bonds.broken_after_sliding += event.slid ? 1 : 0;
             world.bonds.interfaces_lost += event.last_of_interface ? 1 : 0;
             world.bonds.events.push_back(event);
         }

@@ -16,6 +16,7 @@
 #include "solver/stepping/controls.hpp"
 #include "solver/stepping/motion.hpp"
 #include "solver/stepping/record_breaks.hpp"
+#include "solver/stepping/record_slips.hpp"
 #include "solver/stepping/step.hpp"
 #include "solver/stepping/sweep.hpp"
 #include "solver/stepping/time_step.hpp"
@@ -98,6 +99,7 @@ void prepare_forces(World& world) {
 void account_forces(World& world) {
     const PhaseTimer timer(world.workers.profile, Phase::bookkeeping);
     sum_blocks(world);
+    if (world.bonds.watch_slips) record_slips(world);
     account_controls(world);
 }
 

@@ -48,12 +48,37 @@ struct BreakEvent {
     }
 };
 
+/// First arrival of a back-tension bond at its Coulomb limit.
+struct SlipEvent {
+    std::int64_t step;
+    double time;                       // s
+    int body_i, body_j;                // input ids
+    Vec2 position;                     // m
+    double orientation;                // rad, as a break's
+    double normal_force, shear_force;  // N, elastic, at the limit
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("step", s.step);
+        visit("time", s.time);
+        visit("body_i", s.body_i);
+        visit("body_j", s.body_j);
+        visit("position", s.position);
+        visit("orientation", s.orientation);
+        visit("normal_force", s.normal_force);
+        visit("shear_force", s.shear_force);
+    }
+};
+
 struct Bonds {
     bool made = false;  // bonding is done, whether it found points to bond or not
     std::int64_t initial = 0, broken = 0;
     std::int64_t held = 0;  // of the initial ones, that cannot break
+    std::int64_t broken_after_sliding = 0;
     std::int64_t interfaces_initial = 0, interfaces_lost = 0;
     std::vector<BreakEvent> events;  // broken bonds; readers may clear it
+    bool watch_slips = false;
+    std::vector<SlipEvent> slips;  // where watched; readers may clear it
 
     template <class Self, class Visit>
     static constexpr void fields(Self& s, Visit&& visit) {
@@ -64,6 +89,9 @@ struct Bonds {
         visit("interfaces_initial", s.interfaces_initial);
         visit("interfaces_lost", s.interfaces_lost);
         visit("events", s.events);
+        visit("watch_slips", s.watch_slips);
+        visit("slips", s.slips);
+        visit("broken_after_sliding", s.broken_after_sliding);
     }
 };
 

@@ -40,6 +40,7 @@ enum PointFlag : std::uint16_t {
     point_just_broken = 16,  // bond lost in the last force pass; cleared when its event is recorded
     point_counted = 32,      // counts in StepControl::step_bound
     point_held = 64,         // its bond cannot break
+    point_slip_noted = 256,  // its first slip is in Bonds::slips
     point_had_bond = 128     // was bonded and has properties of its own left: a rest overlap, shares
 };
 

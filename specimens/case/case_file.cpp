@@ -8,6 +8,7 @@
 
 #include <toml++/toml.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <ostream>
@@ -18,6 +19,7 @@
 
 #include "solver/base/errors.hpp"
 #include "solver/scene/bond_strength.hpp"
+#include "specimens/case/mineral_checks.hpp"
 #include "specimens/case/parameters.hpp"
 
 namespace crackle {
@@ -57,9 +59,9 @@ std::string shown(const toml::node& node) {
 }
 
 /// The value of a node as the parameter wants it. @throws InputError
-CaseValue value_of(const Parameter& p, const toml::node& node, const std::string& where) {
+CaseValue value_of(const Parameter& p, const toml::node& node, const std::string& where, const std::string& name) {
     const auto refuse = [&](const std::string& found) {
-        throw InputError(fmt::format("{}: {}: found {}, expected {}", where, p.full_key(), found, p.expected()));
+        throw InputError(fmt::format("{}: {}: found {}, expected {}", where, name, found, p.expected()));
     };
     switch (p.kind) {
         case ValueKind::flag:
@@ -88,6 +90,13 @@ CaseValue value_of(const Parameter& p, const toml::node& node, const std::string
                 return CaseValue(text->get());
             }
             break;
+        case ValueKind::text_pair:
+            if (const auto* texts = node.as_array(); texts != nullptr && texts->size() == 2) {
+                const auto *first = texts->get(0)->as_string(), *second = texts->get(1)->as_string();
+                if (first != nullptr && second != nullptr)
+                    return CaseValue(std::array<std::string, 2>{first->get(), second->get()});
+            }
+            break;
     }
     const bool scalar = node.is_value();
     refuse(scalar ? fmt::format("{} ({})", shown(node), kind_name(node)) : kind_name(node));
@@ -107,6 +116,20 @@ toml::table parse(const fs::path& path) {
     }
 }
 
+const TableDescription* find_table(const std::string& name) {
+    for (const TableDescription& t : case_tables())
+        if (t.name == name) return &t;
+    return nullptr;
+}
+
+/// A table in errors and in TestCase::position: of those that may come several times with its number.
+std::string table_label(const std::string& table, std::size_t entry) {
+    return find_table(table)->repeated() ? fmt::format("{}[{}]", table, entry + 1) : table;
+}
+std::string key_label(const Parameter& p, std::size_t entry) {
+    return p.table.empty() ? p.key : table_label(p.table, entry) + "." + p.key;
+}
+
 const Parameter* find_parameter(const std::string& table, const std::string& key) {
     for (const Parameter& p : case_parameters()) {
         if (p.table == table && p.key == key) return &p;
@@ -122,7 +145,7 @@ const Parameter* find_parameter(const std::string& table, const std::string& key
     if (table.empty()) {
         known.push_back("include");
         for (const TableDescription& t : case_tables()) {
-            if (!t.name.empty()) known.push_back("[" + t.name + "]");
+            if (!t.name.empty()) known.push_back(t.heading());
         }
     }
     throw InputError(fmt::format("{}: {}: found an unknown key, expected one of {}; correct or remove it", where,
@@ -130,12 +153,34 @@ const Parameter* find_parameter(const std::string& table, const std::string& key
 }
 
 void take_value(TestCase& test, const fs::path& file, const std::string& table, const std::string& key,
-                const toml::node& node) {
+                const toml::node& node, std::size_t entry = 0) {
     const std::string where = line_of(file, node);
     const Parameter* p = find_parameter(table, key);
     if (p == nullptr) refuse_unknown(where, table, key);
-    p->set(test, value_of(*p, node, where));
-    test.position[p->full_key()] = where;
+    const std::string name = key_label(*p, entry);
+    p->set(test, value_of(*p, node, where, name), entry);
+    test.position[name] = where;
+}
+
+/// A list of tables takes the place of the whole list in the files before it.
+void take_list(TestCase& test, const fs::path& file, const TableDescription& table, const toml::node& node) {
+    const toml::array* entries = node.as_array();
+    if (entries == nullptr ||
+        std::any_of(entries->begin(), entries->end(), [](const toml::node& entry) { return !entry.is_table(); })) {
+        throw InputError(fmt::format("{}: {}: found {}, expected a list of tables; write {} above each",
+                                     line_of(file, node), table.name, kind_name(node), table.heading()));
+    }
+    std::erase_if(test.position, [&](const auto& one) { return one.first.starts_with(table.name + "["); });
+    table.set_count(test, 0);
+    table.set_count(test, entries->size());
+    test.table_present.erase(table.name);
+    if (!entries->empty()) test.table_present[table.name] = true;
+    for (std::size_t entry = 0; entry < entries->size(); ++entry) {
+        const toml::node& inner = *entries->get(entry);
+        test.position[table_label(table.name, entry)] = line_of(file, inner);
+        for (const auto& [key, value] : *inner.as_table())
+            take_value(test, file, table.name, std::string(key.str()), value, entry);
+    }
 }
 
 /// Of alternative keys for one quantity, the one that a file uses replaces those of the files before it.
@@ -162,15 +207,16 @@ void take_file(TestCase& test, const fs::path& file, const toml::table& content)
     for (const auto& [name, node] : content) {
         const std::string key(name.str());
         if (key == "include") continue;
+        if (const TableDescription* list = find_table(key); list != nullptr && list->repeated()) {
+            take_list(test, file, *list, node);
+            continue;
+        }
         const toml::table* inner = node.as_table();
         if (inner == nullptr) {
             take_value(test, file, "", key, node);
             continue;
         }
-        const auto& tables = case_tables();
-        if (std::none_of(tables.begin(), tables.end(), [&](const auto& t) { return t.name == key; })) {
-            refuse_unknown(line_of(file, node), "", key);
-        }
+        if (find_table(key) == nullptr) refuse_unknown(line_of(file, node), "", key);
         test.table_present[key] = true;
         test.position[key] = line_of(file, node);
         for (const auto& [inner_name, inner_node] : *inner) {
@@ -222,20 +268,26 @@ bool said_otherwise(const TestCase& test, const std::string& full_key) {
     return false;
 }
 
+void fill_default(TestCase& test, const Parameter& p, std::size_t entry) {
+    const std::string name = key_label(p, entry);
+    if (test.position.contains(name)) return;
+    if (p.presence == Presence::defaulted) {
+        if (said_otherwise(test, name)) return;
+        p.set(test, *p.default_value, entry);
+    } else if (p.presence == Presence::required ||
+               (p.presence == Presence::required_with_table && test.has_table(p.table))) {
+        const auto table = test.position.find(table_label(p.table, entry));
+        throw InputError(fmt::format("{}: {}: found nothing, expected {}; add it to {}",
+                                     table == test.position.end() ? test.source.string() : table->second, name,
+                                     p.expected(), find_table(p.table)->heading()));
+    }
+}
+
 void fill_defaults(TestCase& test) {
     for (const Parameter& p : case_parameters()) {
-        const bool written = test.position.contains(p.full_key());
-        if (written) continue;
-        if (p.presence == Presence::defaulted) {
-            if (said_otherwise(test, p.full_key())) continue;
-            p.set(test, *p.default_value);
-        } else if (p.presence == Presence::required ||
-                   (p.presence == Presence::required_with_table && test.has_table(p.table))) {
-            const auto table = test.position.find(p.table);
-            throw InputError(fmt::format("{}: {}: found nothing, expected {}; add it to [{}]",
-                                         table == test.position.end() ? test.source.string() : table->second,
-                                         p.full_key(), p.expected(), p.table));
-        }
+        const TableDescription& table = *find_table(p.table);
+        const std::size_t entries = table.repeated() ? table.count(test) : 1;
+        for (std::size_t entry = 0; entry < entries; ++entry) fill_default(test, p, entry);
     }
     // A real grip is stronger than the rock.
     if (test.loading.kind == "tension" && !test.position.contains("loading.platens")) test.loading.platens = "glued";
@@ -254,6 +306,7 @@ class ConsistencyCheck {
         if (test_.has_table("packing")) packing();
         material();
         bond();
+        check_minerals(test_);
         mesh();
         loading();
         if (test_.output.frames.value_or(0) > test_.output.curve_rows) {
@@ -366,11 +419,14 @@ class ConsistencyCheck {
     void bond() const {
         const auto& b = test_.bond;
         if (!test_.coulomb_bonds()) {
+            constexpr const char* because =
+                "only bond.law = \"coulomb\" has it: by back-tension the overlap is the strength";
             for (const char* key :
                  {"material.tensile_strength", "material.cohesion", "material.residual_friction_angle", "bond.gap",
-                  "bond.tensile_factor", "bond.cohesion_factor", "bond.strength_cv", "bond.strength_seed", "bond.range",
-                  "bond.strength_distribution"})
-                exclude(key, "only bond.law = \"coulomb\" has it: by back-tension the overlap is the strength");
+                  "bond.tensile_factor", "bond.cohesion_factor", "bond.strength_cv", "bond.strength_seed"})
+                exclude(key, because);
+            if (b.range > 0.0) exclude("bond.range", because);
+            if (b.strength_distribution != "none") exclude("bond.strength_distribution", because);
             return;
         }
         if (test_.numerics.contact_law != "rounded")
@@ -391,7 +447,8 @@ class ConsistencyCheck {
         if (b.strength_distribution == "normal" && *b.strength_cv > largest_normal_cv)
             refuse("bond.strength_cv", fmt::format("{}", *b.strength_cv), fmt::format("at most {}", largest_normal_cv),
                    "a normal distribution truncated at 0 has no more; take weibull or lognormal");
-        if (test_.has_table("mesh")) exclude("bond.range", "only circles reach beyond their neighbours");
+        if (test_.has_table("mesh") && b.range > 0.0)
+            exclude("bond.range", "only circles reach beyond their neighbours");
     }
 
     /// A strength is a number or a factor.
@@ -473,48 +530,66 @@ TestCase read_case(const fs::path& path) {
     return test;
 }
 
+namespace {
+
+std::string quoted(const std::string& text) {
+    std::ostringstream out;
+    out << toml::value<std::string>(text);
+    return out.str();
+}
+
+/// A value as a case writes it. @param folder that paths are relative to
+std::string written_value(const TestCase& test, const Parameter& p, const CaseValue& value, const fs::path& folder) {
+    if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
+    if (const auto* number = std::get_if<std::int64_t>(&value)) return fmt::format("{}", *number);
+    if (const auto* number = std::get_if<double>(&value)) {
+        const std::string text = fmt::format("{}", *number);
+        return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
+    }
+    if (const auto* texts = std::get_if<std::array<std::string, 2>>(&value))
+        return fmt::format("[{}, {}]", quoted((*texts)[0]), quoted((*texts)[1]));
+    const std::string& text = std::get<std::string>(value);
+    if (!p.is_path) return quoted(text);
+    const fs::path target = test.resolve_path(p.full_key(), text);
+    return quoted(fs::absolute(target)
+                      .lexically_normal()
+                      .lexically_proximate(fs::absolute(folder).lexically_normal())
+                      .generic_string());
+}
+
+/// Tables that say nothing where the case has none.
+bool left_out(const TestCase& test, const std::string& table) {
+    if (table == "minerals") return !test.has_table("mineral");
+    return (table == "packing" || table == "mesh") && !test.has_table(table);
+}
+
+}  // namespace
+
 void write_resolved_case(std::ostream& out, const TestCase& test, const fs::path& folder) {
     for (const TableDescription& table : case_tables()) {
-        std::ostringstream lines;
-        for (const Parameter& p : case_parameters()) {
-            if (p.table != table.name) continue;
-            const bool alternative_absent = (p.table == "packing" || p.table == "mesh") && !test.has_table(p.table);
-            std::optional<CaseValue> value = p.get(test);
-            if (!value || alternative_absent) continue;
-            std::string text;
-            if (const auto* flag = std::get_if<bool>(&*value)) text = *flag ? "true" : "false";
-            if (const auto* number = std::get_if<std::int64_t>(&*value)) text = fmt::format("{}", *number);
-            if (const auto* number = std::get_if<double>(&*value)) {
-                text = fmt::format("{}", *number);
-                if (text.find_first_of(".e") == std::string::npos) text += ".0";
+        if (left_out(test, table.name)) continue;
+        const std::size_t entries = table.repeated() ? table.count(test) : 1;
+        for (std::size_t entry = 0; entry < entries; ++entry) {
+            std::string lines;
+            for (const Parameter& p : case_parameters()) {
+                if (p.table != table.name) continue;
+                const std::optional<CaseValue> value = p.get(test, entry);
+                if (!value) continue;
+                lines += fmt::format("{} = {}  # {}{}\n", p.key, written_value(test, p, *value, folder),
+                                     p.unit.empty() ? "" : p.unit + ": ", p.sentence);
             }
-            if (auto* words = std::get_if<std::string>(&*value)) {
-                std::string written = *words;
-                if (p.is_path) {
-                    const fs::path target = test.resolve_path(p.full_key(), written);
-                    written = fs::absolute(target)
-                                  .lexically_normal()
-                                  .lexically_proximate(fs::absolute(folder).lexically_normal())
-                                  .generic_string();
-                }
-                std::ostringstream quoted;
-                quoted << toml::value<std::string>(written);
-                text = quoted.str();
-            }
-            lines << fmt::format("{} = {}  # {}{}\n", p.key, text, p.unit.empty() ? "" : p.unit + ": ", p.sentence);
+            if (lines.empty()) continue;
+            if (!table.name.empty()) out << '\n' << table.heading() << "  # " << table.sentence << '\n';
+            out << lines;
         }
-        const std::string text = lines.str();
-        if (text.empty()) continue;
-        if (!table.name.empty()) out << "\n[" << table.name << "]  # " << table.sentence << '\n';
-        out << text;
     }
 }
 
 void describe_case_keys(std::ostream& out) {
     out << "include = \"FILE\" at the top: values of FILE hold wherever the case is silent; FILE may include "
-           "another.\n";
+           "another. A list, [[mineral]] or [[mineral_pair]], holds as a whole.\n";
     for (const TableDescription& table : case_tables()) {
-        if (!table.name.empty()) out << "\n[" << table.name << "]  " << table.sentence << '\n';
+        if (!table.name.empty()) out << '\n' << table.heading() << "  " << table.sentence << '\n';
         for (const Parameter& p : case_parameters()) {
             if (p.table != table.name) continue;
             std::string presence = "optional";

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <utility>
 
 namespace crackle {
@@ -24,10 +25,20 @@ struct Unwrap<std::optional<T>> {
     static constexpr bool optional = true;
 };
 
+/// The member of a case, or of an entry of one of its lists.
+template <class Member>
+auto& reach(const Member& member, TestCase& c, std::size_t entry) {
+    if constexpr (std::is_invocable_v<Member, TestCase&>) {
+        return member(c);
+    } else {
+        return member(c, entry);
+    }
+}
+
 /// Declares a parameter held by the member that `member` returns; its type gives the kind of value.
 template <class Member>
 Parameter declare(std::string table, std::string key, std::string unit, Member member, std::string sentence) {
-    using Held = std::remove_cvref_t<decltype(member(std::declval<TestCase&>()))>;
+    using Held = std::remove_cvref_t<decltype(reach(member, std::declval<TestCase&>(), 0))>;
     using T = typename Unwrap<Held>::type;
     Parameter p;
     p.table = std::move(table);
@@ -37,11 +48,15 @@ Parameter declare(std::string table, std::string key, std::string unit, Member m
     p.kind = std::is_same_v<T, bool>           ? ValueKind::flag
              : std::is_same_v<T, std::int64_t> ? ValueKind::integer
              : std::is_same_v<T, double>       ? ValueKind::real
-                                               : ValueKind::text;
+             : std::is_same_v<T, std::string>  ? ValueKind::text
+                                               : ValueKind::text_pair;
     p.presence = Unwrap<Held>::optional ? Presence::optional : Presence::required;
-    p.set = [member](TestCase& c, const CaseValue& value) { member(c) = std::get<T>(value); };
-    p.get = [member](const TestCase& c) -> std::optional<CaseValue> {
-        const Held& held = member(const_cast<TestCase&>(c));  // member() only reaches in; nothing is written
+    p.set = [member](TestCase& c, const CaseValue& value, std::size_t entry) {
+        reach(member, c, entry) = std::get<T>(value);
+    };
+    p.get = [member](const TestCase& c, std::size_t entry) -> std::optional<CaseValue> {
+        // It only reaches in; nothing is written.
+        const Held& held = reach(member, const_cast<TestCase&>(c), entry);
         if constexpr (Unwrap<Held>::optional) {
             if (!held) return std::nullopt;
             return CaseValue(*held);
@@ -49,7 +64,7 @@ Parameter declare(std::string table, std::string key, std::string unit, Member m
             return CaseValue(held);
         }
     };
-    if constexpr (Unwrap<Held>::optional) p.forget = [member](TestCase& c) { member(c).reset(); };
+    if constexpr (Unwrap<Held>::optional) p.forget = [member](TestCase& c) { reach(member, c, 0).reset(); };
     return p;
 }
 
@@ -73,10 +88,50 @@ struct With {
 // Its versions differ on a lambda in a macro.
 // clang-format off
 #define CRACKLE_MEMBER(path) [](TestCase& c) -> auto& { return c.path; }
+#define CRACKLE_ENTRY(list, path) [](TestCase& c, std::size_t entry) -> auto& { return c.list[entry].path; }
 // clang-format on
 #define CRACKLE_KEY(table, key, unit, sentence) \
     With { declare(#table, #key, unit, CRACKLE_MEMBER(table.key), sentence) }
+#define CRACKLE_LIST_KEY(list, key, sentence) \
+    With { declare(#list, #key, "", CRACKLE_ENTRY(list, key), sentence) }
 // NOLINTEND(bugprone-macro-parentheses)
+
+/// A number of [material] as a key of the list's entries, which hold MaterialKeys of their own.
+template <class List>
+Parameter owned(const Parameter& of_material, std::string table, List list) {
+    Parameter p = of_material;
+    p.table = std::move(table);
+    p.presence = Presence::optional;
+    p.default_value.reset();
+    p.forget = {};
+    p.set = [set = p.set, list](TestCase& c, const CaseValue& value, std::size_t entry) {
+        TestCase material_alone;
+        material_alone.material = list(c)[entry].own;
+        set(material_alone, value, 0);
+        list(c)[entry].own = material_alone.material;
+    };
+    p.get = [get = p.get, list](const TestCase& c, std::size_t entry) {
+        TestCase material_alone;
+        material_alone.material = list(c)[entry].own;
+        return get(material_alone, 0);
+    };
+    return p;
+}
+
+/// Minerals have every number of [material], pairs of them what belongs to a contact.
+void add_minerals_keys(std::vector<Parameter>& all) {
+    const auto minerals = [](auto& c) -> auto& { return c.mineral; };
+    const auto pairs = [](auto& c) -> auto& { return c.mineral_pair; };
+    const std::vector<std::string>& of_pairs = mineral_pair_keys();
+    std::vector<Parameter> own;
+    for (const Parameter& p : all) {
+        if (p.table != "material" || p.kind != ValueKind::real) continue;
+        own.push_back(owned(p, "mineral", minerals));
+        if (std::find(of_pairs.begin(), of_pairs.end(), p.key) != of_pairs.end())
+            own.push_back(owned(p, "mineral_pair", pairs));
+    }
+    all.insert(all.end(), own.begin(), own.end());
+}
 
 std::vector<Parameter> all_parameters() {
     using Text = std::string;
@@ -153,6 +208,31 @@ std::vector<Parameter> all_parameters() {
             .at_least(0)
             .below(90),
 
+        CRACKLE_KEY(minerals, assign, "",
+                    "Which grain has which mineral: drawn until the areas are as asked; by size, the largest grains "
+                    "the mineral listed first; from a file of labels; from an image.")
+            .one_of({"random", "size", "labels", "image"})
+            .otherwise(Text("random")),
+        CRACKLE_KEY(minerals, seed, "", "Seed of the random assignment; the same seed gives the same grains.")
+            .at_least(0)
+            .otherwise(whole(1)),
+        CRACKLE_KEY(minerals, labels, "",
+                    "Text file with a line a grain, in the order of the specimen's file: the mineral's name, or its "
+                    "number from 1; lines that are empty or begin with # are skipped.")
+            .path(),
+        CRACKLE_KEY(minerals, image, "", "PNG file laid over the box; a grain has the mineral of most of its pixels.")
+            .path(),
+
+        CRACKLE_LIST_KEY(mineral, name, "What [[mineral_pair]], labels and results call it.").needed_with_table(),
+        With{declare("mineral", "area_share", "", CRACKLE_ENTRY(mineral, area_share),
+                     "Share of all grains' area; one mineral may leave it out and has the rest.")}
+            .above(0)
+            .at_most(1),
+        CRACKLE_LIST_KEY(mineral, colour, "Colour in the image, \"#rrggbb\"."),
+
+        CRACKLE_LIST_KEY(mineral_pair, between, "Names of two minerals; of one twice for contacts among its grains.")
+            .needed_with_table(),
+
         CRACKLE_KEY(bond, law, "",
                     "back_tension: the overlap at bonding is the strength, as the guide has it. coulomb: tensile "
                     "strength, cohesion and friction of the material's own.")
@@ -203,8 +283,14 @@ std::vector<Parameter> all_parameters() {
         CRACKLE_KEY(loading, max_axial_strain, "", "The test ends here if the specimen has not failed before.")
             .above(0)
             .below(1),
+        CRACKLE_KEY(loading, strength_drop, "",
+                    "The strength is the first maximum of the stress that a drop of this share follows and stays for a "
+                    "tenth of the strain there.")
+            .above(0)
+            .below(1)
+            .otherwise(0.1),
         CRACKLE_KEY(loading, stop_at_share_of_peak, "",
-                    "Failure: stress below this share of its peak for a tenth of the strain at peak.")
+                    "The test ends: stress below this share of its largest for a tenth of the strain there.")
             .above(0)
             .below(1)
             .otherwise(0.5),
@@ -265,19 +351,44 @@ std::vector<Parameter> all_parameters() {
                     "an overlap, double loses nothing.")
             .one_of({"single", "double"})
             .otherwise(Text("single")),
+        CRACKLE_KEY(output, slips, "",
+                    "Writes slips.csv: the first arrival of each back-tension bond at its Coulomb limit.")
+            .otherwise(false),
         CRACKLE_KEY(output, checkpoint_interval, "s", "Wall-clock time between checkpoints.").above(0).otherwise(60.0),
         CRACKLE_KEY(output, out_of_plane_thickness, "m",
-                    "Only converts what is reported: stresses in N/m over this give the _pa values.")
-            .above(0)
-            .otherwise(1.0),
+                    "Only converts what is reported: stresses in N/m over this give the _pa values, and MPa beside "
+                    "them on terminal and page; if not given the _pa values are those of 1 m.")
+            .above(0),
     };
 }
 
 }  // namespace
 
 const std::vector<Parameter>& case_parameters() {
-    static const std::vector<Parameter> all = all_parameters();
+    static const std::vector<Parameter> all = [] {
+        std::vector<Parameter> declared = all_parameters();
+        add_minerals_keys(declared);
+        return declared;
+    }();
     return all;
+}
+
+const std::vector<std::string>& mineral_pair_keys() {
+    static const std::vector<std::string> keys{"normal_stiffness", "shear_stiffness", "friction_angle"};
+    return keys;
+}
+
+TestCase::MaterialKeys mineral_material(const TestCase& test, std::size_t mineral) {
+    TestCase material_alone;
+    material_alone.material = test.material;
+    for (const Parameter& own : case_parameters()) {
+        if (own.table != "mineral") continue;
+        const std::optional<CaseValue> value = own.get(test, mineral);
+        if (!value) continue;
+        for (const Parameter& p : case_parameters())
+            if (p.table == "material" && p.key == own.key) p.set(material_alone, *value, 0);
+    }
+    return material_alone.material;
 }
 
 const std::vector<Alternatives>& case_alternatives() {
@@ -301,6 +412,13 @@ const std::vector<TableDescription>& case_tables() {
         {"packing", "A specimen made here; the alternative is [particles]."},
         {"mesh", "Turns the circles into polygons; without it they stay circles."},
         {"material", "Of the specimen; with [particles], each key overrides the file's."},
+        {"minerals", "How grains get the minerals below."},
+        {"mineral", "One table a mineral; numbers that it does not give are [material]'s, which platens have.",
+         [](const TestCase& c) { return c.mineral.size(); }, [](TestCase& c, std::size_t n) { c.mineral.resize(n); }},
+        {"mineral_pair",
+         "Contacts between two minerals, in place of springs in series and the smaller friction of the two.",
+         [](const TestCase& c) { return c.mineral_pair.size(); },
+         [](TestCase& c, std::size_t n) { c.mineral_pair.resize(n); }},
         {"bond", "What holds the particles together, and how it breaks."},
         {"loading", "Platens: the lower one is fixed, the upper one moves."},
         {"numerics", "How it is computed."},
@@ -322,6 +440,8 @@ std::string Parameter::expected() const {
         case ValueKind::text:
             if (choices.empty()) return is_path ? "a file name in quotes" : "a text in quotes";
             return fmt::format("\"{}\"", fmt::join(choices, "\" or \""));
+        case ValueKind::text_pair:
+            return "two texts in square brackets";
         case ValueKind::integer:
         case ValueKind::real:
             break;

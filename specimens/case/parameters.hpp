@@ -3,7 +3,9 @@
 // Tested by tests/specimens/case/case_file_test.cpp.
 #pragma once
 
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -18,9 +20,9 @@
 namespace crackle {
 
 /// A value as TOML knows it.
-using CaseValue = std::variant<bool, std::int64_t, double, std::string>;
+using CaseValue = std::variant<bool, std::int64_t, double, std::string, std::array<std::string, 2>>;
 
-enum class ValueKind { flag, integer, real, text };
+enum class ValueKind { flag, integer, real, text, text_pair };
 
 /// Who must write a key.
 enum class Presence {
@@ -44,8 +46,9 @@ struct Parameter {
     bool is_path = false;
     std::string sentence;
 
-    std::function<void(TestCase&, const CaseValue&)> set;
-    std::function<std::optional<CaseValue>(const TestCase&)> get;
+    // Of a table that may come several times, entry is its place from 0; else it is not used.
+    std::function<void(TestCase&, const CaseValue&, std::size_t entry)> set;
+    std::function<std::optional<CaseValue>(const TestCase&, std::size_t entry)> get;
     std::function<void(TestCase&)> forget;  ///< makes an optional one absent; empty of the others
 
     std::string full_key() const { return table.empty() ? key : table + "." + key; }
@@ -67,7 +70,18 @@ const std::vector<Alternatives>& case_alternatives();
 struct TableDescription {
     std::string name;
     std::string sentence;
+    // Only of tables that may come several times, [[name]]:
+    std::function<std::size_t(const TestCase&)> count = {};
+    std::function<void(TestCase&, std::size_t)> set_count = {};
+
+    bool repeated() const { return static_cast<bool>(count); }
+    std::string heading() const { return repeated() ? "[[" + name + "]]" : "[" + name + "]"; }
 };
 const std::vector<TableDescription>& case_tables();
+
+/// What a mineral's grains are made of: [material]'s keys with the mineral's own over them.
+TestCase::MaterialKeys mineral_material(const TestCase& test, std::size_t mineral);
+/// Keys of [material] that a [[mineral_pair]] may override.
+const std::vector<std::string>& mineral_pair_keys();
 
 }  // namespace crackle

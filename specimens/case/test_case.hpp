@@ -5,6 +5,7 @@
 // Tested by tests/specimens/case/case_file_test.cpp.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -66,6 +67,26 @@ struct TestCase {
         std::optional<double> residual_friction_angle;  // degrees
     } material;
 
+    struct Minerals {
+        std::string assign = "random";
+        std::int64_t seed = 1;
+        std::optional<std::string> labels, image;  ///< files as written
+    } minerals;
+
+    struct Mineral {
+        std::string name;
+        std::optional<double> area_share;   ///< -; of one that has none: what the others leave
+        std::optional<std::string> colour;  ///< in the image
+        MaterialKeys own;                   ///< over [material]'s
+    };
+    std::vector<Mineral> mineral;
+
+    struct MineralPair {
+        std::array<std::string, 2> between;
+        MaterialKeys own;  ///< over what the two minerals give
+    };
+    std::vector<MineralPair> mineral_pair;
+
     struct Bond {
         std::string law = "back_tension";       // or "coulomb"
         std::optional<double> thick;            // m
@@ -83,6 +104,7 @@ struct TestCase {
         std::optional<double> axial_strain_rate;  // 1/s; or:
         std::optional<double> rate_tolerance;
         double max_axial_strain = 0.0;
+        double strength_drop = 0.0;
         double stop_at_share_of_peak = 0.0;
         std::string platens;                          // "bonded", "glued" or "frictional"
         std::optional<double> grip;                   // -, of the height; glued platens only
@@ -107,20 +129,22 @@ struct TestCase {
 
     struct Output {
         std::int64_t curve_rows = 0;
-        std::optional<std::int64_t> frames;   ///< absent until the bodies are counted: default_frames()
-        std::string frame_precision;          ///< of points: "single" or "double"
-        double checkpoint_interval = 0.0;     // s, wall clock
-        double out_of_plane_thickness = 0.0;  // m
+        std::optional<std::int64_t> frames;  ///< absent until the bodies are counted: default_frames()
+        std::string frame_precision;         ///< of points: "single" or "double"
+        bool slips = false;
+        double checkpoint_interval = 0.0;              // s, wall clock
+        std::optional<double> out_of_plane_thickness;  // m
     } output;
 
     /// No key: the companions of a test are made with it. Times the damping of every material, after packing.
     double damping_scale = 1.0;
     double step_scale = 1.0;  ///< of a derived time step
 
-    std::filesystem::path source;                 ///< the case file
-    std::map<std::string, std::string> position;  ///< "table.key" → "file:line", for keys that a file sets
-    std::map<std::string, bool> table_present;    ///< "packing", "mesh", …
-    std::vector<std::filesystem::path> inputs;    ///< files read so far, the case first
+    std::filesystem::path source;  ///< the case file
+    std::map<std::string, std::string>
+        position;  ///< "table.key" or "list[2].key" → "file:line", for keys that a file sets
+    std::map<std::string, bool> table_present;  ///< "packing", "mesh", …
+    std::vector<std::filesystem::path> inputs;  ///< files read so far, the case first
 
     bool has_table(const std::string& table) const { return table_present.contains(table); }
     bool coulomb_bonds() const { return bond.law == "coulomb"; }

@@ -50,8 +50,8 @@ LinearBond linear_bond(const World& world, PointIndex k, const PointRates& rate,
     bond.normal_force = view.normal_stiffness * rate.closing * strain;
     bond.shear_force = view.shear_stiffness * std::abs(rate.slipping) * strain;
     if (world.settings.bond_law == BondLaw::coulomb) {
-        fail_by_envelope(bond, bond_strength(world, k, Law<double>(world.settings.laws[world.points.state[k].law])),
-                         view.normal_stiffness * rate.closing, view.shear_stiffness * std::abs(rate.slipping));
+        fail_by_envelope(bond, bond_strength(world, k), view.normal_stiffness * rate.closing,
+                         view.shear_stiffness * std::abs(rate.slipping));
         return bond;
     }
     const bool held = (world.points.state[k].flags & point_held) != 0;

@@ -25,7 +25,7 @@ constexpr Quantity fields_of_a_moment[]{
 constexpr Quantity arrays_of_particles[]{
     {"id", "", "number in the particle file or packing; platens come after the largest"},
     {"radius", "m", "0 for polygons and platens"},
-    {"material", "", "number in the particle file, from 1"},
+    {"material", "", "number in the specimen's file, from 1: of the minerals in the case's order, then `[material]`"},
     {"angle", "rad", "turned since loading began, counter-clockwise"},
     {"displacement", "m", "since loading began; three components"},
     {"velocity", "m/s", "half a step before the moment; three components"},

@@ -49,7 +49,7 @@ class LoadingLoop {
         try {
             load();
         } catch (const UnstableRun&) {
-            record_breaks();  // of the step that went wrong
+            record_events();  // of the step that went wrong
             state_.step_seconds = step_seconds();
             throw;
         }
@@ -72,11 +72,11 @@ class LoadingLoop {
                 const double drift = world_.stepping.drift;
                 step(world_);
                 if (by_tolerance) watch_platens(drift);
-                record_breaks();
+                record_events();
                 continue;
             }
             compute_forces(world_);
-            record_breaks();
+            record_events();
             if (row_due) record_row(at_end);
             const bool ended = !state_.ended_by.empty();
             // An end that instability brought about is none.
@@ -114,6 +114,15 @@ class LoadingLoop {
         change_velocity(world_, setup_.top, 1, setup_.compression ? -speed : speed);
     }
 
+    void record_events() {
+        record_breaks();
+        if (world_.bonds.slips.empty()) return;
+        const PhaseTimer timer(world_.workers.profile, Phase::observe);
+        if (files_ != nullptr)
+            for (const SlipEvent& event : world_.bonds.slips) files_->add_slip(event, strain_);
+        world_.bonds.slips.clear();
+    }
+
     void record_breaks() {
         if (world_.bonds.events.size() == events_counted_) return;
         const PhaseTimer timer(world_.workers.profile, Phase::observe);
@@ -134,7 +143,11 @@ class LoadingLoop {
         const CurveRow row = observe_row(world_, setup_);
         state_.rows.push_back(row);
         const bool new_peak = state_.failure.update(index, row.axial_strain, row.axial_stress);
-        if (state_.failure.failed) {
+        if (new_peak) {
+            state_.breaks_in_shear_to_peak = state_.breaks_in_shear;
+            state_.breaks_in_tension_to_peak = state_.breaks_in_tension;
+        }
+        if (state_.failure.collapsed) {
             state_.ended_by = ended_by_failure;
         } else if (at_end) {
             state_.ended_by = ended_by_strain;

@@ -107,10 +107,12 @@ VirtualTest bond_test(const TestCase& description, const TestHooks& hooks) {
     hooks.report_work("bonding");
     BondedSpecimen bonded = bond_specimen(specimen, description, description.loading);
     test.world = std::move(bonded.world);
+    test.world.bonds.watch_slips = description.output.slips;
     const double grip = description.loading.grip.value_or(0.0);
     test.setup = record_setup(test.world, specimen, bonded.platens, description.loading.kind == "compression", grip);
     if (!description.output.frames)
         test.description.output.frames = default_frames(test.setup.particles, description.output.curve_rows);
+    test.state.failure.strength_drop = description.loading.strength_drop;
     test.state.failure.share_of_peak = description.loading.stop_at_share_of_peak;
     hooks.report_stage(fmt::format("bonded {} points of {} interfaces, time step {:.3g} s", test.world.bonds.initial,
                                    test.world.bonds.interfaces_initial, test.world.stepping.time_step));

@@ -92,7 +92,7 @@ void start_by_tolerance(VirtualTest& test) {
     TestSetup& setup = test.setup;
     RateRule& rule = setup.rate_rule;
     rule = rate_rule_of(test, *test.description.loading.rate_tolerance);
-    const bool bonded = test.description.loading.platens == "bonded";
+    const bool bonded = test.description.loading.platens != "frictional";
     std::vector<bool> elastic(world.bodies.size(), bonded);
     if (bonded)
         for (const BodyIndex b : find_free_motions(world, {setup.bottom, setup.top}).bodies) elastic[b] = false;

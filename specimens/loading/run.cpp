@@ -166,6 +166,10 @@ TestOutcome run_test(const TestCase& description, const TestOptions& options, co
         recorded.inputs.push_back(description.resolve_path("particles.file", *description.particles.file));
     if (description.packing.sieve)
         recorded.inputs.push_back(description.resolve_path("packing.sieve", *description.packing.sieve));
+    if (description.minerals.labels)
+        recorded.inputs.push_back(description.resolve_path("minerals.labels", *description.minerals.labels));
+    if (description.minerals.image)
+        recorded.inputs.push_back(description.resolve_path("minerals.image", *description.minerals.image));
     OutputFolder folder = OutputFolder::create(options.folder, options.force, recorded.inputs);
     std::optional<SpecimenFiles> specimen(std::in_place);
     VirtualTest test = prepare_test(description, specimen->collecting(hooks));
@@ -176,7 +180,7 @@ TestOutcome run_test(const TestCase& description, const TestOptions& options, co
     recorded.output.frames = test.description.output.frames;  // known only now where the case is silent
     const std::string text = resolved_case(recorded, folder.target());
     // Empty until loading: by that a test that has only begun is known.
-    TestFiles files(folder, sha256(text), test.state, precision_of(description));
+    TestFiles files(folder, sha256(text), test.state, precision_of(description), description.output.slips);
     specimen->write(folder);
     specimen.reset();  // not kept while the test runs
     folder.write("case.toml", text);
@@ -212,7 +216,8 @@ TestOutcome resume_test(const TestOptions& options, const TestHooks& hooks) {
     if (!test.state.ended_by.empty()) return finished_test(test, options, hooks, folder);
     // That of the interrupt: curve and frames go beyond it from here.
     fs::remove(folder.path() / "summary.json", error);
-    TestFiles files(folder, checkpoint.case_hash, test.state, precision_of(test.description));
+    TestFiles files(folder, checkpoint.case_hash, test.state, precision_of(test.description),
+                    test.description.output.slips);
     hooks.report_stage(fmt::format("resumed at step {}, axial strain {:.4g}", test.world.stepping.steps,
                                    test.setup.axial_strain(test.world)));
     return run_with_files(test, options, hooks, folder, files);

@@ -13,6 +13,7 @@
 #include "mesher/mesher.hpp"
 #include "solver/base/errors.hpp"
 #include "solver/demseg/geometry.hpp"
+#include "specimens/case/parameters.hpp"
 #include "specimens/making/cell_bodies.hpp"
 #include "specimens/packing/packing.hpp"
 
@@ -265,6 +266,43 @@ void measure_polygons(Specimen& specimen, const TestCase& test) {
     specimen.right_ids = polygons_on_side(specimen.scene, Wall::right);
 }
 
+/// Of the pairs that the case names.
+std::vector<MaterialPair> pairs_of(const TestCase& test) {
+    const auto index = [&](const std::string& name) {
+        const auto found = std::find_if(test.mineral.begin(), test.mineral.end(),
+                                        [&](const TestCase::Mineral& m) { return m.name == name; });
+        return static_cast<int>(found - test.mineral.begin());
+    };
+    std::vector<MaterialPair> pairs;
+    for (const auto& [between, own] : test.mineral_pair) {
+        pairs.push_back(
+            {index(between[0]), index(between[1]), own.normal_stiffness, own.shear_stiffness, own.friction_angle});
+    }
+    return pairs;
+}
+
+/// Materials become those of the minerals, then [material]'s, which the platens keep; each grain has its mineral's.
+void take_minerals(Specimen& specimen, const TestCase& test, const TestHooks& hooks) {
+    Scene& scene = specimen.scene;
+    specimen.platen_material = scene.bodies.front().material;
+    if (test.mineral.empty()) return;
+    if (scene.materials.size() > 1) {
+        throw InputError(
+            fmt::format("{}: found a particle file with {} materials, expected one; remove [[mineral]] to take the "
+                        "file's, or leave one material in it",
+                        test.at("mineral[1]"), scene.materials.size()));
+    }
+    const Material rock = scene.materials.front();
+    for (std::size_t k = 0; k < test.mineral.size(); ++k) {
+        scene.materials.insert(scene.materials.end() - 1, rock);
+        apply_material(mineral_material(test, k), scene.materials[k]);
+    }
+    specimen.platen_material = static_cast<int>(test.mineral.size());
+    scene.material_pairs = pairs_of(test);
+    specimen.minerals = assign_minerals(scene, test, specimen.notices);
+    hooks.report_stage(mineral_shares_text(specimen.minerals));
+}
+
 }  // namespace
 
 Specimen make_specimen(const TestCase& test, const TestHooks& hooks) {
@@ -273,13 +311,16 @@ Specimen make_specimen(const TestCase& test, const TestHooks& hooks) {
     classify(specimen, test);
     bring_to_rest(specimen.scene, specimen.notices);
     measure_circles(specimen);
+    const bool meshed = test.has_table("mesh");
+    if (!meshed) take_minerals(specimen, test, hooks);
     if (!specimen.polygons) hooks.report_made(circles_file, specimen.scene);
-    if (test.has_table("mesh")) {
+    if (meshed) {
         if (specimen.polygons) {
             throw InputError(fmt::format(
                 "{}: found a particle file of polygons, expected circles to mesh; remove [mesh]", test.at("mesh")));
         }
         mesh_specimen(specimen, test, hooks);
+        take_minerals(specimen, test, hooks);
     } else if (specimen.polygons) {
         measure_polygons(specimen, test);
     }

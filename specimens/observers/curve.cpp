@@ -3,10 +3,19 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 #include "solver/measure/ledger.hpp"
 #include "specimens/setup/setup.hpp"
 
 namespace crackle {
+
+namespace {
+
+// Of the mean back-tension: surfaces that just touch overlap by the rounding of their places, up to 1e-11 of a bond's.
+constexpr double least_sliding_force = 1e-9;
+
+}  // namespace
 
 CurveRow observe_row(const World& world, const TestSetup& setup) {
     CurveRow row;
@@ -21,10 +30,16 @@ CurveRow observe_row(const World& world, const TestSetup& setup) {
     row.interfaces_lost = world.bonds.interfaces_lost;
     row.time = world.stepping.time;
     row.step = world.stepping.steps;
-    for (const PointState& point : world.points.state) {
-        const bool touching = (point.flags & point_touching) != 0;
-        if (touching && (point.flags & point_sliding) != 0) ++row.points_sliding;
-        if (touching && (point.flags & point_bonded) == 0) ++row.contacts_gained;
+    row.bonds_slid = world.bonds.broken_after_sliding;
+    const double strength = setup.coulomb_bonds ? setup.mean_tensile_strength : setup.mean_back_tension;
+    for (std::size_t k = 0; k < world.points.size(); ++k) {
+        constexpr int bond_that_slid = point_bonded | point_slid;
+        const std::uint16_t flags = world.points.state[k].flags;
+        if ((flags & bond_that_slid) == bond_that_slid) ++row.bonds_slid;
+        if ((flags & point_touching) == 0) continue;
+        const bool pulled = std::abs(world.points.shear_force[k]) > least_sliding_force * strength;
+        if ((flags & point_sliding) != 0 && pulled) ++row.points_sliding;
+        if ((flags & point_bonded) == 0) ++row.contacts_gained;
     }
     const Ledger ledger = measure_ledger(world);
     row.kinetic_energy = ledger.kinetic;
@@ -75,7 +90,8 @@ const std::vector<CurveColumn>& curve_columns() {
         {{"interfaces_lost", "", "pairs of bodies whose last bond has broken so far"},
          [](Row r) { return static_cast<double>(r.interfaces_lost); },
          true},
-        {{"points_sliding", "", "contact points at the Coulomb limit in this step"},
+        {{"points_sliding", "", "contact points at the Coulomb limit in this step",
+          "with a shear force above 1e-9 of the mean back-tension, so that surfaces that just touch do not count"},
          [](Row r) { return static_cast<double>(r.points_sliding); },
          true},
         {{"dashpot_loss", "J", "so far"}, [](Row r) { return r.dashpot_loss; }, false},
@@ -88,11 +104,16 @@ const std::vector<CurveColumn>& curve_columns() {
          [](Row r) { return r.energy_error; },
          false},
         {{"gauge_strain", "-", "positive in the sense of the test",
-          "axial, between the particles within half a mean particle of the ends of the gauge length, which is the "
+          "axial, between the bonded particles within half a mean particle of the ends of the gauge length, which is "
+          "the "
           "height "
           "without the grips, or without the outer tenths where there are none; nan where an end has none"},
          [](Row r) { return r.gauge_strain; },
          false},
+        {{"bonds_slid", "", "bonded points that have been at their Coulomb limit so far, broken ones among them",
+          "each has its row in slips.csv, where that is asked for"},
+         [](Row r) { return static_cast<double>(r.bonds_slid); },
+         true},
     };
     return columns;
 }

@@ -38,6 +38,7 @@ struct CurveRow {
     double platen_work = 0.0;    // J
     double energy_error = 0.0;   // J
     double gauge_strain = 0.0;
+    std::int64_t bonds_slid = 0;
     std::int64_t contacts_gained = 0;  ///< points touching without a bond; kept for the summary, not a column
 
     template <class Self, class Visit>
@@ -60,6 +61,7 @@ struct CurveRow {
         visit("platen_work", s.platen_work);
         visit("energy_error", s.energy_error);
         visit("gauge_strain", s.gauge_strain);
+        visit("bonds_slid", s.bonds_slid);
         visit("contacts_gained", s.contacts_gained);
     }
 };

@@ -51,6 +51,10 @@ std::span<const CurveRow> up_to_peak(std::span<const CurveRow> rows, std::int64_
 
 }  // namespace
 
+double area_strain(const CurveRow& row, bool compression) {
+    return (compression ? row.axial_strain : -row.axial_strain) - row.lateral_strain;
+}
+
 Tangent initial_tangent(std::span<const CurveRow> rows, std::int64_t peak_row, bool compression) {
     const auto rising = up_to_peak(rows, peak_row);
     if (rising.empty()) return tangent(rising, compression);

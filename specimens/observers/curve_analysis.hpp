@@ -20,6 +20,9 @@ struct Tangent {
     std::int64_t contacts_gained = 0;  ///< touching without a bond, more than at its beginning
 };
 
+/// Axial less lateral strain, shortening and widening positive: the share by which the specimen's area has shrunk.
+double area_strain(const CurveRow& row, bool compression);
+
 /// Over the first twentieth of the strain at peak: the initial tangent modulus.
 Tangent initial_tangent(std::span<const CurveRow> rows, std::int64_t peak_row, bool compression);
 

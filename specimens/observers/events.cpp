@@ -49,22 +49,60 @@ const std::vector<EventColumn>& event_columns() {
     return columns;
 }
 
-std::string events_header() {
+const std::vector<SlipColumn>& slip_columns() {
+    using Event = const SlipEvent&;
+    static const auto written = [](const auto& value) { return fmt::format("{}", value); };
+    static const std::vector<SlipColumn> columns{
+        {{"time", "s since loading began", "", "when the limit was first reached"},
+         [](Event s, double) { return written(s.time); }},
+        {{"step", "steps since loading began", "", "likewise"}, [](Event s, double) { return written(s.step); }},
+        {{"axial_strain", "-", "positive in the sense of the test"},
+         [](Event, double strain) { return written(strain); }},
+        {{"x", "m", "of the contact point, rightwards"}, [](Event s, double) { return written(s.position.x); }},
+        {{"y", "m", "of the contact point, upwards"}, [](Event s, double) { return written(s.position.y); }},
+        {{"body_i", "", "id of one body"}, [](Event s, double) { return written(s.body_i); }},
+        {{"body_j", "", "id of the other"}, [](Event s, double) { return written(s.body_j); }},
+        {{"orientation", "rad", "direction of the contact normal, counter-clockwise from x, in (-π/2, π/2]"},
+         [](Event s, double) { return written(s.orientation); }},
+        {{"normal_force", "N", "elastic, positive pushes apart, from the bonded state"},
+         [](Event s, double) { return written(s.normal_force); }},
+        {{"shear_force", "N", "elastic, on body_i along the normal from i to j turned by +90°: the limit, signed"},
+         [](Event s, double) { return written(s.shear_force); }},
+    };
+    return columns;
+}
+
+namespace {
+
+template <class Columns>
+std::string header_of(const Columns& columns) {
     std::string line;
-    for (const EventColumn& column : event_columns()) {
+    for (const auto& column : columns) {
         if (!line.empty()) line += ',';
         line += column.what.name;
     }
     return line + '\n';
 }
 
-std::string event_line(const BreakEvent& event, double axial_strain) {
+template <class Columns, class Event>
+std::string line_of(const Columns& columns, const Event& event, double axial_strain) {
     std::string line;
-    for (const EventColumn& column : event_columns()) {
+    for (const auto& column : columns) {
         if (!line.empty()) line += ',';
         line += column.text(event, axial_strain);
     }
     return line + '\n';
+}
+
+}  // namespace
+
+std::string events_header() { return header_of(event_columns()); }
+std::string event_line(const BreakEvent& event, double axial_strain) {
+    return line_of(event_columns(), event, axial_strain);
+}
+std::string slips_header() { return header_of(slip_columns()); }
+std::string slip_line(const SlipEvent& event, double axial_strain) {
+    return line_of(slip_columns(), event, axial_strain);
 }
 
 }  // namespace crackle

@@ -18,6 +18,15 @@ struct EventColumn {
 /// In the order of the file.
 const std::vector<EventColumn>& event_columns();
 
+/// slips.csv: one row the first slip of a bond, likewise.
+struct SlipColumn {
+    Quantity what;
+    std::string (*text)(const SlipEvent&, double axial_strain);
+};
+const std::vector<SlipColumn>& slip_columns();
+std::string slips_header();
+std::string slip_line(const SlipEvent& event, double axial_strain);
+
 std::string events_header();  ///< with line end
 std::string event_line(const BreakEvent& event, double axial_strain);
 

@@ -4,24 +4,35 @@
 #include <cmath>
 
 namespace crackle {
+namespace {
+
+/// Whether the stress has stayed below the share of the largest for long enough, this row included.
+bool lasts(StressDrop& below, const FailureTracker& f, double share, std::int64_t row, double strain, double stress) {
+    if (stress >= share * f.largest_stress) {
+        below = {};
+        return false;
+    }
+    if (std::isnan(below.since)) below = {strain, row};
+    return strain - below.since >= failure_strain_share * f.strain_at_largest && row - below.row >= failure_rows;
+}
+
+}  // namespace
 
 bool FailureTracker::update(std::int64_t row, double strain, double stress) {
-    if (stress > peak_stress) {
+    if (stress > largest_stress) {
+        largest_stress = stress;
+        strain_at_largest = strain;
+        largest_row = row;
+        drop = collapse = {};
+        if (failed) return false;
         peak_stress = stress;
         peak_strain = strain;
         peak_row = row;
-        below_since = std::numeric_limits<double>::quiet_NaN();
         return true;
     }
-    if (peak_row < 0 || stress >= share_of_peak * peak_stress) {
-        below_since = std::numeric_limits<double>::quiet_NaN();
-        return false;
-    }
-    if (std::isnan(below_since)) {
-        below_since = strain;
-        below_row = row;
-    }
-    failed = failed || (strain - below_since >= failure_strain_share * peak_strain && row - below_row >= failure_rows);
+    if (largest_row < 0) return false;
+    collapsed = lasts(collapse, *this, share_of_peak, row, strain, stress) || collapsed;
+    failed = lasts(drop, *this, 1.0 - strength_drop, row, strain, stress) || failed || collapsed;
     return false;
 }
 

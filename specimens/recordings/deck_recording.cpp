@@ -232,7 +232,8 @@ class DeckMotion {
 Recording read_deck_recording(const fs::path& folder, std::size_t most_frames) {
     Recording recording;
     recording.kind = Recording::Kind::deck;
-    recording.name = fs::weakly_canonical(folder).filename().string();
+    recording.path = fs::weakly_canonical(folder);
+    recording.name = recording.path.filename().string();
     recording.mean_velocities = true;
     const auto motion = std::make_shared<DeckMotion>(folder, most_frames);
     motion->read_start(folder, recording);

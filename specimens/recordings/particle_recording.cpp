@@ -12,6 +12,7 @@ Recording read_particle_recording(const std::filesystem::path& file, std::uint64
                                                       : make_random_circles(read_random_geometry(file), seed).scene;
     Recording recording;
     recording.name = file.filename().string();
+    recording.path = std::filesystem::weakly_canonical(file);
     recording.walls = {scene.domain.x1, scene.domain.x2, scene.domain.y1, scene.domain.y2};
     RecordedFrame frame;
     for (const Body& body : scene.bodies) {

@@ -75,7 +75,8 @@ struct RecordedFrame {
 struct Recording {
     enum class Kind : std::uint8_t { test, deck, particles };
 
-    std::string name;
+    std::string name;            ///< of the folder or file
+    std::filesystem::path path;  ///< of it, absolute
     Kind kind = Kind::particles;
     TestResults results;                         ///< of a test
     std::optional<std::array<double, 4>> walls;  /// x1, x2, y1, y2 of a deck's domain

@@ -230,6 +230,7 @@ Recording read_test_recording(const fs::path& folder, std::size_t most_frames) {
     recording.kind = Recording::Kind::test;
     recording.results = read_results(folder);
     recording.name = recording.results.name;
+    recording.path = fs::weakly_canonical(folder);
     const std::vector<std::int64_t> rows = drawn_rows(folder / "frames");
     if (rows.empty()) return recording;
     for (const char* role : roles) {

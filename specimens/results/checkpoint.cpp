@@ -7,6 +7,7 @@
 
 #include <cereal/archives/binary.hpp>
 #include <cereal/types/array.hpp>
+#include <cereal/types/optional.hpp>
 #include <cereal/types/string.hpp>
 #include <cereal/types/utility.hpp>
 #include <cereal/types/vector.hpp>
@@ -22,7 +23,7 @@ namespace crackle {
 
 // Names the layout; the number is raised whenever a field below changes.
 constexpr const char* checkpoint_title = "crackle test checkpoint ";
-constexpr const char* checkpoint_version = "11";
+constexpr const char* checkpoint_version = "12";
 constexpr std::size_t hash_digits = 64;
 
 void save_test(std::ostream& out, const std::string& case_hash, const TestSetup& setup, const TestState& state,

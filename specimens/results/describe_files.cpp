@@ -77,6 +77,13 @@ One row for each bonded point that broke, in the order in which they broke (what
 several bonded points, and each has its row.
 )";
 
+constexpr const char* slips_text = R"(
+## `slips.csv`
+
+With `output.slips = true`, one row for each back-tension bond that reached its Coulomb limit for the first time: the shear damage that no break
+shows, for such a bond slides within its limit and parts where its overlap is used up. Coulomb bonds stick until they fail.
+)";
+
 constexpr const char* summary_text = R"(
 ## `summary.json`
 
@@ -112,6 +119,9 @@ void describe_test_files(std::ostream& out) {
     out << events_text;
     begin_table(out, "column");
     for (const EventColumn& column : event_columns()) print_row(out, column.what);
+    out << slips_text;
+    begin_table(out, "column");
+    for (const SlipColumn& column : slip_columns()) print_row(out, column.what);
     out << summary_text;
     begin_table(out, "key");
     for (const SummaryKey& key : summary_keys())

@@ -34,7 +34,7 @@ void remove_unlisted_frames(const fs::path& frames, const TestState& state) {
 }  // namespace
 
 TestFiles::TestFiles(const OutputFolder& folder, std::string case_hash, const TestState& state,
-                     PointPrecision precision)
+                     PointPrecision precision, bool slips)
     : folder_(folder),
       case_hash_(std::move(case_hash)),
       curve_(folder.path() / "curve.csv", state.curve_bytes),
@@ -43,6 +43,8 @@ TestFiles::TestFiles(const OutputFolder& folder, std::string case_hash, const Te
       collection_due_(!state.frames.empty()) {
     if (state.curve_bytes == 0) curve_.write(curve_header());
     if (state.events_bytes == 0) events_.write(events_header());
+    if (slips) slips_.emplace(folder.path() / "slips.csv", state.slips_bytes);
+    if (slips && state.slips_bytes == 0) slips_->write(slips_header());
     remove_unlisted_frames(folder.path() / "frames", state);
 }
 
@@ -50,6 +52,10 @@ void TestFiles::add_row(const CurveRow& row) { curve_.write(curve_line(row)); }
 
 void TestFiles::add_event(const BreakEvent& event, double axial_strain) {
     events_.write(event_line(event, axial_strain));
+}
+
+void TestFiles::add_slip(const SlipEvent& event, double axial_strain) {
+    if (slips_) slips_->write(slip_line(event, axial_strain));
 }
 
 void TestFiles::add_frame(const Frame& frame, const TestSetup& setup, TestState& state, const World& world) {
@@ -89,12 +95,14 @@ void TestFiles::write_checkpoint(const TestSetup& setup, TestState& state, const
     write_collection(state);
     state.curve_bytes = curve_.bytes();
     state.events_bytes = events_.bytes();
+    if (slips_) state.slips_bytes = slips_->bytes();
     folder_.write("checkpoint", [&](std::ostream& out) { save_test(out, case_hash_, setup, state, world); });
 }
 
 void TestFiles::flush() {
     curve_.flush();
     events_.flush();
+    if (slips_) slips_->flush();
 }
 
 void TestFiles::write_summary(const nlohmann::ordered_json& summary, const TestState& state) {

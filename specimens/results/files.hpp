@@ -15,10 +15,13 @@ namespace crackle {
 class TestFiles {
   public:
     /// Begins from the start (state without rows) or goes on from the state, removing what came after it.
-    TestFiles(const OutputFolder& folder, std::string case_hash, const TestState& state, PointPrecision precision);
+    /// @param slips whether slips.csv is written
+    TestFiles(const OutputFolder& folder, std::string case_hash, const TestState& state, PointPrecision precision,
+              bool slips = false);
 
     void add_row(const CurveRow& row);
     void add_event(const BreakEvent& event, double axial_strain);
+    void add_slip(const SlipEvent& event, double axial_strain);
     /// Writes the pictures of a frame and lists it in state.frames, in the order of rows. frames.pvd follows within
     /// a second, or with the checkpoint or the summary: replacing a file costs more than a small specimen's frame.
     void add_frame(const Frame& frame, const TestSetup& setup, TestState& state, const World& world);
@@ -34,6 +37,7 @@ class TestFiles {
     const OutputFolder& folder_;
     std::string case_hash_;
     GrowingFile curve_, events_;
+    std::optional<GrowingFile> slips_;
     PointPrecision precision_;
     std::optional<FramePainter> painter_;  // once there is a frame
     bool collection_due_;                  // frames.pvd is not of the state

@@ -46,6 +46,7 @@ struct TestState {
     std::int64_t next_frame = 0;     ///< due at this multiple of the strain between frames
     RateState rate;                  ///< loading by tolerance
     std::int64_t breaks_in_shear = 0, breaks_in_tension = 0, breaks_after_sliding = 0;
+    std::int64_t breaks_in_shear_to_peak = 0, breaks_in_tension_to_peak = 0;
     std::string ended_by;  ///< empty while the test runs
 
     // Of the specimen with all bonds intact and sticking (sparse solve); not a number where there is no solution.
@@ -54,9 +55,9 @@ struct TestState {
     double gauge_modulus = std::numeric_limits<double>::quiet_NaN();  ///< N/m, stress over strain of the gauge length
     double modulus_residual = std::numeric_limits<double>::quiet_NaN();  ///< of the solve, its relative error
 
-    std::uint64_t curve_bytes = 0, events_bytes = 0;  ///< lengths of the files at the checkpoint
-    double wall_seconds = 0.0, step_seconds = 0.0;    ///< spent before this process
-    std::string command;                              ///< that began the test
+    std::uint64_t curve_bytes = 0, events_bytes = 0, slips_bytes = 0;  ///< lengths of the files at the checkpoint
+    double wall_seconds = 0.0, step_seconds = 0.0;                     ///< spent before this process
+    std::string command;                                               ///< that began the test
 
     template <class Self, class Visit>
     static constexpr void fields(Self& s, Visit&& visit) {
@@ -70,6 +71,8 @@ struct TestState {
         visit("breaks_in_shear", s.breaks_in_shear);
         visit("breaks_in_tension", s.breaks_in_tension);
         visit("breaks_after_sliding", s.breaks_after_sliding);
+        visit("breaks_in_shear_to_peak", s.breaks_in_shear_to_peak);
+        visit("breaks_in_tension_to_peak", s.breaks_in_tension_to_peak);
         visit("ended_by", s.ended_by);
         visit("youngs_modulus", s.youngs_modulus);
         visit("poissons_ratio", s.poissons_ratio);
@@ -77,6 +80,7 @@ struct TestState {
         visit("modulus_residual", s.modulus_residual);
         visit("curve_bytes", s.curve_bytes);
         visit("events_bytes", s.events_bytes);
+        visit("slips_bytes", s.slips_bytes);
         visit("wall_seconds", s.wall_seconds);
         visit("step_seconds", s.step_seconds);
         visit("command", s.command);

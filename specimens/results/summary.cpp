@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 
+#include "specimens/frames/fragments.hpp"
 #include "specimens/observers/curve_analysis.hpp"
 #include "specimens/observers/parting.hpp"
 #include "specimens/observers/profile_report.hpp"
@@ -75,6 +77,8 @@ void strength(Writer& w, const TestSetup& setup, const TestState& state) {
     const std::string so_far = f.failed ? "" : "_so_far";
     w.stress("peak_stress" + so_far, f.peak_row < 0 ? NAN : f.peak_stress);
     w.put("peak_strain" + so_far, number(f.peak_row < 0 ? NAN : f.peak_strain));
+    w.stress("largest_stress", f.largest_row < 0 ? NAN : f.largest_stress);
+    w.put("strain_at_largest_stress", number(f.largest_row < 0 ? NAN : f.strain_at_largest));
     w.stress("youngs_modulus", state.youngs_modulus);
     w.put("poissons_ratio", number(state.poissons_ratio));
     w.stress("gauge_modulus", state.gauge_modulus);
@@ -92,7 +96,33 @@ void strength(Writer& w, const TestSetup& setup, const TestState& state) {
     w.put("tangent_50_poissons_ratio", number(half.poissons_ratio));
 }
 
-void counts(Writer& w, const TestSetup& setup, const TestState& state, const World& world) {
+/// What has become of the specimen up to the peak and to the end.
+void damage(Writer& w, const TestSetup& setup, const TestState& state, const World& world) {
+    w.put("bonds_broken", world.bonds.broken);
+    w.put("bonds_broken_after_sliding", state.breaks_after_sliding);
+    w.put("bonds_broken_in_shear", state.breaks_in_shear);
+    w.put("bonds_broken_in_tension", state.breaks_in_tension);
+    w.put("bonds_broken_in_shear_to_peak", state.breaks_in_shear_to_peak);
+    w.put("bonds_broken_in_tension_to_peak", state.breaks_in_tension_to_peak);
+    w.put("interfaces_lost", world.bonds.interfaces_lost);
+    const std::vector<CurveRow>& rows = state.rows;
+    const std::int64_t peak = state.failure.peak_row;
+    const auto area_strain_of = [&](const CurveRow& row) { return area_strain(row, setup.compression); };
+    w.put("area_strain_peak", number(peak < 0 ? NAN : area_strain_of(rows[static_cast<std::size_t>(peak)])));
+    w.put("area_strain_end", number(rows.empty() ? NAN : area_strain_of(rows.back())));
+    Frame now;
+    take_frame(world, setup, state.history, rows.empty() ? CurveRow{} : rows.back(), 0, now);
+    const FragmentFigures fragments = measure_fragments(world, setup, now);
+    w.put("fragments", fragments.count);
+    w.put("largest_fragment_share", fragments.largest_share);
+    const std::optional<Parting> parting = find_parting(setup, state.history);
+    w.put("failed_at", parting ? Json(parting->place) : Json(nullptr));
+    w.put("largest_crack",
+          parting ? Json{{"bonds", parting->bonds}, {"of_platen", parting->of_platen}, {"height", parting->height}}
+                  : Json(nullptr));
+}
+
+void counts(Writer& w, const TestSetup& setup, const World& world) {
     w.put("initial_width", setup.width);
     w.put("initial_height", setup.height);
     w.put("particles", setup.particles);
@@ -101,12 +131,7 @@ void counts(Writer& w, const TestSetup& setup, const TestState& state, const Wor
     w.put("bond_thick", setup.bond_thick);
     w.put("contacts_initial", setup.contacts_initial);
     w.put("bonds_initial", world.bonds.initial);
-    w.put("bonds_broken", world.bonds.broken);
-    w.put("bonds_broken_after_sliding", state.breaks_after_sliding);
-    w.put("bonds_broken_in_shear", state.breaks_in_shear);
-    w.put("bonds_broken_in_tension", state.breaks_in_tension);
     w.put("interfaces_initial", world.bonds.interfaces_initial);
-    w.put("interfaces_lost", world.bonds.interfaces_lost);
     w.put("mean_back_tension", setup.mean_back_tension);
     w.put("mean_back_tension_interface", setup.mean_back_tension_interface);
     w.put("mean_bond_overlap", setup.mean_bond_overlap);
@@ -116,11 +141,6 @@ void counts(Writer& w, const TestSetup& setup, const TestState& state, const Wor
     }
     w.put("bonds_unbreakable", world.bonds.held);
     w.put("grip", setup.grip);
-    const std::optional<Parting> parting = find_parting(setup, state.history);
-    w.put("failed_at", parting ? Json(parting->place) : Json(nullptr));
-    w.put("largest_crack",
-          parting ? Json{{"bonds", parting->bonds}, {"of_platen", parting->of_platen}, {"height", parting->height}}
-                  : Json(nullptr));
     w.put("platen_bottom_id", setup.bottom_id);
     w.put("platen_top_id", setup.top_id);
 }
@@ -128,7 +148,7 @@ void counts(Writer& w, const TestSetup& setup, const TestState& state, const Wor
 /// Stress that the dashpots bear when loading by tolerance begins, over the largest one.
 double viscous_share(const TestCase& test, const TestState& state) {
     if (!test.loading.rate_tolerance || state.rows.empty()) return NAN;
-    return state.rows.front().axial_stress / state.failure.peak_stress;
+    return state.rows.front().axial_stress / state.failure.largest_stress;
 }
 
 void numerics(Writer& w, const TestCase& test, const TestSetup& setup, const TestState& state, const World& world) {
@@ -169,6 +189,18 @@ void packing(Writer& w, const TestSetup& setup) {
     Json figures;
     for (const auto& [name, value] : setup.packing) figures[name] = number(value);
     w.put("packing", figures);
+}
+
+void minerals(Writer& w, const TestSetup& setup) {
+    if (setup.minerals.empty()) return;
+    Json all = Json::array();
+    for (const MineralShare& m : setup.minerals) {
+        all.push_back({{"name", m.name},
+                       {"area_share", m.asked ? number(*m.asked) : Json(nullptr)},
+                       {"area_share_reached", number(m.reached)},
+                       {"grains", m.grains}});
+    }
+    w.put("minerals", all);
 }
 
 Json error_of(const NumberError* measured, double closing) {
@@ -223,6 +255,13 @@ std::vector<std::string> notices_of(const TestCase& test, const TestSetup& setup
                         "loading.max_axial_strain = {} "
                         "towards {:.2g}",
                         f.peak_row, test.loading.max_axial_strain, 10.0 * f.peak_strain));
+    }
+    if (f.failed && f.larger_after_peak()) {
+        notices.push_back(fmt::format(
+            "the largest stress, {:.4g} N/m at strain {:.4g}, comes after the peak of {:.4g} N/m at "
+            "{:.4g}, below which the stress had stayed by more than loading.strength_drop = {}: what is "
+            "broken carries again; the strength is the peak",
+            f.largest_stress, f.strain_at_largest, f.peak_stress, f.peak_strain, test.loading.strength_drop));
     }
     if (world.stepping.time_step > setup.stable_time_step) {
         notices.push_back(
@@ -297,15 +336,18 @@ void frames(Writer& w, const TestState& state) {
 nlohmann::ordered_json make_summary(const TestCase& test, const TestSetup& setup, const TestState& state,
                                     const World& world, const TestTiming& timing, const NumericalErrors* errors) {
     Json json, units;
-    Writer w{json, units, test.output.out_of_plane_thickness, test.area_units()};
+    const std::optional<double>& thickness = test.output.out_of_plane_thickness;
+    Writer w{json, units, thickness.value_or(1.0), test.area_units()};
     describe(w, test, setup, state);
     strength(w, setup, state);
-    counts(w, setup, state, world);
+    damage(w, setup, state, world);
+    counts(w, setup, world);
     numerics(w, test, setup, state, world);
     numerical_errors(w, state, errors);
     packing(w, setup);
+    minerals(w, setup);
     frames(w, state);
-    w.put("out_of_plane_thickness", test.output.out_of_plane_thickness);
+    w.put("out_of_plane_thickness", thickness ? Json(*thickness) : Json(nullptr));
     w.put("notices", notices_of(test, setup, state, world));
     if (errors != nullptr) {
         const std::string notice = notice_of(state.failure, *errors);

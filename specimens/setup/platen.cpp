@@ -37,11 +37,11 @@ double bonded_offset(const Specimen& specimen, double depth, double thick) {
     return flat ? 0.5 * specimen.mesh_gap : specimen.mesh_gap - depth;
 }
 
-int platen_material(Scene& scene, const TestCase::Loading& loading) {
-    const int of_specimen = scene.bodies.front().material;
+int platen_material(Scene& scene, const Specimen& specimen, const TestCase::Loading& loading) {
+    const int of_specimen = specimen.platen_material;
     if (loading.platens != "frictional") return of_specimen;
     Material material = scene.materials[static_cast<std::size_t>(of_specimen)];
-    material.friction_angle = *loading.platen_friction_angle;
+    material.friction_angle = material.residual_friction_angle = *loading.platen_friction_angle;
     scene.materials.push_back(material);
     return static_cast<int>(scene.materials.size()) - 1;
 }
@@ -88,7 +88,7 @@ Platens add_platens(Scene& scene, const Specimen& specimen, const TestCase::Load
                                           [](const Body& a, const Body& b) { return a.id < b.id; });
     platens.bottom_id = largest->id + 1;
     platens.top_id = largest->id + 2;
-    const int material = platen_material(scene, loading);
+    const int material = platen_material(scene, specimen, loading);
     const double middle = 0.5 * (domain.x1 + domain.x2);
     const double half = 0.5 * platen_width_ratio * specimen.width;
     const double left = middle - half, right = middle + half;

@@ -48,8 +48,10 @@ constexpr double outer_share = 0.1;  // of the height, left out of the axial gau
 void find_axial_gauge(TestSetup& setup, const World& world, double outer) {
     const double size = std::sqrt(setup.width * setup.height / static_cast<double>(setup.particles));
     const double bottom = setup.low_end + outer * setup.height, top = setup.low_end + (1.0 - outer) * setup.height;
+    std::vector<bool> carries(world.bodies.size(), false);  // floating ones go their own ways
+    for (const Bond& bond : setup.bonds) carries[bond.point.body_i] = carries[bond.point.body_j] = true;
     for (BodyIndex b = 0; b < world.bodies.size(); ++b) {
-        if (setup.is_platen(b)) continue;
+        if (setup.is_platen(b) || !carries[b]) continue;
         if (std::abs(world.bodies.state[b].y - bottom) <= 0.5 * size) setup.gauge_bottom.push_back(b);
         if (std::abs(world.bodies.state[b].y - top) <= 0.5 * size) setup.gauge_top.push_back(b);
     }
@@ -151,6 +153,7 @@ TestSetup record_setup(const World& world, const Specimen& specimen, const Plate
     setup.coulomb_bonds = world.settings.bond_law == BondLaw::coulomb;
     setup.notices = specimen.notices;
     setup.packing = specimen.packing;
+    setup.minerals = specimen.minerals;
     for (const BodyState& body : world.bodies.state) setup.start.push_back({body.x, body.y, body.angle});
     setup.left = gauge(world, specimen.left_ids, world.settings.domain);
     setup.right = gauge(world, specimen.right_ids, world.settings.domain);
@@ -159,8 +162,8 @@ TestSetup record_setup(const World& world, const Specimen& specimen, const Plate
     } else {
         setup.gauge_length = mean_x(world, setup.right) - mean_x(world, setup.left);
     }
-    find_axial_gauge(setup, world, grip > 0.0 ? grip : outer_share);
     record_bonds(setup, world);
+    find_axial_gauge(setup, world, grip > 0.0 ? grip : outer_share);
     return setup;
 }
 

@@ -65,8 +65,8 @@ struct TestSetup {
     double mean_tensile_strength = 0.0, mean_cohesion = 0.0;  // N, over bonded points that can break, coulomb bonds
     double grip = 0.0;                                        // m, depth at each end whose bonds never break
     double low_end = 0.0;                                     // m, y of the specimen's lower face
-    /// Particles about the two ends of the axial gauge length, the specimen without its grips (without the outer tenths
-    /// where there are none), and the distance of their mean y, m; 0 where an end has none.
+    /// Bonded particles about the two ends of the axial gauge length, the specimen without its grips (without the outer
+    /// tenths where there are none), and the distance of their mean y, m; 0 where an end has none.
     std::vector<BodyIndex> gauge_bottom, gauge_top;
     double gauge_height = 0.0;
     double stable_time_step = 0.0;         // s, exact, when bonds were made
@@ -80,6 +80,8 @@ struct TestSetup {
     std::array<PointIndex, point_kinds + 1> bond_kind_begin{};  ///< into bonds
     std::vector<std::string> notices;
     std::vector<std::pair<std::string, double>> packing;  ///< figures of the packing by name; empty for a particle file
+
+    std::vector<MineralShare> minerals;  ///< empty of a rock of one material
 
     bool is_platen(BodyIndex body) const { return body == bottom || body == top; }
     double axial_strain(const World& world) const;
@@ -129,6 +131,7 @@ struct TestSetup {
         visit("bond_kind_begin", s.bond_kind_begin);
         visit("notices", s.notices);
         visit("packing", s.packing);
+        visit("minerals", s.minerals);
     }
 };
 

@@ -3,7 +3,7 @@
 //   CRACKLE_PROGRAM, SAMPLE_RESULTS: the programs; CHROMIUM: the browser
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
-import {mkdtempSync, readFileSync, rmSync} from 'node:fs';
+import {cpSync, mkdtempSync, readFileSync, rmSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {after, before, test} from 'node:test';
@@ -20,8 +20,15 @@ before(async () => {
     execFileSync(process.env.SAMPLE_RESULTS, [root]);
     report(sixFolders, 'six.html');
     report(['stopped'], 'stopped.html');
+    report(['rubble', 'stopped'], 'rubble.html');
     report(['markup', 'stopped'], 'markup.html');
     report(['markup'], 'markup-title.html');
+    for (const [lab, seed] of [['first', 1], ['second', 2]]) {
+        cpSync(join(root, 'circles-tension'), join(root, lab, 'c'), {recursive: true});
+        const file = join(root, lab, 'c', 'summary.json');
+        writeFileSync(file, JSON.stringify({...JSON.parse(readFileSync(file, 'utf8')), title: 'Wet rock', seed}));
+    }
+    report(['first/c', 'second/c'], 'same-name.html');
     browser = await launch();
 });
 
@@ -115,9 +122,12 @@ test('the cursor reads the stress off the curve', async () => {
     const box = await panel.boundingBox();
     await page.mouse.move(box.x + 200, box.y + 180);
     await page.mouse.move(box.x + 204, box.y + 180);
-    const cursor = page.locator('.cursor').first();
-    await cursor.waitFor({state: 'visible', timeout: 5000});
-    const strain = 1e-3 * Number((await cursor.locator('div').first().textContent()).match(/strain ([\d.]+)×10⁻³/)[1]);
+    const cursor = page.locator('[data-panel="Tension"] .cursor');
+    await cursor.locator('table').waitFor({state: 'visible', timeout: 5000});
+    const place = await cursor.boundingBox();
+    assert.ok(place.y >= box.y + box.height - 0.5, `the values stand below the curves: expected from ${box.y + box.height} px on, got ${place.y}`);
+    assert.equal(await page.locator('[data-panel="Tension"] .panel > div[style*="pointer-events"]').count(), 0, 'no box over the curves');
+    const strain = 1e-3 * Number((await cursor.locator('div div').first().textContent()).match(/strain ([\d.]+)×10⁻³/)[1]);
     const row = await cursor.locator('tr', {hasText: 'Voronoi'}).locator('td').first().textContent();
     const [, number, prefix] = row.match(/([\d.]+)\s?(k?)N\/m/);
     const got = Number(number) * (prefix ? 1000 : 1);
@@ -139,6 +149,7 @@ test('the table states the summaries in one unit a row', async () => {
     assert.deepEqual((await cells('Peak stress: time step')).slice(0, 2), ['%', '0.40']);
     assert.deepEqual(await cells('Peak stress: loading rate'), [], 'a row of nothing is left out');
     assert.deepEqual((await cells('Peak converged')).slice(1), sixFolders.map(() => 'yes'));
+    assert.deepEqual(await cells('Larger stress after the peak'), []);
     assert.deepEqual((await cells('Time step over the stable one')).slice(0, 2), ['%', '80']);
     await close();
 });
@@ -149,6 +160,120 @@ test('a test that has not failed is marked as such, beside the curve, in the tab
     assert.match(await page.locator('[data-panel]').textContent(), /peak so far/);
     assert.match(await page.locator('table.summary').textContent(), /no: peak so far/);
     assert.match(await page.locator('#specimens article .warning').textContent(), /not failed/);
+    await close();
+});
+
+/// Boxes of texts that overlap by more than a pixel, as pairs.
+const overlaps = (texts) => texts.evaluateAll((all) => {
+    const boxes = all.map((one) => ({text: one.textContent, box: one.getBoundingClientRect()})).filter(({text, box}) => text.trim() !== '' && box.width > 0);
+    return boxes.flatMap((a, at) => boxes.slice(at + 1).filter((b) => Math.min(a.box.right, b.box.right) - Math.max(a.box.left, b.box.left) > 1
+        && Math.min(a.box.bottom, b.box.bottom) - Math.max(a.box.top, b.box.top) > 1).map((b) => `${a.text} / ${b.text}`));
+});
+
+test('labels of the rose keep apart: angles outside, counts on their circles', async () => {
+    const {page, close} = await open('six.html');
+    const roses = page.locator('.rose svg');
+    assert.equal(await roses.count(), 6);
+    for (let at = 0; at < 6; ++at) {
+        const rose = roses.nth(at), folder = await page.locator('.card.breaks').nth(at).getAttribute('data-test');
+        assert.deepEqual(await overlaps(rose.locator('text')), [], folder);
+        assert.deepEqual(await rose.locator('text.angle').allTextContents(), ['0°', '90°', '180°', '270°']);
+        const counts = (await rose.locator('text.count').allTextContents()).map(Number), {events} = results(join(root, folder));
+        const classes = new Array(18).fill(0);
+        for (const {orientation} of events) classes[Math.round((orientation * 180 / Math.PI + 90) / 10) % 18] += 1;
+        const most = Math.max(...classes), outer = counts.at(-1);
+        const radius = Math.max(...await rose.locator('circle').evaluateAll((all) => all.map((one) => Number(one.getAttribute('r')))));
+        const far = await rose.locator('path.sector').evaluateAll((all) => Math.max(...all.flatMap((one) => one.getAttribute('d').match(/[ML]([\d.]+) ([\d.]+)/g)
+            .map((point) => point.slice(1).split(' ').map(Number)).map(([x, y]) => Math.hypot(x - 118, y - 118)))));
+        console.log(`  ${folder}: ${most} of ${events.length} in the fullest class, circles ${counts}: longest sector ${far.toFixed(1)} of ${radius} px`);
+        assert.ok(outer >= most && counts.length <= 4, `circles ${counts} for ${most}`);
+        assert.ok(Math.abs(far / radius - most / outer) < 0.01, `longest sector: expected ${most / outer}, got ${far / radius}`);
+    }
+    await close();
+});
+
+test('results in folders of equal name have names of their own', async () => {
+    const {page, close} = await open('same-name.html');
+    const expected = ['Wet rock, seed 1', 'Wet rock, seed 2'];
+    assert.equal(await page.locator('.about').textContent(), `2 virtual tests: ${expected.join(' · ')}`);
+    assert.deepEqual((await page.locator('table.summary thead tr').last().locator('th').allTextContents()), expected);
+    for (const part of ['#breaks', '#specimens']) assert.deepEqual(await page.locator(`${part} h3`).evaluateAll((all) => all.map((one) => one.firstChild.textContent)), expected, part);
+    await close();
+});
+
+test('a click on a curve brings the specimens into view', async () => {
+    for (const panel of ['Tension', 'Compression']) {
+        const {page, close} = await open('six.html');
+        const seen = () => page.locator('.stage').evaluate((stage) => {
+            const box = stage.getBoundingClientRect();
+            return Math.max(0, Math.min(innerHeight, box.bottom) - Math.max(0, box.top)) / box.height;
+        });
+        await page.locator('#curves h2').scrollIntoViewIfNeeded();
+        const before = await seen(), box = await page.locator(`[data-panel="${panel}"] .panel`).boundingBox();
+        await page.mouse.click(box.x + 0.6 * box.width, box.y + 200);
+        await page.evaluate(() => window.crackle.settled());
+        console.log(`  share of the picture on the screen: ${before.toFixed(2)} before, ${(await seen()).toFixed(2)} after`);
+        assert.ok(before < 0.6 && await seen() > 0.95, `expected the picture on the screen, got ${await seen()} of it`);
+        assert.ok((await page.evaluate(() => window.crackle.shown())).some(({frame}) => frame > 0));
+        await close();
+    }
+});
+
+test('on a phone titles, legends and notes are whole and keep apart', async () => {
+    for (const file of ['six.html', 'same-name.html', 'stopped.html']) {
+        const {page, close} = await open(file, {viewport: {width: 390, height: 844}, isMobile: true, hasTouch: true});
+        const off = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
+        assert.ok(off <= 0, `${file}: runs ${off} px off the side`);
+        const charts = page.locator('#curves .panel svg');
+        for (let at = 0; at < await charts.count(); ++at) {
+            const texts = charts.nth(at).locator('text');
+            const cut = await texts.evaluateAll((all) => all.filter((one) => {
+                const box = one.getBoundingClientRect(), sheet = one.ownerSVGElement.getBoundingClientRect();
+                return box.width > 0 && (box.left < sheet.left - 1 || box.right > sheet.right + 1 || box.top < sheet.top - 1 || box.bottom > sheet.bottom + 1);
+            }).map((one) => one.textContent));
+            assert.deepEqual(cut, [], `${file}: cut`);
+            const heads = texts.filter({hasText: /[A-Za-z]{3}/});
+            assert.deepEqual(await overlaps(heads), [], `${file}: panel ${at}`);
+        }
+        const panes = await page.locator('.pane').evaluateAll((all) => all.map((one) => one.getBoundingClientRect().toJSON()));
+        const titles = await page.locator('.text-overlay text').evaluateAll((all) => all.map((one) => ({text: one.textContent, box: one.getBoundingClientRect().toJSON()})));
+        for (const {text, box} of titles.filter(({text}) => /,|ε/.test(text))) {
+            assert.ok(panes.some((pane) => box.left >= pane.left - 1 && box.right <= pane.right + 1 && box.top >= pane.top - 2 && box.bottom <= pane.bottom + 2), `${file}: '${text}' leaves its pane`);
+        }
+        if (file === 'six.html') assert.equal(titles.filter(({text}) => /, (tension|compression)$/.test(text)).length, 6, 'six whole titles');
+        await close();
+    }
+});
+
+test('curves of one kind that would be slivers beside the other have panels of their own', async () => {
+    const {page, close} = await open('six.html');
+    await page.click('button[data-value="specimen"]');
+    const titles = await page.locator('[data-panel]').evaluateAll((all) => all.map((one) => one.dataset.panel));
+    const expected = ['circles', 'delaunay', 'voronoi'].flatMap((specimen) => {
+        const name = specimen[0].toUpperCase() + specimen.slice(1);
+        const [t, c] = ['tension', 'compression'].map((kind) => results(join(root, `${specimen}-${kind}`)));
+        const share = (of) => Math.min(of(t), of(c)) / Math.max(of(t), of(c));
+        const sliver = share(({curve}) => Math.max(...curve.map((row) => row.axial_stress))) < 0.25 || share(({curve}) => curve.at(-1).axial_strain) < 0.2;
+        return sliver ? [`${name}, tension`, `${name}, compression`] : [name];
+    });
+    console.log(`  panels: ${titles.join('; ')}`);
+    assert.deepEqual(titles, expected);
+    await close();
+});
+
+test('a larger stress after the peak is marked, and a thickness gives stresses in MPa', async () => {
+    const {page, close} = await open('rubble.html');
+    const {summary} = results(join(root, 'rubble'));
+    const row = (name) => page.locator('table.summary tr', {has: page.locator(`th:text-is("${name}")`)}).locator('td');
+    const [unit, rubble, stopped] = await row('Larger stress after the peak').allTextContents();
+    assert.deepEqual([unit, rubble, stopped], ['kN/m', '6.00', '–']);
+    assert.deepEqual(await row('Larger stress after the peak').evaluateAll((cells) => cells.map((cell) => cell.classList.contains('warning'))), [false, true, false]);
+    assert.deepEqual((await row('Peak stress over the thickness').allTextContents()).slice(0, 2), ['kPa', (summary.peak_stress / 0.05 / 1000).toPrecision(3)]);
+    assert.deepEqual((await row('Larger stress after the peak over the thickness').allTextContents()).slice(0, 2), ['kPa', '120']);
+    assert.match(await page.locator('[data-panel]').first().textContent(), new RegExp(`${(summary.peak_stress / 0.05 / 1000).toPrecision(3)}\\s?kPa`));
+    assert.deepEqual((await row('Fragments at the end').allTextContents()).slice(0, 2), ['–', '3']);
+    assert.deepEqual((await row('up to the peak in tension').allTextContents()).slice(1), ['2', '2']);
+    assert.deepEqual((await row('Area strain at peak').allTextContents()).slice(1, 2), [(0.4 * summary.peak_strain * 1000).toPrecision(3)]);
     await close();
 });
 

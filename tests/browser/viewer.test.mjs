@@ -3,7 +3,7 @@
 //   CRACKLE_PROGRAM, SAMPLE_RESULTS: the programs; SPECIMENS: folder of cases and decks; CHROMIUM: the browser
 import assert from 'node:assert/strict';
 import {execFileSync} from 'node:child_process';
-import {mkdtempSync, readFileSync, rmSync, statSync, writeFileSync} from 'node:fs';
+import {mkdtempSync, readdirSync, readFileSync, rmSync, statSync, writeFileSync} from 'node:fs';
 import {tmpdir} from 'node:os';
 import {join} from 'node:path';
 import {after, before, test} from 'node:test';
@@ -21,12 +21,19 @@ const open = (file, options) => openPage(browser, join(root, file), options);
 const deckOf = (corners) => ['1 0 0', '1.0d-4 0.0 0.0', '1', '1.0 1.0d8 1.0d8 0.0 0.0 0.0', '-1.0 4.0 -1.0 4.0 0.0', '0 1 0', `1 1 ${corners.length}`, '0.0 0.0 0.0',
     ...corners.flatMap(([x, y], at) => [`${at + 1} ${x}.0 ${y}.0`, corners[(at + 1) % corners.length].map((value) => `${value}.0`).join(' ')])].join('\n');
 
+/// Of a case: the largest grains are quartz.
+const minerals = '[minerals]\nassign = "size"\n[[mineral]]\nname = "quartz"\narea_share = 0.5\n[[mineral]]\nname = "feldspar"\n';
+
 before(async () => {
     root = mkdtempSync(join(tmpdir(), 'crackle-viewer-'));
     execFileSync(process.env.SAMPLE_RESULTS, [root]);
     crackle('report', ...sixFolders.map((folder) => join(root, folder)), '-o', join(root, 'six.html'));
     crackle('test', join(process.env.SPECIMENS, 'guide_rock', 'circles_tension.toml'), '-o', join(root, 'pulled'));
     crackle('view', join(root, 'pulled'), '-o', join(root, 'pulled.html'));
+    crackle('test', join(process.env.SPECIMENS, 'guide_rock', 'circles_compression.toml'), '-o', join(root, 'squeezed'));
+    crackle('test', join(process.env.SPECIMENS, 'guide_rock', 'voronoi_compression.toml'), '-o', join(root, 'burst'));
+    crackle('view', join(root, 'burst'), '-o', join(root, 'burst.html'));
+    crackle('view', join(root, 'pulled'), join(root, 'squeezed'), '-o', join(root, 'pair.html'));
     const tension = readFileSync(join(process.env.SPECIMENS, 'guide_rock', 'circles_tension.toml'), 'utf8');
     writeFileSync(join(root, 'many.toml'), `${tension.replace('"rock.toml"', `"${join(process.env.SPECIMENS, 'guide_rock', 'rock.toml')}"`)}\n[output]\nframes = 1200\n`);
     crackle('test', join(root, 'many.toml'), '-o', join(root, 'many'));
@@ -36,6 +43,9 @@ before(async () => {
     crackle('view', join(root, 'deck'), '-o', join(root, 'deck.html'));
     writeFileSync(join(root, 'in_gm_notched.dat'), deckOf([[0, 0], [3, 0], [3, 3], [2, 3], [2, 1], [1, 1], [1, 3], [0, 3]]));
     crackle('view', join(root, 'in_gm_notched.dat'), '-o', join(root, 'notched.html'));
+    writeFileSync(join(root, 'minerals.toml'), `include = "${join(process.env.SPECIMENS, 'guide_rock', 'circles_tension.toml')}"\n[packing]\ncount = 60\n[loading]\nmax_axial_strain = 1e-4\n[output]\nframes = 2\n${minerals}`);
+    crackle('test', join(root, 'minerals.toml'), '-o', join(root, 'minerals'));
+    crackle('view', join(root, 'minerals'), '-o', join(root, 'minerals.html'));
     browser = await launch();
 });
 
@@ -159,6 +169,202 @@ test('a picked particle shows the values of the file', async () => {
     await page.locator('.stage').press('Escape');
     assert.equal(await page.evaluate(() => window.crackle.picked()), undefined);
     assert.ok(await page.locator('.inspector').isHidden());
+    await close();
+});
+
+test('a test alone has its curve beside it, with the cursor', async () => {
+    const {page, close} = await open('pulled.html');
+    const stage = await page.locator('.stage').boundingBox(), curve = await page.locator('.beside-curve .panel').boundingBox(), front = await page.locator('.front').boundingBox();
+    console.log(`  picture ${stage.width.toFixed(0)}, curve ${curve.width.toFixed(0)} of ${front.width.toFixed(0)} px`);
+    assert.ok(stage.width < 0.55 * front.width && curve.width > 0.4 * front.width && curve.x >= stage.x + stage.width, 'side by side');
+    assert.ok(curve.y >= stage.y - 1 && curve.y + curve.height <= stage.y + stage.height + 1, 'as high as the picture');
+    const line = () => page.locator('.beside-curve .cursor-line').evaluate((one) => parseFloat(one.style.left));
+    const before = await line();
+    await page.locator('.scrub').fill(await page.locator('.scrub').getAttribute('max'));
+    await settled(page);
+    const {curve: rows} = results(join(root, 'pulled')), span = curve.width - 66 - 58;
+    console.log(`  cursor at the end: expected ${(before + span).toFixed(0)} px, got ${(await line()).toFixed(0)}`);
+    assert.ok(Math.abs(await line() - before - span) < 3, `cursor: expected at the end of the curve (${rows.length} rows)`);
+    await close();
+});
+
+test('the residual of the solve for the modulus is not shown as its error', async () => {
+    const {page, close} = await open('pulled.html');
+    const {stated} = results(join(root, 'pulled')).summary.numerical_errors.youngs_modulus;
+    assert.ok(stated > 0 && stated < 1e-9, `this test is of a residual, found ${stated}`);
+    const rows = await page.locator('table.summary th[scope="row"]').allTextContents();
+    assert.ok(rows.includes('Peak stress: energy closing'), 'other errors are listed');
+    assert.deepEqual(rows.filter((name) => /modulus.*stated/.test(name)), []);
+    await close();
+});
+
+test('no stress is printed where there is none', async () => {
+    const {page, close} = await open('pulled.html');
+    const {summary, curve} = results(join(root, 'pulled'));
+    console.log(`  first row: ${curve[0].axial_stress} N/m of ${summary.peak_stress}`);
+    assert.ok(curve[0].axial_stress > 0, 'this test is of a stress that is not quite 0');
+    const title = await page.locator('.stage').textContent();
+    assert.match(title, /ε = 0\s+σ ≈ 0/);
+    assert.doesNotMatch(title, /mN\/m/);
+    await page.keyboard.press('End');
+    await settled(page);
+    assert.match(await page.locator('.stage').textContent(), /σ = [\d.]+\s?k?N\/m/);
+    await close();
+});
+
+/// The number and unit after a text of the picture's legend, as a number.
+async function legendNumber(page, before) {
+    const text = (await page.locator('.stage').textContent()).match(new RegExp(`${before}\\s*(?:≥\\s*)?([\\d.]+)\\s*([kMµmn]?)N`));
+    return Number(text[1]) * ({k: 1e3, M: 1e6, m: 1e-3, µ: 1e-6, n: 1e-9}[text[2]] ?? 1);
+}
+
+test('widths of forces mean the same whichever tests are shown', async () => {
+    const {page, close} = await open('pair.html');
+    const widest = async () => {
+        await settled(page);
+        return legendNumber(page, 'Contact force, widest');
+    };
+    await page.click('[data-layer="forces"]');
+    const side = await widest();
+    const alone = [];
+    await choose(page, 'layout', 'one');
+    for (const at of ['0', '1']) {
+        await choose(page, 'test', at);
+        alone.push(await widest());
+    }
+    await choose(page, 'layout', 'over');
+    console.log(`  widest force: side by side ${side} N, alone ${alone} N, overlaid ${await widest()} N`);
+    assert.deepEqual([...alone, await widest()], [side, side, side]);
+    await choose(page, 'layout', 'one');
+    await choose(page, 'test', '0');
+    await choose(page, 'forces-of', 'shown');
+    const own = await widest();
+    await choose(page, 'test', '1');
+    console.log(`  on their own: ${own} N pulled, ${await widest()} N squeezed`);
+    assert.equal(Math.max(own, await widest()), side, 'of one test alone where that is asked for');
+    assert.notEqual(own, await widest());
+    await close();
+});
+
+test('colours are those of the frames up to the peak, so that what precedes the collapse is seen', async () => {
+    const {page, close} = await open('pulled.html');
+    const {summary} = results(join(root, 'pulled')), folder = join(root, 'pulled', 'frames');
+    const peak = Number(summary.frame_peak.match(/(\d+)\.vtp/)[1]), ids = Array.from({length: summary.particles}, (_, at) => at + 1);
+    const percentile = (last) => {
+        const sizes = readdirSync(folder).filter((name) => name.startsWith('particles_') && Number(name.match(/\d+/)[0]) <= last)
+            .flatMap((name) => { const found = particles(join(folder, name)); return ids.map((id) => found.get(id).velocity); }).sort((a, b) => a - b);
+        return sizes[Math.floor(0.98 * (sizes.length - 1))];
+    };
+    const shownEnd = async () => {
+        await settled(page);
+        const [, number, unit] = (await page.locator('.stage').textContent()).match(/Velocity \[([µmn]?)m\/s\]/) ? ['', (await page.locator('.text-overlay text').allTextContents()).find((text) => text.startsWith('≥')).replace(/[^\d.]/g, ''),
+            (await page.locator('.stage').textContent()).match(/Velocity \[([µmn]?)m\/s\]/)[1]] : [];
+        return Number(number) * ({m: 1e-3, µ: 1e-6, n: 1e-9}[unit] ?? 1);
+    };
+    await choose(page, 'quantity', 'velocity');
+    const upTo = await shownEnd(), expected = percentile(peak);
+    await choose(page, 'range', 'all');
+    const all = await shownEnd(), expectedAll = percentile(Infinity);
+    console.log(`  end of the scale: up to the peak expected ${expected.toPrecision(3)}, got ${upTo} m/s; of all frames expected ${expectedAll.toPrecision(3)}, got ${all} m/s`);
+    assert.ok(Math.abs(upTo - expected) < 0.02 * expected, `up to the peak: expected ${expected}, got ${upTo}`);
+    assert.ok(Math.abs(all - expectedAll) < 0.02 * expectedAll, `of all frames: expected ${expectedAll}, got ${all}`);
+    await close();
+});
+
+test('lists of choices and of contacts cut no text', async () => {
+    for (const [file, options] of [['six.html', {}], ['pulled.html', {}], ['deck.html', {}], ['six.html', {viewport: {width: 390, height: 844}}]]) {
+        const {page, close} = await open(file, options);
+        await page.locator('.scrub').fill('3');
+        await settled(page);
+        const [{test: name}] = await shown(page);
+        await page.locator('.stage').scrollIntoViewIfNeeded();
+        const folder = join(root, name), ids = file === 'deck.html' ? [] : [results(folder).events[0].body_i];
+        for (const id of ids) {
+            const at = await page.evaluate(([test, number]) => window.crackle.place(test, number), [name, id]);
+            await page.mouse.click(at.x, at.y);
+        }
+        await choose(page, 'quantity', 'displacement_x');
+        const cut = await page.locator('.viewer select').evaluateAll((lists) => lists.flatMap((list) => {
+            const style = getComputedStyle(list), ruler = new OffscreenCanvas(1, 1).getContext('2d');
+            ruler.font = `${style.fontSize} ${style.fontFamily}`;
+            const room = list.clientWidth - 26; // arrow and padding
+            return [...list.options].filter((option) => ruler.measureText(option.text).width > room).map((option) => `${option.text}: ${ruler.measureText(option.text).width.toFixed(0)} of ${room} px`);
+        }));
+        assert.deepEqual(cut, [], `${file}: choices`);
+        const wide = await page.locator('.inspector details').evaluateAll((all) => all.map((one) => one.scrollWidth - one.clientWidth));
+        assert.deepEqual(wide.filter((over) => over > 0), [], `${file}: contacts`);
+        await close();
+    }
+});
+
+test('fragments are whole or left out in drawings, and near ones lie within the picture', async () => {
+    const {page, close} = await open('burst.html');
+    const drawings = page.locator('#specimens svg, .fragments svg');
+    assert.equal(await drawings.count(), 4);
+    const over = await drawings.evaluateAll((all) => all.map((svg) => {
+        const {width, height} = svg.viewBox.baseVal;
+        return [...svg.querySelectorAll('.grains')].map((one) => one.getBBox()).reduce((most, {x, y, width: w, height: h}) => Math.max(most, -x, -y, x + w - width, y + h - height), 0);
+    }));
+    assert.deepEqual(over, [0, 0, 0, 0], 'px by which particles leave their drawings');
+    const {summary} = results(join(root, 'burst')), drawn = await page.locator('#specimens svg').nth(2).locator('.grains').getAttribute('data-count');
+    const text = await page.locator('#specimens figcaption').nth(2).textContent(), leftOut = Number(text.match(/(\d+) particles farther out/)[1]);
+    console.log(`  at the end ${drawn} of ${summary.particles} drawn, ${leftOut} left out`);
+    assert.equal(Number(drawn) + leftOut, summary.particles);
+    await page.keyboard.press('End');
+    await settled(page);
+    const first = particles(join(root, 'burst', summary.frame_start)), last = particles(join(root, 'burst', summary.frame_end));
+    const ids = Array.from({length: summary.particles}, (_, at) => at + 1), xs = ids.map((id) => first.get(id).x), width = Math.max(...xs) - Math.min(...xs);
+    const pane = await page.locator('.pane').boundingBox();
+    const near = ids.filter((id) => last.get(id).x > Math.min(...xs) - 0.35 * width && last.get(id).x < Math.max(...xs) + 0.35 * width);
+    const places = await page.evaluate((all) => all.map((id) => window.crackle.place('burst', id)), near);
+    const outside = places.filter(({x}) => x < pane.x || x > pane.x + pane.width).length;
+    console.log(`  ${near.length} particles near the specimen at the end, ${outside} of them outside the picture`);
+    assert.ok(near.length > 200);
+    assert.equal(outside, 0);
+    await close();
+});
+
+test('outlines leave small particles their colour', async () => {
+    for (const [options, most] of [[{viewport: {width: 390, height: 844}, deviceScaleFactor: 2}, 0.3], [{}, 0.35]]) {
+        const {page, close} = await open('six.html', options);
+        const darkness = async () => {
+            const base64 = await picture(page);
+            return page.evaluate(async (data) => {
+                const bitmap = await createImageBitmap(new Blob([Uint8Array.from(atob(data), (letter) => letter.charCodeAt(0))]));
+                const context = new OffscreenCanvas(bitmap.width, bitmap.height).getContext('2d');
+                context.drawImage(bitmap, 0, 0);
+                const values = context.getImageData(0, 0, bitmap.width, bitmap.height).data;
+                let sum = 0;
+                for (let at = 0; at < values.length; at += 4) sum += 255 - values[at + 1];
+                return sum;
+            }, base64);
+        };
+        for (const layer of ['platens', 'cracks']) await page.click(`[data-layer="${layer}"]`);
+        const lined = await darkness();
+        await page.click('[data-layer="outlines"]');
+        const more = lined / await darkness() - 1;
+        console.log(`  outlines darken the specimens by ${(100 * more).toFixed(0)} %`);
+        assert.ok(more < most, `expected at most ${100 * most} %, got ${(100 * more).toFixed(0)} %`);
+        if (!options.viewport) assert.ok(more > 0.03, 'outlines are seen');
+        await close();
+    }
+});
+
+test('minerals are told by name', async () => {
+    const {page, close} = await open('minerals.html');
+    const plain = await picture(page);
+    await choose(page, 'quantity', 'material');
+    assert.notEqual(await picture(page), plain);
+    const legend = await page.locator('.stage').textContent();
+    assert.match(legend, /quartz\s*feldspar/);
+    assert.doesNotMatch(legend, /feldspar\s*3/, "the platens' material is no mineral");
+    const [{test: name}] = await shown(page);
+    const sizes = [...particles(join(root, 'minerals', results(join(root, 'minerals')).summary.frame_start))].filter(([, {radius}]) => radius > 0).sort(([, a], [, b]) => a.radius - b.radius);
+    for (const [[id], mineral] of [[sizes[0], 'feldspar'], [sizes.at(-1), 'quartz']]) {
+        const at = await page.evaluate(([test, number]) => window.crackle.place(test, number), [name, id]);
+        await page.mouse.click(at.x, at.y);
+        assert.equal(await page.locator('[data-value="material"]').textContent(), mineral, `particle ${id}`);
+    }
     await close();
 });
 
@@ -312,6 +518,7 @@ test('a click on the curve sends the specimen there, and the cursor follows the 
 test('several tests side by side and overlaid, by one clock', async () => {
     const {page, close} = await open('six.html');
     assert.equal(await page.locator('.pane').count(), 6, 'side by side from the start');
+    assert.ok(await page.locator('.beside-curve').isHidden(), 'a curve beside one test alone');
     await page.locator('.scrub').fill(await page.locator('.scrub').getAttribute('max'));
     await settled(page);
     const side = await shown(page);

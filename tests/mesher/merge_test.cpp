@@ -26,6 +26,25 @@ TEST(JoinDestroyed, PassesOverANeighbourWithWhichItIsNotConvex) {
     EXPECT_EQ(corners, (std::vector<int>{0, 4, 1, 2}));
 }
 
+/// A needle 0-1-2 with a neighbour beyond each of its long edges, 0-2 a little longer than 0-1; it is convex with both.
+Triangles needle_between(Point beyond_longest, Point beyond_next) {
+    Triangles mesh;
+    mesh.points = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 0.01}, beyond_longest, beyond_next};
+    mesh.corners = {{0, 1, 2}, {0, 2, 3}, {1, 0, 4}};
+    mesh.neighbours = {{-1, 1, 2}, {-1, -1, 0}, {-1, -1, 0}};
+    return mesh;
+}
+
+TEST(JoinDestroyed, JoinsAcrossItsLongestEdge) {
+    const JoinedTriangles joined = join_destroyed(needle_between({0.5, 0.5}, {0.5, -0.5}), {0}, 0.02, 1.0);
+    EXPECT_EQ(joined.joined, (std::vector<bool>{true, true, false}));
+}
+
+TEST(JoinDestroyed, PassesOverANeighbourWithWhichItIsStillDestroyed) {
+    const JoinedTriangles joined = join_destroyed(needle_between({0.5, 0.012}, {0.5, -0.5}), {0}, 0.02, 1.0);
+    EXPECT_EQ(joined.joined, (std::vector<bool>{true, false, true}));
+}
+
 TEST(JoinDestroyed, RefusesASliverThatIsConvexWithNone) {
     // Corner 2 lies almost on edge 0-1, so nothing above can take the sliver; 1-0-3 below opens at 1 by 177 degrees.
     Triangles mesh;

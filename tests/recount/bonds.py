@@ -88,7 +88,9 @@ def outset(corners, by):
 
 
 def face(model, i, j, gap):
-    """Length in which two bodies face each other and the distance of their centroids across it; None if nowhere."""
+    """Length in which two bodies face each other and the distance of their centroids across it; None if nowhere.
+
+    @param i  the one with the smaller id"""
     best = None
     outlines = [outset(model.centre[b] + model.outline[b, : model.corner_count[b]], gap / 2) for b in (i, j)]
     for k, a in enumerate(outlines[0]):
@@ -101,12 +103,12 @@ def face(model, i, j, gap):
                 continue
             length = min(long, to @ (b - a)) - max(0.0, to @ (b + other - a))
             if length > 0 and (best is None or length > best[0]):
-                best = (length, a, to)
+                best = (length, b, other / math.hypot(*other))
     if best is None:
         return None
-    length, at, to = best
-    if max(i, j) >= model.count:
-        return length, abs(np.cross(to, model.centre[min(i, j)] - at))
+    length, at, along = best  # of a platen, which is the second, its own line
+    if j >= model.count:
+        return length, abs(np.cross(along, model.centre[i] - at))
     return length, math.dist(model.centre[i], model.centre[j])
 
 
@@ -119,8 +121,9 @@ def share_faces(model, p):
     for k, pair in enumerate(zip(p.i.tolist(), p.j.tolist())):
         by_pair.setdefault(frozenset(pair), []).append(k)
     for own in by_pair.values():
-        i, j = int(p.i[own[0]]), int(p.j[own[0]])
-        found = face(model, i, j, model.mesh_gap)
+        # Corners overhang: the least gap is that of the faces. Edges lie over those of the body with the smaller id.
+        i, j = sorted((int(p.i[own[0]]), int(p.j[own[0]])), key=lambda b: model.ids[b])
+        found = face(model, i, j, np.min(model.thick - p.overlap[own]))
         if found is not None:
             stiffness[own] = found[0] / found[1] / len(own)
             length[own] = found[0] / len(own)

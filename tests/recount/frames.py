@@ -11,6 +11,7 @@ from model import dot, platen_depth, rounding, turned
 
 
 touching_floor = 1e-14  # of the height: what rests on frictional platens touches them by rounding, or not
+least_sliding_force = 1e-9  # of the mean strength
 
 
 def recount_places(r, model, rows):
@@ -129,6 +130,13 @@ def force_scale(model, bonds):
     return bonds.tensile.mean()
 
 
+def sliding_scale(model, bonds):
+    """N, mean tensile strength of coulomb bonds that can break; mean back-tension."""
+    if not model.coulomb:
+        return np.mean(model.normal_stiffness(bonds) * bonds.overlap)
+    return 0.0 if np.all(bonds.held) else bonds.tensile[~bonds.held].mean()
+
+
 def recount_frame(r, model, bonds, frame, first, row):
     """Forces, stresses, energies and fragments of one moment. @param row  the curve's, or None if it was not written"""
     label = f"frame {frame.row}: "
@@ -165,7 +173,7 @@ def recount_frame(r, model, bonds, frame, first, row):
     shear = np.asarray(frame.contacts["shear_force"])[acting].copy()
     # The file's shear force acts on its body_i: along the same line on ours, whichever of the two we call i.
     if model.coulomb:
-        limit = np.where(bonded, math.inf, model.friction(q, "residual_friction_angle") * normal)
+        limit = np.where(bonded, math.inf, model.residual_friction(q) * normal)
     else:
         limit = np.where(bonded & bonds.held[bond], math.inf, model.friction(q) * kn * q.overlap)
     r.true(label + "shear within the Coulomb limit", np.all(np.abs(shear) <= limit + rounding * tension))
@@ -173,10 +181,9 @@ def recount_frame(r, model, bonds, frame, first, row):
     cn, cs = model.dashpots(q)
     tangent = turned(q.normal)
     normal_all = normal + cn * dot(relative, q.normal)
-    # A limit is known to the rounding of places only: whether a point that hardly touches slides is open.
-    open_question = limit <= 2e-15 * model.height * kn
     slides = np.abs(shear) >= limit * (1 - rounding) - 1e-15 * model.height * kn
     sticks = ~slides
+    counted = np.abs(shear) > least_sliding_force * sliding_scale(model, bonds)
     shear_all = shear - np.where(sticks, cs * dot(relative, tangent), 0.0)
     force = -q.normal * normal_all[:, None] + tangent * shear_all[:, None]  # on i
     total, moment = np.zeros_like(velocity), np.zeros(len(spin))
@@ -223,6 +230,9 @@ def recount_frame(r, model, bonds, frame, first, row):
     for n, group in enumerate(ranked):
         number[group] = n
     r.rows(label + "fragment", p["fragment"], number[order], 0)
+    if frame.time == r.curve["time"][-1]:
+        r.key("fragments", len(ranked))
+        r.key("largest_fragment_share", model.area[ranked[0]].sum() / model.area[: model.count].sum())
     broken = int(np.sum((state == 2) | (state == 3)))
     by_events = int(np.sum(r.events["time"] <= frame.time * (1 + 1e-12))) if len(r.events["time"]) else 0
     r.compare(label + "broken bonds of events.csv", broken, by_events, 0)
@@ -267,15 +277,16 @@ def recount_frame(r, model, bonds, frame, first, row):
     if leapfrog:
         # A bond that breaks in shear in this step drops to the limit and counts as a break.
         breaking = int(np.sum(r.events["step"] == c["step"][row])) if model.coulomb and len(r.events["step"]) else 0
-        r.compare(label + "curve: points_sliding", c["points_sliding"][row], int(np.sum(slides)),
-                  int(np.sum(open_question)) + breaking)
+        r.compare(label + "curve: points_sliding", c["points_sliding"][row], int(np.sum(slides & counted)), breaking)
+    slid = int(np.sum(state == 1)) + int(np.sum(np.asarray(r.events["slid"])[:by_events]))
+    r.compare(label + "curve: bonds_slid", c["bonds_slid"][row], slid, 0)
     left, right = model.gauge()
     by_seeds = model.polygons and r.results.key("mesh", "kind") == "delaunay" and r.results.key("mesh", "boundary") == "seeds"
     if left and right and not by_seeds:
         length = model.centre[right, 0].mean() - model.centre[left, 0].mean()
         now = places[right, 0].mean() - places[left, 0].mean()
         r.compare(label + "curve: lateral_strain", c["lateral_strain"][row], now / length - 1, 1e-13)
-    bottom, top = model.axial_gauge()
+    bottom, top = model.axial_gauge(bonds)
     if len(bottom) and len(top):
         length = model.centre[top, 1].mean() - model.centre[bottom, 1].mean()
         now = places[top, 1].mean() - places[bottom, 1].mean()

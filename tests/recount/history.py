@@ -59,7 +59,7 @@ def moment(model, r, bonds, row, first, dt):
     half = dt / 2
     slip = dot(way, tangent) + half * (spin[q.i] ** 2 * dot(arm_i, tangent) - spin[q.j] ** 2 * dot(arm_j, tangent))
     columns = (q.overlap, dot(way, q.normal), slip, model.normal_stiffness(q),
-               model.shear_stiffness(q), model.friction(q, "residual_friction_angle" if model.coulomb else "friction_angle"),
+               model.shear_stiffness(q), model.residual_friction(q) if model.coulomb else model.friction(q),
                *model.dashpots(q))
     return frame, dict(zip(q.keys(), zip(*(column.tolist() for column in columns))))
 

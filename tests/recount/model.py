@@ -68,12 +68,16 @@ class Model:
         self.materials = [dict(m) for m in deck.materials]
         self.by_area = results.key("material", "units", "point") == "area"
         self.coulomb = results.key("bond", "law", "back_tension") == "coulomb"
-        for m in self.materials:
-            m["ratio"] = results.key("material", "damping_ratio")
+        self.minerals = results.case.get("mineral", [])
+        for k, m in enumerate(self.materials):
+            own = self.minerals[k] if k < len(self.minerals) else {}
+            m["ratio"] = own.get("damping_ratio", results.key("material", "damping_ratio"))
             if self.by_area:  # Pa
-                m["normal_stiffness"] = results.key("material", "contact_modulus")
-                m["shear_stiffness"] = m["normal_stiffness"] / results.key("material", "stiffness_ratio")
+                modulus = results.key("material", "contact_modulus")
+                m["normal_stiffness"] = own.get("normal_stiffness", modulus)
+                m["shear_stiffness"] = own.get("shear_stiffness", modulus / results.key("material", "stiffness_ratio"))
             m["residual_friction_angle"] = results.key("material", "residual_friction_angle", m["friction_angle"])
+        self.pairs = self._named_pairs()
         inset = results.key("mesh", "inset")
         self.mesh_gap = 2 * inset if inset else results.key("mesh", "thick", deck.thick)
         self.thick = results.summary["bond_thick"] if not self.polygons else results.key("bond", "thick", self.mesh_gap)
@@ -94,6 +98,12 @@ class Model:
         if not self.coulomb or self.polygons:
             return 0.0
         return self.results.key("bond", "range", 0.0) * max(b.circles[:, 2].max() for b in self.deck.bodies)
+
+    def _named_pairs(self):
+        """Of [[mineral_pair]]: (indices of its materials, its keys)."""
+        names = [m["name"] for m in self.minerals]
+        tables = self.results.case.get("mineral_pair", [])
+        return [([names.index(name) for name in table["between"]], table) for table in tables]
 
     def _place_platens(self):
         deck = self.deck
@@ -120,12 +130,12 @@ class Model:
             np.array([(right, y1), (left, y1), (left, y1 - depth), (right, y1 - depth)]),
             np.array([(left, y2), (right, y2), (right, y2 + depth), (left, y2 + depth)]),
         ]
-        material = self.deck.bodies[0].material
+        # That of [material] stands behind the minerals'.
+        material = len(self.minerals) if self.minerals else self.deck.bodies[0].material
         if self.frictional:
             friction = dict(self.materials[material])
             angle = self.results.key("loading", "platen_friction_angle")
-            friction["friction_angle"] = angle
-            friction["residual_friction_angle"] = min(angle, friction["residual_friction_angle"])
+            friction["friction_angle"] = friction["residual_friction_angle"] = angle
             self.materials.append(friction)
             material = len(self.materials) - 1
         self.material = np.array([b.material for b in self.deck.bodies] + [material] * 2)
@@ -175,14 +185,38 @@ class Model:
     def _series(a, b):
         return np.where(a + b > 0, 2 * a * b / np.where(a + b > 0, a + b, 1), 0.0)
 
+    def _overridden(self, name, p, value):
+        """By a table of the pair, where there is one."""
+        a, b = self.material[p.i], self.material[p.j]
+        for (c, d), table in self.pairs:
+            if name in table:
+                value = np.where(((a == c) & (b == d)) | ((a == d) & (b == c)), table[name], value)
+        return value
+
     def normal_stiffness(self, p):
-        return self._series(*self._pair("normal_stiffness", p.i, p.j)) * p.share
+        stiffness = self._series(*self._pair("normal_stiffness", p.i, p.j))
+        return self._overridden("normal_stiffness", p, stiffness) * p.share
 
     def shear_stiffness(self, p):
-        return self._series(*self._pair("shear_stiffness", p.i, p.j)) * p.share
+        return self._overridden("shear_stiffness", p, self._series(*self._pair("shear_stiffness", p.i, p.j))) * p.share
 
-    def friction(self, p, name="friction_angle"):
-        return np.tan(np.radians(np.minimum(*self._pair(name, p.i, p.j))))
+    def friction(self, p):
+        return np.tan(np.radians(self._friction_angle(p)))
+
+    def residual_friction(self, p):
+        """Of contacts without a bond; a residual angle is at most the pair's own."""
+        residual = np.minimum(*self._pair("residual_friction_angle", p.i, p.j))
+        return np.tan(np.radians(np.minimum(residual, self._friction_angle(p))))
+
+    def _friction_angle(self, p):
+        return self._overridden("friction_angle", p, np.minimum(*self._pair("friction_angle", p.i, p.j)))
+
+    def _root_term(self, name, p):
+        """2 h sqrt(k) of two materials in series; of a pair's own stiffness with the two h in series."""
+        (h_i, h_j), (k_i, k_j) = self._pair("ratio", p.i, p.j), self._pair(name, p.i, p.j)
+        term = self._series(2 * h_i * np.sqrt(k_i), 2 * h_j * np.sqrt(k_j))
+        own = self._overridden(name, p, np.full(len(p.i), np.nan))
+        return np.where(np.isnan(own), term, 2 * self._series(h_i, h_j) * np.sqrt(own)) * np.sqrt(p.share)
 
     # shares of an area, solver/MODEL.md 4.5
 
@@ -214,13 +248,12 @@ class Model:
         self._bonded_shares = dict(zip(bonds.keys(), bonds.share.tolist()))
 
     def dashpots(self, p):
-        ratio = self.materials[0]["ratio"]
-        if ratio is None:
+        if self.materials[0]["ratio"] is None:
             return tuple(self._series(*self._pair(name, p.i, p.j)) for name in ("normal_damping", "shear_damping"))
         held_i, held_j = p.i >= self.count, p.j >= self.count
         mi, mj = self.mass[p.i], self.mass[p.j]
         mass = np.where(held_j, mi, np.where(held_i, mj, mi * mj / (mi + mj)))
-        return 2 * ratio * np.sqrt(self.normal_stiffness(p) * mass), 2 * ratio * np.sqrt(self.shear_stiffness(p) * mass)
+        return tuple(self._root_term(name, p) * np.sqrt(mass) for name in ("normal_stiffness", "shear_stiffness"))
 
     # contact points, solver/MODEL.md 3
 
@@ -334,12 +367,14 @@ class Model:
             damping += np.bincount(flat, (c[:, None, None] * outer).ravel(), size * size)
         return stiffness.reshape(size, size), damping.reshape(size, size)
 
-    def axial_gauge(self):
-        """Indices of the particles within half a mean particle of the lower and the upper end of the gauge length."""
+    def axial_gauge(self, bonds):
+        """Indices of the bonded particles within half a mean particle of the lower and upper end of the gauge length."""
         outer = (self.results.key("loading", "grip") or 0.1) * self.height
         half = math.sqrt(self.width * self.height / self.count) / 2
-        y = self.centre[: self.count, 1]
-        return [np.flatnonzero(np.abs(y - end) <= half) for end in (self.deck.y1 + outer, self.deck.y2 - outer)]
+        y, carries = self.centre[: self.count, 1], np.zeros(len(self.mass), bool)
+        carries[bonds.i] = carries[bonds.j] = True
+        near = [np.abs(y - end) <= half for end in (self.deck.y1 + outer, self.deck.y2 - outer)]
+        return [np.flatnonzero(own & carries[: self.count]) for own in near]
 
     def gauge(self):
         """Indices of the left and right side particles with centres in the middle half of the height."""

@@ -15,7 +15,9 @@ except ImportError:
 from bonds import make_bonds
 from frames import recount_frame, recount_places, rest_after, touching_floor
 from history import holds_every_step, recount_history
-from model import Model, dot, rounding, turned
+from loading_by_tolerance import by_tolerance, recount_start
+from model import Model, rounding
+from peaks import find_fall
 from results import Results, Unreadable
 
 
@@ -30,6 +32,7 @@ class Recount:
 
     def __init__(self, results):
         self.results, self.lines, self.keys = results, [], set()
+        self.peak = None  # row of the peak, where all rows are written
         self.summary, self.curve, self.events = results.summary, results.curve, results.events
 
     def compare(self, name, stated, ours, tolerance):
@@ -87,21 +90,6 @@ def slope(x, y):
     return np.sum((x - x.mean()) * (y - y.mean())) / np.sum((x - x.mean()) ** 2)
 
 
-def find_peak(strain, stress, share):
-    """Row of the peak and the row at which failure is found, or None (specimens/METHODS.md 5)."""
-    peak, below = None, None
-    for k in range(len(stress)):
-        if stress[k] > (stress[peak] if peak is not None else 0.0):
-            peak, below = k, None
-        elif peak is None or stress[k] >= share * stress[peak]:
-            below = None
-        else:
-            below = k if below is None else below
-            if strain[k] - strain[below] >= 0.1 * strain[peak] and k - below >= 10:
-                return peak, k
-    return peak, None
-
-
 def recount_curve(r):
     """What follows from curve.csv alone."""
     c, case = r.curve, r.results.key
@@ -119,26 +107,37 @@ def recount_curve(r):
     r.key("time_step_mean", c["time"][-1] / c["step"][-1])
     r.key("bonds_broken", c["bonds_broken"][-1])
     r.key("interfaces_lost", c["interfaces_lost"][-1])
+    strain, stress, lateral = c["axial_strain"], c["axial_stress"], c["lateral_strain"]
+    sense = 1.0 if case("loading", "kind") == "compression" else -1.0
+    r.key("area_strain_end", sense * strain[-1] - lateral[-1])
     if case("output", "curve_rows", 2000) < 2000:
         return  # peak and windows are those of rows that were not written
-    strain, stress, lateral = c["axial_strain"], c["axial_stress"], c["lateral_strain"]
-    peak, end = find_peak(strain, stress, case("loading", "stop_at_share_of_peak", 0.5))
-    r.key("failed", end is not None)
+    peak, dropped = find_fall(strain, stress, 1 - case("loading", "strength_drop", 0.1))
+    _, end = find_fall(strain, stress, case("loading", "stop_at_share_of_peak", 0.5))
+    failed = dropped is not None or end is not None
+    r.key("failed", failed)
     if end is not None:
         r.key("ended_by", "failure")
         r.compare("row at which failure is found", len(stress) - 1, end, 0)
+    else:
+        r.true("ended_by: not failure", r.summary["ended_by"] != "failure")
     if peak is None:
         return
-    suffix = "" if end is not None else "_so_far"
+    r.peak, largest = peak, int(np.argmax(stress))
+    r.key("largest_stress", stress[largest], 0.0)
+    r.key("strain_at_largest_stress", strain[largest], 0.0)
+    r.true("notice of a larger stress after the peak",
+           any("the largest stress" in notice for notice in r.summary["notices"]) == (largest > peak))
+    suffix = "" if failed else "_so_far"
     r.key("peak_stress" + suffix, stress[peak], 0.0)
     r.key("peak_strain" + suffix, strain[peak], 0.0)
     drawn = [f"frames/particles_{row:05d}.vtp" for row in r.results.frame_rows()]
     for name, frame in (("start", drawn[0]), ("peak", f"frames/particles_{peak:05d}.vtp"), ("end", drawn[-1])):
         r.key("frame_" + name, frame)
         r.true(f"frame_{name}: is there", frame in drawn)
+    r.key("area_strain_peak", sense * strain[peak] - lateral[peak])
     r.key("platen_out_of_balance",
           np.max(np.abs(c["stress_top"] - c["stress_bottom"])[: peak + 1]) / stress[peak])
-    sense = 1.0 if case("loading", "kind") == "compression" else -1.0
     rising = np.arange(peak + 1)
     early = rising[strain[: peak + 1] <= strain[peak] / 20]
     first = np.argmax(stress[: peak + 1] >= 0.4 * stress[peak])
@@ -156,9 +155,12 @@ def recount_curve(r):
         r.key(w + "strain_to", strain[early[-1]])
         r.key(w + "bonds_broken", c["bonds_broken"][early[-1]] - c["bonds_broken"][early[0]])
         r.key(w + "points_sliding", c["points_sliding"][early[-1]])
-    if case("loading", "rate_tolerance") is not None and case("loading", "axial_strain_rate") is None:
+        if {int(early[0]), int(early[-1])} <= set(r.results.frame_rows()):  # states 3 and 4: touching without a bond
+            loose = [np.sum(r.results.frame(row).contacts["state"] >= 3) for row in (early[0], early[-1])]
+            r.key(w + "contacts_gained", int(loose[1]) - int(loose[0]))
+    if by_tolerance(r):
         r.key("axial_strain_rate", strain[-1] / c["time"][-1])
-        r.key("viscous_stress_share", stress[0] / stress[peak])
+        r.key("viscous_stress_share", stress[0] / stress[largest])
     else:
         r.rows("curve: axial_strain of the rate", strain, case("loading", "axial_strain_rate") * c["time"],
                1e-9 * strain + 1e-15)
@@ -174,7 +176,7 @@ def recount_packing(r):
     x, y, radius = circles.T
     box, solid = deck.width * deck.height, np.sum(math.pi * radius**2)
     r.key("packing.void_ratio", (box - solid) / solid)
-    stiffness = deck.materials[0]["normal_stiffness"]
+    stiffness = deck.materials[-1]["normal_stiffness"]  # [material]'s, behind the minerals'
     apart = np.hypot(x[:, None] - x, y[:, None] - y)
     overlap = radius[:, None] + radius - apart
     i, j = np.nonzero(np.triu(overlap > 0, 1))
@@ -201,6 +203,42 @@ def recount_packing(r):
     mean = np.concatenate([between, all_walls]).mean()
     # A residue of cancelling forces: places carry rounding of 1e-16 of the box.
     r.key("packing.unbalanced", np.hypot(*force.T).max() / mean, floor=20 * 1e-16 * deck.height / mean)
+
+
+def recount_minerals(r, model):
+    """Shares and grains of each mineral, and what it is made of (specimens/METHODS.md 3)."""
+    stated, case = r.summary.get("minerals", []), r.results.case
+    r.true("minerals: as many as the case has", len(stated) == len(model.minerals))
+    material, area = model.material[: model.count], model.area[: model.count]
+    grain = area.max() / area.sum()
+    assign = r.results.key("minerals", "assign")
+    rest = 1 - sum(m.get("area_share", 0.0) for m in model.minerals)
+    for k, (m, s) in enumerate(zip(model.minerals, stated)):
+        name, mine = f"minerals[{k}]", material == k
+        share = area[mine].sum() / area.sum()
+        asked = m.get("area_share", rest if assign in ("random", "size") else None)
+        r.true(f"{name}.name", s["name"] == m["name"])
+        r.compare(f"{name}.grains", s["grains"], mine.sum(), 0)
+        r.compare(f"{name}.area_share_reached", s["area_share_reached"], share, rounding)
+        r.true(f"{name}.area_share: stated where asked", (s["area_share"] is None) == (asked is None))
+        if asked is not None:
+            r.compare(f"{name}.area_share", s["area_share"], asked, rounding)
+        if assign in ("random", "size"):
+            r.compare(f"{name}: asked by whole grains", share, asked, grain)
+        for key, value in model.deck.materials[k].items():
+            given = m.get(key, case.get("material", {}).get(key))
+            if given is not None:
+                r.compare(f"{name}: {key} of its grains", value, given, 0)
+    if assign == "size":
+        largest = [[area[material == k].min(initial=math.inf), area[material == k].max(initial=0)] for k in range(len(stated))]
+        r.true("minerals: larger grains have those listed first",
+               all(a[0] >= b[1] * (1 - rounding) for a, b in zip(largest, largest[1:])))
+    if assign == "labels":
+        lines = [line.strip() for line in (r.results.folder / case["minerals"]["labels"]).read_text().splitlines()]
+        labels = [line for line in lines if line and not line.startswith("#")]
+        names = [m["name"] for m in model.minerals]
+        wanted = [names.index(one) if one in names else int(one) - 1 for one in labels]
+        r.true("minerals: as labelled", wanted == list(material))
 
 
 def recount_specimen(r, model):
@@ -269,10 +307,10 @@ def recount_specimen(r, model):
     strained = -solution[3 * model.top + 1] / model.height * model.sense
     # The eigenvectors of the softest motions carry the rounding of the stiffest, 1e-16 over the smallest eigenvalue.
     r.key("youngs_modulus", stress / strained, 1e-7)
-    if r.results.key("loading", "rate_tolerance") is not None and r.results.key("loading", "axial_strain_rate") is None:
+    if by_tolerance(r):
         loose = np.abs(scale[:, None] * vectors[:, ~regular]).reshape(model.count, -1).max(axis=1, initial=0.0)
         recount_start(r, model, bonds, solution, stress / strained, loose <= 1e-6 * scale.max())
-    bottom, top = model.axial_gauge()
+    bottom, top = model.axial_gauge(bonds)
     if len(bottom) and len(top):
         length = model.centre[top, 1].mean() - model.centre[bottom, 1].mean()
         growth = solution[3 * top + 1].mean() - solution[3 * bottom + 1].mean()
@@ -304,45 +342,6 @@ def recount_specimen(r, model):
         if r.results.key("numerics", "time_step") is None:
             r.key("time_step_over_stable", s["time_step"] / step)
     return bonds
-
-
-def recount_start(r, model, bonds, solution, modulus, elastic):
-    """First rate and first velocities of loading by tolerance (specimens/METHODS.md 4), in the first frame.
-
-    @param solution  motion for an axial strain of 1   @param elastic  bodies that it moves"""
-    motion = solution.reshape(-1, 3)
-
-    def at(body):
-        arm = bonds.position - model.centre[body]
-        return motion[body, :2] + turned(arm) * motion[body, 2:]
-
-    way = at(bonds.i) - at(bonds.j)
-    closing, slipping = dot(way, bonds.normal), np.abs(dot(way, turned(bonds.normal)))
-    friction, kn, ks = model.friction(bonds), model.normal_stiffness(bonds), model.shear_stiffness(bonds)
-    # A coulomb bond parts by its envelope, one by back-tension slides at a limit of the same form.
-    margin = friction * kn * closing - ks * slipping
-    with np.errstate(divide="ignore"):
-        parting = np.where(closing < 0, -bonds.tensile / (kn * closing), math.inf)
-        sliding = np.where((margin < 0) & (ks * slipping > 0), -bonds.cohesion / margin, math.inf)
-    parting[bonds.held] = sliding[bonds.held] = math.inf
-    first = np.sort(np.minimum(parting, sliding))[len(closing) // 50]
-    if not math.isfinite(first):
-        first = r.results.key("loading", "max_axial_strain")
-    transit = model.height / math.sqrt(modulus / (model.mass[: model.count].sum() / (model.width * model.height)))
-    limit = math.sqrt(r.results.key("loading", "rate_tolerance")) * first / transit
-    p = r.results.particles(r.results.frame_rows()[0])
-    order = np.array([model.index[n] for n in p["id"]])
-    if p["time"][0] > 0:
-        return
-    expected = limit * motion
-    kept = np.concatenate([elastic, [True, True]])[order]
-    size = np.abs(expected[:, :2]).max()
-    # The softest motions carry the rounding of the stiffest, as Poisson's ratio does.
-    r.compare("first rate by tolerance", np.abs(p["velocity"][order == model.top, 1])[0] / model.height, limit, 1e-6 * limit)
-    r.rows("first velocities along x", p["velocity"][kept, 0], expected[order[kept], 0], 1e-6 * size)
-    r.rows("first velocities along y", p["velocity"][kept, 1], expected[order[kept], 1], 1e-6 * size)
-    turns = expected[order[kept], 2]
-    r.rows("first rotation rates", p["rotation_rate"][kept], turns, 1e-6 * np.abs(turns).max())
 
 
 def recount_events(r, model, bonds):
@@ -414,6 +413,10 @@ def recount_events(r, model, bonds):
     r.key("bonds_broken_after_sliding", int(np.sum(e["slid"])))
     r.key("bonds_broken_in_shear", int(np.sum(shear)))
     r.key("bonds_broken_in_tension", int(np.sum(~shear)))
+    if r.peak is not None:
+        to_peak = np.asarray(e["step"]) <= c["step"][r.peak]
+        r.key("bonds_broken_in_shear_to_peak", int(np.sum(shear & to_peak)))
+        r.key("bonds_broken_in_tension_to_peak", int(np.sum(~shear & to_peak)))
     r.compare("fracture_loss of events", c["fracture_loss"][-1], np.sum(e["energy"]), 1e-12 * np.sum(np.abs(e["energy"])))
 
 
@@ -439,7 +442,7 @@ def recount_envelope(r, model, bonds, of_bond, in_shear):
     r.true("events: no energy below 0", np.all(np.asarray(e["energy"]) >= 0))
     kn, ks = model.normal_stiffness(bonds)[m], model.shear_stiffness(bonds)[m]
     kept = np.maximum(0.0, normal + kn * (bonds.overlap[m] - rest_after(model, bonds.overlap[m])))
-    rubs = np.minimum(shear, model.friction(bonds, "residual_friction_angle")[m] * kept)
+    rubs = np.minimum(shear, model.residual_friction(bonds)[m] * kept)
     stored = (normal**2 - kept**2) / 2 / kn + (shear**2 - rubs**2) / 2 / ks
     # The account takes the mean force of the last step: at most as much beyond as the force grew in it.
     size = (np.abs(normal) + kept) ** 2 / 2 / kn + shear**2 / 2 / ks
@@ -537,7 +540,6 @@ def recount_errors(r):
             r.compare(label + "damping over the test's", run["damping"], damping, 1e-12)
     peak = {"peak_stress": r.summary["peak_stress"], "peak_strain": r.summary["peak_strain"]}
     runs = errors["companions"]
-    rows = np.diff(r.curve["axial_strain"]).max()
     for name, value in peak.items():
         half_step, half_rate = runs["half_time_step"][name], runs["half_rate"][name]
         spread = np.std([value, half_step, half_rate], ddof=1)
@@ -547,10 +549,13 @@ def recount_errors(r):
         r.key(f"numerical_errors.{name}.damping",
               max(abs(runs[k][name] - value) / value for k in ("half_damping", "double_damping")))
         resolution = errors[name]["resolution"]
+        if r.peak:
+            row, column = r.peak, r.curve["axial_stress" if name == "peak_stress" else "axial_strain"]
+            r.key(f"numerical_errors.{name}.resolution", abs(column[row] - column[row - 1]) / value)
         stated = math.hypot(resolution, max(3 * rate, 2.92 * math.sqrt(2) * spread / value))
         r.key(f"numerical_errors.{name}.stated", stated, 1e-3)  # 2.92 stands for 2.91999
-    r.true("numerical_errors.peak_strain.resolution of the rows' spacing",
-           errors["peak_strain"]["resolution"] <= 2 * rows / peak["peak_strain"])
+    for part in ("time_step", "rate", "damping", "resolution"):
+        r.key(f"numerical_errors.youngs_modulus.{part}", 0.0)
     moved = {name: max(errors[name]["time_step"], errors[name]["rate"]) for name in peak}
     r.key("peak_converged", bool(moved["peak_stress"] <= 0.03 and moved["peak_strain"] <= 0.1))
 
@@ -561,6 +566,8 @@ def recount(folder):
     recount_packing(r)
     if r.results.key("numerics", "contact_law", "rounded") == "rounded" or r.results.polygons is None:
         model = Model(r.results)
+        if model.minerals:
+            recount_minerals(r, model)
         bonds = recount_specimen(r, model)
         recount_given(r, model)
         recount_events(r, model, bonds)

@@ -15,7 +15,9 @@ from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parent))
 sys.dont_write_bytecode = True
+import numpy as np  # noqa: E402
 from recount import figures, recount  # noqa: E402
+from results import Results as read  # noqa: E402
 from results import Unreadable  # noqa: E402
 
 program = os.environ["CRACKLE_PROGRAM"]
@@ -39,7 +41,30 @@ damping_ratio = 0.2
 output = '[output]\nframe_precision = "double"\nframes = 12\n'
 voronoi = '[mesh]\nkind = "voronoi"\nthick = 1e-3\n[bond]\nthick = 1.08e-3\n'
 triangles = '[mesh]\nkind = "delaunay"\nboundary = "domain"\nthick = 1e-3\n[bond]\nthick = 1.08e-3\n'
-between_seeds = triangles.replace('boundary = "domain"\n', "")
+minerals = '''
+[minerals]
+seed = 5
+[[mineral]]
+name = "quartz"
+area_share = 0.3
+normal_stiffness = 2.0e7
+shear_stiffness = 6.0e6
+density = 2650.0
+damping_ratio = 0.1
+[[mineral]]
+name = "feldspar"
+[[mineral]]
+name = "mica"
+area_share = 0.2
+friction_angle = 15.0
+[[mineral_pair]]
+between = ["quartz", "mica"]
+normal_stiffness = 5.0e6
+friction_angle = 20.0
+[[mineral_pair]]
+between = ["feldspar", "feldspar"]
+shear_stiffness = 3.0e6
+'''
 squeezed = '[loading]\nkind = "compression"\nmax_axial_strain = 0.02\n'
 pulled = '[loading]\nkind = "tension"\nmax_axial_strain = 0.005\n'
 rate = "axial_strain_rate = 0.02\n"
@@ -77,10 +102,12 @@ initial_poissons_ratio initial_tangent_modulus initial_tangent_modulus_pa initia
 initial_tangent_window.points_sliding initial_tangent_window.rows initial_tangent_window.strain_to initial_width
 interfaces_initial interfaces_lost kind mean_back_tension mean_back_tension_interface mean_bond_overlap
 numerical_errors.peak_strain.damping numerical_errors.peak_strain.energy_closing
-numerical_errors.peak_strain.rate numerical_errors.peak_strain.stated numerical_errors.peak_strain.time_step
+numerical_errors.peak_strain.rate numerical_errors.peak_strain.resolution numerical_errors.peak_strain.stated numerical_errors.peak_strain.time_step
 numerical_errors.peak_stress.damping numerical_errors.peak_stress.energy_closing numerical_errors.peak_stress.rate
-numerical_errors.peak_stress.stated numerical_errors.peak_stress.time_step out_of_plane_thickness packing.anisotropy
+numerical_errors.peak_stress.resolution numerical_errors.peak_stress.stated numerical_errors.peak_stress.time_step out_of_plane_thickness packing.anisotropy
 packing.coordination packing.coordination_of_carrying packing.floating packing.mean_overlap packing.radius_scale
+area_strain_end area_strain_peak bonds_broken_in_shear_to_peak bonds_broken_in_tension_to_peak fragments
+largest_fragment_share largest_stress largest_stress_pa strain_at_largest_stress
 packing.stress_x packing.stress_y packing.unbalanced packing.void_ratio frame_end frame_peak frame_start particles
 particle_steps_per_second peak_converged peak_strain peak_stress peak_stress_pa platen_bottom_id platen_out_of_balance platen_top_id poissons_ratio seed simulated_time specimen
 stable_time_step steps tangent_50_poissons_ratio tangent_modulus_50 tangent_modulus_50_pa time_step time_step_bound
@@ -116,6 +143,11 @@ def every_step_of_few(name, case):
     return run("every_step_" + name, small + case + every)
 
 
+def rubble():
+    """Circles that carry again, and more, once they are wedged."""
+    return run("rubble", rock + squeezed + "stop_at_share_of_peak = 0.3\n" + rate + output)
+
+
 def differing(folder):
     return [line[0] for line in recount(folder).lines if not line[5]]
 
@@ -136,14 +168,18 @@ class Recount(unittest.TestCase):
         r = recount(circles())
         left = {name for name in figures(r.summary) - r.keys if ".companions." not in name}
         self.assertEqual(left, {
-            "initial_tangent_window.contacts_gained",  # needs every step
-            "numerical_errors.peak_strain.resolution", "numerical_errors.peak_stress.resolution",  # only bounded
-            *(f"numerical_errors.youngs_modulus.{name}" for name in
-              ("damping", "rate", "resolution", "stated", "time_step")),  # the solve's own residual
+            "initial_tangent_window.contacts_gained",  # needs a frame at the window's last row
+            "numerical_errors.youngs_modulus.stated",  # the solve's own residual
             "list_builds", "threads",
             "step_seconds", "wall_seconds",
         })
         self.assertEqual(set(figures_expected.split()) - r.keys, set(), "figures that the summary lacks")
+
+    def test_pieces_that_carry_more_than_the_specimen(self):
+        folder = rubble()
+        summary = json.loads((folder / "summary.json").read_text())
+        self.assertGreater(summary["largest_stress"], 1.5 * summary["peak_stress"], "the case that the rule is for")
+        self.agrees(folder, 200)
 
     def test_circles_pulled_by_tolerance_between_glued_platens(self):
         self.agrees(run("pulled", rock + pulled + output), 150)
@@ -160,8 +196,8 @@ class Recount(unittest.TestCase):
     def test_triangles_between_frictional_platens(self):
         self.agrees(run("triangles", rock + triangles + squeezed + friction + output), 100)
 
-    def test_triangles_between_seeds(self):
-        self.agrees(run("seeds", rock + between_seeds + pulled + bonded + output), 150)
+    def test_triangles_pulled_by_tolerance(self):
+        self.agrees(run("triangles_pulled", rock + triangles + pulled + output), 150)
 
     def test_guides_law(self):
         self.agrees(run("demseg", rock + voronoi + pulled + bonded + '[numerics]\ncontact_law = "demseg"\n' + output), 20)
@@ -171,13 +207,17 @@ class Recount(unittest.TestCase):
 
     def test_every_step_of_circles_and_polygons(self):
         for name, case, speed in (("pulled", pulled + bonded, 0.2), ("squeezed", squeezed, 0.2), ("glued", pulled, 0.2),
-                                  ("cells", voronoi + pulled + bonded, 0.2),
-                                  ("frictional", triangles + squeezed.replace("0.02", "0.003") + friction, 1.0)):
+                                  ("cells", voronoi + pulled + bonded, 0.2), ("glued_cells", voronoi + pulled, 0.2),
+                                  ("frictional", triangles + squeezed.replace("0.02", "0.003") + friction, 0.5)):
             quick = case + f"axial_strain_rate = {speed}\n"
             text = rock.replace("count = 80", "count = 30") + quick + output.replace("frames = 12", "frames = 2000")
             with self.subTest(case=name):
                 folder = run("every_step_" + name, text)
-                self.assertTrue(any("history" in line[0] for line in recount(folder).lines), "a frame a step")
+                r = recount(folder)
+                self.assertTrue(any("history" in line[0] for line in r.lines), "a frame a step")
+                if name == "frictional":
+                    self.assertIn("initial_tangent_window.contacts_gained", r.keys)
+                    self.assertGreater(r.summary["initial_tangent_window"]["contacts_gained"], 0)
                 self.agrees(folder, 180)
 
     def test_cells_of_an_area_with_weibull_strengths_pulled_between_glued_platens(self):
@@ -219,6 +259,69 @@ class Recount(unittest.TestCase):
                 folder = every_step_of_few("coulomb_" + name, case)
                 self.assertTrue(any("history" in line[0] for line in recount(folder).lines), "a frame a step")
                 self.agrees(folder, 180)
+
+    def test_rate_rule_of_every_step(self):
+        for name, case in (("pulled", pulled), ("squeezed", squeezed), ("cells", voronoi + squeezed)):
+            text = rock.replace("count = 80", "count = 30") + case + output + "curve_rows = 99998\n"
+            with self.subTest(case=name):
+                folder = run("rule_" + name, text)
+                r = recount(folder)
+                self.assertIn("strain_share_above_tolerance", r.keys)
+                self.assertGreater(r.summary["strain_share_above_tolerance"], 0.0, "the rule had something to do")
+                self.agrees(folder, 100)
+
+    def test_companions_are_the_tests_that_they_say(self):
+        small = rock.replace("count = 80", "count = 30")
+        step = "[numerics]\ntime_step = 1e-4\n"
+        for loading, slower in ((squeezed + rate, ("rate = 0.02", "rate = 0.01")),
+                                (squeezed + "rate_tolerance = 0.01\n", ("= 0.01\n", "= 0.0025\n"))):
+            text = small + loading + step
+            kind = "rate" if rate in loading else "tolerance"
+            of = read(run(f"verified_{kind}", text, "--verify"))
+            for name, own in (("half_time_step", text.replace("1e-4", "0.5e-4")), ("half_rate", text.replace(*slower)),
+                              ("half_damping", text.replace("ratio = 0.2", "ratio = 0.1")),
+                              ("double_damping", text.replace("ratio = 0.2", "ratio = 0.4").replace(step, ""))):
+                other = read(run(f"{kind}_{name}", own))
+                stated = of.summary["numerical_errors"]["companions"][name]
+                for figure, from_summary in (("peak_stress", "peak_stress"), ("peak_strain", "peak_strain"), ("steps", "steps"),
+                                             ("time_step", "time_step_mean"), ("axial_strain_rate", "axial_strain_rate"),
+                                             ("ended_by", "ended_by")):
+                    expected = other.summary[from_summary]
+                    with self.subTest(kind=kind, companion=name, figure=figure):
+                        if figure == "axial_strain_rate":  # off its rows, and as given
+                            self.assertAlmostEqual(stated[figure], expected, delta=1e-9 * expected)
+                        else:
+                            self.assertEqual(stated[figure], expected)
+                strain, theirs = of.curve["axial_strain"], other.curve["axial_strain"]
+                after = (strain >= of.summary["peak_strain"]) & (strain <= min(strain[-1], theirs[-1]))
+                apart = np.abs(np.interp(strain[after], theirs, other.curve["axial_stress"]) - of.curve["axial_stress"][after])
+                expected = apart.mean() / of.summary["peak_stress"]
+                with self.subTest(kind=kind, companion=name, figure="post_peak_difference"):
+                    self.assertGreater(after.sum(), 5, "rows after the peak")
+                    self.assertAlmostEqual(stated["post_peak_difference"], expected, delta=1e-9)
+
+    def test_minerals(self):
+        labels = scratch / "labels.txt"
+        labels.write_text("".join(("1\n", "mica\n", "feldspar\n")[k % 3] for k in range(80)))
+        by_labels = minerals.replace("seed = 5", f'assign = "labels"\nlabels = "{labels}"')
+        for name, case in (("drawn", rock + minerals + squeezed + rate), ("sizes", rock + voronoi + pulled +
+                           minerals.replace("seed = 5", 'assign = "size"')), ("labelled", rock + by_labels + squeezed)):
+            with self.subTest(assign=name):
+                folder = run("minerals_" + name, case + output)
+                self.assertGreater(len([1 for line in recount(folder).lines if line[0].startswith("minerals")]), 20)
+                self.agrees(folder, 150)
+        text = rock.replace("count = 80", "count = 30") + minerals + pulled + "axial_strain_rate = 0.2\n"
+        self.agrees(run("minerals_every_step", text + output.replace("frames = 12", "frames = 2000")), 180)
+
+    def test_wrong_shares_of_minerals_are_found(self):
+        folder = run("minerals_drawn", rock + minerals + squeezed + rate + output)
+        wrong = scratch / "minerals_wrong"
+        shutil.copytree(folder, wrong)
+        summary = json.loads((folder / "summary.json").read_text())
+        summary["minerals"][0]["area_share_reached"] += 1e-6
+        summary["minerals"][2]["grains"] += 1
+        (wrong / "summary.json").write_text(json.dumps(summary))
+        self.assertEqual(differing(wrong), ["minerals[0].area_share_reached", "minerals[2].grains"])
 
     def test_restarted(self):
         folder, case = scratch / "restarted", scratch / "restarted.toml"
@@ -330,8 +433,9 @@ class FaultsAreFound(unittest.TestCase):
     def test_peak_one_row_late(self):
         curve = (circles() / "curve.csv").read_text().splitlines()
         head = curve[0].split(",")
-        stress = [float(line.split(",")[head.index("axial_stress")]) for line in curve[1:]]
-        late = curve[1 + stress.index(max(stress)) + 1].split(",")
+        strain = [float(line.split(",")[head.index("axial_strain")]) for line in curve[1:]]
+        peak = json.loads((circles() / "summary.json").read_text())["peak_strain"]
+        late = curve[1 + strain.index(peak) + 1].split(",")
 
         def change(summary):
             summary["peak_stress"] = float(late[head.index("axial_stress")])
@@ -340,6 +444,27 @@ class FaultsAreFound(unittest.TestCase):
         found = self.spoil_summary(change)
         self.found(found, "peak_stress")
         self.found(found, "peak_strain")
+
+    def test_figures_of_the_other_peak(self):
+        def strength(summary):
+            summary["peak_stress"], summary["peak_strain"] = summary["largest_stress"], summary["strain_at_largest_stress"]
+
+        def area(summary):
+            for name in ("peak", "end"):
+                summary[f"area_strain_{name}"] *= -1
+
+        def damage(summary):
+            summary["bonds_broken_in_tension_to_peak"] = summary["bonds_broken_in_tension"]
+            summary["fragments"] += 1
+            summary["largest_fragment_share"] *= 0.99
+            summary["notices"] = [notice for notice in summary["notices"] if "largest stress" not in notice]
+
+        for change, figures_found in ((strength, ("peak_stress", "peak_strain")), (area, ("area_strain_peak", "area_strain_end")),
+                                      (damage, ("bonds_broken_in_tension_to_peak", "fragments", "largest_fragment_share", "notice"))):
+            found = self.spoil_summary(change, rubble())
+            for figure in figures_found:
+                with self.subTest(figure=figure):
+                    self.found(found, figure)
 
     def test_companion_at_the_full_step_rate_or_damping(self):
         for name, figure in (("half_time_step", "time_step"), ("half_rate", "axial_strain_rate"),
@@ -423,7 +548,7 @@ class FaultsAreFound(unittest.TestCase):
         self.found(self.spoil_column("events.csv", "mode", last, sound), "history: mode of breaks")
 
     def test_energies_and_sliding_points_of_the_curve(self):
-        for column in ("strain_energy", "kinetic_energy", "points_sliding", "stress_top"):
+        for column in ("strain_energy", "kinetic_energy", "points_sliding", "bonds_slid", "stress_top"):
             with self.subTest(column=column):
                 more = lambda values: [str(float(value) * 1.001 + 1) for value in values]  # noqa: E731
                 self.found(self.spoil_column("curve.csv", column, more), column)

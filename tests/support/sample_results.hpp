@@ -16,6 +16,8 @@ struct SampleTest {
     bool failed = true;                ///< else the curve ends before it drops
     double modulus = 5.0e6;            ///< N/m
     double peak_strain = 1.0e-3;
+    double larger_after_peak = 0.0;  ///< N/m, of pieces that carry again; 0: nothing is larger than the peak
+    double thickness = 0.0;          ///< m, out of plane; 0: not given
     std::string title = "Sample test";
     int columns = 13, rows = 30;  ///< lattice sites
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// sample_results ROOT: six made-up folders of results, one that has not failed and one whose texts try to be markup.
+// sample_results ROOT: six made-up folders of results, one that has not failed, one whose pieces carry more than the
+// specimen and that has a thickness, and one whose texts try to be markup.
 #include <iostream>
 
 #include "tests/support/sample_results.hpp"
@@ -17,6 +18,10 @@ int main(int argc, char** argv) {
     unfinished.specimen = "voronoi";
     unfinished.title = "Stopped early";
     write_sample_results(root / "stopped", unfinished);
+    SampleTest rubble;
+    rubble.larger_after_peak = 6.0e3;
+    rubble.thickness = 0.05;
+    write_sample_results(root / "rubble", rubble);
     SampleTest markup;
     markup.title = "</script><script>document.title='broken out'</script> <b>bold</b> & \"quoted\"";
     write_sample_results(root / "markup", markup);

@@ -58,7 +58,8 @@ struct SmallCase {
     std::string mesh = {};  ///< "delaunay", "voronoi" or nothing
     double rate = 0.02;     // 1/s
     double max_strain = 0.005;
-    std::string loading = {}, numerics = {}, output = "curve_rows = 2000\nframes = 5";  ///< further keys
+    /// Further keys; platens are bonded unless they name others.
+    std::string loading = {}, numerics = {}, output = "curve_rows = 2000\nframes = 5";
 };
 
 /// Writes rock.dat and case.toml into the folder. @return the case's path
@@ -71,6 +72,7 @@ inline std::filesystem::path write_small_case(const std::filesystem::path& folde
     }
     out << fmt::format("[loading]\nkind = \"{}\"\naxial_strain_rate = {}\nmax_axial_strain = {}\n{}\n", wanted.kind,
                        wanted.rate, wanted.max_strain, wanted.loading);
+    if (wanted.loading.find("platens") == std::string::npos) out << "platens = \"bonded\"\n";
     out << "[numerics]\n" << wanted.numerics << "\n[output]\n" << wanted.output << '\n';
     return folder / "case.toml";
 }

@@ -168,7 +168,7 @@ int elastic(const Invocation& given) {
     if (messages.verbose()) hooks.detail = [&messages](const std::string& text) { messages.detail(text); };
     if (messages.progress().shown())
         hooks.working = [&messages](const std::string& what) { messages.progress().draw({.detail = what}); };
-    if (description.loading.platens != "bonded") {
+    if (description.loading.platens == "frictional") {
         messages.notice("the linear solution knows bonded platens alone: taken in place of " +
                         description.loading.platens);
         description.loading.platens = "bonded";

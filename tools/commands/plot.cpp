@@ -14,6 +14,7 @@
 
 #include "solver/base/errors.hpp"
 #include "solver/base/replace_file.hpp"
+#include "specimens/recordings/distinct_names.hpp"
 #include "specimens/recordings/recording.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/page/report_page.hpp"
@@ -78,7 +79,7 @@ std::string text_of(const TestResults& results, const char* key) {
     return found != results.summary.end() && found->is_string() ? found->get<std::string>() : "";
 }
 
-/// «Circles, tension» where that distinguishes the tests, else their folders.
+/// «Circles, tension» where that distinguishes the tests, else as distinct_names() does.
 Words default_labels(const std::vector<Recording>& tests) {
     Words labels;
     for (const Recording& test : tests)
@@ -87,9 +88,7 @@ Words default_labels(const std::vector<Recording>& tests) {
     Words sorted = labels;
     std::sort(sorted.begin(), sorted.end());
     if (std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end()) return labels;
-    labels.clear();
-    for (const Recording& test : tests) labels.push_back(test.name);
-    return labels;
+    return distinct_names(tests);
 }
 
 Recording read_whole(const fs::path& folder) {
@@ -138,8 +137,9 @@ Panel drawings_of(const Recording& test, const fs::path& folder, const Words& mo
         Words names = head.roles;
         if (!test.results.summary.value("failed", false))
             std::replace(names.begin(), names.end(), std::string("peak"), std::string("peak so far"));
-        const std::string roles = names.empty() ? "" : fmt::format("{}\n", fmt::join(names, ", "));
-        drawn.push_back({&test, frame, roles + strain_text(head.axial_strain.value_or(0.0))});
+        Words caption{strain_text(head.axial_strain.value_or(0.0))};
+        if (!names.empty()) caption.insert(caption.begin(), fmt::format("{}", fmt::join(names, ", ")));
+        drawn.push_back({&test, frame, std::move(caption)});
     }
     return drawings(drawn, std::vector<fs::path>(drawn.size(), folder), style);
 }
@@ -201,7 +201,7 @@ void plot_guide(const po::variables_map& given, const Look& look, Messages& mess
         }
     }
     const auto at = [&](const std::string& name, const char* role, const char* caption) {
-        return std::pair(DrawnMoment{&tests.at(name), frame_at(tests.at(name), role), caption}, folder / name);
+        return std::pair(DrawnMoment{&tests.at(name), frame_at(tests.at(name), role), {caption}}, folder / name);
     };
     const auto row = [&](std::initializer_list<std::pair<DrawnMoment, fs::path>> moments) {
         std::vector<DrawnMoment> drawn;
@@ -217,12 +217,13 @@ void plot_guide(const po::variables_map& given, const Look& look, Messages& mess
                               {&tests.at(specimen + "_compression").results, "compression", 0, false}});
     };
     const auto loaded = [&](const std::string& specimen) {
-        return row({at(specimen + "_tension", "end", "pulled"), at(specimen + "_compression", "end", "squeezed")});
+        return row({at(specimen + "_tension", "end", "end of tension"),
+                    at(specimen + "_compression", "end", "end of compression")});
     };
     const std::map<int, std::vector<Panel>> figures{
         {26,
-         {row({at("circles_tension", "start", "packing"), at("circles_tension", "end", "pulled"),
-               at("circles_compression", "end", "squeezed")}),
+         {row({at("circles_tension", "start", "packing"), at("circles_tension", "end", "end of tension"),
+               at("circles_compression", "end", "end of compression")}),
           curves("circles"), breaks({{&tests.at("circles_tension").results, "tension", 0, false}})}},
         {27,
          {row({at("circles_tension", "start", "circles"), at("delaunay_tension", "start", "Delaunay"),

@@ -12,6 +12,7 @@
 #include "specimens/observers/profile_report.hpp"
 #include "specimens/results/describe_files.hpp"
 #include "specimens/results/output_folder.hpp"
+#include "specimens/results/summary.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/terminal/interrupt.hpp"
 
@@ -24,17 +25,30 @@ std::string shown(const nlohmann::ordered_json& summary, const std::string& key)
     return value->is_number() ? fmt::format("{:.4g}", value->get<double>()) : value->dump();
 }
 
+/// A stress or modulus, and the same in three dimensions where the case gives a thickness.
+std::string stress(const nlohmann::ordered_json& summary, const std::string& key) {
+    const std::string in_plane = shown(summary, key) + " N/m";
+    const auto converted = summary.find(key + converted_suffix);
+    const bool thick = summary.contains("out_of_plane_thickness") && summary["out_of_plane_thickness"].is_number();
+    if (!thick || converted == summary.end() || !converted->is_number()) return in_plane;
+    return fmt::format("{} ({:.4g} MPa)", in_plane, 1e-6 * converted->get<double>());
+}
+
 void print_figures(const TestOutcome& outcome) {
     const auto& s = outcome.summary;
     const bool failed = s.value("failed", false);
     const std::string so_far = failed ? "" : "_so_far";
     std::cout << fmt::format("{}, {}: {}\n", s.value("specimen", ""), s.value("kind", ""),
                              failed ? "failed" : "has not failed (ended by " + s.value("ended_by", "nothing") + ")");
-    std::cout << fmt::format("  {} {} N/m at strain {}\n", failed ? "strength" : "largest stress so far",
-                             shown(s, "peak_stress" + so_far), shown(s, "peak_strain" + so_far));
-    std::cout << fmt::format("  modulus: small strain {} N/m, initial tangent {} N/m, at half the peak {} N/m\n",
-                             shown(s, "youngs_modulus"), shown(s, "initial_tangent_modulus"),
-                             shown(s, "tangent_modulus_50"));
+    std::cout << fmt::format("  {} {} at strain {}\n", failed ? "strength" : "largest stress so far",
+                             stress(s, "peak_stress" + so_far), shown(s, "peak_strain" + so_far));
+    if (failed && s.value("largest_stress", 0.0) > s.value("peak_stress", 0.0)) {
+        std::cout << fmt::format("  largest stress {} at strain {}: after the peak, no strength\n",
+                                 stress(s, "largest_stress"), shown(s, "strain_at_largest_stress"));
+    }
+    std::cout << fmt::format("  modulus: small strain {}, initial tangent {}, at half the peak {}\n",
+                             stress(s, "youngs_modulus"), stress(s, "initial_tangent_modulus"),
+                             stress(s, "tangent_modulus_50"));
     std::cout << fmt::format("  bonds broken: {} of {} ({} interfaces of {})\n", shown(s, "bonds_broken"),
                              shown(s, "bonds_initial"), shown(s, "interfaces_lost"), shown(s, "interfaces_initial"));
     std::cout << fmt::format("  errors: energy balance {} of the work, platens out of balance by {} of the peak\n",

@@ -5,6 +5,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -226,6 +227,38 @@ double size_of(const std::vector<RecordedCell>& cells) {
     return std::max({x2 - x1, y2 - y1, std::numeric_limits<double>::min()});
 }
 
+/// Left and right end of what frames show between platens, m, so that the viewer leaves room for it from the start.
+class Sides {
+  public:
+    explicit Sides(const std::vector<RecordedCell>& cells) : cells_(cells) {
+        for (const RecordedCell& cell : cells) {
+            double reach = cell.radius;
+            for (const Vec2 corner : cell.outline) reach = std::max(reach, norm(corner - cell.centre));
+            reach_.push_back(reach);
+            if (cell.platen) continue;
+            left_ = std::min(left_, cell.centre.x - reach);
+            right_ = std::max(right_, cell.centre.x + reach);
+        }
+        const double followed = 0.4 * (right_ - left_);  // splinters that fly farther would make the specimen small
+        least_ = left_ - followed;
+        most_ = right_ + followed;
+    }
+    void include(const RecordedFrame& frame) {
+        for (std::size_t k = 0; k < cells_.size(); ++k) {
+            const double x = cells_[k].centre.x + frame.ux[k];
+            if (cells_[k].platen || x < least_ || x > most_) continue;
+            left_ = std::min(left_, x - reach_[k]);
+            right_ = std::max(right_, x + reach_[k]);
+        }
+    }
+    std::array<double, 2> ends() const { return {left_, right_}; }
+
+  private:
+    const std::vector<RecordedCell>& cells_;
+    std::vector<double> reach_;
+    double left_ = std::numeric_limits<double>::infinity(), right_ = -left_, least_ = 0.0, most_ = 0.0;
+};
+
 template <class T, class Of, class Entries>
 std::vector<T> listed(const Entries& entries, const Of& of) {
     std::vector<T> values;
@@ -327,11 +360,13 @@ PageData pack_recording(const Recording& recording, const std::function<void(std
     data.blocks.push_back(packed(first.bytes()));
 
     const double place_quantum = place_share * size_of(recording.cells);
+    Sides sides(recording.cells);
     for (std::size_t begin = 0; begin < recording.frames.size(); begin += frames_in_block) {
         const std::size_t end = std::min(begin + frames_in_block, recording.frames.size());
         std::vector<RecordedFrame> frames;
         for (std::size_t k = begin; k < end; ++k) {
             frames.push_back(recording.frame(k));
+            sides.include(frames.back());
             if (packed_frames) packed_frames(k);
         }
         const FrameHead &from = recording.frames[begin], &to = recording.frames[end - 1];
@@ -358,6 +393,7 @@ PageData pack_recording(const Recording& recording, const std::function<void(std
             {{"block", data.blocks.size()}, {"first", begin}, {"count", frames.size()}, {"arrays", block.places()}});
         data.blocks.push_back(packed(block.bytes()));
     }
+    if (recording.kind == Recording::Kind::test && !recording.frames.empty()) manifest["sides"] = sides.ends();
     return data;
 }
 

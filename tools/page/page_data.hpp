@@ -12,7 +12,7 @@
 // where an entry has a `growth` g, for q/g·sinh(g·n): velocities, stresses and forces, whose small values mean as much
 // as their large ones. Neighbours are then √(q² + (g·value)²) apart, with g = 2⁻⁷, of forces 2⁻⁶, and q = 2⁻²⁰ of the
 // block's largest value.
-// Tested by tests/tools/commands/report_test.cpp.
+// Tested by tests/tools/page/page_data_test.cpp.
 #pragma once
 
 #include <functional>

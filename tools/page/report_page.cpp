@@ -8,6 +8,7 @@
 
 #include "solver/base/errors.hpp"
 #include "solver/base/replace_file.hpp"
+#include "specimens/recordings/distinct_names.hpp"
 #include "tools/page/page_data.hpp"
 #include "tools/page/page_template.hpp"
 
@@ -75,12 +76,14 @@ std::string filled_page(std::string_view page, const PageHead& head, const std::
     std::array<std::string, 3> texts;
     std::size_t all_frames = 0, frames_before = 0;
     for (const Recording& recording : recordings) all_frames += recording.frames.size();
+    const std::vector<std::string> names = distinct_names(recordings);
     messages.progress().begin("packing frames", static_cast<double>(all_frames), "frames");
     for (std::size_t k = 0; k < recordings.size(); ++k) {
         PageData data = pack_recording(recordings[k], [&](std::size_t frames) {
             messages.progress().count(static_cast<double>(frames_before + frames), recordings[k].name);
         });
         frames_before += recordings[k].frames.size();
+        data.manifest["name"] = names[k];
         manifest["tests"].push_back(std::move(data.manifest));
         for (std::size_t block = 0; block < data.blocks.size(); ++block)
             append_block(texts[block == 0 ? 1 : 2], k, block, data.blocks[block]);

@@ -17,10 +17,15 @@ std::string with_minus(std::string number) {
     return number;
 }
 
-double widest_label(const Canvas& canvas, const Scale& scale) {
+double widest_label(const Canvas& canvas, const Scale& scale, double text) {
     double widest = 0.0;
-    for (const double tick : scale.ticks()) widest = std::max(widest, canvas.size_of(scale.label(tick)).width);
+    for (const double tick : scale.ticks()) widest = std::max(widest, canvas.size_of(scale.label(tick), text).width);
     return widest;
+}
+
+/// A title along an axis is as long as the axis at most.
+double fitting(const Canvas& canvas, const std::string& title, double length, double text) {
+    return title.empty() ? text : std::min(text, text * length / canvas.size_of(title, text).width);
 }
 
 }  // namespace
@@ -43,11 +48,13 @@ Scale scale_for(double smallest, double largest, int most_ticks) {
     const double high = largest > low ? largest : low + 1.0;
     const double raw = (high - low) / most_ticks;
     const double power = std::pow(10.0, std::floor(std::log10(raw)));
-    constexpr std::array<double, 4> steps{1.0, 2.0, 5.0, 10.0};
-    const double step = power * *std::find_if(steps.begin(), steps.end() - 1,
-                                              [&](double s) { return s * power >= raw * (1.0 - 1e-9); });
+    constexpr std::array<double, 6> steps{0.2, 0.5, 1.0, 2.0, 5.0, 10.0};
+    const auto* step =
+        std::find_if(steps.begin() + 2, steps.end() - 1, [&](double s) { return s * power >= raw * (1.0 - 1e-9); });
     // The topmost curve keeps off the frame.
-    return {low < 0.0 ? low - 0.04 * (high - low) : 0.0, high + 0.06 * (high - low), step};
+    Scale scale{low < 0.0 ? low - 0.04 * (high - low) : 0.0, high + 0.06 * (high - low), *step * power};
+    while (scale.ticks().size() < 2 && step != steps.begin()) scale.step = *--step * power;
+    return scale;
 }
 
 Unit unit_for(double largest, const std::string& unit) {
@@ -64,31 +71,34 @@ Point Axes::at(double value_x, double value_y) const {
             frame.bottom() - (value_y - y.low) / (y.high - y.low) * frame.height};
 }
 
-double Axes::room_left(const Canvas& canvas, const Scale& scale) {
-    return widest_label(canvas, scale) + canvas.size_of("0").height + tick_length + 2.0 * label_gap;
+double Axes::room_left(const Canvas& canvas, const Scale& scale, double text) {
+    return widest_label(canvas, scale, text) + canvas.size_of("0", text).height + tick_length + 2.0 * label_gap;
 }
 
-double Axes::room_below(const Canvas& canvas) { return 2.0 * canvas.size_of("0").height + tick_length + label_gap; }
+double Axes::room_below(const Canvas& canvas, double text) {
+    return 2.0 * canvas.size_of("0", text).height + tick_length + label_gap;
+}
 
 void Axes::draw(Canvas& canvas, const std::string& x_title, const std::string& y_title) const {
-    const double height = canvas.size_of("0").height;
+    const double height = canvas.size_of("0", text).height;
     for (const double tick : y.ticks()) {
         const Point mark = at(x.low, tick);
         canvas.line({mark, {mark.x - tick_length, mark.y}}, ink, frame_width);
-        canvas.text({mark.x - tick_length - label_gap, mark.y}, y.label(tick), Across::right, Down::middle, 1.0, ink);
+        canvas.text({mark.x - tick_length - label_gap, mark.y}, y.label(tick), Across::right, Down::middle, text, ink);
     }
-    const double title_x = frame.x - tick_length - 2.0 * label_gap - widest_label(canvas, y);
-    canvas.text({title_x, frame.y + 0.5 * frame.height}, y_title, Across::centre, Down::bottom, 1.0, ink, true);
+    const double title_x = frame.x - tick_length - 2.0 * label_gap - widest_label(canvas, y, text);
+    canvas.text({title_x, frame.y + 0.5 * frame.height}, y_title, Across::centre, Down::bottom,
+                fitting(canvas, y_title, frame.height, text), ink, true);
     for (const double tick : x.ticks()) {
         const Point mark = at(tick, y.low);
         canvas.line({mark, {mark.x, mark.y + tick_length}}, ink, frame_width);
         if (!x_title.empty())
-            canvas.text({mark.x, mark.y + tick_length + 0.5 * label_gap}, x.label(tick), Across::centre, Down::top, 1.0,
-                        ink);
+            canvas.text({mark.x, mark.y + tick_length + 0.5 * label_gap}, x.label(tick), Across::centre, Down::top,
+                        text, ink);
     }
     if (!x_title.empty()) {
         canvas.text({frame.x + 0.5 * frame.width, frame.bottom() + tick_length + label_gap + height}, x_title,
-                    Across::centre, Down::top, 1.0, ink);
+                    Across::centre, Down::top, fitting(canvas, x_title, frame.width, text), ink);
     }
     canvas.line({{frame.x, frame.y}, {frame.x, frame.bottom()}, {frame.right(), frame.bottom()}}, ink, frame_width);
 }
@@ -100,12 +110,13 @@ void Axes::draw_right(Canvas& canvas, const Scale& scale, const std::string& tit
     for (const double tick : scale.ticks()) {
         const Point mark = other.at(x.high, tick);
         canvas.line({mark, {mark.x + tick_length, mark.y}}, grey, frame_width);
-        canvas.text({mark.x + tick_length + label_gap, mark.y}, scale.label(tick), Across::left, Down::middle, 1.0,
+        canvas.text({mark.x + tick_length + label_gap, mark.y}, scale.label(tick), Across::left, Down::middle, text,
                     grey);
     }
     canvas.line({{frame.right(), frame.y}, {frame.right(), frame.bottom()}}, grey, frame_width);
-    const double title_x = frame.right() + tick_length + 2.0 * label_gap + widest_label(canvas, scale);
-    canvas.text({title_x, frame.y + 0.5 * frame.height}, title, Across::centre, Down::top, 1.0, grey, true);
+    const double title_x = frame.right() + tick_length + 2.0 * label_gap + widest_label(canvas, scale, text);
+    canvas.text({title_x, frame.y + 0.5 * frame.height}, title, Across::centre, Down::top,
+                fitting(canvas, title, frame.height, text), grey, true);
 }
 
 }  // namespace crackle::plot

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Linear axes: ticks at 1, 2 or 5 times a power of ten, SI prefixes, and the frame that curves are drawn into.
-// Tested by tests/tools/commands/plot_test.cpp.
+// Tested by tests/tools/plot/axes_test.cpp.
 #pragma once
 
 #include <string>
@@ -20,7 +20,8 @@ struct Scale {
     std::string label(double tick) const;
 };
 
-/// From 0 (or below) to the largest value and a little more. @param most_ticks  at most so many intervals
+/// From 0 (or below) to the largest value and a little more, with a tick beside that at 0.
+/// @param most_ticks  at most so many intervals, where that leaves a second tick
 Scale scale_for(double smallest, double largest, int most_ticks);
 
 /// A unit with the prefix that puts the largest value between 1 and 1000: {1e3, "kN/m"}.
@@ -33,14 +34,15 @@ Unit unit_for(double largest, const std::string& unit);
 struct Axes {
     Rect frame;  ///< inside of which curves lie, pt
     Scale x, y;
+    double text = 1.0;  ///< of the font size
 
     Point at(double value_x, double value_y) const;
     /// Frame, ticks, numbers and titles; tick labels of x only where asked.
     void draw(Canvas& canvas, const std::string& x_title, const std::string& y_title) const;
     void draw_right(Canvas& canvas, const Scale& scale, const std::string& title) const;
     /// Room that numbers and a title need beside the frame, pt.
-    static double room_left(const Canvas& canvas, const Scale& scale);
-    static double room_below(const Canvas& canvas);
+    static double room_left(const Canvas& canvas, const Scale& scale, double text = 1.0);
+    static double room_below(const Canvas& canvas, double text = 1.0);
 };
 
 }  // namespace crackle::plot

@@ -90,8 +90,10 @@ Canvas::Canvas(double width, double height, Format format, const SheetStyle& sty
             fmt::format("Cairo cannot make a sheet of {:.0f} x {:.0f} pt: {}", width, height, why));
     }
     if (format == Format::png) {
+        // All whole pixels: a rectangle of the sheet's size would leave part of the last ones transparent, a grey line.
+        set(colour("#ffffff"));
+        cairo_paint(cairo_);
         cairo_scale(cairo_, style.dpi / 72.0, style.dpi / 72.0);
-        rectangle({0.0, 0.0, width, height}, colour("#ffffff"));
     }
     cairo_set_line_join(cairo_, CAIRO_LINE_JOIN_ROUND);
     cairo_set_line_cap(cairo_, CAIRO_LINE_CAP_BUTT);

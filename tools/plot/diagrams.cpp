@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "tools/plot/axes.hpp"
 #include "tools/plot/panels.hpp"
@@ -58,7 +59,7 @@ std::vector<Point> curve_points(const Axes& axes, const std::vector<double>& x, 
     return points;
 }
 
-/// Samples of line and name, in rows that fit between the sides.
+/// Samples of line and name, in as many columns of equal width as fit between the sides.
 class Legend {
   public:
     struct Entry {
@@ -67,19 +68,26 @@ class Legend {
         bool dashed = false, bar = false;
     };
     Legend(const Canvas& canvas, std::vector<Entry> entries, double width) : entries_(std::move(entries)) {
-        line_ = 1.25 * canvas.size_of("Xy").height;
-        double x = 0.0;
-        for (const Entry& entry : entries_) {
-            const double wide = sample + 3.0 + canvas.size_of(escaped(entry.label)).width + 10.0;
-            if (x > 0.0 && x + wide - 10.0 > width) {
-                x = 0.0;
-                ++rows_;
-            }
-            places_.push_back({x, line_ * rows_});
-            x += wide;
+        constexpr double between = 10.0;  // pt
+        double widest = 0.0;
+        const auto measure = [&] {
+            line_ = 1.25 * canvas.size_of("Xy", text_).height;
+            for (const Entry& entry : entries_)
+                widest = std::max(widest, sample + 3.0 + canvas.size_of(escaped(entry.label), text_).width + between);
+            return static_cast<std::size_t>(std::max(1.0, std::floor((width + between) / widest)));
+        };
+        std::size_t columns = measure();
+        if (columns < std::min<std::size_t>(2, entries_.size())) {  // smaller letters where that makes a second column
+            text_ = 0.85;
+            widest = 0.0;
+            columns = measure();
         }
+        columns = std::min(columns, std::max<std::size_t>(1, entries_.size()));
+        rows_ = static_cast<int>((entries_.size() + columns - 1) / columns);
+        for (std::size_t k = 0; k < entries_.size(); ++k)
+            places_.push_back({widest * static_cast<double>(k % columns), line_ * static_cast<double>(k / columns)});
     }
-    double height() const { return entries_.size() < 2 ? 0.0 : line_ * (rows_ + 1) + 2.0; }
+    double height() const { return entries_.size() < 2 ? 0.0 : line_ * rows_ + 2.0; }
     void draw(Canvas& canvas, Point corner) const {
         if (entries_.size() < 2) return;
         for (std::size_t k = 0; k < entries_.size(); ++k) {
@@ -90,15 +98,17 @@ class Legend {
             } else {
                 canvas.line({{x, middle}, {x + sample, middle}}, entry.colour, curve_width, entry.dashed);
             }
-            canvas.text({x + sample + 3.0, middle}, escaped(entry.label), Across::left, Down::middle, 1.0, ink);
+            canvas.text({x + sample + 3.0, middle}, escaped(entry.label), Across::left, Down::middle, text_, ink);
         }
     }
+    /// Room of the rows beyond the first: a panel is so much higher.
+    double more_rows() const { return line_ * std::max(0, rows_ - 1); }
 
   private:
     static constexpr double sample = 14.0;  // pt
     std::vector<Entry> entries_;
     std::vector<Point> places_;
-    double line_ = 0.0;
+    double line_ = 0.0, text_ = 1.0;  // text: of the font size
     int rows_ = 0;
 };
 
@@ -109,7 +119,15 @@ std::vector<Legend::Entry> entries_of(const std::vector<PlottedTest>& tests) {
     return entries;
 }
 
-constexpr double small_text = 0.75;  // of the font size
+/// The width that a diagram's height is a share of: a page's width is no reason to be as high as half a page.
+double proportional(double width) { return std::min(width, 340.0); }
+
+constexpr double small_text = 0.75;     // of the font size
+constexpr double beside_letter = 20.0;  // pt, from the left of a panel, where its letter stands
+
+Legend legend_of(const Canvas& canvas, std::vector<Legend::Entry> entries, double width) {
+    return {canvas, std::move(entries), width - beside_letter - 4.0};
+}
 
 /// Breaks in equal intervals of strain: k width < strain <= (k + 1) width in the one of number k, as in the report.
 struct Histogram {
@@ -196,23 +214,97 @@ void mark_peak(Canvas& canvas, const Axes& axes, const PlottedTest& test, double
     canvas.circle(axes.at(strain / strain_unit, stress / unit), 1.8, &white, &colour_of(test), curve_width);
 }
 
+void draw_curves(Canvas& canvas, const Axes& axes, const std::vector<PlottedTest>& tests, double unit) {
+    if (axes.y.low < 0.0) canvas.line({axes.at(axes.x.low, 0.0), axes.at(axes.x.high, 0.0)}, colour("#c8ccd0"), 0.4);
+    for (const PlottedTest& test : tests) {
+        canvas.line(curve_points(axes, column(*test.results, "axial_strain"), strain_unit,
+                                 column(*test.results, "axial_stress"), unit),
+                    colour_of(test), curve_width, test.dashed);
+    }
+    for (const PlottedTest& test : tests) mark_peak(canvas, axes, test, unit);
+}
+
+Scale stress_scale(const std::vector<PlottedTest>& tests, double unit, int ticks) {
+    return scale_for(smallest_of(tests, "axial_stress") / unit, largest_of(tests, "axial_stress") / unit, ticks);
+}
+
+/// Tests that are hard to see on the scales of all, of one kind of loading; none in most figures.
+std::vector<PlottedTest> slivers_of(const std::vector<PlottedTest>& tests) {
+    constexpr double least_stress = 0.25, least_strain = 0.2;  // of the largest
+    std::array<std::vector<PlottedTest>, 2> kinds;
+    for (const PlottedTest& test : tests)
+        kinds[test.results->summary.value("kind", std::string()) == "tension" ? 0 : 1].push_back(test);
+    if (kinds[0].empty() || kinds[1].empty()) return {};
+    const std::vector<PlottedTest>& weaker =
+        largest_of(kinds[0], "axial_stress") < largest_of(kinds[1], "axial_stress") ? kinds[0] : kinds[1];
+    const auto share = [&](const char* name) { return largest_of(weaker, name) / largest_of(tests, name); };
+    return share("axial_stress") < least_stress || share("axial_strain") < least_strain ? weaker
+                                                                                        : std::vector<PlottedTest>();
+}
+
+/// A place of this size within the frame that no curve crosses, the lowest and of these the rightmost.
+std::optional<Rect> free_place(const Axes& axes, const std::vector<PlottedTest>& tests, double unit, double width,
+                               double height) {
+    constexpr double off = 4.0, stride = 3.0;  // pt, from curves; between tries
+    std::vector<Point> taken;
+    for (const PlottedTest& test : tests) {
+        const std::vector<Point> points = curve_points(axes, column(*test.results, "axial_strain"), strain_unit,
+                                                       column(*test.results, "axial_stress"), unit);
+        for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+            const Point a = points[k], b = points[k + 1];
+            const double parts = std::ceil(std::hypot(b.x - a.x, b.y - a.y) / off);
+            for (double part = 0.0; part <= parts; ++part)
+                taken.push_back({a.x + part / parts * (b.x - a.x), a.y + part / parts * (b.y - a.y)});
+        }
+    }
+    const Rect& frame = axes.frame;
+    for (double y = frame.bottom() - off - height; y >= frame.y; y -= stride) {
+        for (double x = frame.right() - off - width; x >= frame.x + off; x -= stride) {
+            const bool free = std::none_of(taken.begin(), taken.end(), [&](const Point& p) {
+                return p.x > x - off && p.x < x + width + off && p.y > y - off && p.y < y + height + off;
+            });
+            if (free) return Rect{x, y, width, height};
+        }
+    }
+    return std::nullopt;
+}
+
+/// The curves of some tests on scales of their own, within a rectangle.
+void draw_inset(Canvas& canvas, const Rect& place, const std::vector<PlottedTest>& tests) {
+    canvas.rectangle(place, colour("#ffffff"));
+    const Unit unit = unit_for(largest_of(tests, "axial_stress"), "N/m");
+    Axes axes;
+    axes.text = small_text;
+    axes.x = scale_for(0.0, largest_of(tests, "axial_strain") / strain_unit, 3);
+    axes.y = stress_scale(tests, unit.factor, 4);
+    const double left = Axes::room_left(canvas, axes.y, small_text), line = canvas.size_of("X", small_text).height;
+    axes.frame = {place.x + left, place.y + 1.3 * line, place.width - left - 3.0,
+                  place.height - 1.3 * line - Axes::room_below(canvas, small_text)};
+    canvas.text({axes.frame.x + 0.5 * axes.frame.width, place.y},
+                tests.front().results->summary.value("kind", std::string()), Across::centre, Down::top, small_text,
+                ink);
+    draw_curves(canvas, axes, tests, unit.factor);
+    axes.draw(canvas, "10⁻³", unit.name);
+}
+
 }  // namespace
 
 Panel stress_strain(const std::vector<PlottedTest>& tests) {
     const bool single = tests.size() == 1;
-    const auto strip = [single](double width) { return (single ? 0.23 : 0.2) * width; };
+    const auto strip = [single](double width) { return (single ? 0.23 : 0.2) * proportional(width); };
     Panel panel;
-    panel.height = [strip](double width) { return 0.62 * width + strip(width); };
+    panel.height = [strip, tests](const Canvas& measure, double width) {
+        return 0.62 * proportional(width) + strip(width) + legend_of(measure, entries_of(tests), width).more_rows();
+    };
     panel.draw = [tests, strip, single](Canvas& canvas, const Rect& place) {
         const Unit unit = unit_for(largest_of(tests, "axial_stress"), "N/m");
         Axes upper, lower;
         upper.x = lower.x = strain_scale(tests, place.width);
-        upper.y = scale_for(smallest_of(tests, "axial_stress") / unit.factor,
-                            largest_of(tests, "axial_stress") / unit.factor, 6);
+        upper.y = stress_scale(tests, unit.factor, 6);
         const Histogram histogram = single ? count_breaks(*tests.front().results, total_strain(tests)) : Histogram{};
         lower.y = count_scale(single ? histogram.most : largest_of(tests, "bonds_broken"), 2);
         const double left = std::max(Axes::room_left(canvas, upper.y), Axes::room_left(canvas, lower.y));
-        const Legend legend(canvas, entries_of(tests), place.width - left - 24.0);
+        const Legend legend = legend_of(canvas, entries_of(tests), place.width);
         const double gap = (single ? 1.7 : 0.8) * canvas.style().font_size;  // of one: room for the interval
         // The letter of a panel stands beside the frame, where the uppermost number could be.
         const double top = place.y + std::max(legend.height(), 1.6 * canvas.style().font_size);
@@ -220,16 +312,30 @@ Panel stress_strain(const std::vector<PlottedTest>& tests) {
         lower.frame = {place.x + left, bottom - strip(place.width) + gap, place.width - left - 4.0,
                        strip(place.width) - gap};
         upper.frame = {lower.frame.x, top, lower.frame.width, lower.frame.y - gap - top};
-
-        legend.draw(canvas, {upper.frame.x + 20.0, place.y});
-        if (upper.y.low < 0.0)
-            canvas.line({upper.at(upper.x.low, 0.0), upper.at(upper.x.high, 0.0)}, colour("#c8ccd0"), 0.4);
-        for (const PlottedTest& test : tests) {
-            canvas.line(curve_points(upper, column(*test.results, "axial_strain"), strain_unit,
-                                     column(*test.results, "axial_stress"), unit.factor),
-                        colour_of(test), curve_width, test.dashed);
+        const std::vector<PlottedTest> slivers = slivers_of(tests);
+        std::optional<Rect> inset;
+        if (!slivers.empty()) {
+            double largest = 0.0;
+            for (const double across : {0.6, 0.52, 0.45, 0.38}) {
+                for (const double up : {0.75, 0.65, 0.55, 0.45}) {
+                    const double width = std::min(across * upper.frame.width, 170.0), height = up * upper.frame.height;
+                    if (width * height <= largest) continue;
+                    if (const auto found = free_place(upper, tests, unit.factor, width, height)) {
+                        inset = found;
+                        largest = width * height;
+                    }
+                }
+            }
+            if (!inset) {  // beside the curves
+                const double whole = upper.frame.width;
+                lower.frame.width = upper.frame.width = 0.56 * whole;
+                inset = Rect{upper.frame.right() + 0.03 * whole, upper.frame.y, 0.41 * whole, upper.frame.height};
+            }
         }
-        for (const PlottedTest& test : tests) mark_peak(canvas, upper, test, unit.factor);
+
+        legend.draw(canvas, {place.x + beside_letter, place.y});
+        draw_curves(canvas, upper, tests, unit.factor);
+        if (inset) draw_inset(canvas, *inset, slivers);
         upper.draw(canvas, "", fmt::format("axial stress, {}", unit.name));
         if (single) {
             draw_bars(canvas, lower, histogram);
@@ -245,7 +351,10 @@ Panel stress_strain(const std::vector<PlottedTest>& tests) {
 
 Panel breaks(const std::vector<PlottedTest>& tests) {
     Panel panel;
-    panel.height = [](double width) { return 0.5 * width; };
+    panel.height = [tests](const Canvas& measure, double width) {
+        return 0.5 * proportional(width) +
+               (tests.size() == 1 ? 0.0 : legend_of(measure, entries_of(tests), width).more_rows());
+    };
     panel.draw = [tests](Canvas& canvas, const Rect& place) {
         const bool single = tests.size() == 1;
         const Histogram histogram = single ? count_breaks(*tests.front().results, total_strain(tests)) : Histogram{};
@@ -262,10 +371,10 @@ Panel breaks(const std::vector<PlottedTest>& tests) {
             if (any_shear) entries.insert(entries.begin() + 1, {"shear", shear_colour, false, true});
         }
         const double left = Axes::room_left(canvas, axes.y), right = single ? Axes::room_left(canvas, so_far) : 4.0;
-        const Legend legend(canvas, std::move(entries), place.width - left - right - 24.0);
+        const Legend legend = legend_of(canvas, std::move(entries), place.width);
         const double top = place.y + legend.height();
         axes.frame = {place.x + left, top, place.width - left - right, place.bottom() - Axes::room_below(canvas) - top};
-        legend.draw(canvas, {axes.frame.x + 20.0, place.y});
+        legend.draw(canvas, {place.x + beside_letter, place.y});
         if (single) {
             draw_bars(canvas, axes, histogram);
             Axes second = axes;

@@ -3,6 +3,7 @@
 // Tested by tests/tools/commands/plot_test.cpp.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -54,6 +55,11 @@ struct Motion {
     Motion with(double magnify) const { return {centre, magnify * displacement, cosine, sine}; }
 };
 
+struct DrawnBody {
+    Motion motion;
+    bool shown = true;
+};
+
 /// The place of the first frame whose two moved places have this mean: both motions are linear, and so is their mean.
 /// @return nothing where the bodies have turned so far against each other that their mean means nothing
 std::optional<Vec2> held_place(const Motion& a, const Motion& b, Vec2 mean) {
@@ -68,7 +74,7 @@ std::optional<Vec2> held_place(const Motion& a, const Motion& b, Vec2 mean) {
 /// The cracks of a frame, where its test wrote them: each on both faces that the bond held together, as they have
 /// moved. Frames hold the mean of the two, which lies in the open where fragments have parted.
 std::vector<CrackLine> cracks_of(const fs::path& folder, const FrameHead& head,
-                                 const std::unordered_map<int, Motion>& motion_of, double magnify) {
+                                 const std::unordered_map<int, DrawnBody>& bodies, double magnify) {
     fs::path file = folder / head.file;
     std::string name = file.filename().string();
     const std::string from = "particles_";
@@ -82,15 +88,17 @@ std::vector<CrackLine> cracks_of(const fs::path& folder, const FrameHead& head,
     for (std::size_t k = 0; k < data.cells.size(); ++k) {
         const std::vector<std::size_t>& ends = data.cells[k].points;
         const bool shear = mode != data.cell_data.end() && mode->second.at(k) != 0.0;
-        const auto i = motion_of.find(static_cast<int>(body_i[k])), j = motion_of.find(static_cast<int>(body_j[k]));
-        if (i == motion_of.end() || j == motion_of.end())
+        const auto i = bodies.find(static_cast<int>(body_i[k])), j = bodies.find(static_cast<int>(body_j[k]));
+        if (i == bodies.end() || j == bodies.end())
             throw InputError(fmt::format("{}: crack {}: found bodies {} and {}, of which one is not drawn",
                                          file.string(), k, body_i[k], body_j[k]));
-        const auto begin = held_place(i->second, j->second, data.points.at(ends.front())),
-                   end = held_place(i->second, j->second, data.points.at(ends.back()));
+        const auto begin = held_place(i->second.motion, j->second.motion, data.points.at(ends.front())),
+                   end = held_place(i->second.motion, j->second.motion, data.points.at(ends.back()));
         if (!begin || !end) continue;
-        for (const Motion& motion : {i->second.with(magnify), j->second.with(magnify)})
-            cracks.push_back({motion.of(*begin), motion.of(*end), shear});
+        for (const DrawnBody& body : {i->second, j->second}) {
+            const Motion motion = body.motion.with(magnify);
+            if (body.shown) cracks.push_back({motion.of(*begin), motion.of(*end), shear});
+        }
     }
     return cracks;
 }
@@ -98,23 +106,72 @@ std::vector<CrackLine> cracks_of(const fs::path& folder, const FrameHead& head,
 /// A moment ready to be drawn.
 struct Moment {
     std::vector<std::vector<Vec2>> outlines;  // of cells; one point of circles
+    std::vector<bool> shown;                  // of cells
     const std::vector<RecordedCell>* cells = nullptr;
     std::vector<CrackLine> cracks;
-    std::string caption;
+    std::vector<std::string> caption;  // lines
     Extent extent;
 };
 
-/// Makes room for what displacements larger than true carry away: for fragments of a fifth of all cells or more.
-void include_magnified(Moment& moment, const RecordedFrame& frame, double magnify) {
-    if (magnify <= 1.0) return;
+/// How far out fragments are followed, of the specimen's width, and the share of all cells from which on one always is:
+/// what has flown farther would make the specimen small.
+constexpr double followed = 0.4, large_share = 0.2;
+
+struct Fragment {
+    Extent extent;
+    Vec2 sum;  // of its cells' places
+    std::size_t cells = 0;
+};
+
+/// Chooses the cells that are drawn, fragment by fragment: none is cut at the frame. @return cells that are left out
+std::size_t choose_shown(Moment& moment, const RecordedFrame& frame) {
     const std::vector<RecordedCell>& cells = *moment.cells;
-    std::map<double, std::size_t> cells_of;
-    const auto fragment = [&](std::size_t k) { return frame.fragment.empty() ? 0.0 : frame.fragment[k]; };
-    for (std::size_t k = 0; k < cells.size(); ++k) ++cells_of[fragment(k)];
+    const auto number = [&](std::size_t k) {
+        return frame.fragment.empty() ? static_cast<double>(k) : frame.fragment[k];
+    };
+    Extent start;
+    std::map<double, Fragment> fragments;
     for (std::size_t k = 0; k < cells.size(); ++k) {
-        if (cells[k].platen || 5 * cells_of[fragment(k)] < cells.size()) continue;
-        for (const Vec2 place : moment.outlines[k]) moment.extent.include(place, cells[k].radius);
+        if (cells[k].platen) {
+            moment.extent.include_height(moment.outlines[k].front().y);
+            continue;
+        }
+        if (cells[k].radius > 0.0) start.include(cells[k].centre, cells[k].radius);
+        for (const Vec2 corner : cells[k].outline) start.include(corner, 0.0);
+        Fragment& fragment = fragments[number(k)];
+        Vec2 sum;
+        for (const Vec2 place : moment.outlines[k]) {
+            fragment.extent.include(place, cells[k].radius);
+            sum = sum + place;
+        }
+        fragment.sum = fragment.sum + (1.0 / static_cast<double>(moment.outlines[k].size())) * sum;
+        ++fragment.cells;
     }
+    const double room = followed * start.width();
+    const auto near = [&](const Fragment& fragment) {
+        const Vec2 middle = (1.0 / static_cast<double>(fragment.cells)) * fragment.sum;
+        return static_cast<double>(fragment.cells) >= large_share * static_cast<double>(cells.size()) ||
+               (middle.x > start.x1 - room && middle.x < start.x2 + room && middle.y > start.y1 - room &&
+                middle.y < start.y2 + room);
+    };
+    moment.extent.x1 = start.x1;
+    moment.extent.x2 = start.x2;
+    for (const auto& [key, fragment] : fragments) {
+        if (!near(fragment)) continue;
+        moment.extent.include({fragment.extent.x1, fragment.extent.y1}, 0.0);
+        moment.extent.include({fragment.extent.x2, fragment.extent.y2}, 0.0);
+    }
+    std::size_t left_out = 0;
+    for (std::size_t k = 0; k < cells.size(); ++k) {
+        const bool shown = cells[k].platen || near(fragments.at(number(k)));
+        moment.shown.push_back(shown);
+        left_out += shown ? 0 : 1;
+    }
+    // Platens reach a little beyond the specimen.
+    const double beyond = 0.06 * start.width();
+    moment.extent.x1 -= beyond;
+    moment.extent.x2 += beyond;
+    return left_out;
 }
 
 Moment prepared(const DrawnMoment& drawn, const fs::path& folder, const DrawingStyle& style) {
@@ -122,47 +179,37 @@ Moment prepared(const DrawnMoment& drawn, const fs::path& folder, const DrawingS
     const RecordedFrame frame = recording.frame(drawn.frame);
     Moment moment;
     moment.cells = &recording.cells;
-    moment.caption = drawn.caption;
-    std::unordered_map<int, Motion> motion_of;  // of bodies; of a clump that of one of its circles
+    std::unordered_map<int, DrawnBody> bodies;  // of a clump one of its circles
     for (std::size_t k = 0; k < recording.cells.size(); ++k) {
         const RecordedCell& cell = recording.cells[k];
         const Motion moved{cell.centre, {frame.ux[k], frame.uy[k]}, std::cos(frame.angle[k]), std::sin(frame.angle[k])};
-        motion_of.emplace(cell.id, moved);
+        bodies.emplace(cell.id, DrawnBody{moved, true});
         const Motion motion = moved.with(style.magnify);
         std::vector<Vec2> outline;
         if (cell.radius > 0.0) outline.push_back(motion.of(cell.centre));
         for (const Vec2 corner : cell.outline) outline.push_back(motion.of(corner));
-        // What has flown off would make the specimen small: the sheet shows it as it was, with its surroundings.
-        if (cell.platen) {
-            moment.extent.include_height(outline.front().y);
-        } else {
-            moment.extent.include(cell.centre, cell.radius);
-        }
         moment.outlines.push_back(std::move(outline));
     }
-    include_magnified(moment, frame, style.magnify);
-    moment.cracks = cracks_of(folder, recording.frames[drawn.frame], motion_of, style.magnify);
+    const std::size_t left_out = choose_shown(moment, frame);
+    for (std::size_t k = 0; k < recording.cells.size(); ++k) {
+        if (!moment.shown[k]) bodies.at(recording.cells[k].id).shown = false;
+    }
+    moment.caption = drawn.caption;
+    if (left_out > 0)
+        moment.caption.push_back(fmt::format("{} {} farther out", left_out, left_out == 1 ? "particle" : "particles"));
+    moment.cracks = cracks_of(folder, recording.frames[drawn.frame], bodies, style.magnify);
     return moment;
 }
 
-/// Room around a specimen for what bulges and moves out, of its width.
-constexpr double surroundings = 0.18;
 constexpr double between_drawings = 6.0;  // pt
 constexpr double key_height = 13.0;       // pt, of the line under the captions
 constexpr double key_text = 0.85;         // of the font size
+constexpr double caption_text = 0.9;      // of the font size
 
-Extent common_extent(const std::vector<Moment>& moments) {
-    Extent all;
-    for (const Moment& moment : moments) {
-        all.include({moment.extent.x1, moment.extent.y1}, 0.0);
-        all.include({moment.extent.x2, moment.extent.y2}, 0.0);
-    }
-    const double room = surroundings * all.width();
-    all.x1 -= room;
-    all.x2 += room;
-    all.y1 -= 0.25 * room;
-    all.y2 += 0.25 * room;
-    return all;
+double caption_height(const Canvas& canvas, const std::vector<Moment>& moments) {
+    std::size_t lines = 0;
+    for (const Moment& moment : moments) lines = std::max(lines, moment.caption.size());
+    return 5.0 + static_cast<double>(lines) * canvas.size_of("X", caption_text).height;
 }
 
 void draw_moment(Canvas& canvas, const Rect& place, const Moment& moment, const Extent& extent) {
@@ -176,11 +223,13 @@ void draw_moment(Canvas& canvas, const Rect& place, const Moment& moment, const 
         for (const Vec2 p : points) all.push_back(at(p));
         return all;
     };
-    // Many small particles would be black with edges of a usual width.
-    const double edge = std::min(0.3, 6.0 / std::sqrt(static_cast<double>(moment.cells->size()) + 1.0));
+    // Small particles would be grey all over with edges of a usual width.
+    const double size = scale * std::sqrt(extent.width() * extent.height() / static_cast<double>(moment.cells->size()));
+    const double edge = std::clamp(0.035 * size, 0.04, 0.3), crack = std::clamp(0.12 * size, 0.25, 0.9);
     canvas.clip(place);
     for (std::size_t k = 0; k < moment.cells->size(); ++k) {
         const RecordedCell& cell = (*moment.cells)[k];
+        if (!moment.shown[k]) continue;
         if (cell.radius > 0.0) {
             canvas.circle(at(moment.outlines[k].front()), scale * cell.radius, &grain, &grain_edge, edge);
         } else if (cell.open) {
@@ -189,8 +238,8 @@ void draw_moment(Canvas& canvas, const Rect& place, const Moment& moment, const 
             canvas.polygon(on_sheet(moment.outlines[k]), &grain, &grain_edge, edge);
         }
     }
-    for (const CrackLine& crack : moment.cracks)
-        canvas.line({at(crack.from), at(crack.to)}, crack.shear ? shear_colour : tension_colour, 2.0 * edge + 0.3);
+    for (const CrackLine& line : moment.cracks)
+        canvas.line({at(line.from), at(line.to)}, line.shear ? shear_colour : tension_colour, crack);
     canvas.unclip();
 }
 
@@ -250,37 +299,47 @@ void draw_key(Canvas& canvas, const Rect& place, const Key& key, double points_a
 Panel drawings(const std::vector<DrawnMoment>& drawn, const std::vector<fs::path>& folders, const DrawingStyle& style) {
     std::vector<Moment> moments;
     for (std::size_t k = 0; k < drawn.size(); ++k) moments.push_back(prepared(drawn[k], folders[k], style));
-    const Extent extent = common_extent(moments);
-    const auto each = [count = moments.size()](double width) {
-        const auto number = static_cast<double>(count);
-        // A single specimen need not fill the sheet.
-        return std::min((width - between_drawings * (number - 1.0)) / number, 0.45 * width);
-    };
-    const bool two_lines = std::any_of(drawn.begin(), drawn.end(), [](const DrawnMoment& moment) {
-        return moment.caption.find('\n') != std::string::npos;
-    });
-    const double caption = two_lines ? 25.0 : 14.0;  // pt
+    // One scale and one height for all, to each the width that it needs.
+    double y1 = std::numeric_limits<double>::infinity(), y2 = -y1, widths = 0.0, widest = 0.0;
+    for (const Moment& moment : moments) {
+        y1 = std::min(y1, moment.extent.y1);
+        y2 = std::max(y2, moment.extent.y2);
+        widths += moment.extent.width();
+        widest = std::max(widest, moment.extent.width());
+    }
+    const double beyond = 0.02 * (y2 - y1);  // lines of the platens
+    for (Moment& moment : moments) {
+        moment.extent.y1 = y1 - beyond;
+        moment.extent.y2 = y2 + beyond;
+    }
+    const double gaps = between_drawings * (static_cast<double>(moments.size()) - 1.0);
     Key key;
     key.magnify = style.magnify;
     for (const Moment& moment : moments) {
         for (const CrackLine& crack : moment.cracks) (crack.shear ? key.shear : key.tension) = true;
     }
+    const double height = y2 - y1 + 2.0 * beyond;
+    const auto scale_at = [widths, widest, gaps, height](double width) {
+        constexpr double highest = 300.0;  // pt: on a page's width there may be more figures below
+        // A single specimen need not fill the sheet.
+        return std::min({(width - gaps) / widths, 0.45 * width / widest, highest / height});
+    };
     Panel panel;
     panel.letter_above = true;
-    panel.height = [extent, each, caption](double width) {
-        return each(width) * extent.height() / extent.width() + caption + key_height;
+    panel.height = [moments, height, scale_at](const Canvas& measure, double width) {
+        return scale_at(width) * height + caption_height(measure, moments) + key_height;
     };
-    panel.draw = [moments, extent, each, caption, key](Canvas& canvas, const Rect& place) {
-        const double width = each(place.width);
-        const auto count = static_cast<double>(moments.size());
-        double x = place.x + 0.5 * (place.width - count * width - between_drawings * (count - 1.0));
+    panel.draw = [moments, widths, height, gaps, scale_at, key](Canvas& canvas, const Rect& place) {
+        const double scale = scale_at(place.width), drawn_height = scale * height;
+        double x = place.x + 0.5 * (place.width - scale * widths - gaps);
         for (const Moment& moment : moments) {
-            draw_moment(canvas, {x, place.y, width, place.height - caption - key_height}, moment, extent);
-            canvas.text({x + 0.5 * width, place.bottom() - key_height - caption + 3.0}, moment.caption, Across::centre,
-                        Down::top);
+            const double width = scale * moment.extent.width();
+            draw_moment(canvas, {x, place.y, width, drawn_height}, moment, moment.extent);
+            canvas.text({x + 0.5 * width, place.y + drawn_height + 3.0},
+                        fmt::format("{}", fmt::join(moment.caption, "\n")), Across::centre, Down::top, caption_text);
             x += width + between_drawings;
         }
-        draw_key(canvas, {place.x, place.bottom() - key_height, place.width, key_height}, key, width / extent.width());
+        draw_key(canvas, {place.x, place.bottom() - key_height, place.width, key_height}, key, scale);
     };
     return panel;
 }

@@ -14,7 +14,7 @@
 namespace crackle::plot {
 
 struct Panel {
-    std::function<double(double width)> height;  ///< pt
+    std::function<double(const Canvas& measure, double width)> height;  ///< pt; text is measured on the canvas
     std::function<void(Canvas&, const Rect&)> draw;
     bool letter_above = false;  ///< its letter, (a), (b), ..., needs a line of its own
 };
@@ -28,7 +28,7 @@ struct PlottedTest {
 };
 
 /// Axial stress over axial strain, and beneath it the bonds broken: of one test in each interval of strain, by mode, of
-/// several so far.
+/// several so far. Where the tests of one kind would be slivers beside those of the other, an inset shows them larger.
 Panel stress_strain(const std::vector<PlottedTest>& tests);
 /// Bonds broken in each interval of strain, by mode, and so far (right axis); of several tests so far.
 Panel breaks(const std::vector<PlottedTest>& tests);
@@ -37,12 +37,13 @@ Panel breaks(const std::vector<PlottedTest>& tests);
 struct DrawnMoment {
     const Recording* recording = nullptr;
     std::size_t frame = 0;
-    std::string caption;  ///< markup
+    std::vector<std::string> caption;  ///< lines, markup
 };
 struct DrawingStyle {
     double magnify = 1.0;  ///< displacements
 };
-/// Specimens side by side at one scale, cracks coloured by mode, each on the two faces that it parted.
+/// Specimens side by side at one scale, cracks coloured by mode, each on the two faces that it parted. A fragment is
+/// drawn whole or, where it flew far off, not at all: the caption gives the number of particles left out.
 /// @param folders  of the moments' tests, which hold the frames' cracks
 Panel drawings(const std::vector<DrawnMoment>& moments, const std::vector<std::filesystem::path>& folders,
                const DrawingStyle& style);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// in_bc.dat, in_cf.dat, in_cf0.dat and the state file: layouts, round trips, refusals.
+// in_bc.dat, in_cf.dat, in_cf0.dat, the state file and the outputs: layouts, round trips, refusals.
 
 #include <gtest/gtest.h>
 
@@ -14,7 +14,10 @@
 #include "solver/demseg/boundary.hpp"
 #include "solver/demseg/contact_files.hpp"
 #include "solver/demseg/deck_reader.hpp"
+#include "solver/demseg/outputs.hpp"
 #include "solver/demseg/random_circles.hpp"
+#include "solver/measure/ledger.hpp"
+#include "solver/measure/point_view.hpp"
 #include "solver/stepping/bonding.hpp"
 #include "solver/stepping/build_world.hpp"
 #include "solver/stepping/step.hpp"
@@ -257,6 +260,70 @@ TEST(ContactFiles, UnknownContactsDuplicatesAndBondedWallsAreRefusedWithTheirLin
 
 TEST(ContactFiles, AContactThatOpenedBeyondTheListInItsLastStepIsOver) {
     EXPECT_EQ(contacts_refusal("1 0\n2 0\n3 1\n4 1 0 5.5 0 0\n4 0\n", nullptr, 1e6), "accepted");
+}
+
+TEST(DeckOutputs, RowsHoldTheWorldThatTheyWereWrittenFrom) {
+    Scene scene = mixed_scene();
+    scene.gravity = {3.0, -10.0};
+    scene.add_chain_body(5, 0, {{7.0, 3.0}, {8.0, 4.0}, {9.0, 3.5}}, false);
+    World world = build_world(scene);
+    bond_all(world, scene.thick);
+    for (int n = 0; n < 50; ++n) step(world);
+    compute_forces(world);
+    std::vector<BodyIndex> order;
+    for (const Body& body : scene.bodies) order.push_back(body_of_id(world, body.id));
+    const ScratchFolder scratch;
+    DeckOutputs out(scratch / "", OutputMode::fresh);
+    out.write_frame(world, order);
+    out.write_energy_row(world, order);
+    out.write_force_rows(world, order);
+    out.flush();
+    const Rows velocities = read_rows(scratch / "velocity_y.dat"), forces = read_rows(scratch / "f-d_curve.dat");
+    Rows places, segments, contacts;
+    for (std::size_t k = 0; k < order.size(); ++k) {
+        const BodyIndex b = order[k];
+        const double id = scene.bodies[k].id;
+        const BodyState& state = world.bodies.state[b];
+        const BodyForce& force = world.bodies.force[b];
+        EXPECT_EQ(velocities[k], (std::vector{50.0, id, state.vy}));
+        EXPECT_EQ(forces[k], (std::vector{50.0, id, force.fx, state.x, force.fy, state.y, force.torque, state.angle}));
+        const std::vector<Vec2> at = element_positions(world, b);
+        for (std::size_t e = 0; e < at.size(); ++e) {
+            const Vec2 next = at[(e + 1) % at.size()];
+            if (scene.bodies[k].circle_count > 0)
+                places.push_back({id, 0.5, at[e].x, at[e].y, state.angle});
+            else if (scene.bodies[k].closed || e + 1 < at.size())
+                segments.push_back({id, at[e].x, at[e].y, next.x, next.y});
+        }
+    }
+    EXPECT_EQ(places.size(), 3u);
+    EXPECT_EQ(segments.size(), 4u + 4u + 2u);
+    places.insert(places.end(), segments.begin(), segments.end());
+    EXPECT_EQ(read_frames(scratch / "output.dat").at(0).rows, places);
+
+    const Rows whole = read_frames(scratch / "cont.dat").at(0).rows,
+               details = read_frames(scratch / "cont2.dat").at(0).rows;
+    std::size_t row = 0, bonded = 0;
+    for (PointIndex k = 0; k < world.points.size(); ++k) {
+        const PointView view = view_point(world, k);
+        if ((world.points.state[k].flags & point_touching) == 0) continue;
+        const PointForce& force = world.points.force[k];
+        EXPECT_EQ((std::vector(whole.at(row).begin() + 2, whole[row].end())),
+                  (std::vector{view.position.x, view.position.y, force.fx, force.fy}));
+        const double tension = view.bonded ? view.normal_stiffness * view.bond_overlap : 0.0;
+        EXPECT_EQ((std::vector(details.at(row).begin() + 2, details[row].end())),
+                  (std::vector{view.normal.x, view.normal.y, view.overlap, view.normal_force, view.shear_force,
+                               tension > 0.0 ? -tension : 0.0}));
+        bonded += view.bonded ? 1 : 0;
+        ++row;
+    }
+    EXPECT_EQ(row, whole.size());
+    EXPECT_GE(bonded, 1u);
+    const Ledger e = measure_ledger(world);
+    EXPECT_NE(e.potential, e.kinetic);
+    EXPECT_EQ(read_rows(scratch / "energy.dat").at(0),
+              (std::vector{50.0, e.potential, e.kinetic, e.strain, e.dashpot_loss, e.friction_loss, e.displacement_work,
+                           e.force_work, e.closing_error - e.law_loss, e.fracture_loss}));
 }
 
 TEST(RandomCircles, CountIsTheGuidesAndSeedsRepeat) {

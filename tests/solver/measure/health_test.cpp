@@ -179,6 +179,28 @@ TEST(Health, RunawayEnergyStopsTheRun) {
     EXPECT_NE(cause.find("bound"), std::string::npos);
 }
 
+TEST(Health, EnergyFromNowhereIsBorneUpToTheSupplyAndNamesTheBodyThatCarriesMost) {
+    // Two discs that never meet: the supply is the kinetic energy that they set out with.
+    Scene scene;
+    scene.materials = {rock()};
+    scene.domain = {-10.0, 10.0, -10.0, 10.0, {true, true, true, true}};
+    scene.time_step = 1e-5;
+    scene.add_circle_body(4, 0, {{-3.0, 0.0}, 0.5, 0.0});
+    scene.add_circle_body(7, 0, {{3.0, 0.0}, 0.5, 0.0});
+    scene.bodies[0].velocity = {0.1, 0.0};
+    scene.bodies[1].velocity = {1.0, 0.0};
+    for (const double share : {1.9, 2.1}) {
+        World world = build_world(scene);
+        compute_forces(world);
+        check_health(world);
+        for (BodyState& body : world.bodies.state) body.vx *= std::sqrt(share);
+        if (share < 2.0)
+            EXPECT_NO_THROW(check_health(world));
+        else
+            EXPECT_NE(verdict(world, 7).find("runaway energy"), std::string::npos);
+    }
+}
+
 TEST(TimeStep, AboveTheBoundIsRefusedNamingBoth) {
     Scene scene = heap();
     const double bound = build_world(scene).stepping.step_bound;

@@ -66,8 +66,13 @@ TEST_F(CaseFile, ReadsWhatIsWrittenAndFillsInDefaults) {
     EXPECT_EQ(test.packing.count, 50);
     EXPECT_EQ(test.material.density, 2500.0) << "a whole number is a number";
     EXPECT_EQ(test.loading.kind, "tension");
-    EXPECT_EQ(test.loading.platens, "bonded");
+    EXPECT_EQ(test.loading.platens, "glued") << "what pulls is stronger than the rock";
+    EXPECT_EQ(test.loading.grip, default_grip);
+    EXPECT_EQ(test.loading.strength_drop, 0.1);
     EXPECT_EQ(test.loading.stop_at_share_of_peak, 0.5);
+    EXPECT_EQ(test.packing.seed, 1);
+    EXPECT_EQ(test.mesh.boundary, "domain");
+    EXPECT_FALSE(test.output.out_of_plane_thickness.has_value());
     EXPECT_EQ(test.output.curve_rows, 2000);
     EXPECT_EQ(test.output.checkpoint_interval, 60.0);
     EXPECT_FALSE(test.numerics.time_step.has_value());
@@ -179,12 +184,20 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"Infinite", "density = 2500", "density = inf", ":7: material.density: found inf"},
         Refusal{"FractionOfACircle", "count = 50", "count = 50.5",
                 ":2: packing.count: found 50.5 (a number), expected a whole number"},
+        Refusal{"FrictionWithoutEnd", "friction_angle = 27", "friction_angle = 90",
+                ":10: material.friction_angle: found 90"},
+        Refusal{"SpringThatPushes", "shear_stiffness = 2.5e6", "shear_stiffness = -1",
+                ":9: material.shear_stiffness: found -1"},
         Refusal{"RadiiExchanged", "radius_min = 0.01", "radius_min = 0.05",
                 ":3: packing.radius_min: found 0.05 m, expected at most radius_max"},
         Refusal{"Word", "\"tension\"", "\"torsion\"",
                 ":13: loading.kind: found \"torsion\", expected \"compression\" or \"tension\""},
         Refusal{"FrictionalPull", "kind = \"tension\"", "kind = \"tension\"\nplatens = \"frictional\"",
                 ":14: loading.platens: found \"frictional\", expected \"bonded\" in tension"},
+        Refusal{"DropOfAllStress", "kind = \"tension\"", "kind = \"tension\"\nstrength_drop = 1.0",
+                ":14: loading.strength_drop: found 1, expected a number > 0 and < 1"},
+        Refusal{"NoDropAtAll", "kind = \"tension\"", "kind = \"tension\"\nstrength_drop = 0.0",
+                ":14: loading.strength_drop: found 0, expected a number > 0 and < 1"},
         Refusal{"MissingKey", "kind = \"tension\"\n", "",
                 ":12: loading.kind: found nothing, expected \"compression\" or \"tension\"; add it to [loading]"},
         Refusal{"MissingMaterial", "density = 2500\n", "", ":6: material.density: found nothing"},
@@ -202,6 +215,11 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"NotToml", "[packing]", "[packing", ":1: not valid TOML"},
         Refusal{"Twice", "count = 50", "count = 50\ncount = 51", ":3: not valid TOML"}),
     [](const auto& refused) { return refused.param.name; });
+
+TEST_F(CaseFile, CellsMayBeInsetByNothing) {
+    const char* cells = "[mesh]\nkind = \"voronoi\"\nthick = 1e-3\ninset = 0\n[bond]\nthick = 1.1e-3\n[loading]";
+    EXPECT_EQ(read(with("[loading]", cells)).mesh.inset, 0.0);
+}
 
 TEST_F(CaseFile, MissingFileIsNamed) {
     try {

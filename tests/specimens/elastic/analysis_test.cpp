@@ -61,6 +61,13 @@ TEST_F(ElasticAnalysisOf, BondForcesOfAllPointsHoldThePlatens) {
     }
 }
 
+TEST_F(ElasticAnalysisOf, EnergyOfTheSolutionIsHalfStressTimesStrain) {
+    const VirtualTest test = prepared({});
+    const Moduli moduli = moduli_of(test);  // of a strain of 1
+    const double area = test.setup.width * test.setup.height;
+    EXPECT_TRUE(agrees("stored energy", moduli.solution.energy, 0.5 * moduli.youngs_modulus * area, 1e-9));
+}
+
 TEST_F(ElasticAnalysisOf, FirstSlipAndBreakAreWhereARunHasThem) {
     // Discs pulled so slowly that the run follows the linear solution until the first point slides.
     SmallCase wanted;

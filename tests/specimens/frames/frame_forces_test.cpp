@@ -159,6 +159,14 @@ TEST_F(FrameForcesOfRock, FragmentsOfASpecimenSplitAcrossAreItsTwoParts) {
         const std::vector<std::int32_t> parts = find_fragments(test.world, test.setup, frame);
         for (BodyIndex b = 0; b < parts.size(); ++b)
             EXPECT_EQ(parts[b], test.setup.is_platen(b) ? -1 : above(b) ? 1 : 0) << test.world.bodies.info[b].id;
+        const FragmentFigures figures = measure_fragments(test.world, test.setup, frame);
+        EXPECT_EQ(figures.count, 2);
+        double all = 0.0, below = 0.0;
+        for (BodyIndex b = 0; b < parts.size(); ++b) {
+            all += test.setup.is_platen(b) ? 0.0 : area_of(test.world, b);
+            below += test.setup.is_platen(b) || above(b) ? 0.0 : area_of(test.world, b);
+        }
+        EXPECT_TRUE(within("largest share", figures.largest_share, below / all, 1e-12));
         frame.states[last] = ContactState::bonded_slid;
         EXPECT_EQ(find_fragments(test.world, test.setup, frame), whole);
     }

@@ -141,9 +141,9 @@ TEST_F(VirtualRock, FrictionalPlatensStartWithoutForceAndHoldNoBond) {
     wanted.kind = "compression";
     wanted.loading = "platens = \"frictional\"\nplaten_friction_angle = 5";
     VirtualTest test = prepare(wanted);
-    for (const auto& [bond, overlap] : test.setup.bonds) {
-        EXPECT_NE(bond.body_j, test.setup.top);
-        EXPECT_NE(bond.body_j, test.setup.bottom);
+    for (const Bond& bond : test.setup.bonds) {
+        EXPECT_NE(bond.point.body_j, test.setup.top);
+        EXPECT_NE(bond.point.body_j, test.setup.bottom);
     }
     load_specimen(test);
     EXPECT_LT(std::abs(test.state.rows.front().axial_stress), 1e-3 * test.state.failure.peak_stress);

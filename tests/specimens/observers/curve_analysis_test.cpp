@@ -46,6 +46,15 @@ TEST(Moduli, OfACurvedCurveDiffer) {
                        5e6 * std::sqrt(0.5), 1e-2));
 }
 
+TEST(AreaStrain, IsShorteningLessWidening) {
+    CurveRow row;
+    row.axial_strain = 3e-3;
+    row.lateral_strain = 1e-3;  // wider
+    EXPECT_TRUE(agrees("squeezed: the area shrinks", area_strain(row, true), 2e-3, 1e-12));
+    row.lateral_strain = -1e-3;  // narrower
+    EXPECT_TRUE(agrees("pulled: the area grows", area_strain(row, false), -2e-3, 1e-12));
+}
+
 TEST(Moduli, OfTooFewRowsAreNotNumbers) {
     const std::vector<CurveRow> two(2);
     EXPECT_TRUE(std::isnan(initial_tangent(two, 1, true).modulus));

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Peak and failure of curves written by hand: the exact row of each.
+// Peak, largest stress and failure of curves written by hand: the exact row of each.
 
 #include "specimens/observers/peak_and_failure.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 #include "specimens/observers/curve.hpp"
@@ -20,7 +21,7 @@ using testing::straight_curve;
 FailureTracker tracked(const std::vector<CurveRow>& curve, double share = 0.5) {
     FailureTracker tracker;
     tracker.share_of_peak = share;
-    for (std::size_t k = 0; k < curve.size() && !tracker.failed; ++k) {
+    for (std::size_t k = 0; k < curve.size() && !tracker.collapsed; ++k) {
         tracker.update(static_cast<std::int64_t>(k), curve[k].axial_strain, curve[k].axial_stress);
     }
     return tracker;
@@ -30,7 +31,7 @@ TEST(Failure, IsATenthOfThePeakStrainBelowHalfThePeak) {
     const auto curve = straight_curve(5e6, 1e-3, 0.49, 0.3, 100);
     FailureTracker tracker;
     std::size_t row = 0;
-    while (!tracker.failed) {
+    while (!tracker.collapsed) {
         ASSERT_LT(row, curve.size());
         tracker.update(static_cast<std::int64_t>(row), curve[row].axial_strain, curve[row].axial_stress);
         ++row;
@@ -51,20 +52,30 @@ TEST(Failure, DoesNotComeFromTheFirstTrembling) {
 }
 
 TEST(Failure, DoesNotComeAboveTheShareNorAfterARecovery) {
-    EXPECT_FALSE(tracked(straight_curve(5e6, 1e-3, 0.51, 0.3, 100)).failed);
-    EXPECT_TRUE(tracked(straight_curve(5e6, 1e-3, 0.51, 0.3, 100), 0.6).failed) << "the share is settable";
+    EXPECT_FALSE(tracked(straight_curve(5e6, 1e-3, 0.51, 0.3, 100)).collapsed);
+    EXPECT_TRUE(tracked(straight_curve(5e6, 1e-3, 0.51, 0.3, 100), 0.6).collapsed) << "the share is settable";
     auto curve = straight_curve(5e6, 1e-3, 0.2, 0.3, 100);
     for (std::size_t k = 105; k < curve.size(); k += 5) curve[k].axial_stress = 3e3;  // back above half every five rows
-    EXPECT_FALSE(tracked(curve).failed);
+    EXPECT_FALSE(tracked(curve).collapsed);
 }
 
-/// Stresses of rows 1/1024 of strain apart. @return row at which failure is found, -1 if it is not
+/// Stresses of rows 1/1024 of strain apart. @return row at which the test ends by failure, -1 if it does not
 std::int64_t failing_row(FailureTracker& tracker, const std::vector<double>& stress) {
     for (std::size_t row = 0; row < stress.size(); ++row) {
         tracker.update(static_cast<std::int64_t>(row), static_cast<double>(row) / 1024, stress[row]);
-        if (tracker.failed) return static_cast<std::int64_t>(row);
+        if (tracker.collapsed) return static_cast<std::int64_t>(row);
     }
     return -1;
+}
+
+/// The same to the end of the rows. @return row at which the peak is known, -1 if it is not
+std::int64_t known_row(FailureTracker& tracker, const std::vector<double>& stress) {
+    std::int64_t known = -1;
+    for (std::size_t row = 0; row < stress.size(); ++row) {
+        tracker.update(static_cast<std::int64_t>(row), static_cast<double>(row) / 1024, stress[row]);
+        if (tracker.failed && known < 0) known = static_cast<std::int64_t>(row);
+    }
+    return known;
 }
 
 /// The beginning, then `value` so many times.
@@ -132,6 +143,92 @@ TEST(Failure, ShareIsAsSet) {
     at.share_of_peak = below.share_of_peak = 0.75;
     EXPECT_EQ(failing_row(at, then({0, 8}, 6.0, 40)), -1);
     EXPECT_EQ(failing_row(below, then({0, 8}, 5.5, 40)), 12);
+}
+
+TEST(Strength, IsTheFirstMaximumThatADropFollows) {
+    FailureTracker tracker;
+    EXPECT_EQ(known_row(tracker, then({0, 8}, 7.0, 20)), 12) << "below 7.2 from row 2 on, ten rows later";
+    EXPECT_EQ(tracker.peak_row, 1);
+    EXPECT_FALSE(tracker.collapsed) << "above half the peak";
+    EXPECT_FALSE(tracker.larger_after_peak());
+}
+
+TEST(Strength, IsNotALaterPeakOfRubble) {
+    FailureTracker tracker;
+    std::vector<double> stress = then({0, 8}, 6.0, 11);  // rows 2 to 12
+    stress.insert(stress.end(), {9.0, 12.0, 16.0});
+    std::vector<bool> new_peak;
+    for (const double value : then(stress, 7.0, 30)) {
+        const auto row = static_cast<std::int64_t>(new_peak.size());
+        new_peak.push_back(tracker.update(row, static_cast<double>(row) / 1024, value));
+        EXPECT_EQ(tracker.failed, row >= 12) << row;
+        EXPECT_EQ(tracker.collapsed, row >= 26) << row << ": below half the largest from row 16 on";
+    }
+    EXPECT_EQ(tracker.peak_row, 1);
+    EXPECT_EQ(tracker.peak_stress, 8.0);
+    EXPECT_EQ(tracker.peak_strain, 1.0 / 1024);
+    EXPECT_EQ(tracker.largest_row, 15);
+    EXPECT_EQ(tracker.largest_stress, 16.0);
+    EXPECT_EQ(tracker.strain_at_largest, 15.0 / 1024);
+    EXPECT_TRUE(tracker.larger_after_peak());
+    EXPECT_EQ(std::count(new_peak.begin(), new_peak.end(), true), 1) << "no picture of the rubble";
+}
+
+TEST(Strength, OfAPlateauIsItsFirstRow) {
+    FailureTracker flat, falling;
+    EXPECT_EQ(known_row(flat, then({0, 8, 8, 8}, 7.5, 40)), -1) << "not by a tenth";
+    EXPECT_EQ(known_row(falling, then({0, 8, 8, 8}, 7.0, 40)), 4 + 10);
+    EXPECT_EQ(falling.peak_row, 1);
+}
+
+TEST(Strength, ADropThatRecoversTooSoonCountsForNothing) {
+    FailureTracker higher, lower;
+    std::vector<double> stress = then({0, 8}, 5.0, 10);  // rows 2 to 11: nine rows from the first to the last
+    stress.push_back(9.0);
+    EXPECT_EQ(known_row(higher, then(stress, 7.0, 20)), 13 + 10);
+    EXPECT_EQ(higher.peak_row, 12);
+    stress.back() = 7.5;  // back within a tenth
+    EXPECT_EQ(known_row(lower, then(stress, 7.0, 20)), 13 + 10);
+    EXPECT_EQ(lower.peak_row, 1);
+}
+
+TEST(Strength, ADropOfExactlyTheShareIsNotBelowIt) {
+    FailureTracker at, below;
+    at.strength_drop = below.strength_drop = 0.125;
+    EXPECT_EQ(known_row(at, then({0, 8}, 7.0, 40)), -1);
+    EXPECT_EQ(known_row(below, then({0, 8}, 6.999, 40)), 12);
+}
+
+TEST(Strength, WithoutADropIsTheLargestStressSoFar) {
+    FailureTracker tracker;
+    EXPECT_EQ(known_row(tracker, {0, 1, 2, 3, 2.9, 4, 5}), -1);
+    EXPECT_EQ(tracker.peak_row, 6);
+    EXPECT_EQ(tracker.largest_row, 6);
+}
+
+TEST(Strength, NeedsATenthOfTheStrainAtItsPeak) {
+    std::vector<double> rise;
+    for (int row = 0; row <= 205; ++row) rise.push_back(row);
+    FailureTracker tracker;
+    EXPECT_EQ(known_row(tracker, then(rise, 150.0, 100)), 206 + 21) << "20.5 rows of strain decide";
+}
+
+TEST(Strength, IsTheLargestStressWhereTheTestEndsBeforeSuchADrop) {
+    FailureTracker tracker;
+    tracker.strength_drop = 0.75;
+    EXPECT_EQ(known_row(tracker, then({0, 8}, 3.0, 20)), 12) << "below half the peak";
+    EXPECT_TRUE(tracker.collapsed);
+    EXPECT_EQ(tracker.peak_row, 1);
+}
+
+/// Stress is positive in the sense of the test: pulled apart it falls to nothing, and swings beyond.
+TEST(Strength, OfASpecimenPulledApart) {
+    FailureTracker tracker;
+    std::vector<double> stress{0, 4, 8, 0, -1};
+    EXPECT_EQ(known_row(tracker, then(stress, 0.01, 20)), 3 + 10);
+    EXPECT_TRUE(tracker.collapsed);
+    EXPECT_EQ(tracker.peak_row, 2);
+    EXPECT_EQ(tracker.largest_row, 2);
 }
 
 }  // namespace

@@ -397,6 +397,26 @@ TEST(RandomNumbers, AreThoseOfTheStandardsGenerator) {
     EXPECT_EQ(uniform_number(generator), static_cast<double>(9981545732273789042ULL >> 11) / 9007199254740992.0);
 }
 
+TEST(RandomNumbers, ShuffleLeavesEachItemInPlaceAsOftenAsAnywhere) {
+    constexpr int draws = 20000;
+    std::mt19937_64 generator(7);
+    std::array<int, 3> stayed{};
+    for (int n = 0; n < draws; ++n) {
+        std::vector<std::size_t> items{0, 1, 2};
+        shuffle(items, generator);
+        for (std::size_t k = 0; k < items.size(); ++k) stayed[k] += items[k] == k ? 1 : 0;
+    }
+    for (const int count : stayed) EXPECT_NEAR(count, draws / 3.0, 4.0 * std::sqrt(draws * 2.0 / 9.0));
+}
+
+TEST(Packing, SeedsBeyondFourThousandMillionAreSeedsOfTheirOwn) {
+    PackingRequest request = guide_rock(1);
+    request.count = 50;
+    const double low = make_packing(request).scene.circles[0].radius;
+    request.seed += std::uint64_t{1} << 32;
+    EXPECT_NE(make_packing(request).scene.circles[0].radius, low);
+}
+
 TEST(Packing, RefusesRequestsThatContradictThemselves) {
     const auto complaint = [](auto&& change) -> std::string {
         PackingRequest request = guide_rock(1);

@@ -98,5 +98,21 @@ TEST(Setup, CountsContactsThatTouchAndBondsApart) {
     EXPECT_EQ(static_cast<std::int64_t>(again.bonds.size()), bonds - 3);
 }
 
+TEST(CurveRow, CountsSlidingPointsThatCarryMoreThanRounding) {
+    const testing::ScratchFolder scratch;
+    VirtualTest test = prepare_test(read_case(testing::write_small_case(scratch / "", {})));
+    const double tension = test.setup.mean_back_tension;
+    const std::vector<double> shear{0.9e-9 * tension, 1.1e-9 * tension, -1.1e-9 * tension, 0.5 * tension};
+    const std::int64_t before = observe_row(test.world, test.setup).points_sliding;
+    EXPECT_EQ(before, 0);
+    for (PointIndex k = 0; k < shear.size(); ++k) {
+        test.world.points.state[k].flags |= static_cast<std::uint16_t>(point_touching | point_sliding | point_slid);
+        test.world.points.shear_force[k] = shear[k];
+    }
+    EXPECT_EQ(observe_row(test.world, test.setup).points_sliding, 3);
+    test.world.points.state[3].flags &= static_cast<std::uint16_t>(~point_sliding);
+    EXPECT_EQ(observe_row(test.world, test.setup).points_sliding, 2) << "one that slid earlier does not count";
+}
+
 }  // namespace
 }  // namespace crackle

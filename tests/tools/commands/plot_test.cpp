@@ -3,11 +3,13 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <zlib.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <pugixml.hpp>
+#include <sstream>
 
 #include "tests/support/program_call.hpp"
 #include "tests/support/sample_results.hpp"
@@ -43,6 +45,36 @@ std::uint32_t png_number(const std::string& bytes, std::size_t at) {
     return number;
 }
 
+/// The pixels of a PNG of red, green and blue, row by row.
+std::vector<std::vector<unsigned char>> png_rows(const std::string& bytes) {
+    const std::size_t width = png_number(bytes, 16), height = png_number(bytes, 20), row = 3 * width;
+    EXPECT_EQ(bytes.at(25), 2) << "expected red, green, blue";
+    std::string packed;
+    for (std::size_t at = 8; at + 12 <= bytes.size(); at += 12 + png_number(bytes, at)) {
+        if (bytes.substr(at + 4, 4) == "IDAT") packed += bytes.substr(at + 8, png_number(bytes, at));
+    }
+    std::vector<unsigned char> raw((row + 1) * height);
+    auto size = static_cast<uLongf>(raw.size());
+    EXPECT_EQ(uncompress(raw.data(), &size, reinterpret_cast<const Bytef*>(packed.data()), packed.size()), Z_OK);
+    std::vector<std::vector<unsigned char>> rows;
+    std::vector<unsigned char> above(row);
+    for (std::size_t y = 0; y < height; ++y) {
+        const unsigned char* line = raw.data() + y * (row + 1);
+        std::vector<unsigned char> now(row);
+        for (std::size_t x = 0; x < row; ++x) {
+            const int left = x < 3 ? 0 : now[x - 3], up = above[x], corner = x < 3 ? 0 : above[x - 3];
+            const int guess = left + up - corner, a = std::abs(guess - left), b = std::abs(guess - up),
+                      c = std::abs(guess - corner);
+            const std::array<int, 5> filters{0, left, up, (left + up) / 2,
+                                             a <= b && a <= c ? left : (b <= c ? up : corner)};
+            now[x] = static_cast<unsigned char>(line[1 + x] + filters.at(line[0]));
+        }
+        rows.push_back(now);
+        above = now;
+    }
+    return rows;
+}
+
 /// Numbers of a path as they stand in it, pairs of x and y.
 std::vector<Vec2> corners_of(const std::string& path) {
     std::vector<double> numbers;
@@ -65,6 +97,40 @@ double distance_from(Vec2 point, Vec2 a, Vec2 b) {
     const Vec2 along = b - a;
     const double square = dot(along, along), share = square > 0.0 ? dot(point - a, along) / square : 0.0;
     return norm(point - a - std::clamp(share, 0.0, 1.0) * along);
+}
+
+/// Open paths of an SVG, in order of their drawing, the glyphs' left out.
+std::vector<std::vector<Vec2>> lines_of(const std::string& svg) {
+    pugi::xml_document document;
+    EXPECT_TRUE(document.load_string(svg.c_str()));
+    std::vector<std::vector<Vec2>> lines;
+    for (const pugi::xpath_node& node : document.select_nodes("//*[local-name()='path']")) {
+        if (std::string(node.node().attribute("style").value()).starts_with("fill:none"))
+            lines.push_back(corners_of(node.node().attribute("d").value()));
+    }
+    return lines;
+}
+
+/// Axes drawn as down and to the right: upper left, lower left and lower right corner of each.
+std::vector<std::vector<Vec2>> frames_of(const std::string& svg) {
+    std::vector<std::vector<Vec2>> frames;
+    for (const std::vector<Vec2>& line : lines_of(svg)) {
+        if (line.size() == 3 && line[0].x == line[1].x && line[1].y == line[2].y && line[0].y < line[1].y)
+            frames.push_back(line);
+    }
+    return frames;
+}
+
+/// Ticks to the left of an axis.
+int ticks_of(const std::string& svg, const std::vector<Vec2>& frame) {
+    int count = 0;
+    for (const std::vector<Vec2>& line : lines_of(svg)) {
+        count += line.size() == 2 && line[0].y == line[1].y && line[0].x == frame[0].x && line[1].x < line[0].x &&
+                         line[0].y >= frame[0].y - 1e-3 && line[0].y <= frame[1].y + 1e-3
+                     ? 1
+                     : 0;
+    }
+    return count;
 }
 
 /// Shapes of an SVG that are filled with a colour, as Cairo writes it.
@@ -189,6 +255,107 @@ TEST_F(PlotCommand, TheSameResultsGiveTheSameBytes) {
         const std::string first = drawn("pulled squeezed --labels one two --title Both", file);
         EXPECT_TRUE(first == drawn("pulled squeezed --labels one two --title Both", file)) << file;
     }
+}
+
+TEST_F(PlotCommand, APngIsWhiteUpToItsLastPixels) {
+    // At these widths a figure is no whole number of pixels wide.
+    for (const char* words : {"--width 85", "--width 85.02", "--width 60 --dpi 97"}) {
+        const auto rows = png_rows(drawn(fmt::format("pulled --what curve {}", words), "figure.png"));
+        int right = 255, below = 255;
+        for (const auto& row : rows) {
+            for (std::size_t k = row.size() - 3; k < row.size(); ++k) right = std::min<int>(right, row[k]);
+        }
+        for (const unsigned char value : rows.back()) below = std::min<int>(below, value);
+        fmt::print("  {}: darkest value at the right edge {}, at the lower edge {}\n", words, right, below);
+        EXPECT_EQ(right, 255) << words;
+        EXPECT_EQ(below, 255) << words;
+    }
+}
+
+TEST_F(PlotCommand, AnAxisOfCountsHasATickBesideThatAtZero) {
+    for (const int most : {1, 2, 3, 4, 9, 11, 43, 46, 430}) {
+        // As many broken bonds in all as make a single round step too large for the axis.
+        for (const char* folder : {"pulled", "squeezed"}) {
+            std::istringstream lines(read(std::string(folder) + "/curve.csv"));
+            std::string line, table;
+            std::getline(lines, line);
+            const auto before = static_cast<std::size_t>(
+                std::count(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(line.find("bonds_broken")), ','));
+            table = line + "\n";
+            for (std::size_t row = 0; std::getline(lines, line); ++row) {
+                std::size_t at = 0;
+                for (std::size_t k = 0; k < before; ++k) at = line.find(',', at) + 1;
+                line.replace(at, line.find(',', at) - at, row == 0 ? "0" : std::to_string(most));
+                table += line + "\n";
+            }
+            write(std::string(folder) + "/curve.csv", table);
+        }
+        const std::string svg = drawn("pulled squeezed --what curve", "figure.svg");
+        const auto frames = frames_of(svg);
+        ASSERT_EQ(frames.size(), 2U);
+        const int got = ticks_of(svg, frames[1]);
+        fmt::print("  {} broken: {} ticks\n", most, got);
+        EXPECT_GE(got, 2) << most;
+    }
+}
+
+TEST_F(PlotCommand, ACurveThatWouldBeASliverHasAnInset) {
+    EXPECT_EQ(frames_of(drawn("pulled squeezed --what curve", "figure.svg")).size(), 2U);
+    SampleTest weak;
+    weak.kind = "tension";
+    weak.peak_strain = 1e-4;
+    write_sample_results(folder_ / "weak", weak);
+    for (const char* width : {"85", "180"}) {
+        const std::string svg = drawn(fmt::format("weak squeezed --what curve --width {}", width), "figure.svg");
+        const auto frames = frames_of(svg);
+        ASSERT_EQ(frames.size(), 3U) << "curves, inset, breaks";
+        const std::vector<Vec2>*main = &frames[0], *inset = &frames[1];
+        if ((*main)[2].x - (*main)[0].x < (*inset)[2].x - (*inset)[0].x) std::swap(main, inset);
+        double highest = (*inset)[1].y;
+        int inside = 0;
+        for (const std::vector<Vec2>& line : lines_of(svg)) {
+            if (line.size() < 30) continue;  // a curve
+            const bool of_inset = line.front().x > (*inset)[0].x - 1.0 && line.front().y < (*inset)[1].y + 1.0 &&
+                                  line.front().y > (*inset)[0].y;
+            for (const Vec2 point : line) {
+                if (point.x < (*inset)[0].x || point.x > (*inset)[2].x || point.y < (*inset)[0].y ||
+                    point.y > (*inset)[1].y)
+                    continue;
+                if (of_inset) highest = std::min(highest, point.y);
+                inside += of_inset ? 0 : 1;
+            }
+        }
+        const double share = ((*inset)[1].y - highest) / ((*inset)[1].y - (*inset)[0].y);
+        fmt::print("  {} mm: the curve has {:.2f} of the inset's height; {} points of others lie in it\n", width, share,
+                   inside);
+        EXPECT_GT(share, 0.85) << "the weak curve should fill its inset";
+        EXPECT_EQ(inside, 0) << "the inset should hide no curve";
+    }
+}
+
+TEST_F(PlotCommand, FragmentsAreDrawnWholeOrLeftOut) {
+    ASSERT_EQ(
+        std::system(fmt::format("cd '{}' && '{}' test '{}/specimens/guide_rock/voronoi_compression.toml' -o burst -q",
+                                folder_.string(), CRACKLE_PROGRAM, CRACKLE_SOURCE_DIR)
+                        .c_str()),
+        0);
+    const std::string svg = drawn("burst --what specimen --at end", "figure.svg");
+    const int shown = shapes_filled(svg, grain);
+    // Cairo writes a clip around what reaches beyond a drawing's place: the platens, and no particle.
+    pugi::xml_document document;
+    ASSERT_TRUE(document.load_string(svg.c_str()));
+    int clipped = 0, cut = 0;
+    for (const pugi::xpath_node& node : document.select_nodes("//*[local-name()='g'][@clip-path]")) {
+        ++clipped;
+        for (const pugi::xpath_node& inner : node.node().select_nodes(".//*[local-name()='path']"))
+            cut +=
+                std::string(inner.node().attribute("style").value()).find("fill:rgb(89") != std::string::npos ? 1 : 0;
+    }
+    fmt::print("  {} of 304 particles shown, {} of them cut at the frame; {} shapes clipped\n", shown, cut, clipped);
+    EXPECT_EQ(clipped, 2) << "platens";
+    EXPECT_EQ(cut, 0);
+    EXPECT_GT(shown, 180);
+    EXPECT_LT(shown, 304) << "this test is of fragments that fly off";
 }
 
 TEST_F(PlotCommand, TheNearestFrameIsDrawn) {

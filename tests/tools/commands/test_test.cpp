@@ -112,7 +112,7 @@ TEST_F(CrackleTest, NotANumber) {
 
 TEST_F(CrackleTest, AbsurdTimeStep) {
     write_small_case(folder_, {.numerics = "time_step = 1e3"});
-    expect_refused("case.toml -o out -q", "case.toml:11: numerics.time_step: found 1000 s, expected at most");
+    expect_refused("case.toml -o out -q", "case.toml:12: numerics.time_step: found 1000 s, expected at most");
 }
 
 TEST_F(CrackleTest, ZeroCircles) {
@@ -196,6 +196,37 @@ TEST_F(CrackleTest, ProfileAccountsForTheLoopAndChangesNoNumber) {
     EXPECT_FALSE(nlohmann::json::parse(read("plain/summary.json")).contains("profile"));
     for (const char* file : {"curve.csv", "events.csv"})
         EXPECT_TRUE(read(std::string("profiled/") + file) == read(std::string("plain/") + file)) << file;
+}
+
+TEST_F(CrackleTest, ShowsTheLargerStressAfterThePeakAndMegapascalWhereThereIsAThickness) {
+    const std::string rock =
+        "[packing]\ncount = 80\nheight_to_width = 2.0\nradius_min = 1.333e-2\nradius_max = 2.667e-2\n"
+        "mean_overlap = 7.74e-5\nseed = 3\n"
+        "[material]\ndensity = 2500.0\nnormal_stiffness = 1.0e7\nshear_stiffness = 2.5e6\nfriction_angle = 27.0\n"
+        "damping_ratio = 0.2\n"
+        "[loading]\nkind = \"compression\"\naxial_strain_rate = 0.02\nmax_axial_strain = 0.02\n"
+        "stop_at_share_of_peak = 0.3\n";
+    std::ofstream(folder_ / "rubble.toml") << rock << "[output]\nframes = 5\nout_of_plane_thickness = 0.05\n";
+    const Answer answer = call("rubble.toml -o thick");
+    EXPECT_EQ(answer.code, 0) << answer.err;
+    const auto summary = read_json(folder_ / "thick/summary.json");
+    const auto shown = [&](const char* key) {
+        const double stress = summary[key].get<double>();
+        return fmt::format("{:.4g} N/m ({:.4g} MPa) at strain ", stress, stress / 0.05 * 1e-6);
+    };
+    EXPECT_NE(answer.out.find("  strength " + shown("peak_stress")), std::string::npos) << answer.out;
+    EXPECT_NE(answer.out.find("  largest stress " + shown("largest_stress")), std::string::npos) << answer.out;
+    EXPECT_NE(answer.out.find("notice: the largest stress, "), std::string::npos) << answer.out;
+    EXPECT_EQ(summary["out_of_plane_thickness"], 0.05);
+
+    std::ofstream(folder_ / "rubble.toml") << rock << "strength_drop = 0.6\n[output]\nframes = 5\n";
+    const Answer deep = call("rubble.toml -o deep");
+    EXPECT_EQ(deep.code, 0) << deep.err;
+    const auto largest = read_json(folder_ / "deep/summary.json");
+    EXPECT_EQ(largest["peak_stress"], summary["largest_stress"]) << "by a drop that only the end has";
+    EXPECT_EQ(deep.out.find("largest stress"), std::string::npos) << deep.out;
+    EXPECT_EQ(deep.out.find("MPa"), std::string::npos) << deep.out;
+    EXPECT_TRUE(largest["out_of_plane_thickness"].is_null());
 }
 
 TEST_F(CrackleTest, VerifyStatesTheErrorOfTheStrength) {

@@ -230,7 +230,7 @@ TEST_F(ViewCommand, SeveralRunsStandSideBySide) {
     const std::string deck = shipped_deck("clump").string();
     const PageContents shown = page(fmt::format("'{0}/in_gm.dat' '{0}'", deck));
     EXPECT_EQ(shown.manifest["tests"].size(), 2U);
-    EXPECT_EQ(shown.test(1)["name"], "in_gm.dat") << "a deck that has not run";
+    EXPECT_EQ(shown.test(1)["name"], "in_gm.dat (2)") << "a deck that has not run: the same file again";
 }
 
 TEST_F(ViewCommand, RefusesWhatItCannotShow) {

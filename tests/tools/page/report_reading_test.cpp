@@ -17,6 +17,7 @@
 #include "solver/base/errors.hpp"
 #include "specimens/frames/base64.hpp"
 #include "specimens/frames/read_frames.hpp"
+#include "specimens/recordings/distinct_names.hpp"
 #include "specimens/recordings/recording.hpp"
 #include "tests/support/sample_results.hpp"
 #include "tests/support/vtp_data.hpp"
@@ -208,6 +209,31 @@ TEST(ReadResults, SampleFolderComesBackWithItsCounts) {
     others.field_values.emplace_back("axial_stress", 0.0);
     EXPECT_NE(complaint(vtp_text(others)).find("particles_00400.vtp: found 2 cells, expected"), std::string::npos);
     fs::remove_all(folder);
+}
+
+Recording recorded(const std::string& path, const std::string& title = "", int seed = -1) {
+    Recording recording;
+    recording.path = path;
+    recording.name = recording.path.filename().string();
+    if (!title.empty()) recording.results.summary["title"] = title;
+    if (seed >= 0) recording.results.summary["seed"] = seed;
+    return recording;
+}
+
+TEST(DistinctNames, TellResultsInFoldersOfEqualNameApart) {
+    using Names = std::vector<std::string>;
+    EXPECT_EQ(distinct_names({recorded("/lab/a", "Rock"), recorded("/lab/b", "Rock")}), (Names{"a", "b"}));
+    EXPECT_EQ(distinct_names({recorded("/lab/a/c", "Wet"), recorded("/lab/b/c", "Dry")}), (Names{"Wet", "Dry"}));
+    EXPECT_EQ(distinct_names({recorded("/lab/a/c", "Rock", 1), recorded("/lab/b/c", "Rock", 2)}),
+              (Names{"Rock, seed 1", "Rock, seed 2"}));
+    EXPECT_EQ(distinct_names({recorded("/lab/a/c", "", 1), recorded("/lab/b/c", "", 2)}),
+              (Names{"c, seed 1", "c, seed 2"}));
+    EXPECT_EQ(distinct_names({recorded("/lab/a/c", "Rock", 1), recorded("/lab/b/c", "Rock", 1)}),
+              (Names{"a/c", "b/c"}));
+    EXPECT_EQ(distinct_names({recorded("/x/a/c"), recorded("/y/a/c"), recorded("/y/b/c")}),
+              (Names{"x/a/c", "y/a/c", "y/b/c"}));
+    EXPECT_EQ(distinct_names({recorded("/lab/c", "Rock", 1), recorded("/lab/c", "Rock", 1)}),
+              (Names{"c (1)", "c (2)"}));
 }
 
 }  // namespace

@@ -73,7 +73,7 @@ Peaks measure(const Setting& setting, int packings, bool quick) {
         peaks.cpu_seconds += median_cpu_seconds([&] {
             VirtualTest test = start;
             load_specimen(test);
-            peak = test.state.failure.peak_stress;
+            peak = test.state.failure.largest_stress;
         });
         peaks.stress.push_back(peak);
     }

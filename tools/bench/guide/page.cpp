@@ -200,7 +200,7 @@ std::string notices(const GuidePage& page, const GuideResults& results) {
         if (!result.error.empty()) text += fmt::format("- {}: no result: {}\n", who, result.error);
         const auto failed = result.quantities.find("failed");
         if (failed != result.quantities.end() && failed->second == 0.0)
-            text += fmt::format("- {}: has not failed, its peak is the largest stress so far.\n", who);
+            text += fmt::format("- {}: has not failed, its largest stress is the one so far.\n", who);
     }
     return text.empty() ? text : "\n## Notices\n\n" + text;
 }

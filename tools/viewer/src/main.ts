@@ -15,11 +15,10 @@ import {particleCount} from './data/cells';
 import {readReport, type CurvedTest, type Report} from './data/report';
 import {labelTests, sortedBy, withCurve, type LabelledTest} from './data/test_labels';
 import {SpecimenView} from './drawing/specimen_view';
-import type {Cursor} from './elements/chart_cursor';
 import {button, choice, element, saveFile} from './elements/dom';
 import {breakCard, type MapColour} from './panels/breaks';
 import {directionWidth} from './panels/crack_directions';
-import {drawPanel, panelAsSvg, panelCursor} from './panels/curves';
+import {CurvePanel, readoutOf} from './panels/curves';
 import {fragmentCard} from './panels/fragments';
 import {panels, viewsFor, type Panel, type View} from './panels/grouping';
 import {drawings, momentsOf, type Moments, magnifications} from './panels/specimen_cards';
@@ -28,19 +27,18 @@ import {counted, strainFactor, useFileUnits} from './quantities/units';
 
 const viewNames: Record<View, string> = {kind: 'Kind of test', specimen: 'Specimen', test: 'Each test'};
 
+const leastBeside = 700; // px, of the viewer's width that has room for a curve beside a specimen
+
 interface State {
     view: View;
     magnification: number;
 }
 
-interface Chart {
-    chart: ECharts;
-    panel: Panel;
-    cursor: Cursor;
-}
-
 class Page {
-    private charts: Chart[] = [];
+    private charts: CurvePanel[] = [];
+    private beside: CurvePanel | undefined; // beside a test that is shown alone
+    private readonly besideHolder = element('div', {class: 'beside-curve'});
+    private readonly front = element('div', {class: 'front'});
     private readonly state: State = {view: 'kind', magnification: 1};
     private readonly tests: LabelledTest[];
     private readonly views: SpecimenView[];
@@ -105,7 +103,7 @@ class Page {
             element('div', {class: 'controls'}, ...(views.length > 1 ? [choice('One panel for each', views, this.state.view, (value) => {
                 this.state.view = value;
                 this.drawCurves();
-            })] : []), element('span', {class: 'hint'}, 'Click to show the specimens at that strain. Shift and wheel zoom the strain axis, dragging moves it, a double click resets it.')),
+            })] : []), element('span', {class: 'hint'}, 'A click shows the specimens at that strain. Shift and wheel zoom the strain axis, dragging moves it, a double click resets it.')),
             this.panelHolder,
             element('p', {class: 'caption'},
                 'Stress is the mean of the two platens’ forces over the initial width, strain the platen displacement over the initial height, both positive in ',
@@ -130,9 +128,11 @@ class Page {
         const {viewer} = this, controls = new ViewerControls(viewer), inspector = new Inspector(viewer);
         this.controls = controls;
         controls.panel.prepend(inspector.element);
-        section.append(element('div', {class: 'viewer'}, element('div', {class: 'front'}, viewer.stageElement, controls.transport), controls.panel, controls.help));
+        section.append(element('div', {class: 'viewer'}, this.front, controls.panel, controls.help));
+        this.front.append(viewer.stageElement, this.besideHolder, controls.transport);
         viewer.onShown = () => {
             controls.update();
+            this.drawBeside();
             inspector.update();
             this.moveCursors();
         };
@@ -148,8 +148,8 @@ class Page {
                 this.drawBreaks();
             })),
             this.breakHolder,
-            element('p', {class: 'caption'}, 'Left: position of each broken bond, the area of its circle proportional to its energy (', mark('tension'), ' tension, ', mark('shear'),
-                ' shear; by time: dark is early, bright is late). Right: directions of the cracks, perpendicular to the contact normals; breaks in each ',
+            element('p', {class: 'caption'}, 'Map: position of each broken bond, the area of its circle proportional to its energy (', mark('tension'), ' tension, ', mark('shear'),
+                ' shear; by time: dark is early, bright is late). Rose: directions of the cracks, perpendicular to the contact normals; breaks in each ',
                 `${directionWidth}°, counted in both directions. The loading axis is at 90°.`));
     }
 
@@ -217,30 +217,64 @@ class Page {
 
     private drawCurves(): void {
         for (const {chart} of this.charts) chart.dispose();
+        this.beside?.chart.dispose();
+        this.beside = undefined;
         const theme = currentTheme();
         const shown = panels(withCurve(this.tests), this.state.view);
         this.panelHolder.classList.toggle('single', shown.length === 1);
         const holders = shown.map((panel) => {
             const figure = element('div', {class: 'panel'});
             const save = element('button', {type: 'button', class: 'save', title: 'Save this figure as SVG'}, 'SVG');
-            const holder = element('div', {class: 'frame', 'data-panel': panel.title}, figure, save);
+            const holder = element('div', {class: 'frame', 'data-panel': panel.title}, element('div', {class: 'chart'}, figure, save));
             return {panel, figure, save, holder};
         });
         this.panelHolder.replaceChildren(...holders.map(({holder}) => holder));
-        this.charts = holders.map(({panel, figure, save}) => {
-            const chart = drawPanel(figure, panel, theme);
-            save.addEventListener('click', () => saveFile(`${panel.title.toLowerCase()}.svg`, 'image/svg+xml', panelAsSvg(chart)));
-            const cursor = panelCursor(chart, (value) => this.goToStrain(panel, value * strainFactor));
-            chart.on('datazoom', () => this.moveCursors());
-            return {chart, panel, cursor};
+        this.charts = holders.map(({panel, figure, save, holder}) => {
+            const drawn = new CurvePanel(figure, panel, theme, (value) => {
+                this.goToStrain(panel, value * strainFactor);
+                this.showViewer();
+            });
+            save.addEventListener('click', () => saveFile(`${panel.title.toLowerCase()}.svg`, 'image/svg+xml', drawn.asSvg()));
+            holder.append(readoutOf(drawn, theme));
+            drawn.chart.on('datazoom', () => this.moveCursors());
+            return drawn;
         });
+        this.drawBeside();
         this.moveCursors();
+    }
+
+    /// The curve of a test that is shown alone, in what would be empty paper beside its specimen.
+    private drawBeside(): void {
+        const {viewer} = this, alone = viewer?.chosen.length === 1 ? viewer.chosen[0]!.labelled : undefined;
+        const [curved] = alone ? withCurve([alone]) : [];
+        const wanted = curved !== undefined && this.front.clientWidth >= leastBeside;
+        this.front.classList.toggle('beside', wanted);
+        if (!wanted || this.beside?.panel.members[0]?.test !== curved.test) {
+            this.beside?.chart.dispose();
+            this.beside = undefined;
+        }
+        if (!wanted || this.beside) return;
+        const [panel] = panels([curved], 'test') as [Panel];
+        const figure = element('div', {class: 'panel'}), theme = currentTheme();
+        this.besideHolder.replaceChildren(figure);
+        this.beside = new CurvePanel(figure, panel, theme, (value) => this.goToStrain(panel, value * strainFactor), () => viewer!.stageElement.clientHeight - 70);
+        this.besideHolder.append(readoutOf(this.beside, theme));
+        this.beside.chart.on('datazoom', () => this.moveCursors());
+        this.moveCursors();
+    }
+
+    /// After a click on a curve: the specimens that it moved, where they are out of view.
+    private showViewer(): void {
+        const stage = this.viewer?.stageElement, box = stage?.getBoundingClientRect();
+        if (!stage || !box) return;
+        const seen = Math.min(innerHeight, box.bottom) - Math.max(0, box.top);
+        if (seen < 0.6 * Math.min(box.height, innerHeight)) stage.scrollIntoView({block: 'nearest'});
     }
 
     /// Moves each curve's cursor to the frame that its specimen shows.
     private moveCursors(): void {
         const theme = currentTheme();
-        for (const {panel, cursor} of this.charts) {
+        for (const {panel, cursor} of [...this.charts, ...(this.beside ? [this.beside] : [])]) {
             cursor.show(panel.members.flatMap((member) => {
                 const strain = this.viewer?.shownOf(member.test)?.strain;
                 return strain === undefined ? [] : [{value: strain / strainFactor, colour: theme.series[member.colour % theme.series.length]!}];
@@ -269,9 +303,14 @@ class Page {
 
     private watch(): void {
         new ResizeObserver(() => {
-            for (const {chart} of this.charts) chart.resize();
+            for (const chart of this.charts) chart.resize();
             this.moveCursors();
         }).observe(this.panelHolder);
+        new ResizeObserver(() => {
+            this.drawBeside();
+            this.beside?.resize();
+            this.moveCursors();
+        }).observe(this.front);
         matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => this.redraw());
         const paper = (printing: boolean) => {
             if (printing) document.documentElement.dataset['printing'] = 'true';

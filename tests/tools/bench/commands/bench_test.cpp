@@ -72,7 +72,7 @@ TEST_F(BenchCommand, FeaturesWritesBothTablesAndItsPicture) {
         if (line.starts_with('#') || line.starts_with("kind,")) continue;
         ++rows;
     }
-    EXPECT_EQ(rows, 36);
+    EXPECT_EQ(rows, 42);
     if (answer.err.find("found no gnuplot") == std::string::npos) {
         EXPECT_NE(read("costs/features.svg").find("<svg"), std::string::npos) << answer.err;
     }

@@ -30,7 +30,7 @@ const GuideRow& row_named(const std::string& key) {
     throw InputError("no row " + key);
 }
 
-GuideResult peak(double stress) { return {{{"peak_stress", stress}, {"peak_strain", 0.002}}, ""}; }
+GuideResult peak(double stress) { return {{{"largest_stress", stress}, {"strain_at_largest_stress", 0.002}}, ""}; }
 
 TEST(GuideEnsemble, SpreadIsTheSampleDeviationOfWhatIsThere) {
     const Spread spread = spread_of({2.0, absent, 4.0, 4.0, 4.0, 5.0, 5.0, 7.0, 9.0});

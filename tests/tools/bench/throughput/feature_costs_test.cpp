@@ -80,7 +80,7 @@ TEST(FeatureCosts, EveryRowHasItsNumbersInOrder) {
         EXPECT_EQ(row.difference.low > 0.0, row.ratio.low > 1.0) << row.feature;
     });
     std::filesystem::remove_all(scratch);
-    EXPECT_EQ(kinds["added"], 8 + 7 + 2);
+    EXPECT_EQ(kinds["added"], 11 + 10 + 2);
     EXPECT_EQ(kinds["dispatched"], 4 + 4 + 2);
     EXPECT_EQ(kinds["forced"], 4 + 4 + 1);
     // Nothing parts while it is stirred: the rows of loose discs have the same contacts, and clumps fewer bodies.

@@ -22,6 +22,7 @@ TestCase packed_case(std::int64_t seed, const char* kind, double rate, double ma
     test.loading.kind = kind;
     test.loading.axial_strain_rate = rate;
     test.loading.max_axial_strain = max_strain;
+    test.loading.strength_drop = 0.1;
     test.loading.stop_at_share_of_peak = 0.5;
     test.loading.platens = "bonded";
     test.numerics.safety_factor = 0.8;
@@ -31,7 +32,6 @@ TestCase packed_case(std::int64_t seed, const char* kind, double rate, double ma
     test.output.frames = 1;
     test.output.frame_precision = "single";
     test.output.checkpoint_interval = 1e9;
-    test.output.out_of_plane_thickness = 1.0;
     return test;
 }
 

@@ -12,12 +12,13 @@ export interface Colouring {
     quantity: Quantity;
     range: Range;
     palette: Rgb[];
+    names: readonly string[]; // of the first categories; the others have numbers
 }
 
-export function colouring(quantity: Quantity, range: Range, map: SequentialName, theme: Theme): Colouring {
+export function colouring(quantity: Quantity, range: Range, map: SequentialName, theme: Theme, names: readonly string[] = []): Colouring {
     const palette = quantity.scaling === 'sequential' ? sequentialPalette(map)
         : quantity.scaling === 'diverging' ? divergingPalette() : categoricalPalette(theme.grain);
-    return {quantity, range, palette};
+    return {quantity, range, palette, names};
 }
 
 /// Palette index of each cell in a frame.

@@ -7,6 +7,7 @@ import type {ECharts} from 'echarts/core';
 import {currentTheme} from '../colours/theme';
 import {area} from '../data/cells';
 import type {Frame} from '../data/frames';
+import {mineralsOf} from '../data/report';
 import type {SpecimenView} from '../drawing/specimen_view';
 import {Cursor} from '../elements/chart_cursor';
 import {button, element, select} from '../elements/dom';
@@ -72,7 +73,7 @@ export class Inspector {
                 select('History of', choices.map(({key, name}) => ({value: key, text: name})), this.shown, (key) => {
                     this.shown = key;
                     this.update();
-                }, {class: 'history-of'}),
+                }, {class: 'history-of'}, true),
                 this.figure,
             ] : []));
     }
@@ -130,7 +131,7 @@ function valueTable({view, cell}: Picked, frame: Frame): HTMLElement {
     const [vx, vy, sxx, syy, sxy, fragment, rate] = ['vx', 'vy', 'sxx', 'syy', 'sxy', 'fragment', 'rate'].map(field);
     const rows: [string, string, string, number?][] = [
         ['id', 'Number', String(cells.id[cell]), cells.id[cell]!],
-        ['material', 'Material', String(cells.material[cell]), cells.material[cell]!],
+        ['material', 'Material', mineralsOf(view.test.summary)[cells.material[cell]! - 1] ?? String(cells.material[cell]), cells.material[cell]!],
         radius > 0 ? ['radius', 'Radius', withUnit(radius, 'm'), radius] : ['area', 'Area', areaText(area(cells, cell)), area(cells, cell)],
         ['place', 'Centre', pair(centre.x, centre.y, 'm', 'ux')],
         ['displacement', 'Displacement', pair(frame.ux[cell]!, frame.uy[cell]!, 'm', 'ux'), Math.hypot(frame.ux[cell]!, frame.uy[cell]!)],
@@ -159,7 +160,7 @@ function contactTable(view: SpecimenView, frame: Frame, cell: number, open: bool
         element('summary', {}, `${touches.length} contact ${touches.length === 1 ? 'point' : 'points'}`),
         ...(touches.length === 0 ? [] : [element('table', {class: 'touches'},
             element('tr', {}, element('th', {scope: 'col'}, 'with'), element('th', {scope: 'col', title: 'compression positive'}, `Fn [${scale.unit}]`), element('th', {scope: 'col'}, `Fs [${scale.unit}]`), element('th', {scope: 'col'}, '')),
-            ...touches.map(({with: other, fn, fs, array, kind}) => element('tr', {}, element('td', {}, other), element('td', {}, force(fn, array)), element('td', {}, force(fs, array)), element('td', {}, kind))))]));
+            ...touches.map(({with: other, fn, fs, array, kind}) => element('tr', {}, element('td', {}, other), element('td', {}, force(fn, array)), element('td', {}, force(fs, array)), element('td', {class: 'kind'}, kind))))]));
 }
 
 function touching(view: SpecimenView, frame: Frame, cell: number): Touch[] {

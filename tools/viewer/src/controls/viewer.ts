@@ -5,7 +5,7 @@ import {colouring, type Colouring} from '../colours/colouring';
 import {categoricalPalette, sequentialPalette} from '../colours/palettes';
 import {currentTheme} from '../colours/theme';
 import type {Frame} from '../data/frames';
-import {lastTimeOf, type TestData} from '../data/report';
+import {lastTimeOf, mineralsOf, type TestData} from '../data/report';
 import type {CrackColours} from '../drawing/drawn_lines';
 import {Picture, type Shown} from '../drawing/picture';
 import {initialSettings, type Layer, type Settings} from '../drawing/settings';
@@ -14,9 +14,15 @@ import {element} from '../elements/dom';
 import {Picking} from '../geometry/picking';
 import {movedCentre} from '../geometry/rigid_motion';
 import {plain, quantitiesOf, type Quantity} from '../quantities/quantities';
-import {categories, forceScaleOf, forceScaleOfAll, joined, joinedForces, rangeOfAll, rangeOfFrames, type ForceScale, type Range} from '../quantities/ranges';
+import {categories, forceScaleOf, forceScaleOfAll, joined, joinedForces, rangeOfFrames, rangeUntil, type ForceScale, type Range} from '../quantities/ranges';
 import {axesFor, Clock, type Axis} from './clock';
 import {Navigation} from './navigation';
+
+/// The frame at the peak of a test that failed, where others follow.
+function peakFrame(test: TestData): number | undefined {
+    const at = test.frames.findIndex(({roles}) => roles?.includes('peak'));
+    return test.failed && at > 0 && at < test.frames.length - 1 ? at : undefined;
+}
 
 /// Side by side at the start only up to these numbers, which draw quickly on any machine.
 const cellsSideBySide = 20000;
@@ -72,6 +78,11 @@ export class Viewer {
 
     get layers(): Set<Layer> {
         return new Set(this.chosen.flatMap((view) => view.layers));
+    }
+
+    /// Whether a shown test has a peak that more frames follow.
+    get peaked(): boolean {
+        return this.chosen.some(({test}) => peakFrame(test) !== undefined);
     }
 
     get quantity(): Quantity {
@@ -216,26 +227,33 @@ export class Viewer {
 
     private colours(frames: {view: SpecimenView; frame: Frame}[]): Colouring {
         const {quantity, settings} = this;
-        return colouring(quantity, quantity.scaling === 'categorical' ? categories(frames.map(({view, frame}) => ({frame, cells: view.test.cells})), quantity) : this.range(frames, quantity), settings.map, currentTheme());
+        // Numbers stand for different minerals in tests of different rocks.
+        const minerals = frames.map(({view}) => mineralsOf(view.test.summary));
+        const names = quantity.key === 'material' && minerals.every((one) => one.join('\n') === minerals[0]!.join('\n')) ? minerals[0] : [];
+        return colouring(quantity, quantity.scaling === 'categorical' ? categories(frames.map(({view, frame}) => ({frame, cells: view.test.cells})), quantity) : this.range(frames, quantity), settings.map, currentTheme(), names);
     }
 
-    /// Over all frames, once that is known; until then, or if so set, over the shown frames.
+    /// Over all frames or those up to the peak, once that is known; until then, or if so set, over the shown frames.
     private range(frames: {view: SpecimenView; frame: Frame}[], quantity: Quantity): Range {
-        const key = (view: SpecimenView) => `${view.test.index} ${quantity.key}`;
+        const last = ({test}: SpecimenView) => (this.settings.range === 'peak' && peakFrame(test)) || test.frames.length - 1;
+        const key = (view: SpecimenView) => `${view.test.index} ${quantity.key} ${last(view)}`;
         const known = frames.map(({view}) => this.ranges.get(key(view)));
-        if (this.settings.range === 'all') {
+        if (this.settings.range !== 'frame') {
             if (known.every((range) => range)) return joined(known as Range[]);
             this.inBackground(frames.filter(({view}) => !this.ranges.has(key(view))).map(({view}) => async () => {
-                if (!this.ranges.has(key(view))) this.ranges.set(key(view), await rangeOfAll(view.frames, view.test.cells, quantity));
+                const name = key(view), end = last(view);
+                if (!this.ranges.has(name)) this.ranges.set(name, await rangeUntil(end, view.frames, view.test.cells, quantity));
             }));
         }
         return rangeOfFrames(frames.map(({view, frame}) => ({frame, cells: view.test.cells})), quantity);
     }
 
+    /// One scale for all tests of the page, so that widths can be compared whichever of them are shown, or of the shown ones.
     private forceScale(frames: {view: SpecimenView; frame: Frame}[]): ForceScale {
-        const known = frames.map(({view}) => this.forces.get(view.test));
+        const views = this.settings.forcesOf === 'page' ? this.tests : frames.map(({view}) => view);
+        const known = views.map((view) => this.forces.get(view.test));
         if (known.every((force) => force)) return joinedForces(known as ForceScale[]);
-        this.inBackground(frames.filter(({view}) => !this.forces.has(view.test)).map(({view}) => async () => {
+        this.inBackground(views.filter((view) => !this.forces.has(view.test)).map((view) => async () => {
             if (!this.forces.has(view.test)) this.forces.set(view.test, await forceScaleOfAll(view.frames));
         }));
         return forceScaleOf(frames.map(({frame}) => frame));

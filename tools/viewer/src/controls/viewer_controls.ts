@@ -3,7 +3,7 @@
 
 import {sequentialNames, type SequentialName} from '../colours/palettes';
 import {momentText} from '../drawing/annotations';
-import {layerNames, type Layout} from '../drawing/settings';
+import {layerNames, type Layout, type Settings} from '../drawing/settings';
 import {button, checkbox, element, select} from '../elements/dom';
 import {icon} from '../elements/icons';
 import {largestMagnifiedAngle} from '../geometry/rigid_motion';
@@ -64,16 +64,17 @@ export class ViewerControls {
                 ...(settings.layout === 'side' ? [] : [this.testList('test', settings.layout === 'one' ? 'Test' : 'First')]),
                 ...(settings.layout === 'over' ? [this.testList('other', 'Second')] : []))] : []),
             ...(viewer.clock.count > 1 ? [group('', select('Clock', viewer.axes.map((value) => ({value, text: axisNames[value]})), viewer.clock.axis,
-                (axis: Axis) => viewer.setAxis(axis), {class: 'axis'}))] : []),
+                (axis: Axis) => viewer.setAxis(axis), {class: 'axis'}, true))] : []),
             group('Colour',
                 select('By', viewer.quantities.map(({key, name}) => ({value: key, text: name})), viewer.quantity.key, (quantity) => {
                     settings.quantity = quantity;
                     this.build();
                     refresh();
-                }, {class: 'quantity'}),
+                }, {class: 'quantity'}, true),
                 ...(scaled ? [
-                    select('Range', [{value: 'all', text: 'All frames'}, {value: 'frame', text: 'This frame'}], settings.range, (range) => {
-                        settings.range = range as 'all' | 'frame';
+                    select('Range', [...(viewer.peaked ? [{value: 'peak', text: 'Up to the peak'}] : []), {value: 'all', text: 'All frames'}, {value: 'frame', text: 'This frame'}],
+                        settings.range === 'peak' && !viewer.peaked ? 'all' : settings.range, (range) => {
+                        settings.range = range as Settings['range'];
                         refresh();
                     }, {class: 'range'}),
                     ...(viewer.quantity.scaling === 'sequential' ? [select('Map', sequentialNames.map((value) => ({value, text: value})), settings.map, (map: SequentialName) => {
@@ -83,8 +84,13 @@ export class ViewerControls {
                 ] : [])),
             group('Layers', element('div', {class: 'checks'}, ...[...viewer.layers].map((layer) => checkbox(layerNames[layer], settings.layers[layer], (shown) => {
                 settings.layers[layer] = shown;
+                if (layer === 'forces') this.build();
                 refresh();
             }, {'data-layer': layer})))),
+            ...(several && settings.layers.forces && viewer.layers.has('forces') ? [group('', select('Force widths', [{value: 'page', text: 'Same for all tests'}, {value: 'shown', text: 'Of the tests shown'}], settings.forcesOf, (of) => {
+                settings.forcesOf = of as Settings['forcesOf'];
+                refresh();
+            }, {class: 'forces-of'}))] : []),
             group('', ...(viewer.chosen.some(({test}) => test.events.count > 0) ? [select('Cracks by', [{value: 'mode', text: 'Mode'}, {value: 'time', text: 'Time'}], settings.crackColour, (by) => {
                 settings.crackColour = by as 'mode' | 'time';
                 refresh();
@@ -100,7 +106,7 @@ export class ViewerControls {
         return select(label, viewer.tests.map(({labelled}, at) => ({value: String(at), text: labelled.label})), String(viewer.settings[which]), (test) => {
             viewer.choose({[which]: Number(test)});
             this.build();
-        }, {class: which});
+        }, {class: which}, true);
     }
 
     /// Updates the playback bar after a change of the clock or the picture.
@@ -112,7 +118,7 @@ export class ViewerControls {
         this.slider.max = String(clock.count - 1);
         this.slider.value = String(clock.index);
         const first = [...picture.shown.values()][0];
-        const text = picture.shown.size > 1 ? clockText(clock) : first ? `Frame ${first.frame.index + 1}/${first.view.frames.count}\u2003${momentText(first.frame)}` : '';
+        const text = picture.shown.size > 1 ? clockText(clock) : first ? `Frame ${first.frame.index + 1}/${first.view.frames.count}\u2003${momentText(first.frame, first.view.test)}` : '';
         this.readout.textContent = text;
         // Announced only while paused: a screen reader cannot follow an animation.
         if (!clock.playing) this.announcement.textContent = text;

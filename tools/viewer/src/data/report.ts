@@ -32,10 +32,11 @@ export interface GroupEntry {
 }
 
 interface TestEntry {
-    name: string; // the folder's or file's
+    name: string; // unique on the page
     kind: 'test' | 'deck' | 'particles';
     summary: Summary;
     walls?: [number, number, number, number];
+    sides?: [number, number]; // m, left and right of what the frames show, splinters far off left out
     velocities?: 'mean'; // between two frames
     arrays: Record<string, ArrayEntry>;
     frames: FrameEntry[];
@@ -92,6 +93,7 @@ export interface TestData {
     failed: boolean;
     summary: Summary;
     walls: TestEntry['walls'];
+    sides: TestEntry['sides'];
     curve: Curve | undefined; // only of a test
     events: Events;
     cells: Cells;
@@ -130,6 +132,7 @@ async function unpackTest(entry: TestEntry, index: number): Promise<TestData> {
         failed: entry.summary['failed'] === true,
         summary: entry.summary,
         walls: entry.walls,
+        sides: entry.sides,
         curve: entry.arrays['curve.axial_strain'] ? {
             strain: array('curve.axial_strain'),
             stress: array('curve.axial_stress'),
@@ -187,11 +190,24 @@ export async function readReport(source: HTMLElement | null): Promise<Report> {
     };
 }
 
+/// The largest of the values, at least 0.
+export function largestOf(values: ArrayLike<number>): number {
+    let largest = 0;
+    for (let at = 0; at < values.length; ++at) largest = Math.max(largest, values[at]!);
+    return largest;
+}
+
 /// Time of the last frame or break, s: a run may have no frames.
 export function lastTimeOf({frames, events}: TestData): number {
     let last = frames[frames.length - 1]?.time ?? 0;
     for (let event = 0; event < events.count; ++event) last = Math.max(last, events.time[event]!);
     return last;
+}
+
+/// Names of the minerals in the order of their material numbers; none of a rock of one material.
+export function mineralsOf(summary: Summary): string[] {
+    const minerals = summary['minerals'];
+    return Array.isArray(minerals) ? minerals.map((mineral: {name: string}) => mineral.name) : [];
 }
 
 /// A number of summary.json, or undefined where the test does not state it.

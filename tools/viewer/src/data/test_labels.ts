@@ -32,16 +32,15 @@ export function ordered(values: string[], order: string[]): string[] {
     return unique(values).sort((a, b) => rank(a) - rank(b));
 }
 
-/// Tests named by specimen and kind if these names are unique (colour = specimen), else by folder (colour = test).
+/// Tests named by specimen and kind if these names are unique (colour = specimen), else as the page names them, which it does
+/// without repetition (colour = test).
 export function labelTests(tests: TestData[]): LabelledTest[] {
     const name = (test: TestData) => `${specimenName(test)}, ${test.kind}`;
     const namesUnique = unique(tests.map(name)).length === tests.length && tests.every((test) => test.curve);
     const specimens = ordered(tests.map((test) => test.specimen), specimenOrder);
-    const folders = unique(tests.map((test) => test.name));
     return tests.map((test, index) => {
         if (namesUnique) return {test, colour: specimens.indexOf(test.specimen), label: name(test)};
-        const label = folders.length === tests.length ? test.name : `${test.name} (${index + 1})`;
-        return {test, colour: index, label};
+        return {test, colour: index, label: test.name};
     });
 }
 

@@ -3,21 +3,35 @@
 
 import type {Theme} from '../colours/theme';
 import type {Frame} from '../data/frames';
-import type {Sheet} from '../elements/sheet';
+import {peakOf, type TestData} from '../data/report';
+import type {Sheet, TextStyle} from '../elements/sheet';
 import {movedCentre} from '../geometry/rigid_motion';
-import {quantity, strain} from '../quantities/units';
+import {quantity, strain, stressText} from '../quantities/units';
 import type {SpecimenView} from './specimen_view';
 import type {Pane, Placing} from './stage';
 
 /// "ε = 1.94×10⁻³ σ = 67.2 kN/m", or the time where there is no strain.
-export function momentText(frame: Frame): string {
+export function momentText(frame: Frame, test: TestData): string {
     if (frame.strain === undefined) return `t = ${quantity(frame.time, 's')}`;
     const stress = frame.entry.axial_stress;
-    return `ε = ${strain(frame.strain)}${stress === undefined ? '' : `\u2003σ = ${quantity(stress, 'N/m')}`}`;
+    if (stress === undefined) return `ε = ${strain(frame.strain)}`;
+    const text = stressText(stress, peakOf(test).stress);
+    return `ε = ${strain(frame.strain)}\u2003σ ${text.startsWith('≈') ? text : `= ${text}`}`;
 }
 
 /// Note on magnified displacements, for every picture that shows them; else empty.
 export const magnified = (magnification: number): string => (magnification === 1 ? '' : `\u2003displacements ×${magnification}`);
+
+const smallestTitle = 8.5; // px
+
+/// The style made smaller until the text fits, and the text with its end cut off where that is not enough.
+function fitted(sheet: Sheet, text: string, style: TextStyle, room: number): {text: string; style: TextStyle; width: number} {
+    const size = Math.max(smallestTitle, Math.min(style.size, style.size * room / Math.max(1, sheet.widthOf(text, style))));
+    const smaller = {...style, size};
+    let shown = text;
+    while (shown.length > 1 && sheet.widthOf(shown, smaller) > room + 0.5) shown = `${shown.replace(/…$/, '').slice(0, -1).trimEnd()}…`;
+    return {text: shown, style: smaller, width: sheet.widthOf(shown, smaller)};
+}
 
 /// The name and the moment; the moment below the name where the pane is too narrow for one line.
 export function drawTitles(sheet: Sheet, pane: Pane, names: readonly {label: string; colour: string; moment: string}[], theme: Theme): void {
@@ -25,11 +39,12 @@ export function drawTitles(sheet: Sheet, pane: Pane, names: readonly {label: str
     const y = pane.rectangle.y + 17;
     for (const {label, colour, moment} of names) {
         const nameStyle = {size: 13, colour, bold: true, halo: theme.background}, momentStyle = {size: 12, colour: theme.muted, halo: theme.background};
-        const nameWidth = sheet.widthOf(label, nameStyle), momentWidth = sheet.widthOf(moment, momentStyle);
-        const oneLine = names.length === 1 && nameWidth + momentWidth + 28 < pane.rectangle.width;
-        sheet.text(x, y, label, nameStyle);
-        sheet.text(oneLine ? x + nameWidth + 10 : x, oneLine ? y : y + 16, moment, momentStyle);
-        x += Math.max(nameWidth, momentWidth) + 22;
+        const oneLine = names.length === 1 && sheet.widthOf(label, nameStyle) + sheet.widthOf(moment, momentStyle) + 28 < pane.rectangle.width;
+        const room = oneLine ? pane.rectangle.width : (pane.rectangle.width - 18 - 22 * (names.length - 1)) / names.length;
+        const name = fitted(sheet, label, nameStyle, room), below = fitted(sheet, moment, momentStyle, room);
+        sheet.text(x, y, name.text, name.style);
+        sheet.text(oneLine ? x + name.width + 10 : x, oneLine ? y : y + 16, below.text, below.style);
+        x += Math.max(name.width, below.width) + 22;
     }
 }
 

@@ -64,14 +64,16 @@ function drawBar(sheet: Sheet, title: string, palette: readonly Rgb[], low: stri
     return barWidth;
 }
 
-function drawColours(sheet: Sheet, {quantity: shown, range, palette}: Colouring, theme: Theme, x: number, top: number): number {
+function drawColours(sheet: Sheet, {quantity: shown, range, palette, names}: Colouring, theme: Theme, x: number, top: number): number {
     if (shown.scaling === 'categorical') {
         sheet.text(x, top + 12, shown.key === 'fragment' ? 'Fragment, largest first' : shown.name, {...small(theme), colour: theme.muted});
         let at = x;
-        for (let number = 0; number <= Math.min(5, range.high); ++number) {
+        const last = names.length > 0 ? names.length - 1 : range.high; // of minerals without the platens'
+        for (let number = 0; number <= Math.min(5, last); ++number) {
+            const text = number === 5 && last > 5 ? '…' : names[number] ?? String(number + 1);
             sheet.rectangle(at, top + 19, 13, 13, css(palette[number]!));
-            sheet.text(at + 17, top + 30, number === 5 && range.high > 5 ? '…' : String(number + 1), small(theme));
-            at += 34;
+            sheet.text(at + 17, top + 30, text, small(theme));
+            at += Math.max(34, 17 + sheet.widthOf(text, small(theme)) + 14);
         }
         return at - x;
     }

@@ -57,6 +57,7 @@ const fanFragment = `
 precision mediump float;
 uniform vec3 edge;
 uniform float edgeWidth; // pixels; 0: none
+uniform float edgeStrength; // share of its colour
 uniform float opacity;
 in vec2 toRim;
 flat in vec3 fill;
@@ -65,7 +66,7 @@ void main() {
     float share = length(toRim);
     if (share > 1.0001) discard;
     float pixels = (1.0 - share) / max(fwidth(share), 1e-6);
-    colour = vec4(edgeWidth > 0.0 ? mix(edge, fill, clamp(pixels - edgeWidth + 0.5, 0.0, 1.0)) : fill, opacity);
+    colour = vec4(edgeWidth > 0.0 ? mix(mix(fill, edge, edgeStrength), fill, clamp(pixels - edgeWidth + 0.5, 0.0, 1.0)) : fill, opacity);
 }`;
 
 const pointVertex = `${placing}
@@ -110,7 +111,7 @@ export class ParticleLayer {
         this.palette = new DataTexture(new Uint8Array(4 * paletteSize), paletteSize, 1);
         for (const texture of [this.placements, this.palette]) texture.minFilter = texture.magFilter = NearestFilter;
         this.uniforms = {
-            placements: {value: this.placements}, palette: {value: this.palette}, edge: {value: new Vector3()}, edgeWidth: {value: 1}, opacity: {value: 1},
+            placements: {value: this.placements}, palette: {value: this.palette}, edge: {value: new Vector3()}, edgeWidth: {value: 1}, edgeStrength: {value: 1}, opacity: {value: 1},
             pointScale: {value: 1},
         };
         const material = (vertexShader: string, fragmentShader: string) => new RawShaderMaterial({
@@ -150,8 +151,8 @@ export class ParticleLayer {
 
     /// To be called before each drawing.
     /// @param view  what is seen, m from the origin
-    /// @param pixelsPerMetre, edgeWidth  in pixels of the picture
-    prepare(view: Extent, pixelsPerMetre: number, edgeWidth: number, moving: boolean): void {
+    /// @param pixelsPerMetre, edge  in pixels of the picture
+    prepare(view: Extent, pixelsPerMetre: number, edge: {width: number; strength: number}, moving: boolean): void {
         const {geometry} = this.fans;
         geometry.clearGroups();
         let seen = 0, first = 0, count = 0;
@@ -172,7 +173,8 @@ export class ParticleLayer {
         this.fans.visible = !this.points.visible;
         const share = Math.min(1, mostPointsMoving / Math.max(1, seen));
         this.points.geometry.setDrawRange(0, Math.ceil(share * this.cells.count));
-        this.uniforms.edgeWidth.value = edgeWidth;
+        this.uniforms.edgeWidth.value = edge.width;
+        this.uniforms.edgeStrength.value = edge.strength;
         this.uniforms.pointScale.value = pixelsPerMetre / Math.sqrt(share);
     }
 

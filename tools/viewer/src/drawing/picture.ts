@@ -117,7 +117,7 @@ export class Picture {
     private writeTitle(sheet: Sheet, pane: Pane): void {
         const theme = this.theme!, inPane = this.shownIn(pane);
         drawTitles(sheet, pane, inPane.map(({view, frame, look}, at) => ({
-            label: view.labelled.label, moment: momentText(frame) + magnified(look.settings.magnification), colour: inPane.length > 1 ? theme.overlaid[at % 2]! : theme.ink,
+            label: view.labelled.label, moment: momentText(frame, view.test) + magnified(look.settings.magnification), colour: inPane.length > 1 ? theme.overlaid[at % 2]! : theme.ink,
         })), theme);
     }
 

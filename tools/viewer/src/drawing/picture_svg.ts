@@ -8,7 +8,7 @@ import type {Frame} from '../data/frames';
 import {svgElement} from '../elements/dom';
 import {movedCentre, moverOf} from '../geometry/rigid_motion';
 import type {Segments} from './segments';
-import {lineScale, outlineWidth, type Look, type SpecimenView} from './specimen_view';
+import {lineScale, outlineOf, type Look, type SpecimenView} from './specimen_view';
 import type {Pane, Placing} from './stage';
 
 /// A pane's specimens, cut off at its border.
@@ -27,8 +27,8 @@ export function paneAsSvg(pane: Pane, placing: Placing, shown: readonly {view: S
 
 function particles(view: SpecimenView, frame: Frame, look: Look, placing: Placing): SVGElement {
     const {cells} = view.test, {magnification, layers} = look.settings;
-    const edge = layers.outlines ? outlineWidth(view.meanSize * placing.scale) : 0;
-    const group = svgElement('g', {class: 'particles', ...(look.opacity < 1 ? {opacity: look.opacity} : {}), ...(edge > 0 ? {stroke: look.theme.grainEdge, 'stroke-width': edge.toFixed(2), 'stroke-linejoin': 'round'} : {})});
+    const edge = layers.outlines ? outlineOf(view.meanSize * placing.scale) : {width: 0, strength: 0};
+    const group = svgElement('g', {class: 'particles', ...(look.opacity < 1 ? {opacity: look.opacity} : {}), ...(edge.width > 0 ? {stroke: look.theme.grainEdge, 'stroke-width': edge.width.toFixed(2), 'stroke-opacity': edge.strength.toFixed(2), 'stroke-linejoin': 'round'} : {})});
     const index = paletteIndices(look.colouring, frame, cells);
     const x = (value: number) => (placing.x + (value - view.origin.x) * placing.scale).toFixed(2);
     const y = (value: number) => (placing.y - (value - view.origin.y) * placing.scale).toFixed(2);

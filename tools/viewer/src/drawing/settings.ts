@@ -20,7 +20,8 @@ export interface Settings {
     layers: Record<Layer, boolean>;
     quantity: string; // key of a Quantity
     map: SequentialName;
-    range: 'all' | 'frame';
+    range: 'peak' | 'all' | 'frame'; // frames that the colours are of
+    forcesOf: 'page' | 'shown'; // tests that the widths of forces are of
     crackColour: 'mode' | 'time';
     magnification: number;
     layout: Layout;
@@ -32,7 +33,8 @@ export const initialSettings: Settings = {
     layers: {particles: true, outlines: true, platens: true, cracks: true, bonds: false, forces: false, numbers: false},
     quantity: 'none',
     map: 'viridis',
-    range: 'all',
+    range: 'peak',
+    forcesOf: 'page',
     crackColour: 'mode',
     magnification: 1,
     layout: 'one',

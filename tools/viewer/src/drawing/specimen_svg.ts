@@ -8,31 +8,29 @@ import type {Frame} from '../data/frames';
 import type {TestData} from '../data/report';
 import {svgElement} from '../elements/dom';
 import {crackState, type Crack} from '../geometry/cracks';
-import {extentOf, type Extent} from '../geometry/extent';
+import {inView, type InView} from '../geometry/extent';
 import {movedCentre, moverOf} from '../geometry/rigid_motion';
-import {quantity} from '../quantities/units';
+import {counted, quantity} from '../quantities/units';
 import {magnified} from './annotations';
 
-/// The box that holds all drawn frames, and of the platens a little more than the specimen's width. Fragments that flew off
-/// are followed sideways for three tenths of the width, so that they do not make the specimen small (all the way where
-/// displacements are magnified).
-export function extentOfMoments(test: TestData, frames: readonly Frame[], magnification: number): Extent {
-    const extents = frames.map((frame) => extentOf(test, frame, magnification));
-    const first = extents[0]!, width = first.x2 - first.x1, room = magnification > 1 ? Infinity : 0.3 * width;
-    const left = Math.min(...extents.map((extent) => extent.x1)), right = Math.max(...extents.map((extent) => extent.x2));
-    return {
-        x1: Math.max(left, first.x1 - room) - 0.06 * width,
-        x2: Math.min(right, first.x2 + room) + 0.06 * width,
-        y1: Math.min(...extents.map((extent) => extent.y1)),
-        y2: Math.max(...extents.map((extent) => extent.y2)),
-    };
+/// What drawings of a test's frames show, with room for the ends of the platens: to each its own width, to all one height.
+export function viewsOfMoments(test: TestData, frames: readonly Frame[], magnification: number): InView[] {
+    const views = frames.map((frame) => inView(test, frame, magnification));
+    const y1 = Math.min(...views.map(({extent}) => extent.y1)), y2 = Math.max(...views.map(({extent}) => extent.y2));
+    return views.map((view) => {
+        const room = 0.06 * (view.extent.x2 - view.extent.x1);
+        return {...view, extent: {x1: view.extent.x1 - room, x2: view.extent.x2 + room, y1, y2}};
+    });
 }
+
+/// Note on particles that a drawing does not show; else empty.
+export const leftOutText = (count: number): string => (count === 0 ? '' : `${counted(count)} ${count === 1 ? 'particle' : 'particles'} farther out`);
 
 interface Drawing {
     test: TestData;
     cracks: Crack[];
     frame: Frame;
-    extent: Extent;
+    view: InView;
     pixelsPerMetre: number;
     magnification: number;
     scaleBar: boolean;
@@ -55,7 +53,7 @@ function addTo(lists: Map<string, string[]>, key: string, path: string): void {
 }
 
 export function drawSpecimen(drawing: Drawing, theme: Theme): SVGElement {
-    const {test, cracks, frame, extent, pixelsPerMetre: scale, magnification} = drawing;
+    const {test, cracks, frame, view: {extent, shows}, pixelsPerMetre: scale, magnification} = drawing;
     const {cells} = test;
     const x = (point: Point) => ((point.x - extent.x1) * scale + margin).toFixed(2);
     const y = (point: Point) => ((extent.y2 - point.y) * scale + margin).toFixed(2);
@@ -64,6 +62,7 @@ export function drawSpecimen(drawing: Drawing, theme: Theme): SVGElement {
 
     const grains = new Map<string, string[]>(), platens: string[] = [];
     for (let cell = 0; cell < cells.count; ++cell) {
+        if (!shows(cell)) continue;
         const radius = cells.radius[cell]!, fill = drawing.fills?.(cell) ?? theme.grain;
         if (radius > 0) {
             const at = movedCentre(cells, frame, cell, magnification);
@@ -83,16 +82,18 @@ export function drawSpecimen(drawing: Drawing, theme: Theme): SVGElement {
         if (!state) continue;
         const mode = state.shear ? 'shear' : 'tension';
         const list = state.parted ? faces[mode] : faces[`${mode}Part`];
-        for (const face of crack.faces) {
+        for (const face of crack.faces.filter(({cell}) => shows(cell))) {
             const move = moverOf(cells, frame, face.cell, magnification);
             const from = move(face.from), to = move(face.to);
             list.push(`M${x(from)} ${y(from)}L${x(to)} ${y(to)}`);
         }
     }
 
-    const edge = Math.min(0.8, Math.max(0.2, 40 / Math.sqrt(cells.count * 20)));
+    // Lines are shares of a particle: where they are small, lines of a usual width would be all that is seen.
+    const size = scale * Math.sqrt((extent.x2 - extent.x1) * (extent.y2 - extent.y1) / Math.max(1, cells.count));
+    const edge = Math.min(0.8, Math.max(0.1, 0.03 * size)), crack = Math.min(1.6, Math.max(0.6, 0.1 * size));
     const line = (list: string[], name: string, colour: string, lineWidth: number, dashes = '') =>
-        svgElement('path', {class: name, d: list.join(''), fill: 'none', stroke: colour, 'stroke-width': lineWidth, 'stroke-linecap': 'round',
+        svgElement('path', {class: name, d: list.join(''), fill: 'none', stroke: colour, 'stroke-width': lineWidth.toFixed(2), 'stroke-linecap': 'round',
             ...(dashes ? {'stroke-dasharray': dashes} : {}), 'data-count': list.length});
     const svg = svgElement('svg', {
         viewBox: `0 0 ${width.toFixed(2)} ${(height + barRoom).toFixed(2)}`, width: width.toFixed(2), height: (height + barRoom).toFixed(2), role: 'img',
@@ -101,8 +102,8 @@ export function drawSpecimen(drawing: Drawing, theme: Theme): SVGElement {
         ...[...grains].map(([fill, list]) => svgElement('path', {class: 'grains', d: list.join(''), fill, stroke: theme.grainEdge, 'stroke-width': edge.toFixed(2),
             'stroke-linejoin': 'round', 'data-count': list.length})),
         line(platens, 'platens', theme.platen, 4),
-        line(faces.tensionPart, 'tension-part', theme.tension, 1, '1.5 2.5'), line(faces.shearPart, 'shear-part', theme.shear, 1, '1.5 2.5'),
-        line(faces.tension, 'tension', theme.tension, 1.6), line(faces.shear, 'shear', theme.shear, 1.6));
+        line(faces.tensionPart, 'tension-part', theme.tension, 0.6 * crack, '1.5 2.5'), line(faces.shearPart, 'shear-part', theme.shear, 0.6 * crack, '1.5 2.5'),
+        line(faces.tension, 'tension', theme.tension, crack), line(faces.shear, 'shear', theme.shear, crack));
     if (drawing.scaleBar) {
         const length = barLength(extent.x2 - extent.x1), low = height + 8;
         svg.append(

@@ -132,7 +132,8 @@ export class SpecimenView {
         const particlePixels = this.meanSize * pixelsPerMetre;
         this.lineLayer.setScale(width * ratio, height * ratio, ratio * lineScale(particlePixels));
         this.forceLayer.setScale(width * ratio, height * ratio, ratio * this.widestForce(pixelsPerMetre));
-        this.particles.prepare(seen, pixelsPerMetre * ratio, outlines ? outlineWidth(particlePixels) * ratio : 0, moving);
+        const {width: edge, strength} = outlineOf(particlePixels);
+        this.particles.prepare(seen, pixelsPerMetre * ratio, outlines ? {width: edge * ratio, strength} : {width: 0, strength: 0}, moving);
     }
 }
 
@@ -159,7 +160,11 @@ export function lineScale(particlePixels: number): number {
     return Math.min(1, Math.max(0.4, particlePixels / 10));
 }
 
-/// No outlines around very small particles: they would hide the fill.
-export function outlineWidth(particlePixels: number): number {
-    return particlePixels < 5 ? 0 : Math.min(1.2, 0.25 + 0.03 * particlePixels);
+const thinnestOutline = 0.7; // px: thinner ones are drawn in broken lines
+
+/// An outline's width, px, and how much of its colour it has: a share of the particle, so that the fill is what is seen, and none
+/// around very small ones, which would be grey all over.
+export function outlineOf(particlePixels: number): {width: number; strength: number} {
+    const share = particlePixels < 6 ? 0 : Math.min(1.1, 0.028 * particlePixels);
+    return {width: share > 0 ? Math.max(thinnestOutline, share) : 0, strength: Math.min(1, share / thinnestOutline)};
 }

@@ -132,7 +132,7 @@ export class Stage {
     }
 
     stillRatio(): number {
-        const fine = Math.max(2, devicePixelRatio);
+        const fine = 2 * Math.max(1, devicePixelRatio); // WebGL draws without smoothing: the browser does it
         return Math.max(1, Math.min(fine, Math.sqrt(largestPicture / (this.width * this.height))));
     }
 
@@ -147,10 +147,13 @@ export function fit(extent: Extent, {width, height}: Rectangle): number {
     return Math.max(1e-9, Math.min((width - 2 * sideRoom) / (extent.x2 - extent.x1), (height - titleRoom - footRoom) / (extent.y2 - extent.y1)));
 }
 
+const leastPane = 136; // px wide, for the name of a test
+
 /// A grid of panes that shows specimens of this aspect ratio as large as possible.
 export function grid(count: number, width: number, height: number, aspect: number): Rectangle[] {
     let best = {columns: 1, size: 0};
-    for (let columns = 1; columns <= count; ++columns) {
+    const most = Math.max(2, Math.floor(width / leastPane));
+    for (let columns = 1; columns <= Math.min(count, most); ++columns) {
         const rows = Math.ceil(count / columns);
         const size = Math.min(width / columns - 2 * sideRoom, (height / rows - titleRoom - footRoom) * aspect);
         if (size > 1.1 * best.size) best = {columns, size};

@@ -14,12 +14,18 @@ export interface Mark {
 export class Cursor {
     private readonly lines: HTMLElement[] = [];
 
-    constructor(private readonly chart: ECharts, private readonly top: number, private readonly bottom: number, onClick: (value: number) => void) {
+    constructor(private readonly chart: ECharts, private top: number, private readonly bottom: number, onClick: (value: number) => void) {
         chart.getZr().on('click', ({offsetX, offsetY}) => {
             if (!chart.containPixel({gridIndex: 0}, [offsetX, offsetY])) return; // a legend, an axis
             const [value] = chart.convertFromPixel({gridIndex: 0}, [offsetX, offsetY]) as [number, number];
             if (Number.isFinite(value)) onClick(value);
         });
+    }
+
+    /// To be called after a change of the chart's layout.
+    moveTo(top: number): void {
+        this.top = top;
+        for (const line of this.lines) line.style.top = `${top}px`;
     }
 
     show(marks: readonly Mark[]): void {

@@ -46,13 +46,19 @@ export function checkbox(label: string, checked: boolean, onChange: (checked: bo
     return element('label', {class: 'check'}, box, label);
 }
 
+/// @param ownLine  the list is as wide as its column, below its label: for long names
 export function select<T extends string>(
-    label: string, options: readonly {value: T; text: string}[], chosen: T, onChange: (value: T) => void, attributes: Record<string, string> = {},
+    label: string, options: readonly {value: T; text: string}[], chosen: T, onChange: (value: T) => void, attributes: Record<string, string> = {}, ownLine = false,
 ): HTMLLabelElement {
     const list = element('select', attributes, ...options.map(({value, text}) => element('option', {value}, text)));
     list.value = chosen;
-    list.addEventListener('change', () => onChange(list.value as T));
-    return element('label', {class: 'select'}, element('span', {}, label), list);
+    const name = () => { list.title = attributes['title'] ?? list.selectedOptions[0]?.text ?? ''; };
+    name();
+    list.addEventListener('change', () => {
+        name();
+        onChange(list.value as T);
+    });
+    return element('label', {class: ownLine ? 'select own-line' : 'select'}, element('span', {}, label), list);
 }
 
 /// A row of buttons of which one is selected.

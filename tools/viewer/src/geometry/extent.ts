@@ -13,40 +13,73 @@ export interface Extent {
     y2: number;
 }
 
-/// The box of a frame. Platens may be far wider than the specimen: they set the height of the box, not its width, and particles
-/// that fly off beyond them are cut off.
-export function extentOf(test: TestData, frame: Frame, magnification: number): Extent {
-    const {cells} = test, extent = {x1: Infinity, x2: -Infinity, y1: Infinity, y2: -Infinity};
-    const betweenPlatens = cells.platen.includes(1);
-    const widen = (x: number, y: number, room: number, platen: boolean) => {
-        if (platen || !betweenPlatens) {
-            extent.y1 = Math.min(extent.y1, y - room);
-            extent.y2 = Math.max(extent.y2, y + room);
-        }
-        if (platen) return;
-        extent.x1 = Math.min(extent.x1, x - room);
-        extent.x2 = Math.max(extent.x2, x + room);
-    };
+const followed = 0.4; // how far out fragments are followed, of the specimen's width
+const largeShare = 0.2; // of all cells: fragments from here on are always shown
+
+/// What a drawing of a frame shows: fragments are whole or, where they flew far off, left out; they would make the specimen small.
+export interface InView {
+    extent: Extent; // of the specimen at the start and of what is shown
+    shows: (cell: number) => boolean;
+    leftOut: number; // cells
+}
+
+const nothing = (): Extent => ({x1: Infinity, x2: -Infinity, y1: Infinity, y2: -Infinity});
+
+function include(extent: Extent, x: number, y: number, room = 0): void {
+    extent.x1 = Math.min(extent.x1, x - room);
+    extent.x2 = Math.max(extent.x2, x + room);
+    extent.y1 = Math.min(extent.y1, y - room);
+    extent.y2 = Math.max(extent.y2, y + room);
+}
+
+/// Platens may be far wider than the specimen: they set the height of the box, not its width.
+export function inView(test: TestData, frame: Frame, magnification: number): InView {
+    const {cells} = test, start = nothing(), extent = nothing();
+    const member = frame.field('fragment');
+    const numberOf = (cell: number) => member?.[cell] ?? cell;
+    const fragments = new Map<number, {extent: Extent; x: number; y: number; cells: number}>();
     for (let cell = 0; cell < cells.count; ++cell) {
-        const platen = cells.platen[cell] === 1, radius = cells.radius[cell]!;
-        if (radius > 0) {
-            const at = movedCentre(cells, frame, cell, magnification);
-            widen(at.x, at.y, radius, false);
+        const corners = outline(cells, cell), move = moverOf(cells, frame, cell, magnification);
+        if (cells.platen[cell] === 1) {
+            for (const {y} of corners.map(move)) [extent.y1, extent.y2] = [Math.min(extent.y1, y), Math.max(extent.y2, y)];
             continue;
         }
-        const move = moverOf(cells, frame, cell, magnification);
-        for (const point of outline(cells, cell)) {
-            const at = move(point);
-            widen(at.x, at.y, 0, platen);
+        const radius = cells.radius[cell]!, at = movedCentre(cells, frame, cell, magnification);
+        const found = fragments.get(numberOf(cell)) ?? {extent: nothing(), x: 0, y: 0, cells: 0};
+        fragments.set(numberOf(cell), found);
+        found.x += at.x;
+        found.y += at.y;
+        found.cells += 1;
+        if (radius > 0) {
+            include(start, cells.x[cell]!, cells.y[cell]!, radius);
+            include(found.extent, at.x, at.y, radius);
+        }
+        for (const corner of corners) {
+            const {x, y} = move(corner);
+            include(start, corner.x, corner.y);
+            include(found.extent, x, y);
         }
     }
-    return extent;
+    const room = followed * (start.x2 - start.x1), shown = new Set<number>();
+    [extent.x1, extent.x2] = [start.x1, start.x2];
+    for (const [number, fragment] of fragments) {
+        const x = fragment.x / fragment.cells, y = fragment.y / fragment.cells;
+        const near = x > start.x1 - room && x < start.x2 + room && y > start.y1 - room && y < start.y2 + room;
+        if (!near && fragment.cells < largeShare * cells.count) continue;
+        shown.add(number);
+        include(extent, fragment.extent.x1, fragment.extent.y1);
+        include(extent, fragment.extent.x2, fragment.extent.y2);
+    }
+    const shows = (cell: number) => cells.platen[cell] === 1 || shown.has(numberOf(cell));
+    let leftOut = 0;
+    for (let cell = 0; cell < cells.count; ++cell) if (!shows(cell)) ++leftOut;
+    return {extent, shows, leftOut};
 }
 
 /// The box of the first frame and of all breaks, which may have happened outside it; of the breaks alone where there is no frame.
 export function extentOfBreaks(test: TestData): Extent {
     const {cells, events} = test;
-    const box = cells.count > 0 ? extentAtStart(test) : {x1: Infinity, x2: -Infinity, y1: Infinity, y2: -Infinity};
+    const box = cells.count > 0 ? extentAtStart({...test, sides: undefined}) : {x1: Infinity, x2: -Infinity, y1: Infinity, y2: -Infinity};
     for (let event = 0; event < events.count; ++event) {
         box.x1 = Math.min(box.x1, events.x[event]!);
         box.x2 = Math.max(box.x2, events.x[event]!);
@@ -56,12 +89,14 @@ export function extentOfBreaks(test: TestData): Extent {
     // Breaks along a line, or a single one, still get a box with an area.
     const size = Math.max(box.x2 - box.x1, box.y2 - box.y1) || 1;
     const roomX = Math.max(0, 0.2 * size - (box.x2 - box.x1)) / 2, roomY = Math.max(0, 0.2 * size - (box.y2 - box.y1)) / 2;
-    return {x1: box.x1 - roomX, x2: box.x2 + roomX, y1: box.y1 - roomY, y2: box.y2 + roomY};
+    const marks = 0.03 * size; // circles of breaks at the edge
+    return {x1: box.x1 - roomX - marks, x2: box.x2 + roomX + marks, y1: box.y1 - roomY - marks, y2: box.y2 + roomY + marks};
 }
 
-/// The box of the first frame, without any frame's arrays, and with the walls; of platens a little more than the width.
+/// The box of the first frame, without any frame's arrays, and with the walls; of platens a little more than the width. To the
+/// sides it has room for what later frames show.
 export function extentAtStart(test: TestData): Extent {
-    const {cells, walls} = test;
+    const {cells, walls, sides} = test;
     const extent = {x1: Infinity, x2: -Infinity, y1: Infinity, y2: -Infinity};
     const widen = (x: number, y: number, room: number, platen: boolean) => {
         extent.y1 = Math.min(extent.y1, y - room);
@@ -80,6 +115,7 @@ export function extentAtStart(test: TestData): Extent {
         widen(walls[1], walls[3], 0, false);
     }
     if (extent.x1 > extent.x2) return {x1: 0, x2: 1, y1: 0, y2: 1};
-    const room = cells.platen.includes(1) ? 0.06 * (extent.x2 - extent.x1) : 0;
+    const width = extent.x2 - extent.x1, beside = sides ? Math.max(0, extent.x1 - sides[0], sides[1] - extent.x2) : 0;
+    const room = Math.max(beside, cells.platen.includes(1) ? 0.06 * width : 0); // the same on both sides: the specimen stays in the middle
     return {x1: extent.x1 - room, x2: extent.x2 + room, y1: extent.y1, y2: extent.y2};
 }

@@ -2,22 +2,18 @@
 // Positions and directions of bond breaks, a card for each test: the map of breaks (as an acoustic-emission array would locate
 // them) and the rose of crack directions.
 
-import {BarChart} from 'echarts/charts';
-import {PolarComponent} from 'echarts/components';
 import * as echarts from 'echarts/core';
 import type {ECharts} from 'echarts/core';
 
 import {css, sequentialPalette} from '../colours/palettes';
 import type {Theme} from '../colours/theme';
-import {lastTimeOf, type TestData} from '../data/report';
+import {largestOf, lastTimeOf, type TestData} from '../data/report';
 import type {LabelledTest} from '../data/test_labels';
-import {element, saveFile} from '../elements/dom';
+import {element, saveFile, svgText} from '../elements/dom';
 import {fontFamily} from '../elements/sheet';
 import {extentOfBreaks} from '../geometry/extent';
 import {counted, quantity, scaleFor, significant} from '../quantities/units';
-import {countDirections} from './crack_directions';
-
-echarts.use([BarChart, PolarComponent]);
+import {drawRose} from './rose';
 
 export type MapColour = 'mode' | 'time';
 
@@ -25,12 +21,6 @@ const mapHeight = 380; // px
 const largestMark = 26; // px across, of the largest energy, at most
 const smallestMark = 1.5;
 const covered = 0.3; // share of the map that all circles together may cover
-
-function largestOf(values: ArrayLike<number>): number {
-    let largest = 0;
-    for (let at = 0; at < values.length; ++at) largest = Math.max(largest, values[at]!);
-    return largest;
-}
 
 function sumOf(values: ArrayLike<number>): number {
     let sum = 0;
@@ -43,33 +33,34 @@ function svgOf(chart: ECharts): string {
     return decodeURIComponent(address.slice(address.indexOf(',') + 1));
 }
 
-function saveButton(name: string, chart: () => ECharts): HTMLElement {
+function saveButton(name: string, svg: () => string): HTMLElement {
     const save = element('button', {type: 'button', class: 'save', title: 'Save this figure as SVG'}, 'SVG');
-    save.addEventListener('click', () => saveFile(`${name}.svg`, 'image/svg+xml', svgOf(chart())));
+    save.addEventListener('click', () => saveFile(`${name}.svg`, 'image/svg+xml', svg()));
     return save;
 }
 
 /// The card; its charts are drawn after it has been inserted into the page.
 export function breakCard({test, label}: LabelledTest, colour: MapColour, theme: Theme): {element: HTMLElement; draw: () => ECharts[]} {
     const map = element('div', {class: 'map', role: 'img', 'aria-label': `Positions of ${test.events.count} breaks in ${label}`});
-    const rose = element('div', {class: 'rose', role: 'img', 'aria-label': `Directions of the cracks in ${label}`});
+    const directions = drawRose(test.events, theme);
+    const rose = element('div', {class: 'rose', role: 'img', 'aria-label': `Directions of the cracks in ${label}`}, directions);
     const charts: ECharts[] = [];
     const largest = largestOf(test.events.energy);
     const card = element('article', {class: 'card breaks', 'data-test': test.name},
         element('h3', {}, label, element('small', {}, `${counted(test.events.count)} breaks, largest ${quantity(largest, 'J', 2)}`)),
         element('div', {class: 'breaks-row'},
-            element('figure', {}, map, element('figcaption', {}, saveButton(`${test.name}-breaks`, () => charts[0]!))),
-            element('figure', {}, rose, element('figcaption', {}, saveButton(`${test.name}-rose`, () => charts[1]!)))));
+            element('figure', {}, map, element('figcaption', {}, saveButton(`${test.name}-breaks`, () => svgOf(charts[0]!)))),
+            element('figure', {}, rose, element('figcaption', {}, saveButton(`${test.name}-rose`, () => svgText(directions))))));
     return {element: card, draw: () => {
-        charts.push(drawMap(map, test, colour, largest, theme), drawRose(rose, test, theme));
+        charts.push(drawMap(map, test, colour, largest, theme));
         return charts;
     }};
 }
 
 function drawMap(container: HTMLElement, test: TestData, colour: MapColour, largest: number, theme: Theme): ECharts {
     const {events} = test, extent = extentOfBreaks(test);
-    const width = container.clientWidth, scale = scaleFor([extent.x2 - extent.x1, extent.y2 - extent.y1], 'm');
-    const left = 46, right = 12, top = 10, bottom = 40;
+    const width = container.clientWidth, scale = scaleFor([0.9 * Math.max(extent.x2 - extent.x1, extent.y2 - extent.y1)], 'm'); // less the room for marks
+    const left = 54, right = 12, top = 10, bottom = 40;
     // Equal scales on both axes.
     const perMetre = Math.min((mapHeight - top - bottom) / (extent.y2 - extent.y1), (width - left - right) / (extent.x2 - extent.x1));
     container.style.height = `${(extent.y2 - extent.y1) * perMetre + top + bottom}px`;
@@ -86,7 +77,7 @@ function drawMap(container: HTMLElement, test: TestData, colour: MapColour, larg
     chart.setOption({
         animation: false, grid: {left, width: inner, top, bottom},
         xAxis: {...axis, min: extent.x1 / scale.factor, max: extent.x2 / scale.factor, name: `x [${scale.unit}]`, nameGap: 24, splitNumber: 3},
-        yAxis: {...axis, min: extent.y1 / scale.factor, max: extent.y2 / scale.factor, name: `y [${scale.unit}]`, nameGap: 32},
+        yAxis: {...axis, min: extent.y1 / scale.factor, max: extent.y2 / scale.factor, name: `y [${scale.unit}]`, nameGap: 40},
         series: [{
             type: 'scatter', silent: true,
             data: order.map((event) => ({
@@ -98,28 +89,6 @@ function drawMap(container: HTMLElement, test: TestData, colour: MapColour, larg
                 },
             })),
         }],
-    });
-    return chart;
-}
-
-function drawRose(container: HTMLElement, test: TestData, theme: Theme): ECharts {
-    container.style.height = '230px';
-    const chart = echarts.init(container, null, {renderer: 'svg'});
-    const {tension, shear, width} = countDirections(test.events);
-    const names = Array.from({length: tension.length}, (_, at) => `${at * width}`);
-    const text = {color: theme.muted, fontFamily, fontSize: 10.5};
-    const bars = (name: string, data: number[], colour: string) => ({type: 'bar', coordinateSystem: 'polar', stack: 'all', name, data, itemStyle: {color: colour}, barCategoryGap: '6%', silent: true});
-    chart.setOption({
-        animation: false, polar: {radius: '76%'},
-        angleAxis: {
-            type: 'category', data: names, startAngle: -width / 2, clockwise: false, boundaryGap: true, axisTick: {show: false}, axisLine: {lineStyle: {color: theme.grid}},
-            axisLabel: {...text, interval: 0, formatter: (name: string) => (Number(name) % 45 === 0 ? `${name}°` : '')},
-        },
-        radiusAxis: {
-            z: 10, axisLine: {show: false}, axisTick: {show: false}, splitNumber: 3, minInterval: 1, splitLine: {lineStyle: {color: theme.grid}},
-            axisLabel: {...text, color: theme.ink, showMinLabel: false, textBorderColor: theme.background, textBorderWidth: 2.5},
-        },
-        series: [bars('tension', tension, theme.tension), bars('shear', shear, theme.shear)],
     });
     return chart;
 }

@@ -13,10 +13,11 @@ import {SVGRenderer} from 'echarts/renderers';
 import type {CustomSeriesRenderItemAPI, CustomSeriesRenderItemParams} from 'echarts/types/dist/shared';
 
 import type {Theme} from '../colours/theme';
-import {peakOf, type TestData} from '../data/report';
+import {largestOf, numberOf, peakOf, type TestData} from '../data/report';
 import {Cursor} from '../elements/chart_cursor';
 import {element} from '../elements/dom';
-import {counted, quantity, scaleFor, significant, strain as strainText, strainFactor, strainUnit, type Scale} from '../quantities/units';
+import {fontFamily} from '../elements/sheet';
+import {counted, quantity, scaleFor, significant, strain as strainText, strainFactor, strainUnit, stressText, type Scale} from '../quantities/units';
 import {countBreaks, intervalWidth, type Histogram} from './break_histogram';
 import type {Member, Panel} from './grouping';
 
@@ -29,21 +30,45 @@ const solidIcon = 'path://M0,0L22,0L22,3L0,3Z';
 const dashedIcon = 'path://M0,0L9,0L9,3L0,3ZM13,0L22,0L22,3L13,3Z';
 
 // Sizes in CSS pixels.
-const left = 66, right = 58, top = 44;
-const stressHeight = 300, stripHeight = 58, stripGap = 30, bottom = 46;
-const fontFamily = 'system-ui, "Segoe UI", "Helvetica Neue", Arial, "Liberation Sans", sans-serif';
+const left = 66, right = 58, titleLine = 36, legendLine = 22;
+const stressHeight = 300, stripHeight = 58, stripGap = 30, bottom = 66;
+const leastStressHeight = 150, noteSize = 11;
 
-export function panelHeight(memberCount: number): number {
-    return top + stressHeight + memberCount * (stripHeight + stripGap) + bottom;
+/// Where the parts of a panel lie at its width: a legend that does not fit beside the title stands below it, in lines.
+export interface PanelLayout {
+    top: number; // of the curves
+    legendTop: number;
+    legendWidth: number;
+    stressHeight: number;
+    height: number; // of all
+    note: {text: string; left: number};
 }
 
-function largest(values: ArrayLike<number>): number {
-    let found = 0;
-    for (let index = 0; index < values.length; ++index) {
-        const value = values[index]!;
-        if (value > found) found = value;
+const ruler = new OffscreenCanvas(1, 1).getContext('2d')!;
+
+function textWidth(text: string, size: number): number {
+    ruler.font = `600 ${size}px ${fontFamily}`;
+    return ruler.measureText(text).width;
+}
+
+/// @param height  asked for; else the curves have their usual height
+export function layoutOf({title, members}: Panel, width: number, height?: number): PanelLayout {
+    const entries = members.map(({shortLabel}) => textWidth(shortLabel, 12) + 22 + 5 + 14);
+    const legend = entries.reduce((sum, entry) => sum + entry, 0), beside = width - left - right - textWidth(title, 15) - 16;
+    const room = Math.max(60, width - left - right);
+    let lines = 0;
+    if (legend > beside) {
+        lines = 1;
+        for (let at = 0, x = 0; at < entries.length; ++at) {
+            if (x > 0 && x + entries[at]! > room) [x, lines] = [0, lines + 1];
+            x += entries[at]!;
+        }
     }
-    return found;
+    const note = `bars: breaks in each ${strainText(prepare({title, members}).width, 1)} of strain, line: so far`;
+    const top = titleLine + 8 + lines * legendLine, strips = members.length * (stripHeight + stripGap) + bottom;
+    const stress = height === undefined ? stressHeight : Math.max(leastStressHeight, height - top - strips);
+    return {top, legendTop: lines === 0 ? 6 : titleLine - 6, legendWidth: lines === 0 ? legend + 16 : room, stressHeight: stress, height: top + stress + strips,
+        note: {text: note, left: Math.max(2, Math.min(left, width - textWidth(note, noteSize) - 4))}};
 }
 
 /// Value of a curve's column at a strain, linear between rows; undefined outside the test.
@@ -73,6 +98,8 @@ function roundUp(value: number): number {
         .find((step) => step >= value && Number.isInteger(step)) ?? Math.ceil(value);
 }
 
+const tickText = (value: number): string => (Number.isInteger(value) ? counted(value) : String(value).replace('-', '−'));
+
 function drawBars(histogram: Histogram, theme: Theme) {
     return (_: CustomSeriesRenderItemParams, api: CustomSeriesRenderItemAPI) => {
         const [from, to, tension, shear] = [0, 1, 2, 3].map((dimension) => Number(api.value(dimension))) as [number, number, number, number];
@@ -93,7 +120,8 @@ interface Prepared {
     histogram: Histogram;
 }
 
-function tooltip(at: number, prepared: Prepared[], theme: Theme): HTMLElement {
+/// The curves' values at a strain.
+function valuesAt(at: number, prepared: readonly Prepared[], theme: Theme): HTMLElement {
     const rows = prepared.map(({member, histogram}) => {
         const {curve} = member.test;
         const stress = valueAt(curve.strain, curve.stress, at);
@@ -103,11 +131,11 @@ function tooltip(at: number, prepared: Prepared[], theme: Theme): HTMLElement {
             : (histogram.tension[interval] ?? 0) + (histogram.shear[interval] ?? 0);
         return element('tr', {},
             element('th', {}, element('i', {style: `background:${theme.series[member.colour % theme.series.length]}`}), member.shortLabel),
-            element('td', {}, stress === undefined ? 'ended' : quantity(stress, 'N/m')),
+            element('td', {}, stress === undefined ? 'ended' : stressText(stress, peakOf(member.test).stress)),
             element('td', {}, counted(inInterval)),
             element('td', {}, counted(broken === undefined ? undefined : Math.floor(broken))));
     });
-    return element('div', {class: 'cursor'},
+    return element('div', {},
         element('div', {}, `strain ${strainText(at)}`),
         element('table', {},
             element('tr', {}, element('td'), element('td', {}, 'stress'), element('td', {}, 'breaks here'), element('td', {}, 'so far')),
@@ -115,7 +143,8 @@ function tooltip(at: number, prepared: Prepared[], theme: Theme): HTMLElement {
 }
 
 function peakLabel(test: TestData, stress: number): string {
-    return quantity(stress, 'N/m') + (test.failed ? '' : ', peak so far');
+    const thickness = numberOf(test.summary, 'out_of_plane_thickness');
+    return quantity(stress, 'N/m') + (thickness === undefined ? '' : `, ${quantity(stress / thickness, 'Pa')}`) + (test.failed ? '' : ', peak so far');
 }
 
 function stressSeries(member: Member, range: number, scale: Scale, theme: Theme) {
@@ -161,19 +190,21 @@ function stripSeries({member, histogram}: Prepared, strip: number, theme: Theme)
     ];
 }
 
+function prepare({members}: Panel): {range: number; width: number; prepared: Prepared[]} {
+    const range = Math.max(...members.map((member) => largestOf(member.test.curve.strain)), 1e-9), width = intervalWidth(range);
+    return {range, width, prepared: members.map((member) => ({member, histogram: countBreaks(member.test.events, width, range)}))};
+}
+
 /// Everything that ECharts needs for one panel.
-export function panelOption(panel: Panel, theme: Theme) {
-    const {members} = panel;
-    const range = Math.max(...members.map((member) => largest(member.test.curve.strain)), 1e-9);
-    const width = intervalWidth(range);
-    const prepared: Prepared[] = members.map((member) => ({member, histogram: countBreaks(member.test.events, width, range)}));
-    const scale = scaleFor(members.map((member) => largest(member.test.curve.stress)), 'N/m');
+export function panelOption(panel: Panel, {top, legendTop, legendWidth, stressHeight: high, note}: PanelLayout, theme: Theme) {
+    const {members} = panel, {range, prepared} = prepare(panel);
+    const scale = scaleFor(members.map((member) => largestOf(member.test.curve.stress)), 'N/m');
 
     const text = {color: theme.ink, fontFamily, fontSize: 12};
     const small = {...text, fontSize: 11, color: theme.muted};
     const axisLine = {show: true, onZero: false, lineStyle: {color: theme.ink, width: 1}};
     const axisTick = {show: true, inside: true, length: 5, lineStyle: {color: theme.ink, width: 1}};
-    const stripTop = (strip: number) => top + stressHeight + stripGap + (strip - 1) * (stripHeight + stripGap);
+    const stripTop = (strip: number) => top + high + stripGap + (strip - 1) * (stripHeight + stripGap);
     const last = members.length;
 
     const xAxis = Array.from({length: last + 1}, (_, index) => ({
@@ -183,15 +214,15 @@ export function panelOption(panel: Panel, theme: Theme) {
         axisPointer: {show: true, type: 'line', snap: false, label: {show: false}, lineStyle: {color: theme.muted, type: 'solid', width: 1}},
     }));
     const yAxis: object[] = [{
-        type: 'value', gridIndex: 0, axisLine, axisTick, splitLine: {lineStyle: {color: theme.grid}}, axisLabel: text, splitNumber: 6, boundaryGap: [0, '7%'],
+        type: 'value', gridIndex: 0, axisLine, axisTick, splitLine: {lineStyle: {color: theme.grid}}, axisLabel: {...text, formatter: tickText}, splitNumber: 6, boundaryGap: [0, '7%'],
         name: `Axial stress [${scale.unit}]`, nameLocation: 'middle', nameGap: 44, nameTextStyle: {...text, fontSize: 13},
         axisPointer: {show: false},
     }];
     prepared.forEach(({member, histogram}, index) => {
-        const most = roundUp(histogram.most), total = roundUp(largest(member.test.curve.bondsBroken));
+        const most = roundUp(histogram.most), total = roundUp(largestOf(member.test.curve.bondsBroken));
         const strip = {type: 'value', gridIndex: index + 1, min: 0, splitLine: {show: false}, axisLine, axisTick, axisPointer: {show: false}};
-        yAxis.push({...strip, max: most, interval: most, axisLabel: small, position: 'left'});
-        yAxis.push({...strip, max: total, interval: total, axisLabel: small, position: 'right'});
+        yAxis.push({...strip, max: most, interval: most, axisLabel: {...small, formatter: tickText}, position: 'left'});
+        yAxis.push({...strip, max: total, interval: total, axisLabel: {...small, formatter: tickText}, position: 'right'});
     });
 
     const titles = prepared.map(({member}, index) => ({
@@ -211,29 +242,23 @@ export function panelOption(panel: Panel, theme: Theme) {
             {text: panel.title, left, top: 8, padding: 0, textStyle: {...text, fontSize: 15, fontWeight: 600}},
             ...titles,
             {
-                text: `bars: per ${strainText(width, 1)} of strain, line: so far`,
-                right, top: stripTop(1) - 19, padding: 0, textAlign: 'auto', textStyle: {...small, fontWeight: 400},
+                text: note.text, left: note.left, bottom: 6, padding: 0, textStyle: {...small, fontSize: noteSize, fontWeight: 400},
             },
         ],
         legend: {
-            right, top: 6, itemWidth: 22, itemHeight: 8, itemGap: 14, padding: 0, textStyle: text,
+            ...(legendTop > 10 ? {left} : {right}), top: legendTop, width: legendWidth, itemWidth: 22, itemHeight: 8, itemGap: 14, padding: 0, textStyle: text,
             data: members.map((member) => ({name: member.shortLabel, icon: member.dashed ? dashedIcon : solidIcon,
                 itemStyle: {color: theme.series[member.colour % theme.series.length]}})),
             inactiveColor: theme.grid,
         },
         grid: Array.from({length: last + 1}, (_, index) => (index === 0
-            ? {left, right, top, height: stressHeight}
+            ? {left, right, top, height: high}
             : {left, right, top: stripTop(index), height: stripHeight})),
         xAxis,
         yAxis,
         axisPointer: {link: [{xAxisIndex: 'all'}]},
         tooltip: {
-            trigger: 'axis', confine: true, transitionDuration: 0, backgroundColor: theme.background, borderColor: theme.grid, padding: 8,
-            textStyle: text,
-            formatter: (params: unknown) => {
-                const first = (Array.isArray(params) ? params[0] : params) as {axisValue?: number} | undefined;
-                return tooltip(Number(first?.axisValue ?? 0) * strainFactor, prepared, theme);
-            },
+            trigger: 'axis', showContent: false, // a box would hide the curves: their values stand below them
         },
         dataZoom: [{type: 'inside', xAxisIndex: 'all', filterMode: 'none', zoomOnMouseWheel: 'shift', moveOnMouseMove: true}],
         series: [
@@ -243,21 +268,63 @@ export function panelOption(panel: Panel, theme: Theme) {
     };
 }
 
-export function drawPanel(container: HTMLElement, panel: Panel, theme: Theme): ECharts {
-    container.style.height = `${panelHeight(panel.members.length)}px`;
-    const chart = echarts.init(container, null, {renderer: 'svg'});
-    chart.setOption(panelOption(panel, theme));
-    chart.getZr().on('dblclick', () => chart.dispatchAction({type: 'dataZoom', start: 0, end: 100}));
-    return chart;
+/// A panel in its place on the page.
+export class CurvePanel {
+    readonly chart: ECharts;
+    readonly cursor: Cursor;
+    private layout: PanelLayout;
+
+    /// @param height  of the panel, px; else the curves have their usual height
+    constructor(private readonly container: HTMLElement, readonly panel: Panel, private readonly theme: Theme, private readonly onClick: (strain: number) => void,
+        private readonly height?: () => number) {
+        this.layout = this.newLayout();
+        container.style.height = `${this.layout.height}px`;
+        this.chart = echarts.init(container, null, {renderer: 'svg'});
+        this.chart.setOption(panelOption(panel, this.layout, theme));
+        this.chart.getZr().on('dblclick', () => this.chart.dispatchAction({type: 'dataZoom', start: 0, end: 100}));
+        this.cursor = this.newCursor();
+    }
+
+    /// To be called after a change of the container's width.
+    resize(): void {
+        const now = this.newLayout();
+        if (JSON.stringify(now) !== JSON.stringify(this.layout)) {
+            this.layout = now;
+            this.container.style.height = `${now.height}px`;
+            this.chart.setOption(panelOption(this.panel, now, this.theme));
+            this.cursor.moveTo(now.top);
+        }
+        this.chart.resize();
+    }
+
+    /// The panel as SVG text, for a file.
+    asSvg(): string {
+        const address = this.chart.getDataURL({type: 'svg'});
+        return decodeURIComponent(address.slice(address.indexOf(',') + 1));
+    }
+
+    private newLayout(): PanelLayout {
+        return layoutOf(this.panel, this.container.clientWidth, this.height?.());
+    }
+
+    /// The cursor that the panel shares with the specimens, from the top of the curves to the foot of the lowest strip.
+    private newCursor(): Cursor {
+        return new Cursor(this.chart, this.layout.top, bottom, this.onClick);
+    }
 }
 
-/// The cursor that the panel shares with the specimens, from the top of the curves to the foot of the lowest strip.
-export function panelCursor(chart: ECharts, onClick: (strain: number) => void): Cursor {
-    return new Cursor(chart, top, bottom, onClick);
-}
-
-/// The panel as SVG text, for a file.
-export function panelAsSvg(chart: ECharts): string {
-    const address = chart.getDataURL({type: 'svg'});
-    return decodeURIComponent(address.slice(address.indexOf(',') + 1));
+/// The values of the curves where the pointer is, as a table below the panel.
+export function readoutOf({chart, panel}: CurvePanel, theme: Theme): HTMLElement {
+    const {prepared} = prepare(panel), lineHeight = 20; // px
+    const idle = element('span', {class: 'hint'}, 'Point at the curves: their values are listed here.');
+    const readout = element('div', {class: 'cursor', style: `min-height:${(panel.members.length + 2) * lineHeight}px`}, idle);
+    const zr = chart.getZr();
+    zr.on('mousemove', ({offsetX, offsetY}) => {
+        const grid = Array.from({length: panel.members.length + 1}, (_, index) => index).find((index) => chart.containPixel({gridIndex: index}, [offsetX, offsetY]));
+        if (grid === undefined) return;
+        const [value] = chart.convertFromPixel({gridIndex: grid}, [offsetX, offsetY]) as [number, number];
+        readout.replaceChildren(valuesAt(value * strainFactor, prepared, theme));
+    });
+    zr.on('globalout', () => readout.replaceChildren(idle));
+    return readout;
 }

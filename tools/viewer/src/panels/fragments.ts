@@ -6,9 +6,10 @@ import {categoricalPalette, categoryColour, css} from '../colours/palettes';
 import type {Theme} from '../colours/theme';
 import {area} from '../data/cells';
 import type {Frame} from '../data/frames';
-import {drawSpecimen, extentOfMoments} from '../drawing/specimen_svg';
+import {drawSpecimen, leftOutText, viewsOfMoments} from '../drawing/specimen_svg';
 import type {SpecimenView} from '../drawing/specimen_view';
 import {element, saveFile, svgText} from '../elements/dom';
+import type {InView} from '../geometry/extent';
 import {counted, significant, strain, thinSpace} from '../quantities/units';
 import type {Moments} from './specimen_cards';
 
@@ -40,9 +41,9 @@ export function fragmentCard({view, frames}: Moments, theme: Theme): HTMLElement
     const fragments = fragmentsOf(view, frame), member = frame.field('fragment');
     if (fragments.length === 0 || !member) return undefined;
     const {test} = view, palette = categoricalPalette(theme.grain);
-    const extent = extentOfMoments(test, frames, 1);
+    const [seen] = viewsOfMoments(test, [frame], 1) as [InView], {extent} = seen;
     const pixelsPerMetre = Math.min(drawnHeight / (extent.y2 - extent.y1), drawnWidth / (extent.x2 - extent.x1));
-    const drawing = drawSpecimen({test, cracks: [], frame, extent, pixelsPerMetre, magnification: 1, scaleBar: true,
+    const drawing = drawSpecimen({test, cracks: [], frame, view: seen, pixelsPerMetre, magnification: 1, scaleBar: true,
         fills: (cell) => css(palette[categoryColour(member[cell]!)]!)}, theme);
     const whole = fragments.reduce((sum, fragment) => sum + fragment.area, 0);
     const share = (part: number) => `${significant(100 * part / whole, 3)}${thinSpace}%`;
@@ -52,7 +53,7 @@ export function fragmentCard({view, frames}: Moments, theme: Theme): HTMLElement
     return element('article', {class: 'card fragments', 'data-test': test.name},
         element('h3', {}, view.labelled.label, element('small', {}, `${counted(fragments.length)} ${fragments.length === 1 ? 'fragment' : 'fragments'} at ε = ${strain(frame.strain)}`)),
         element('div', {class: 'fragments-row'},
-            element('figure', {}, drawing, element('figcaption', {}, save)),
+            element('figure', {}, drawing, element('figcaption', {}, leftOutText(seen.leftOut), save)),
             element('table', {class: 'shares'},
                 element('tr', {}, element('th', {scope: 'col'}, 'Fragment'), element('th', {scope: 'col'}, 'Particles'), element('th', {scope: 'col'}, 'Share of the area')),
                 ...fragments.slice(0, listed).map((fragment, at) => element('tr', {},

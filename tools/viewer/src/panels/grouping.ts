@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which tests share a panel of curves, what each is called there, and how its curve is drawn.
 
-import type {CurvedTest, TestData} from '../data/report';
+import {largestOf, type CurvedTest, type TestData} from '../data/report';
 import {capitalised, kindOrder, ordered, specimenName, specimenOrder, unique, type LabelledTest} from '../data/test_labels';
 
 export type View = 'kind' | 'specimen' | 'test';
@@ -26,7 +26,7 @@ export function viewsFor(tests: TestData[]): View[] {
 }
 
 function shortLabel(panelView: View, labelled: LabelledTest): string {
-    const named = labelled.label !== labelled.test.name && !labelled.label.startsWith(`${labelled.test.name} (`);
+    const named = labelled.label !== labelled.test.name;
     if (!named) return labelled.label;
     return panelView === 'kind' ? specimenName(labelled.test) : capitalised(labelled.test.kind);
 }
@@ -37,16 +37,29 @@ export function panels(labelled: LabelledTest<CurvedTest>[], view: View): Panel[
     }
     const keyOf = (one: LabelledTest) => (view === 'kind' ? one.test.kind : one.test.specimen);
     const keys = ordered(labelled.map(keyOf), view === 'kind' ? kindOrder : specimenOrder);
-    return keys.map((key) => {
+    return keys.flatMap((key) => {
         const members = labelled.filter((one) => keyOf(one) === key);
         const mixed = unique(members.map((one) => one.test.kind)).length > 1;
-        return {
-            title: view === 'kind' ? capitalised(key) : specimenName(members[0]!.test),
-            members: members.map((one) => ({
-                ...one,
-                shortLabel: shortLabel(view, one),
-                dashed: mixed && one.test.kind === 'tension',
-            })),
-        };
+        const title = view === 'kind' ? capitalised(key) : specimenName(members[0]!.test);
+        const panel = (name: string, those: LabelledTest<CurvedTest>[], dashed: boolean): Panel => ({title: name, members: those.map((one) => ({
+            ...one,
+            shortLabel: shortLabel(view, one),
+            dashed: dashed && one.test.kind === 'tension',
+        }))});
+        if (!mixed || !hasSlivers(members)) return [panel(title, members, mixed)];
+        return kindOrder.map((kind) => panel(`${title}, ${kind}`, members.filter((one) => one.test.kind === kind), false));
     });
+}
+
+const leastStress = 0.25, leastStrain = 0.2; // of the largest
+
+/// Whether the curves of one kind would be hard to see on the scales of the other: they get panels of their own.
+function hasSlivers(members: readonly LabelledTest<CurvedTest>[]): boolean {
+    const largest = (kind: string, name: 'stress' | 'strain') => members.filter((one) => one.test.kind === kind)
+        .reduce((most, {test}) => Math.max(most, largestOf(test.curve[name])), 0);
+    const share = (name: 'stress' | 'strain') => {
+        const [a, b] = kindOrder.map((kind) => largest(kind, name)) as [number, number];
+        return Math.min(a, b) / Math.max(a, b, Number.MIN_VALUE);
+    };
+    return share('stress') < leastStress || share('strain') < leastStrain;
 }

@@ -5,11 +5,11 @@ import type {Theme} from '../colours/theme';
 import type {Frame} from '../data/frames';
 import type {Role} from '../data/report';
 import {sortedBy, type LabelledTest} from '../data/test_labels';
-import {drawSpecimen, extentOfMoments} from '../drawing/specimen_svg';
+import {drawSpecimen, leftOutText, viewsOfMoments} from '../drawing/specimen_svg';
 import type {SpecimenView} from '../drawing/specimen_view';
 import {element, saveFile, svgText} from '../elements/dom';
 import {brokenUntil} from '../geometry/cracks';
-import type {Extent} from '../geometry/extent';
+import type {InView} from '../geometry/extent';
 import {counted, quantity, strain} from '../quantities/units';
 
 export const magnifications = [1, 5, 20, 100] as const;
@@ -34,7 +34,7 @@ export async function momentsOf(view: SpecimenView): Promise<Moments> {
     return {view, frames};
 }
 
-function card({view, frames}: Moments, extent: Extent, pixelsPerMetre: number, magnification: number, theme: Theme): HTMLElement {
+function card({view, frames}: Moments, seen: readonly InView[], pixelsPerMetre: number, magnification: number, theme: Theme): HTMLElement {
     const {labelled, test, cracks} = view;
     const width = test.summary['initial_width'], height = test.summary['initial_height'];
     const size = typeof width === 'number' && typeof height === 'number' ? `${quantity(width, 'm')} × ${quantity(height, 'm')}` : '';
@@ -42,14 +42,14 @@ function card({view, frames}: Moments, extent: Extent, pixelsPerMetre: number, m
     for (const [index, frame] of frames.entries()) {
         const roles = frame.entry.roles ?? [];
         const broken = brokenUntil(test.events, frame.time);
-        const drawing = drawSpecimen({test, cracks, frame, extent, pixelsPerMetre, magnification, scaleBar: index === 0}, theme);
+        const drawing = drawSpecimen({test, cracks, frame, view: seen[index]!, pixelsPerMetre, magnification, scaleBar: index === 0}, theme);
         const save = element('button', {type: 'button', class: 'save', title: 'Save this drawing as SVG'}, 'SVG');
         save.addEventListener('click', () => saveFile(`${test.name}-${roles.join('-')}.svg`, 'image/svg+xml', svgText(drawing)));
         row.append(element('figure', {},
             drawing,
             element('figcaption', {},
                 element('b', {}, rolesText(labelled, roles)), ` ε = ${strain(frame.strain)}`, element('br'),
-                `${counted(broken.tension + broken.shear)} broken`, save)));
+                [`${counted(broken.tension + broken.shear)} broken`, leftOutText(seen[index]!.leftOut)].filter((text) => text !== '').join(', '), save)));
     }
     return element('article', {class: 'card', 'data-test': test.name},
         element('h3', {}, labelled.label, element('small', {}, size), ...(test.failed ? [] : [element('em', {class: 'warning'}, 'not failed')])),
@@ -59,10 +59,10 @@ function card({view, frames}: Moments, extent: Extent, pixelsPerMetre: number, m
 export function drawings(moments: Moments[], magnification: number, theme: Theme): HTMLElement[] {
     const order = sortedBy('specimen', moments.map(({view}) => view.labelled)).map(({test}) => test);
     const drawn = moments.filter(({frames}) => frames.length > 0).sort((a, b) => order.indexOf(a.view.test) - order.indexOf(b.view.test));
-    const extents = drawn.map(({view, frames}) => extentOfMoments(view.test, frames, magnification));
-    const scales = extents.map((extent, index) => Math.min(drawnHeight / (extent.y2 - extent.y1),
-        (cardWidth / drawn[index]!.frames.length - 16) / (extent.x2 - extent.x1)));
+    const seen = drawn.map(({view, frames}) => viewsOfMoments(view.test, frames, magnification));
+    const scales = seen.map((views) => Math.min(drawnHeight / (views[0]!.extent.y2 - views[0]!.extent.y1),
+        (cardWidth - 16 * views.length) / views.reduce((sum, {extent}) => sum + extent.x2 - extent.x1, 0)));
     // One scale for all, unless sizes differ so much that small specimens would be hard to see.
     const smallest = Math.min(...scales), shared = Math.max(...scales) < 2 * smallest;
-    return drawn.map((one, index) => card(one, extents[index]!, shared ? smallest : scales[index]!, magnification, theme));
+    return drawn.map((one, index) => card(one, seen[index]!, shared ? smallest : scales[index]!, magnification, theme));
 }

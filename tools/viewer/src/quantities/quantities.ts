@@ -62,5 +62,5 @@ const all: readonly Quantity[] = [
 /// The quantities whose arrays a test has. @param meanVelocities  velocities are those between two frames
 export function quantitiesOf(frames: Frames, meanVelocities: boolean): Quantity[] {
     return all.filter(({needs}) => needs.every((need) => frames.has(need)))
-        .map((one) => (meanVelocities && /^(velocity|rate)/.test(one.key) ? {...one, name: `${one.name}, mean since the previous frame`} : one));
+        .map((one) => (meanVelocities && /^(velocity|rate)/.test(one.key) ? {...one, name: `${one.name} (mean)`} : one));
 }

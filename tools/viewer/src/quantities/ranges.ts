@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Ranges of the colour scale: of one frame, or of all frames of all shown tests. A range excludes the largest two per cent of
-// the values (otherwise splinters that fly off would leave a single colour for all others); legends mark such ends with ≤ and ≥.
+// Ranges of the colour scale: of one frame, of the frames up to the peak, or of all frames of all shown tests. A range excludes
+// the largest two per cent of the values (otherwise splinters that fly off would leave a single colour for all others), and up to
+// the peak whatever follows it: after the collapse most values are many times as large. Legends mark such ends with ≤ and ≥.
 
 import type {Cells} from '../data/cells';
 import type {Frame, Frames} from '../data/frames';
@@ -22,21 +23,25 @@ class Values {
     private readonly samples: number[] = [];
     private least = Infinity;
     private most = -Infinity;
+    private largest = 0; // of the frames that the range is of
 
-    add(frame: Frame, cells: Cells, quantity: Quantity, stride: number): void {
+    /// @param within  whether the frame is one that the range is of
+    add(frame: Frame, cells: Cells, quantity: Quantity, stride: number, within = true): void {
         const value = quantity.of(frame, cells);
         for (let cell = 0; cell < cells.count; ++cell) {
             if (cells.open[cell] === 1) continue;
             const one = value(cell);
             if (one < this.least) this.least = one;
             if (one > this.most) this.most = one;
+            if (!within) continue;
+            this.largest = Math.max(this.largest, Math.abs(one));
             if (cell % stride === 0) this.samples.push(Math.abs(one));
         }
     }
 
     range(quantity: Quantity): Range {
         if (this.samples.length === 0) return {low: 0, high: 0, least: 0, most: 0};
-        const largest = Math.max(Math.abs(this.least), Math.abs(this.most)), kept = upper(this.samples);
+        const {largest} = this, kept = upper(this.samples);
         // A tail that is only slightly longer is not cut off.
         const high = largest > 1.3 * kept && kept > 0 ? kept : largest;
         return {low: quantity.scaling === 'diverging' ? -high : 0, high, least: this.least, most: this.most};
@@ -64,10 +69,12 @@ export function categories(frames: readonly {frame: Frame; cells: Cells}[], quan
     return {low: 0, high, least: 0, most: high};
 }
 
-export async function rangeOfAll(frames: Frames, cells: Cells, quantity: Quantity): Promise<Range> {
-    const values = new Values(), frameStride = Math.max(1, Math.floor(frames.count / framesSampled));
-    const stride = Math.max(1, Math.floor(cells.count * Math.ceil(frames.count / frameStride) / samplesWanted));
-    for await (const frame of frames.pass(1)) values.add(frame, cells, quantity, frame.index % frameStride === 0 ? stride : Infinity);
+/// @param last  the last frame that it is a range of; marks are of all frames
+export async function rangeUntil(last: number, frames: Frames, cells: Cells, quantity: Quantity): Promise<Range> {
+    const count = Math.min(last + 1, frames.count);
+    const values = new Values(), frameStride = Math.max(1, Math.floor(count / framesSampled));
+    const stride = Math.max(1, Math.floor(cells.count * Math.ceil(count / frameStride) / samplesWanted));
+    for await (const frame of frames.pass(1)) values.add(frame, cells, quantity, frame.index % frameStride === 0 ? stride : Infinity, frame.index < count);
     return values.range(quantity);
 }
 

@@ -75,6 +75,13 @@ export function quantity(value: number | undefined, unit: string, digits = 3, re
     return `${significant(value / scale.factor, digits, resolution / scale.factor)}${thinSpace}${scale.unit}`;
 }
 
+const leastStress = 0.005; // of the peak
+
+/// A stress of a test; what the inertia and the dashpots of the start leave, far below the peak, is no stress of the rock.
+export function stressText(value: number | undefined, peak: number | undefined): string {
+    return value !== undefined && Math.abs(value) < leastStress * (peak ?? 0) ? '≈ 0' : quantity(value, 'N/m');
+}
+
 /// Strains are shown in thousandths: 1.94×10⁻³.
 export const strainFactor = 1e-3;
 export const strainUnit = '10⁻³';

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// First arrival of bonds at their Coulomb limit: the shear damage that no break tells of. A sliding point has |f_t| = μ
+// k_n δ, from which its normal force is known whether bodies have moved on since the force pass or not; its place is
+// known to the motion of a step.
+
+#include "solver/stepping/record_slips.hpp"
+
+#include <cmath>
+
+#include "solver/measure/point_view.hpp"
+#include "solver/stepping/record_breaks.hpp"
+
+namespace crackle {
+
+void record_slips(World& world) {
+    constexpr int first_time = point_bonded | point_slid;
+    const PointIndex end = world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
+    for (PointIndex k = 0; k < end; ++k) {
+        PointState& state = world.points.state[k];
+        if ((state.flags & (first_time | point_slip_noted)) != first_time) continue;
+        state.flags |= point_slip_noted;
+        const PointView view = view_point(world, k);
+        SlipEvent event{};
+        event.step = world.stepping.steps;
+        event.time = world.stepping.time;
+        event.body_i = world.bodies.info[view.body_i].id;
+        event.body_j = world.bodies.info[view.body_j].id;
+        event.position = view.position;
+        event.orientation = orientation_of(view.normal);
+        event.shear_force = world.points.shear_force[k];
+        event.normal_force = view.friction > 0.0 ? std::abs(event.shear_force) / view.friction -
+                                                       view.normal_stiffness * view.bond_overlap
+                                                 : view.normal_force;
+        world.bonds.slips.push_back(event);
+    }
+}
+
+}  // namespace crackle

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/case/mineral_checks.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cctype>
+#include <map>
+#include <set>
+
+#include "solver/base/errors.hpp"
+#include "specimens/case/colour.hpp"
+#include "specimens/case/parameters.hpp"
+
+namespace crackle {
+namespace {
+
+class MineralCheck {
+  public:
+    explicit MineralCheck(const TestCase& test) : test_(test) {}
+
+    void run() const {
+        if (test_.mineral.empty()) {
+            for (const char* table : {"minerals", "mineral_pair"}) {
+                if (test_.has_table(table))
+                    refuse(table == std::string("minerals") ? table : "mineral_pair[1]", "no [[mineral]]",
+                           "one table a mineral", "add them, or remove this");
+            }
+            return;
+        }
+        names();
+        shares();
+        files();
+        damping();
+        pairs();
+    }
+
+  private:
+    [[noreturn]] void refuse(const std::string& key, const std::string& found, const std::string& expected,
+                             const std::string& remedy) const {
+        throw InputError(fmt::format("{}: found {}, expected {}; {}", test_.at(key), found, expected, remedy));
+    }
+    static std::string key_of(std::size_t mineral, const char* key) {
+        return fmt::format("mineral[{}].{}", mineral + 1, key);
+    }
+    std::vector<std::string> all_names() const {
+        std::vector<std::string> all;
+        for (const TestCase::Mineral& m : test_.mineral) all.push_back(m.name);
+        return all;
+    }
+
+    void names() const {
+        std::set<std::string> taken;
+        for (std::size_t k = 0; k < test_.mineral.size(); ++k) {
+            const std::string& name = test_.mineral[k].name;
+            const auto is_digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
+            if (std::all_of(name.begin(), name.end(), is_digit))
+                refuse(key_of(k, "name"), name.empty() ? "an empty text" : "\"" + name + "\"", "a name with a letter",
+                       "a whole number in a file of labels is a mineral's place in the list");
+            if (!taken.insert(name).second)
+                refuse(key_of(k, "name"), fmt::format("\"{}\" a second time", name), "a name of its own", "rename one");
+        }
+    }
+
+    void shares() const {
+        double sum = 0.0;
+        std::size_t open = 0;
+        for (std::size_t k = 0; k < test_.mineral.size(); ++k) {
+            const auto& share = test_.mineral[k].area_share;
+            if (!share) {
+                ++open;
+                continue;
+            }
+            sum += *share;
+            if (sum > 1.0 + share_rounding)
+                refuse(key_of(k, "area_share"), fmt::format("{}, with those before it {:g}", *share, sum),
+                       "at most 1 in sum", "lower a share");
+        }
+        const std::string& assign = test_.minerals.assign;
+        if (assign != "random" && assign != "size") return;  // labels and images give what they give
+        if (open > 1) {
+            refuse("mineral[1]", fmt::format("{} minerals without area_share", open), "at most one",
+                   "give all others theirs");
+        }
+        if (open == 1 && sum >= 1.0 - share_rounding)
+            refuse("mineral[1]", "a mineral without area_share where the others fill all", "a rest for it",
+                   "lower a share, or remove it");
+        if (open == 0 && sum < 1.0 - share_rounding)
+            refuse("mineral[1]", fmt::format("shares of {:g} in sum", sum), "1 in sum",
+                   "raise one, or leave one out, which then has the rest");
+    }
+
+    void files() const {
+        const std::string& assign = test_.minerals.assign;
+        for (const char* key : {"labels", "image"}) {
+            const std::string name = std::string("minerals.") + key;
+            const bool written = test_.position.contains(name);
+            if (written && assign != key)
+                refuse(name, "a file", "none", fmt::format("only assign = \"{}\" reads it", key));
+            if (!written && assign == key)
+                refuse(name, "nothing", "a file name in quotes", fmt::format("assign = \"{}\" needs it", key));
+        }
+        std::map<std::uint32_t, std::string> taken;
+        for (std::size_t k = 0; k < test_.mineral.size(); ++k) {
+            const TestCase::Mineral& m = test_.mineral[k];
+            if (!m.colour) {
+                if (assign == "image")
+                    refuse(key_of(k, "colour"), "nothing", "\"#rrggbb\"", "assign = \"image\" needs it");
+                continue;
+            }
+            const auto colour = colour_of(*m.colour);
+            if (!colour) {
+                refuse(key_of(k, "colour"), fmt::format("\"{}\"", *m.colour),
+                       "\"#rrggbb\" with two hexadecimal digits for each of red, green and blue", "correct it");
+            }
+            const auto [at, is_new] = taken.emplace(*colour, m.name);
+            if (!is_new)
+                refuse(key_of(k, "colour"), fmt::format("\"{}\", which {} has", *m.colour, at->second),
+                       "a colour of its own", "change one");
+        }
+    }
+
+    /// Dashpots and ratios in series have no common form.
+    void damping() const {
+        const TestCase::MaterialKeys& rock = test_.material;
+        const bool dashpots = rock.normal_damping || rock.shear_damping;
+        for (std::size_t k = 0; k < test_.mineral.size(); ++k) {
+            const TestCase::MaterialKeys& own = test_.mineral[k].own;
+            if (own.damping_ratio && dashpots)
+                refuse(key_of(k, "damping_ratio"), "a ratio where [material] has dashpots", "one way for all",
+                       "give dashpots here or a ratio there");
+            for (const bool normal : {true, false}) {
+                if (!(normal ? own.normal_damping : own.shear_damping) || dashpots) continue;
+                refuse(key_of(k, normal ? "normal_damping" : "shear_damping"), "a dashpot where [material] has none",
+                       "one way for all", "give damping_ratio here or dashpots there");
+            }
+        }
+    }
+
+    void pairs() const {
+        const std::vector<std::string> names = all_names();
+        std::map<std::array<std::string, 2>, std::size_t> taken;
+        for (std::size_t k = 0; k < test_.mineral_pair.size(); ++k) {
+            const std::string key = fmt::format("mineral_pair[{}]", k + 1);
+            std::array<std::string, 2> between = test_.mineral_pair[k].between;
+            for (const std::string& name : between) {
+                if (std::find(names.begin(), names.end(), name) == names.end())
+                    refuse(key + ".between", fmt::format("\"{}\"", name),
+                           fmt::format("names of minerals: {}", fmt::join(names, ", ")), "correct it");
+            }
+            std::sort(between.begin(), between.end());
+            if (!taken.emplace(between, k).second)
+                refuse(key + ".between", fmt::format("{} and {} a second time", between[0], between[1]),
+                       "one table a pair", "join the two");
+            const auto& keys = mineral_pair_keys();
+            const auto is_written = [&](const std::string& one) { return test_.position.contains(key + "." + one); };
+            if (std::none_of(keys.begin(), keys.end(), is_written))
+                refuse(key, "names alone", fmt::format("one at least of {}", fmt::join(keys, ", ")),
+                       "add one, or remove the table");
+        }
+    }
+
+    const TestCase& test_;
+};
+
+}  // namespace
+
+void check_minerals(const TestCase& test) { MineralCheck(test).run(); }
+
+}  // namespace crackle

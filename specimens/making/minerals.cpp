@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/making/minerals.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <numeric>
+
+#include "solver/base/errors.hpp"
+#include "specimens/case/colour.hpp"
+#include "specimens/making/label_image.hpp"
+
+namespace crackle {
+namespace {
+
+using Minerals = std::vector<std::size_t>;  // of each grain
+
+/// Whole numbers to whole numbers that look random: the finaliser of SplitMix64.
+std::uint64_t scattered(std::uint64_t x) {
+    x += 0x9e3779b97f4a7c15U;
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9U;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebU;
+    return x ^ (x >> 31);
+}
+
+/// Areas asked for in m2: what is written, and for the one without a share the rest.
+std::vector<double> asked_areas(const TestCase& test, double all) {
+    double sum = 0.0;
+    bool open = false;
+    for (const TestCase::Mineral& m : test.mineral) {
+        sum += m.area_share.value_or(0.0);
+        open = open || !m.area_share;
+    }
+    std::vector<double> asked;
+    for (const TestCase::Mineral& m : test.mineral)
+        asked.push_back(all * (!m.area_share ? 1.0 - sum : open ? *m.area_share : *m.area_share / sum));
+    return asked;
+}
+
+/// In an order that hangs on seed and ids alone, each grain goes to the mineral that lacks most. So no share misses by
+/// more than one grain: a mineral gets one only while it lacks some area.
+Minerals drawn(const Scene& scene, const TestCase& test, const std::vector<double>& areas,
+               std::vector<double> lacking) {
+    const std::uint64_t seed = scattered(static_cast<std::uint64_t>(test.minerals.seed));
+    std::vector<std::pair<std::uint64_t, std::size_t>> order;
+    for (std::size_t b = 0; b < areas.size(); ++b)
+        order.emplace_back(scattered(seed ^ static_cast<std::uint64_t>(scene.bodies[b].id)), b);
+    std::sort(order.begin(), order.end());
+    Minerals minerals(areas.size());
+    for (const auto& [key, b] : order) {
+        const auto most = std::max_element(lacking.begin(), lacking.end());
+        *most -= areas[b];
+        minerals[b] = static_cast<std::size_t>(most - lacking.begin());
+    }
+    return minerals;
+}
+
+/// The largest grains have the first mineral. A grain goes where its middle lies: no border misses by more than half.
+Minerals by_size(const Scene& scene, const std::vector<double>& areas, const std::vector<double>& asked) {
+    std::vector<std::size_t> order(areas.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return areas[a] != areas[b] ? areas[a] > areas[b] : scene.bodies[a].id < scene.bodies[b].id;
+    });
+    Minerals minerals(areas.size());
+    std::size_t mineral = 0;
+    double filled = 0.0, border = asked[0];
+    for (const std::size_t b : order) {
+        while (mineral + 1 < asked.size() && filled + 0.5 * areas[b] > border) border += asked[++mineral];
+        minerals[b] = mineral;
+        filled += areas[b];
+    }
+    return minerals;
+}
+
+std::vector<std::string> names_of(const TestCase& test) {
+    std::vector<std::string> names;
+    for (const TestCase::Mineral& m : test.mineral) names.push_back(m.name);
+    return names;
+}
+
+/// By name, or by number from 1; the number of minerals where it is neither.
+std::size_t mineral_called(const std::vector<std::string>& names, const std::string& label) {
+    std::size_t number = 0;
+    const auto [end, error] = std::from_chars(label.data(), label.data() + label.size(), number);
+    if (error == std::errc() && end == label.data() + label.size() && number >= 1 && number <= names.size())
+        return number - 1;
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), label) - names.begin());
+}
+
+Minerals read_labels(const TestCase& test, std::size_t grains) {
+    const auto file = test.resolve_path("minerals.labels", *test.minerals.labels);
+    const std::vector<std::string> names = names_of(test);
+    std::ifstream in(file);
+    if (!in) {
+        throw InputError(fmt::format("{}: found no readable file {}, expected labels; check the path",
+                                     test.at("minerals.labels"), file.string()));
+    }
+    Minerals minerals;
+    std::string label;
+    for (int line = 1; std::getline(in, label); ++line) {
+        constexpr const char* blank = " \t\r";
+        label.erase(0, std::min(label.find_first_not_of(blank), label.size()));
+        label.erase(label.find_last_not_of(blank) + 1);
+        if (label.empty() || label[0] == '#') continue;
+        minerals.push_back(mineral_called(names, label));
+        if (minerals.back() < names.size()) continue;
+        throw InputError(fmt::format("{}:{}: label: found \"{}\", expected a mineral: {}, or its number from 1",
+                                     file.string(), line, label, fmt::join(names, ", ")));
+    }
+    if (minerals.size() != grains) {
+        throw InputError(
+            fmt::format("{}: found {} labels in {}, expected {}, one a grain in the order of the "
+                        "specimen's file; correct the file",
+                        test.at("minerals.labels"), minerals.size(), file.string(), grains));
+    }
+    return minerals;
+}
+
+// Pixels longer than wide by more than this are hardly meant.
+constexpr double stretch_to_mention = 0.02;
+
+Minerals read_image(const Scene& scene, const TestCase& test, std::vector<std::string>& notices) {
+    std::vector<std::uint32_t> colours;
+    for (const TestCase::Mineral& m : test.mineral) colours.push_back(*colour_of(*m.colour));
+    const LabelImage image(test.resolve_path("minerals.image", *test.minerals.image), colours, names_of(test),
+                           test.at("minerals.image"));
+    const Domain& domain = scene.domain;
+    const double stretch = (domain.y2 - domain.y1) / image.height() / ((domain.x2 - domain.x1) / image.width()) - 1.0;
+    if (std::abs(stretch) > stretch_to_mention) {
+        notices.push_back(fmt::format(
+            "{} of {} x {} pixels is stretched over the box of {:.4g} m x {:.4g} m: a pixel is {:.3g} times as high "
+            "as wide",
+            *test.minerals.image, image.width(), image.height(), domain.x2 - domain.x1, domain.y2 - domain.y1,
+            1.0 + stretch));
+    }
+    Minerals minerals;
+    for (const Body& body : scene.bodies) minerals.push_back(image.label_of(scene, body));
+    return minerals;
+}
+
+Minerals minerals_of(const Scene& scene, const TestCase& test, const std::vector<double>& areas,
+                     const std::vector<double>& asked, std::vector<std::string>& notices) {
+    const std::string& assign = test.minerals.assign;
+    if (assign == "labels") return read_labels(test, areas.size());
+    if (assign == "image") return read_image(scene, test, notices);
+    if (assign == "size") return by_size(scene, areas, asked);
+    return drawn(scene, test, areas, asked);
+}
+
+}  // namespace
+
+std::vector<MineralShare> assign_minerals(Scene& scene, const TestCase& test, std::vector<std::string>& notices) {
+    std::vector<double> areas;
+    for (const Body& body : scene.bodies) {
+        const double density = scene.materials[static_cast<std::size_t>(body.material)].density;
+        areas.push_back(mass_properties(scene, body).mass / density);
+    }
+    const double all = std::accumulate(areas.begin(), areas.end(), 0.0);
+    const std::vector<double> asked = asked_areas(test, all);
+    const Minerals minerals = minerals_of(scene, test, areas, asked, notices);
+
+    const bool by_share = test.minerals.assign == "random" || test.minerals.assign == "size";
+    std::vector<MineralShare> shares;
+    for (std::size_t k = 0; k < asked.size(); ++k) {
+        std::optional<double> share = test.mineral[k].area_share;
+        if (!share && by_share) share = asked[k] / all;
+        shares.push_back({test.mineral[k].name, share, 0.0, 0});
+    }
+    for (std::size_t b = 0; b < minerals.size(); ++b) {
+        scene.bodies[b].material = static_cast<int>(minerals[b]);
+        shares[minerals[b]].reached += areas[b] / all;
+        ++shares[minerals[b]].grains;
+    }
+    // More than whole grains can explain, which is a matter of labels and images.
+    const double grain = *std::max_element(areas.begin(), areas.end()) / all;
+    for (const MineralShare& m : shares) {
+        if (m.grains == 0) notices.push_back(fmt::format("no grain is {}", m.name));
+        if (m.asked && std::abs(m.reached - *m.asked) > grain)
+            notices.push_back(
+                fmt::format("{} has {:.3g} of the area where {:.3g} were asked for", m.name, m.reached, *m.asked));
+    }
+    return shares;
+}
+
+std::string mineral_shares_text(const std::vector<MineralShare>& shares) {
+    std::vector<std::string> parts;
+    for (const MineralShare& m : shares) {
+        parts.push_back(fmt::format("{} {:.4g} of the area{} in {} grains", m.name, m.reached,
+                                    m.asked ? fmt::format(" (asked {:.4g})", *m.asked) : "", m.grains));
+    }
+    return fmt::format("minerals: {}", fmt::join(parts, ", "));
+}
+
+}  // namespace crackle

@@ -1,0 +1,18 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Peak, failure and largest stress of a curve (specimens/METHODS.md 5), from its rows alone."""
+
+
+def find_fall(strain, stress, share):
+    """Largest row before the stress stays below a share of it for a tenth of its strain and for ten rows, and the row that
+    shows it. The second is None where no such fall follows, the first too where there is no stress."""
+    peak, below = None, None
+    for k in range(len(stress)):
+        if stress[k] > (stress[peak] if peak is not None else 0.0):
+            peak, below = k, None
+        elif peak is None or stress[k] >= share * stress[peak]:
+            below = None
+        else:
+            below = k if below is None else below
+            if strain[k] - strain[below] >= 0.1 * strain[peak] and k - below >= 10:
+                return peak, k
+    return peak, None

@@ -1,0 +1,587 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Several minerals: how a case states them, which grain gets which, what a contact of two of them does.
+
+#include "specimens/making/minerals.hpp"
+
+#include <cairo.h>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <set>
+#include <sstream>
+
+#include "solver/base/errors.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "solver/world/world.hpp"
+#include "specimens/case/case_file.hpp"
+#include "specimens/case/parameters.hpp"
+#include "specimens/loading/prepare.hpp"
+#include "specimens/loading/run.hpp"
+#include "specimens/making/lattices.hpp"
+#include "specimens/making/materials.hpp"
+#include "specimens/making/specimen.hpp"
+#include "specimens/recordings/recording.hpp"
+#include "tests/support/claim.hpp"
+#include "tests/support/deck_files.hpp"
+#include "tests/support/small_rock.hpp"
+
+namespace crackle {
+namespace {
+
+using testing::agrees;
+using testing::ScratchFolder;
+using testing::SmallCase;
+using testing::within;
+using testing::write_small_case;
+
+constexpr const char* three_minerals =
+    "[[mineral]]\nname = \"quartz\"\narea_share = 0.3\ncolour = \"#ff0000\"\nnormal_stiffness = 2e7\n"
+    "[[mineral]]\nname = \"feldspar\"\ncolour = \"#00FF00\"\n"
+    "[[mineral]]\nname = \"mica\"\narea_share = 0.1\ncolour = \"#0000ff\"\nfriction_angle = 10\ndensity = 2800\n";
+
+constexpr double odd_stiffness = 16572823.625;  // N/m; springs in series, 2kk/(k + k), miss it in the last bit
+
+std::string error_of(const std::function<void()>& act) {
+    try {
+        act();
+    } catch (const InputError& error) {
+        fmt::print("  {}\n", error.what());
+        return error.what();
+    }
+    return "accepted";
+}
+
+class MineralRock : public ::testing::Test {
+  protected:
+    /// A case of discs (or cells of them) with more text at its end. @return its path
+    std::filesystem::path write(const std::string& minerals, const std::string& mesh = "") const {
+        SmallCase wanted;
+        wanted.mesh = mesh;
+        const auto path = write_small_case(scratch_ / "", wanted);
+        std::ofstream(path, std::ios::app) << minerals;
+        return path;
+    }
+    Specimen specimen(const std::string& minerals, const std::string& mesh = "") const {
+        return make_specimen(read_case(write(minerals, mesh)), {});
+    }
+    std::string refusal(const std::string& minerals) const {
+        const auto path = write(minerals);
+        return error_of([&] { make_specimen(read_case(path), {}); });
+    }
+
+    ScratchFolder scratch_;
+};
+
+std::vector<int> materials_of(const Specimen& specimen) {
+    std::vector<int> all;
+    for (const Body& body : specimen.scene.bodies) all.push_back(body.material);
+    return all;
+}
+
+double area_of(const Specimen& specimen, const Body& body) {
+    return mass_properties(specimen.scene, body).mass /
+           specimen.scene.materials[static_cast<std::size_t>(body.material)].density;
+}
+
+/// Share of the area that each mineral has, counted anew; and the largest grain's.
+std::pair<std::vector<double>, double> counted_shares(const Specimen& specimen) {
+    std::vector<double> shares(specimen.minerals.size(), 0.0);
+    double all = 0.0, largest = 0.0;
+    for (const Body& body : specimen.scene.bodies) {
+        const double area = area_of(specimen, body);
+        shares[static_cast<std::size_t>(body.material)] += area;
+        all += area;
+        largest = std::max(largest, area);
+    }
+    for (double& share : shares) share /= all;
+    return {shares, largest / all};
+}
+
+TEST_F(MineralRock, HasWhatItsTableGivesAndTheRestOfMaterial) {
+    const TestCase test = read_case(write(three_minerals));
+    ASSERT_EQ(test.mineral.size(), 3u);
+    EXPECT_EQ(test.mineral[1].name, "feldspar");
+    EXPECT_EQ(test.minerals.assign, "random");
+    EXPECT_EQ(mineral_material(test, 0).normal_stiffness, 2e7);
+    EXPECT_EQ(mineral_material(test, 0).damping_ratio, 0.2) << "[material]'s";
+    EXPECT_FALSE(mineral_material(test, 1).normal_stiffness.has_value()) << "the file's";
+    const Specimen rock = make_specimen(test, {});
+    const auto& materials = rock.scene.materials;
+    ASSERT_EQ(materials.size(), 4u) << "the last is the platens'";
+    EXPECT_EQ(materials[0].normal_stiffness, 2e7);
+    EXPECT_EQ(materials[0].shear_stiffness, 2.5e6);
+    EXPECT_EQ(materials[1], materials[3]);
+    EXPECT_EQ(materials[2].friction_angle, 10.0);
+    EXPECT_EQ(materials[2].density, 2800.0);
+    EXPECT_EQ(rock.platen_material, 3);
+    EXPECT_EQ(materials[3].normal_stiffness, 1e7);
+}
+
+TEST_F(MineralRock, PlatensAreOfMaterialWhateverGrainsLieAtThem) {
+    const VirtualTest test = prepare_test(read_case(write(three_minerals)));
+    EXPECT_EQ(test.world.bodies.info[test.setup.top].material, 3);
+    EXPECT_EQ(test.world.bodies.info[test.setup.bottom].material, 3);
+}
+
+TEST_F(MineralRock, EveryNumberOfMaterialIsAKeyOfAMineral) {
+    int found = 0;
+    for (const Parameter& p : case_parameters()) {
+        if (p.table != "material" || p.kind != ValueKind::real) continue;
+        const auto& all = case_parameters();
+        const auto own = std::find_if(all.begin(), all.end(),
+                                      [&](const Parameter& q) { return q.table == "mineral" && q.key == p.key; });
+        ASSERT_NE(own, all.end()) << p.key;
+        TestCase test;
+        test.mineral.resize(2);
+        own->set(test, CaseValue(0.25), 1);
+        EXPECT_EQ(own->get(test, 1), CaseValue(0.25)) << p.key;
+        EXPECT_EQ(own->get(test, 0), std::nullopt) << p.key << " of another mineral";
+        EXPECT_EQ(p.get(test, 0), std::nullopt) << p.key << " of [material]";
+        ++found;
+    }
+    EXPECT_GE(found, 7);
+}
+
+TEST_F(MineralRock, ResolvedCaseReadsBackToTheSameResolvedCase) {
+    const TestCase test = read_case(
+        write("[minerals]\nassign = \"size\"\n" + std::string(three_minerals) +
+              "[[mineral_pair]]\nbetween = [\"mica\", \"quartz\"]\nshear_stiffness = 1e6\nfriction_angle = 0\n"));
+    std::ostringstream once, twice;
+    write_resolved_case(once, test, scratch_ / "");
+    std::ofstream(scratch_ / "resolved.toml") << once.str();
+    write_resolved_case(twice, read_case(scratch_ / "resolved.toml"), scratch_ / "");
+    EXPECT_EQ(once.str(), twice.str());
+    EXPECT_NE(once.str().find("between = ['mica', 'quartz']"), std::string::npos) << once.str();
+    EXPECT_NE(once.str().find("[[mineral]]"), std::string::npos);
+}
+
+TEST_F(MineralRock, OwnListStandsInPlaceOfTheIncludedFiles) {
+    write(three_minerals);
+    std::ofstream(scratch_ / "own.toml") << "include = \"case.toml\"\n[[mineral]]\nname = \"olivine\"\n";
+    const TestCase test = read_case(scratch_ / "own.toml");
+    ASSERT_EQ(test.mineral.size(), 1u);
+    EXPECT_EQ(test.mineral[0].name, "olivine");
+    EXPECT_FALSE(test.mineral[0].area_share.has_value()) << "quartz's, which stood at this place";
+    EXPECT_FALSE(test.position.contains("mineral[1].area_share"));
+}
+
+TEST_F(MineralRock, DrawnSharesMissByNoMoreThanAGrain) {
+    for (const char* mesh : {"", "voronoi"}) {
+        for (int seed = 0; seed < 20; ++seed) {
+            const Specimen rock = specimen(fmt::format("[minerals]\nseed = {}\n", seed) + three_minerals, mesh);
+            const auto [shares, grain] = counted_shares(rock);
+            const double asked[] = {0.3, 0.6, 0.1};
+            for (std::size_t k = 0; k < 3; ++k) {
+                EXPECT_LE(std::abs(shares[k] - asked[k]), grain) << mesh << seed;
+                EXPECT_NEAR(*rock.minerals[k].asked, asked[k], 1e-15);
+                EXPECT_NEAR(rock.minerals[k].reached, shares[k], 1e-12);
+                EXPECT_EQ(rock.minerals[k].grains, std::ranges::count(materials_of(rock), static_cast<int>(k)));
+            }
+        }
+    }
+}
+
+TEST_F(MineralRock, SameSeedGivesTheSameGrainsInAnyOrderOfTheFile) {
+    const auto of_seed = [&](int seed) {
+        const Specimen rock = specimen(fmt::format("[minerals]\nseed = {}\n", seed) + three_minerals);
+        std::map<int, int> minerals;
+        for (const Body& body : rock.scene.bodies) minerals[body.id] = body.material;
+        return minerals;
+    };
+    const auto first = of_seed(1);
+    EXPECT_EQ(of_seed(1), first);
+    std::set<std::map<int, int>> all;
+    for (int seed = 0; seed < 8; ++seed) all.insert(of_seed(seed));
+    EXPECT_EQ(all.size(), 8u) << "each seed its own";
+    const TestCase test = read_case(write(std::string("[minerals]\nseed = 1\n") + three_minerals));
+    Scene scene = testing::small_rock_scene();
+    for (CircleElement& circle : scene.circles) circle.radius = testing::rock_radius;
+    scene.materials.resize(4, scene.materials[0]);
+    std::reverse(scene.bodies.begin(), scene.bodies.end());
+    std::vector<std::string> notices;
+    assign_minerals(scene, test, notices);
+    for (const Body& body : scene.bodies) EXPECT_EQ(body.material, first.at(body.id)) << body.id;
+    EXPECT_TRUE(notices.empty());
+}
+
+TEST_F(MineralRock, NoMineralIsDrawnForPlaceOrSize) {
+    // Two halves of 1,000 cells: of 400 seeds, the share of mineral 0 in the left half and among the larger half is 0.5
+    // on average; one draw has a standard deviation of 0.5/sqrt(1000) = 0.016, the mean of 400 one of 0.0008.
+    Scene scene = square_lattice(40, 25, 0.01, 1e-5, undamped_rock(1e7, 27.0));
+    scene.materials.resize(3, scene.materials[0]);
+    for (std::size_t k = 0; k < scene.circles.size(); ++k)
+        scene.circles[k].radius = 0.01 * (1.0 + 0.5 * static_cast<double>(k % 7) / 7.0);
+    TestCase test;
+    test.mineral.resize(2);
+    test.mineral[0] = {"a", 0.5, {}, {}};
+    test.mineral[1] = {"b", 0.5, {}, {}};
+    double left = 0.0, large = 0.0, large_all = 0.0;
+    for (int seed = 0; seed < 400; ++seed) {
+        test.minerals.seed = seed;
+        std::vector<std::string> notices;
+        assign_minerals(scene, test, notices);
+        for (std::size_t b = 0; b < scene.bodies.size(); ++b) {
+            const bool first = scene.bodies[b].material == 0;
+            if (b % 40 < 20) left += first ? 1.0 : 0.0;
+            if (b % 7 < 3) continue;
+            large_all += 1.0;
+            large += first ? 1.0 : 0.0;
+        }
+    }
+    EXPECT_TRUE(within("share in the left half", left / (400.0 * 500.0), 0.5, 4 * 0.0011));
+    EXPECT_TRUE(within("share among the larger", large / large_all, 0.5, 4 * 0.0011));
+}
+
+TEST_F(MineralRock, BySizeTheLargestGrainsHaveTheMineralListedFirst) {
+    const Specimen rock = specimen(std::string("[minerals]\nassign = \"size\"\n") + three_minerals, "voronoi");
+    double least[] = {1e9, 1e9, 1e9}, most[] = {0.0, 0.0, 0.0};
+    for (const Body& body : rock.scene.bodies) {
+        const double area = area_of(rock, body);
+        least[body.material] = std::min(least[body.material], area);
+        most[body.material] = std::max(most[body.material], area);
+    }
+    EXPECT_GE(least[0], most[1]);
+    EXPECT_GE(least[1], most[2]);
+    const auto [shares, grain] = counted_shares(rock);
+    EXPECT_LE(std::abs(shares[0] - 0.3), 0.5 * grain);
+    EXPECT_LE(std::abs(shares[2] - 0.1), 0.5 * grain);
+}
+
+TEST_F(MineralRock, LabelsByNameOrNumberInTheOrderOfTheFile) {
+    {
+        std::ofstream labels(scratch_ / "labels.txt");
+        labels << "# grains of the section\n\n";
+        for (int k = 0; k < 77; ++k) labels << (k % 3 == 0 ? "  mica\r\n" : k % 3 == 1 ? "1\n" : "feldspar \n");
+    }
+    const std::string minerals = std::string("[minerals]\nassign = \"labels\"\nlabels = \"labels.txt\"\n");
+    const Specimen rock = specimen(minerals + three_minerals);
+    for (std::size_t b = 0; b < 77; ++b) EXPECT_EQ(rock.scene.bodies[b].material, (std::array{2, 0, 1})[b % 3]) << b;
+    EXPECT_EQ(rock.minerals[1].asked, std::nullopt);
+    EXPECT_NE(std::ranges::find_if(rock.notices, [](const std::string& n) { return n.find("mica has 0.33") == 0; }),
+              rock.notices.end())
+        << "asked for 0.1";
+    std::ofstream(scratch_ / "labels.txt", std::ios::app) << "mica\n";
+    EXPECT_NE(refusal(minerals + three_minerals).find(":17: minerals.labels: found 78 labels"), std::string::npos);
+    std::ofstream(scratch_ / "labels.txt") << "quartz\nfelspar\n";
+    EXPECT_NE(refusal(minerals + three_minerals).find("labels.txt:2: label: found \"felspar\", expected a mineral"),
+              std::string::npos);
+    std::ofstream(scratch_ / "labels.txt") << "4\n";
+    EXPECT_NE(refusal(minerals + three_minerals).find("labels.txt:1: label: found \"4\""), std::string::npos);
+    std::filesystem::remove(scratch_ / "labels.txt");
+    EXPECT_NE(refusal(minerals + three_minerals).find("minerals.labels: found no readable file"), std::string::npos);
+}
+
+/// Writes an image whose pixel colours are given row by row from the top, 0xaarrggbb.
+void write_png(const std::filesystem::path& file, int width, const std::vector<std::uint32_t>& pixels,
+               cairo_format_t format = CAIRO_FORMAT_ARGB32) {
+    const int height = static_cast<int>(pixels.size()) / width;
+    cairo_surface_t* surface = cairo_image_surface_create(format, width, height);
+    cairo_surface_flush(surface);
+    const int stride = cairo_image_surface_get_stride(surface);
+    for (int row = 0; row < height; ++row) {
+        auto* to = reinterpret_cast<std::uint32_t*>(cairo_image_surface_get_data(surface) + row * stride);
+        for (int column = 0; column < width; ++column)
+            to[column] = pixels[static_cast<std::size_t>(row * width + column)];
+    }
+    cairo_surface_mark_dirty(surface);
+    ASSERT_EQ(cairo_surface_write_to_png(surface, file.string().c_str()), CAIRO_STATUS_SUCCESS);
+    cairo_surface_destroy(surface);
+}
+
+constexpr std::uint32_t red = 0xffff0000, green = 0xff00ff00, blue = 0xff0000ff;
+
+TEST_F(MineralRock, ImageLiesOverTheBoxWithItsTopRowAtTheTop) {
+    const std::string minerals = std::string("[minerals]\nassign = \"image\"\nimage = \"section.png\"\n");
+    for (const cairo_format_t format : {CAIRO_FORMAT_ARGB32, CAIRO_FORMAT_RGB24}) {
+        write_png(scratch_ / "section.png", 2, {red, green, blue, blue}, format);
+        for (const char* mesh : {"", "voronoi"}) {
+            const Specimen rock = specimen(minerals + three_minerals, mesh);
+            const Domain& box = rock.scene.domain;
+            for (const Body& body : rock.scene.bodies) {
+                const Vec2 at = mass_properties(rock.scene, body).centroid;
+                const bool left = at.x < 0.5 * (box.x1 + box.x2), low = at.y < 0.5 * (box.y1 + box.y2);
+                if (std::abs(at.x - 0.5 * (box.x1 + box.x2)) < 1e-3) continue;
+                EXPECT_EQ(body.material, low ? 2 : left ? 0 : 1) << body.id;
+            }
+            EXPECT_NE(
+                std::ranges::find_if(rock.notices, [](const auto& n) { return n.find("is stretched") < n.size(); }),
+                rock.notices.end());
+        }
+    }
+}
+
+TEST_F(MineralRock, GrainHasTheColourOfMostOfItsPixels) {
+    // A fine chequerboard of one red pixel in four: wherever a centroid lies, most of a disc is green.
+    std::vector<std::uint32_t> pixels;
+    for (int row = 0; row < 240; ++row)
+        for (int column = 0; column < 120; ++column) pixels.push_back(row % 2 + column % 2 == 0 ? red : green);
+    write_png(scratch_ / "section.png", 120, pixels);
+    for (const char* mesh : {"", "voronoi"}) {
+        const Specimen rock =
+            specimen(std::string("[minerals]\nassign = \"image\"\nimage = \"section.png\"\n") + three_minerals, mesh);
+        EXPECT_EQ(rock.minerals[1].grains, 77) << mesh;
+    }
+}
+
+TEST_F(MineralRock, ImagesThatDoNotFitAreRefused) {
+    const std::string minerals =
+        std::string("[minerals]\nassign = \"image\"\nimage = \"section.png\"\n") + three_minerals;
+    EXPECT_NE(refusal(minerals).find(":17: minerals.image: found no file"), std::string::npos);
+    std::ofstream(scratch_ / "section.png") << "GIF89a";
+    EXPECT_NE(refusal(minerals).find("cannot be read as PNG"), std::string::npos);
+    write_png(scratch_ / "section.png", 2, {red, green, blue, 0xff0000fe});
+    const std::string colour = refusal(minerals);
+    EXPECT_NE(colour.find("section.png: pixel 2 of row 2: found #0000fe, expected a colour of a mineral"),
+              std::string::npos);
+    EXPECT_NE(colour.find("#00ff00 (feldspar)"), std::string::npos);
+    write_png(scratch_ / "section.png", 2, {red, green, blue, 0x7f00007f});
+    EXPECT_NE(refusal(minerals).find("found a transparent pixel"), std::string::npos);
+}
+
+struct Refusal {
+    const char* name;
+    const char* minerals;
+    const char* says;
+};
+
+class MineralRefusal : public MineralRock, public ::testing::WithParamInterface<Refusal> {};
+
+TEST_P(MineralRefusal, NamesFileLineKeyFindingAndExpectation) {
+    const std::string message = refusal(GetParam().minerals);
+    EXPECT_NE(message.find("case.toml:"), std::string::npos) << message;
+    EXPECT_NE(message.find(GetParam().says), std::string::npos) << message << "\nexpected: " << GetParam().says;
+}
+
+// The small case has 14 lines.
+INSTANTIATE_TEST_SUITE_P(
+    Cases, MineralRefusal,
+    ::testing::Values(
+        Refusal{"SharesOverOne",
+                "[[mineral]]\nname = \"a\"\narea_share = 0.7\n[[mineral]]\nname = \"b\"\narea_share = 0.6\n",
+                ":20: mineral[2].area_share: found 0.6, with those before it 1.3, expected at most 1 in sum"},
+        Refusal{"SharesUnderOne", "[[mineral]]\nname = \"a\"\narea_share = 0.7\n",
+                ":15: mineral[1]: found shares of 0.7 in sum, expected 1 in sum"},
+        Refusal{"TwoRests", "[[mineral]]\nname = \"a\"\n[[mineral]]\nname = \"b\"\n",
+                "found 2 minerals without area_share, expected at most one"},
+        Refusal{"NoRest", "[[mineral]]\nname = \"a\"\narea_share = 1\n[[mineral]]\nname = \"b\"\n",
+                "found a mineral without area_share where the others fill all"},
+        Refusal{"NoShare", "[[mineral]]\nname = \"a\"\narea_share = 0\n",
+                ":17: mineral[1].area_share: found 0, expected a number > 0 and <= 1"},
+        Refusal{"NamedTwice", "[[mineral]]\nname = \"a\"\n[[mineral]]\nname = \"a\"\n",
+                ":18: mineral[2].name: found \"a\" a second time"},
+        Refusal{"NameLikeANumber", "[[mineral]]\nname = \"12\"\n", ":16: mineral[1].name: found \"12\""},
+        Refusal{"NoName", "[[mineral]]\narea_share = 1\n",
+                ":15: mineral[1].name: found nothing, expected a text in quotes; add it to [[mineral]]"},
+        Refusal{"UnknownKey", "[[mineral]]\nname = \"a\"\nhardness = 7\n",
+                ":17: mineral.hardness: found an unknown key, expected one of name"},
+        Refusal{"NegativeDensity", "[[mineral]]\nname = \"a\"\ndensity = -1\n",
+                ":17: mineral[1].density: found -1, expected a number > 0 in kg/m2"},
+        Refusal{"OneTable", "[mineral]\nname = \"a\"\n",
+                ":15: mineral: found a table, expected a list of tables; write [[mineral]] above each"},
+        Refusal{"Dashpot", "[[mineral]]\nname = \"a\"\nnormal_damping = 3\n",
+                ":17: mineral[1].normal_damping: found a dashpot where [material] has none"},
+        Refusal{"NegativeSeed", "[minerals]\nseed = -1\n[[mineral]]\nname = \"a\"\n",
+                ":16: minerals.seed: found -1, expected a whole number >= 0"},
+        Refusal{"AssignWord", "[minerals]\nassign = \"best\"\n[[mineral]]\nname = \"a\"\n",
+                ":16: minerals.assign: found \"best\", expected \"random\" or"},
+        Refusal{"NoMinerals", "[minerals]\nseed = 1\n", ":15: minerals: found no [[mineral]]"},
+        Refusal{"LabelsUnused", "[minerals]\nlabels = \"x\"\n[[mineral]]\nname = \"a\"\n",
+                ":16: minerals.labels: found a file, expected none; only assign = \"labels\" reads it"},
+        Refusal{"LabelsMissing", "[minerals]\nassign = \"labels\"\n[[mineral]]\nname = \"a\"\n",
+                ":15: minerals.labels: found nothing, expected a file name"},
+        Refusal{"ColourMissing", "[minerals]\nassign = \"image\"\nimage = \"x\"\n[[mineral]]\nname = \"a\"\n",
+                ":18: mineral[1].colour: found nothing, expected \"#rrggbb\""},
+        Refusal{"ColourWord", "[[mineral]]\nname = \"a\"\ncolour = \"red\"\n",
+                ":17: mineral[1].colour: found \"red\", expected \"#rrggbb\""},
+        Refusal{"ColourTwice",
+                "[[mineral]]\nname = \"a\"\ncolour = \"#AA0000\"\narea_share = 0.5\n[[mineral]]\nname = \"b\"\ncolour "
+                "= \"#aa0000\"\n",
+                ":21: mineral[2].colour: found \"#aa0000\", which a has"},
+        Refusal{"PairUnknown",
+                "[[mineral]]\nname = \"a\"\n[[mineral_pair]]\nbetween = [\"a\", \"b\"]\nfriction_angle = 1\n",
+                ":18: mineral_pair[1].between: found \"b\", expected names of minerals: a"},
+        Refusal{"PairOfOne", "[[mineral]]\nname = \"a\"\n[[mineral_pair]]\nbetween = [\"a\"]\n",
+                ":18: mineral_pair[1].between: found an array, expected two texts in square brackets"},
+        Refusal{"PairTwice",
+                "[[mineral]]\nname = \"a\"\n[[mineral_pair]]\nbetween = [\"a\", \"a\"]\nfriction_angle = 1\n"
+                "[[mineral_pair]]\nbetween = [\"a\", \"a\"]\nfriction_angle = 1\n",
+                ":21: mineral_pair[2].between: found a and a a second time"},
+        Refusal{"PairOfNames", "[[mineral]]\nname = \"a\"\n[[mineral_pair]]\nbetween = [\"a\", \"a\"]\n",
+                ":17: mineral_pair[1]: found names alone, expected one at least of normal_stiffness"},
+        Refusal{"PairDensity", "[[mineral]]\nname = \"a\"\n[[mineral_pair]]\nbetween = [\"a\", \"a\"]\ndensity = 1\n",
+                ":19: mineral_pair.density: found an unknown key, expected one of between"}),
+    [](const auto& refused) { return refused.param.name; });
+
+TEST_F(MineralRock, FileWithMaterialsOfItsOwnIsRefused) {
+    const auto path = write(three_minerals);
+    Scene scene = testing::small_rock_scene();
+    scene.materials.push_back(scene.materials[0]);
+    std::ofstream out(scratch_ / "rock.dat");
+    write_geometry(out, scene);
+    out.close();
+    EXPECT_NE(error_of([&] { make_specimen(read_case(path), {}); }).find("found a particle file with 2 materials"),
+              std::string::npos);
+}
+
+TEST_F(MineralRock, TwoMineralsOfEqualPropertiesGiveTheBytesOfOne) {
+    constexpr double stiffness = odd_stiffness;
+    volatile double k = stiffness;
+    ASSERT_NE(2.0 * k * k / (k + k), k) << "springs in series differ from it in the last bit";
+    for (const char* mesh : {"", "voronoi"}) {
+        std::vector<std::string> curves, events;
+        for (const bool minerals : {false, true}) {
+            const auto path = write("", mesh);
+            std::string text = read_text_file(path);
+            text.insert(text.find("damping_ratio"), fmt::format("normal_stiffness = {}\n", stiffness));
+            if (minerals)
+                text += fmt::format(
+                    "[[mineral]]\nname = \"a\"\narea_share = 0.4\n[[mineral]]\nname = \"b\"\n"
+                    "normal_stiffness = {}\nshear_stiffness = 2.5e6\nfriction_angle = 27\n",
+                    stiffness);
+            std::ofstream(path) << text;
+            TestOptions options;
+            options.folder = scratch_ / fmt::format("{}{}", mesh, minerals);
+            const TestOutcome outcome = run_test(read_case(path), options);
+            curves.push_back(read_text_file(outcome.folder / "curve.csv"));
+            events.push_back(read_text_file(outcome.folder / "events.csv"));
+            EXPECT_EQ(outcome.summary.contains("minerals"), minerals);
+        }
+        EXPECT_GT(std::ranges::count(events[0], '\n'), 5) << "breaks";
+        EXPECT_EQ(curves[0], curves[1]) << mesh;
+        EXPECT_EQ(events[0], events[1]) << mesh;
+    }
+}
+
+TEST_F(MineralRock, FramesAndSummaryTellTheMinerals) {
+    TestOptions options;
+    options.folder = scratch_ / "out";
+    const TestCase test = read_case(write(three_minerals, "voronoi"));
+    const TestOutcome outcome = run_test(test, options);
+    const Specimen rock = make_specimen(test, {});
+    const Recording recording = read_test_recording(outcome.folder, 5);
+    std::size_t compared = 0;
+    for (const RecordedCell& cell : recording.cells) {
+        if (cell.platen) continue;
+        EXPECT_EQ(cell.material, rock.scene.bodies[static_cast<std::size_t>(cell.id - 1)].material + 1) << cell.id;
+        ++compared;
+    }
+    EXPECT_EQ(compared, 77u);
+    const auto& minerals = outcome.summary.at("minerals");
+    ASSERT_EQ(minerals.size(), 3u);
+    EXPECT_EQ(minerals[0].at("name"), "quartz");
+    EXPECT_EQ(minerals[0].at("area_share"), 0.3);
+    EXPECT_EQ(minerals[2].at("grains"), rock.minerals[2].grains);
+    EXPECT_EQ(minerals[2].at("area_share_reached"), rock.minerals[2].reached);
+}
+
+/// Discs one above another, so that columns are springs in series: `below` rows of quartz, the others of feldspar.
+class LayeredColumn : public MineralRock {
+  protected:
+    static constexpr int columns = 4, rows = 9, below = 4;
+    static constexpr double rock = 1e7, quartz = 3e7, feldspar = 0.7e7;  // N/m
+
+    VirtualTest column(const std::string& pair) const {
+        constexpr double radius = 0.02, overlap = 1e-4;
+        Scene scene = square_lattice(columns, rows, radius, overlap, undamped_rock(rock, 27.0));
+        const double reach = radius - overlap, spacing = 2.0 * radius - overlap;
+        scene.domain = {
+            -reach, reach + spacing * (columns - 1), -reach, reach + spacing * (rows - 1), {true, true, true, true}};
+        scene.time_step = 1e-5;
+        const auto path =
+            write(fmt::format("[minerals]\nassign = \"labels\"\nlabels = \"labels.txt\"\n"
+                              "[[mineral]]\nname = \"quartz\"\nnormal_stiffness = {}\n"
+                              "[[mineral]]\nname = \"feldspar\"\nnormal_stiffness = {}\n{}",
+                              quartz, feldspar, pair));
+        std::ofstream file(scratch_ / "rock.dat"), labels(scratch_ / "labels.txt");
+        write_geometry(file, scene);
+        file.close();
+        for (int k = 0; k < columns * rows; ++k) labels << (k < columns * below ? "quartz\n" : "feldspar\n");
+        labels.close();
+        return prepare_test(read_case(path));
+    }
+    /// Modulus of springs in series, the one between the layers given.
+    static double series_modulus(const TestSetup& setup, double between) {
+        const auto series = [](double a, double b) { return 2.0 / (1.0 / a + 1.0 / b); };
+        const double compliance = 1.0 / series(rock, quartz) + (below - 1) / quartz + 1.0 / between +
+                                  (rows - below - 1) / feldspar + 1.0 / series(feldspar, rock);
+        return columns / compliance * setup.height / setup.width;
+    }
+};
+
+TEST_F(LayeredColumn, IsAsStiffAsItsSpringsInSeries) {
+    const VirtualTest test = column("");
+    const double between = 2.0 * quartz * feldspar / (quartz + feldspar);
+    EXPECT_TRUE(agrees("E of two layers", test.state.youngs_modulus, series_modulus(test.setup, between), 1e-9));
+}
+
+TEST_F(LayeredColumn, HasTheStiffnessThatThePairTableGivesBetweenTheLayers) {
+    for (const char* names : {"\"quartz\", \"feldspar\"", "\"feldspar\", \"quartz\""}) {
+        const VirtualTest test =
+            column(fmt::format("[[mineral_pair]]\nbetween = [{}]\nnormal_stiffness = 2e6\n", names));
+        EXPECT_TRUE(agrees("E of two layers", test.state.youngs_modulus, series_modulus(test.setup, 2e6), 1e-9));
+    }
+}
+
+TEST(MaterialPair, OverridesStiffnessFrictionAndTheDashpotsThatHangOnIt) {
+    Scene scene = disc_chain(3, 0.02, 0.0399, undamped_rock(1e7, 30.0));
+    Material other = undamped_rock(4e7, 20.0);
+    scene.materials[0].damping_ratio = 0.1;
+    other.damping_ratio = 0.1;
+    scene.materials.push_back(other);
+    scene.bodies[1].material = 1;
+    scene.bodies[2].material = 1;
+    scene.material_pairs = {{1, 0, 5e6, 3e6, 35.0}};
+    const World world = build_world(scene);
+    const auto law = [&](int a, int b) {
+        const auto of_id = [&](int id) {
+            std::size_t body = 0;
+            while (world.bodies.info[body].id != id) ++body;
+            return static_cast<BodyIndex>(body);
+        };
+        return world.settings.laws[law_between(world, of_id(a), of_id(b))];
+    };
+    for (const auto& [a, b] : {std::pair(1, 2), std::pair(2, 1)}) {
+        EXPECT_EQ(law(a, b).normal_stiffness, 5e6);
+        EXPECT_EQ(law(a, b).shear_stiffness, 3e6);
+        EXPECT_EQ(law(a, b).friction, std::tan(35.0 * std::numbers::pi / 180.0));
+        EXPECT_EQ(law(a, b).normal_damping_ratio_term, 2.0 * 0.1 * std::sqrt(5e6));
+        EXPECT_EQ(law(a, b).shear_damping_ratio_term, 2.0 * 0.1 * std::sqrt(3e6));
+    }
+    EXPECT_EQ(law(2, 3).normal_stiffness, 4e7) << "within the other material";
+    EXPECT_EQ(law(2, 3).friction, std::tan(20.0 * std::numbers::pi / 180.0));
+}
+
+TEST(MaterialPair, OfEqualStiffnessHasItToTheBit) {
+    Scene scene = disc_chain(2, 0.02, 0.0399, undamped_rock(odd_stiffness, 30.0, 1.0));
+    scene.materials.push_back(scene.materials[0]);
+    scene.bodies[1].material = 1;
+    const World world = build_world(scene);
+    const ContactLaw& law = world.settings.laws[law_between(world, 0, 1)];
+    EXPECT_EQ(law.normal_stiffness, odd_stiffness);
+    EXPECT_EQ(law.shear_stiffness, odd_stiffness);
+}
+
+TEST(MaterialPair, IsRefusedWhereItMakesNoSense) {
+    const auto complaint = [](const MaterialPair& pair, const MaterialPair& second = {0, 0, 1e7, {}, {}}) {
+        Scene scene = disc_chain(2, 0.02, 0.0399, undamped_rock(1e7, 30.0));
+        scene.material_pairs = {second, pair};
+        scene.materials.push_back(scene.materials[0]);
+        return error_of([&] { validate(scene); });
+    };
+    EXPECT_EQ(complaint({0, 1, 1e6, {}, {}}), "accepted");
+    EXPECT_NE(complaint({0, 2, 1e6, {}, {}}).find("material pair 2: material: found 3"), std::string::npos);
+    EXPECT_NE(complaint({0, 1, 0.0, {}, {}}).find("normal stiffness: found 0"), std::string::npos);
+    EXPECT_NE(complaint({0, 1, {}, -1.0, {}}).find("shear stiffness: found -1"), std::string::npos);
+    EXPECT_NE(complaint({0, 1, {}, {}, 90.0}).find("friction angle: found 90"), std::string::npos);
+    EXPECT_NE(complaint({1, 0, 1e6, {}, {}}, {0, 1, 1e6, {}, {}}).find("a second time"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace crackle

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Ticks, units and places of axes, by hand.
+
+#include "tools/plot/axes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace crackle::plot {
+namespace {
+
+TEST(Scale, HasTicksUpToBothEnds) {
+    const std::vector<double> ticks = Scale{-0.4, 1.0, 0.2}.ticks();
+    ASSERT_EQ(ticks.size(), 8u);
+    for (std::size_t k = 0; k < ticks.size(); ++k) EXPECT_NEAR(ticks[k], -0.4 + 0.2 * static_cast<double>(k), 1e-15);
+}
+
+TEST(Scale, StepsByOneTwoOrFiveTimesAPowerOfTen) {
+    for (const auto& [largest, step] : {std::pair{0.5, 0.1}, {0.9, 0.2}, {1.2, 0.5}, {4.9, 1.0}, {900.0, 200.0}})
+        EXPECT_NEAR(scale_for(0.0, largest, 5).step, step, 1e-12 * step) << largest;
+}
+
+TEST(Unit, HasThePrefixThatPutsTheLargestBetweenOneAndAThousand) {
+    for (const auto& [largest, factor, name] : {std::tuple{3e9, 1e9, "GN/m"},
+                                                {3e6, 1e6, "MN/m"},
+                                                {3e3, 1e3, "kN/m"},
+                                                {3.0, 1.0, "N/m"},
+                                                {-3e-3, 1e-3, "mN/m"}}) {
+        const Unit unit = unit_for(largest, "N/m");
+        EXPECT_EQ(unit.factor, factor);
+        EXPECT_EQ(unit.name, name);
+    }
+}
+
+TEST(Axes, HaveTheirLowEndsAtTheLeftAndTheBottom) {
+    const Axes axes{{10.0, 20.0, 100.0, 50.0}, {0.0, 2.0, 1.0}, {-1.0, 4.0, 1.0}};
+    const Point low = axes.at(0.0, -1.0), high = axes.at(2.0, 4.0), between = axes.at(0.5, 0.0);
+    EXPECT_EQ((std::pair{low.x, low.y}), (std::pair{10.0, 70.0}));
+    EXPECT_EQ((std::pair{high.x, high.y}), (std::pair{110.0, 20.0}));
+    EXPECT_EQ((std::pair{between.x, between.y}), (std::pair{35.0, 60.0}));
+}
+
+}  // namespace
+}  // namespace crackle::plot
