@@ -19,6 +19,7 @@ from loading_by_tolerance import by_tolerance, recount_start
 from model import Model, rounding
 from peaks import find_fall
 from results import Results, Unreadable
+from slips import recount_slips
 
 
 # Of a strength: what a force may grow in a step. At 0.8 of the stable one the stiffest motion turns by 106 degrees.
@@ -571,6 +572,7 @@ def recount(folder):
         bonds = recount_specimen(r, model)
         recount_given(r, model)
         recount_events(r, model, bonds)
+        recount_slips(r, model, bonds)
         recount_parting(r, model)
         rows = r.results.frame_rows()
         if len(r.events["time"]):

@@ -127,7 +127,7 @@ def run(name, case, *options):
 
 
 def circles():
-    return run("circles", rock + squeezed + rate + output + "out_of_plane_thickness = 0.05\n", "--verify")
+    return run("circles", rock + squeezed + rate + output + "out_of_plane_thickness = 0.05\nslips = true\n", "--verify")
 
 
 def cells_of_an_area_pulled():
@@ -394,6 +394,12 @@ class FaultsAreFound(unittest.TestCase):
 
     def test_strain_of_row_0_in_every_event(self):
         self.found(self.spoil_column("events.csv", "axial_strain", lambda column: ["0"] * len(column)), "axial_strain")
+
+    def test_slips(self):
+        more = lambda column: [str(float(value) * 1.001) for value in column]  # noqa: E731
+        self.found(self.spoil_column("slips.csv", "shear_force", more), "slips: shear force")
+        late = lambda column: [str(int(value) + 1000) for value in column]  # noqa: E731
+        self.found(self.spoil_column("slips.csv", "step", late), "bonds_slid of slips")
 
     def test_strength_and_energy_of_events(self):
         halved = lambda column: [str(float(value) / 2) for value in column]  # noqa: E731
