@@ -224,8 +224,9 @@ class Recount(unittest.TestCase):
         self.agrees(cells_of_an_area_pulled(), 200)
 
     def test_cells_of_an_area_between_frictional_platens(self):
-        rough = friction.replace("15.0", "30.0")
-        self.agrees(run("cells_frictional", packing + area + strengths + cells + cohesive + squeezed + rough + output), 200)
+        for angle in ("30.0", "15.0"):  # above and below the residual one
+            platens = squeezed + friction.replace("15.0", angle)
+            self.agrees(run("cells_frictional_" + angle, packing + area + strengths + cells + cohesive + platens + output), 200)
 
     def test_cells_with_strengths_a_point_within_grips(self):
         text = rock + "tensile_strength = 2000.0\ncohesion = 6000.0\n" + cells + cohesive + "gap = 2.0e-4\n"
@@ -312,6 +313,13 @@ class Recount(unittest.TestCase):
                 self.agrees(folder, 150)
         text = rock.replace("count = 80", "count = 30") + minerals + pulled + "axial_strain_rate = 0.2\n"
         self.agrees(run("minerals_every_step", text + output.replace("frames = 12", "frames = 2000")), 180)
+
+    def test_minerals_with_coulomb_bonds(self):
+        self.agrees(run("minerals_factors", rock + cohesive + factors + squeezed + rate + minerals + output), 200)
+        given = "tensile_strength = 2000.0\ncohesion = 6000.0\nresidual_friction_angle = 10.0\n"
+        self.agrees(run("minerals_cells", rock + given + cells + cohesive + squeezed + friction + minerals + output), 200)
+        two = '[minerals]\nseed = 5\n[[mineral]]\nname = "mica"\narea_share = 0.5\nfriction_angle = 30.0\n[[mineral]]\nname = "rest"\n'
+        self.agrees(run("minerals_area", packing + area + strengths + cells + cohesive + squeezed + two + output), 200)
 
     def test_wrong_shares_of_minerals_are_found(self):
         folder = run("minerals_drawn", rock + minerals + squeezed + rate + output)
