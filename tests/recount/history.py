@@ -7,10 +7,11 @@ import math
 
 import numpy as np
 
-from frames import bodies_of, relative_motion
+from frames import bodies_of, match, relative_motion, rest_after, touching_floor
 from model import dot, rounding, turned
 
-single = 1e-7  # relative, of numbers kept in single precision: forces of events, dashpots' of the step before
+# Relative, of numbers kept in single precision: forces of events by back-tension, dashpots' of the step before.
+single = 1e-7
 
 
 def holds_every_step(r, rows):
@@ -25,18 +26,32 @@ def holds_every_step(r, rows):
 class Point:
     """A contact point: shear spring, dashpots, and what its bond remembers."""
 
-    def __init__(self, rest=None):
-        self.rest = rest  # overlap at bonding, None without a bond
+    def __init__(self, bond=None, rest=0.0):
+        self.bond = bond  # number of the bond, None without
+        self.rest = rest  # overlap without force, m
         self.shear = self.normal_dashpot = self.shear_dashpot = 0.0
-        self.slid = False
-        self.strong = (0.0, 0.0)
+        self.slid = self.in_shear = False
+        self.failing = (0.0, 0.0)  # N, forces that events.csv states
 
 
-def moment(model, r, row, dt):
+def settle_rounding(model, q, frame, first, bonds):
+    """Points that touch by rounding or not do so as in the frame."""
+    open_question = np.abs(q.overlap) <= touching_floor * model.height
+    if not model.frictional or not np.any(open_question):
+        return
+    chosen, _ = match(model, q, frame, first, bonds)
+    touches = np.zeros(len(q.i), bool)
+    touches[chosen[(chosen >= 0) & (frame.contacts["state"] == 4)]] = True
+    size = np.maximum(np.abs(q.overlap), np.finfo(float).tiny)
+    q.overlap = np.where(open_question, np.where(touches, size, -size), q.overlap)
+
+
+def moment(model, r, bonds, row, first, dt):
     """Contact points of a frame: their keys, overlaps, closing and slip rates, laws; and the frame's own contacts."""
     frame = r.results.frame(row)
     _, places, angle, velocity, spin = bodies_of(model, frame.particles)
     q = model.points(places, angle)
+    settle_rounding(model, q, frame, first, bonds)
     arm_i, arm_j, way = relative_motion(q, places, velocity, spin)
     tangent = turned(q.normal)
     # Over a step an arm turns by w = spin dt; what a turn of both bodies as one moves along the face is w x arm less
@@ -44,57 +59,113 @@ def moment(model, r, row, dt):
     half = dt / 2
     slip = dot(way, tangent) + half * (spin[q.i] ** 2 * dot(arm_i, tangent) - spin[q.j] ** 2 * dot(arm_j, tangent))
     columns = (q.overlap, dot(way, q.normal), slip, model.normal_stiffness(q),
-               model.shear_stiffness(q), model.friction(q), *model.dashpots(q))
-    keys = list(zip(q.i.tolist(), q.element.tolist(), q.j.tolist()))
-    return frame, dict(zip(keys, zip(*(column.tolist() for column in columns))))
+               model.shear_stiffness(q), model.residual_friction(q) if model.coulomb else model.friction(q),
+               *model.dashpots(q))
+    return frame, dict(zip(q.keys(), zip(*(column.tolist() for column in columns))))
 
 
-def follow(points, key, values, dt, breaks):
-    """One point through one step. @return friction and dashpot loss, J"""
-    overlap, closing, slip, kn, ks, friction, cn, cs = values
-    point = points.get(key)
-    if point is None:
-        if overlap <= 0:
-            return 0.0, 0.0
-        point = points[key] = Point()
-    trial = point.shear - ks * slip * dt
-    if overlap <= 0:
-        dashpot = dt / 2 * (point.normal_dashpot * closing + point.shear_dashpot * slip)
-        del points[key]
-        taken = point.shear * trial / 2 / ks if ks > 0 else 0.0
-        if point.rest is None:
-            return taken, dashpot
+def share_to_limit(before, now):
+    """Share of a step at which what is left of a strength is used up."""
+    if now > 0:
+        return math.inf
+    return max(0.0, before / (before - now)) if before > now else 0.0
+
+
+class Follower:
+    """All contact points from step to step. `touching` by key, `breaks` as (step, key, energy, Point)."""
+
+    def __init__(self, model, bonds):
+        self.coulomb = model.coulomb
+        self.touching = {key: Point(k, rest) for k, (key, rest) in enumerate(zip(bonds.keys(), bonds.overlap.tolist()))}
+        self.rest_after = dict(zip(bonds.keys(), rest_after(model, bonds.overlap).tolist()))
+        self.held = bonds.held.tolist()
+        self.strength = list(zip(bonds.tensile.tolist(), bonds.cohesion.tolist(), model.friction(bonds).tolist()))
+        self.broken, self.breaks = set(), []
+
+    def follow(self, step, key, values, dt):
+        """One point through one step. @return friction and dashpot loss, J"""
+        overlap, closing, slip, kn, ks, friction, cn, cs = values
+        point = self.touching.get(key)
+        if point is None:
+            rest = self.rest_after[key] if key in self.broken else 0.0
+            if overlap <= rest:
+                return 0.0, 0.0
+            point = self.touching[key] = Point(rest=rest)
+        trial = point.shear - ks * slip * dt
         opening = overlap - point.rest
-        breaks.append((key, kn / 2 * (opening - closing * dt) * opening + taken, point))
-        return 0.0, dashpot
-    limit = friction * kn * overlap
-    slides = abs(trial) > limit or limit <= 0
-    shear = math.copysign(limit, trial) if slides else trial
-    lost = (point.shear + shear) / 2 * (trial - shear) / ks if slides and ks > 0 else 0.0
-    normal_dashpot, shear_dashpot = cn * closing, 0.0 if slides else cs * slip
-    dashpot = dt / 2 * ((point.normal_dashpot + normal_dashpot) * closing + (point.shear_dashpot + shear_dashpot) * slip)
-    point.shear, point.normal_dashpot, point.shear_dashpot = shear, normal_dashpot, shear_dashpot
-    point.slid |= slides
-    if point.rest is not None:
-        normal = kn * (overlap - point.rest)
-        if math.hypot(normal, shear) >= kn * point.rest / 2:
-            point.strong = (normal, shear)
-    return lost, dashpot
+        holds = point.bond is not None and self.held[point.bond]
+        if point.bond is not None and not holds:
+            if self.coulomb:
+                if self._fails(point, kn * opening, trial):
+                    return 0.0, self._break_coulomb(step, key, point, values, dt)
+                holds = True
+            elif overlap <= 0:
+                energy = kn / 2 * (opening - closing * dt) * opening + (point.shear * trial / 2 / ks if ks > 0 else 0.0)
+                self._part(step, key, energy, point)
+                return 0.0, self._release(key, point, closing, slip, dt)
+        elif point.bond is None and opening <= 0:
+            return point.shear * trial / 2 / ks if ks > 0 else 0.0, self._release(key, point, closing, slip, dt)
+        limit = math.inf if holds else friction * kn * (opening if self.coulomb else overlap)
+        slides = abs(trial) > limit or limit <= 0
+        shear = math.copysign(limit, trial) if slides else trial
+        lost = (point.shear + shear) / 2 * (trial - shear) / ks if slides and ks > 0 else 0.0
+        normal_dashpot, shear_dashpot = cn * closing, 0.0 if slides else cs * slip
+        dashpot = dt / 2 * ((point.normal_dashpot + normal_dashpot) * closing + (point.shear_dashpot + shear_dashpot) * slip)
+        point.shear, point.normal_dashpot, point.shear_dashpot = shear, normal_dashpot, shear_dashpot
+        point.slid |= slides
+        if point.bond is not None and not self.coulomb:
+            normal = kn * opening
+            if math.hypot(normal, shear) >= kn * point.rest / 2:
+                point.failing = (normal, shear)
+        return lost, dashpot
+
+    def _part(self, step, key, energy, point):
+        self.broken.add(key)
+        self.breaks.append((step, key, energy, point))
+
+    def _release(self, key, point, closing, slip, dt):
+        del self.touching[key]
+        return dt / 2 * (point.normal_dashpot * closing + point.shear_dashpot * slip)
+
+    def _slack(self, point, normal, shear):
+        """Left of the tensile and of the shear strength, N."""
+        tensile, cohesion, friction = self.strength[point.bond]
+        return tensile + normal, cohesion + friction * normal - abs(shear)
+
+    def _fails(self, point, normal, shear):
+        return min(self._slack(point, normal, shear)) <= 0
+
+    def _break_coulomb(self, step, key, point, values, dt):
+        """What is left goes on as a contact without a bond. @return dashpot loss, J"""
+        overlap, closing, slip, kn, ks, friction, cn, _ = values
+        opening = overlap - point.rest
+        before = opening - closing * dt
+        trial = point.shear - ks * slip * dt
+        was, now = self._slack(point, kn * before, point.shear), self._slack(point, kn * opening, trial)
+        point.in_shear = share_to_limit(was[1], now[1]) < share_to_limit(was[0], now[0])
+        point.failing = (kn * opening, trial)
+        left = max(0.0, overlap - self.rest_after[key])
+        shear = math.copysign(min(abs(trial), friction * kn * left), trial)
+        energy = kn / 2 * (before + left) * (opening - left) + (point.shear + shear) / 2 * (trial - shear) / ks
+        self._part(step, key, energy, point)
+        dashpot = self._release(key, point, closing, slip, dt)
+        if left > 0:
+            after = self.touching[key] = Point(rest=self.rest_after[key])
+            after.shear, after.normal_dashpot = shear, cn * closing
+            dashpot += dt / 2 * after.normal_dashpot * closing
+        return dashpot
 
 
 def recount_history(r, model, bonds, rows):
     c, e = r.curve, r.events
-    points = {
-        (int(i), int(element), int(j)): Point(rest)
-        for i, element, j, rest in zip(bonds.i, bonds.element, bonds.j, bonds.overlap)
-    }
-    friction, dashpot, speed, breaks = [], [], [], []
-    strength = (model.normal_stiffness(bonds) * bonds.overlap).max()
-    worst = 0.0
+    points = Follower(model, bonds)
+    friction, dashpot, speed = [], [], []
+    strength = bonds.tensile.max()
+    worst, first = 0.0, r.results.frame(rows[0])
     for n, row in enumerate(rows):
         dt = c["time"][n] - c["time"][n - 1] if n else 0.0
-        frame, found = moment(model, r, row, dt)
-        lost = [follow(points, key, found[key], dt, breaks) for key in sorted(found)]
+        frame, found = moment(model, r, bonds, row, first, dt)
+        lost = [points.follow(c["step"][n], key, found[key], dt) for key in sorted(found)]
         friction.append(sum(pair[0] for pair in lost) + (friction[-1] if n else 0.0))
         speed.append(frame.particles["velocity"][list(frame.particles["id"]).index(model.ids[model.top]), 1])
         dashpot.append(sum(pair[1] for pair in lost) + (dashpot[-1] if n else 0.0))
@@ -105,7 +176,7 @@ def recount_history(r, model, bonds, rows):
             for i, j, force in zip(names["body_i"][acting], names["body_j"][acting],
                                    np.asarray(names["shear_force"])[acting].tolist())
         )
-        ours = sorted((*sorted((i, j)), abs(point.shear)) for (i, _, j), point in points.items())
+        ours = sorted((*sorted((i, j)), abs(point.shear)) for (i, _, j), point in points.touching.items())
         if [d[:2] for d in drawn] != [o[:2] for o in ours]:
             worst = math.inf
         else:
@@ -119,21 +190,25 @@ def recount_history(r, model, bonds, rows):
     work = np.concatenate([[0.0], np.cumsum(force * np.diff(c["axial_strain"]) * model.height)])
     work += model.mass[model.top] / 2 * (np.array(speed) ** 2 - speed[0] ** 2)
     r.rows("history: platen_work", c["platen_work"], work, rounding * work[-1])
-    # Breaks of one step stand in the order of the points: by pair and strength here.
+    # Breaks of one step stand in the order of the points: by pair and energy here.
     stated = sorted(
-        (*sorted((model.index[int(e["body_i"][k])], model.index[int(e["body_j"][k])])), e["strength"][k], k)
+        (*sorted((model.index[int(e["body_i"][k])], model.index[int(e["body_j"][k])])), e["step"][k], e["energy"][k], k)
         for k in range(len(e["time"]))
     )
     expected = sorted(
-        ((*sorted((key[0], key[2])), point.rest, k) for k, (key, _, point) in enumerate(breaks))
+        (*sorted((key[0], key[2])), step, energy, k) for k, (step, key, energy, _) in enumerate(points.breaks)
     )
-    if [s[:2] for s in stated] != [x[:2] for x in expected]:
+    if [s[:3] for s in stated] != [x[:3] for x in expected]:
         r.true("history: pairs of events.csv", False)
         return
-    at, ours = [s[3] for s in stated], [breaks[x[3]] for x in expected]
-    energy = 0.5 * strength * bonds.overlap.max()
-    r.rows("history: energy of breaks", np.asarray(e["energy"])[at], [b[1] for b in ours], 10 * rounding * energy)
-    r.rows("history: slid of breaks", np.asarray(e["slid"])[at], [float(b[2].slid) for b in ours], 0)
-    r.rows("history: normal force of breaks", np.asarray(e["normal_force"])[at], [b[2].strong[0] for b in ours], single * strength)
+    at, ours = [s[4] for s in stated], [points.breaks[x[4]] for x in expected]
+    energy = (bonds.tensile**2 / 2 / model.normal_stiffness(bonds)).max()
+    r.rows("history: energy of breaks", np.asarray(e["energy"])[at], [b[2] for b in ours], 10 * rounding * energy)
+    parted = [b[3] for b in ours]
+    r.rows("history: slid of breaks", np.asarray(e["slid"])[at], [float(p.slid) for p in parted], 0)
+    if model.coulomb:
+        r.compare("history: mode of breaks", sum((e["mode"][k] == "shear") != p.in_shear for k, p in zip(at, parted)), 0, 0)
+    kept = (rounding if model.coulomb else single) * strength
+    r.rows("history: normal force of breaks", np.asarray(e["normal_force"])[at], [p.failing[0] for p in parted], kept)
     r.rows("history: shear force of breaks", np.abs(np.asarray(e["shear_force"])[at]),
-           [abs(b[2].strong[1]) for b in ours], single * strength)
+           [abs(p.failing[1]) for p in parted], kept)

@@ -18,7 +18,7 @@ def by_tolerance(r):
 
 
 def yield_strain(r, model, bonds, motion):
-    """Axial strain at which one bonded point in fifty has slid or parted."""
+    """Axial strain at which one bonded point in fifty has slid or parted; a held one never does."""
 
     def at(body):
         arm = bonds.position - model.centre[body]
@@ -27,10 +27,12 @@ def yield_strain(r, model, bonds, motion):
     way = at(bonds.i) - at(bonds.j)
     closing, slipping = dot(way, bonds.normal), np.abs(dot(way, turned(bonds.normal)))
     friction, kn, ks = model.friction(bonds), model.normal_stiffness(bonds), model.shear_stiffness(bonds)
+    # A coulomb bond parts by its envelope, one by back-tension slides at a limit of the same form.
+    margin = friction * kn * closing - ks * slipping
     with np.errstate(divide="ignore"):
-        parting = np.where(closing < 0, -bonds.overlap / closing, math.inf)
-        margin = friction * kn * closing - ks * slipping
-        sliding = np.where((margin < 0) & (ks * slipping > 0), -friction * kn * bonds.overlap / margin, math.inf)
+        parting = np.where(closing < 0, -bonds.tensile / (kn * closing), math.inf)
+        sliding = np.where((margin < 0) & (ks * slipping > 0), -bonds.cohesion / margin, math.inf)
+    parting[bonds.held] = sliding[bonds.held] = math.inf
     first = np.sort(np.minimum(parting, sliding))[len(closing) // 50]
     return first if math.isfinite(first) else r.results.key("loading", "max_axial_strain")
 

@@ -44,9 +44,16 @@ class Points:
     overlap: np.ndarray  # m
     normal: np.ndarray  # from i to j
     position: np.ndarray  # m
+    share: np.ndarray  # of the material's stiffness, solver/MODEL.md 4.5; 1 in point units
+
+    def fields(self):
+        return {name: getattr(self, name) for name in self.__dataclass_fields__}
 
     def chosen(self, which):
-        return Points(*(getattr(self, name)[which] for name in self.__dataclass_fields__))
+        return type(self)(**{name: values[which] for name, values in self.fields().items()})
+
+    def keys(self):
+        return list(zip(self.i.tolist(), self.element.tolist(), self.j.tolist()))
 
 
 class Model:
@@ -59,12 +66,23 @@ class Model:
         self.polygons = deck.bodies[0].corners is not None
         self.width, self.height = deck.width, deck.height
         self.materials = [dict(m) for m in deck.materials]
+        self.by_area = results.key("material", "units", "point") == "area"
+        self.coulomb = results.key("bond", "law", "back_tension") == "coulomb"
         self.minerals = results.case.get("mineral", [])
         for k, m in enumerate(self.materials):
             own = self.minerals[k] if k < len(self.minerals) else {}
             m["ratio"] = own.get("damping_ratio", results.key("material", "damping_ratio"))
+            if self.by_area:  # Pa
+                modulus = results.key("material", "contact_modulus")
+                m["normal_stiffness"] = own.get("normal_stiffness", modulus)
+                m["shear_stiffness"] = own.get("shear_stiffness", modulus / results.key("material", "stiffness_ratio"))
+            m["residual_friction_angle"] = results.key("material", "residual_friction_angle", m["friction_angle"])
         self.pairs = self._named_pairs()
-        self.thick = results.summary["bond_thick"] if not self.polygons else results.key("bond", "thick")
+        inset = results.key("mesh", "inset")
+        self.mesh_gap = 2 * inset if inset else results.key("mesh", "thick", deck.thick)
+        self.thick = results.summary["bond_thick"] if not self.polygons else results.key("bond", "thick", self.mesh_gap)
+        self.reach_of_bonds = self._reach_of_bonds()
+        self._bonded_shares = {}
         self.frictional = results.key("loading", "platens") == "frictional"
         self.sense = 1.0 if results.key("loading", "kind") == "compression" else -1.0
         largest = max(b.id for b in deck.bodies)
@@ -74,6 +92,12 @@ class Model:
         self.bottom, self.top = self.count, self.count + 1
         self._place_platens()
         self._measure()
+
+    def _reach_of_bonds(self):
+        """Largest gap that is bonded, m."""
+        if not self.coulomb or self.polygons:
+            return 0.0
+        return self.results.key("bond", "range", 0.0) * max(b.circles[:, 2].max() for b in self.deck.bodies)
 
     def _named_pairs(self):
         """Of [[mineral_pair]]: (indices of its materials, its keys)."""
@@ -89,8 +113,7 @@ class Model:
         else:
             low = min((b.circles[:, 1] - b.circles[:, 2]).min() for b in deck.bodies)
             high = max((b.circles[:, 1] + b.circles[:, 2]).max() for b in deck.bodies)
-        inset = self.results.key("mesh", "inset")
-        gap = 2 * inset if inset else self.results.key("mesh", "thick", deck.thick)
+        gap = self.mesh_gap
 
         def offset(depth):
             if not self.polygons:
@@ -111,7 +134,8 @@ class Model:
         material = len(self.minerals) if self.minerals else self.deck.bodies[0].material
         if self.frictional:
             friction = dict(self.materials[material])
-            friction["friction_angle"] = self.results.key("loading", "platen_friction_angle")
+            angle = self.results.key("loading", "platen_friction_angle")
+            friction["friction_angle"] = friction["residual_friction_angle"] = angle
             self.materials.append(friction)
             material = len(self.materials) - 1
         self.material = np.array([b.material for b in self.deck.bodies] + [material] * 2)
@@ -170,21 +194,58 @@ class Model:
         return value
 
     def normal_stiffness(self, p):
-        return self._overridden("normal_stiffness", p, self._series(*self._pair("normal_stiffness", p.i, p.j)))
+        stiffness = self._series(*self._pair("normal_stiffness", p.i, p.j))
+        return self._overridden("normal_stiffness", p, stiffness) * p.share
 
     def shear_stiffness(self, p):
-        return self._overridden("shear_stiffness", p, self._series(*self._pair("shear_stiffness", p.i, p.j)))
+        return self._overridden("shear_stiffness", p, self._series(*self._pair("shear_stiffness", p.i, p.j))) * p.share
 
     def friction(self, p):
-        angle = np.minimum(*self._pair("friction_angle", p.i, p.j))
-        return np.tan(np.radians(self._overridden("friction_angle", p, angle)))
+        return np.tan(np.radians(self._friction_angle(p)))
+
+    def residual_friction(self, p):
+        """Of contacts without a bond; a residual angle is at most the pair's own."""
+        residual = np.minimum(*self._pair("residual_friction_angle", p.i, p.j))
+        return np.tan(np.radians(np.minimum(residual, self._friction_angle(p))))
+
+    def _friction_angle(self, p):
+        return self._overridden("friction_angle", p, np.minimum(*self._pair("friction_angle", p.i, p.j)))
 
     def _root_term(self, name, p):
         """2 h sqrt(k) of two materials in series; of a pair's own stiffness with the two h in series."""
         (h_i, h_j), (k_i, k_j) = self._pair("ratio", p.i, p.j), self._pair(name, p.i, p.j)
         term = self._series(2 * h_i * np.sqrt(k_i), 2 * h_j * np.sqrt(k_j))
         own = self._overridden(name, p, np.full(len(p.i), np.nan))
-        return np.where(np.isnan(own), term, 2 * self._series(h_i, h_j) * np.sqrt(own))
+        return np.where(np.isnan(own), term, 2 * self._series(h_i, h_j) * np.sqrt(own)) * np.sqrt(p.share)
+
+    # shares of an area, solver/MODEL.md 4.5
+
+    def lengths(self, p):
+        """L of contacts met later, m."""
+        between = self.corner_count[p.i] + self.corner_count[p.j] == 0
+        radius = np.zeros(len(self.mass))
+        radius[self.circle_body] = self.circle_radius
+        length = 2 * np.where(between, np.minimum(radius[p.i], radius[p.j]), radius[p.i])
+        for k in np.flatnonzero(self.corner_count[p.i]):
+            outline = self.outline[p.i[k], : self.corner_count[p.i[k]]]
+            corner = outline[p.element[k]]
+            neighbours = [outline[(p.element[k] + turn) % len(outline)] for turn in (-1, 1)]
+            length[k] = sum(math.dist(corner, other) for other in neighbours) / 2
+        return length
+
+    def _shares(self, p):
+        if not self.by_area:
+            return np.ones(len(p.i))
+        radius = np.sqrt(self.area / math.pi)
+        radius[self.count :] = 0.0  # held
+        share = (self.lengths(p) / (radius[p.i] + radius[p.j])).astype(np.float32).astype(float)  # kept so
+        for k, key in enumerate(p.keys()):
+            share[k] = self._bonded_shares.get(key, share[k])
+        return share
+
+    def remember_shares(self, bonds):
+        """Points that were bonded keep their shares for good."""
+        self._bonded_shares = dict(zip(bonds.keys(), bonds.share.tolist()))
 
     def dashpots(self, p):
         if self.materials[0]["ratio"] is None:
@@ -216,7 +277,7 @@ class Model:
         """All contact points whose surfaces come near, touching or not, of bodies placed so."""
         c, s = np.cos(angle), np.sin(angle)
         rotation = np.stack([np.stack([c, -s], -1), np.stack([s, c], -1)], -2)
-        pairs = self.near(centre, 2 * self.thick + 0.05 * self.reach[: self.count].mean())
+        pairs = self.near(centre, 2 * self.thick + 0.05 * self.reach[: self.count].mean() + self.reach_of_bonds)
         found = []
         own = [[] for _ in self.mass]
         for e, b in enumerate(self.circle_body):
@@ -230,7 +291,8 @@ class Model:
             apart = np.hypot(*way.T)
             n = way / apart[:, None]
             d = self.circle_radius[ea] + self.circle_radius[eb] - apart
-            found.append(Points(a, ea * len(at) + eb, b, d, n, at[ea] + n * (self.circle_radius[ea] - d / 2)[:, None]))
+            place = at[ea] + n * (self.circle_radius[ea] - d / 2)[:, None]
+            found.append(Points(a, ea * len(at) + eb, b, d, n, place, np.ones(len(a))))
         outline = centre[:, None] + np.einsum("bij,bkj->bki", rotation, self.outline)
         co = [(x, e, y) for a, b in pairs for x, y in ((a, b), (b, a)) if self.corner_count[y] for e in own[x]]
         if co:
@@ -238,7 +300,7 @@ class Model:
             distance, out, _ = self._to_outline(at[e], outline[b])
             r = self.circle_radius[e]
             d = r + self.thick - distance
-            found.append(Points(a, e, b, d, -out, at[e] - out * (r - d / 2)[:, None]))
+            found.append(Points(a, e, b, d, -out, at[e] - out * (r - d / 2)[:, None], np.ones(len(a))))
         vo = [
             (x, k, y)
             for a, b in pairs
@@ -250,9 +312,11 @@ class Model:
             a, k, b = np.array(vo).T
             corner = outline[a, k]
             distance, out, closest = self._to_outline(corner, outline[b])
-            found.append(Points(a, k, b, self.thick - distance, -out, (corner + closest) / 2))
+            found.append(Points(a, k, b, self.thick - distance, -out, (corner + closest) / 2, np.ones(len(a))))
         joined = [np.concatenate([getattr(p, name) for p in found]) for name in Points.__dataclass_fields__]
-        return Points(*joined)
+        points = Points(*joined)
+        points.share = self._shares(points)
+        return points
 
     @staticmethod
     def _to_outline(place, outline):
@@ -302,6 +366,15 @@ class Model:
             stiffness += np.bincount(flat, (k[:, None, None] * outer).ravel(), size * size)
             damping += np.bincount(flat, (c[:, None, None] * outer).ravel(), size * size)
         return stiffness.reshape(size, size), damping.reshape(size, size)
+
+    def axial_gauge(self, bonds):
+        """Indices of the bonded particles within half a mean particle of the lower and upper end of the gauge length."""
+        outer = (self.results.key("loading", "grip") or 0.1) * self.height
+        half = math.sqrt(self.width * self.height / self.count) / 2
+        y, carries = self.centre[: self.count, 1], np.zeros(len(self.mass), bool)
+        carries[bonds.i] = carries[bonds.j] = True
+        near = [np.abs(y - end) <= half for end in (self.deck.y1 + outer, self.deck.y2 - outer)]
+        return [np.flatnonzero(own & carries[: self.count]) for own in near]
 
     def gauge(self):
         """Indices of the left and right side particles with centres in the middle half of the height."""

@@ -12,12 +12,20 @@ except ImportError:
     print("recount: found no numpy, expected Debian's python3-numpy; install it", file=sys.stderr)
     sys.exit(2)
 
-from frames import recount_frame, recount_places
+from bonds import make_bonds
+from frames import recount_frame, recount_places, rest_after, touching_floor
 from history import holds_every_step, recount_history
 from loading_by_tolerance import by_tolerance, recount_start
 from model import Model, rounding
 from peaks import find_fall
 from results import Results, Unreadable
+from slips import recount_slips
+
+
+# Of a strength: what a force may grow in a step. At 0.8 of the stable one the stiffest motion turns by 106 degrees.
+one_step = 0.5
+# Of the energy of all breaks: the mean of what their forces grew in the last step.
+mean_step = 0.1
 
 
 class Recount:
@@ -53,7 +61,9 @@ class Recount:
         in_pascal = name + "_pa"
         if in_pascal in self.summary:
             self.keys.add(in_pascal)
-            over = self.results.key("output", "out_of_plane_thickness", 1.0)
+            # In area units stresses are in Pa as they are.
+            by_area = self.results.key("material", "units", "point") == "area"
+            over = 1.0 if by_area else self.results.key("output", "out_of_plane_thickness", 1.0)
             self.compare(in_pascal, self.summary[in_pascal], ours / over, tolerance / over)
 
     def rows(self, name, stated, ours, tolerance):
@@ -236,6 +246,9 @@ def recount_specimen(r, model):
     """Counts, bonds, modulus and stable step of the specimen between its platens. @return its bonds"""
     s = r.summary
     r.key("kind", r.results.key("loading", "kind"))
+    r.key("platens", r.results.key("loading", "platens"))
+    r.key("bond_law", r.results.key("bond", "law", "back_tension"))
+    r.key("material_units", r.results.key("material", "units", "point"))
     r.key("initial_width", model.width)
     r.key("initial_height", model.height)
     r.key("particles", model.count)
@@ -251,23 +264,29 @@ def recount_specimen(r, model):
     else:
         r.key("specimen", "circles")
     points = model.points(model.centre, np.zeros(len(model.mass)))
-    touching = points.chosen(points.overlap > 0)
-    on_platen = (touching.i >= model.count) | (touching.j >= model.count)
-    bonds = touching.chosen(~on_platen) if model.frictional else touching
+    bonds = make_bonds(model, points)
     r.key("bonds_initial", len(bonds.i))
-    if not model.frictional:
-        r.key("contacts_initial", len(touching.i))
-    else:  # what rests on the platens touches them by rounding, or not
-        floor = 1e-14 * model.height
-        fewest, most = np.sum(points.overlap > floor), np.sum(points.overlap > -floor)
-        r.compare("contacts_initial", s["contacts_initial"], (fewest + most) / 2, (most - fewest) / 2)
-        r.keys.add("contacts_initial")
+    bonded = set(bonds.keys())
+    loose = np.array([d for key, d in zip(points.keys(), points.overlap.tolist()) if key not in bonded])
+    floor = touching_floor * model.height if model.frictional else 0.0
+    fewest, most = len(bonds.i) + np.sum(loose > floor), len(bonds.i) + np.sum(loose > -floor)
+    r.compare("contacts_initial", s["contacts_initial"], (fewest + most) / 2, (most - fewest) / 2)
+    r.keys.add("contacts_initial")
     pairs = {(min(a, b), max(a, b)) for a, b in zip(bonds.i, bonds.j)}
     r.key("interfaces_initial", len(pairs))
     tension = model.normal_stiffness(bonds) * bonds.overlap
-    r.key("mean_bond_overlap", bonds.overlap.mean())
-    r.key("mean_back_tension", tension.mean())
-    r.key("mean_back_tension_interface", tension.sum() / len(pairs))
+    # Gaps and overlaps cancel.
+    tiny = 1e-15 * model.height
+    r.key("mean_bond_overlap", bonds.overlap.mean(), floor=rounding * np.abs(bonds.overlap).mean() + tiny)
+    scale = rounding * np.abs(tension).mean() + tiny * model.normal_stiffness(bonds).mean()
+    r.key("mean_back_tension", tension.mean(), floor=scale)
+    r.key("mean_back_tension_interface", tension.sum() / len(pairs), floor=scale * len(tension) / len(pairs))
+    r.key("bonds_unbreakable", int(np.sum(bonds.held)))
+    glued = r.results.key("loading", "platens") == "glued"
+    r.key("grip", r.results.key("loading", "grip", 0.0) * model.height if glued else 0.0)
+    if model.coulomb and not np.all(bonds.held):
+        r.key("mean_tensile_strength", bonds.tensile[~bonds.held].mean())
+        r.key("mean_cohesion", bonds.cohesion[~bonds.held].mean())
     if s.get("youngs_modulus"):
         density = model.mass[: model.count].sum() / (model.width * model.height)
         r.key("wave_transit_time", model.height / math.sqrt(s["youngs_modulus"] / density))
@@ -277,7 +296,8 @@ def recount_specimen(r, model):
     free = np.arange(3 * model.count)
     solution = np.zeros(3 * len(model.mass))
     solution[3 * model.top + 1] = -model.sense * model.height  # axial strain 1
-    scale = 1 / np.sqrt(np.maximum(np.diag(stiffness)[free], 1e-300))
+    scale = np.diag(stiffness)[free]
+    scale = 1 / np.sqrt(np.where(scale > 0, scale, scale.max()))
     scaled = scale[:, None] * stiffness[np.ix_(free, free)] * scale
     load = -scale * (stiffness[free] @ solution)
     values, vectors = np.linalg.eigh(scaled)
@@ -291,6 +311,13 @@ def recount_specimen(r, model):
     if by_tolerance(r):
         loose = np.abs(scale[:, None] * vectors[:, ~regular]).reshape(model.count, -1).max(axis=1, initial=0.0)
         recount_start(r, model, bonds, solution, stress / strained, loose <= 1e-6 * scale.max())
+    bottom, top = model.axial_gauge(bonds)
+    if len(bottom) and len(top):
+        length = model.centre[top, 1].mean() - model.centre[bottom, 1].mean()
+        growth = solution[3 * top + 1].mean() - solution[3 * bottom + 1].mean()
+        r.key("gauge_modulus", stress / (-model.sense * growth / length), 1e-6)
+    else:
+        r.key("gauge_modulus", math.nan)
     left, right = model.gauge()
     if left and right and (r.results.circles is None or not model.polygons or r.results.key("mesh", "kind") == "voronoi"):
         length = model.centre[right, 0].mean() - model.centre[left, 0].mean()
@@ -344,37 +371,46 @@ def recount_events(r, model, bonds):
     r.rows("events: time", e["time"], c["time"][row - 1] + inside * (c["time"][row] - c["time"][row - 1]),
            2 * mean_step)
     left = {}
-    stiffness = model.normal_stiffness(bonds)
-    for k in range(len(bonds.i)):
-        pair = frozenset((model.ids[bonds.i[k]], model.ids[bonds.j[k]]))
-        left.setdefault(pair, []).append(stiffness[k] * bonds.overlap[k])
-    strength, ours_last, unknown = [], [], 0
+    for k in np.flatnonzero(~bonds.held):
+        left.setdefault(frozenset((model.ids[bonds.i[k]], model.ids[bonds.j[k]])), []).append(k)
+    friction = model.friction(bonds)
+    in_shear = np.array([model.coulomb and m == "shear" for m in e["mode"]])
+
+    def limit(m, k):
+        """Strength that bond m would have shown in row k."""
+        return bonds.cohesion[m] + friction[m] * e["normal_force"][k] if in_shear[k] else bonds.tensile[m]
+
+    strength, ours_last, of_bond = [], [], []
     for k in range(count):
-        pair = frozenset((int(e["body_i"][k]), int(e["body_j"][k])))
-        own = left.get(pair, [])
-        if not own:
-            unknown += 1
+        own = left.get(frozenset((int(e["body_i"][k]), int(e["body_j"][k]))), [])
+        m = min(own, key=lambda m: abs(limit(m, k) - e["strength"][k]), default=-1)
+        of_bond.append(m)
+        if m < 0:
             strength.append(math.nan)
             ours_last.append(math.nan)
             continue
-        nearest = min(range(len(own)), key=lambda m: abs(own[m] - e["strength"][k]))
-        strength.append(own.pop(nearest))
+        own.remove(m)
+        strength.append(limit(m, k))
         ours_last.append(0)
     # The last of an interface is the last row of its pair, once no bond of the pair is left.
     final = {frozenset((int(a), int(b))): k for k, (a, b) in enumerate(zip(e["body_i"], e["body_j"]))}
     for pair, k in final.items():
-        if left.get(pair) == []:
+        if left.get(pair) == [] and not held_between(model, bonds, pair):
             ours_last[k] = 1
-    r.compare("events: rows of pairs that have no bond left", unknown, 0, 0)
+    r.compare("events: rows of pairs that have no bond left", of_bond.count(-1), 0, 0)
     r.rows("events: strength", e["strength"], strength, 1e-9 * np.abs(strength))
     r.rows("events: last_of_interface", e["last_of_interface"], ours_last, 0)
-    force = np.hypot(e["normal_force"], e["shear_force"])
-    # Normal and shear force are kept in single precision.
-    # 0: it never carried half its strength, since it broke from one step to the next.
-    r.true("events: forces at half the strength or more, or 0",
-           np.all((force >= 0.5 * e["strength"] * (1 - 1e-6)) | (force == 0)))
-    shear = (np.asarray(e["slid"]) == 1) & (np.abs(e["shear_force"]) > np.abs(e["normal_force"]))
-    r.compare("events: rows with another mode", sum((m == "shear") != s for m, s in zip(e["mode"], shear)), 0, 0)
+    if model.coulomb:
+        recount_envelope(r, model, bonds, np.array(of_bond), in_shear)
+        shear = in_shear
+    else:
+        force = np.hypot(e["normal_force"], e["shear_force"])
+        # Normal and shear force are kept in single precision.
+        # 0: it never carried half its strength, since it broke from one step to the next.
+        r.true("events: forces at half the strength or more, or 0",
+               np.all((force >= 0.5 * e["strength"] * (1 - 1e-6)) | (force == 0)))
+        shear = (np.asarray(e["slid"]) == 1) & (np.abs(e["shear_force"]) > np.abs(e["normal_force"]))
+        r.compare("events: rows with another mode", sum((m == "shear") != s for m, s in zip(e["mode"], shear)), 0, 0)
     r.key("bonds_broken_after_sliding", int(np.sum(e["slid"])))
     r.key("bonds_broken_in_shear", int(np.sum(shear)))
     r.key("bonds_broken_in_tension", int(np.sum(~shear)))
@@ -383,6 +419,67 @@ def recount_events(r, model, bonds):
         r.key("bonds_broken_in_shear_to_peak", int(np.sum(shear & to_peak)))
         r.key("bonds_broken_in_tension_to_peak", int(np.sum(~shear & to_peak)))
     r.compare("fracture_loss of events", c["fracture_loss"][-1], np.sum(e["energy"]), 1e-12 * np.sum(np.abs(e["energy"])))
+
+
+def held_between(model, bonds, pair):
+    i, j = (model.index[name] for name in pair)
+    return bool(np.any(bonds.held & (((bonds.i == i) & (bonds.j == j)) | ((bonds.i == j) & (bonds.j == i)))))
+
+
+def recount_envelope(r, model, bonds, of_bond, in_shear):
+    """Rows of coulomb bonds: forces when they failed, limits exceeded, energies (solver/MODEL.md 5.2)."""
+    e = r.events
+    known = of_bond >= 0
+    m, in_shear = of_bond[known], in_shear[known]
+    normal, shear = e["normal_force"][known], np.abs(e["shear_force"][known])
+    tensile, limit = bonds.tensile[m], bonds.cohesion[m] + model.friction(bonds)[m] * normal
+    parts, shears = -normal >= tensile * (1 - rounding), shear >= limit - rounding * bonds.cohesion[m]
+    r.compare("events: rows within both limits", int(np.sum(~(parts | shears))), 0, 0)
+    # Of two limits exceeded in one step the way decides, which only a frame a step holds (history.py).
+    r.compare("events: rows with another mode", int(np.sum(np.where(in_shear, ~shears, ~parts))), 0, 0)
+    r.compare("events: coulomb bonds that slid", int(np.sum(e["slid"])), 0, 0)
+    over = np.where(in_shear, shear - limit, -normal - tensile)
+    r.rows("events: force beyond the limit", over, np.zeros(len(over)), one_step * (bonds.tensile + bonds.cohesion).mean())
+    r.true("events: no energy below 0", np.all(np.asarray(e["energy"]) >= 0))
+    kn, ks = model.normal_stiffness(bonds)[m], model.shear_stiffness(bonds)[m]
+    kept = np.maximum(0.0, normal + kn * (bonds.overlap[m] - rest_after(model, bonds.overlap[m])))
+    rubs = np.minimum(shear, model.residual_friction(bonds)[m] * kept)
+    stored = (normal**2 - kept**2) / 2 / kn + (shear**2 - rubs**2) / 2 / ks
+    # The account takes the mean force of the last step: at most as much beyond as the force grew in it.
+    size = (np.abs(normal) + kept) ** 2 / 2 / kn + shear**2 / 2 / ks
+    energy = np.asarray(e["energy"])[known]
+    r.rows("events: energy of the forces", energy, stored, size)
+    r.compare("events: energy of all their forces", energy.sum(), stored.sum(), mean_step * size.sum())
+
+
+def recount_parting(r, model):
+    """The largest crack: broken bonds that share particles or a platen, and where it lies (specimens/METHODS.md 3)."""
+    e, s = r.events, r.summary
+    pairs = [(model.index[int(a)], model.index[int(b)]) for a, b in zip(e["body_i"], e["body_j"])]
+    if not pairs:
+        r.true("failed_at and largest_crack: null without a break", s["failed_at"] is None and s["largest_crack"] is None)
+        return
+    group = {}
+    for pair in pairs:
+        joined = set(pair).union(*(group.get(b, ()) for b in pair))
+        group.update((b, joined) for b in joined)
+    cracks = {}
+    for i, j in pairs:
+        own = [b for b in (i, j) if b < model.count]
+        cracks.setdefault(min(group[i]), []).append((np.mean(model.centre[own, 1]) - model.deck.y1, len(own) < 2))
+    most = max(len(crack) for crack in cracks.values())
+    found = []  # of two alike either may be named
+    for crack in cracks.values():
+        if len(crack) == most:
+            height, of_platen = np.mean([c[0] for c in crack]), sum(c[1] for c in crack)
+            within = min(height, model.height - height) < s["grip"]
+            found.append((height, of_platen, "platen" if 2 * of_platen >= most else "grip" if within else "gauge"))
+    stated = s["largest_crack"]
+    height, of_platen, place = min(found, key=lambda f: abs(f[0] - stated["height"]))
+    r.key("largest_crack.bonds", most)
+    r.key("largest_crack.of_platen", of_platen)
+    r.key("largest_crack.height", height)
+    r.key("failed_at", place)
 
 
 def recount_given(r, model):
@@ -444,9 +541,6 @@ def recount_errors(r):
             r.compare(label + "damping over the test's", run["damping"], damping, 1e-12)
     peak = {"peak_stress": r.summary["peak_stress"], "peak_strain": r.summary["peak_strain"]}
     runs = errors["companions"]
-    every_row = r.results.key("output", "curve_rows", 2000) >= 2000
-    share = r.results.key("loading", "stop_at_share_of_peak", 0.5)
-    row, _ = find_peak(r.curve["axial_strain"], r.curve["axial_stress"], share)
     for name, value in peak.items():
         half_step, half_rate = runs["half_time_step"][name], runs["half_rate"][name]
         spread = np.std([value, half_step, half_rate], ddof=1)
@@ -456,8 +550,8 @@ def recount_errors(r):
         r.key(f"numerical_errors.{name}.damping",
               max(abs(runs[k][name] - value) / value for k in ("half_damping", "double_damping")))
         resolution = errors[name]["resolution"]
-        if every_row and row > 0:
-            column = r.curve["axial_stress" if name == "peak_stress" else "axial_strain"]
+        if r.peak:
+            row, column = r.peak, r.curve["axial_stress" if name == "peak_stress" else "axial_strain"]
             r.key(f"numerical_errors.{name}.resolution", abs(column[row] - column[row - 1]) / value)
         stated = math.hypot(resolution, max(3 * rate, 2.92 * math.sqrt(2) * spread / value))
         r.key(f"numerical_errors.{name}.stated", stated, 1e-3)  # 2.92 stands for 2.91999
@@ -478,6 +572,8 @@ def recount(folder):
         bonds = recount_specimen(r, model)
         recount_given(r, model)
         recount_events(r, model, bonds)
+        recount_slips(r, model, bonds)
+        recount_parting(r, model)
         rows = r.results.frame_rows()
         if len(r.events["time"]):
             recount_places(r, model, rows)

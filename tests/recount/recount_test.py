@@ -68,7 +68,30 @@ shear_stiffness = 3.0e6
 squeezed = '[loading]\nkind = "compression"\nmax_axial_strain = 0.02\n'
 pulled = '[loading]\nkind = "tension"\nmax_axial_strain = 0.005\n'
 rate = "axial_strain_rate = 0.02\n"
+bonded = 'platens = "bonded"\n'
 friction = 'platens = "frictional"\nplaten_friction_angle = 15.0\n'
+
+# The same bodies with bonds of strengths of their own, and with stiffness and strengths of an area.
+packing = rock[: rock.index("[material]")]
+area = """[material]
+units = "area"
+density = 2500.0
+contact_modulus = 1.0e10
+stiffness_ratio = 2.5
+friction_angle = 35.0
+damping_ratio = 0.2
+"""
+strengths = "tensile_strength = 1.0e7\ncohesion = 3.0e7\nresidual_friction_angle = 25.0\n"
+cells, wedges = (text[: text.index("[bond]")] for text in (voronoi, triangles))
+cohesive = '[bond]\nlaw = "coulomb"\n'
+
+
+def scattered(distribution, cv):
+    return f'strength_distribution = "{distribution}"\nstrength_cv = {cv}\nstrength_seed = 7\n'
+
+
+factors = "tensile_factor = 1.0\ncohesion_factor = 3.0\nrange = 0.05\n" + scattered("lognormal", 0.3)
+circles_every_step = rock[len(packing) :] + cohesive + factors + squeezed + "axial_strain_rate = 0.3\n"
 
 
 # Figures of a test of circles squeezed at a rate with companions.
@@ -88,7 +111,8 @@ largest_fragment_share largest_stress largest_stress_pa strain_at_largest_stress
 packing.stress_x packing.stress_y packing.unbalanced packing.void_ratio frame_end frame_peak frame_start particles
 particle_steps_per_second peak_converged peak_strain peak_stress peak_stress_pa platen_bottom_id platen_out_of_balance platen_top_id poissons_ratio seed simulated_time specimen
 stable_time_step steps tangent_50_poissons_ratio tangent_modulus_50 tangent_modulus_50_pa time_step time_step_bound
-time_step_mean time_step_over_stable youngs_modulus youngs_modulus_pa
+time_step_mean time_step_over_stable bond_law material_units platens bonds_unbreakable grip failed_at largest_crack.bonds
+largest_crack.of_platen largest_crack.height gauge_modulus gauge_modulus_pa youngs_modulus youngs_modulus_pa
 """
 
 
@@ -103,7 +127,20 @@ def run(name, case, *options):
 
 
 def circles():
-    return run("circles", rock + squeezed + rate + output + "out_of_plane_thickness = 0.05\n", "--verify")
+    return run("circles", rock + squeezed + rate + output + "out_of_plane_thickness = 0.05\nslips = true\n", "--verify")
+
+
+def cells_of_an_area_pulled():
+    return run("cells_pulled", packing + area + strengths + cells + cohesive + scattered("weibull", 0.3) + pulled + output)
+
+
+def circles_by_factors():
+    return run("factors", rock + cohesive + factors + squeezed + rate + output)
+
+
+def every_step_of_few(name, case):
+    small, every = packing.replace("count = 80", "count = 24"), output.replace("frames = 12", "frames = 2000")
+    return run("every_step_" + name, small + case + every)
 
 
 def rubble():
@@ -144,11 +181,11 @@ class Recount(unittest.TestCase):
         self.assertGreater(summary["largest_stress"], 1.5 * summary["peak_stress"], "the case that the rule is for")
         self.agrees(folder, 200)
 
-    def test_circles_pulled_by_tolerance(self):
+    def test_circles_pulled_by_tolerance_between_glued_platens(self):
         self.agrees(run("pulled", rock + pulled + output), 150)
 
     def test_default_frames_in_single_precision(self):
-        self.agrees(run("plain", rock + pulled), 150)
+        self.agrees(run("plain", rock + pulled + bonded), 150)
 
     def test_voronoi_polygons_squeezed_by_tolerance(self):
         self.agrees(run("voronoi", rock + voronoi + squeezed + output), 150)
@@ -163,13 +200,14 @@ class Recount(unittest.TestCase):
         self.agrees(run("triangles_pulled", rock + triangles + pulled + output), 150)
 
     def test_guides_law(self):
-        self.agrees(run("demseg", rock + voronoi + pulled + '[numerics]\ncontact_law = "demseg"\n' + output), 20)
+        self.agrees(run("demseg", rock + voronoi + pulled + bonded + '[numerics]\ncontact_law = "demseg"\n' + output), 20)
 
     def test_consistent_integrator(self):
         self.agrees(run("consistent", rock + squeezed + '[numerics]\nintegrator = "consistent"\n' + output), 100)
 
     def test_every_step_of_circles_and_polygons(self):
-        for name, case, speed in (("pulled", pulled, 0.2), ("squeezed", squeezed, 0.2), ("cells", voronoi + pulled, 0.2),
+        for name, case, speed in (("pulled", pulled + bonded, 0.2), ("squeezed", squeezed, 0.2), ("glued", pulled, 0.2),
+                                  ("cells", voronoi + pulled + bonded, 0.2), ("glued_cells", voronoi + pulled, 0.2),
                                   ("frictional", triangles + squeezed.replace("0.02", "0.003") + friction, 0.5)):
             quick = case + f"axial_strain_rate = {speed}\n"
             text = rock.replace("count = 80", "count = 30") + quick + output.replace("frames = 12", "frames = 2000")
@@ -180,6 +218,47 @@ class Recount(unittest.TestCase):
                 if name == "frictional":
                     self.assertIn("initial_tangent_window.contacts_gained", r.keys)
                     self.assertGreater(r.summary["initial_tangent_window"]["contacts_gained"], 0)
+                self.agrees(folder, 180)
+
+    def test_cells_of_an_area_with_weibull_strengths_pulled_between_glued_platens(self):
+        self.agrees(cells_of_an_area_pulled(), 200)
+
+    def test_cells_of_an_area_between_frictional_platens(self):
+        for angle in ("30.0", "15.0"):  # above and below the residual one
+            platens = squeezed + friction.replace("15.0", angle)
+            self.agrees(run("cells_frictional_" + angle, packing + area + strengths + cells + cohesive + platens + output), 200)
+
+    def test_cells_with_strengths_a_point_within_grips(self):
+        text = rock + "tensile_strength = 2000.0\ncohesion = 6000.0\n" + cells + cohesive + "gap = 2.0e-4\n"
+        held = 'platens = "glued"\ngrip = 0.15\n'
+        self.agrees(run("cells_grips", text + squeezed.replace("0.02", "0.05") + held + output), 200)
+
+    def test_triangles_of_an_area_with_normal_strengths_and_a_thickness(self):
+        text = packing + area + strengths + wedges + cohesive + scattered("normal", 0.4)
+        self.agrees(run("wedges", text + squeezed + output + "out_of_plane_thickness = 0.05\n"), 200)
+
+    def test_circles_with_factors_and_bonds_at_gaps(self):
+        self.agrees(circles_by_factors(), 200)
+
+    def test_circles_of_an_area_with_back_tension(self):
+        self.agrees(run("circles_area", packing + area + squeezed + output), 200)
+
+    def test_cells_part_at_platens_that_are_bonded(self):
+        folder = run("cells_bonded", packing + area + strengths + cells + cohesive + pulled + bonded + output)
+        self.agrees(folder, 150)
+        self.assertEqual(json.loads((folder / "summary.json").read_text())["failed_at"], "platen")
+
+    def test_every_step_of_coulomb_bonds(self):
+        weak = strengths.replace("1.0e7", "0.5e7").replace("3.0e7", "0.5e7")
+        for name, case in (
+            ("cells", area + strengths + cells + cohesive + scattered("weibull", 0.3) + pulled + "axial_strain_rate = 0.8\n"),
+            ("frictional", area + weak + cells + cohesive + squeezed.replace("0.02", "0.006") + "axial_strain_rate = 3.0\n"
+             + friction.replace("15.0", "30.0")),
+            ("circles", circles_every_step),
+        ):
+            with self.subTest(case=name):
+                folder = every_step_of_few("coulomb_" + name, case)
+                self.assertTrue(any("history" in line[0] for line in recount(folder).lines), "a frame a step")
                 self.agrees(folder, 180)
 
     def test_rate_rule_of_every_step(self):
@@ -221,6 +300,7 @@ class Recount(unittest.TestCase):
                 with self.subTest(kind=kind, companion=name, figure="post_peak_difference"):
                     self.assertGreater(after.sum(), 5, "rows after the peak")
                     self.assertAlmostEqual(stated["post_peak_difference"], expected, delta=1e-9)
+
     def test_minerals(self):
         labels = scratch / "labels.txt"
         labels.write_text("".join(("1\n", "mica\n", "feldspar\n")[k % 3] for k in range(80)))
@@ -233,6 +313,13 @@ class Recount(unittest.TestCase):
                 self.agrees(folder, 150)
         text = rock.replace("count = 80", "count = 30") + minerals + pulled + "axial_strain_rate = 0.2\n"
         self.agrees(run("minerals_every_step", text + output.replace("frames = 12", "frames = 2000")), 180)
+
+    def test_minerals_with_coulomb_bonds(self):
+        self.agrees(run("minerals_factors", rock + cohesive + factors + squeezed + rate + minerals + output), 200)
+        given = "tensile_strength = 2000.0\ncohesion = 6000.0\nresidual_friction_angle = 10.0\n"
+        self.agrees(run("minerals_cells", rock + given + cells + cohesive + squeezed + friction + minerals + output), 200)
+        two = '[minerals]\nseed = 5\n[[mineral]]\nname = "mica"\narea_share = 0.5\nfriction_angle = 30.0\n[[mineral]]\nname = "rest"\n'
+        self.agrees(run("minerals_area", packing + area + strengths + cells + cohesive + squeezed + two + output), 200)
 
     def test_wrong_shares_of_minerals_are_found(self):
         folder = run("minerals_drawn", rock + minerals + squeezed + rate + output)
@@ -277,9 +364,10 @@ class FaultsAreFound(unittest.TestCase):
     def spoilt(self, what, sound=None):
         folder = scratch / "spoilt"
         shutil.rmtree(folder, ignore_errors=True)
-        shutil.copytree(sound or circles(), folder)
+        sound = sound or circles()
+        shutil.copytree(sound, folder)
         what(folder)
-        return differing(folder)
+        return sorted(set(differing(folder)) - set(differing(sound)))
 
     def spoil_summary(self, change, sound=None):
         def what(folder):
@@ -314,6 +402,12 @@ class FaultsAreFound(unittest.TestCase):
 
     def test_strain_of_row_0_in_every_event(self):
         self.found(self.spoil_column("events.csv", "axial_strain", lambda column: ["0"] * len(column)), "axial_strain")
+
+    def test_slips(self):
+        more = lambda column: [str(float(value) * 1.001) for value in column]  # noqa: E731
+        self.found(self.spoil_column("slips.csv", "shear_force", more), "slips: shear force")
+        late = lambda column: [str(int(value) + 1000) for value in column]  # noqa: E731
+        self.found(self.spoil_column("slips.csv", "step", late), "bonds_slid of slips")
 
     def test_strength_and_energy_of_events(self):
         halved = lambda column: [str(float(value) / 2) for value in column]  # noqa: E731
@@ -408,7 +502,7 @@ class FaultsAreFound(unittest.TestCase):
         self.found(self.spoil_column("curve.csv", "lateral_strain", widened), "lateral_strain")
 
     def test_losses_and_single_energies_of_a_frame_a_step(self):
-        text = rock.replace("count = 80", "count = 30") + pulled + "axial_strain_rate = 0.2\n"
+        text = rock.replace("count = 80", "count = 30") + pulled + bonded + "axial_strain_rate = 0.2\n"
         sound = run("every_step_pulled", text + output.replace("frames = 12", "frames = 2000"))
         more = lambda values: [str(float(value) * 1.001) for value in values]  # noqa: E731
         for file, columns in (("curve.csv", ("dashpot_loss", "friction_loss", "platen_work")),
@@ -418,8 +512,57 @@ class FaultsAreFound(unittest.TestCase):
                 with self.subTest(column=column):
                     self.found(self.spoil_column(file, column, more, sound), "history: " + figure)
 
+    def test_strength_without_its_random_factor(self):
+        mean = json.loads((circles_by_factors() / "summary.json").read_text())["mean_back_tension"]
+        found = self.spoil_column("events.csv", "strength", lambda column: [str(mean)] * len(column), circles_by_factors())
+        self.found(found, "events: strength")
+
+    def test_modes_swapped(self):
+        other = {"shear": "tension", "tension": "shear"}
+        found = self.spoil_column("events.csv", "mode", lambda column: [other[word] for word in column], circles_by_factors())
+        self.found(found, "events: rows with another mode")
+
+    def test_energy_of_coulomb_bonds_halved(self):
+        halved = lambda column: [str(float(value) / 2) for value in column]  # noqa: E731
+        self.found(self.spoil_column("events.csv", "energy", halved, circles_by_factors()), "events: energy of all")
+
+    def test_largest_crack_grip_and_strengths_of_the_summary(self):
+        for name, value in (("failed_at", "grip"), ("failed_at", None), ("grip", 0.0), ("bonds_unbreakable", 0),
+                            ("gauge_modulus", 1.001), ("mean_tensile_strength", 1.001), ("bond_law", "back_tension"),
+                            ("material_units", "point"), ("platens", "bonded"), ("peak_stress_pa", 20.0)):
+
+            def change(summary, name=name, value=value):
+                summary[name] = summary[name] * value if isinstance(value, float) else value
+
+            with self.subTest(figure=name, value=value):
+                self.found(self.spoil_summary(change, cells_of_an_area_pulled()), name)
+
+        def fewer(summary):
+            summary["largest_crack"]["bonds"] -= 1
+
+        self.found(self.spoil_summary(fewer, cells_of_an_area_pulled()), "largest_crack.bonds")
+
+    def test_gauge_strain_as_far_as_the_platens(self):
+        lines = (cells_of_an_area_pulled() / "curve.csv").read_text().splitlines()
+        whole = [line.split(",")[0] for line in lines[1:]]
+        found = self.spoil_column("curve.csv", "gauge_strain", lambda column: whole, cells_of_an_area_pulled())
+        self.found(found, "gauge_strain")
+
+    def test_single_breaks_of_coulomb_bonds(self):
+        sound = every_step_of_few("coulomb_circles", circles_every_step)
+        more = lambda values: [str(float(value) * 1.001) for value in values]  # noqa: E731
+        for column in ("energy", "normal_force", "shear_force"):
+            with self.subTest(column=column):
+                found = self.spoil_column("events.csv", column, more, sound)
+                self.found(found, f"history: {column.replace('_', ' ')} of breaks")
+
+        def last(words):
+            return words[:-1] + ["tension" if words[-1] == "shear" else "shear"]
+
+        self.found(self.spoil_column("events.csv", "mode", last, sound), "history: mode of breaks")
+
     def test_energies_and_sliding_points_of_the_curve(self):
-        for column in ("strain_energy", "kinetic_energy", "points_sliding", "stress_top"):
+        for column in ("strain_energy", "kinetic_energy", "points_sliding", "bonds_slid", "stress_top"):
             with self.subTest(column=column):
                 more = lambda values: [str(float(value) * 1.001 + 1) for value in values]  # noqa: E731
                 self.found(self.spoil_column("curve.csv", column, more), column)
