@@ -15,7 +15,8 @@ set multiplot layout 1,2
 set grid lc rgb '#d8d8d8'
 set xlabel "grain size over width"
 set xrange [0:*]
-set key bottom left
+set xtics 0.02
+set key bottom right
 set ylabel "Young's modulus, GPa"
 set yrange [0:*]
 plot $area using 1:2:3 with yerrorlines lw 1.6 title "area units, platens", $area using 1:4:5 with yerrorlines lw 1.6 title "area units, gauge length", $point using 1:2:3 with yerrorlines lw 1.6 title "point units, platens"
