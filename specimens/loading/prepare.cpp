@@ -104,6 +104,7 @@ VirtualTest bond_test(const TestCase& description, const TestHooks& hooks) {
     const Clock::time_point begun = Clock::now();
     const Specimen specimen = make_specimen(description, hooks);
     test.specimen_seconds = std::chrono::duration<double>(Clock::now() - begun).count();
+    if (specimen.mesh_thick > 0.0) test.description.mesh.thick = specimen.mesh_thick;
     hooks.report_work("bonding");
     BondedSpecimen bonded = bond_specimen(specimen, description, description.loading);
     test.world = std::move(bonded.world);

@@ -172,6 +172,9 @@ std::vector<SummaryKey> all_summary_keys() {
         {{"packing.anisotropy", "-", "|sx - sy|/(sx + sy)"}},
         {{"packing.unbalanced", "-", "largest force on a circle over the mean contact force"}},
         {{"packing.radius_scale", "-", "radii made over radii drawn; 1 with a count"}},
+        {{"packing.cell_diameter", "m", "mean of the cells' equivalent diameters sqrt(4 area/pi), gaps included",
+          "of one meshed by the test"}},
+        {{"packing.cell_spread", "-", "their coefficient of variation", "likewise"}},
 
         {{"frame_start", "", "file of the particles at the start"}, unlisted},
         {{"frame_peak", "", "at the peak, or the largest stress so far"}, unlisted},
