@@ -81,7 +81,7 @@ def circles():
 
 def cells():
     sizes = rock.replace("radius_min = 1.333e-2\nradius_max = 2.667e-2", "cell_diameter = 4.4e-2\ncell_spread = 0.15")
-    return run("sized_cells", sizes + voronoi + pulled + output)
+    return run("sized_cells", sizes + voronoi + squeezed + output)
 
 
 def differing(folder):
