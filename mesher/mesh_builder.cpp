@@ -29,7 +29,8 @@ Cell& MeshBuilder::add(std::span<const Point> before, std::span<const Point> aft
     cell.corner_count = static_cast<std::uint32_t>(after.size());
     cell.sides = sides_of(before, domain_);
     mesh_.corners.insert(mesh_.corners.end(), after.begin(), after.end());
-    area_before_.add(polygon_area(before));
+    cell.area = polygon_area(before);
+    area_before_.add(cell.area);
     area_after_.add(polygon_area(after));
     measure_edges(after);
     return cell;

@@ -64,6 +64,7 @@ struct Cell {
     int centre = -1;  ///< Voronoi: index of its centre; triangles: -1
     std::array<int, 3> centres{-1, -1,
                                -1};  ///< triangles: centres at the corners, -1 for a corner added on the domain's face
+    double area = 0.0;               ///< m2, before the inset
     std::uint8_t sides = 0;          ///< SideBit: domain faces on which the cell had an edge before the inset
 
     bool on_left() const { return (sides & side_left) != 0; }

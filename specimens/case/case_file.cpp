@@ -355,6 +355,10 @@ class ConsistencyCheck {
         if (p.mean_overlap && p.void_ratio)
             exclude("packing.void_ratio", "a packing has one target: remove mean_overlap or void_ratio");
         if (!p.mean_overlap && !p.void_ratio) need("packing.mean_overlap", "or write void_ratio");
+        if (p.cell_diameter || p.cell_spread) {
+            cells();
+            return;
+        }
         if (p.sizes == "sieve") {
             need("packing.sieve", "sizes = \"sieve\" needs a curve");
             for (const char* key : {"radius_min", "radius_max", "radius_median", "radius_log_deviation"}) {
@@ -376,6 +380,20 @@ class ConsistencyCheck {
             refuse("packing.radius_min", fmt::format("{} m", *p.radius_min),
                    fmt::format("at most radius_max = {} m", *p.radius_max), "exchange them");
         }
+    }
+
+    /// The size of the cells in place of that of the circles.
+    void cells() const {
+        constexpr const char* because = "cell_diameter and cell_spread give the sizes: remove it, or them";
+        for (const char* key : {"radius_min", "radius_max", "radius_median", "radius_log_deviation", "sieve"})
+            exclude(std::string("packing.") + key, because);
+        if (!test_.has_table("mesh"))
+            refuse(test_.packing.cell_diameter ? "packing.cell_diameter" : "packing.cell_spread", "no [mesh] beside it",
+                   "one", "circles have radii; cells are a mesh's");
+        if (test_.packing.sizes == "sieve")
+            refuse("packing.sizes", "\"sieve\"", "\"uniform\" or \"lognormal\"", because);
+        need("packing.cell_diameter", "cell_spread is of diameters with a mean");
+        need("packing.cell_spread", "cell_diameter needs their coefficient of variation beside it");
     }
 
     void material() const {
@@ -480,6 +498,12 @@ class ConsistencyCheck {
         if (*test_.mesh.kind == "voronoi" && test_.mesh.boundary == "seeds") {
             refuse("mesh.boundary", "\"seeds\"", "\"domain\" with kind = \"voronoi\"", "Voronoi cells always fill it");
         }
+        if (test_.coulomb_bonds() && !test_.mesh.thick && !test_.mesh.inset) {
+            exclude("bond.thick", "mesh.thick is derived: give both, or neither");
+            return;
+        }
+        if (!test_.coulomb_bonds())
+            need("mesh.thick", "by back-tension the excess of bond.thick over it is the strength");
         const double gap = test_.mesh.inset ? 2.0 * *test_.mesh.inset : *test_.mesh.thick;
         if (test_.coulomb_bonds()) {
             if (test_.bond.thick && *test_.bond.thick < gap)

@@ -158,6 +158,13 @@ std::vector<Parameter> all_parameters() {
         CRACKLE_KEY(packing, radius_median, "m", "Median radius (lognormal).").above(0),
         CRACKLE_KEY(packing, radius_log_deviation, "", "Standard deviation of ln(radius) (lognormal).").above(0),
         CRACKLE_KEY(packing, sieve, "", "Sieve curve: CSV with columns size,passing_by_mass.").path(),
+        CRACKLE_KEY(packing, cell_diameter, "m",
+                    "With [mesh], in place of radii: mean of the cells' equivalent diameters sqrt(4 area/pi), gaps "
+                    "included; the circles' radii follow.")
+            .above(0),
+        CRACKLE_KEY(packing, cell_spread, "", "With it: coefficient of variation of these diameters.")
+            .above(0)
+            .at_most(1),
         CRACKLE_KEY(packing, mean_overlap, "m", "Mean overlap of all contacts to compress to.").above(0),
         CRACKLE_KEY(packing, void_ratio, "", "Void ratio to compress to, in place of mean_overlap.").above(0),
         CRACKLE_KEY(packing, seed, "", "Seed of the random numbers; the same seed gives the same packing.")
@@ -167,7 +174,10 @@ std::vector<Parameter> all_parameters() {
         CRACKLE_KEY(mesh, kind, "", "Polygons made from the circles' centres.")
             .one_of({"delaunay", "voronoi"})
             .needed_with_table(),
-        CRACKLE_KEY(mesh, thick, "m", "Gap between neighbouring polygons.").above(0).needed_with_table(),
+        CRACKLE_KEY(mesh, thick, "m",
+                    "Gap between neighbouring polygons; with coulomb bonds 0.02 of the mean cell size sqrt(width "
+                    "height/cells) if not given, or twice inset.")
+            .above(0),
         CRACKLE_KEY(mesh, inset, "m", "Depth by which each polygon is inset; thick/2 if not given.").at_least(0),
         CRACKLE_KEY(mesh, boundary, "", "Outer faces: flat on the domain, or where the outermost centres lie.")
             .one_of({"domain", "seeds"})
@@ -394,6 +404,9 @@ TestCase::MaterialKeys mineral_material(const TestCase& test, std::size_t minera
 const std::vector<Alternatives>& case_alternatives() {
     static const std::vector<Alternatives> all{
         {{"packing.count", "packing.height_to_width"}, {"packing.width", "packing.height"}},
+        {{"packing.cell_diameter", "packing.cell_spread"},
+         {"packing.radius_min", "packing.radius_max", "packing.radius_median", "packing.radius_log_deviation",
+          "packing.sieve"}},
         {{"packing.mean_overlap"}, {"packing.void_ratio"}},
         {{"material.damping_ratio"}, {"material.normal_damping", "material.shear_damping"}},
         {{"material.normal_stiffness", "material.shear_stiffness"},

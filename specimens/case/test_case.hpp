@@ -38,6 +38,7 @@ struct TestCase {
         std::optional<double> radius_min, radius_max;               // m
         std::optional<double> radius_median, radius_log_deviation;  // m, -
         std::optional<std::string> sieve;                           // CSV file
+        std::optional<double> cell_diameter, cell_spread;           // m, -; of the mesh's cells, in place of radii
         std::optional<double> mean_overlap;                         // m
         std::optional<double> void_ratio;                           // -
         std::int64_t seed = 1;
@@ -45,7 +46,7 @@ struct TestCase {
 
     struct Mesh {
         std::optional<std::string> kind;
-        std::optional<double> thick;  // m
+        std::optional<double> thick;  ///< m; absent until the cells are counted: derived_mesh_thick()
         std::optional<double> inset;  // m
         std::string boundary = "domain";
         bool merge_destroyed = false;

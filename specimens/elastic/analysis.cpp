@@ -47,6 +47,8 @@ LinearBond linear_bond(const World& world, PointIndex k, const PointRates& rate,
     bond.body_i = world.bodies.info[view.body_i].id;
     bond.body_j = world.bodies.info[view.body_j].id;
     bond.position = view.position;
+    bond.overlap = view.bond_overlap;
+    bond.closing = rate.closing * strain;
     bond.normal_force = view.normal_stiffness * rate.closing * strain;
     bond.shear_force = view.shear_stiffness * std::abs(rate.slipping) * strain;
     if (world.settings.bond_law == BondLaw::coulomb) {

@@ -19,11 +19,13 @@
 
 namespace crackle {
 
-/// A bonded point under the linear solution; forces at `ElasticAnalysis::strain`.
+/// A bonded point under the linear solution; forces and closing at `ElasticAnalysis::strain`.
 struct LinearBond {
     int body_i = 0, body_j = 0;  ///< input ids
     Vec2 position;               // m
-    double strength = 0.0;       // N, k_n δ0
+    double strength = 0.0;       ///< N, in tension: k_n δ0, or a coulomb bond's own; infinite where it cannot break
+    double overlap = 0.0;        // m, δ0
+    double closing = 0.0;        // m, growth of the overlap
     double normal_force = 0.0;   // N, compression positive
     double shear_force = 0.0;    // N, magnitude
     double break_strain = 0.0;   ///< infinite where the point is squeezed

@@ -40,7 +40,7 @@ constexpr double first_yield_share = 0.02;
 constexpr std::size_t most_bodies_solved = 200'000;
 
 /// Linear solution of a world with bonded platens, or a notice why there is none.
-void solve_small_strain(VirtualTest& test, const World& world, const TestSetup& own) {
+void solve_small_strain(VirtualTest& test, const World& world, const TestSetup& own, const SolutionVisitor& visit) {
     if (world.bodies.size() > most_bodies_solved) {
         test.setup.notices.push_back(fmt::format(
             "no small-strain modulus: {} bodies, more than {} are not solved beside a test; `crackle elastic` does it",
@@ -54,6 +54,7 @@ void solve_small_strain(VirtualTest& test, const World& world, const TestSetup& 
         test.state.poissons_ratio = solved.moduli.poissons_ratio;
         test.state.gauge_modulus = solved.moduli.gauge_modulus;
         test.state.modulus_residual = solved.moduli.solution.residual;
+        if (visit) visit(world, own, solved.moduli);
         test.small_strain = std::move(solved);
     } catch (const InputError& error) {
         test.setup.notices.push_back(fmt::format("no small-strain modulus: {}", error.what()));
@@ -91,7 +92,7 @@ void notice_fast_loading(VirtualTest& test) {
 
 }  // namespace
 
-VirtualTest bond_test(const TestCase& description, const TestHooks& hooks) {
+VirtualTest bond_test(const TestCase& description, const TestHooks& hooks, const SolutionVisitor& visit) {
     VirtualTest test;
     test.description = description;
     const TestCase::MaterialKeys& material = description.material;
@@ -104,6 +105,7 @@ VirtualTest bond_test(const TestCase& description, const TestHooks& hooks) {
     const Clock::time_point begun = Clock::now();
     const Specimen specimen = make_specimen(description, hooks);
     test.specimen_seconds = std::chrono::duration<double>(Clock::now() - begun).count();
+    if (specimen.mesh_thick > 0.0) test.description.mesh.thick = specimen.mesh_thick;
     hooks.report_work("bonding");
     BondedSpecimen bonded = bond_specimen(specimen, description, description.loading);
     test.world = std::move(bonded.world);
@@ -121,7 +123,7 @@ VirtualTest bond_test(const TestCase& description, const TestHooks& hooks) {
     notice_deep_bonds(test);
     if (bonded.platens.bonded) {
         check_platen_hold(test.world, test.setup, bonded.platens, description);
-        solve_small_strain(test, test.world, test.setup);
+        solve_small_strain(test, test.world, test.setup, visit);
     } else {
         TestCase::Loading held = description.loading;
         held.platens = "bonded";
@@ -129,7 +131,7 @@ VirtualTest bond_test(const TestCase& description, const TestHooks& hooks) {
         try {
             const TestSetup own = record_setup(twin.world, specimen, twin.platens, test.setup.compression, grip);
             check_platen_hold(twin.world, own, twin.platens, description);
-            solve_small_strain(test, twin.world, own);
+            solve_small_strain(test, twin.world, own, visit);
         } catch (const InputError& error) {
             test.setup.notices.push_back(fmt::format("no small-strain modulus: {}", error.what()));
         }
@@ -141,8 +143,8 @@ VirtualTest bond_test(const TestCase& description, const TestHooks& hooks) {
     return test;
 }
 
-VirtualTest prepare_test(const TestCase& description, const TestHooks& hooks) {
-    VirtualTest test = bond_test(description, hooks);
+VirtualTest prepare_test(const TestCase& description, const TestHooks& hooks, const SolutionVisitor& visit) {
+    VirtualTest test = bond_test(description, hooks, visit);
     if (description.loading.rate_tolerance) {
         start_by_tolerance(test);
         hooks.report_stage(fmt::format("loading by tolerance {}: first rate {:.3g} 1/s, a wave's transit {:.3g} s",

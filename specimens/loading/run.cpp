@@ -177,7 +177,9 @@ TestOutcome run_test(const TestCase& description, const TestOptions& options, co
     Profile profile;
     if (options.profile) test.world.workers.profile = &profile;
     test.state.command = options.command;
-    recorded.output.frames = test.description.output.frames;  // known only now where the case is silent
+    // Known only now where the case is silent.
+    recorded.output.frames = test.description.output.frames;
+    recorded.mesh.thick = test.description.mesh.thick;
     const std::string text = resolved_case(recorded, folder.target());
     // Empty until loading: by that a test that has only begun is known.
     TestFiles files(folder, sha256(text), test.state, precision_of(description), description.output.slips);

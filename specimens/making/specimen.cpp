@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "mesher/mesher.hpp"
@@ -15,6 +17,7 @@
 #include "solver/demseg/geometry.hpp"
 #include "specimens/case/parameters.hpp"
 #include "specimens/making/cell_bodies.hpp"
+#include "specimens/making/cell_sizes.hpp"
 #include "specimens/packing/packing.hpp"
 
 namespace crackle {
@@ -61,6 +64,83 @@ InputError located(const TestCase& test, const std::string& text) {
     return InputError(known ? test.at("packing." + key) + text.substr(key.size()) : test.at("packing") + ": " + text);
 }
 
+MeshKind mesh_kind(const TestCase& test) {
+    return *test.mesh.kind == "voronoi" ? MeshKind::voronoi : MeshKind::delaunay;
+}
+
+Boundary mesh_boundary(const TestCase& test) {
+    return test.mesh.boundary == "seeds" ? Boundary::centres : Boundary::domain;
+}
+
+Rectangle rectangle(const Domain& domain) { return {domain.x1, domain.x2, domain.y1, domain.y2}; }
+
+std::vector<CellCentre> centres_of(const Scene& circles) {
+    std::vector<CellCentre> centres;
+    for (const Body& body : circles.bodies) {
+        const Vec2 centre = mass_properties(circles, body).centroid;
+        centres.push_back({centre.x, centre.y});
+    }
+    return centres;
+}
+
+/// The cells of circles, without gaps between them.
+Mesh bare_cells(const TestCase& test, const Scene& circles) {
+    MeshRequest request;
+    request.kind = mesh_kind(test);
+    request.boundary = mesh_boundary(test);
+    try {
+        return make_mesh(centres_of(circles), rectangle(circles.domain), request);
+    } catch (const MeshError& error) {
+        throw InputError(fmt::format("{}: {}", test.at("mesh.kind"), error.what()));
+    }
+}
+
+// Packings made for cells of a size, and what is near enough: one circle more or less in a box of a few hundred changes
+// the mean by as much, another arrangement the spread by half of its share.
+constexpr int cell_packings = 4;
+constexpr double met_diameter_share = 0.002, met_spread = 0.02;
+
+/// Packs circles whose cells have the diameters asked for, or come nearest to them.
+Packing pack_for_cells(const TestCase& test, PackingRequest request, const PackingCallback& progress) {
+    const CellSizes asked{*test.packing.cell_diameter, *test.packing.cell_spread};
+    std::optional<Packing> best;
+    double best_miss = 0.0, scale = 1.0, correction = 0.0;
+    for (int k = 0; k < cell_packings && !(best && best_miss <= 1.0); ++k) {
+        try {
+            request.sizes = scaled(radii_for_cells(mesh_kind(test), test.packing.sizes, asked, correction), scale);
+        } catch (const InputError& error) {
+            throw InputError(fmt::format("{}: {}", test.at("packing.cell_spread"), error.what()));
+        }
+        Packing packing;
+        try {
+            packing = make_packing(request, progress);
+        } catch (const InputError& error) {
+            throw located(test, error.what());
+        }
+        const CellSizes reached = measure_cells(bare_cells(test, packing.scene));
+        const double miss = std::max(std::abs(reached.mean / asked.mean - 1.0) / met_diameter_share,
+                                     std::abs(reached.spread - asked.spread) / met_spread);
+        if (!best || miss < best_miss) {
+            best = std::move(packing);
+            best_miss = miss;
+        }
+        scale *= asked.mean / reached.mean;
+        // Once: what is left then is chance, and each change of the spread moves the mean.
+        if (k == 0 && std::abs(reached.spread - asked.spread) > met_spread) correction = asked.spread - reached.spread;
+    }
+    return std::move(*best);
+}
+
+Packing pack(const TestCase& test, PackingRequest request, const PackingCallback& progress) {
+    if (test.packing.cell_diameter) return pack_for_cells(test, std::move(request), progress);
+    request.sizes = sizes_of(test);
+    try {
+        return make_packing(request, progress);
+    } catch (const InputError& error) {
+        throw located(test, error.what());
+    }
+}
+
 Scene packed_scene(const TestCase& test, const TestHooks& hooks, Specimen& specimen) {
     const auto& keys = test.packing;
     PackingRequest request;
@@ -68,7 +148,6 @@ Scene packed_scene(const TestCase& test, const TestHooks& hooks, Specimen& speci
     request.height = keys.height;
     request.count = keys.count;
     request.height_to_width = keys.height_to_width;
-    request.sizes = sizes_of(test);
     request.mean_overlap = keys.mean_overlap;
     request.void_ratio = keys.void_ratio;
     request.seed = static_cast<std::uint64_t>(keys.seed);
@@ -76,16 +155,11 @@ Scene packed_scene(const TestCase& test, const TestHooks& hooks, Specimen& speci
     request.material.damping_ratio = default_damping_ratio;
     apply_material(test.material, request.material);
     request.material.tensile_strength = request.material.cohesion = 0.0;  // nothing is bonded yet
-    Packing packing;
-    try {
-        packing = make_packing(request, [&](const PackingProgress& p) {
-            if (hooks.interrupted && hooks.interrupted()) throw TestInterrupted();
-            hooks.report_work(fmt::format("{} (draw {}): unbalanced by {:.1e} of the mean contact force", p.stage,
-                                          p.attempt, p.residual));
-        });
-    } catch (const InputError& error) {
-        throw located(test, error.what());
-    }
+    Packing packing = pack(test, std::move(request), [&](const PackingProgress& p) {
+        if (hooks.interrupted && hooks.interrupted()) throw TestInterrupted();
+        hooks.report_work(fmt::format("{} (draw {}): unbalanced by {:.1e} of the mean contact force", p.stage,
+                                      p.attempt, p.residual));
+    });
     const PackingReport& report = packing.report;
     specimen.notices = packing_notices(report);
     specimen.packing = {{"void_ratio", report.void_ratio},
@@ -198,31 +272,64 @@ bool cell_on_side(const Cell& cell, Wall side, bool domain_boundary, const std::
     return std::count_if(cell.centres.begin(), cell.centres.end(), touches) >= 2;
 }
 
+// Of the mean cell size: at 0.02 all but one in a hundred faces have both their points (solver/MODEL.md 5.2), and no
+// cell of a usual packing is destroyed.
+constexpr double derived_gap_share = 0.02;
+
+/// The gap between cells of a case that gives none.
+double derived_mesh_thick(const TestCase& test, const Scene& circles, const TestHooks& hooks) {
+    if (test.mesh.inset) return 2.0 * *test.mesh.inset;
+    const Rectangle box = rectangle(circles.domain);
+    const std::size_t cells =
+        mesh_kind(test) == MeshKind::voronoi ? circles.bodies.size() : bare_cells(test, circles).cells.size();
+    const double thick =
+        derived_gap_share * std::sqrt((box.x2 - box.x1) * (box.y2 - box.y1) / static_cast<double>(cells));
+    hooks.report_stage(
+        fmt::format("mesh.thick = {:.4g} m by default: {} of the mean cell size", thick, derived_gap_share));
+    return thick;
+}
+
+// Cells beyond these of what was asked are worth a notice: the second is twice the error of the spread's fit.
+constexpr double noticed_diameter_share = 0.01, noticed_spread = 0.02;
+
+/// Sizes of the cells among the figures of the packing that they come from.
+void record_cells(Specimen& specimen, const TestCase& test, const CellSizes& cells, const TestHooks& hooks) {
+    if (!test.has_table("packing")) return;
+    specimen.packing.emplace_back("cell_diameter", cells.mean);
+    specimen.packing.emplace_back("cell_spread", cells.spread);
+    const auto& asked = test.packing;
+    std::string text = fmt::format("cells: mean diameter {:.4g} m, spread {:.3g}", cells.mean, cells.spread);
+    if (asked.cell_diameter) text += fmt::format("; asked {:.4g} m, {:.3g}", *asked.cell_diameter, *asked.cell_spread);
+    hooks.report_stage(text);
+    if (!asked.cell_diameter) return;
+    if (std::abs(cells.mean / *asked.cell_diameter - 1.0) <= noticed_diameter_share &&
+        std::abs(cells.spread - *asked.cell_spread) <= noticed_spread)
+        return;
+    specimen.notices.push_back(text + "; more circles would meet them better");
+}
+
 /// Replaces the circles by the polygons of their centres; ids count from 1 in the mesh's order.
 void mesh_specimen(Specimen& specimen, const TestCase& test, const TestHooks& hooks) {
     const Scene circles = specimen.scene;
-    std::vector<CellCentre> centres;
+    const std::vector<CellCentre> centres = centres_of(circles);
     std::vector<int> materials;
     std::vector<char> touches_left, touches_right;
     for (const Body& body : circles.bodies) {
-        const Vec2 centre = mass_properties(circles, body).centroid;
-        centres.push_back({centre.x, centre.y});
         materials.push_back(body.material);
         touches_left.push_back(circle_overlaps_side(circles, body, Wall::left) ? 1 : 0);
         touches_right.push_back(circle_overlaps_side(circles, body, Wall::right) ? 1 : 0);
     }
     MeshRequest request;
-    const bool voronoi = *test.mesh.kind == "voronoi";
-    request.kind = voronoi ? MeshKind::voronoi : MeshKind::delaunay;
-    request.boundary = test.mesh.boundary == "seeds" ? Boundary::centres : Boundary::domain;
-    request.mesh_gap = *test.mesh.thick;
+    request.kind = mesh_kind(test);
+    request.boundary = mesh_boundary(test);
+    specimen.mesh_thick = test.mesh.thick ? *test.mesh.thick : derived_mesh_thick(test, circles, hooks);
+    request.mesh_gap = specimen.mesh_thick;
     request.inset = test.mesh.inset;
     request.merge_destroyed = test.mesh.merge_destroyed;
-    const Domain& domain = circles.domain;
     Mesh mesh;
     hooks.report_work(fmt::format("meshing {} centres", centres.size()));
     try {
-        mesh = make_mesh(centres, {domain.x1, domain.x2, domain.y1, domain.y2}, request);
+        mesh = make_mesh(centres, rectangle(circles.domain), request);
     } catch (const MeshError& error) {
         throw InputError(fmt::format("{}: {}", test.at("mesh.thick"), error.what()));
     }
@@ -233,7 +340,7 @@ void mesh_specimen(Specimen& specimen, const TestCase& test, const TestHooks& ho
     scene.vertices.clear();
     specimen.left_ids.clear();
     specimen.right_ids.clear();
-    const bool domain_boundary = voronoi || request.boundary == Boundary::domain;
+    const bool domain_boundary = request.kind == MeshKind::voronoi || request.boundary == Boundary::domain;
     add_cell_bodies(scene, mesh, materials);
     int id = 0;
     for (const Cell& cell : mesh.cells) {
@@ -249,6 +356,7 @@ void mesh_specimen(Specimen& specimen, const TestCase& test, const TestHooks& ho
     specimen.segments = mesh.report.segments;
     hooks.report_stage(fmt::format("meshed into {} {} cells with {} segments", mesh.report.cells, specimen.kind,
                                    mesh.report.segments));
+    record_cells(specimen, test, measure_cells(mesh), hooks);
 }
 
 void measure_polygons(Specimen& specimen, const TestCase& test) {

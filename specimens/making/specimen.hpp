@@ -19,6 +19,7 @@ struct Specimen {
     Scene scene;       ///< bodies, materials, domain; all velocities 0, no gravity, no controls
     std::string kind;  ///< "circles", "delaunay" or "voronoi" (polygons from a file: delaunay if all are triangles)
     bool polygons = false;
+    double mesh_thick = 0.0;                              ///< m, mesh.thick given or derived, where meshed here
     double mesh_gap = 0.0;                                ///< m, gap between neighbouring polygons; 0 for circles
     double width = 0.0;                                   ///< m, of the domain
     double height = 0.0;                                  ///< m, of the domain

@@ -200,6 +200,9 @@ std::vector<SummaryKey> all_summary_keys() {
         {{"packing.anisotropy", "-", "|sx - sy|/(sx + sy)"}},
         {{"packing.unbalanced", "-", "largest force on a circle over the mean contact force"}},
         {{"packing.radius_scale", "-", "radii made over radii drawn; 1 with a count"}},
+        {{"packing.cell_diameter", "m", "mean of the cells' equivalent diameters sqrt(4 area/pi), gaps included",
+          "of one meshed by the test"}},
+        {{"packing.cell_spread", "-", "their coefficient of variation", "likewise"}},
 
         {{"minerals", "", "in the order of the case: area shares and grains", "of a rock of several minerals"}},
         {{"minerals[].name", "", "the case's"}},

@@ -17,6 +17,8 @@ constexpr double least_error_share = 1e-6;
 
 double largest_rate(const RateRule& rule) { return std::sqrt(rule.tolerance) * rule.first_strain / rule.transit_time; }
 
+double slowest_rate(const RateRule& rule) { return slowest_share * largest_rate(rule); }
+
 void choose_rate(RateState& state, const RateRule& rule, double kinetic, double stored, double time) {
     const double loading = state.rate * state.rate * rule.kinetic_per_rate;
     const double share = std::max(0.0, kinetic - loading) / std::max(stored, rule.energy_floor);
@@ -29,7 +31,7 @@ void choose_rate(RateState& state, const RateRule& rule, double kinetic, double 
         std::clamp(gain * root * push, -fastest_fall * root, fastest_rise * root) / checks_per_transit;
     const double limit = largest_rate(rule);
     const double before = state.rate;
-    state.rate = std::clamp(before * std::exp(change), slowest_share * limit, limit);
+    state.rate = std::clamp(before * std::exp(change), slowest_rate(rule), limit);
     state.slowest = std::min(state.slowest, state.rate);
     state.fastest = std::max(state.fastest, state.rate);
     if (error > rule.tolerance) state.strain_above += before * steps;

@@ -64,6 +64,8 @@ inline constexpr double checks_per_transit = 20.0;
 
 /// The rate to begin with, never exceeded.
 double largest_rate(const RateRule& rule);
+/// What the rate never falls below.
+double slowest_rate(const RateRule& rule);
 
 /// Smooths the out-of-balance of one step, at every step, so that nothing depends on the rows of the curve.
 /// @param top, bottom axial stress of the specimen at its platens, N/m, of the same sign

@@ -148,6 +148,11 @@ def rubble():
     return run("rubble", rock + squeezed + "stop_at_share_of_peak = 0.3\n" + rate + output)
 
 
+def cells():
+    sizes = rock.replace("radius_min = 1.333e-2\nradius_max = 2.667e-2", "cell_diameter = 4.4e-2\ncell_spread = 0.15")
+    return run("sized_cells", sizes + voronoi + squeezed + output)
+
+
 def differing(folder):
     return [line[0] for line in recount(folder).lines if not line[5]]
 
@@ -192,6 +197,10 @@ class Recount(unittest.TestCase):
 
     def test_voronoi_polygons_pulled_at_a_rate(self):
         self.agrees(run("voronoi_pulled", rock + voronoi + pulled + rate + output), 150)
+
+    def test_cells_of_a_size_asked_for(self):
+        self.agrees(cells(), 100)
+        self.assertLessEqual({"packing.cell_diameter", "packing.cell_spread"}, recount(cells()).keys)
 
     def test_triangles_between_frictional_platens(self):
         self.agrees(run("triangles", rock + triangles + squeezed + friction + output), 100)
@@ -443,6 +452,17 @@ class FaultsAreFound(unittest.TestCase):
 
             with self.subTest(figure=".".join(path)):
                 self.found(self.spoil_summary(change), ".".join(path))
+
+    def test_cells_measured_without_their_gaps(self):
+        for name, off in (("cell_diameter", 1.01), ("cell_spread", 1.03)):
+
+            def what(folder, name=name, off=off):
+                summary = json.loads((folder / "summary.json").read_text())
+                summary["packing"][name] *= off
+                (folder / "summary.json").write_text(json.dumps(summary))
+
+            with self.subTest(figure=name):
+                self.assertEqual(self.spoilt(what, cells()), ["packing." + name])
 
     def test_peak_one_row_late(self):
         curve = (circles() / "curve.csv").read_text().splitlines()

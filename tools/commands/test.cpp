@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle test CASE.toml -o OUT`: one virtual test.
+// `crackle test CASE.toml -o OUT`: one virtual test; `--check`: what it will give and cost.
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "solver/base/errors.hpp"
+#include "specimens/loading/check.hpp"
 #include "specimens/loading/run.hpp"
 #include "specimens/observers/profile_report.hpp"
 #include "specimens/results/describe_files.hpp"
@@ -132,6 +135,150 @@ int finish(const TestOutcome& outcome, const std::string& wanted, Messages& mess
     return exit_interrupted;
 }
 
+using Json = nlohmann::ordered_json;
+
+Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
+
+Json loss_as_json(const std::optional<FirstLoss>& loss) {
+    if (!loss) return nullptr;
+    return {{"strain", loss->strain}, {"stress", loss->stress}, {"body_i", loss->body_i}, {"body_j", loss->body_j}};
+}
+
+Json run_as_json(const RunEstimate& run) {
+    return {{"strain", run.strain}, {"steps", run.steps}, {"seconds", run.seconds}};
+}
+
+Json as_json(const TestCheck& check) {
+    const VirtualTest& test = check.test;
+    const std::string stress = test.description.area_units() ? "Pa" : "N/m";
+    Json json{{"title", test.description.title},
+              {"kind", test.description.loading.kind},
+              {"platens", test.description.loading.platens},
+              {"specimen", test.setup.specimen},
+              {"particles", test.setup.particles},
+              {"grains_across", check.grains_across},
+              {"bonds", test.world.bonds.initial},
+              {"youngs_modulus", number(check.youngs_modulus)},
+              {"poissons_ratio", number(check.poissons_ratio)},
+              {"gauge_modulus", number(check.gauge_modulus)},
+              {"first_slip", loss_as_json(check.first_slip)},
+              {"first_break", loss_as_json(check.first_break)},
+              {"strength_estimate", nullptr},
+              {"time_step", test.world.stepping.time_step},
+              {"axial_strain_rate", check.rate},
+              {"slowest_axial_strain_rate", check.slowest_rate},
+              {"steps_per_second", check.steps_per_second},
+              {"run_to_strength", check.to_strength ? run_as_json(*check.to_strength) : Json(nullptr)},
+              {"run_to_max_axial_strain", run_as_json(check.to_end)},
+              {"specimen_seconds", test.specimen_seconds},
+              {"memory", check.memory},
+              {"warnings", check.warnings}};
+    if (const auto& strength = check.strength)
+        json["strength_estimate"] = {{"stress", strength->stress},
+                                     {"strain", strength->strain},
+                                     {"share_broken", strength->share},
+                                     {"within_factor", strength->factor}};
+    json["units"] = {
+        {"grains_across", "width over sqrt(width height / particles)"},
+        {"youngs_modulus", stress + ", small strain, all bonds intact and sticking"},
+        {"gauge_modulus", stress + ", over the strain of the axial gauge length"},
+        {"first_slip", "strain; stress in " + stress + "; null: none by the linear solution"},
+        {"first_break", "likewise"},
+        {"strength_estimate",
+         "rough: modulus times the strain at which share_broken of the points that can break has broken by the linear "
+         "solution; within_factor: the most it was off by in the cases it is calibrated with"},
+        {"time_step", "s"},
+        {"axial_strain_rate", "1/s, to begin with"},
+        {"slowest_axial_strain_rate", "1/s, while many bonds break"},
+        {"steps_per_second", "1/s, measured on this machine now"},
+        {"run_to_strength", "steps and seconds at the first rate; null without an estimate below max_axial_strain"},
+        {"run_to_max_axial_strain", "likewise, should the specimen not fail before"},
+        {"specimen_seconds", "s, making the specimen"},
+        {"memory", "bytes, largest of this check"}};
+    return json;
+}
+
+std::string loss_text(const std::optional<FirstLoss>& loss, const char* unit) {
+    if (!loss) return "none by the linear solution";
+    return fmt::format("{:.4g} {} at strain {:.3e}, bodies {} and {}", loss->stress, unit, loss->strain, loss->body_i,
+                       loss->body_j);
+}
+
+std::string time_text(double seconds) {
+    if (seconds < 120.0) return fmt::format("{:.2g} s", seconds);
+    return seconds < 7200.0 ? fmt::format("{:.0f} min", seconds / 60.0) : fmt::format("{:.1f} h", seconds / 3600.0);
+}
+
+std::string run_text(const RunEstimate& run) {
+    return fmt::format("{:.3g} steps, {}", run.steps, time_text(run.seconds));
+}
+
+void print_check(const TestCheck& check) {
+    const VirtualTest& test = check.test;
+    const char* unit = test.description.area_units() ? "Pa" : "N/m";
+    const double slower = check.rate / check.slowest_rate;
+    fmt::print("{}, {}: {} particles, {:.3g} grains wide, {} bonds\n", test.setup.specimen,
+               test.description.loading.kind, test.setup.particles, check.grains_across, test.world.bonds.initial);
+    fmt::print("  small strain   E {:.4g} {}, nu {:.3g}, over the gauge length {:.4g} {}\n", check.youngs_modulus, unit,
+               check.poissons_ratio, check.gauge_modulus, unit);
+    fmt::print("  first slip     {}\n", loss_text(check.first_slip, unit));
+    fmt::print("  first break    {}\n", loss_text(check.first_break, unit));
+    if (const auto& strength = check.strength) {
+        fmt::print(
+            "  strength       about {:.2g} {} at strain {:.2g}, within a factor of {:.2g}: where {:.3g} % of the bonds "
+            "have broken by the linear solution\n",
+            strength->stress, unit, strength->strain, strength->factor, 100.0 * strength->share);
+    } else {
+        fmt::print("  strength       no estimate: too few bonds ever break by the linear solution\n");
+    }
+    fmt::print("  run            {}{} to strain {:.3g}; time step {:.3g} s, rate {:.3g} 1/s{}, {:.3g} steps/s\n",
+               check.to_strength ? run_text(*check.to_strength) + " to that strength, " : "", run_text(check.to_end),
+               check.to_end.strain, test.world.stepping.time_step, check.rate,
+               slower > 1.0 ? fmt::format(" (up to {:.2g} times slower while bonds break)", slower) : "",
+               check.steps_per_second);
+    fmt::print("  memory         {:.0f} MB; making the specimen took {}\n", check.memory / 1e6,
+               time_text(test.specimen_seconds));
+    for (const std::string& warning : check.warnings) fmt::print("  warning: {}\n", warning);
+}
+
+/// `--check`: nothing is loaded, and nothing written.
+int check(const Invocation& given) {
+    const po::variables_map& values = given.values;
+    for (const char* other : {"output", "resume", "force", "verify", "profile"}) {
+        if (values.contains(other))
+            throw InputError(
+                fmt::format("crackle test: found --{} with --check, expected CASE.toml alone: nothing is loaded, and "
+                            "nothing written; remove one",
+                            other));
+    }
+    if (given.operands.empty()) throw InputError("crackle test: found no CASE.toml, expected one with --check");
+    TestCase description = read_case(given.operands.front());
+    if (values.contains("allow-unstable")) description.numerics.allow_unstable = true;
+    if (values.contains("threads")) description.numerics.threads = values["threads"].as<int>();
+    watch_interrupts();
+    TestHooks hooks = hooks_for(given.messages);
+    const bool json = values.contains("json");
+    if (json && !given.messages.verbose()) hooks.stage = {};
+    // Notices stand among the warnings.
+    else if (hooks.stage)
+        hooks.stage = [say = hooks.stage](const std::string& text) {
+            if (!text.starts_with("notice: ")) say(text);
+        };
+    try {
+        const TestCheck checked = check_test(description, hooks);
+        given.messages.make_room();
+        if (json)
+            std::cout << as_json(checked).dump(2) << '\n';
+        else
+            print_check(checked);
+    } catch (const TestInterrupted& stop) {
+        given.messages.make_room();
+        report_error(stop.what());
+        return exit_interrupted;
+    }
+    return exit_done;
+}
+
 }  // namespace
 
 CommandLine describe_test() {
@@ -143,11 +290,16 @@ CommandLine describe_test() {
         ("verify", "run the test's companions too (half step, half rate, half and double damping): error bars")  //
         ("profile", "time the phases of a step: a table, and `profile` in summary.json")                         //
         ("threads", po::value<int>()->value_name("N"),
-         "threads (default: the case's); results do not depend on them")                     //
+         "threads (default: the case's); results do not depend on them")  //
+        ("check",
+         "make and bond the specimen, and print what to expect: moduli, first slip and break, a rough strength, steps, "
+         "seconds, memory, warnings; loads and writes nothing")                              //
+        ("json", "with --check: print one JSON object")                                      //
         ("allow-unstable", "accept a time step above the stable bound, and runaway energy")  //
         ("keys", "list all keys of a case")                                                  //
         ("files", "list the files of a test: every column, key and array, with its unit");
-    return {.synopses = {"crackle test CASE.toml -o OUT [OPTIONS]", "crackle test --resume OUT [OPTIONS]"},
+    return {.synopses = {"crackle test CASE.toml -o OUT [OPTIONS]", "crackle test --resume OUT [OPTIONS]",
+                         "crackle test --check CASE.toml [--json]"},
             .description =
                 "Makes the specimen that CASE.toml describes, bonds it with its platens, loads it until it fails, and "
                 "writes into OUT: curve.csv, events.csv, summary.json, frames/ (ParaView), checkpoint, and case.toml "
@@ -157,6 +309,7 @@ CommandLine describe_test() {
             .verbose = "seconds of each stage, bodies and contacts, the time step and why, bytes written",
             .examples = {{"crackle test specimens/guide_rock/circles_tension.toml -o out/circles-tension"},
                          {"crackle test case.toml -o out/case --threads 2 -q"},
+                         {"crackle test --check case.toml"},
                          {"crackle test case.toml -o out/case --verify"},
                          {"crackle test case.toml -o out/case --profile"},
                          {"crackle test --resume out/case",
@@ -177,6 +330,12 @@ int test(const Invocation& given) {
         describe_test_files(std::cout);
         return exit_done;
     }
+    if (values.contains("threads") && values["threads"].as<int>() < 1) {
+        throw InputError(fmt::format("crackle test: --threads: found {}, expected a whole number >= 1",
+                                     values["threads"].as<int>()));
+    }
+    if (values.contains("check")) return check(given);
+    if (values.contains("json")) throw InputError("crackle test: found --json, expected it with --check alone");
     const bool resume = values.contains("resume");
     if (resume != given.operands.empty()) {
         throw InputError(
@@ -190,10 +349,6 @@ int test(const Invocation& given) {
         throw InputError("crackle test: found -o with --resume, expected OUT behind --resume alone");
     if (resume && values.contains("profile"))
         throw InputError("crackle test: found --profile with --resume, expected it with a whole test");
-    if (values.contains("threads") && values["threads"].as<int>() < 1) {
-        throw InputError(fmt::format("crackle test: --threads: found {}, expected a whole number >= 1",
-                                     values["threads"].as<int>()));
-    }
 
     options.folder = values[resume ? "resume" : "output"].as<std::string>();
     options.force = values.contains("force");

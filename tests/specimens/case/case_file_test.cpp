@@ -212,6 +212,24 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"BondWithinTheGap", "[loading]",
                 "[mesh]\nkind = \"voronoi\"\nthick = 1e-3\n[bond]\nthick = 1e-3\n[loading]",
                 "bond.thick: found 0.001 m, expected more than mesh.thick = 0.001 m"},
+        Refusal{"CellsBesideRadii", "radius_min = 0.01\nradius_max = 0.02",
+                "radius_max = 0.02\ncell_diameter = 0.03\ncell_spread = 0.1",
+                ":3: packing.radius_max: found a value, expected none; cell_diameter and cell_spread give the sizes"},
+        Refusal{"CellsWithoutMesh", "radius_min = 0.01\nradius_max = 0.02", "cell_diameter = 0.03\ncell_spread = 0.1",
+                ":3: packing.cell_diameter: found no [mesh] beside it"},
+        Refusal{"CellsWithoutSpread", "radius_min = 0.01\nradius_max = 0.02\nmean_overlap = 1e-4",
+                "cell_diameter = 0.03\nmean_overlap = 1e-4\n[mesh]\nkind = \"voronoi\"\nthick = 1e-3",
+                "packing.cell_spread: found nothing, expected a number > 0 and <= 1; cell_diameter needs"},
+        Refusal{"CellsBySieve", "radius_min = 0.01\nradius_max = 0.02\nmean_overlap = 1e-4",
+                "sizes = \"sieve\"\ncell_diameter = 0.03\ncell_spread = 0.1\nmean_overlap = 1e-4\n[mesh]\nkind = "
+                "\"voronoi\"\nthick = 1e-3",
+                "packing.sizes: found \"sieve\", expected \"uniform\" or \"lognormal\""},
+        Refusal{"GapOfBackTensionDerived", "[loading]", "[mesh]\nkind = \"voronoi\"\n[bond]\nthick = 1e-3\n[loading]",
+                "mesh.thick: found nothing, expected a number > 0 in m; by back-tension the excess"},
+        Refusal{"BondThicknessOfADerivedGap", "[loading]",
+                "tensile_strength = 1\ncohesion = 2\n[mesh]\nkind = \"voronoi\"\n[bond]\nlaw = \"coulomb\"\nthick = "
+                "1e-3\n[loading]",
+                "bond.thick: found a value, expected none; mesh.thick is derived"},
         Refusal{"NotToml", "[packing]", "[packing", ":1: not valid TOML"},
         Refusal{"Twice", "count = 50", "count = 50\ncount = 51", ":3: not valid TOML"}),
     [](const auto& refused) { return refused.param.name; });
@@ -219,6 +237,21 @@ INSTANTIATE_TEST_SUITE_P(
 TEST_F(CaseFile, CellsMayBeInsetByNothing) {
     const char* cells = "[mesh]\nkind = \"voronoi\"\nthick = 1e-3\ninset = 0\n[bond]\nthick = 1.1e-3\n[loading]";
     EXPECT_EQ(read(with("[loading]", cells)).mesh.inset, 0.0);
+}
+
+TEST_F(CaseFile, SizesOfCellsReplaceTheRadiiOfAnIncludedFile) {
+    read(good_case, "rock.toml");
+    const TestCase cells = read(
+        "include = \"rock.toml\"\n[packing]\ncell_diameter = 0.04\ncell_spread = 0.1\n[mesh]\nkind = "
+        "\"voronoi\"\nthick = 1e-3\n[bond]\nthick = 1.1e-3\n");
+    EXPECT_FALSE(cells.packing.radius_min || cells.packing.radius_max);
+    EXPECT_EQ(*cells.packing.cell_diameter, 0.04);
+    read(
+        "include = \"rock.toml\"\n[packing]\ncell_diameter = 0.04\ncell_spread = 0.1\n[mesh]\nkind = "
+        "\"voronoi\"\nthick = 1e-3\n[bond]\nthick = 1.1e-3\n",
+        "cells.toml");
+    const TestCase radii = read("include = \"cells.toml\"\n[packing]\nradius_min = 0.01\nradius_max = 0.02\n");
+    EXPECT_FALSE(radii.packing.cell_diameter || radii.packing.cell_spread);
 }
 
 TEST_F(CaseFile, MissingFileIsNamed) {

@@ -41,6 +41,80 @@ TEST_F(CrackleTest, RunsQuietlyInAPipeAndPrintsItsFigures) {
     EXPECT_EQ(quiet.out + quiet.err, "");
 }
 
+TEST_F(CrackleTest, CheckPrintsWhatToExpectAndWritesNothing) {
+    const auto before = snapshot();
+    const Answer answer = call("--check case.toml");
+    EXPECT_EQ(answer.code, 0) << answer.err;
+    for (const char* part : {"small strain   E ", "first slip ", "first break ", "strength       about ", "steps/s",
+                             "MB; making the specimen", "warning: the specimen is 6"})
+        EXPECT_NE(answer.out.find(part), std::string::npos) << part << " in\n" << answer.out;
+    EXPECT_NE(answer.err.find("bonded "), std::string::npos) << "stages: " << answer.err;
+    const Answer quiet = call("case.toml --check -q");
+    EXPECT_EQ(quiet.code, 0);
+    EXPECT_EQ(quiet.err, "") << "nothing but the result";
+    EXPECT_NE(quiet.out.find("strength       about "), std::string::npos);
+    EXPECT_TRUE(snapshot() == before) << "files were made";
+}
+
+TEST_F(CrackleTest, CheckAnswersInJsonWithTheFiguresOfTheTest) {
+    const Answer answer = call("--check case.toml --json");
+    ASSERT_EQ(answer.code, 0) << answer.err;
+    EXPECT_EQ(answer.err, "");
+    const auto check = nlohmann::json::parse(answer.out);
+    ASSERT_EQ(call("case.toml -o out -q").code, 0);
+    const auto summary = nlohmann::json::parse(read("out/summary.json"));
+    for (const char* key : {"youngs_modulus", "poissons_ratio", "gauge_modulus", "particles"})
+        EXPECT_EQ(check[key], summary[key]) << key;
+    EXPECT_EQ(check["bonds"], summary["bonds_initial"]);
+    const double steps = summary["steps"].get<double>() / summary["axial_strain_end"].get<double>() *
+                         check["run_to_max_axial_strain"]["strain"].get<double>();
+    EXPECT_TRUE(
+        testing::agrees("steps to the end", check["run_to_max_axial_strain"]["steps"].get<double>(), steps, 0.05));
+    EXPECT_GT(check["steps_per_second"].get<double>(), 0.0);
+    EXPECT_GT(check["memory"].get<double>(), 1e6);
+    EXPECT_LT(check["first_slip"]["stress"].get<double>(), check["first_break"]["stress"].get<double>());
+    const double ratio = check["strength_estimate"]["stress"].get<double>() / summary["peak_stress"].get<double>();
+    fmt::print("  strength estimated over strength: {:.3g}\n", ratio);
+    EXPECT_LT(std::abs(std::log(ratio)), std::log(3.0));
+}
+
+TEST_F(CrackleTest, CheckWarnsOfWhatWillGoWrong) {
+    write_small_case(folder_, {.mesh = "voronoi", .loading = "platens = \"bonded\""});
+    replace("case.toml", "thick = 1.0e-3", "thick = 1.0e-4");
+    replace("case.toml", "thick = 1.08e-3", "thick = 2.5e-4");
+    const std::string pulled = call("--check case.toml").out;
+    for (const char* part : {"bonds overlap by 0.0001", "fewer than 20", "bonded platens part at the platen"})
+        EXPECT_NE(pulled.find(part), std::string::npos) << part << " in\n" << pulled;
+    EXPECT_EQ(pulled.find("presses a corner"), std::string::npos) << pulled;
+    write_small_case(folder_, {.kind = "compression", .mesh = "voronoi"});
+    replace("case.toml", "thick = 1.0e-3", "thick = 1.0e-5");
+    replace("case.toml", "thick = 1.08e-3", "thick = 9e-5");
+    const std::string squeezed = call("--check case.toml").out;
+    EXPECT_NE(squeezed.find("at the estimated strength a platen presses a corner in by"), std::string::npos)
+        << squeezed;
+}
+
+TEST_F(CrackleTest, CheckStandsAlone) {
+    expect_refused("--check case.toml -o out", "found --output with --check");
+    expect_refused("--check case.toml --verify", "found --verify with --check");
+    expect_refused("--check", "found no CASE.toml");
+    expect_refused("case.toml -o out --json", "found --json, expected it with --check");
+    expect_refused("--check nowhere.toml", "nowhere.toml: found no such file");
+}
+
+TEST_F(CrackleTest, ResolvedCaseStatesTheDerivedGap) {
+    write_small_case(folder_, {.mesh = "voronoi", .numerics = "intact = true"});
+    replace("case.toml", "damping_ratio = 0.2\n", "damping_ratio = 0.2\ntensile_strength = 1e3\ncohesion = 3e3\n");
+    replace("case.toml", "thick = 1.0e-3\n[bond]\nthick = 1.08e-3", "[bond]\nlaw = \"coulomb\"");
+    replace("case.toml", "max_axial_strain = 0.005", "max_axial_strain = 1e-4");
+    const Answer first = call("case.toml -o first");
+    ASSERT_EQ(first.code, 0) << first.err;
+    EXPECT_NE(first.err.find("by default: 0.02 of the mean cell size"), std::string::npos) << first.err;
+    EXPECT_NE(read("first/case.toml").find("\nthick = 0.00"), std::string::npos) << read("first/case.toml");
+    ASSERT_EQ(call("first/case.toml -o again -q").code, 0);
+    EXPECT_EQ(read("first/curve.csv"), read("again/curve.csv"));
+}
+
 TEST_F(CrackleTest, HelpShowsExamplesAndKeysShowUnits) {
     EXPECT_NE(call("--help").out.find("examples:"), std::string::npos);
     EXPECT_NE(call("--keys").out.find("axial_strain_rate        a number > 0 and < 1e+06 in 1/s; optional."),

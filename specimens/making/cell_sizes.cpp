@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/making/cell_sizes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+#include "solver/base/errors.hpp"
+
+namespace crackle {
+namespace {
+
+/// Coefficients of variation: of the circles' radii, and of the cells' equivalent diameters that they give.
+struct SpreadPair {
+    double circles, voronoi, delaunay;
+};
+
+// Means of three to six packings of 300 to 2,000 circles at mean overlaps of 0.004 and 0.03 radii; a packing of 600
+// lies within 0.005 (Voronoi) and 0.01 (Delaunay) of them. Triangles beside the faces are smaller: of 300 circles 0.02
+// more at the low end. tests/specimens/making/cell_sizes_test.cpp measures some of them again.
+constexpr std::array<SpreadPair, 7> uniform_spreads{{{0.0, 0.037, 0.110},
+                                                     {0.1, 0.054, 0.124},
+                                                     {0.2, 0.096, 0.158},
+                                                     {0.3, 0.140, 0.207},
+                                                     {0.4, 0.171, 0.250},
+                                                     {0.5, 0.197, 0.289},
+                                                     {0.55, 0.211, 0.305}}};
+constexpr std::array<SpreadPair, 7> lognormal_spreads{{{0.0, 0.037, 0.110},
+                                                       {0.1, 0.056, 0.122},
+                                                       {0.2, 0.099, 0.162},
+                                                       {0.3, 0.144, 0.210},
+                                                       {0.4, 0.184, 0.258},
+                                                       {0.5, 0.224, 0.305},
+                                                       {0.6, 0.263, 0.363}}};
+
+/// The circles' spread that gives the cells', on the straight line between two measured ones.
+double circle_spread(std::span<const SpreadPair> measured, double SpreadPair::*cells, double asked) {
+    std::size_t k = 1;
+    while (k + 1 < measured.size() && measured[k].*cells < asked) ++k;
+    const SpreadPair &low = measured[k - 1], &high = measured[k];
+    return std::lerp(low.circles, high.circles, (asked - low.*cells) / (high.*cells - low.*cells));
+}
+
+// Of the circles' diameter over the cells': a random packing fills about this share of its box.
+constexpr double filled_share = 0.835;
+
+}  // namespace
+
+CellSizes measure_cells(const Mesh& mesh) {
+    double sum = 0.0, squares = 0.0;
+    for (const Cell& cell : mesh.cells) {
+        sum += std::sqrt(4.0 * cell.area / std::numbers::pi);
+        squares += 4.0 * cell.area / std::numbers::pi;
+    }
+    const auto count = static_cast<double>(mesh.cells.size());
+    const double mean = sum / count;
+    return {mean, std::sqrt(std::max(0.0, squares / count - mean * mean)) / mean};
+}
+
+SizeDistribution radii_for_cells(MeshKind kind, const std::string& sizes, const CellSizes& asked, double correction) {
+    const bool lognormal = sizes == "lognormal";
+    const std::span<const SpreadPair> measured = lognormal ? lognormal_spreads : uniform_spreads;
+    const auto cells = kind == MeshKind::voronoi ? &SpreadPair::voronoi : &SpreadPair::delaunay;
+    const double least = measured.front().*cells, most = measured.back().*cells;
+    if (asked.spread < least || asked.spread > most) {
+        throw InputError(fmt::format("found {}, expected {} to {} for {} cells of {} circles; {}", asked.spread, least,
+                                     most, kind == MeshKind::voronoi ? "Voronoi" : "Delaunay", sizes,
+                                     asked.spread < least ? "even those of equal circles vary so much"
+                                     : lognormal          ? "wider distributions of circles have not been measured"
+                                                          : "sizes = \"lognormal\" reaches further"));
+    }
+    const double spread = circle_spread(measured, cells, std::clamp(asked.spread + correction, least, most));
+    // As many circles as Voronoi cells, half as many as triangles.
+    const double per_cell = kind == MeshKind::voronoi ? 1.0 : 2.0;
+    const double mean =
+        0.5 * asked.mean *
+        std::sqrt(per_cell * filled_share * (1.0 + asked.spread * asked.spread) / (1.0 + spread * spread));
+    if (!lognormal) return UniformRadii{mean * (1.0 - std::sqrt(3.0) * spread), mean * (1.0 + std::sqrt(3.0) * spread)};
+    const double deviation = std::sqrt(std::log1p(spread * spread));
+    if (deviation == 0.0) return UniformRadii{mean, mean};
+    return LognormalRadii{mean / std::sqrt(1.0 + spread * spread), deviation, 0.0, 0.0};
+}
+
+SizeDistribution scaled(SizeDistribution sizes, double by) {
+    if (auto* uniform = std::get_if<UniformRadii>(&sizes)) {
+        uniform->radius_min *= by;
+        uniform->radius_max *= by;
+    } else if (auto* lognormal = std::get_if<LognormalRadii>(&sizes)) {
+        for (double* length : {&lognormal->median, &lognormal->radius_min, &lognormal->radius_max}) *length *= by;
+    } else {
+        for (SievePoint& point : std::get<SieveCurve>(sizes).points) point.size *= by;
+    }
+    return sizes;
+}
+
+}  // namespace crackle

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What --check estimates, against closed forms and against the tests themselves.
+
+#include "specimens/loading/check.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "tests/support/claim.hpp"
+#include "tests/support/deck_files.hpp"
+#include "tests/support/small_rock.hpp"
+
+namespace crackle {
+namespace {
+
+using testing::agrees;
+
+TEST(StrainOfShare, CountsOnlyWhatCanBreak) {
+    std::vector<LinearBond> bonds(10);
+    for (std::size_t k = 0; k < bonds.size(); ++k) {
+        bonds[k].strength = 1.0;
+        bonds[k].break_strain = 1e-3 * static_cast<double>(10 - k);
+    }
+    EXPECT_EQ(strain_of_share(bonds, 0.0), 1e-3) << "at least one";
+    EXPECT_EQ(strain_of_share(bonds, 0.5), 6e-3);
+    bonds[9].strength = std::numeric_limits<double>::infinity();  // the first to go is held
+    EXPECT_EQ(strain_of_share(bonds, 0.0), 2e-3);
+    EXPECT_TRUE(std::isinf(strain_of_share({}, 0.1)));
+}
+
+TEST(TestCheck, CountsGrainsStepsAndSeconds) {
+    const testing::ScratchFolder scratch;
+    const TestCase test = read_case(testing::write_small_case(scratch / "", {}));
+    const TestCheck check = check_test(test);
+    const TestSetup& setup = check.test.setup;
+    EXPECT_TRUE(agrees("grains across", check.grains_across,
+                       std::sqrt(static_cast<double>(setup.particles) * setup.width / setup.height), 1e-12));
+    EXPECT_TRUE(
+        agrees("steps to the end", check.to_end.steps, 0.005 / 0.02 / check.test.world.stepping.time_step, 1e-12));
+    EXPECT_TRUE(agrees("seconds to the end", check.to_end.seconds, check.to_end.steps / check.steps_per_second, 1e-12));
+    ASSERT_TRUE(check.strength && check.to_strength && check.first_break);
+    EXPECT_TRUE(
+        agrees("stress of the estimate", check.strength->stress, check.youngs_modulus * check.strength->strain, 1e-12));
+    EXPECT_GE(check.strength->strain, check.first_break->strain);
+    EXPECT_EQ(check.rate, check.slowest_rate) << "a rate that is given stays";
+}
+
+/// Of what a platen does to the corners that it touches.
+TEST(TestCheck, CornersComeNearerToAPlatenAsTheThicknessShrinks) {
+    const auto pressed = [](const char* thick, const char* bond) {
+        const testing::ScratchFolder scratch;
+        const auto file = testing::write_small_case(scratch / "", {.kind = "compression", .mesh = "voronoi"});
+        TestCase test = read_case(file);
+        test.mesh.thick = std::stod(thick);
+        test.bond.thick = std::stod(bond);
+        return check_test(test);
+    };
+    const TestCheck thick = pressed("1e-3", "1.08e-3"), thin = pressed("1e-5", "9e-5");
+    EXPECT_TRUE(agrees("distance from the platen's face", thick.corner_distance, 1e-3, 1e-3));
+    EXPECT_TRUE(agrees("distance from the platen's face", thin.corner_distance, 1e-5, 1e-3));
+    // The overlap at bonding, and with it the strength, is the same.
+    EXPECT_TRUE(agrees("way of the corner", thin.corner_closing, thick.corner_closing, 0.5));
+    EXPECT_GT(thin.corner_closing, thin.corner_distance);
+}
+
+TEST(TestCheck, OfATestByToleranceTheRateMayFall) {
+    const testing::ScratchFolder scratch;
+    TestCase test = read_case(testing::write_small_case(scratch / "", {}));
+    test.loading.axial_strain_rate.reset();
+    test.loading.rate_tolerance = 0.01;
+    const TestCheck check = check_test(test);
+    EXPECT_TRUE(agrees("slowest rate over the first", check.slowest_rate / check.rate, 0.15, 1e-12));
+}
+
+}  // namespace
+}  // namespace crackle

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Cells of the sizes asked for: mean and spread of their equivalent diameters, recounted from the polygons' areas.
+
+#include "specimens/making/cell_sizes.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "solver/base/errors.hpp"
+#include "solver/scene/scene.hpp"
+#include "specimens/making/specimen.hpp"
+#include "tests/support/claim.hpp"
+
+namespace crackle {
+namespace {
+
+using testing::agrees;
+using testing::within;
+
+TestCase cells_case(const char* kind, double diameter, double spread) {
+    TestCase test;
+    test.source = "cells.toml";
+    test.table_present["packing"] = test.table_present["mesh"] = true;
+    test.packing.count = 300;
+    test.packing.height_to_width = 2.0;
+    test.packing.cell_diameter = diameter;
+    test.packing.cell_spread = spread;
+    test.packing.mean_overlap = 0.002 * diameter;
+    test.mesh.kind = kind;
+    test.material.density = 2500.0;
+    test.material.normal_stiffness = 1e7;
+    test.material.shear_stiffness = 2.5e6;
+    test.material.friction_angle = 27.0;
+    test.material.tensile_strength = 1e3;
+    test.material.cohesion = 2e3;
+    test.bond.law = "coulomb";
+    return test;
+}
+
+/// From the areas that the scene's bodies have, with hardly a gap between them.
+CellSizes recounted(const Scene& scene) {
+    double sum = 0.0, squares = 0.0;
+    for (const Body& body : scene.bodies) {
+        const double diameter = std::sqrt(4.0 * mass_properties(scene, body).mass / 2500.0 / std::numbers::pi);
+        sum += diameter;
+        squares += diameter * diameter;
+    }
+    const auto n = static_cast<double>(scene.bodies.size());
+    return {sum / n, std::sqrt(squares / n - sum * sum / n / n) / (sum / n)};
+}
+
+TEST(CellSizes, OfASquareGridAreThoseOfItsSquares) {
+    std::vector<CellCentre> centres;
+    for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 3; ++j) centres.push_back({0.5 + i, 0.5 + j});
+    MeshRequest request;
+    request.mesh_gap = 0.1;
+    const CellSizes squares = measure_cells(make_mesh(centres, {0.0, 4.0, 0.0, 3.0}, request));
+    EXPECT_TRUE(agrees("equivalent diameter of a unit square", squares.mean, 2.0 / std::sqrt(std::numbers::pi), 1e-12));
+    EXPECT_TRUE(within("spread", squares.spread, 0.0, 1e-7));
+}
+
+TEST(CellSizes, AskedForAreReached) {
+    struct Asked {
+        const char *kind, *sizes;
+        double spread;
+    };
+    for (const Asked& asked :
+         {Asked{"voronoi", "uniform", 0.12}, Asked{"voronoi", "lognormal", 0.24}, Asked{"delaunay", "uniform", 0.2}}) {
+        TestCase test = cells_case(asked.kind, 0.004, asked.spread);
+        test.packing.sizes = asked.sizes;
+        test.mesh.thick = 4e-9;
+        test.mesh.merge_destroyed = true;
+        const Specimen specimen = make_specimen(test, {});
+        const CellSizes made = recounted(specimen.scene);
+        const std::string what = std::string(asked.kind) + ", " + asked.sizes;
+        EXPECT_TRUE(agrees(what + ": mean diameter", made.mean, 0.004, 0.003));
+        EXPECT_TRUE(within(what + ": spread", made.spread, asked.spread, 0.02));
+        double stated[2] = {};
+        for (const auto& [name, value] : specimen.packing) {
+            if (name == "cell_diameter") stated[0] = value;
+            if (name == "cell_spread") stated[1] = value;
+        }
+        EXPECT_TRUE(agrees(what + ": mean as stated", stated[0], made.mean, 1e-5));
+        EXPECT_TRUE(within(what + ": spread as stated", stated[1], made.spread, 1e-5));
+    }
+}
+
+TEST(CellSizes, InABoxTakeAsManyCirclesAsFillIt) {
+    TestCase test = cells_case("voronoi", 0.004, 0.15);
+    test.packing.count.reset();
+    test.packing.height_to_width.reset();
+    test.packing.width = 0.06;
+    test.packing.height = 0.1;
+    const Specimen specimen = make_specimen(test, {});
+    EXPECT_TRUE(agrees("width", specimen.width, 0.06, 1e-12));
+    const double number = 4.0 * 0.06 * 0.1 / (std::numbers::pi * 0.004 * 0.004 * (1.0 + 0.15 * 0.15));
+    EXPECT_TRUE(agrees("cells", static_cast<double>(specimen.scene.bodies.size()), number, 0.01));
+}
+
+TEST(CellSizes, OutOfReachAreRefusedWithTheirKey) {
+    const auto refusal = [](double spread, const char* sizes) -> std::string {
+        TestCase test = cells_case("voronoi", 0.004, spread);
+        test.packing.sizes = sizes;
+        try {
+            make_specimen(test, {});
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "made without complaint";
+    };
+    EXPECT_NE(refusal(0.02, "uniform").find("packing.cell_spread: found 0.02, expected 0.037 to 0.211"),
+              std::string::npos)
+        << refusal(0.02, "uniform");
+    EXPECT_NE(refusal(0.25, "uniform").find("\"lognormal\" reaches further"), std::string::npos);
+    EXPECT_NE(refusal(0.5, "lognormal").find("have not been measured"), std::string::npos);
+}
+
+TEST(DerivedGap, IsAFiftiethOfTheMeanCellSize) {
+    TestCase test = cells_case("voronoi", 0.004, 0.15);
+    const Specimen specimen = make_specimen(test, {});
+    const double size = std::sqrt(specimen.width * specimen.height / static_cast<double>(specimen.scene.bodies.size()));
+    EXPECT_TRUE(agrees("mesh.thick", specimen.mesh_thick, 0.02 * size, 1e-12));
+    EXPECT_EQ(specimen.mesh_gap, specimen.mesh_thick);
+    test.mesh.inset = 2e-5;
+    EXPECT_EQ(make_specimen(test, {}).mesh_gap, 4e-5) << "twice the inset, where that is given";
+}
+
+}  // namespace
+}  // namespace crackle
