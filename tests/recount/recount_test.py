@@ -148,7 +148,7 @@ def rubble():
     return run("rubble", rock + squeezed + "stop_at_share_of_peak = 0.3\n" + rate + output)
 
 
-def cells():
+def cells_by_their_size():
     sizes = rock.replace("radius_min = 1.333e-2\nradius_max = 2.667e-2", "cell_diameter = 4.4e-2\ncell_spread = 0.15")
     return run("sized_cells", sizes + voronoi + squeezed + output)
 
@@ -199,8 +199,8 @@ class Recount(unittest.TestCase):
         self.agrees(run("voronoi_pulled", rock + voronoi + pulled + rate + output), 150)
 
     def test_cells_of_a_size_asked_for(self):
-        self.agrees(cells(), 100)
-        self.assertLessEqual({"packing.cell_diameter", "packing.cell_spread"}, recount(cells()).keys)
+        self.agrees(cells_by_their_size(), 100)
+        self.assertLessEqual({"packing.cell_diameter", "packing.cell_spread"}, recount(cells_by_their_size()).keys)
 
     def test_triangles_between_frictional_platens(self):
         self.agrees(run("triangles", rock + triangles + squeezed + friction + output), 100)
@@ -462,7 +462,7 @@ class FaultsAreFound(unittest.TestCase):
                 (folder / "summary.json").write_text(json.dumps(summary))
 
             with self.subTest(figure=name):
-                self.assertEqual(self.spoilt(what, cells()), ["packing." + name])
+                self.assertEqual(self.spoilt(what, cells_by_their_size()), ["packing." + name])
 
     def test_peak_one_row_late(self):
         curve = (circles() / "curve.csv").read_text().splitlines()

@@ -184,7 +184,7 @@ class Pages(unittest.TestCase):
 
     def results(self):
         self.assertEqual(self.unfailed.returncode, 0, self.unfailed.stderr)
-        return [self.folder / "out" / name for name in ("pulled", "squeezed", "verified", "unfailed")]
+        return [self.folder / "out" / name for name in ("pulled", "squeezed", "verified", "unfailed", "granite")]
 
     def test_files_are_those_of_a_test(self):
         for results in self.results():
