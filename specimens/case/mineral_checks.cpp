@@ -46,6 +46,7 @@ class MineralCheck {
     }
     std::vector<std::string> all_names() const {
         std::vector<std::string> all;
+        all.reserve(test_.mineral.size());
         for (const TestCase::Mineral& m : test_.mineral) all.push_back(m.name);
         return all;
     }
@@ -154,7 +155,9 @@ class MineralCheck {
                 refuse(key + ".between", fmt::format("{} and {} a second time", between[0], between[1]),
                        "one table a pair", "join the two");
             const auto& keys = mineral_pair_keys();
-            const auto is_written = [&](const std::string& one) { return test_.position.contains(key + "." + one); };
+            const auto is_written = [&](const std::string& one) {
+                return test_.position.contains(fmt::format("{}.{}", key, one));
+            };
             if (std::none_of(keys.begin(), keys.end(), is_written))
                 refuse(key, "names alone", fmt::format("one at least of {}", fmt::join(keys, ", ")),
                        "add one, or remove the table");

@@ -36,6 +36,7 @@ std::vector<double> asked_areas(const TestCase& test, double all) {
         open = open || !m.area_share;
     }
     std::vector<double> asked;
+    asked.reserve(test.mineral.size());
     for (const TestCase::Mineral& m : test.mineral)
         asked.push_back(all * (!m.area_share ? 1.0 - sum : open ? *m.area_share : *m.area_share / sum));
     return asked;
@@ -79,6 +80,7 @@ Minerals by_size(const Scene& scene, const std::vector<double>& areas, const std
 
 std::vector<std::string> names_of(const TestCase& test) {
     std::vector<std::string> names;
+    names.reserve(test.mineral.size());
     for (const TestCase::Mineral& m : test.mineral) names.push_back(m.name);
     return names;
 }
@@ -126,6 +128,7 @@ constexpr double stretch_to_mention = 0.02;
 
 Minerals read_image(const Scene& scene, const TestCase& test, std::vector<std::string>& notices) {
     std::vector<std::uint32_t> colours;
+    colours.reserve(test.mineral.size());
     for (const TestCase::Mineral& m : test.mineral) colours.push_back(*colour_of(*m.colour));
     const LabelImage image(test.resolve_path("minerals.image", *test.minerals.image), colours, names_of(test),
                            test.at("minerals.image"));
@@ -189,6 +192,7 @@ std::vector<MineralShare> assign_minerals(Scene& scene, const TestCase& test, st
 
 std::string mineral_shares_text(const std::vector<MineralShare>& shares) {
     std::vector<std::string> parts;
+    parts.reserve(shares.size());
     for (const MineralShare& m : shares) {
         parts.push_back(fmt::format("{} {:.4g} of the area{} in {} grains", m.name, m.reached,
                                     m.asked ? fmt::format(" (asked {:.4g})", *m.asked) : "", m.grains));

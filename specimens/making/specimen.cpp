@@ -382,6 +382,7 @@ std::vector<MaterialPair> pairs_of(const TestCase& test) {
         return static_cast<int>(found - test.mineral.begin());
     };
     std::vector<MaterialPair> pairs;
+    pairs.reserve(test.mineral_pair.size());
     for (const auto& [between, own] : test.mineral_pair) {
         pairs.push_back(
             {index(between[0]), index(between[1]), own.normal_stiffness, own.shear_stiffness, own.friction_angle});

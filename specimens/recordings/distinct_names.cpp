@@ -51,7 +51,7 @@ std::vector<std::string> distinct_names(const std::vector<Recording>& recordings
         if (distinct(names)) return names;
     }
     for (std::ptrdiff_t parts = 2; parts < 64; ++parts) {
-        const Names names = named([parts](const Recording& one) { return end_of_path(one.path, parts); });
+        Names names = named([parts](const Recording& one) { return end_of_path(one.path, parts); });
         if (distinct(names)) return names;
     }
     Names numbered = folders;

@@ -30,10 +30,11 @@ std::string shown(const nlohmann::ordered_json& summary, const std::string& key)
 
 /// A stress or modulus, and the same in three dimensions where the case gives a thickness.
 std::string stress(const nlohmann::ordered_json& summary, const std::string& key) {
-    const std::string in_plane = shown(summary, key) + " N/m";
+    const bool area = summary.value("material_units", "point") == "area";
+    std::string in_plane = shown(summary, key) + (area ? " Pa" : " N/m");
     const auto converted = summary.find(key + converted_suffix);
     const bool thick = summary.contains("out_of_plane_thickness") && summary["out_of_plane_thickness"].is_number();
-    if (!thick || converted == summary.end() || !converted->is_number()) return in_plane;
+    if ((!thick && !area) || converted == summary.end() || !converted->is_number()) return in_plane;
     return fmt::format("{} ({:.4g} MPa)", in_plane, 1e-6 * converted->get<double>());
 }
 

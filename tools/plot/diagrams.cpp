@@ -84,8 +84,10 @@ class Legend {
         }
         columns = std::min(columns, std::max<std::size_t>(1, entries_.size()));
         rows_ = static_cast<int>((entries_.size() + columns - 1) / columns);
-        for (std::size_t k = 0; k < entries_.size(); ++k)
-            places_.push_back({widest * static_cast<double>(k % columns), line_ * static_cast<double>(k / columns)});
+        for (std::size_t k = 0; k < entries_.size(); ++k) {
+            const std::size_t row = k / columns;
+            places_.push_back({widest * static_cast<double>(k % columns), line_ * static_cast<double>(row)});
+        }
     }
     double height() const { return entries_.size() < 2 ? 0.0 : line_ * rows_ + 2.0; }
     void draw(Canvas& canvas, Point corner) const {
