@@ -18,7 +18,7 @@ namespace {
 
 constexpr double strain_unit = 1e-3;
 constexpr const char* strain_title = "axial strain, 10⁻³";
-constexpr double curve_width = 0.9, thin = 0.6;  // pt
+constexpr double curve_width = 0.9;  // pt
 
 // As in the report (tools/viewer/src/colours/theme.ts): distinguishable with any colour vision.
 const std::array<Colour, 8> series{colour("#22262a"), colour("#00896b"), colour("#aa3377"), colour("#8a6d00"),
