@@ -106,9 +106,11 @@ TEST_F(TestFolder, HoldsWhatReadersLookFor) {
 }
 
 TEST_F(TestFolder, FramesAreReadInTheOrderOfTheirRows) {
-    run_test(small_case(), options("out"));
+    SmallCase wanted;
+    wanted.output = "curve_rows = 2000\nframes = 50";
+    run_test(small_case(wanted), options("out"));
     const Recording recording = read_test_recording(scratch_ / "out", 100);
-    ASSERT_GT(recording.frames.size(), 3u);
+    ASSERT_GT(recording.frames.size(), 10u);
     for (std::size_t k = 1; k < recording.frames.size(); ++k)
         EXPECT_GT(recording.frames[k].time, recording.frames[k - 1].time);
 }
