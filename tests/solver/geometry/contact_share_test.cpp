@@ -72,6 +72,35 @@ TEST(ContactShare, OfHexagonsIsTheirFaceBeforeTheInsetOverTheDistanceOfCentroids
     EXPECT_TRUE(agrees("C = c L, N", face.cohesion, cohesion * length, 1e-6));
 }
 
+TEST(ContactShare, OfAFaceWhoseCornersOverhangAfterTheInsetGoesByTheGapOfTheFaces) {
+    // A rectangle below and a trapezoid above that share a face of 2 cm, each inset by half the thickness. The corners
+    // of the trapezoid, which turn by 45 degrees there, lie 0.293 of the thickness beyond those of the rectangle.
+    constexpr double length = 0.02, thick = 1e-3, inset = 0.5 * thick;
+    const double along = inset * std::tan(std::numbers::pi / 8.0),
+                 at_top = inset * std::tan(3.0 * std::numbers::pi / 8.0);
+    constexpr double height = 0.01;
+    Scene scene;
+    scene.materials = {rock()};
+    scene.thick = thick;
+    scene.domain.wall_present = {false, false, false, false};
+    scene.add_chain_body(
+        1, 0, {{inset, inset - height}, {length - inset, inset - height}, {length - inset, -inset}, {inset, -inset}},
+        true);
+    scene.add_chain_body(2, 0,
+                         {{along, inset},
+                          {length - along, inset},
+                          {length + height - at_top, height - inset},
+                          {at_top - height, height - inset}},
+                         true);
+    const World world = bonded(scene, thick, 0.05 * thick);
+    const FaceSum face = face_between(world, 1, 2);
+    ASSERT_EQ(face.points, 4) << "those that overhang are bonded, too";
+    const BodyState &a = world.bodies.state[body_of_id(world, 1)], &b = world.bodies.state[body_of_id(world, 2)];
+    const double distance = std::hypot(a.x - b.x, a.y - b.y);
+    EXPECT_TRUE(agrees("k_n, N/m", face.stiffness, modulus * length / distance, 1e-6));
+    EXPECT_TRUE(agrees("T, N", face.tensile, tensile * length, 1e-6));
+}
+
 TEST(ContactShare, OfDiscsIsTwiceTheSmallerRadiusOverTheSumOfBoth) {
     Scene scene;
     scene.materials = {rock()};
