@@ -9,8 +9,6 @@
 #include <toml++/toml.h>
 #include <algorithm>
 #include <array>
-#include <cmath>
-#include <numbers>
 #include <ostream>
 #include <sstream>
 #include <system_error>
@@ -18,8 +16,7 @@
 #include <vector>
 
 #include "solver/base/errors.hpp"
-#include "solver/scene/bond_strength.hpp"
-#include "specimens/case/mineral_checks.hpp"
+#include "specimens/case/consistency.hpp"
 #include "specimens/case/parameters.hpp"
 
 namespace crackle {
@@ -128,13 +125,6 @@ std::string table_label(const std::string& table, std::size_t entry) {
 }
 std::string key_label(const Parameter& p, std::size_t entry) {
     return p.table.empty() ? p.key : table_label(p.table, entry) + "." + p.key;
-}
-
-const Parameter* find_parameter(const std::string& table, const std::string& key) {
-    for (const Parameter& p : case_parameters()) {
-        if (p.table == table && p.key == key) return &p;
-    }
-    return nullptr;
 }
 
 [[noreturn]] void refuse_unknown(const std::string& where, const std::string& table, const std::string& key) {
@@ -296,253 +286,6 @@ void fill_defaults(TestCase& test) {
     if (test.title.empty()) test.title = test.source.stem().string();
 }
 
-/// Checks of keys against each other.
-class ConsistencyCheck {
-  public:
-    explicit ConsistencyCheck(const TestCase& test) : test_(test) {}
-
-    void run() const {
-        specimen();
-        if (test_.has_table("packing")) packing();
-        material();
-        bond();
-        check_minerals(test_);
-        mesh();
-        loading();
-        if (test_.output.frames.value_or(0) > test_.output.curve_rows) {
-            refuse("output.frames", fmt::format("{}", *test_.output.frames),
-                   fmt::format("at most output.curve_rows = {}", test_.output.curve_rows),
-                   "frames are taken at rows of the curve");
-        }
-    }
-
-  private:
-    [[noreturn]] void refuse(const std::string& key, const std::string& found, const std::string& expected,
-                             const std::string& remedy) const {
-        throw InputError(fmt::format("{}: found {}, expected {}; {}", test_.at(key), found, expected, remedy));
-    }
-    bool written(const std::string& key) const { return test_.position.contains(key); }
-
-    void need(const std::string& key, const std::string& because) const {
-        if (written(key)) return;
-        const std::string table = key.substr(0, key.find('.'));
-        const Parameter* p = find_parameter(table, key.substr(table.size() + 1));
-        refuse(key, "nothing", p->expected(), because);
-    }
-    void exclude(const std::string& key, const std::string& because) const {
-        if (written(key)) refuse(key, "a value", "none", because);
-    }
-
-    void specimen() const {
-        const bool file = test_.has_table("particles");
-        const bool pack = test_.has_table("packing");
-        if (file && pack) refuse("packing", "[particles] beside it", "one of them", "remove one");
-        if (!file && !pack)
-            refuse("particles", "neither [particles] nor [packing]", "one of them",
-                   "state where the specimen comes from");
-    }
-
-    void packing() const {
-        const auto& p = test_.packing;
-        if (p.count) {
-            exclude("packing.width", "count and height_to_width give the box its size");
-            exclude("packing.height", "count and height_to_width give the box its size");
-        } else {
-            need("packing.width", "or write count");
-            need("packing.height", "or write count");
-            exclude("packing.height_to_width", "width and height give the box its shape");
-        }
-        if (p.mean_overlap && p.void_ratio)
-            exclude("packing.void_ratio", "a packing has one target: remove mean_overlap or void_ratio");
-        if (!p.mean_overlap && !p.void_ratio) need("packing.mean_overlap", "or write void_ratio");
-        if (p.cell_diameter || p.cell_spread) {
-            cells();
-            return;
-        }
-        if (p.sizes == "sieve") {
-            need("packing.sieve", "sizes = \"sieve\" needs a curve");
-            for (const char* key : {"radius_min", "radius_max", "radius_median", "radius_log_deviation"}) {
-                exclude(std::string("packing.") + key, "the sieve curve gives the sizes");
-            }
-            return;
-        }
-        exclude("packing.sieve", "only sizes = \"sieve\" reads it");
-        if (p.sizes == "uniform") {
-            need("packing.radius_min", "sizes = \"uniform\" needs both ends");
-            need("packing.radius_max", "sizes = \"uniform\" needs both ends");
-            exclude("packing.radius_median", "only sizes = \"lognormal\" has it");
-            exclude("packing.radius_log_deviation", "only sizes = \"lognormal\" has it");
-        } else {
-            need("packing.radius_median", "sizes = \"lognormal\" needs it");
-            need("packing.radius_log_deviation", "sizes = \"lognormal\" needs it");
-        }
-        if (p.radius_min && p.radius_max && *p.radius_min > *p.radius_max) {
-            refuse("packing.radius_min", fmt::format("{} m", *p.radius_min),
-                   fmt::format("at most radius_max = {} m", *p.radius_max), "exchange them");
-        }
-    }
-
-    /// The size of the cells in place of that of the circles.
-    void cells() const {
-        constexpr const char* because = "cell_diameter and cell_spread give the sizes: remove it, or them";
-        for (const char* key : {"radius_min", "radius_max", "radius_median", "radius_log_deviation", "sieve"})
-            exclude(std::string("packing.") + key, because);
-        if (!test_.has_table("mesh"))
-            refuse(test_.packing.cell_diameter ? "packing.cell_diameter" : "packing.cell_spread", "no [mesh] beside it",
-                   "one", "circles have radii; cells are a mesh's");
-        if (test_.packing.sizes == "sieve")
-            refuse("packing.sizes", "\"sieve\"", "\"uniform\" or \"lognormal\"", because);
-        need("packing.cell_diameter", "cell_spread is of diameters with a mean");
-        need("packing.cell_spread", "cell_diameter needs their coefficient of variation beside it");
-    }
-
-    void material() const {
-        const auto& m = test_.material;
-        if (m.damping_ratio && (m.normal_damping || m.shear_damping)) {
-            refuse("material.damping_ratio", "a ratio and dashpots", "one way of damping",
-                   "remove damping_ratio or the dashpots");
-        }
-        const bool area = test_.area_units();
-        if (area) {
-            for (const char* key : {"normal_stiffness", "shear_stiffness"})
-                exclude(std::string("material.") + key, "units = \"area\" has contact_modulus and stiffness_ratio");
-            for (const char* key : {"normal_damping", "shear_damping"})
-                exclude(std::string("material.") + key, "units = \"area\" has damping_ratio");
-            for (const char* key : {"contact_modulus", "stiffness_ratio"})
-                need(std::string("material.") + key, "units = \"area\" needs it");
-            if (test_.numerics.contact_law != "rounded")
-                refuse("material.units", "\"area\"", "\"point\" with the guide's contact law",
-                       "that law knows of no faces; use contact_law = \"rounded\"");
-        } else {
-            for (const char* key : {"contact_modulus", "stiffness_ratio"})
-                exclude(std::string("material.") + key, "only units = \"area\" has it");
-        }
-        if (m.residual_friction_angle && m.friction_angle && *m.residual_friction_angle > *m.friction_angle) {
-            refuse("material.residual_friction_angle", fmt::format("{} deg", *m.residual_friction_angle),
-                   fmt::format("at most friction_angle = {} deg", *m.friction_angle), "a broken bond is no rougher");
-        }
-        if (!test_.has_table("packing")) return;
-        need("material.density", "a packing has no file to take it from");
-        need("material.friction_angle", "a packing has no file to take it from");
-        if (!area) {
-            need("material.normal_stiffness", "a packing has no file to take it from");
-            need("material.shear_stiffness", "a packing has no file to take it from");
-        }
-        if (!m.normal_damping && !m.shear_damping) return;  // a ratio, or the default one
-        need("material.normal_damping", "dashpots come in pairs");
-        need("material.shear_damping", "dashpots come in pairs");
-    }
-
-    /// What a bond law has, and needs.
-    void bond() const {
-        const auto& b = test_.bond;
-        if (!test_.coulomb_bonds()) {
-            constexpr const char* because =
-                "only bond.law = \"coulomb\" has it: by back-tension the overlap is the strength";
-            for (const char* key :
-                 {"material.tensile_strength", "material.cohesion", "material.residual_friction_angle", "bond.gap",
-                  "bond.tensile_factor", "bond.cohesion_factor", "bond.strength_cv", "bond.strength_seed"})
-                exclude(key, because);
-            if (b.range > 0.0) exclude("bond.range", because);
-            if (b.strength_distribution != "none") exclude("bond.strength_distribution", because);
-            return;
-        }
-        if (test_.numerics.contact_law != "rounded")
-            refuse("bond.law", "\"coulomb\"", "\"back_tension\" with the guide's contact law",
-                   "or use contact_law = \"rounded\"");
-        if (test_.material.shear_stiffness && *test_.material.shear_stiffness == 0.0)
-            refuse("material.shear_stiffness", "0 N/m", "a number > 0 with coulomb bonds", "they hold in shear");
-        strength("tensile");
-        strength("cohesion");
-        apex();
-        const bool random = b.strength_distribution != "none";
-        for (const char* key : {"bond.strength_cv", "bond.strength_seed"}) {
-            if (random)
-                need(key, "strength_distribution = \"" + b.strength_distribution + "\" needs it");
-            else
-                exclude(key, "strength_distribution = \"none\" has no random factor");
-        }
-        if (b.strength_distribution == "normal" && *b.strength_cv > largest_normal_cv)
-            refuse("bond.strength_cv", fmt::format("{}", *b.strength_cv), fmt::format("at most {}", largest_normal_cv),
-                   "a normal distribution truncated at 0 has no more; take weibull or lognormal");
-        if (test_.has_table("mesh") && b.range > 0.0)
-            exclude("bond.range", "only circles reach beyond their neighbours");
-    }
-
-    /// A strength is a number or a factor.
-    void strength(const std::string& which) const {
-        const std::string number = "material." + (which == "tensile" ? std::string("tensile_strength") : which);
-        const std::string factor = "bond." + which + "_factor";
-        if (written(number) && written(factor)) exclude(factor, "a strength is a number or a factor: remove one");
-        if (!written(number) && !written(factor)) need(number, "bond.law = \"coulomb\" needs it, or " + factor);
-        if (!written(factor)) return;
-        if (test_.has_table("mesh"))
-            exclude(factor, "polygons with coulomb bonds have no overlap to take a factor of; give " + number);
-        if (test_.area_units()) exclude(factor, "units = \"area\" has strengths in Pa; give " + number);
-    }
-
-    /// Tensile strength beyond cohesion over friction would never be reached.
-    void apex() const {
-        const auto& m = test_.material;
-        if (!m.tensile_strength || !m.cohesion || !m.friction_angle) return;
-        const double friction = std::tan(*m.friction_angle * std::numbers::pi / 180.0);
-        if (!(friction * *m.tensile_strength > *m.cohesion * (1.0 + 1e-12))) return;
-        const std::string unit = test_.area_units() ? "Pa" : "N";
-        refuse("material.tensile_strength", fmt::format("{} {}", *m.tensile_strength, unit),
-               fmt::format("at most cohesion over tan(friction_angle) = {:.6g} {}", *m.cohesion / friction, unit),
-               "the apex of the bond's envelope would cut it off; give more cohesion or less tensile strength");
-    }
-
-    void mesh() const {
-        if (!test_.has_table("mesh")) return;
-        if (*test_.mesh.kind == "voronoi" && test_.mesh.boundary == "seeds") {
-            refuse("mesh.boundary", "\"seeds\"", "\"domain\" with kind = \"voronoi\"", "Voronoi cells always fill it");
-        }
-        if (test_.coulomb_bonds() && !test_.mesh.thick && !test_.mesh.inset) {
-            exclude("bond.thick", "mesh.thick is derived: give both, or neither");
-            return;
-        }
-        if (!test_.coulomb_bonds())
-            need("mesh.thick", "by back-tension the excess of bond.thick over it is the strength");
-        const double gap = test_.mesh.inset ? 2.0 * *test_.mesh.inset : *test_.mesh.thick;
-        if (test_.coulomb_bonds()) {
-            if (test_.bond.thick && *test_.bond.thick < gap)
-                refuse("bond.thick", fmt::format("{} m", *test_.bond.thick), fmt::format("at least {} m", gap),
-                       "faces that far apart would not bond; leave it out");
-            return;
-        }
-        need("bond.thick", "polygons bond at the excess of bond.thick over mesh.thick");
-        if (*test_.bond.thick <= gap) {
-            refuse("bond.thick", fmt::format("{} m", *test_.bond.thick),
-                   fmt::format("more than {} = {} m", test_.mesh.inset ? "twice mesh.inset" : "mesh.thick", gap),
-                   "the excess is the overlap that bonds the polygons");
-        }
-    }
-
-    void loading() const {
-        if (test_.loading.axial_strain_rate && test_.loading.rate_tolerance) {
-            refuse("loading.rate_tolerance", "a tolerance besides axial_strain_rate", "one of them",
-                   "remove axial_strain_rate to have the rate chosen, or rate_tolerance");
-        }
-        if (test_.loading.platens == "frictional") {
-            if (test_.loading.kind == "tension") {
-                refuse("loading.platens", "\"frictional\"", "\"bonded\" in tension",
-                       "a platen that is not bonded cannot pull");
-            }
-            need("loading.platen_friction_angle", "frictional platens need it");
-            if (test_.numerics.intact)
-                refuse("numerics.intact", "true", "false with frictional platens",
-                       "they touch only what comes into contact later");
-        } else {
-            exclude("loading.platen_friction_angle",
-                    "only platens = \"frictional\" has it: bonded and glued platens take the specimen's");
-        }
-        if (test_.loading.platens != "glued") exclude("loading.grip", "only platens = \"glued\" has grips");
-    }
-
-    const TestCase& test_;
-};
-
 }  // namespace
 
 TestCase read_case(const fs::path& path) {
@@ -550,7 +293,7 @@ TestCase read_case(const fs::path& path) {
     test.source = path;
     take_with_includes(test, path, {});
     fill_defaults(test);
-    ConsistencyCheck(test).run();
+    check_consistency(test);
     return test;
 }
 

@@ -401,6 +401,13 @@ TestCase::MaterialKeys mineral_material(const TestCase& test, std::size_t minera
     return material_alone.material;
 }
 
+const Parameter* find_parameter(const std::string& table, const std::string& key) {
+    for (const Parameter& p : case_parameters()) {
+        if (p.table == table && p.key == key) return &p;
+    }
+    return nullptr;
+}
+
 const std::vector<Alternatives>& case_alternatives() {
     static const std::vector<Alternatives> all{
         {{"packing.count", "packing.height_to_width"}, {"packing.width", "packing.height"}},

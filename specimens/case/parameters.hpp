@@ -60,6 +60,8 @@ struct Parameter {
 
 /// All parameters, in the order in which a case is written.
 const std::vector<Parameter>& case_parameters();
+/// Nothing if there is no such key.
+const Parameter* find_parameter(const std::string& table, const std::string& key);
 
 /// Alternative keys for one quantity, each by its full keys. Where a file uses one, the others of the files it includes
 /// go.

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Checks of a case's keys against each other.
+// Tested by tests/specimens/case/case_file_test.cpp.
+#pragma once
+
+#include "specimens/case/test_case.hpp"
+
+namespace crackle {
+
+/// @throws InputError «file:line: key: found X, expected Y; what to do»
+void check_consistency(const TestCase& test);
+
+}  // namespace crackle
