@@ -57,11 +57,26 @@ void widen_skin(World& world, const Bonding& bonding) {
 
 bool bonded(const World& world, PointIndex k) { return (world.points.state[k].flags & point_bonded) != 0; }
 
-/// Shares of bonded points: of a face divided among its points, in StiffnessUnits::point 1; strength with the random
-/// factor of the pair.
+/// Of one bonded point of a pair; of a face divided equally among its points. In StiffnessUnits::point 1.
+struct PointShare {
+    double stiffness = 1.0;
+    double length = 1.0;  // m
+};
+
+/// @param face of the pair of a polygon and another, if they have one @param count of its bonded points
+PointShare share_of_point(const World& world, PointIndex k, const std::optional<ContactShare>& face,
+                          std::int64_t count) {
+    if (world.settings.units == StiffnessUnits::point) return {};
+    const double points = face ? static_cast<double>(count) : 1.0;
+    const ContactShare share =
+        face ? *face : share_of_contact(world, view_point(world, k).kind, world.points.contact[k]);
+    return {share.stiffness() / points, share.length / points};
+}
+
+/// Shares of bonded points; that of strength with the random factor of the pair.
 void share_faces(World& world, const Bonding& bonding) {
     const PointIndex walls = world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
-    const bool by_area = world.settings.units == StiffnessUnits::area;
+    const auto is_chain = [&](BodyIndex b) { return world.bodies.info[b].piece_count > 0; };
     for (PointIndex begin = 0; begin < walls;) {
         const PointIndex end = points_between(world, begin).second;
         std::int64_t count = 0;
@@ -71,24 +86,17 @@ void share_faces(World& world, const Bonding& bonding) {
             ++count;
             gap = std::min(gap, world.settings.thick - world.points.bond_overlap[k]);
         }
-        const ContactPoint& first = world.points.contact[begin];
+        const ContactPoint& pair = world.points.contact[begin];
+        std::optional<ContactShare> face;
+        if (count > 0 && world.settings.units == StiffnessUnits::area && is_chain(pair.body_i) && is_chain(pair.body_j))
+            face = share_of_face(world, pair.body_i, pair.body_j, gap);
         const double factor =
-            bonding.factors.between(world.bodies.info[first.body_i].id, world.bodies.info[first.body_j].id);
+            bonding.factors.between(world.bodies.info[pair.body_i].id, world.bodies.info[pair.body_j].id);
         for (PointIndex k = begin; k < end; ++k) {
             if (!bonded(world, k)) continue;
-            double stiffness = 1.0, length = 1.0;
-            if (by_area) {
-                const PointView view = view_point(world, k);
-                std::optional<ContactShare> face;
-                if (view.kind == PointKind::element_outline && world.bodies.info[view.body_i].piece_count > 0)
-                    face = share_of_face(world, view.body_i, view.body_j, gap);
-                const ContactShare share = face ? *face : share_of_contact(world, view.kind, world.points.contact[k]);
-                const double points = face ? static_cast<double>(count) : 1.0;
-                stiffness = share.stiffness() / points;
-                length = share.length / points;
-            }
-            world.points.stiffness_share[k] = static_cast<float>(stiffness);
-            world.points.strength_share[k] = static_cast<float>(length * factor);
+            const PointShare share = share_of_point(world, k, face, count);
+            world.points.stiffness_share[k] = static_cast<float>(share.stiffness);
+            world.points.strength_share[k] = static_cast<float>(share.length * factor);
         }
         begin = end;
     }

@@ -12,11 +12,11 @@
 #include "solver/stepping/record_breaks.hpp"
 
 #include <cmath>
-#include <numbers>
 
 #include "solver/contact/point_motion.hpp"
 #include "solver/geometry/geometry.hpp"
 #include "solver/measure/point_view.hpp"
+#include "solver/stepping/event_place.hpp"
 
 namespace crackle {
 namespace {
@@ -88,26 +88,12 @@ void part_coulomb(World& world, PointIndex k, BreakEvent& event) {
 
 }  // namespace
 
-double orientation_of(Vec2 normal) {
-    double angle = std::atan2(normal.y, normal.x);
-    if (angle > 0.5 * std::numbers::pi) angle -= std::numbers::pi;
-    if (angle <= -0.5 * std::numbers::pi) angle += std::numbers::pi;
-    return angle;
-}
-
 void record_breaks(World& world) {
     visit_kinds(world.points.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
         for (PointIndex k = begin; k < end && K != PointKind::element_wall; ++k) {
             if ((world.points.state[k].flags & point_just_broken) == 0) continue;
             const PointView view = view_point(world, k);
-            const ContactPoint& point = world.points.contact[k];
-            BreakEvent event{};
-            event.step = world.stepping.steps;
-            event.time = world.stepping.time;
-            event.body_i = world.bodies.info[point.body_i].id;
-            event.body_j = world.bodies.info[point.body_j].id;
-            event.position = view.position;
-            event.orientation = orientation_of(view.normal);
+            auto event = event_at<BreakEvent>(world, view);
             if (world.settings.bond_law == BondLaw::coulomb) {
                 part_coulomb<K>(world, k, event);
             } else {
@@ -117,7 +103,7 @@ void record_breaks(World& world) {
             if (!world.points.opening.empty()) world.points.opening[k] = {};
             event.last_of_interface = !interface_holds(world, k);
             event.kind = view.kind;
-            event.point = point;
+            event.point = world.points.contact[k];
             world.account.fracture_loss += event.energy;
             world.bonds.broken += 1;
             world.bonds.broken_after_sliding += event.slid ? 1 : 0;

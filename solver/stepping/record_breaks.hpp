@@ -10,7 +10,4 @@ namespace crackle {
 /// Appends one event a broken bond in the order of the points, books its energy and releases the point.
 void record_breaks(World& world);
 
-/// Direction of a normal without its sense, in (-π/2, π/2].
-double orientation_of(Vec2 normal);
-
 }  // namespace crackle

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "solver/measure/point_view.hpp"
-#include "solver/stepping/record_breaks.hpp"
+#include "solver/stepping/event_place.hpp"
 
 namespace crackle {
 
@@ -20,13 +20,7 @@ void record_slips(World& world) {
         if ((state.flags & (first_time | point_slip_noted)) != first_time) continue;
         state.flags |= point_slip_noted;
         const PointView view = view_point(world, k);
-        SlipEvent event{};
-        event.step = world.stepping.steps;
-        event.time = world.stepping.time;
-        event.body_i = world.bodies.info[view.body_i].id;
-        event.body_j = world.bodies.info[view.body_j].id;
-        event.position = view.position;
-        event.orientation = orientation_of(view.normal);
+        auto event = event_at<SlipEvent>(world, view);
         event.shear_force = world.points.shear_force[k];
         event.normal_force = view.friction > 0.0 ? std::abs(event.shear_force) / view.friction -
                                                        view.normal_stiffness * view.bond_overlap

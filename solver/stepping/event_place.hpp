@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// When, where and between which bodies something happened to a bond: what breaks and slips record alike.
+// Tested by tests/solver/stepping/record_breaks_test.cpp.
+#pragma once
+
+#include <cmath>
+#include <numbers>
+
+#include "solver/measure/point_view.hpp"
+#include "solver/world/world.hpp"
+
+namespace crackle {
+
+/// Direction of a normal without its sense, in (-π/2, π/2].
+inline double orientation_of(Vec2 normal) {
+    double angle = std::atan2(normal.y, normal.x);
+    if (angle > 0.5 * std::numbers::pi) angle -= std::numbers::pi;
+    if (angle <= -0.5 * std::numbers::pi) angle += std::numbers::pi;
+    return angle;
+}
+
+/// @tparam Event BreakEvent or SlipEvent
+template <class Event>
+Event event_at(const World& world, const PointView& view) {
+    Event event{};
+    event.step = world.stepping.steps;
+    event.time = world.stepping.time;
+    event.body_i = world.bodies.info[view.body_i].id;
+    event.body_j = world.bodies.info[view.body_j].id;
+    event.position = view.position;
+    event.orientation = orientation_of(view.normal);
+    return event;
+}
+
+}  // namespace crackle
