@@ -120,12 +120,17 @@ void validate_material(const Material& material, std::size_t index) {
 /// What the laws of bonds and faces do not go with.
 void validate_laws(const Scene& scene) {
     const auto any_material = [&](auto has) { return std::ranges::any_of(scene.materials, has); };
+    const auto any_pair = [&](auto has) { return std::ranges::any_of(scene.material_pairs, has); };
     const auto guide = [&] { return scene.segment_law != SegmentLaw::rounded; };
     if (scene.bond_law == BondLaw::coulomb) {
         if (guide()) throw InputError("bond law: found coulomb with the guide's segments, expected the rounded law");
-        if (any_material([](const Material& m) { return m.shear_stiffness == 0.0; }))
+        if (any_material([](const Material& m) { return m.shear_stiffness == 0.0; }) ||
+            any_pair([](const MaterialPair& p) { return p.shear_stiffness == 0.0; }))
             throw InputError("shear stiffness: found 0 with coulomb bonds, expected a number > 0; they hold in shear");
-    } else if (any_material([](const Material& m) { return m.tensile_strength > 0.0 || m.cohesion > 0.0; })) {
+    } else if (any_material([](const Material& m) { return m.tensile_strength > 0.0 || m.cohesion > 0.0; }) ||
+               any_pair([](const MaterialPair& p) {
+                   return p.tensile_strength || p.cohesion || p.residual_friction_angle;
+               })) {
         throw InputError(
             "materials: found a tensile strength or a cohesion with back-tension bonds, whose strength is their "
             "overlap, expected the bond law coulomb");
@@ -155,6 +160,14 @@ void validate_pairs(const Scene& scene) {
         if (pair.shear_stiffness) require_not_negative(name + "shear stiffness", *pair.shear_stiffness, "N/m");
         if (pair.friction_angle && !(*pair.friction_angle >= 0.0 && *pair.friction_angle < 90.0))
             refuse(name + "friction angle", *pair.friction_angle, "degrees in 0 <= φ < 90");
+        if (pair.tensile_strength) require_not_negative(name + "tensile strength", *pair.tensile_strength, "N");
+        if (pair.cohesion) require_not_negative(name + "cohesion", *pair.cohesion, "N");
+        const auto friction = [&](int m) { return scene.materials[static_cast<std::size_t>(m)].friction_angle; };
+        const double angle = pair.friction_angle.value_or(std::min(friction(pair.a), friction(pair.b)));
+        const double residual = pair.residual_friction_angle.value_or(0.0);
+        if (!(residual >= 0.0 && residual <= angle))
+            refuse(name + "residual friction angle", residual,
+                   fmt::format("degrees from 0 to the friction angle of the pair, {:g}", angle));
     }
 }
 

@@ -54,10 +54,13 @@ struct Material {
 
 /// What holds between two materials in place of what they give together; unordered.
 struct MaterialPair {
-    int a = 0, b = 0;                        ///< indices into Scene::materials; alike for contacts within one
-    std::optional<double> normal_stiffness;  ///< N/m, > 0
-    std::optional<double> shear_stiffness;   ///< N/m, >= 0
-    std::optional<double> friction_angle;    ///< degrees, 0 <= φ < 90
+    int a = 0, b = 0;                             ///< indices into Scene::materials; alike for contacts within one
+    std::optional<double> normal_stiffness = {};  ///< N/m, or Pa, > 0
+    std::optional<double> shear_stiffness = {};   ///< N/m, or Pa, >= 0
+    std::optional<double> friction_angle = {};    ///< degrees, 0 <= φ < 90
+    std::optional<double> tensile_strength = {};  ///< N, or Pa, >= 0; of coulomb bonds, as the two below
+    std::optional<double> cohesion = {};          ///< N, or Pa, >= 0
+    std::optional<double> residual_friction_angle = {};  ///< degrees, from 0 to the friction angle
 };
 
 struct CircleElement {

@@ -205,11 +205,12 @@ ContactLaw law_between(const Material& a, const Material& b, const MaterialPair&
     law.shear_damping = in_series(a.damping_ratio ? 0.0 : a.shear_damping, b.damping_ratio ? 0.0 : b.shear_damping);
     const double angle = pair.friction_angle.value_or(std::min(a.friction_angle, b.friction_angle));
     law.friction = std::tan(angle * std::numbers::pi / 180.0);
-    law.tensile_strength = std::min(a.tensile_strength, b.tensile_strength);
-    law.cohesion = std::min(a.cohesion, b.cohesion);
+    law.tensile_strength = pair.tensile_strength.value_or(std::min(a.tensile_strength, b.tensile_strength));
+    law.cohesion = pair.cohesion.value_or(std::min(a.cohesion, b.cohesion));
     law.bond_friction = law.friction;
     if (settings.bond_law == BondLaw::coulomb) {
-        const double residual = std::min({a.residual_friction_angle, b.residual_friction_angle, angle});
+        const double weaker = std::min(a.residual_friction_angle, b.residual_friction_angle);
+        const double residual = std::min(pair.residual_friction_angle.value_or(weaker), angle);
         law.friction = std::tan(residual * std::numbers::pi / 180.0);
     }
     if (settings.intact.no_sliding) law.friction = infinite;

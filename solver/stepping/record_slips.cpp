@@ -1,11 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// First arrival of bonds at their Coulomb limit: the shear damage that no break tells of. A sliding point has |f_t| = μ
-// k_n δ, from which its normal force is known whether bodies have moved on since the force pass or not; its place is
-// known to the motion of a step.
+// First arrival of bonds at their Coulomb limit: the shear damage that no break tells of.
 
 #include "solver/stepping/record_slips.hpp"
-
-#include <cmath>
 
 #include "solver/measure/point_view.hpp"
 #include "solver/stepping/event_place.hpp"
@@ -22,9 +18,7 @@ void record_slips(World& world) {
         const PointView view = view_point(world, k);
         auto event = event_at<SlipEvent>(world, view);
         event.shear_force = world.points.shear_force[k];
-        event.normal_force = view.friction > 0.0 ? std::abs(event.shear_force) / view.friction -
-                                                       view.normal_stiffness * view.bond_overlap
-                                                 : view.normal_force;
+        event.normal_force = view.normal_force;
         world.bonds.slips.push_back(event);
     }
 }

@@ -7,7 +7,7 @@
 namespace crackle {
 
 /// Appends Bonds::slips where back-tension bonds have reached their Coulomb limit for the first time, in the order of
-/// points. After a force pass; linear in listed points, for worlds with Bonds::watch_slips.
+/// points. After a force pass, before bodies move; linear in listed points, for worlds with Bonds::watch_slips.
 void record_slips(World& world);
 
 }  // namespace crackle

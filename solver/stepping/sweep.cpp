@@ -231,8 +231,8 @@ class Sweeper {
         return chunks == 0 ? 0 : plan.chunks[chunks - 1].end_body;
     }
 
-    static bool none_broken(const SweepPlan& plan) {
-        return std::ranges::none_of(plan.shares, [](const SweepPlan::Share& share) { return share.broken; });
+    static bool none_held(const SweepPlan& plan) {
+        return std::ranges::none_of(plan.shares, [](const SweepPlan::Share& share) { return share.held; });
     }
 
     void do_smaller_kinds() {
@@ -258,7 +258,9 @@ class Sweeper {
 
     void do_largest_kind() {
         if (threads_ > 1) add_smaller_kinds();
-        share_ = {{}, thread_ == 0 ? 0 : end_of_chunks(plan_, thread_ - 1), smaller_kinds_broke()};
+        share_ = {{},
+                  thread_ == 0 ? 0 : end_of_chunks(plan_, thread_ - 1),
+                  world_.bonds.watch_slips || smaller_kinds_broke()};
         const std::size_t kind = plan_.largest_kind, first_block = first_block_of(world_, kind);
         const ForceKernel kernel = force_kernel(features_, kind);
         const PointIndex blocks = blocks_of_kind(world_, kind);
@@ -274,8 +276,8 @@ class Sweeper {
                 const PhaseTimer timer(profile_, Phase::gather);
                 threads_ > 1 && plan_.defers[b] != 0 ? add_or_defer(block, kind) : add_all(block, kind);
             }
-            share_.broken = share_.broken || some_broke(first_block + first, first_block + end);
-            if (move_ != nullptr && !share_.broken) {
+            share_.held = share_.held || some_broke(first_block + first, first_block + end);
+            if (move_ != nullptr && !share_.held) {
                 move_on(body, chunk.end_body);
                 share_.moved_end = chunk.end_body;
             }
@@ -295,7 +297,7 @@ class Sweeper {
                     add(sum, load_as<Quad>(&plan_.deferred[plan_.sources[s]]));
             }
         }
-        if (move_ == nullptr || !none_broken(plan_)) return;
+        if (move_ == nullptr || !none_held(plan_)) return;
         const auto free_end = [&](std::uint32_t n) { return std::min(plan_.late_begin + n, plan_.driven_begin); };
         move_on(free_end(begin), free_end(end));
     }
@@ -420,7 +422,7 @@ Speeds move_the_rest(World& world, MoveListed move, double kick) {
         speeds.add(plan.shares[t].speeds);
         move_on(plan.shares[t].moved_end, Sweeper::end_of_chunks(plan, t));
     }
-    if (!Sweeper::none_broken(plan)) move_on(plan.late_begin, plan.driven_begin);
+    if (!Sweeper::none_held(plan)) move_on(plan.late_begin, plan.driven_begin);
     return speeds;
 }
 

@@ -25,12 +25,12 @@ void clear_forces(World& world);
 using MoveListed = Speeds (*)(World& world, double kick, const BodyIndex* bodies, std::int64_t count);
 
 /// Forces of all points, their sums, and the motion of all bodies but the driven ones, on the threads of the world;
-/// after plan_sweep() and clear_forces(). Where a thread meets a broken bond it moves no body from there on: its event
-/// is to be recorded as all was at time n.
+/// after plan_sweep() and clear_forces(). Where a thread meets a broken bond it moves no body from there on, and none
+/// at all where slips are watched: events are to be recorded as all was at time n.
 /// @param move null: bodies stay
 void sweep(World& world, const ContactFeatures& features, MoveListed move, double kick);
 
-/// Moves those that a broken bond has kept in place. @return of all bodies but the driven ones
+/// Moves those that have been kept in place. @return of all bodies but the driven ones
 Speeds move_the_rest(World& world, MoveListed move, double kick);
 
 }  // namespace crackle

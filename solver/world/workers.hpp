@@ -44,7 +44,7 @@ struct SweepPlan {
     struct alignas(64) Share {
         Speeds speeds;
         std::uint32_t moved_end = 0;  // into `order`: bodies of its chunks moved so far end here
-        bool broken = false;          // has met a broken bond
+        bool held = false;            // its bodies stay until events of bonds are recorded
     };
     std::vector<Share> shares;
 };

@@ -53,6 +53,10 @@ class ConsistencyCheck {
     void exclude(const std::string& key, const std::string& because) const {
         if (written(key)) refuse(key, "a value", "none", because);
     }
+    /// A key of [material], wherever one may stand.
+    void exclude_of_materials(const char* key, const std::string& because) const {
+        for (const std::string& table : material_tables(test_)) exclude(fmt::format("{}.{}", table, key), because);
+    }
 
     void specimen() const {
         const bool file = test_.has_table("particles");
@@ -126,9 +130,9 @@ class ConsistencyCheck {
         const bool area = test_.area_units();
         if (area) {
             for (const char* key : {"normal_stiffness", "shear_stiffness"})
-                exclude(std::string("material.") + key, "units = \"area\" has contact_modulus and stiffness_ratio");
+                exclude_of_materials(key, "units = \"area\" has contact_modulus and stiffness_ratio");
             for (const char* key : {"normal_damping", "shear_damping"})
-                exclude(std::string("material.") + key, "units = \"area\" has damping_ratio");
+                exclude_of_materials(key, "units = \"area\" has damping_ratio");
             for (const char* key : {"contact_modulus", "stiffness_ratio"})
                 need(std::string("material.") + key, "units = \"area\" needs it");
             if (test_.numerics.contact_law != "rounded")
@@ -136,12 +140,13 @@ class ConsistencyCheck {
                        "that law knows of no faces; use contact_law = \"rounded\"");
         } else {
             for (const char* key : {"contact_modulus", "stiffness_ratio"})
-                exclude(std::string("material.") + key, "only units = \"area\" has it");
+                exclude_of_materials(key, "only units = \"area\" has it");
         }
-        if (m.residual_friction_angle && m.friction_angle && *m.residual_friction_angle > *m.friction_angle) {
-            refuse("material.residual_friction_angle", fmt::format("{} deg", *m.residual_friction_angle),
-                   fmt::format("at most friction_angle = {} deg", *m.friction_angle), "a broken bond is no rougher");
-        }
+        numbers("material", m);
+        for (std::size_t k = 0; k < test_.mineral.size(); ++k)
+            numbers(fmt::format("mineral[{}]", k + 1), mineral_material(test_, k));
+        for (std::size_t k = 0; k < test_.mineral_pair.size(); ++k)
+            numbers(fmt::format("mineral_pair[{}]", k + 1), test_.mineral_pair[k].own);
         if (!test_.has_table("packing")) return;
         need("material.density", "a packing has no file to take it from");
         need("material.friction_angle", "a packing has no file to take it from");
@@ -154,15 +159,40 @@ class ConsistencyCheck {
         need("material.shear_damping", "dashpots come in pairs");
     }
 
+    /// Of the table's material, whose numbers may be [material]'s.
+    void numbers(const std::string& table, const TestCase::MaterialKeys& m) const {
+        const auto key = [&](const char* name) {
+            const std::string own = fmt::format("{}.{}", table, name);
+            return written(own) ? own : std::string("material.") + name;
+        };
+        if (m.residual_friction_angle && m.friction_angle && *m.residual_friction_angle > *m.friction_angle)
+            refuse(key("residual_friction_angle"), fmt::format("{} deg", *m.residual_friction_angle),
+                   fmt::format("at most the friction_angle of {}, {} deg", table, *m.friction_angle),
+                   "a broken bond is no rougher");
+        if (!test_.coulomb_bonds()) return;
+        if (m.shear_stiffness == 0.0)
+            refuse(key("shear_stiffness"), "0 N/m", "a number > 0 with coulomb bonds", "they hold in shear");
+        if (!m.tensile_strength || !m.cohesion || !m.friction_angle) return;
+        // Beyond cohesion over friction a tensile strength would never be reached.
+        const double friction = std::tan(*m.friction_angle * std::numbers::pi / 180.0);
+        if (!(friction * *m.tensile_strength > *m.cohesion * (1.0 + 1e-12))) return;
+        const std::string unit = test_.area_units() ? "Pa" : "N";
+        refuse(key("tensile_strength"), fmt::format("{} {}", *m.tensile_strength, unit),
+               fmt::format("at most cohesion over tan(friction_angle) of {}, {:.6g} {}", table, *m.cohesion / friction,
+                           unit),
+               "the apex of the bond's envelope would cut it off; give more cohesion or less tensile strength");
+    }
+
     /// What a bond law has, and needs.
     void bond() const {
         const auto& b = test_.bond;
         if (!test_.coulomb_bonds()) {
             constexpr const char* because =
                 "only bond.law = \"coulomb\" has it: by back-tension the overlap is the strength";
+            for (const char* key : {"tensile_strength", "cohesion", "residual_friction_angle"})
+                exclude_of_materials(key, because);
             for (const char* key :
-                 {"material.tensile_strength", "material.cohesion", "material.residual_friction_angle", "bond.gap",
-                  "bond.tensile_factor", "bond.cohesion_factor", "bond.strength_cv", "bond.strength_seed"})
+                 {"bond.gap", "bond.tensile_factor", "bond.cohesion_factor", "bond.strength_cv", "bond.strength_seed"})
                 exclude(key, because);
             if (b.range > 0.0) exclude("bond.range", because);
             if (b.strength_distribution != "none") exclude("bond.strength_distribution", because);
@@ -171,11 +201,8 @@ class ConsistencyCheck {
         if (test_.numerics.contact_law != "rounded")
             refuse("bond.law", "\"coulomb\"", "\"back_tension\" with the guide's contact law",
                    "or use contact_law = \"rounded\"");
-        if (test_.material.shear_stiffness && *test_.material.shear_stiffness == 0.0)
-            refuse("material.shear_stiffness", "0 N/m", "a number > 0 with coulomb bonds", "they hold in shear");
         strength("tensile");
         strength("cohesion");
-        apex();
         const bool random = b.strength_distribution != "none";
         for (const char* key : {"bond.strength_cv", "bond.strength_seed"}) {
             if (random)
@@ -197,21 +224,10 @@ class ConsistencyCheck {
         if (written(number) && written(factor)) exclude(factor, "a strength is a number or a factor: remove one");
         if (!written(number) && !written(factor)) need(number, "bond.law = \"coulomb\" needs it, or " + factor);
         if (!written(factor)) return;
+        exclude_of_materials(which == "tensile" ? "tensile_strength" : "cohesion", factor + " gives it to all bonds");
         if (test_.has_table("mesh"))
             exclude(factor, "polygons with coulomb bonds have no overlap to take a factor of; give " + number);
         if (test_.area_units()) exclude(factor, "units = \"area\" has strengths in Pa; give " + number);
-    }
-
-    /// Tensile strength beyond cohesion over friction would never be reached.
-    void apex() const {
-        const auto& m = test_.material;
-        if (!m.tensile_strength || !m.cohesion || !m.friction_angle) return;
-        const double friction = std::tan(*m.friction_angle * std::numbers::pi / 180.0);
-        if (!(friction * *m.tensile_strength > *m.cohesion * (1.0 + 1e-12))) return;
-        const std::string unit = test_.area_units() ? "Pa" : "N";
-        refuse("material.tensile_strength", fmt::format("{} {}", *m.tensile_strength, unit),
-               fmt::format("at most cohesion over tan(friction_angle) = {:.6g} {}", *m.cohesion / friction, unit),
-               "the apex of the bond's envelope would cut it off; give more cohesion or less tensile strength");
     }
 
     void mesh() const {

@@ -161,6 +161,9 @@ class MineralCheck {
             if (std::none_of(keys.begin(), keys.end(), is_written))
                 refuse(key, "names alone", fmt::format("one at least of {}", fmt::join(keys, ", ")),
                        "add one, or remove the table");
+            if (is_written("contact_modulus") != is_written("stiffness_ratio"))
+                refuse(key, "one of contact_modulus and stiffness_ratio", "both, or neither",
+                       "the pair's own stand in place of the two minerals'");
         }
     }
 

@@ -384,8 +384,17 @@ const std::vector<Parameter>& case_parameters() {
 }
 
 const std::vector<std::string>& mineral_pair_keys() {
-    static const std::vector<std::string> keys{"normal_stiffness", "shear_stiffness", "friction_angle"};
+    static const std::vector<std::string> keys{"normal_stiffness", "shear_stiffness",        "friction_angle",
+                                               "contact_modulus",  "stiffness_ratio",        "tensile_strength",
+                                               "cohesion",         "residual_friction_angle"};
     return keys;
+}
+
+std::vector<std::string> material_tables(const TestCase& test) {
+    std::vector<std::string> all{"material"};
+    for (std::size_t k = 0; k < test.mineral.size(); ++k) all.push_back(fmt::format("mineral[{}]", k + 1));
+    for (std::size_t k = 0; k < test.mineral_pair.size(); ++k) all.push_back(fmt::format("mineral_pair[{}]", k + 1));
+    return all;
 }
 
 TestCase::MaterialKeys mineral_material(const TestCase& test, std::size_t mineral) {

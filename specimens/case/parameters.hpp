@@ -85,5 +85,7 @@ const std::vector<TableDescription>& case_tables();
 TestCase::MaterialKeys mineral_material(const TestCase& test, std::size_t mineral);
 /// Keys of [material] that a [[mineral_pair]] may override.
 const std::vector<std::string>& mineral_pair_keys();
+/// The tables that hold keys of [material]: that itself, "mineral[1]", …, "mineral_pair[1]", …
+std::vector<std::string> material_tables(const TestCase& test);
 
 }  // namespace crackle

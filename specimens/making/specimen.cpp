@@ -384,8 +384,13 @@ std::vector<MaterialPair> pairs_of(const TestCase& test) {
     std::vector<MaterialPair> pairs;
     pairs.reserve(test.mineral_pair.size());
     for (const auto& [between, own] : test.mineral_pair) {
-        pairs.push_back(
-            {index(between[0]), index(between[1]), own.normal_stiffness, own.shear_stiffness, own.friction_angle});
+        MaterialPair pair{index(between[0]),  index(between[1]),    own.normal_stiffness, own.shear_stiffness,
+                          own.friction_angle, own.tensile_strength, own.cohesion,         own.residual_friction_angle};
+        if (own.contact_modulus) {
+            pair.normal_stiffness = own.contact_modulus;
+            pair.shear_stiffness = *own.contact_modulus / *own.stiffness_ratio;
+        }
+        pairs.push_back(pair);
     }
     return pairs;
 }

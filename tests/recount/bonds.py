@@ -165,5 +165,5 @@ def make_bonds(model, points):
     given = {}
     for name, factor in (("tensile_strength", "tensile_factor"), ("cohesion", "cohesion_factor")):
         times = case("bond", factor)
-        given[name] = each * (case("material", name) if times is None else times * tension.mean())
+        given[name] = each * (model.weaker(name, p) if times is None else times * tension.mean())
     return Bonds(**p.fields(), held=held, tensile=given["tensile_strength"], cohesion=given["cohesion"])

@@ -73,10 +73,12 @@ class Model:
             own = self.minerals[k] if k < len(self.minerals) else {}
             m["ratio"] = own.get("damping_ratio", results.key("material", "damping_ratio"))
             if self.by_area:  # Pa
-                modulus = results.key("material", "contact_modulus")
-                m["normal_stiffness"] = own.get("normal_stiffness", modulus)
-                m["shear_stiffness"] = own.get("shear_stiffness", modulus / results.key("material", "stiffness_ratio"))
-            m["residual_friction_angle"] = results.key("material", "residual_friction_angle", m["friction_angle"])
+                modulus, ratio = (own.get(key, results.key("material", key)) for key in ("contact_modulus", "stiffness_ratio"))
+                m["normal_stiffness"], m["shear_stiffness"] = modulus, modulus / ratio
+            stated = results.key("material", "residual_friction_angle", m["friction_angle"])
+            m["residual_friction_angle"] = own.get("residual_friction_angle", stated)
+            for strength in ("tensile_strength", "cohesion"):
+                m[strength] = own.get(strength, results.key("material", strength, 0.0))
         self.pairs = self._named_pairs()
         inset = results.key("mesh", "inset")
         self.mesh_gap = 2 * inset if inset else results.key("mesh", "thick", deck.thick)
@@ -102,8 +104,13 @@ class Model:
     def _named_pairs(self):
         """Of [[mineral_pair]]: (indices of its materials, its keys)."""
         names = [m["name"] for m in self.minerals]
-        tables = self.results.case.get("mineral_pair", [])
-        return [([names.index(name) for name in table["between"]], table) for table in tables]
+        pairs = []
+        for table in self.results.case.get("mineral_pair", []):
+            if self.by_area and "contact_modulus" in table:
+                modulus = table["contact_modulus"]
+                table = table | {"normal_stiffness": modulus, "shear_stiffness": modulus / table["stiffness_ratio"]}
+            pairs.append(([names.index(name) for name in table["between"]], table))
+        return pairs
 
     def _place_platens(self):
         deck = self.deck
@@ -205,11 +212,14 @@ class Model:
 
     def residual_friction(self, p):
         """Of contacts without a bond; a residual angle is at most the pair's own."""
-        residual = np.minimum(*self._pair("residual_friction_angle", p.i, p.j))
-        return np.tan(np.radians(np.minimum(residual, self._friction_angle(p))))
+        return np.tan(np.radians(np.minimum(self.weaker("residual_friction_angle", p), self._friction_angle(p))))
 
     def _friction_angle(self, p):
-        return self._overridden("friction_angle", p, np.minimum(*self._pair("friction_angle", p.i, p.j)))
+        return self.weaker("friction_angle", p)
+
+    def weaker(self, name, p):
+        """Of two materials, unless a table of the pair states it."""
+        return self._overridden(name, p, np.minimum(*self._pair(name, p.i, p.j)))
 
     def _root_term(self, name, p):
         """2 h sqrt(k) of two materials in series; of a pair's own stiffness with the two h in series."""

@@ -65,6 +65,36 @@ friction_angle = 20.0
 between = ["feldspar", "feldspar"]
 shear_stiffness = 3.0e6
 '''
+minerals_of_an_area = '''
+[minerals]
+seed = 5
+[[mineral]]
+name = "quartz"
+area_share = 0.4
+contact_modulus = 2.0e10
+stiffness_ratio = 2.0
+tensile_strength = 1.5e7
+cohesion = 4.0e7
+[[mineral]]
+name = "mica"
+area_share = 0.2
+friction_angle = 20.0
+residual_friction_angle = 10.0
+cohesion = 2.5e7
+[[mineral]]
+name = "feldspar"
+[[mineral_pair]]
+between = ["quartz", "mica"]
+contact_modulus = 5.0e9
+stiffness_ratio = 3.0
+tensile_strength = 4.0e6
+cohesion = 1.2e7
+residual_friction_angle = 5.0
+[[mineral_pair]]
+between = ["feldspar", "feldspar"]
+cohesion = 2.0e7
+friction_angle = 30.0
+'''
 squeezed = '[loading]\nkind = "compression"\nmax_axial_strain = 0.02\n'
 pulled = '[loading]\nkind = "tension"\nmax_axial_strain = 0.005\n'
 rate = "axial_strain_rate = 0.02\n"
@@ -329,6 +359,10 @@ class Recount(unittest.TestCase):
         self.agrees(run("minerals_cells", rock + given + cells + cohesive + squeezed + friction + minerals + output), 200)
         two = '[minerals]\nseed = 5\n[[mineral]]\nname = "mica"\narea_share = 0.5\nfriction_angle = 30.0\n[[mineral]]\nname = "rest"\n'
         self.agrees(run("minerals_area", packing + area + strengths + cells + cohesive + squeezed + two + output), 200)
+        for name, loading in (("pulled", pulled), ("squeezed", squeezed + friction)):
+            text = packing + area + strengths + cells + cohesive + scattered("weibull", 0.2) + loading + minerals_of_an_area
+            with self.subTest(minerals_of_an_area=name):
+                self.agrees(run("minerals_stated_" + name, text + output), 200)
 
     def test_wrong_shares_of_minerals_are_found(self):
         folder = run("minerals_drawn", rock + minerals + squeezed + rate + output)

@@ -60,16 +60,22 @@ struct SmallCase {
     double max_strain = 0.005;
     /// Further keys; platens are bonded unless they name others.
     std::string loading = {}, numerics = {}, output = "curve_rows = 2000\nframes = 5";
+    std::string material = {}, bond = {}, minerals = {};  ///< further keys; the last are tables of their own
 };
 
 /// Writes rock.dat and case.toml into the folder. @return the case's path
 inline std::filesystem::path write_small_case(const std::filesystem::path& folder, const SmallCase& wanted) {
     write_small_rock(folder / "rock.dat");
     std::ofstream out(folder / "case.toml");
-    out << "[particles]\nfile = \"rock.dat\"\n[material]\ndamping_ratio = 0.2\n";
-    if (!wanted.mesh.empty()) {
-        out << fmt::format("[mesh]\nkind = \"{}\"\nthick = 1.0e-3\n[bond]\nthick = 1.08e-3\n", wanted.mesh);
-    }
+    const auto add = [&out](const std::string& lines) {  // no line at all where there are none
+        if (!lines.empty()) out << lines << '\n';
+    };
+    add("[particles]\nfile = \"rock.dat\"\n[material]\ndamping_ratio = 0.2");
+    add(wanted.material);
+    if (!wanted.mesh.empty()) out << fmt::format("[mesh]\nkind = \"{}\"\nthick = 1.0e-3\n", wanted.mesh);
+    if (!wanted.mesh.empty() || !wanted.bond.empty()) add("[bond]");
+    add(wanted.bond.empty() && !wanted.mesh.empty() ? "thick = 1.08e-3" : wanted.bond);
+    add(wanted.minerals);
     out << fmt::format("[loading]\nkind = \"{}\"\naxial_strain_rate = {}\nmax_axial_strain = {}\n{}\n", wanted.kind,
                        wanted.rate, wanted.max_strain, wanted.loading);
     if (wanted.loading.find("platens") == std::string::npos) out << "platens = \"bonded\"\n";

@@ -54,7 +54,7 @@ TEST(RecordSlips, HoldsTheFirstArrivalAtTheLimitOfABondOnce) {
     EXPECT_TRUE(agrees("place, m", slip.position.x, radius, 1e-4));
 }
 
-TEST(RecordSlips, KnowsTheNormalForceFromTheLimit) {
+TEST(RecordSlips, KnowsTheNormalForceOfABondThatOpens) {
     World world = rubbing_pair(true, 1e-3);
     for (int n = 0; n < 400 && world.bonds.slips.empty(); ++n) step(world);
     ASSERT_EQ(world.bonds.slips.size(), 1U);

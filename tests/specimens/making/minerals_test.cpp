@@ -407,6 +407,31 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"PairUnknown",
                 "[[mineral]]\nname = \"a\"\n[[mineral_pair]]\nbetween = [\"a\", \"b\"]\nfriction_angle = 1\n",
                 ":19: mineral_pair[1].between: found \"b\", expected names of minerals: a"},
+        Refusal{"ResidualAboveFriction",
+                "[bond]\nlaw = \"coulomb\"\n[[mineral]]\nname = \"a\"\nfriction_angle = 15\n"
+                "residual_friction_angle = 20\n",
+                ":21: mineral[1].residual_friction_angle: found 20 deg, expected at most the friction_angle of "
+                "mineral[1], 15 deg"},
+        Refusal{"StrengthBeyondTheApex",
+                "[bond]\nlaw = \"coulomb\"\n[[mineral]]\nname = \"a\"\nfriction_angle = 45\n"
+                "tensile_strength = 30\ncohesion = 20\n",
+                ":21: mineral[1].tensile_strength: found 30 N, expected at most cohesion over tan(friction_angle) of "
+                "mineral[1], 20 N"},
+        Refusal{"NothingInShear",
+                "[bond]\nlaw = \"coulomb\"\n[[mineral]]\nname = \"a\"\n[[mineral_pair]]\n"
+                "between = [\"a\", \"a\"]\nshear_stiffness = 0\n",
+                ":22: mineral_pair[1].shear_stiffness: found 0 N/m, expected a number > 0 with coulomb bonds"},
+        Refusal{"StrengthByBackTension", "[[mineral]]\nname = \"a\"\ncohesion = 20\n",
+                ":18: mineral[1].cohesion: found a value, expected none; only bond.law = \"coulomb\" has it"},
+        Refusal{"StrengthOfAPairByBackTension",
+                "[[mineral]]\nname = \"a\"\n[[mineral_pair]]\nbetween = [\"a\", \"a\"]\ntensile_strength = 20\n",
+                ":20: mineral_pair[1].tensile_strength: found a value, expected none; only bond.law = \"coulomb\""},
+        Refusal{"StrengthBesideAFactor",
+                "[bond]\nlaw = \"coulomb\"\ntensile_factor = 1\ncohesion_factor = 1\n[[mineral]]\nname = \"a\"\n"
+                "cohesion = 20\n",
+                ":22: mineral[1].cohesion: found a value, expected none; bond.cohesion_factor gives it to all bonds"},
+        Refusal{"ModulusOfAPoint", "[[mineral]]\nname = \"a\"\ncontact_modulus = 1e9\n",
+                ":18: mineral[1].contact_modulus: found a value, expected none; only units = \"area\" has it"},
         Refusal{"PairOfOne", "[[mineral]]\nname = \"a\"\n[[mineral_pair]]\nbetween = [\"a\"]\n",
                 ":19: mineral_pair[1].between: found an array, expected two texts in square brackets"},
         Refusal{"PairTwice",
@@ -556,6 +581,42 @@ TEST(MaterialPair, OverridesStiffnessFrictionAndTheDashpotsThatHangOnIt) {
     }
     EXPECT_EQ(law(2, 3).normal_stiffness, 4e7) << "within the other material";
     EXPECT_EQ(law(2, 3).friction, std::tan(20.0 * std::numbers::pi / 180.0));
+}
+
+TEST(MaterialPair, OverridesTheStrengthsOfCoulombBonds) {
+    Scene scene = disc_chain(3, 0.02, 0.0399, undamped_rock(1e7, 30.0));
+    scene.bond_law = BondLaw::coulomb;
+    Material& first = scene.materials[0];
+    first.tensile_strength = 10.0, first.cohesion = 50.0, first.residual_friction_angle = 25.0;
+    Material other = first;
+    other.tensile_strength = 20.0, other.cohesion = 40.0, other.residual_friction_angle = 20.0;
+    scene.materials.push_back(other);
+    scene.bodies[1].material = 1;
+    const auto law = [&] { return build_world(scene).settings.laws[1]; };  // between the two
+    const auto tangent = [](double degrees) { return std::tan(degrees * std::numbers::pi / 180.0); };
+    EXPECT_EQ(law().tensile_strength, 10.0) << "the weaker";
+    EXPECT_EQ(law().cohesion, 40.0);
+    EXPECT_EQ(law().friction, tangent(20.0));
+    MaterialPair pair{1, 0};
+    pair.tensile_strength = 30.0, pair.cohesion = 60.0, pair.residual_friction_angle = 28.0;
+    scene.material_pairs = {pair};
+    EXPECT_EQ(law().tensile_strength, 30.0);
+    EXPECT_EQ(law().cohesion, 60.0);
+    EXPECT_EQ(law().friction, tangent(28.0));
+    EXPECT_EQ(law().bond_friction, tangent(30.0));
+    scene.material_pairs[0].residual_friction_angle = 31.0;
+    EXPECT_NE(error_of([&] { validate(scene); }).find("material pair 1: residual friction angle: found 31"),
+              std::string::npos);
+    scene.material_pairs[0] = {1, 0, {}, {}, {}, {}, -1.0};
+    EXPECT_NE(error_of([&] { validate(scene); }).find("material pair 1: cohesion: found -1"), std::string::npos);
+    scene.material_pairs[0] = {1, 0, {}, 0.0};
+    EXPECT_NE(error_of([&] { validate(scene); }).find("shear stiffness: found 0 with coulomb bonds"),
+              std::string::npos);
+    scene.material_pairs[0] = {1, 0, {}, {}, {}, 1.0};
+    scene.bond_law = BondLaw::back_tension;
+    scene.materials[0].tensile_strength = scene.materials[0].cohesion = 0.0;
+    scene.materials[1] = scene.materials[0];
+    EXPECT_NE(error_of([&] { validate(scene); }).find("expected the bond law coulomb"), std::string::npos);
 }
 
 TEST(MaterialPair, OfEqualStiffnessHasItToTheBit) {

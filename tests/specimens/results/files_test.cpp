@@ -53,11 +53,73 @@ class TestFolder : public ::testing::Test {
     TestCase small_case(const SmallCase& wanted = {}) const {
         return read_case(write_small_case(scratch_ / "", wanted));
     }
+    /// Rocks whose properties are stated: every law, unit, factor, end and file of theirs is in one of them.
+    static std::vector<SmallCase> stated_rocks() {
+        const std::string minerals =
+            "[minerals]\nseed = 4\n[[mineral]]\nname = \"quartz\"\narea_share = 0.4\ncontact_modulus = 3e7\n"
+            "[[mineral]]\nname = \"mica\"\nfriction_angle = 15.0\nresidual_friction_angle = 10.0\n"
+            "[[mineral_pair]]\nbetween = [\"quartz\", \"mica\"]\nfriction_angle = 12.0\n";
+        SmallCase pulled;  // cells, in area units, with random strengths and minerals, held in grips
+        pulled.mesh = "voronoi";
+        pulled.rate = 0.005;
+        pulled.material =
+            "units = \"area\"\ncontact_modulus = 1e7\nstiffness_ratio = 2.5\n"
+            "tensile_strength = 1.5e4\ncohesion = 5e4\nresidual_friction_angle = 20.0";
+        pulled.bond = "law = \"coulomb\"\nstrength_distribution = \"weibull\"\nstrength_cv = 0.3\nstrength_seed = 5";
+        pulled.minerals = minerals;
+        pulled.loading = "platens = \"glued\"\ngrip = 0.1";
+        pulled.output += "\nslips = true";
+        SmallCase squeezed = pulled;
+        squeezed.kind = "compression";
+        squeezed.rate = 0.1;
+        squeezed.max_strain = 0.015;
+        squeezed.loading = "platens = \"frictional\"\nplaten_friction_angle = 10.0";
+        squeezed.bond =
+            "law = \"coulomb\"\nstrength_distribution = \"lognormal\"\nstrength_cv = 0.3\nstrength_seed = 6";
+        SmallCase discs = squeezed;  // across gaps, strengths by the back-tension
+        discs.rate = 0.06;
+        discs.mesh = "";
+        discs.material = "";
+        discs.minerals = "";
+        discs.bond =
+            "law = \"coulomb\"\nrange = 0.05\ntensile_factor = 1.0\ncohesion_factor = 2.0\n"
+            "strength_distribution = \"normal\"\nstrength_cv = 0.2\nstrength_seed = 7";
+        SmallCase sliding;  // back-tension, whose slips are recorded
+        sliding.kind = "compression";
+        sliding.mesh = "voronoi";
+        sliding.rate = 0.1;
+        sliding.max_strain = 0.03;
+        sliding.output += "\nslips = true";
+        return {pulled, squeezed, discs, sliding};
+    }
     /// Stops when asked for the nth time; the loop asks every 64 steps.
     static TestHooks stopping_at(int questions) {
         TestHooks hooks;
         hooks.interrupted = [left = questions]() mutable { return --left < 0; };
         return hooks;
+    }
+
+    /// Interrupted again and again, after `longer` more questions each time, then compared with the test in one.
+    void expect_same_resumed(const TestCase& test, int longer, const std::string& what) {
+        TestOptions straight = options("straight"), broken = options("broken");
+        straight.force = broken.force = true;
+        const TestOutcome whole = run_test(test, straight);
+        EXPECT_GT(whole.summary["bonds_broken"].get<int>(), 0);
+
+        TestOutcome outcome = run_test(test, broken, stopping_at(1));
+        int interrupts = 0;
+        while (outcome.interrupted) {
+            ++interrupts;
+            EXPECT_EQ(outcome.summary["ended_by"], "interrupt");
+            broken.folder = outcome.folder;
+            outcome = resume_test(broken, stopping_at(1 + longer * interrupts));
+        }
+        fmt::print("  {}: {} interrupts in {} steps, {} bonds broken\n", what, interrupts,
+                   whole.summary["steps"].get<int>(), whole.summary["bonds_broken"].get<int>());
+        EXPECT_GE(interrupts, 5);
+        expect_same(contents(outcome.folder), contents(scratch_ / "straight"), what);
+        fs::remove_all(outcome.folder);
+        fs::remove_all(scratch_ / "straight");
     }
 
     ScratchFolder scratch_;
@@ -150,16 +212,22 @@ TEST_F(TestFolder, HasTheSameBytesForAnyNumberOfThreads) {
     SmallCase wanted;
     wanted.mesh = "voronoi";
     wanted.rate = 0.05;
-    const TestCase test = small_case(wanted);
-    const TestOutcome first = run_test(test, options("one"));
-    ASSERT_TRUE(first.summary["failed"].get<bool>());
-    const auto one = contents(scratch_ / "one");
-    for (const int threads : {2, 3, 7}) {
-        TestOptions several = options("several");
-        several.threads = threads;
-        several.force = true;
-        run_test(test, several);
-        expect_same(contents(scratch_ / "several"), one, fmt::format("{} threads", threads));
+    std::vector<SmallCase> rocks = stated_rocks();
+    rocks.push_back(wanted);
+    for (const SmallCase& rock : rocks) {
+        const TestCase test = small_case(rock);
+        TestOptions single = options("one");
+        single.force = true;
+        const TestOutcome first = run_test(test, single);
+        EXPECT_GT(first.summary["bonds_broken"].get<int>(), 0);
+        const auto one = contents(scratch_ / "one");
+        for (const int threads : {2, 3, 7}) {
+            TestOptions several = options("several");
+            several.threads = threads;
+            several.force = true;
+            run_test(test, several);
+            expect_same(contents(scratch_ / "several"), one, fmt::format("{} threads", threads));
+        }
     }
 }
 
@@ -176,25 +244,12 @@ TEST_F(TestFolder, ResumedEndsWithTheBytesOfAnUninterruptedTest) {
             test.loading.axial_strain_rate.reset();
             test.loading.rate_tolerance = 0.005;
         }
-        TestOptions straight = options("straight"), broken = options("broken");
-        straight.force = broken.force = true;
-        const TestOutcome whole = run_test(test, straight);
-        ASSERT_GT(whole.summary["bonds_broken"].get<int>(), 0);
-
-        TestOutcome outcome = run_test(test, broken, stopping_at(1));
-        int interrupts = 0;
-        while (outcome.interrupted) {
-            ++interrupts;
-            EXPECT_EQ(outcome.summary["ended_by"], "interrupt");
-            broken.folder = outcome.folder;
-            outcome = resume_test(broken, stopping_at(by_tolerance ? 1 : 1 + interrupts));
-        }
-        fmt::print("  {} interrupts in {} steps\n", interrupts, whole.summary["steps"].get<int>());
-        EXPECT_GE(interrupts, 5);
-        expect_same(contents(outcome.folder), contents(scratch_ / "straight"), fmt::format("resumed {}", mesh));
-        fs::remove_all(outcome.folder);
-        fs::remove_all(scratch_ / "straight");
+        expect_same_resumed(test, by_tolerance ? 0 : 1, fmt::format("resumed {}", mesh));
     }
+}
+
+TEST_F(TestFolder, OfAStatedRockEndsResumedWithTheBytesOfAnUninterruptedTest) {
+    for (const SmallCase& rock : stated_rocks()) expect_same_resumed(small_case(rock), 1, rock.kind + " " + rock.mesh);
 }
 
 /// Since when a contact without a bond has touched, is recorded in the checkpoint alone.
