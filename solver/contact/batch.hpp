@@ -17,6 +17,7 @@
 #include "solver/contact/features.hpp"
 #include "solver/contact/friction.hpp"
 #include "solver/contact/law.hpp"
+#include "solver/contact/opening.hpp"
 #include "solver/geometry/geometry.hpp"
 #include "solver/geometry/relative_motion.hpp"
 #include "solver/world/world.hpp"
@@ -394,6 +395,7 @@ struct BatchState {
     BatchCase what;
     PointState* states;
     LaneBits law_and_flags, bonded, holds;
+    Lanes beyond_rest;  // m, overlap of a point without a bond beyond the one without force
 };
 
 /// Of the shear force of a bond that sticks, N.
@@ -420,11 +422,34 @@ CRACKLE_INLINE Law<Lanes> law_of_batch(const World& world, PointIndex k, const B
         return law.law;
 }
 
+/// Whether every unbonded point of a batch that closes has been closed and surely stays so for a step more.
+template <ContactFeatures F>
+CRACKLE_INLINE bool none_opens(const World& world, PointIndex k, const Law<Lanes>& law, const Lanes& overlap,
+                               const RelativeMotion<Lanes>& motion, const LaneBits& free) {
+    const ContactPoint* const points = world.points.contact.data() + k;
+    const double *i[lane_count], *j[lane_count];
+    for (int l = 0; l < lane_count; ++l) {
+        i[l] = &world.bodies.push_bound[points[l].body_i].acceleration;
+        j[l] = &world.bodies.push_bound[points[l].body_j].acceleration;
+    }
+    Lanes acceleration_i, acceleration_j, inverse_mass_i, inverse_mass_j, dashpot{};
+    gather_pairs(i, acceleration_i, inverse_mass_i);
+    gather_pairs(j, acceleration_j, inverse_mass_j);
+    if constexpr (F.damping) dashpot = normal_damping(law, load_as<Lanes>(&world.points.root_mass[k])) * motion.closing;
+    const double step = world.stepping.time_step, kick = kick_before(world.stepping) + 0.5 * step;
+    return none_of(
+        free & ~stays_closed(
+                   law.normal_stiffness, overlap, motion.closing, load_as<Lanes>(&world.points.last_normal[k]), dashpot,
+                   PushBounds<Lanes>{acceleration_i + acceleration_j, inverse_mass_i + inverse_mass_j}, kick, step));
+}
+
 /// Changes nothing. @param k first point of the batch @param law of the batch before; left as this one's
 template <ContactFeatures F, class Contact>
 CRACKLE_INLINE BatchState look_at_batch(World& world, PointIndex k, const BatchGeometry<Contact>& g, BatchLaw& law) {
     constexpr int at_rest = point_touching | (F.bonds ? point_bonded | point_counted : 0);
-    constexpr LaneBit of_law = 0xffff, looked_at = of_law | bits_of_flags(at_rest | point_sliding);
+    constexpr LaneBit of_law = 0xffff;
+    constexpr LaneBit looked_at =
+        of_law | bits_of_flags(at_rest | point_sliding | (F.consistent ? point_unsettled : 0));
     const Lanes& overlap = g.contact.overlap;
     PointState* const states = world.points.state.data() + k;
     const LaneBits law_and_flags = widened(states);
@@ -433,7 +458,7 @@ CRACKLE_INLINE BatchState look_at_batch(World& world, PointIndex k, const BatchG
         if (none_of((law_and_flags ^ law_and_flags[0]) & of_law)) {
             law.take(world, states[0].law);
         } else if (!load_laws<F>(world, states, law_and_flags & of_law, law)) {
-            return {BatchCase::one_by_one, states, law_and_flags, LaneBits{}, LaneBits{}};
+            return {BatchCase::one_by_one, states, law_and_flags, LaneBits{}, LaneBits{}, Lanes{}};
         }
         unlike = (law_and_flags ^ bits_of_flags(at_rest)) & ~of_law;
     }
@@ -444,15 +469,37 @@ CRACKLE_INLINE BatchState look_at_batch(World& world, PointIndex k, const BatchG
         over = ~fail(world, k, law_of_batch<F>(world, k, law), beyond_rest, g.motion.slipping * world.stepping.drift);
     else if constexpr (F.bonds)
         over = bond_holds(law.law, overlap);
-    if (none_of((unlike & looked_at) | ~over)) return {BatchCase::all_hold, states, law_and_flags, over, over};
+    if (none_of((unlike & looked_at) | ~over)) {
+        BatchCase what = BatchCase::all_hold;
+        const LaneBits all_bonded = F.bonds ? over : LaneBits{};
+        if constexpr (F.consistent && !F.bonds) {
+            if (!none_opens<F>(world, k, law_of_batch<F>(world, k, law), overlap, g.motion, over))
+                what = BatchCase::one_by_one;
+        }
+        return {what, states, law_and_flags, all_bonded, over, beyond_rest};
+    }
     LaneBits bonded{}, holds = beyond_rest > 0.0;
     if constexpr (F.bonds) {
         bonded = (law_and_flags & bits_of_flags(point_bonded)) != 0;
         holds = bonded ? over : holds;
     }
-    const LaneBits held_before = bonded | ((law_and_flags & bits_of_flags(point_touching)) != 0);
-    if (any(~holds & held_before)) return {BatchCase::one_by_one, states, law_and_flags, bonded, holds};
-    return {any(holds) ? BatchCase::some_hold : BatchCase::none_holds, states, law_and_flags, bonded, holds};
+    const LaneBits touched = (law_and_flags & bits_of_flags(point_touching)) != 0;
+    BatchCase what = any(holds) ? BatchCase::some_hold : BatchCase::none_holds;
+    if (any(~holds & (bonded | touched))) what = BatchCase::one_by_one;
+    if constexpr (F.consistent) {
+        const LaneBits free = holds & ~bonded;
+        const LaneBits unsettled = (law_and_flags & bits_of_flags(point_unsettled)) != 0;
+        if (any(unsettled | (free & ~touched)) ||
+            (any(free) && !none_opens<F>(world, k, law_of_batch<F>(world, k, law), beyond_rest, g.motion, free)))
+            what = BatchCase::one_by_one;
+    }
+    return {what, states, law_and_flags, bonded, holds, beyond_rest};
+}
+
+/// What points without a bond remember of a force pass, whether they close or not.
+CRACKLE_INLINE void remember_overlaps(World& world, PointIndex k, const BatchState& batch) {
+    LastOverlap* const last = &world.points.last_overlap[k];
+    store_as(last, select(batch.bonded, load_as<Lanes>(last), batch.beyond_rest));
 }
 
 /// Forces of the points of a batch that hold, into `out`; of the others 0.
@@ -544,6 +591,11 @@ CRACKLE_INLINE void force_lanes(World& world, PointIndex k, PointIndex place, co
         store_floats(shear_memory, where_held(shear_damper, last_shear));
         normal += normal_damper;
         shear -= shear_damper;
+    }
+    if constexpr (F.consistent && !(F.bonds && All)) {
+        double* const last = &world.points.last_normal[k];
+        store_as(last, select(batch.bonded, load_as<Lanes>(last), where_held(normal, load_as<Lanes>(last))));
+        remember_overlaps(world, k, batch);
     }
     const ForceOnBodies<Lanes> force = force_on_bodies(g.contact, normal, shear);
     store_quads(out, where_held(force.fx, zero), where_held(force.fy, zero), where_held(force.torque_i, zero),

@@ -11,14 +11,17 @@
 //     last step,  r = max(δ(n-1), 0):    x = ½(p + r - √((p - r)² + 4κe)),  e = rδ + 2D/k;     f = (p - x)k/κ.
 // p needs what else pushes at the point: its bodies' accelerations of the last step stand in for those of this one.
 // What the energy misses by that goes into the point's defect D, J, and is made good in its next last step.
+// Where what the bodies' last kick has done at most, and the change of this point's own force, cannot part the point,
+// the force is kδ: stays_closed() says so without a look at the accelerations.
 // Exact for one disc up to the limit; for many it keeps the error bounded. δ [m], k [N/m], m [kg] effective along the
 // normal. A dashpot is the lagged one, inside p. Restitution stays first order in the step with it.
-// Tested by tests/verification/claims_test.cpp.
+// Tested by tests/solver/contact/opening_test.cpp and, with the energies that follow, by tests/verification/claims_test.cpp.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 
+#include "solver/base/lanes.hpp"
 #include "solver/world/world.hpp"
 
 namespace crackle {
@@ -35,26 +38,46 @@ struct ClosingPoint {
     double kick, step;    // s, coming kick and drift
 };
 
+/// What the bodies of a point have done in their last kick at most, and their inverse masses, summed.
+template <class Number>
+struct PushBounds {
+    Number acceleration;  // m/s2
+    Number inverse_mass;  // 1/kg
+};
+
+/// Whether a closed point surely is not in its last step: p - κδ > 0 whatever its bodies' accelerations are within the
+/// bounds. Rounding is some 1e-15 of the terms; a millionth of them is left for it.
+/// @param last, dashpot N, of the last force pass and of this one  @param kick, step s
+template <class Number>
+CRACKLE_INLINE Condition<Number> stays_closed(const Number& stiffness, const Number& overlap, const Number& closing,
+                                              const Number& last, const Number& dashpot,
+                                              const PushBounds<Number>& bounds, double kick, double step) {
+    const Number change = magnitude(last - dashpot - stiffness * overlap);
+    const Number parted = kick * step * (bounds.acceleration + bounds.inverse_mass * change);
+    return overlap + step * closing - parted > 1e-6 * (overlap + step * magnitude(closing));
+}
+
 /// Closes the account of the last step's force. To be called at every force pass of an unbonded point, before
-/// opening_force(). @return the overlap one step ago, m
-inline double settle_opening(OpeningMemory& memory, bool touched, const ClosingPoint& a) {
-    const double before = std::isnan(memory.overlap) ? a.overlap - a.closing * a.drift : memory.overlap;
+/// opening_force(). @param last overlap in the last force pass, m; unset in a new point @return the overlap one step
+/// ago
+inline double settle_opening(OpeningMemory& memory, double last, bool touched, const ClosingPoint& a) {
+    const double before = std::isnan(last) ? a.overlap - a.closing * a.drift : last;
     if (touched) {
         memory.defect += 0.5 * memory.extra_force * a.overlap;
         if (a.overlap <= 0.0) memory.defect += 0.5 * a.stiffness * std::max(before, 0.0) * a.overlap;
     }
     memory.extra_force = 0.0;
-    memory.overlap = a.overlap;
     return before;
 }
 
 /// Spring force at δ(n) > 0, N. @param touched in contact in the last pass too  @param before δ(n-1), m
-inline double opening_force(OpeningMemory& memory, bool touched, double before, const ClosingPoint& a) {
+/// @param last force of spring and dashpot in the last force pass, N
+inline double opening_force(OpeningMemory& memory, double last, bool touched, double before, const ClosingPoint& a) {
     const double k = a.stiffness, d = a.overlap;
     const double plain = k * d;
     const double u = a.kick * a.step * a.inverse_mass, kappa = k * u;
     // Overlap to come without the spring.
-    const double others = a.acceleration + memory.force * a.inverse_mass;
+    const double others = a.acceleration + last * a.inverse_mass;
     const double p = d + (a.closing + others * a.kick) * a.step - u * a.dashpot;
     double force = plain;
     if (!touched) {
@@ -74,17 +97,13 @@ inline double opening_force(OpeningMemory& memory, bool touched, double before, 
         memory.extra_force = force - plain;
         memory.defect -= 0.5 * memory.extra_force * before;
     }
-    memory.force = force + a.dashpot;
     return force;
 }
 
-/// Out of contact, with the account settled.
-inline void rest_opening(OpeningMemory& memory) { memory.force = 0.0; }
-
 /// Energy of a point at time n beyond that of its spring at δ(n), J; open points may still have some to settle.
-inline double opening_energy(const OpeningMemory& memory) {
-    const double overlap = std::isnan(memory.overlap) ? 0.0 : memory.overlap;
-    return memory.defect + 0.5 * memory.extra_force * overlap;
+/// @param overlap m; unset in a new point
+inline double opening_energy(const OpeningMemory& memory, double overlap) {
+    return memory.defect + 0.5 * memory.extra_force * (std::isnan(overlap) ? 0.0 : overlap);
 }
 
 }  // namespace crackle

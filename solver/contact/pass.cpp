@@ -60,6 +60,15 @@ inline void feel_bodies(const World& world, const ContactPoint& point, const Con
     if constexpr (K != PointKind::element_wall) add(point.body_j, g.ajx, g.ajy, -1.0);
 }
 
+/// Of the bodies of a point.
+template <PointKind K>
+inline PushBounds<double> push_bounds(const World& world, const ContactPoint& point) {
+    const PushBound& i = world.bodies.push_bound[point.body_i];
+    if constexpr (K == PointKind::element_wall) return {i.acceleration, i.inverse_mass};
+    const PushBound& j = world.bodies.push_bound[point.body_j];
+    return {i.acceleration + j.acceleration, i.inverse_mass + j.inverse_mass};
+}
+
 /// Law of a point, with its share where it has one.
 template <ContactFeatures F>
 inline Law<double> law_for(const World& world, PointIndex k) {
@@ -109,7 +118,7 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
 
     const bool held_before = bonded || (state.flags & point_touching) != 0;
     if (!held_before && overlap <= 0.0) {
-        if constexpr (F.consistent) world.points.opening[k].overlap = overlap;
+        if constexpr (F.consistent) world.points.last_overlap[k].value = overlap;
         out = {0.0, 0.0, 0.0, 0.0};
         return;
     }
@@ -130,11 +139,15 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
     [[maybe_unused]] const bool touched = (state.flags & point_touching) != 0 || dt == 0.0;
     if constexpr (F.consistent) {
         coming = {overlap, closing, 0.0, 0.0, law.normal_stiffness, 0.0, dt, kick, world.stepping.time_step};
-        if (!bonded) before = settle_opening(world.points.opening[k], touched, coming);
+        if (!bonded) {
+            before = settle_opening(world.points.opening[k], world.points.last_overlap[k].value, touched, coming);
+            world.points.last_overlap[k].value = overlap;
+            state.flags = static_cast<std::uint16_t>(state.flags & ~point_unsettled);
+        }
     }
 
     if (!holds) {
-        if constexpr (F.consistent) rest_opening(world.points.opening[k]);
+        if constexpr (F.consistent) world.points.last_normal[k] = 0.0;
         if constexpr (F.damping) {
             loss.dashpot[place % BlockLosses::places] += dashpot_loss<double>(
                 dt, world.points.normal_dashpot[k], closing, world.points.shear_dashpot[k], slipping);
@@ -164,10 +177,17 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
     double compression = overlap;  // m, what Coulomb's limit goes by
     if constexpr (F.consistent) {
         if (!bonded) {
-            feel_bodies<K>(world, point, with_arms(g), coming);
             if constexpr (F.damping) coming.dashpot = normal_damping(law, world.points.root_mass[k]) * closing;
-            normal = opening_force(world.points.opening[k], touched, before, coming);
-            compression = normal / law.normal_stiffness;
+            double& last = world.points.last_normal[k];
+            if (!touched || !stays_closed(law.normal_stiffness, overlap, closing, last, coming.dashpot,
+                                          push_bounds<K>(world, point), kick, world.stepping.time_step)) {
+                feel_bodies<K>(world, point, with_arms(g), coming);
+                OpeningMemory& memory = world.points.opening[k];
+                normal = opening_force(memory, last, touched, before, coming);
+                compression = normal / law.normal_stiffness;
+                if (memory.extra_force != 0.0) state.flags |= point_unsettled;
+            }
+            last = normal + coming.dashpot;
         }
     }
     if constexpr (F.bonds && !F.coulomb) normal -= spring_force(law, world.points.bond_overlap[k]);
@@ -270,6 +290,7 @@ void force_block_in_batches(World& world, const PointBlock& block) {
                     force_lanes<F, false>(world, k, place, g, law_of_batch<F>(world, k, law), batch, out, loss);
                     break;
                 case BatchCase::none_holds:
+                    if constexpr (F.consistent) remember_overlaps(world, k, batch);
                     store_quads(out, Lanes{}, Lanes{}, Lanes{}, Lanes{});
                     break;
                 case BatchCase::one_by_one:
@@ -325,7 +346,7 @@ constexpr ContactFeatures features_for(PointKind kind, ContactFeatures f) {
 template <PointKind K, std::size_t Number>
 constexpr ForceKernel kernel_of() {
     constexpr ContactFeatures features = features_for(K, features_numbered(Number));
-    if constexpr (in_batches<K> && !features.consistent)
+    if constexpr (in_batches<K>)
         return &force_block_in_batches<K, features>;
     else
         return &force_block<K, features>;

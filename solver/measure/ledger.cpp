@@ -85,7 +85,8 @@ double strain_of_points(const World& world) {
             if (bonded || overlap > world.points.bond_overlap[k]) sum += energy_at(world, k, overlap);
         }
     });
-    for (const OpeningMemory& memory : world.points.opening) sum += opening_energy(memory);
+    for (std::size_t k = 0; k < world.points.opening.size(); ++k)
+        sum += opening_energy(world.points.opening[k], world.points.last_overlap[k].value);
     for (const double energy : world.account.opening_defects) sum += energy;
     return sum;
 }

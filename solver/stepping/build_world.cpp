@@ -153,6 +153,19 @@ void add_segments(World& world, const BodyInfo& info) {
     }
 }
 
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// Driving a body only takes from its inverse masses. A contact lies within the overlap, so within the reach of both
+/// its bodies; a tenth more stands for what an extreme overlap does to that.
+void bound_pushes(Bodies& bodies) {
+    for (std::size_t b = 0; b < bodies.size(); ++b) {
+        const BodyInertia& inertia = bodies.inertia[b];
+        const double reach = 1.1 * bodies.info[b].reach;
+        const double inverse_mass = std::max(inertia.inverse_mass_x, inertia.inverse_mass_y);
+        bodies.push_bound.push_back({infinite, inverse_mass + inertia.inverse_moment * reach * reach, reach});
+    }
+}
+
 void add_body(World& world, const Scene& scene, const Body& body, const MassProperties& properties) {
     BodyInfo info{};
     info.id = body.id;
@@ -179,8 +192,6 @@ void add_body(World& world, const Scene& scene, const Body& body, const MassProp
 
 /// Springs in series, k = 2k₁k₂/(k₁+k₂). Equal ones give their own, which the formula may miss in the last bit.
 double in_series(double a, double b) { return a == b ? a : 2.0 * a * b / (a + b); }
-
-constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Its bonds cannot break.
 void hold(ContactLaw& law) {
@@ -335,6 +346,7 @@ World build_world(Scene scene) {
     if (world.settings.integrator == Integrator::consistent) {
         world.account.opening_defects.assign(world.bodies.size(), 0.0);
         world.bodies.last_force.assign(world.bodies.size(), BodyForce{});
+        bound_pushes(world.bodies);
     }
     world.bodies.force.assign(world.bodies.size(), BodyForce{});
     build_laws(world, scene);

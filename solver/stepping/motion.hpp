@@ -32,7 +32,7 @@ inline void turn_frame(BodyState& body, double turn) {
 
 /// Bodies number(0) to number(count - 1). @param kick s
 /// @tparam Turning some bodies have a frame that turns with them
-/// @tparam Clear Bodies::force of these bodies are left as 0
+/// @tparam Clear Bodies::force of these bodies are left as 0: not where the consistent integrator looks at them again
 template <bool Gravity, bool Turning, bool Clear, class Number>
 Speeds move_each(World& world, double kick, std::int64_t count, Number number) {
     const double dt = world.stepping.time_step;
@@ -41,6 +41,8 @@ Speeds move_each(World& world, double kick, std::int64_t count, Number number) {
     const BodyInertia* const inertias = world.bodies.inertia.data();
     BodyForce* const forces = world.bodies.force.data();
     [[maybe_unused]] const double* const reaches = world.bodies.turning_reach.data();
+    [[maybe_unused]] PushBound* const bounds =
+        world.bodies.push_bound.empty() ? nullptr : world.bodies.push_bound.data();
     Speeds speeds;
     for (std::int64_t k = 0; k < count; ++k) {
         const auto n = number(k);
@@ -50,6 +52,13 @@ Speeds move_each(World& world, double kick, std::int64_t count, Number number) {
         if constexpr (Clear) forces[n] = {};
         Pair push = load_as<Pair>(&force.fx);
         if constexpr (Gravity) push += inertia.mass * gravity;
+        if constexpr (!Clear) {
+            if (bounds != nullptr) {
+                const Pair pushed = push * load_as<Pair>(&inertia.inverse_mass_x);
+                bounds[n].acceleration = std::abs(pushed[0]) + std::abs(pushed[1]) +
+                                         bounds[n].reach * std::abs(force.torque * inertia.inverse_moment);
+            }
+        }
         const Pair v = load_as<Pair>(&body.vx) + kick * push * load_as<Pair>(&inertia.inverse_mass_x);
         store_as(&body.vx, v);
         store_as(&body.x, load_as<Pair>(&body.x) + dt * v);

@@ -100,7 +100,11 @@ void record_breaks(World& world) {
                 part_back_tension<K>(world, k, view, event);
             }
             if (!world.points.spring_work.empty()) world.points.spring_work[k] = {};
-            if (!world.points.opening.empty()) world.points.opening[k] = {};
+            if (!world.points.opening.empty()) {
+                world.points.opening[k] = {};
+                world.points.last_overlap[k] = {};
+                world.points.last_normal[k] = 0.0;
+            }
             event.last_of_interface = !interface_holds(world, k);
             event.kind = view.kind;
             event.point = world.points.contact[k];

@@ -159,8 +159,9 @@ void plan_sweep(World& world) {
 }
 
 void clear_forces(World& world) {
-    if (world.settings.integrator == Integrator::consistent) world.bodies.last_force = world.bodies.force;
-    if (!world.bodies.forces_clear) std::ranges::fill(world.bodies.force, BodyForce{});
+    const bool consistent = world.settings.integrator == Integrator::consistent;
+    if (consistent) world.bodies.last_force.swap(world.bodies.force);
+    if (consistent || !world.bodies.forces_clear) std::ranges::fill(world.bodies.force, BodyForce{});
     for (const ControlState& control : world.bodies.controls) world.bodies.force[control.body] = {};
 }
 

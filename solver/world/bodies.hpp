@@ -168,6 +168,20 @@ struct ControlState {
     }
 };
 
+/// What a body's last kick and its inertia are at most, at any of its contacts and along any normal.
+struct PushBound {
+    double acceleration;  // m/s2; nothing is known of it before the first kick
+    double inverse_mass;  // 1/kg
+    double reach;         // m, of a contact from the centroid
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("acceleration", s.acceleration);
+        visit("inverse_mass", s.inverse_mass);
+        visit("reach", s.reach);
+    }
+};
+
 struct Bodies {
     std::vector<BodyState> state;
     std::vector<BodyInertia> inertia;
@@ -175,6 +189,7 @@ struct Bodies {
     std::vector<BodyForce> force;
     bool forces_clear = false;          // those of all but driven bodies are 0
     std::vector<BodyForce> last_force;  // of the pass before; consistent integrator only
+    std::vector<PushBound> push_bound;  // consistent integrator only
     std::vector<BodyInfo> info;
     std::vector<double> turning_reach;  // m per body: how far turning moves its surface (0: single circles)
     bool some_turn = false;             // any of these is not 0
@@ -195,6 +210,7 @@ struct Bodies {
         visit("force", s.force);
         visit("forces_clear", s.forces_clear);
         visit("last_force", s.last_force);
+        visit("push_bound", s.push_bound);
         visit("info", s.info);
         visit("turning_reach", s.turning_reach);
         visit("some_turn", s.some_turn);

@@ -40,8 +40,9 @@ enum PointFlag : std::uint16_t {
     point_just_broken = 16,  // bond lost in the last force pass; cleared when its event is recorded
     point_counted = 32,      // counts in StepControl::step_bound
     point_held = 64,         // its bond cannot break
+    point_had_bond = 128,    // was bonded and has properties of its own left: a rest overlap, shares
     point_slip_noted = 256,  // its first slip is in Bonds::slips
-    point_had_bond = 128     // was bonded and has properties of its own left: a rest overlap, shares
+    point_unsettled = 512    // its OpeningMemory::extra_force is not 0
 };
 
 /// What meets at one contact point.
@@ -112,17 +113,24 @@ struct SpringWork {
 struct OpeningMemory {
     double defect = 0.0;       // J: stored beyond ½kδ(n)δ(n+1)
     double extra_force = 0.0;  // N, beyond kδ in the last force pass
-    double overlap = unset;    // m, in the last force pass; unset in a new point
-    double force = 0.0;        // N, spring and dashpot in the last force pass
 
     template <class Self, class Visit>
     static constexpr void fields(Self& s, Visit&& visit) {
         visit("defect", s.defect);
         visit("extra_force", s.extra_force);
-        visit("overlap", s.overlap);
-        visit("force", s.force);
     }
 };
+
+/// Of an unbonded point, m, in the last force pass; unset in a new point.
+struct LastOverlap {
+    double value = unset;
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("value", s.value);
+    }
+};
+static_assert(sizeof(LastOverlap) == sizeof(double));  // kernels take several at once
 
 /// Which worlds remember a quantity of every point from one neighbour list to the next; in others its array is empty.
 enum class Remembered : std::uint8_t {
@@ -154,6 +162,8 @@ struct Points {
     std::vector<float> normal_dashpot, shear_dashpot;
     std::vector<SpringWork> spring_work;
     std::vector<OpeningMemory> opening;
+    std::vector<LastOverlap> last_overlap;  // beside `opening`
+    std::vector<double> last_normal;        // N, spring and dashpot in the last force pass; beside `opening`
     // Elastic forces of a back-tension bond in the last step in which it carried at least half its strength, N: normal,
     // compression positive, and shear.
     std::vector<float> strong_normal, strong_shear;
@@ -177,6 +187,8 @@ struct Points {
         visit("shear_dashpot", s.shear_dashpot, Remembered::since_bonding);
         visit("spring_work", s.spring_work, Remembered::by_guide_law);
         visit("opening", s.opening, Remembered::when_consistent);
+        visit("last_overlap", s.last_overlap, Remembered::when_consistent);
+        visit("last_normal", s.last_normal, Remembered::when_consistent);
         visit("strong_normal", s.strong_normal, Remembered::by_half_strength);
         visit("strong_shear", s.strong_shear, Remembered::by_half_strength);
         visit("force", s.force);

@@ -59,7 +59,16 @@ std::vector<std::uint16_t> flags_of(const World& world) {
     return flags;
 }
 
-void expect_the_same(const Trial& trial, int steps, bool breaks) {
+/// What points remember under the consistent integrator; nothing under the other.
+void expect_same_memory(const World& a, const World& b) {
+    EXPECT_TRUE(same_bytes(a.points.opening, b.points.opening));
+    EXPECT_TRUE(same_bytes(a.points.last_overlap, b.points.last_overlap));
+    EXPECT_TRUE(same_bytes(a.points.last_normal, b.points.last_normal));
+}
+
+void expect_the_same_by(Integrator integrator, Trial trial, int steps, bool breaks) {
+    SCOPED_TRACE(name_of(integrator));
+    trial.scene.integrator = integrator;
     World together = made(trial, false), two_laws = made(trial, true), apart = made(trial, false);
     apart.workers.one_by_one = true;
     for (World* world : {&together, &two_laws, &apart}) {
@@ -69,10 +78,16 @@ void expect_the_same(const Trial& trial, int steps, bool breaks) {
     for (const World* side_by_side : {&together, &two_laws}) {
         testing::expect_same_run(*side_by_side, apart);
         EXPECT_TRUE(same_bytes(flags_of(*side_by_side), flags_of(apart)));
+        expect_same_memory(*side_by_side, apart);
     }
     EXPECT_EQ(together.account.friction_loss > 0.0, trial.slides);
     EXPECT_EQ(together.bonds.broken > 0, breaks);
     EXPECT_LE(together.bonds.broken, together.bonds.initial * 9 / 10) << "some hold";
+}
+
+void expect_the_same(const Trial& trial, int steps, bool breaks) {
+    expect_the_same_by(Integrator::leapfrog, trial, steps, breaks);
+    expect_the_same_by(Integrator::consistent, trial, steps, breaks);
 }
 
 TEST(PointBatch, BondedDiscsThatBreak) {
@@ -145,35 +160,38 @@ TEST(PointBatch, DiscsOnOneAndTheSameSpot) {
     EXPECT_TRUE(same_bytes(together.points.force, apart.points.force));
 }
 
-/// All eight sets of features that kernels are compiled for: friction, dashpots, bonds. (The consistent integrator goes
-/// point by point.)
+/// Of friction, dashpots, bonds and the consistent integrator any set.
 class EverySetOfFeatures : public ::testing::TestWithParam<int> {};
 
 TEST_P(EverySetOfFeatures, GivesTheBytesOfPointsOneByOne) {
     const bool friction = (GetParam() & 1) != 0, dashpots = (GetParam() & 2) != 0, bonds = (GetParam() & 4) != 0;
+    const bool consistent = (GetParam() & 8) != 0;
     Material material = damped_rock();
     if (!friction) material.friction_angle = 0.0;
     if (!dashpots) material.damping_ratio = 0.0;
     for (const Scene& scene : {triangular_lattice(9, 9, 0.02, 8e-5, material), honeycomb(7, 7, 0.02, 1e-3, material)}) {
         const bool discs = scene.vertices.empty();
         Trial trial{scene, bonds ? (discs ? 0.01 : 1.08e-3) : 0.0, discs ? 0.3 : 2.0};
+        if (consistent) trial.scene.integrator = Integrator::consistent;
         World together = made(trial, false), apart = made(trial, false);
         apart.workers.one_by_one = true;
         const ContactFeatures features = features_of(together);
-        ASSERT_TRUE(features.friction == friction && features.damping == dashpots && features.bonds == bonds);
+        ASSERT_TRUE(features.friction == friction && features.damping == dashpots && features.bonds == bonds &&
+                    features.consistent == consistent);
         for (int n = 0; n < 300; ++n) {
             step(together);
             step(apart);
         }
         testing::expect_same_run(together, apart);
         EXPECT_TRUE(same_bytes(flags_of(together), flags_of(apart)));
+        expect_same_memory(together, apart);
         EXPECT_EQ(together.account.friction_loss > 0.0, friction);
         EXPECT_EQ(together.account.dashpot_loss > 0.0, dashpots);
         EXPECT_EQ(together.bonds.broken > 0, bonds);
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(PointBatch, EverySetOfFeatures, ::testing::Range(0, 8));
+INSTANTIATE_TEST_SUITE_P(PointBatch, EverySetOfFeatures, ::testing::Range(0, 16));
 
 /// Scenes whose points have shares of their own.
 Trial with_shares(Trial trial, BondLaw law, StiffnessUnits units) {

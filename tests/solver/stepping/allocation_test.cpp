@@ -126,7 +126,7 @@ TEST(Records, HaveTheSizesTheyAreLaidOutFor) {
     EXPECT_EQ(sizeof(PointState), 4u);
     EXPECT_EQ(sizeof(PointForce), 32u);
     EXPECT_EQ(sizeof(BodyForce), 32u);
-    EXPECT_EQ(sizeof(OpeningMemory), 32u);
+    EXPECT_EQ(sizeof(OpeningMemory), 16u);
 }
 
 }  // namespace

@@ -29,8 +29,11 @@ void make_room_for(World& world, const ContactFeatures& features) {
     }
     if (features.consistent) {
         world.points.opening.resize(points);
+        world.points.last_overlap.resize(points);
+        world.points.last_normal.resize(points, 0.0);
         world.account.opening_defects.resize(world.bodies.size(), 0.0);
         world.bodies.last_force.resize(world.bodies.size());
+        world.bodies.push_bound.resize(world.bodies.size());
     }
 }
 
