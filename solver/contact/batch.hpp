@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <functional>
 #include <iterator>
 #include <limits>
 #include <type_traits>
@@ -260,6 +261,8 @@ struct LawTable {
     bool filled = false;
     bool fits = false;  // no more laws than lanes, all with a shear spring or none
     alignas(64) double numbers[11][lane_count];
+    bool differ[11];  // from law to law
+    bool stiffness_or_friction_differ;
 
     void fill(const World& world) {
         const std::vector<ContactLaw>& laws = world.settings.laws;
@@ -283,6 +286,9 @@ struct LawTable {
                                   law.bond_friction};
             for (std::size_t n = 0; n < std::size(all); ++n) numbers[n][k] = all[n];
         }
+        for (std::size_t n = 0; n < std::size(numbers); ++n)
+            differ[n] = std::ranges::adjacent_find(numbers[n], std::not_equal_to{}) != std::end(numbers[n]);
+        stiffness_or_friction_differ = differ[0] || differ[6];
     }
 };
 
@@ -309,24 +315,26 @@ CRACKLE_INLINE bool load_laws(const World& world, const PointState* states, cons
     batch.number = BatchLaw::several_laws;
     if (!batch.table.filled) batch.table.fill(world);
     if (batch.table.fits) {
-        const auto& table = batch.table.numbers;
-        law.normal_stiffness = looked_up(table[0], numbers);
-        law.shear_stiffness = looked_up(table[1], numbers);
+        // What all laws have alike is there from the batch before: to write it again costs more than to ask.
+        const auto look_up = [&](std::size_t n, Lanes& number) {
+            if (batch.table.differ[n]) number = looked_up(batch.table.numbers[n], numbers);
+        };
+        look_up(0, law.normal_stiffness);
+        look_up(1, law.shear_stiffness);
         if constexpr (F.damping) {
-            law.normal_damping = looked_up(table[2], numbers);
-            law.shear_damping = looked_up(table[3], numbers);
-            law.normal_damping_ratio_term = looked_up(table[4], numbers);
-            law.shear_damping_ratio_term = looked_up(table[5], numbers);
+            look_up(2, law.normal_damping);
+            look_up(3, law.shear_damping);
+            look_up(4, law.normal_damping_ratio_term);
+            look_up(5, law.shear_damping_ratio_term);
         }
-        if constexpr (F.friction) law.friction = looked_up(table[6], numbers);
-        if constexpr (F.bonds && !F.coulomb) law.break_overlap = looked_up(table[7], numbers);
+        if constexpr (F.friction) look_up(6, law.friction);
+        if constexpr (F.bonds && !F.coulomb) look_up(7, law.break_overlap);
         if constexpr (F.coulomb) {
-            law.tensile_strength = looked_up(table[8], numbers);
-            law.cohesion = looked_up(table[9], numbers);
-            law.bond_friction = looked_up(table[10], numbers);
+            look_up(8, law.tensile_strength);
+            look_up(9, law.cohesion);
+            look_up(10, law.bond_friction);
         }
-        law.has_shear_spring = world.settings.laws.front().shear_stiffness > 0.0;
-        law.follow_stiffness();
+        if (batch.table.stiffness_or_friction_differ) law.follow_stiffness();
         return true;
     }
     const ContactLaw* laws[lane_count];

@@ -7,6 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <functional>
 #include <random>
 
 #include "solver/contact/pass.hpp"
@@ -214,6 +215,51 @@ TEST(PointBatch, OfFacesByTheirArea) {
     expect_the_same(area({triangular_lattice(9, 9, 0.02, 8e-5, damped_rock()), 0.01, 0.3}), 400, true);
     expect_the_same(area({honeycomb(7, 7, 0.02, 1e-3, damped_rock()), 1.08e-3, 2.0}), 400, true);
     expect_the_same(area({triangular_lattice(9, 9, 0.02, 0.0, damped_rock()), 0.0, 1.0}), 2000, false);
+}
+
+/// Every second body is of a material that differs by what `vary` changes.
+void expect_the_same_of_two(Trial trial, const std::function<void(Material&)>& vary) {
+    trial.scene.materials.push_back(trial.scene.materials[0]);
+    vary(trial.scene.materials[1]);
+    for (std::size_t b = 0; b < trial.scene.bodies.size(); b += 2) trial.scene.bodies[b].material = 1;
+    for (const Integrator integrator : {Integrator::leapfrog, Integrator::consistent}) {
+        SCOPED_TRACE(name_of(integrator));
+        trial.scene.integrator = integrator;
+        World together = made(trial, false), apart = made(trial, false);
+        apart.workers.one_by_one = true;
+        for (World* world : {&together, &apart})
+            for (int n = 0; n < 400; ++n) step(*world);
+        testing::expect_same_run(together, apart);
+        EXPECT_TRUE(same_bytes(flags_of(together), flags_of(apart)));
+        EXPECT_GT(together.bonds.broken, 0);
+    }
+}
+
+TEST(PointBatch, OfMaterialsThatDiffer) {
+    const std::vector<std::function<void(Material&)>> ways{
+        [](Material& m) { m.friction_angle = 22.0; },
+        [](Material& m) { m.normal_stiffness *= 1.7; },
+        [](Material& m) { m.shear_stiffness *= 0.6; },
+        [](Material& m) { m.damping_ratio = 0.1; },
+        [](Material& m) { m.tensile_strength *= 0.5, m.cohesion *= 0.7, m.residual_friction_angle = 11.0; },
+    };
+    const auto all = [&](Material& m) {
+        for (const auto& way : ways) way(m);
+    };
+    for (const BondLaw law : {BondLaw::back_tension, BondLaw::coulomb}) {
+        const bool coulomb = law == BondLaw::coulomb;
+        const auto with = [&](const Trial& trial) { return with_shares(trial, law, StiffnessUnits::point); };
+        const Trial discs = with({triangular_lattice(9, 9, 0.02, 8e-5, damped_rock()), 0.01, 0.3});
+        const Trial cells = with({honeycomb(7, 7, 0.02, 1e-3, damped_rock()), 1.08e-3, coulomb ? 1.0 : 2.0});
+        for (std::size_t n = 0; n < ways.size() - (coulomb ? 0 : 1); ++n) {
+            SCOPED_TRACE(n);
+            expect_the_same_of_two(discs, ways[n]);
+            expect_the_same_of_two(cells, ways[n]);
+        }
+        if (!coulomb) continue;
+        expect_the_same_of_two(discs, all);
+        expect_the_same_of_two(cells, all);
+    }
 }
 
 TEST(PointBatch, CoulombBondsThatBreak) {

@@ -41,7 +41,7 @@ std::string page_of(const std::string& command, const FeatureStudy& study, const
         "statistics). Specimens are stirred by about a hundredth of an overlap.\n\n"
         "## Features one at a time\n\nEach row has one feature more than the row it stands beside. The first is that "
         "row itself again: what the measuring adds. `bonds` moves the walls away, `driven platens` replaces them, "
-        "`two materials` gives every second body another friction angle.\n\n"
+        "`two materials` gives every second body another friction angle and stiffness.\n\n"
         "| bodies | feature | beside | particles | contacts a particle | ns a contact | ns a particle | ns a contact "
         "more | times |\n| --- | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |\n",
         command, processor_name(), lane_count, study.pairs, study.seconds);

@@ -127,6 +127,7 @@ World world_with(Scene scene, const Features& features) {
     if (features.two_materials) {
         scene.materials.push_back(scene.materials[0]);
         scene.materials[1].friction_angle += 3.0;
+        scene.materials[1].normal_stiffness *= 1.01;
         for (std::size_t b = 0; b < scene.bodies.size(); b += 2) scene.bodies[b].material = 1;
     }
     if (features.area) scene.units = StiffnessUnits::area;
