@@ -5,8 +5,9 @@
 // A break found at time n lets the forces go between n-1 and n: by the trapezoidal rule, as every other work and loss
 // is taken, they still do half their work over that drift. What is left of the stored energy goes to the account of
 // fracture: ½k_n(δ-δ0)' (δ-δ0) + ½f_t' f_t/k_s, the primed values those of n-1; ½k_n(δ-δ0)² + ½f_t²/k_s as Δt → 0. A
-// break is `shear` if the point had been at its Coulomb limit since bonding and |f_t| > |f_n| in the last step in which
-// it carried at least half its strength; else `tension`. Of a coulomb bond contact/coulomb_bond.hpp says the same.
+// spring whose force has turned within that step has passed through none, and nothing is left in it. A break is `shear`
+// if the point had been at its Coulomb limit since bonding and |f_t| > |f_n| in the last step in which it carried at
+// least half its strength; else `tension`. Of a coulomb bond contact/coulomb_bond.hpp says the same.
 // Source: solver/MODEL.md 5.
 
 #include "solver/stepping/record_breaks.hpp"
@@ -21,6 +22,9 @@
 namespace crackle {
 namespace {
 
+/// What a spring stores over its stiffness, by elongations one step apart; or times it, by forces.
+double half_product(double before, double now) { return before * now > 0.0 ? 0.5 * before * now : 0.0; }
+
 /// Energy that a break takes, J (see above). Under the guide's law the normal spring's work has been added up just so.
 template <PointKind K>
 double fracture_energy(World& world, PointIndex k, const PointView& view) {
@@ -31,10 +35,10 @@ double fracture_energy(World& world, PointIndex k, const PointView& view) {
     const double before = opening - world.stepping.drift * motion.closing;
     const double normal = by_guide(view.kind) && !world.points.spring_work.empty()
                               ? world.points.spring_work[k].stored
-                              : 0.5 * law.normal_stiffness * before * opening;
+                              : law.normal_stiffness * half_product(before, opening);
     if (law.shear_stiffness == 0.0) return normal;
     const double shear = world.points.shear_force[k] - law.shear_stiffness * world.stepping.drift * motion.slipping;
-    return normal + 0.5 * world.points.shear_force[k] * shear / law.shear_stiffness;
+    return normal + half_product(shear, world.points.shear_force[k]) / law.shear_stiffness;
 }
 
 /// Whether a bond is left between the two bodies of a point; one found broken in the same pass but not yet recorded

@@ -86,6 +86,16 @@ TEST(BreakEvent, WithoutSlidingTakesTheShearSpringsEnergyToo) {
         agrees("energy, J", event.energy, (1.0 + ratio * ratio / shear_share) * 0.98 * 1.05 * energy, 2.0 * turn));
 }
 
+TEST(BreakEvent, TakesNothingOfAForceThatTurnsInItsLastStep) {
+    World world = pulled_pair(89.9, 0.07, 0.42);
+    for (int n = 0; n < 14; ++n) step(world);
+    compute_forces(world);                                     // shear 14 x 0.42 of an overlap
+    change_velocity(world, 1, 1, -7.0 * overlap / time_step);  // -1.12 of one after the last
+    const BreakEvent event = broken(world);
+    EXPECT_EQ(event.step, 15);
+    EXPECT_TRUE(agrees("energy, J", event.energy, 0.98 * 1.05 * energy, 2.0 * turn)) << "the normal spring's";
+}
+
 TEST(BreakEvent, ThatSlidAndLastCarriedHalfItsStrengthByPullIsTension) {
     World world = pulled_pair(27.0, 0.07, 0.42);
     const BreakEvent event = broken(world);
