@@ -112,29 +112,6 @@ std::optional<Companion> run_one(const Plan& plan, const VirtualTest& test, cons
     return done;
 }
 
-NumberError error_of(double asked, double resolution, const std::vector<Companion>& companions,
-                     double Companion::*value) {
-    NumberError error;
-    error.resolution = resolution;
-    std::vector<double> draws{asked};
-    for (const Companion& c : companions) {
-        const double change = std::abs(c.*value - asked) / std::abs(asked);
-        if (c.name == "half_time_step") error.time_step = change;
-        if (c.name == "half_rate") error.rate = change;
-        if (c.name.ends_with("damping"))
-            error.damping = std::isnan(change) ? change : std::max(error.damping, change);
-        else
-            draws.push_back(c.*value);
-    }
-    double mean = 0.0, square = 0.0;
-    for (const double x : draws) mean += x / static_cast<double>(draws.size());
-    for (const double x : draws) square += (x - mean) * (x - mean) / static_cast<double>(draws.size() - 1);
-    const double chance = student_two * std::sqrt(2.0 * square) / std::abs(asked);
-    error.stated = std::hypot(resolution, std::max(chance, convergence_index * error.rate));
-    if (std::isnan(chance)) error.stated = undefined;
-    return error;
-}
-
 /// How far the largest of the rows may lie from the peak between them: a spacing in strain, and in stress what the last
 /// row before it rose by.
 double resolved_stress(const VirtualTest& test) {
@@ -157,6 +134,29 @@ bool on_one_branch(const NumberError& stress, const NumberError& strain) {
 }
 
 }  // namespace
+
+NumberError error_of(double asked, double resolution, const std::vector<Companion>& companions,
+                     double Companion::*value) {
+    NumberError error;
+    error.resolution = resolution;
+    std::vector<double> draws{asked};
+    for (const Companion& c : companions) {
+        const double change = std::abs(c.*value - asked) / std::abs(asked);
+        if (c.name == "half_time_step") error.time_step = change;
+        if (c.name == "half_rate") error.rate = change;
+        if (c.name.ends_with("damping"))
+            error.damping = std::isnan(change) ? change : std::max(error.damping, change);
+        else
+            draws.push_back(c.*value);
+    }
+    double mean = 0.0, square = 0.0;
+    for (const double x : draws) mean += x / static_cast<double>(draws.size());
+    for (const double x : draws) square += (x - mean) * (x - mean) / static_cast<double>(draws.size() - 1);
+    const double chance = student_two * std::sqrt(2.0 * square) / std::abs(asked);
+    error.stated = std::hypot(resolution, std::max(chance, convergence_index * error.rate));
+    if (std::isnan(chance)) error.stated = undefined;
+    return error;
+}
 
 std::optional<NumericalErrors> run_companions(const VirtualTest& test, const TestHooks& hooks) {
     if (test.state.failure.peak_row < 0) return std::nullopt;

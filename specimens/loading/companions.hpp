@@ -27,6 +27,11 @@ namespace crackle {
 /// A companion whose peak moved by more than this is on another branch.
 inline constexpr double branch_stress_change = 0.03, branch_strain_change = 0.1;
 
+/// The errors of a number from those of the companions (above).
+/// @param asked of the test itself  @param resolution by its rows, a share of it  @param value of a companion
+NumberError error_of(double asked, double resolution, const std::vector<Companion>& companions,
+                     double Companion::*value);
+
 /// Runs the companions of a finished test in memory, as many at a time as there are processors for its threads. One
 /// that becomes unstable is reported as such.
 /// @return nothing if interrupted, or the test has no peak

@@ -262,6 +262,30 @@ TEST_F(ByTolerance, StatedErrorCoversAFiveTimesSlowerRun) {
     EXPECT_LE(errors->peak_stress.stated, 0.05);
 }
 
+std::vector<Companion> companions_of_peaks(double half_step, double half_rate, double half_damping,
+                                           double double_damping) {
+    std::vector<Companion> all(4);
+    const char* const names[] = {"half_time_step", "half_rate", "half_damping", "double_damping"};
+    const double peaks[] = {half_step, half_rate, half_damping, double_damping};
+    for (std::size_t k = 0; k < 4; ++k) all[k].name = names[k], all[k].peak_stress = peaks[k];
+    return all;
+}
+
+TEST(StatedError, IsTheLargerOfChanceAndRateBesideTheRows) {
+    // Draws 10, 11, 10.1: s² = (0.3667² + 0.6333² + 0.2667²)/2; t√2 s/10 beside 3·0.01.
+    const auto chance = error_of(10.0, 0.05, companions_of_peaks(11.0, 10.1, 9.8, 10.3), &Companion::peak_stress);
+    const double s = std::sqrt((0.11 / 0.3 * 0.11 / 0.3 + 0.19 / 0.3 * 0.19 / 0.3 + 0.08 / 0.3 * 0.08 / 0.3) / 2.0);
+    EXPECT_TRUE(agrees("by chance", chance.stated, std::hypot(0.05, 2.919986 * std::sqrt(2.0) * s / 10.0), 1e-4));
+    EXPECT_TRUE(agrees("of the half step", chance.time_step, 0.1, 1e-12));
+    EXPECT_TRUE(agrees("of the half rate", chance.rate, 0.01, 1e-12));
+    EXPECT_TRUE(agrees("of the dampings", chance.damping, 0.03, 1e-12));
+    // Draws 10, 10, 9: s² = 1/3, t√2 s/10 = 0.238 beside 3·0.1.
+    const auto rate = error_of(10.0, 0.05, companions_of_peaks(10.0, 9.0, 10.0, 10.0), &Companion::peak_stress);
+    EXPECT_TRUE(agrees("by the rate", rate.stated, std::hypot(0.05, 0.3), 1e-12));
+    EXPECT_TRUE(
+        std::isnan(error_of(10.0, 0.05, companions_of_peaks(10.0, NAN, 10.0, 10.0), &Companion::peak_stress).stated));
+}
+
 TEST_F(ByTolerance, HoldsWhereNoRateIsGivenAndRefusesARateBesideIt) {
     const auto answer = [&](const std::string& from, const std::string& to) {
         const auto path = testing::write_small_case(scratch_ / "", {});
