@@ -1,0 +1,151 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Breaks: rows of events.csv against the bonds, the curve and each other; `r`, `model` and `bonds` as in frames.py."""
+
+import math
+
+import numpy as np
+
+from frames import rest_after
+from model import rounding
+
+# Of a strength: what a force may grow in a step. At 0.8 of the stable one the stiffest motion turns by 106 degrees.
+one_step = 0.5
+# Of the energy of all breaks: the mean of what their forces grew in the last step.
+mean_step = 0.1
+
+
+def recount_events(r, model, bonds):
+    """Every row of events.csv against the bonds, the curve, and each other."""
+    e, c = r.events, r.curve
+    count = len(e["time"])
+    r.key("bonds_broken", count)
+    if not count:
+        return
+    r.true("events: in the order of steps", np.all(np.diff(e["step"]) >= 0))
+    r.rows("curve: bonds_broken of events", c["bonds_broken"],
+           np.searchsorted(e["step"], c["step"], side="right"), 0)
+    last = np.asarray(e["last_of_interface"])
+    r.rows("curve: interfaces_lost of events", c["interfaces_lost"],
+           [np.sum(last[: np.searchsorted(e["step"], step, side="right")]) for step in c["step"]], 0)
+    mean_step = c["time"][-1] / c["step"][-1]
+    row = np.clip(np.searchsorted(c["step"], e["step"]), 1, len(c["step"]) - 1)
+    inside = (e["step"] - c["step"][row - 1]) / np.maximum(c["step"][row] - c["step"][row - 1], 1)
+    width = c["axial_strain"][row] - c["axial_strain"][row - 1]
+    guess = c["axial_strain"][row - 1] + inside * width
+    if r.results.key("loading", "axial_strain_rate") is not None:
+        guess = r.results.key("loading", "axial_strain_rate") * e["time"]
+        r.rows("events: axial_strain", e["axial_strain"], guess, 1e-9 * guess + 1e-15)
+    else:
+        r.rows("events: axial_strain", e["axial_strain"], guess, np.abs(width) + 1e-12)
+    r.rows("events: time", e["time"], c["time"][row - 1] + inside * (c["time"][row] - c["time"][row - 1]),
+           2 * mean_step)
+    left = {}
+    for k in np.flatnonzero(~bonds.held):
+        left.setdefault(frozenset((model.ids[bonds.i[k]], model.ids[bonds.j[k]])), []).append(k)
+    friction = model.friction(bonds)
+    in_shear = np.array([model.coulomb and m == "shear" for m in e["mode"]])
+
+    def limit(m, k):
+        """Strength that bond m would have shown in row k."""
+        return bonds.cohesion[m] + friction[m] * e["normal_force"][k] if in_shear[k] else bonds.tensile[m]
+
+    strength, ours_last, of_bond = [], [], []
+    for k in range(count):
+        own = left.get(frozenset((int(e["body_i"][k]), int(e["body_j"][k]))), [])
+        m = min(own, key=lambda m: abs(limit(m, k) - e["strength"][k]), default=-1)
+        of_bond.append(m)
+        if m < 0:
+            strength.append(math.nan)
+            ours_last.append(math.nan)
+            continue
+        own.remove(m)
+        strength.append(limit(m, k))
+        ours_last.append(0)
+    # The last of an interface is the last row of its pair, once no bond of the pair is left.
+    final = {frozenset((int(a), int(b))): k for k, (a, b) in enumerate(zip(e["body_i"], e["body_j"]))}
+    for pair, k in final.items():
+        if left.get(pair) == [] and not held_between(model, bonds, pair):
+            ours_last[k] = 1
+    r.compare("events: rows of pairs that have no bond left", of_bond.count(-1), 0, 0)
+    r.rows("events: strength", e["strength"], strength, 1e-9 * np.abs(strength))
+    r.rows("events: last_of_interface", e["last_of_interface"], ours_last, 0)
+    if model.coulomb:
+        recount_envelope(r, model, bonds, np.array(of_bond), in_shear)
+        shear = in_shear
+    else:
+        force = np.hypot(e["normal_force"], e["shear_force"])
+        # Normal and shear force are kept in single precision.
+        # 0: it never carried half its strength, since it broke from one step to the next.
+        r.true("events: forces at half the strength or more, or 0",
+               np.all((force >= 0.5 * e["strength"] * (1 - 1e-6)) | (force == 0)))
+        shear = (np.asarray(e["slid"]) == 1) & (np.abs(e["shear_force"]) > np.abs(e["normal_force"]))
+        r.compare("events: rows with another mode", sum((m == "shear") != s for m, s in zip(e["mode"], shear)), 0, 0)
+    r.key("bonds_broken_after_sliding", int(np.sum(e["slid"])))
+    r.key("bonds_broken_in_shear", int(np.sum(shear)))
+    r.key("bonds_broken_in_tension", int(np.sum(~shear)))
+    if r.peak is not None:
+        to_peak = np.asarray(e["step"]) <= c["step"][r.peak]
+        r.key("bonds_broken_in_shear_to_peak", int(np.sum(shear & to_peak)))
+        r.key("bonds_broken_in_tension_to_peak", int(np.sum(~shear & to_peak)))
+    r.compare("fracture_loss of events", c["fracture_loss"][-1], np.sum(e["energy"]), 1e-12 * np.sum(np.abs(e["energy"])))
+
+
+def held_between(model, bonds, pair):
+    i, j = (model.index[name] for name in pair)
+    return bool(np.any(bonds.held & (((bonds.i == i) & (bonds.j == j)) | ((bonds.i == j) & (bonds.j == i)))))
+
+
+def recount_envelope(r, model, bonds, of_bond, in_shear):
+    """Rows of coulomb bonds: forces when they failed, limits exceeded, energies (solver/MODEL.md 5.2)."""
+    e = r.events
+    known = of_bond >= 0
+    m, in_shear = of_bond[known], in_shear[known]
+    normal, shear = e["normal_force"][known], np.abs(e["shear_force"][known])
+    tensile, limit = bonds.tensile[m], bonds.cohesion[m] + model.friction(bonds)[m] * normal
+    parts, shears = -normal >= tensile * (1 - rounding), shear >= limit - rounding * bonds.cohesion[m]
+    r.compare("events: rows within both limits", int(np.sum(~(parts | shears))), 0, 0)
+    # Of two limits exceeded in one step the way decides, which only a frame a step holds (history.py).
+    r.compare("events: rows with another mode", int(np.sum(np.where(in_shear, ~shears, ~parts))), 0, 0)
+    r.compare("events: coulomb bonds that slid", int(np.sum(e["slid"])), 0, 0)
+    over = np.where(in_shear, shear - limit, -normal - tensile)
+    r.rows("events: force beyond the limit", over, np.zeros(len(over)), one_step * (bonds.tensile + bonds.cohesion).mean())
+    r.true("events: no energy below 0", np.all(np.asarray(e["energy"]) >= 0))
+    kn, ks = model.normal_stiffness(bonds)[m], model.shear_stiffness(bonds)[m]
+    kept = np.maximum(0.0, normal + kn * (bonds.overlap[m] - rest_after(model, bonds.overlap[m])))
+    rubs = np.minimum(shear, model.residual_friction(bonds)[m] * kept)
+    stored = (normal**2 - kept**2) / 2 / kn + (shear**2 - rubs**2) / 2 / ks
+    # The account takes the mean force of the last step: at most as much beyond as the force grew in it.
+    size = (np.abs(normal) + kept) ** 2 / 2 / kn + shear**2 / 2 / ks
+    energy = np.asarray(e["energy"])[known]
+    r.rows("events: energy of the forces", energy, stored, size)
+    r.compare("events: energy of all their forces", energy.sum(), stored.sum(), mean_step * size.sum())
+
+
+def recount_parting(r, model):
+    """The largest crack: broken bonds that share particles or a platen, and where it lies (specimens/METHODS.md 3)."""
+    e, s = r.events, r.summary
+    pairs = [(model.index[int(a)], model.index[int(b)]) for a, b in zip(e["body_i"], e["body_j"])]
+    if not pairs:
+        r.true("failed_at and largest_crack: null without a break", s["failed_at"] is None and s["largest_crack"] is None)
+        return
+    group = {}
+    for pair in pairs:
+        joined = set(pair).union(*(group.get(b, ()) for b in pair))
+        group.update((b, joined) for b in joined)
+    cracks = {}
+    for i, j in pairs:
+        own = [b for b in (i, j) if b < model.count]
+        cracks.setdefault(min(group[i]), []).append((np.mean(model.centre[own, 1]) - model.deck.y1, len(own) < 2))
+    most = max(len(crack) for crack in cracks.values())
+    found = []  # of two alike either may be named
+    for crack in cracks.values():
+        if len(crack) == most:
+            height, of_platen = np.mean([c[0] for c in crack]), sum(c[1] for c in crack)
+            within = min(height, model.height - height) < s["grip"]
+            found.append((height, of_platen, "platen" if 2 * of_platen >= most else "grip" if within else "gauge"))
+    stated = s["largest_crack"]
+    height, of_platen, place = min(found, key=lambda f: abs(f[0] - stated["height"]))
+    r.key("largest_crack.bonds", most)
+    r.key("largest_crack.of_platen", of_platen)
+    r.key("largest_crack.height", height)
+    r.key("failed_at", place)
