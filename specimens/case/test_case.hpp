@@ -150,6 +150,8 @@ struct TestCase {
     bool has_table(const std::string& table) const { return table_present.contains(table); }
     bool coulomb_bonds() const { return bond.law == "coulomb"; }
     bool area_units() const { return material.units == "area"; }
+    /// Of stresses and moduli: force over a length, or over an area.
+    const char* stress_unit() const { return area_units() ? "Pa" : "N/m"; }
     /// «file:line: table.key», or «file: table.key» for a key that no file sets.
     std::string at(const std::string& key) const;
     /// A path written in the case, relative to the file that wrote it.

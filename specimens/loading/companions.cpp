@@ -173,9 +173,9 @@ std::optional<NumericalErrors> run_companions(const VirtualTest& test, const Tes
             std::optional<Companion>& companion = done[first + k];
             companion = running[k].get();
             if (companion && hooks.stage) {
-                hooks.stage(fmt::format("  {}: {:.4g} N/m at strain {:.4g}, {} steps ({} of {})", companion->name,
-                                        companion->peak_stress, companion->peak_strain, companion->steps, first + k + 1,
-                                        plans.size()));
+                hooks.stage(fmt::format("  {}: {:.4g} {} at strain {:.4g}, {} steps ({} of {})", companion->name,
+                                        companion->peak_stress, test.description.stress_unit(), companion->peak_strain,
+                                        companion->steps, first + k + 1, plans.size()));
             }
         }
     }

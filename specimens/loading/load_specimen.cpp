@@ -35,6 +35,7 @@ class LoadingLoop {
           hooks_(hooks),
           files_(files),
           max_strain_(test.description.loading.max_axial_strain),
+          stress_unit_(test.description.stress_unit()),
           judged_per_written_((min_judged_rows - 1) / test.description.output.curve_rows + 1),
           row_spacing_(max_strain_ / static_cast<double>(test.description.output.curve_rows * judged_per_written_)),
           frame_spacing_(max_strain_ / static_cast<double>(test.description.output.frames.value())),
@@ -189,6 +190,7 @@ class LoadingLoop {
         p.share_done = p.axial_strain / max_strain_;
         p.axial_stress = state_.rows.empty() ? 0.0 : state_.rows.back().axial_stress;
         p.peak_stress = state_.failure.peak_stress;
+        p.stress_unit = stress_unit_;
         p.bonds_broken = world_.bonds.broken;
         p.step = world_.stepping.steps;
         p.steps_per_second = static_cast<double>(world_.stepping.steps - first_step_) / elapsed;
@@ -204,6 +206,7 @@ class LoadingLoop {
     const TestHooks& hooks_;
     TestFiles* files_;
     double max_strain_;
+    const char* stress_unit_;
     std::int64_t judged_per_written_;
     double row_spacing_, frame_spacing_, checkpoint_interval_;
     Clock::time_point begun_, last_checkpoint_, last_progress_;

@@ -137,8 +137,8 @@ VirtualTest bond_test(const TestCase& description, const TestHooks& hooks, const
         }
     }
     if (std::isfinite(test.state.youngs_modulus)) {
-        hooks.report_stage(fmt::format("small strain: E = {:.4g} N/m, nu = {:.3g}", test.state.youngs_modulus,
-                                       test.state.poissons_ratio));
+        hooks.report_stage(fmt::format("small strain: E = {:.4g} {}, nu = {:.3g}", test.state.youngs_modulus,
+                                       description.stress_unit(), test.state.poissons_ratio));
     }
     return test;
 }

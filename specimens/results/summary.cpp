@@ -257,11 +257,12 @@ std::vector<std::string> notices_of(const TestCase& test, const TestSetup& setup
                         f.peak_row, test.loading.max_axial_strain, 10.0 * f.peak_strain));
     }
     if (f.failed && f.larger_after_peak()) {
-        notices.push_back(fmt::format(
-            "the largest stress, {:.4g} N/m at strain {:.4g}, comes after the peak of {:.4g} N/m at "
-            "{:.4g}, below which the stress had stayed by more than loading.strength_drop = {}: what is "
-            "broken carries again; the strength is the peak",
-            f.largest_stress, f.strain_at_largest, f.peak_stress, f.peak_strain, test.loading.strength_drop));
+        notices.push_back(
+            fmt::format("the largest stress, {:.4g} {} at strain {:.4g}, comes after the peak of {:.4g} {} at "
+                        "{:.4g}, below which the stress had stayed by more than loading.strength_drop = {}: what is "
+                        "broken carries again; the strength is the peak",
+                        f.largest_stress, test.stress_unit(), f.strain_at_largest, f.peak_stress, test.stress_unit(),
+                        f.peak_strain, test.loading.strength_drop));
     }
     if (world.stepping.time_step > setup.stable_time_step) {
         notices.push_back(

@@ -56,14 +56,15 @@ Json as_json(const VirtualTest& test, const ElasticAnalysis& a, double seconds) 
               {"residual", a.residual},
               {"seconds", seconds}};
     if (!a.frequencies.empty()) json["angular_frequencies"] = a.frequencies;
+    const std::string stress = test.description.stress_unit();
     json["units"] = {
-        {"youngs_modulus", "N/m, small strain, all bonds intact and sticking"},
+        {"youngs_modulus", stress + ", small strain, all bonds intact and sticking"},
         {"poissons_ratio", "-, by the definition of the curve's lateral strain"},
         {"stable_time_step", "s, exact: 4M - 2dt C - dt^2 K positive definite below it, checked by Cholesky if proved"},
         {"time_step_bound", "s, guaranteed stable below, found without an eigenvalue solve"},
         {"time_step", "s, what crackle test takes"},
-        {"first_break_stress", "N/m, axial, when the first bond opens by its overlap (linear, no slip); null: none"},
-        {"first_slip_stress", "N/m, axial, when the first point reaches its Coulomb limit; null: none"},
+        {"first_break_stress", stress + ", axial, when the first bond fails (linear, no slip); null: none"},
+        {"first_slip_stress", stress + ", axial, when the first point reaches its Coulomb limit; null: none"},
         {"bond_strength", "N"},
         {"x", "m"},
         {"y", "m"},
@@ -75,20 +76,20 @@ Json as_json(const VirtualTest& test, const ElasticAnalysis& a, double seconds) 
     return json;
 }
 
-std::string event_text(const ElasticAnalysis& a, const std::optional<FirstEvent>& first) {
+std::string event_text(const VirtualTest& test, const ElasticAnalysis& a, const std::optional<FirstEvent>& first) {
     if (!first) return "none";
     const LinearBond& bond = a.bonds[first->bond];
-    return fmt::format("{:.4g} N/m at strain {:.3e}, bodies {} and {}", first->stress, first->strain, bond.body_i,
-                       bond.body_j);
+    return fmt::format("{:.4g} {} at strain {:.3e}, bodies {} and {}", first->stress, test.description.stress_unit(),
+                       first->strain, bond.body_i, bond.body_j);
 }
 
 void print(const VirtualTest& test, const ElasticAnalysis& a, double seconds) {
     fmt::print("{}, {}: {} particles, {} bonds, {} unknowns, {:.0f} ms\n", test.setup.specimen,
                test.description.loading.kind, test.setup.particles, a.bonds.size(), a.unknowns, 1e3 * seconds);
-    fmt::print("  Young's modulus   {:.6g} N/m, Poisson's ratio {:.4g} (residual {:.1e})\n", a.youngs_modulus,
-               a.poissons_ratio, a.residual);
-    fmt::print("  first slip        {}\n", event_text(a, a.first_slip));
-    fmt::print("  first break       {} (linear, no slip)\n", event_text(a, a.first_break));
+    fmt::print("  Young's modulus   {:.6g} {}, Poisson's ratio {:.4g} (residual {:.1e})\n", a.youngs_modulus,
+               test.description.stress_unit(), a.poissons_ratio, a.residual);
+    fmt::print("  first slip        {}\n", event_text(test, a, a.first_slip));
+    fmt::print("  first break       {} (linear, no slip)\n", event_text(test, a, a.first_break));
     fmt::print("  stable time step  {:.6g} s{}; bound {:.3f} of it; a test takes {:.3f} of it\n", a.stable_time_step,
                a.stable_time_step_proved ? ", proved"
                : test.world.settings.segment_law != SegmentLaw::rounded
@@ -128,8 +129,9 @@ CommandLine describe_elastic() {
         ("strain", po::value<double>()->value_name("X")->default_value(1e-4, "1e-4"),
          "axial strain at which --bonds gives forces")  //
         ("bonds", po::value<std::string>()->value_name("FILE"),
-         "CSV file to write: forces in all bonds, compression positive; strains of break and slip, inf: never")  //
-        ("force", "replace that file")                                                                           //
+         "CSV file to write: forces in all bonds, compression positive; strains of break and slip, inf: never; a bond "
+         "that cannot break has the strength inf")  //
+        ("force", "replace that file")              //
         ("modes", po::value<int>()->value_name("N")->default_value(0), "lowest vibration modes to find");
     return {
         .synopses = {"crackle elastic CASE.toml [OPTIONS]"},

@@ -86,8 +86,8 @@ TestHooks hooks_for(Messages& messages) {
              .rate = p.steps_per_second,
              .unit = "steps",
              .seconds_left = p.seconds_left,
-             .detail = fmt::format("strain {:.3e}, {:.3e} N/m (peak {:.3e}), {} bonds broken", p.axial_strain,
-                                   p.axial_stress, p.peak_stress, p.bonds_broken)});
+             .detail = fmt::format("strain {:.3e}, {:.3e} {} (peak {:.3e}), {} bonds broken", p.axial_strain,
+                                   p.axial_stress, p.stress_unit, p.peak_stress, p.bonds_broken)});
     };
     return hooks;
 }
@@ -151,7 +151,7 @@ Json run_as_json(const RunEstimate& run) {
 
 Json as_json(const TestCheck& check) {
     const VirtualTest& test = check.test;
-    const std::string stress = test.description.area_units() ? "Pa" : "N/m";
+    const std::string stress = test.description.stress_unit();
     Json json{{"title", test.description.title},
               {"kind", test.description.loading.kind},
               {"platens", test.description.loading.platens},
@@ -216,7 +216,7 @@ std::string run_text(const RunEstimate& run) {
 
 void print_check(const TestCheck& check) {
     const VirtualTest& test = check.test;
-    const char* unit = test.description.area_units() ? "Pa" : "N/m";
+    const char* unit = test.description.stress_unit();
     const double slower = check.rate / check.slowest_rate;
     fmt::print("{}, {}: {} particles, {:.3g} grains wide, {} bonds\n", test.setup.specimen,
                test.description.loading.kind, test.setup.particles, check.grains_across, test.world.bonds.initial);

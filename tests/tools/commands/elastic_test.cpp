@@ -36,6 +36,23 @@ TEST_F(CrackleElastic, AnswersInJsonWithWhatATestWouldHave) {
     EXPECT_EQ(snapshot().size(), 2U) << "nothing is written unasked";
 }
 
+TEST_F(CrackleElastic, SaysPascalWhereTheUnitsAreOfAnArea) {
+    testing::SmallCase wanted;
+    EXPECT_NE(call("case.toml").out.find("N/m"), std::string::npos);
+    wanted.mesh = "voronoi";
+    wanted.material =
+        "units = \"area\"\ncontact_modulus = 1e7\nstiffness_ratio = 2.5\ntensile_strength = 1.5e4\ncohesion = 5e4";
+    wanted.bond = "law = \"coulomb\"";
+    testing::write_small_case(scratch_ / "", wanted);
+    const Answer figures = call("case.toml"), json = call("case.toml --json -q");
+    for (const Answer& answer : {figures, json, testing::Answer(call("case.toml -v"))}) {
+        ASSERT_EQ(answer.code, 0) << answer.err;
+        EXPECT_EQ((answer.out + answer.err).find("N/m"), std::string::npos) << answer.out << answer.err;
+    }
+    EXPECT_NE(figures.out.find(" Pa, Poisson's ratio"), std::string::npos) << figures.out;
+    EXPECT_TRUE(nlohmann::json::parse(json.out)["units"]["first_break_stress"].get<std::string>().starts_with("Pa,"));
+}
+
 TEST_F(CrackleElastic, WritesBondForcesOfHalfTheStrainHalfAsLarge) {
     ASSERT_EQ(call("case.toml -q --strain 1e-4 --bonds full.csv").code, 0);
     ASSERT_EQ(call("case.toml -q --strain 5e-5 --bonds half.csv").code, 0);
