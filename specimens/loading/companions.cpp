@@ -127,13 +127,12 @@ double resolved_strain(const VirtualTest& test) {
     return (f.peak_strain - before.axial_strain) / f.peak_strain;
 }
 
-/// Whether companions by step and rate keep the peak. Comparisons with a value that is not a number are false.
+}  // namespace
+
 bool on_one_branch(const NumberError& stress, const NumberError& strain) {
     return stress.time_step <= branch_stress_change && stress.rate <= branch_stress_change &&
            strain.time_step <= branch_strain_change && strain.rate <= branch_strain_change;
 }
-
-}  // namespace
 
 NumberError error_of(double asked, double resolution, const std::vector<Companion>& companions,
                      double Companion::*value) {

@@ -32,6 +32,10 @@ inline constexpr double branch_stress_change = 0.03, branch_strain_change = 0.1;
 NumberError error_of(double asked, double resolution, const std::vector<Companion>& companions,
                      double Companion::*value);
 
+/// Whether the companions by step and rate keep the peak, in stress and in strain. Comparisons with a value that is not
+/// a number are false.
+bool on_one_branch(const NumberError& stress, const NumberError& strain);
+
 /// Runs the companions of a finished test in memory, as many at a time as there are processors for its threads. One
 /// that becomes unstable is reported as such.
 /// @return nothing if interrupted, or the test has no peak

@@ -286,6 +286,20 @@ TEST(StatedError, IsTheLargerOfChanceAndRateBesideTheRows) {
         std::isnan(error_of(10.0, 0.05, companions_of_peaks(10.0, NAN, 10.0, 10.0), &Companion::peak_stress).stated));
 }
 
+TEST(StatedError, APeakIsConvergedInStressAndStrainByStepAndRate) {
+    const auto within = [](double change) { return NumberError{.time_step = change, .rate = change}; };
+    const double stress = 0.9 * branch_stress_change, strain = 0.9 * branch_strain_change;
+    EXPECT_TRUE(on_one_branch(within(stress), within(strain)));
+    const auto moved = [](double by_step, double by_rate) {
+        return NumberError{.time_step = by_step, .rate = by_rate};
+    };
+    EXPECT_FALSE(on_one_branch(moved(1.5 * stress, stress), within(strain)));
+    EXPECT_FALSE(on_one_branch(moved(stress, 1.5 * stress), within(strain)));
+    EXPECT_FALSE(on_one_branch(within(stress), moved(1.5 * strain, strain)));
+    EXPECT_FALSE(on_one_branch(within(stress), moved(strain, 1.5 * strain)));
+    EXPECT_FALSE(on_one_branch(within(stress), moved(strain, NAN)));
+}
+
 TEST_F(ByTolerance, HoldsWhereNoRateIsGivenAndRefusesARateBesideIt) {
     const auto answer = [&](const std::string& from, const std::string& to) {
         const auto path = testing::write_small_case(scratch_ / "", {});
