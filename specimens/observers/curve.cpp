@@ -105,9 +105,7 @@ const std::vector<CurveColumn>& curve_columns() {
          false},
         {{"gauge_strain", "-", "positive in the sense of the test",
           "axial, between the bonded particles within half a mean particle of the ends of the gauge length, which is "
-          "the "
-          "height "
-          "without the grips, or without the outer tenths where there are none; nan where an end has none"},
+          "the height without the grips, or without the outer tenths where there are none; nan where an end has none"},
          [](Row r) { return r.gauge_strain; },
          false},
         {{"bonds_slid", "", "bonded points that have been at their Coulomb limit so far, broken ones among them",

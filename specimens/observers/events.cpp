@@ -28,8 +28,7 @@ const std::vector<EventColumn>& event_columns() {
          [](Event e, double) { return written(e.strength); }},
         {{"normal_force", "N",
           "elastic, positive pushes apart; in the last step in which the point carried at least half its strength; of "
-          "a "
-          "coulomb bond when it failed"},
+          "a coulomb bond when it failed"},
          [](Event e, double) { return written(e.normal_force); }},
         {{"shear_force", "N", "elastic, on body_i along the normal from i to j turned by +90°; in the same step"},
          [](Event e, double) { return written(e.shear_force); }},
@@ -39,9 +38,7 @@ const std::vector<EventColumn>& event_columns() {
           "`shear` if it had slid and shear outweighed the normal force then, else `tension`; of a coulomb bond by the "
           "limit that it met first",
           "by back-tension nearly all are `tension`: a bond breaks where its overlap is used up, and its Coulomb limit "
-          "with it; "
-          "whether "
-          "it failed by sliding first is in `slid`"},
+          "with it; whether it failed by sliding first is in `slid`"},
          [](Event e, double) { return std::string(e.shear_mode ? "shear" : "tension"); }},
         {{"last_of_interface", "0 or 1", "1 if no bond is left between the two bodies"},
          [](Event e, double) { return written(e.last_of_interface ? 1 : 0); }},

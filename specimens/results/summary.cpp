@@ -66,9 +66,10 @@ void describe(Writer& w, const TestCase& test, const TestSetup& setup, const Tes
     w.put("interrupted", state.ended_by == ended_by_interrupt);
     w.put("ended_by", state.ended_by.empty() ? Json(nullptr) : Json(state.ended_by));
     if (!state.failure.failed) {
-        w.put("note", fmt::format("the specimen has not failed (ended by {}): peak and moduli refer to the largest "
-                                  "stress so far",
-                                  state.ended_by.empty() ? "nothing yet" : state.ended_by));
+        w.put(
+            "note",
+            fmt::format("the specimen has not failed (ended by {}): peak and moduli refer to the largest stress so far",
+                        state.ended_by.empty() ? "nothing yet" : state.ended_by));
     }
 }
 
@@ -252,39 +253,35 @@ std::vector<std::string> notices_of(const TestCase& test, const TestSetup& setup
     if (f.failed && f.peak_row < rows_that_resolve) {
         notices.push_back(
             fmt::format("only {} rows of the curve lie before the peak: peak and moduli are coarse; lower "
-                        "loading.max_axial_strain = {} "
-                        "towards {:.2g}",
+                        "loading.max_axial_strain = {} towards {:.2g}",
                         f.peak_row, test.loading.max_axial_strain, 10.0 * f.peak_strain));
     }
     if (f.failed && f.larger_after_peak()) {
         notices.push_back(
-            fmt::format("the largest stress, {:.4g} {} at strain {:.4g}, comes after the peak of {:.4g} {} at "
-                        "{:.4g}, below which the stress had stayed by more than loading.strength_drop = {}: what is "
-                        "broken carries again; the strength is the peak",
+            fmt::format("the largest stress, {:.4g} {} at strain {:.4g}, comes after the peak of {:.4g} {} at {:.4g}, "
+                        "below which the stress had stayed by more than loading.strength_drop = {}: what is broken "
+                        "carries again; the strength is the peak",
                         f.largest_stress, test.stress_unit(), f.strain_at_largest, f.peak_stress, test.stress_unit(),
                         f.peak_strain, test.loading.strength_drop));
     }
     if (world.stepping.time_step > setup.stable_time_step) {
         notices.push_back(
             fmt::format("the time step of {:.3g} s lies above the stable bound of {:.3g} s: this shows the limit, its "
-                        "numbers are no "
-                        "results",
+                        "numbers are no results",
                         world.stepping.time_step, setup.stable_time_step));
     }
     const CurveRow last = state.rows.empty() ? CurveRow{} : state.rows.back();
     if (std::abs(last.energy_error) > closing_error_to_mention * std::abs(last.platen_work)) {
         notices.push_back(
             fmt::format("the energy balance misses {:.3g} of the platens' work: halve numerics.safety_factor, or load "
-                        "more slowly, and "
-                        "compare",
+                        "more slowly, and compare",
                         last.energy_error / last.platen_work));
     }
     const std::optional<Parting> parting = find_parting(setup, state.history);
     if (f.failed && !setup.compression && parting && parting->place != "gauge") {
         notices.push_back(fmt::format(
             "the specimen parted at its {}: {} of the {} bonds of the largest crack are a platen's; the strength is "
-            "not the "
-            "rock's{}",
+            "not the rock's{}",
             parting->place, parting->of_platen, parting->bonds,
             parting->place == "platen" ? "; platens = \"glued\" hold it" : "; a deeper grip, or a longer specimen"));
     }
@@ -298,8 +295,8 @@ std::vector<std::string> notices_of(const TestCase& test, const TestSetup& setup
     }
     if (viscous_share(test, state) > *test.loading.rate_tolerance) {
         notices.push_back(
-            fmt::format("the dashpots bear {:.2g} of the largest stress when loading begins, more than "
-                        "rate_tolerance = {}: lower it, or the damping",
+            fmt::format("the dashpots bear {:.2g} of the largest stress when loading begins, more than rate_tolerance "
+                        "= {}: lower it, or the damping",
                         viscous_share(test, state), *test.loading.rate_tolerance));
     }
     return notices;
@@ -318,8 +315,8 @@ std::string notice_of(const FailureTracker& failure, const NumericalErrors& erro
                            100.0 * e.rate);
     };
     return fmt::format(
-        "the peak jumps between branches: it moves by {}, its strain by {}; report the stated error with "
-        "it, or the mean of several packings",
+        "the peak jumps between branches: it moves by {}, its strain by {}; report the stated error with it, or the "
+        "mean of several packings",
         changes(errors.peak_stress), changes(errors.peak_strain));
 }
 

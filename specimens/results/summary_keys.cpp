@@ -21,8 +21,7 @@ std::vector<SummaryKey> all_summary_keys() {
         {{"failed", "",
           "whether the peak is known: the stress stayed below it by more than the share `loading.strength_drop` for a "
           "tenth of the strain there, and for ten of at least 2000 rows over `loading.max_axial_strain`; also where "
-          "the "
-          "test ended by failure"},
+          "the test ended by failure"},
          unlisted},
         {{"interrupted", "", "whether it was stopped before its end, and can be gone on with"}, unlisted},
         {{"ended_by", "",
@@ -156,9 +155,8 @@ std::vector<SummaryKey> all_summary_keys() {
           "(crackle test --verify; null: not run, or unstable); energy_closing: over the platens' work; resolution: by "
           "the spacing of the rows; stated: of resolution and the larger of 3 rate and 2.92 sqrt(2) standard "
           "deviations of the test, its half step and its half rate, the root of the sum of squares (90 of 100, were "
-          "they independent); youngs_modulus: a sparse "
-          "solve, its residual. post_peak_difference: mean difference of stress from the peak on, over the peak; "
-          "breaks there are chaotic, so it is no error of step or rate"}},
+          "they independent); youngs_modulus: a sparse solve, its residual. post_peak_difference: mean difference of "
+          "stress from the peak on, over the peak; breaks there are chaotic, so it is no error of step or rate"}},
         {{"numerical_errors.*.time_step", "-",
           "of youngs_modulus, peak_stress and peak_strain: change at half the step; 0 of a solve"}},
         {{"numerical_errors.*.rate", "-", "change at half the rate; 0 of a solve"}},
@@ -178,8 +176,7 @@ std::vector<SummaryKey> all_summary_keys() {
         {{"numerical_errors.companions.*.damping", "-", "of its contacts, over the test's"}},
         {{"numerical_errors.companions.*.post_peak_difference", "-",
           "mean over the rows from the peak to the earlier end of the two: difference of its stress there, between its "
-          "rows, "
-          "over the peak"}},
+          "rows, over the peak"}},
         {{"peak_converged", "",
           "whether the peak at half the step and half the rate lies on the same branch; null: not run, or no failure",
           "on the same branch: stress within 3 %, strain within 10 %"}},
