@@ -51,7 +51,7 @@ struct Writer {
         put(key, number(value));
         const std::string converted = key + converted_suffix;
         json[converted] = number(area_units ? value : value / out_of_plane_thickness);
-        units[converted] = converted_unit;
+        units[converted] = area_units ? "Pa, the same number: units are of an area" : converted_unit;
     }
 };
 

@@ -182,9 +182,9 @@ std::vector<SummaryKey> all_summary_keys() {
           "on the same branch: stress within 3 %, strain within 10 %"}},
 
         {{"packing", "",
-          "before bonding: mean_overlap in m over circles, bottom and top wall; stress_x, stress_y in N/m; anisotropy "
-          "|sx - sy|/(sx + sy); unbalanced: largest force on a circle over the mean contact force; the rest counts and "
-          "ratios",
+          "before bonding: mean_overlap in m over circles, bottom and top wall; stress_x, stress_y in N/m, every "
+          "contact's stiffness that of [material], in area units its contact_modulus; anisotropy |sx - sy|/(sx + sy); "
+          "unbalanced: largest force on a circle over the mean contact force; the rest counts and ratios",
           "of a packing made by the test"}},
         {{"packing.void_ratio", "-", "area of the box less that of the circles, over that of the circles"}},
         {{"packing.mean_overlap", "m", "over contacts between circles and with bottom and top wall"}},
