@@ -157,6 +157,10 @@ TestResults read_results(const std::filesystem::path& folder) {
     require_columns(folder / "events.csv", results.events,
                     {"time", "axial_strain", "x", "y", "body_i", "body_j", "mode", "last_of_interface"});
     require_whole_numbers(folder / "events.csv", results.events, {"body_i", "body_j", "last_of_interface"});
+    if (const std::filesystem::path slips = folder / "slips.csv"; std::filesystem::exists(slips)) {
+        results.slips = read_number_table(slips);
+        require_columns(slips, *results.slips, {"time", "axial_strain", "x", "y", "orientation"});
+    }
     return results;
 }
 

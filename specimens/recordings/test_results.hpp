@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The results of one finished test, read back from its folder: summary, curve and breaks.
-// Tested by tests/tools/commands/view_test.cpp.
+// The results of one finished test, read back from its folder: summary, curve, breaks, and slips where there are any.
+// Tested by tests/tools/commands/view_test.cpp, slips by tests/tools/page/page_data_test.cpp.
 #pragma once
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -26,10 +27,11 @@ struct NumberTable {
 };
 
 struct TestResults {
-    std::string name;                ///< the folder's
-    nlohmann::ordered_json summary;  ///< as written
-    NumberTable curve;               ///< columns of curve.csv
-    NumberTable events;              ///< columns of events.csv; `mode` as 1 for shear, 0 for tension
+    std::string name;                  ///< the folder's
+    nlohmann::ordered_json summary;    ///< as written
+    NumberTable curve;                 ///< columns of curve.csv
+    NumberTable events;                ///< columns of events.csv; `mode` as 1 for shear, 0 for tension
+    std::optional<NumberTable> slips;  ///< columns of slips.csv; none where the test did not record slips
 };
 
 /// Comma-separated numbers under a line of names. The words of column `word_column`, if given, are read as their place

@@ -21,6 +21,7 @@ before(async () => {
     report(sixFolders, 'six.html');
     report(['stopped'], 'stopped.html');
     report(['rubble', 'stopped'], 'rubble.html');
+    report(['sliding', 'sticking', 'circles-tension'], 'slips.html');
     report(['markup', 'stopped'], 'markup.html');
     report(['markup'], 'markup-title.html');
     for (const [lab, seed] of [['first', 1], ['second', 2]]) {
@@ -220,7 +221,7 @@ test('a click on a curve brings the specimens into view', async () => {
 });
 
 test('on a phone titles, legends and notes are whole and keep apart', async () => {
-    for (const file of ['six.html', 'same-name.html', 'stopped.html']) {
+    for (const file of ['six.html', 'same-name.html', 'stopped.html', 'slips.html']) {
         const {page, close} = await open(file, {viewport: {width: 390, height: 844}, isMobile: true, hasTouch: true});
         const off = await page.evaluate(() => document.documentElement.scrollWidth - innerWidth);
         assert.ok(off <= 0, `${file}: runs ${off} px off the side`);
@@ -274,6 +275,83 @@ test('a larger stress after the peak is marked, and a thickness gives stresses i
     assert.deepEqual((await row('Fragments at the end').allTextContents()).slice(0, 2), ['–', '3']);
     assert.deepEqual((await row('up to the peak in tension').allTextContents()).slice(1), ['2', '2']);
     assert.deepEqual((await row('Area strain at peak').allTextContents()).slice(1, 2), [(0.4 * summary.peak_strain * 1000).toPrecision(3)]);
+    await close();
+});
+
+const slipFill = {light: '#009e73', dark: '#35c9a4'};
+
+test('slips have a strip of their own below the breaks, with a bar for each interval', async () => {
+    const {page, close} = await open('slips.html', {colorScheme: 'light'});
+    const {events, slips} = results(join(root, 'sliding')), panel = page.locator('[data-panel="Compression"]');
+    const text = await panel.textContent();
+    assert.ok(text.includes(`${events.length} breaks`) && text.includes(`${slips.length} slips`), `expected ${events.length} breaks and ${slips.length} slips`);
+    assert.doesNotMatch(text, /(^|\D)0 slips/, 'a test that had no slips has no strip of them');
+    const width = 1e-3 * Number(text.match(/bars: breaks or slips in each ([\d.]+)×10⁻³/)[1]);
+    const counts = new Map();
+    for (const {axial_strain: strain} of slips) counts.set(Math.ceil(strain / width - 1e-9), (counts.get(Math.ceil(strain / width - 1e-9)) ?? 0) + 1);
+    const bars = await filledHeights(panel, slipFill.light), highest = Math.max(...bars), fullest = Math.max(...counts.values());
+    assert.equal(bars.length, counts.size, 'bars of slips');
+    const got = bars.reduce((sum, bar) => sum + bar) / highest;
+    console.log(`  slips over those of the fullest interval: expected ${(slips.length / fullest).toFixed(3)}, got ${got.toFixed(3)}`);
+    assert.ok(Math.abs(got - slips.length / fullest) < 0.01 * got, `bars of slips: expected ${slips.length / fullest}, got ${got}`);
+
+    const box = await panel.locator('.panel').boundingBox();
+    await page.mouse.move(box.x + 0.5 * box.width, box.y + 180);
+    await page.mouse.move(box.x + 0.5 * box.width + 3, box.y + 180);
+    await panel.locator('.cursor table').waitFor({state: 'visible', timeout: 5000});
+    const strain = 1e-3 * Number((await panel.locator('.cursor div div').first().textContent()).match(/strain ([\d.]+)×10⁻³/)[1]);
+    const rows = await panel.locator('.cursor tr').evaluateAll((all) => all.map((row) => [...row.children].map((cell) => cell.textContent)));
+    assert.deepEqual(rows[0], ['', 'stress', 'breaks here', 'so far', 'slips here', 'so far']);
+    const soFar = Number(rows.find(([name]) => name === 'Voronoi')[5]), expected = slips.filter((one) => one.axial_strain <= strain).length;
+    console.log(`  slips up to strain ${strain}: expected ${expected}, got ${soFar}`);
+    assert.ok(expected > 50 && Math.abs(soFar - expected) <= 5, `expected ${expected} slips so far, got ${soFar}`); // the strain is shown rounded
+    assert.deepEqual(rows.find(([name]) => name === 'Circles').slice(4), ['–', '–']);
+    const row = await page.locator('table.summary tr', {has: page.locator('th:text-is("Slips")')}).locator('td').allTextContents();
+    assert.deepEqual(row, ['–', '–', '0', String(slips.length)], 'not recorded, none, some');
+    await close();
+});
+
+test('the map shows every slip beneath the breaks, as a line along its contact, and hides them on request', async () => {
+    const {slips, events} = results(join(root, 'sliding'));
+    for (const colorScheme of ['light', 'dark']) {
+        const {page, close} = await open('slips.html', {colorScheme});
+        const card = page.locator('.card.breaks[data-test="sliding"]'), marks = card.locator(`.map path[fill="${slipFill[colorScheme]}"]`);
+        assert.match(await card.locator('h3').textContent(), new RegExp(`${events.length} breaks, largest .*, ${slips.length} slips`));
+        assert.equal(await marks.count(), slips.length, `${colorScheme}: slips`);
+        assert.equal(await page.locator(`.card.breaks:not([data-test="sliding"]) path[fill="${slipFill[colorScheme]}"]`).count(), 0, 'slips of tests without');
+        const boxes = await marks.evaluateAll((all) => all.map((one) => {
+            const {x, y, width, height} = one.getBoundingClientRect();
+            return {x: x + width / 2, y: y + height / 2, width, height};
+        }));
+        for (const [axis, sign] of [['x', 1], ['y', -1]]) {
+            const values = slips.map((slip) => slip[axis]), low = values.indexOf(Math.min(...values)), high = values.indexOf(Math.max(...values));
+            const scale = (boxes[high][axis] - boxes[low][axis]) / (values[high] - values[low]);
+            assert.ok(sign * scale > 0);
+            const off = Math.max(...boxes.map((box, at) => Math.abs(box[axis] - boxes[low][axis] - scale * (values[at] - values[low]))));
+            assert.ok(off < 1, `${axis} of slips: off by ${off} px`);
+        }
+        slips.forEach(({orientation}, at) => {
+            const [along, across] = [Math.abs(Math.sin(orientation)), Math.abs(Math.cos(orientation))]; // of the contact, perpendicular to its normal
+            if (Math.abs(along - across) > 0.3) assert.equal(boxes[at].width > boxes[at].height, along > across, `slip ${at}: normal at ${orientation}`);
+        });
+        const order = await card.locator('.map path').evaluateAll((all) => all.map((one) => one.getAttribute('fill')));
+        const breaks = order.flatMap((fill, at) => (['#0072b2', '#d55e00', '#56b4e9', '#ff8c3a'].includes(fill) ? [at] : []));
+        assert.equal(breaks.length, events.length, 'breaks');
+        assert.ok(order.lastIndexOf(slipFill[colorScheme]) < breaks[0], 'slips are drawn before the breaks');
+        await page.uncheck('#breaks input[type="checkbox"]');
+        assert.equal(await marks.count(), 0, 'slips switched off');
+        await page.click('#breaks button[data-value="time"]');
+        await page.check('#breaks input[type="checkbox"]');
+        assert.equal(await card.locator('.map path').count(), order.length, 'by time: as many marks');
+        await close();
+    }
+});
+
+test('a page of tests without slips says nothing of them', async () => {
+    const {page, close} = await open('six.html', {colorScheme: 'light'});
+    assert.doesNotMatch(await page.locator('main').textContent(), /slips/i);
+    assert.equal(await page.locator('#breaks input[type="checkbox"]').count(), 0);
+    assert.equal(await page.locator(`#curves path[fill="${slipFill.light}"], #breaks path[fill="${slipFill.light}"]`).count(), 0);
     await close();
 });
 

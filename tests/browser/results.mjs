@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the tests know of a folder of results, read independently of the program and of the page.
-import {readFileSync} from 'node:fs';
+import {existsSync, readFileSync} from 'node:fs';
 import {join} from 'node:path';
 import {inflateSync} from 'node:zlib';
 
@@ -14,6 +14,7 @@ export function results(folder) {
         summary: JSON.parse(readFileSync(join(folder, 'summary.json'), 'utf8')),
         curve: table(join(folder, 'curve.csv')),
         events: table(join(folder, 'events.csv')),
+        slips: existsSync(join(folder, 'slips.csv')) ? table(join(folder, 'slips.csv')) : undefined,
     };
 }
 

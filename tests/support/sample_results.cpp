@@ -7,6 +7,8 @@
 #include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <numbers>
+#include <optional>
 #include <random>
 
 #include "solver/base/vec2.hpp"
@@ -122,20 +124,40 @@ double band(const SampleTest& test, double x) {
 
 double last_strain(const SampleTest& test) { return (test.failed ? 1.5 : 0.8) * test.peak_strain; }
 
+struct Slip {
+    double strain = 0.0;
+    std::size_t i = 0, j = 0;
+    Vec2 place;
+    double orientation = 0.0;
+};
+
 struct Bonds {
     int count = 0;
     std::vector<Break> breaks;
+    std::vector<Slip> slips;
 };
+
+/// Strain at which a bond slips, by the angle of its normal early or late: of every third bond, none after the end.
+std::optional<double> slip_strain(const SampleTest& test, double orientation, Dice& dice) {
+    if (dice.next() > 0.33) return std::nullopt;
+    const double off_diagonal = std::abs(std::abs(orientation) - 0.25 * std::numbers::pi);
+    const double strain = test.peak_strain * (0.35 + 0.3 * off_diagonal + 0.4 * dice.next());
+    return strain < last_strain(test) ? std::optional(strain) : std::nullopt;
+}
 
 Bonds break_bonds(const SampleTest& test, const std::vector<Particle>& particles) {
     Bonds bonds;
-    Dice dice(7);
+    Dice dice(7), dice_of_slips(8);
     const double spacing = Lattice(test).spacing();
     for (std::size_t i = 0; i < particles.size(); ++i) {
         for (std::size_t j = i + 1; j < particles.size(); ++j) {
             if (!touch(particles[i], particles[j], spacing)) continue;
             ++bonds.count;
             const Vec2 place = 0.5 * (particles[i].centre + particles[j].centre);
+            const Vec2 normal = particles[j].centre - particles[i].centre;
+            const double orientation = std::atan(normal.y / normal.x);
+            if (const auto slips_at = slip_strain(test, orientation, dice_of_slips))
+                bonds.slips.push_back({*slips_at, i, j, place, orientation});
             const bool in_band = std::abs(place.y - band(test, place.x)) < 0.035;
             if (!in_band && dice.next() > 0.06) continue;
             const double strain =
@@ -144,8 +166,9 @@ Bonds break_bonds(const SampleTest& test, const std::vector<Particle>& particles
             if (strain < last_strain(test)) bonds.breaks.push_back({strain, i, j, place, shear});
         }
     }
-    std::sort(bonds.breaks.begin(), bonds.breaks.end(),
-              [](const Break& a, const Break& b) { return a.strain < b.strain; });
+    const auto earlier = [](const auto& a, const auto& b) { return a.strain < b.strain; };
+    std::sort(bonds.breaks.begin(), bonds.breaks.end(), earlier);
+    std::sort(bonds.slips.begin(), bonds.slips.end(), earlier);
     return bonds;
 }
 
@@ -254,6 +277,16 @@ std::string events_text(const std::vector<Break>& breaks) {
     return text;
 }
 
+std::string slips_text(const std::vector<Slip>& slips) {
+    std::string text = "time,step,axial_strain,x,y,body_i,body_j,orientation,normal_force,shear_force\n";
+    for (const Slip& one : slips) {
+        const double time = one.strain / wave_time;
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", time, static_cast<long long>(time * 2e5), one.strain,
+                            one.place.x, one.place.y, one.i + 1, one.j + 1, one.orientation, 300.0, -150.0);
+    }
+    return text;
+}
+
 std::string summary_text(const SampleTest& test, std::size_t particles, const Bonds& bonds) {
     const double peak_at = std::min(test.peak_strain, last_strain(test));
     nlohmann::ordered_json summary{
@@ -315,6 +348,7 @@ SampleCounts write_sample_results(const std::filesystem::path& folder, const Sam
     const Bonds bonds = break_bonds(test, particles);
     write_text(folder / "curve.csv", curve_text(test, bonds.breaks));
     write_text(folder / "events.csv", events_text(bonds.breaks));
+    if (test.slips) write_text(folder / "slips.csv", slips_text(bonds.slips));
     write_text(folder / "summary.json", summary_text(test, particles.size(), bonds));
     const double peak_at = std::min(test.peak_strain, last_strain(test));
     write_text(folder / "frames" / "particles_00000.vtp", particles_text(test, particles, 0.0));
@@ -323,6 +357,7 @@ SampleCounts write_sample_results(const std::filesystem::path& folder, const Sam
 
     SampleCounts counts;
     counts.particles = static_cast<int>(particles.size());
+    counts.slips = test.slips ? static_cast<int>(bonds.slips.size()) : 0;
     for (const Break& one : bonds.breaks) ++(one.shear ? counts.shear_breaks : counts.tension_breaks);
     return counts;
 }

@@ -18,15 +18,16 @@ struct SampleTest {
     double peak_strain = 1.0e-3;
     double larger_after_peak = 0.0;  ///< N/m, of pieces that carry again; 0: nothing is larger than the peak
     double thickness = 0.0;          ///< m, out of plane; 0: not given
+    bool slips = false;              ///< recorded: more of them than breaks, most of them before the peak
     std::string title = "Sample test";
     int columns = 13, rows = 30;  ///< lattice sites
 };
 
 struct SampleCounts {
-    int particles = 0, tension_breaks = 0, shear_breaks = 0;
+    int particles = 0, tension_breaks = 0, shear_breaks = 0, slips = 0;
 };
 
-/// Writes curve.csv, events.csv, summary.json and frames/ into `folder`, which is made.
+/// Writes curve.csv, events.csv, slips.csv where asked for, summary.json and frames/ into `folder`, which is made.
 SampleCounts write_sample_results(const std::filesystem::path& folder, const SampleTest& test);
 
 /// Circles, Delaunay, Voronoi × tension, compression, in folders SPECIMEN-KIND of `root`; returns their names.

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // sample_results ROOT: six made-up folders of results, one that has not failed, one whose pieces carry more than the
-// specimen and that has a thickness, and one whose texts try to be markup.
+// specimen and that has a thickness, one with slips, one that recorded slips and had none, and one whose texts try to
+// be markup.
+#include <fstream>
 #include <iostream>
 
 #include "tests/support/sample_results.hpp"
@@ -22,6 +24,13 @@ int main(int argc, char** argv) {
     rubble.larger_after_peak = 6.0e3;
     rubble.thickness = 0.05;
     write_sample_results(root / "rubble", rubble);
+    SampleTest sliding;
+    sliding.slips = true;
+    sliding.specimen = "voronoi";
+    write_sample_results(root / "sliding", sliding);
+    write_sample_results(root / "sticking", SampleTest{});
+    std::ofstream(root / "sticking" / "slips.csv")
+        << "time,step,axial_strain,x,y,body_i,body_j,orientation,normal_force,shear_force\n";
     SampleTest markup;
     markup.title = "</script><script>document.title='broken out'</script> <b>bold</b> & \"quoted\"";
     write_sample_results(root / "markup", markup);

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <initializer_list>
 #include <limits>
 #include <span>
 #include <stdexcept>
@@ -310,10 +311,14 @@ void add_results(PlainBlock& block, const TestResults& results) {
     for (const char* name : {"body_i", "body_j"}) block.add(std::string("events.") + name, whole(name));
     flag("shear", "mode");
     flag("last_of_interface", "last_of_interface");
-    for (const char* name : {"time", "axial_strain", "x", "y", "orientation", "energy"}) {
-        if (const std::vector<double>* values = results.events.find(name))
-            block.add(std::string("events.") + name, *values);
-    }
+    const auto real = [&](const std::string& prefix, const NumberTable& table,
+                          std::initializer_list<const char*> names) {
+        for (const char* name : names) {
+            if (const std::vector<double>* values = table.find(name)) block.add(prefix + name, *values);
+        }
+    };
+    real("events.", results.events, {"time", "axial_strain", "x", "y", "orientation", "energy"});
+    if (results.slips) real("slips.", *results.slips, {"time", "axial_strain", "x", "y", "orientation"});
 }
 
 Json listed_frame(const FrameHead& head) {

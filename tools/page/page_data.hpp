@@ -3,7 +3,8 @@
 // written as base64. tools/viewer/src/data/report.ts reads the same layout.
 //
 // Block 0 of a recording holds plain little-endian arrays, each on a multiple of eight bytes: what never moves, the
-// curve and the breaks. Each further block holds up to 16 frames: for each quantity of cells or bonds a table of whole
+// curve, the breaks, and the slips where the test recorded them.
+// Each further block holds up to 16 frames: for each quantity of cells or bonds a table of whole
 // numbers, rows frames, columns cells or bonds. What is stored are the differences from row
 // to row, zigzag coded (0, -1, 1, -2, ... as 0, 1, 2, 3, ...), lowest bytes of all first, then the second ones: bytes
 // of equal meaning lie together, and most are small. Contacts other than bonds come and go: their tables have one row

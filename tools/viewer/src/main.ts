@@ -12,11 +12,11 @@ import {expose} from './controls/test_access';
 import {Viewer} from './controls/viewer';
 import {ViewerControls} from './controls/viewer_controls';
 import {particleCount} from './data/cells';
-import {readReport, type CurvedTest, type Report} from './data/report';
+import {hasSlips, readReport, type CurvedTest, type Report, type TestData} from './data/report';
 import {labelTests, sortedBy, withCurve, type LabelledTest} from './data/test_labels';
 import {SpecimenView} from './drawing/specimen_view';
-import {button, choice, element, saveFile} from './elements/dom';
-import {breakCard, type MapColour} from './panels/breaks';
+import {button, checkbox, choice, element, saveFile} from './elements/dom';
+import {breakCard, type MapSettings} from './panels/breaks';
 import {directionWidth} from './panels/crack_directions';
 import {CurvePanel, readoutOf} from './panels/curves';
 import {fragmentCard} from './panels/fragments';
@@ -46,7 +46,7 @@ class Page {
     private controls: ViewerControls | undefined;
     private moments: Moments[] = [];
     private breakCharts: ECharts[] = [];
-    private mapColour: MapColour = 'mode';
+    private readonly map: MapSettings = {colour: 'mode', slips: true};
     private readonly breakHolder = element('div', {class: 'cards'});
     private readonly fragmentHolder = element('div', {class: 'cards'});
     private readonly fragmentSection = element('section', {id: 'fragments', hidden: ''});
@@ -89,7 +89,7 @@ class Page {
             ...(unfinished.length === 0 ? [] : [element('p', {class: 'notice warning', role: 'note'},
                 `Not failed: ${unfinished.map(({label, test}) => label + endedBy(test.summary['ended_by'])).join('; ')}. What is shown as the peak of ${unfinished.length === 1 ? 'this test' : 'these tests'} is the peak so far.`)]),
             ...(this.report.view === 'view' ? [viewer, ...curves] : [...curves, viewer]),
-            ...(this.tests.some(({test}) => test.events.count > 0) ? [this.breakSection()] : []),
+            ...(this.tests.some(({test}) => onMap(test)) ? [this.breakSection()] : []),
             this.fragmentSection,
             ...(curved.length === 0 ? [] : [element('section', {id: 'summary'}, element('h2', {}, 'Summary'), summaryTable(curved))]),
             ...(this.tests.some(({test}) => test.frames.some(({roles}) => roles)) ? [this.drawingSection()] : []),
@@ -108,7 +108,8 @@ class Page {
             element('p', {class: 'caption'},
                 'Stress is the mean of the two platens’ forces over the initial width, strain the platen displacement over the initial height, both positive in ',
                 'the test’s own sense. Below the curves: bonds broken in each interval of strain, by mode (', mark('tension'), ' tension, ', mark('shear'), ' shear), ',
-                'and the total so far as a line.'));
+                'and the total so far as a line.',
+                ...(curved.some(({test}) => hasSlips(test)) ? [' In strips of their own, slips (', mark('slid'), `): ${slipMeaning}.`] : [])));
     }
 
     private viewerSection(): HTMLElement {
@@ -141,22 +142,27 @@ class Page {
     }
 
     private breakSection(): HTMLElement {
+        const slips = this.tests.some(({test}) => hasSlips(test));
         return element('section', {id: 'breaks'},
             element('h2', {}, 'Positions and directions of bond breaks'),
-            element('div', {class: 'controls'}, choice('Colour by', [{value: 'mode', text: 'Mode'}, {value: 'time', text: 'Time'}], this.mapColour, (colour) => {
-                this.mapColour = colour as MapColour;
+            element('div', {class: 'controls'}, choice<MapSettings['colour']>('Colour by', [{value: 'mode', text: 'Mode'}, {value: 'time', text: 'Time'}], this.map.colour, (colour) => {
+                this.map.colour = colour;
                 this.drawBreaks();
-            })),
+            }), ...(slips ? [checkbox('Slips', this.map.slips, (shown) => {
+                this.map.slips = shown;
+                this.drawBreaks();
+            })] : [])),
             this.breakHolder,
             element('p', {class: 'caption'}, 'Map: position of each broken bond, the area of its circle proportional to its energy (', mark('tension'), ' tension, ', mark('shear'),
-                ' shear; by time: dark is early, bright is late). Rose: directions of the cracks, perpendicular to the contact normals; breaks in each ',
+                ' shear; by time: dark is early, bright is late).',
+                ...(slips ? [' Lines along the contacts (', mark('slid'), `; by time likewise): slips, ${slipMeaning}.`] : []), ' Rose: directions of the cracks, perpendicular to the contact normals; breaks in each ',
                 `${directionWidth}°, counted in both directions. The loading axis is at 90°.`));
     }
 
     private drawBreaks(): void {
         for (const chart of this.breakCharts) chart.dispose();
         const theme = currentTheme();
-        const cards = sortedBy('specimen', this.tests.filter(({test}) => test.events.count > 0)).map((labelled) => breakCard(labelled, this.mapColour, theme));
+        const cards = sortedBy('specimen', this.tests.filter(({test}) => onMap(test))).map((labelled) => breakCard(labelled, this.map, theme));
         this.breakHolder.replaceChildren(...cards.map(({element: card}) => card));
         this.breakCharts = cards.flatMap(({draw}) => draw());
     }
@@ -198,6 +204,7 @@ class Page {
         document.documentElement.dataset['shown'] = theme.name;
         document.documentElement.style.setProperty('--tension', theme.tension);
         document.documentElement.style.setProperty('--shear', theme.shear);
+        document.documentElement.style.setProperty('--slid', theme.slid);
     }
 
     private redraw(): void {
@@ -327,12 +334,19 @@ class Page {
     }
 }
 
+const slipMeaning = 'bonds that reached their Coulomb limit for the first time; they are not among the breaks unless they broke later';
+
+/// Whether the map has something to show.
+function onMap(test: TestData): boolean {
+    return test.events.count > 0 || hasSlips(test);
+}
+
 function endedBy(reason: unknown): string {
     return typeof reason === 'string' && reason !== '' ? ` (ended by ${reason})` : '';
 }
 
-function mark(mode: 'tension' | 'shear'): HTMLElement {
-    return element('i', {class: `mark ${mode}`});
+function mark(kind: 'tension' | 'shear' | 'slid'): HTMLElement {
+    return element('i', {class: `mark ${kind}`});
 }
 
 async function start(): Promise<void> {

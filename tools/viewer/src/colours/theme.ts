@@ -16,7 +16,7 @@ export interface Theme {
     compressive: string; // contact forces
     tensile: string;
     bond: string;
-    slid: string; // bond that has slid
+    slid: string; // bonds that have slid, slips
     picked: string; // outline of the picked particle
     series: readonly string[]; // curves
     overlaid: readonly [string, string]; // two tests in one picture

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The data that `crackle report` and `crackle view` put into the page: format "crackle-report 2".
 // A JSON manifest describes each test and gives the positions of its arrays in the blocks; block 0 of a test holds its specimen,
-// curve and events as plain little-endian arrays, the others hold the frames, group by group (frames.ts). Units are SI in 2D:
+// curve, breaks and slips as plain little-endian arrays, the others hold the frames, group by group (frames.ts). Units are SI in 2D:
 // stress in N/m, angles in radians.
 
 import {readBlock} from './blocks';
@@ -60,13 +60,18 @@ export interface Curve {
     bondsBroken: NumberArray; // so far
 }
 
-export interface Events {
+/// What happened to bonds, in the order of time.
+export interface BondEvents {
     count: number;
     time: NumberArray; // s
     strain: NumberArray;
     x: NumberArray; // m
     y: NumberArray;
     orientation: NumberArray; // rad, of the contact normal, in (-π/2, π/2]
+}
+
+/// Breaks.
+export interface Events extends BondEvents {
     energy: NumberArray; // J
     bodyI: NumberArray; // ids of the input
     bodyJ: NumberArray;
@@ -96,6 +101,7 @@ export interface TestData {
     sides: TestEntry['sides'];
     curve: Curve | undefined; // only of a test
     events: Events;
+    slips: BondEvents | undefined; // first arrivals of bonds at their Coulomb limit; undefined where the test did not record them
     cells: Cells;
     bonds: Bonds;
     frames: FrameEntry[];
@@ -122,6 +128,14 @@ async function unpackTest(entry: TestEntry, index: number): Promise<TestData> {
         if (!found) throw new Error(`the page's data do not contain the array '${name}'`);
         return plainArray(buffer, name, found);
     };
+    const bondEvents = (prefix: 'events' | 'slips'): BondEvents => ({
+        count: optional(`${prefix}.time`).length,
+        time: optional(`${prefix}.time`),
+        strain: optional(`${prefix}.axial_strain`),
+        x: optional(`${prefix}.x`),
+        y: optional(`${prefix}.y`),
+        orientation: optional(`${prefix}.orientation`),
+    });
     return {
         index,
         name: entry.name,
@@ -139,18 +153,14 @@ async function unpackTest(entry: TestEntry, index: number): Promise<TestData> {
             bondsBroken: array('curve.bonds_broken'),
         } : undefined,
         events: {
-            count: optional('events.time').length,
-            time: optional('events.time'),
-            strain: optional('events.axial_strain'),
-            x: optional('events.x'),
-            y: optional('events.y'),
-            orientation: optional('events.orientation'),
+            ...bondEvents('events'),
             energy: optional('events.energy'),
             bodyI: optional('events.body_i'),
             bodyJ: optional('events.body_j'),
             shear: optional('events.shear'),
             last: optional('events.last_of_interface'),
         },
+        slips: entry.arrays['slips.time'] ? bondEvents('slips') : undefined,
         cells: {
             count: array('cells.id').length,
             id: array('cells.id'),
@@ -197,11 +207,14 @@ export function largestOf(values: ArrayLike<number>): number {
     return largest;
 }
 
-/// Time of the last frame or break, s: a run may have no frames.
-export function lastTimeOf({frames, events}: TestData): number {
-    let last = frames[frames.length - 1]?.time ?? 0;
-    for (let event = 0; event < events.count; ++event) last = Math.max(last, events.time[event]!);
-    return last;
+/// Whether the test recorded slips and had some.
+export function hasSlips(test: TestData): test is TestData & {slips: BondEvents} {
+    return test.slips !== undefined && test.slips.count > 0;
+}
+
+/// Time of the last frame, break or slip, s: a run may have no frames.
+export function lastTimeOf({frames, events, slips}: TestData): number {
+    return Math.max(frames[frames.length - 1]?.time ?? 0, largestOf(events.time), largestOf(slips?.time ?? none));
 }
 
 /// Names of the minerals in the order of their material numbers; none of a rock of one material.

@@ -22,7 +22,7 @@ export function specimenName(test: TestData): string {
     return specimenNames[test.specimen] ?? capitalised(test.specimen);
 }
 
-export function unique(values: string[]): string[] {
+export function unique<T>(values: readonly T[]): T[] {
     return [...new Set(values)];
 }
 

@@ -3,7 +3,7 @@
 
 import {outline} from '../data/cells';
 import type {Frame} from '../data/frames';
-import type {TestData} from '../data/report';
+import type {BondEvents, TestData} from '../data/report';
 import {moverOf, movedCentre} from './rigid_motion';
 
 export interface Extent {
@@ -76,16 +76,15 @@ export function inView(test: TestData, frame: Frame, magnification: number): InV
     return {extent, shows, leftOut};
 }
 
-/// The box of the first frame and of all breaks, which may have happened outside it; of the breaks alone where there is no frame.
-export function extentOfBreaks(test: TestData): Extent {
-    const {cells, events} = test;
-    const box = cells.count > 0 ? extentAtStart({...test, sides: undefined}) : {x1: Infinity, x2: -Infinity, y1: Infinity, y2: -Infinity};
-    for (let event = 0; event < events.count; ++event) {
-        box.x1 = Math.min(box.x1, events.x[event]!);
-        box.x2 = Math.max(box.x2, events.x[event]!);
-        box.y1 = Math.min(box.y1, events.y[event]!);
-        box.y2 = Math.max(box.y2, events.y[event]!);
-    }
+/// The box of the first frame and of all breaks and slips, which may have happened outside it; of these alone where there is no frame.
+export function extentOfBondEvents(test: TestData): Extent {
+    const {cells, events, slips} = test;
+    const box = cells.count > 0 ? extentAtStart({...test, sides: undefined}) : nothing();
+    const includeAll = ({count, x, y}: BondEvents) => {
+        for (let event = 0; event < count; ++event) include(box, x[event]!, y[event]!);
+    };
+    includeAll(events);
+    if (slips) includeAll(slips);
     // Breaks along a line, or a single one, still get a box with an area.
     const size = Math.max(box.x2 - box.x1, box.y2 - box.y1) || 1;
     const roomX = Math.max(0, 0.2 * size - (box.x2 - box.x1)) / 2, roomY = Math.max(0, 0.2 * size - (box.y2 - box.y1)) / 2;

@@ -1,26 +1,32 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Positions and directions of bond breaks, a card for each test: the map of breaks (as an acoustic-emission array would locate
-// them) and the rose of crack directions.
+// them), with the slips beneath them, and the rose of crack directions.
 
 import * as echarts from 'echarts/core';
 import type {ECharts} from 'echarts/core';
 
 import {css, sequentialPalette} from '../colours/palettes';
 import type {Theme} from '../colours/theme';
-import {largestOf, lastTimeOf, type TestData} from '../data/report';
+import {hasSlips, largestOf, lastTimeOf, type BondEvents, type TestData} from '../data/report';
 import type {LabelledTest} from '../data/test_labels';
 import {element, saveFile, svgText} from '../elements/dom';
 import {fontFamily} from '../elements/sheet';
-import {extentOfBreaks} from '../geometry/extent';
+import {extentOfBondEvents} from '../geometry/extent';
 import {counted, quantity, scaleFor, significant} from '../quantities/units';
 import {drawRose} from './rose';
 
-export type MapColour = 'mode' | 'time';
+/// What the maps show.
+export interface MapSettings {
+    colour: 'mode' | 'time';
+    slips: boolean;
+}
 
 const mapHeight = 380; // px
 const largestMark = 26; // px across, of the largest energy, at most
 const smallestMark = 1.5;
 const covered = 0.3; // share of the map that all circles together may cover
+const slipWidth = 1.4; // px, of the lines of slips
+const longestSlip = 9, shortestSlip = 3, slipShare = 0.8; // px; of the mean distance of slips
 
 function sumOf(values: ArrayLike<number>): number {
     let sum = 0;
@@ -40,25 +46,28 @@ function saveButton(name: string, svg: () => string): HTMLElement {
 }
 
 /// The card; its charts are drawn after it has been inserted into the page.
-export function breakCard({test, label}: LabelledTest, colour: MapColour, theme: Theme): {element: HTMLElement; draw: () => ECharts[]} {
-    const map = element('div', {class: 'map', role: 'img', 'aria-label': `Positions of ${test.events.count} breaks in ${label}`});
+export function breakCard({test, label}: LabelledTest, settings: MapSettings, theme: Theme): {element: HTMLElement; draw: () => ECharts[]} {
+    const slips = hasSlips(test) ? `${counted(test.slips.count)} slips` : '';
+    const positions = [`${test.events.count} breaks`, ...(slips && settings.slips ? [slips] : [])].join(' and ');
+    const map = element('div', {class: 'map', role: 'img', 'aria-label': `Positions of ${positions} in ${label}`});
     const directions = drawRose(test.events, theme);
     const rose = element('div', {class: 'rose', role: 'img', 'aria-label': `Directions of the cracks in ${label}`}, directions);
     const charts: ECharts[] = [];
     const largest = largestOf(test.events.energy);
+    const counts = [`${counted(test.events.count)} breaks`, ...(largest > 0 ? [`largest ${quantity(largest, 'J', 2)}`] : []), ...(slips ? [slips] : [])].join(', ');
     const card = element('article', {class: 'card breaks', 'data-test': test.name},
-        element('h3', {}, label, element('small', {}, `${counted(test.events.count)} breaks, largest ${quantity(largest, 'J', 2)}`)),
+        element('h3', {}, label, element('small', {}, counts)),
         element('div', {class: 'breaks-row'},
             element('figure', {}, map, element('figcaption', {}, saveButton(`${test.name}-breaks`, () => svgOf(charts[0]!)))),
             element('figure', {}, rose, element('figcaption', {}, saveButton(`${test.name}-rose`, () => svgText(directions))))));
     return {element: card, draw: () => {
-        charts.push(drawMap(map, test, colour, largest, theme));
+        charts.push(drawMap(map, test, settings, largest, theme));
         return charts;
     }};
 }
 
-function drawMap(container: HTMLElement, test: TestData, colour: MapColour, largest: number, theme: Theme): ECharts {
-    const {events} = test, extent = extentOfBreaks(test);
+function drawMap(container: HTMLElement, test: TestData, {colour, slips}: MapSettings, largest: number, theme: Theme): ECharts {
+    const {events} = test, extent = extentOfBondEvents(test);
     const width = container.clientWidth, scale = scaleFor([0.9 * Math.max(extent.x2 - extent.x1, extent.y2 - extent.y1)], 'm'); // less the room for marks
     const left = 54, right = 12, top = 10, bottom = 40;
     // Equal scales on both axes.
@@ -69,22 +78,36 @@ function drawMap(container: HTMLElement, test: TestData, colour: MapColour, larg
     const text = {color: theme.ink, fontFamily, fontSize: 11};
     const axis = {type: 'value', axisLine: {show: true, onZero: false, lineStyle: {color: theme.ink}}, axisTick: {show: true, inside: true, lineStyle: {color: theme.ink}},
         splitLine: {show: false}, axisLabel: {...text, hideOverlap: true, showMinLabel: false, showMaxLabel: false, formatter: (value: number) => significant(value, 4).replace(/(\.\d*?)0+$/, '$1').replace(/\.$/, '')}, nameLocation: 'middle', nameTextStyle: text};
+    const ofTime = (time: number) => css(palette[Math.min(255, Math.floor(last > 0 ? 256 * time / last : 0))]!);
     const inner = (extent.x2 - extent.x1) * perMetre;
     const energies = sumOf(events.energy) / (largest || 1);
     const widest = Math.min(largestMark, Math.sqrt(covered * inner * (extent.y2 - extent.y1) * perMetre * 4 / Math.PI / Math.max(1e-9, energies)));
     // Large ones first, so that they do not hide small ones.
     const order = Array.from({length: events.count}, (_, event) => event).sort((a, b) => events.energy[b]! - events.energy[a]!);
+    const place = ({x, y}: BondEvents, event: number) => [x[event]! / scale.factor, y[event]! / scale.factor];
+    // Lines along the contacts, which is where bodies slide past each other.
+    const slipMarks = (all: BondEvents) => {
+        const distance = Math.sqrt(inner * (extent.y2 - extent.y1) * perMetre / all.count);
+        const length = Math.max(shortestSlip, Math.min(longestSlip, slipShare * distance));
+        return {
+            type: 'scatter', silent: true, symbol: 'rect', symbolSize: [length, slipWidth], z: 2,
+            data: Array.from({length: all.count}, (_, event) => ({
+                value: place(all, event), symbolRotate: all.orientation[event]! * 180 / Math.PI + 90,
+                itemStyle: {color: colour === 'mode' ? theme.slid : ofTime(all.time[event]!), opacity: 0.85},
+            })),
+        };
+    };
     chart.setOption({
         animation: false, grid: {left, width: inner, top, bottom},
         xAxis: {...axis, min: extent.x1 / scale.factor, max: extent.x2 / scale.factor, name: `x [${scale.unit}]`, nameGap: 24, splitNumber: 3},
         yAxis: {...axis, min: extent.y1 / scale.factor, max: extent.y2 / scale.factor, name: `y [${scale.unit}]`, nameGap: 40},
-        series: [{
-            type: 'scatter', silent: true,
+        series: [...(slips && hasSlips(test) ? [slipMarks(test.slips)] : []), {
+            type: 'scatter', silent: true, z: 3,
             data: order.map((event) => ({
-                value: [events.x[event]! / scale.factor, events.y[event]! / scale.factor],
+                value: place(events, event),
                 symbolSize: Math.max(smallestMark, widest * Math.sqrt(events.energy[event]! / (largest || 1))),
                 itemStyle: {
-                    color: colour === 'mode' ? (events.shear[event] === 1 ? theme.shear : theme.tension) : css(palette[Math.min(255, Math.floor(last > 0 ? 256 * events.time[event]! / last : 0))]!),
+                    color: colour === 'mode' ? (events.shear[event] === 1 ? theme.shear : theme.tension) : ofTime(events.time[event]!),
                     opacity: 0.6, borderColor: theme.background, borderWidth: 0.4,
                 },
             })),

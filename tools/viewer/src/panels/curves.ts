@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One panel: stress-strain curves of its tests overlaid, and below, on the same strain axis, a strip for each test with its bond
-// breaks per strain interval (stacked by mode, left axis) and the cumulative number of breaks (line, right axis).
+// One panel: stress-strain curves of its tests overlaid, and below, on the same strain axis, strips of their breaks and slips
+// (strips.ts).
 // Stresses are shown positive in a test's own sense: compression in compression tests, tension in tension tests.
 
 import {CustomChart, LineChart, ScatterChart} from 'echarts/charts';
@@ -10,16 +10,17 @@ import {
 import * as echarts from 'echarts/core';
 import type {ECharts} from 'echarts/core';
 import {SVGRenderer} from 'echarts/renderers';
-import type {CustomSeriesRenderItemAPI, CustomSeriesRenderItemParams} from 'echarts/types/dist/shared';
 
 import type {Theme} from '../colours/theme';
 import {largestOf, numberOf, peakOf, type TestData} from '../data/report';
+import {unique} from '../data/test_labels';
 import {Cursor} from '../elements/chart_cursor';
 import {element} from '../elements/dom';
 import {fontFamily} from '../elements/sheet';
 import {counted, quantity, scaleFor, significant, strain as strainText, strainFactor, strainUnit, stressText, type Scale} from '../quantities/units';
-import {countBreaks, intervalWidth, type Histogram} from './break_histogram';
+import {countIn, intervalOf, intervalWidth} from './event_histogram';
 import type {Member, Panel} from './grouping';
+import {pairs, stripSeries, stripsOf, type Strip, type StripKind} from './strips';
 
 echarts.use([
     AxisPointerComponent, CustomChart, DataZoomInsideComponent, GridComponent, LegendComponent, LineChart, ScatterChart,
@@ -64,10 +65,11 @@ export function layoutOf({title, members}: Panel, width: number, height?: number
             x += entries[at]!;
         }
     }
-    const note = `bars: breaks in each ${strainText(prepare({title, members}).width, 1)} of strain, line: so far`;
-    const top = titleLine + 8 + lines * legendLine, strips = members.length * (stripHeight + stripGap) + bottom;
-    const stress = height === undefined ? stressHeight : Math.max(leastStressHeight, height - top - strips);
-    return {top, legendTop: lines === 0 ? 6 : titleLine - 6, legendWidth: lines === 0 ? legend + 16 : room, stressHeight: stress, height: top + stress + strips,
+    const {strips, width: interval} = prepare({title, members});
+    const note = `bars: ${kindsOf(strips).join(' or ')} in each ${strainText(interval, 1)} of strain, line: so far`;
+    const top = titleLine + 8 + lines * legendLine, below = strips.length * (stripHeight + stripGap) + bottom;
+    const stress = height === undefined ? stressHeight : Math.max(leastStressHeight, height - top - below);
+    return {top, legendTop: lines === 0 ? 6 : titleLine - 6, legendWidth: lines === 0 ? legend + 16 : room, stressHeight: stress, height: top + stress + below,
         note: {text: note, left: Math.max(2, Math.min(left, width - textWidth(note, noteSize) - 4))}};
 }
 
@@ -86,10 +88,6 @@ function valueAt(strains: ArrayLike<number>, values: ArrayLike<number>, at: numb
     return values[low]! + share * (values[high]! - values[low]!);
 }
 
-function pairs(x: ArrayLike<number>, y: ArrayLike<number>, xFactor: number, yFactor: number): [number, number][] {
-    return Array.from({length: x.length}, (_, index) => [x[index]! / xFactor, y[index]! / yFactor]);
-}
-
 /// A round number at or above the value, for the end of an axis with one interval.
 function roundUp(value: number): number {
     if (value <= 1) return 1;
@@ -100,45 +98,32 @@ function roundUp(value: number): number {
 
 const tickText = (value: number): string => (Number.isInteger(value) ? counted(value) : String(value).replace('-', '−'));
 
-function drawBars(histogram: Histogram, theme: Theme) {
-    return (_: CustomSeriesRenderItemParams, api: CustomSeriesRenderItemAPI) => {
-        const [from, to, tension, shear] = [0, 1, 2, 3].map((dimension) => Number(api.value(dimension))) as [number, number, number, number];
-        const rectangle = (low: number, high: number, fill: string) => {
-            const [x1, y1] = api.coord([from, high]) as [number, number];
-            const [x2, y2] = api.coord([to, low]) as [number, number];
-            const gap = Math.min(1, (x2 - x1) * 0.15);
-            return {type: 'rect' as const, shape: {x: x1 + gap / 2, y: y1, width: Math.max(0.5, x2 - x1 - gap), height: y2 - y1}, style: {fill}};
-        };
-        const children = [rectangle(0, tension, theme.tension), rectangle(tension, tension + shear, theme.shear)]
-            .filter((bar) => bar.shape.height > 0);
-        return histogram.most > 0 && children.length > 0 ? {type: 'group' as const, children} : undefined;
-    };
-}
-
-interface Prepared {
-    member: Member;
-    histogram: Histogram;
+/// The kinds of strips that a panel has.
+function kindsOf(strips: readonly Strip[]): StripKind[] {
+    return unique(strips.map(({kind}) => kind));
 }
 
 /// The curves' values at a strain.
-function valuesAt(at: number, prepared: readonly Prepared[], theme: Theme): HTMLElement {
-    const rows = prepared.map(({member, histogram}) => {
+function valuesAt(at: number, {members}: Panel, strips: readonly Strip[], theme: Theme): HTMLElement {
+    const kinds = kindsOf(strips);
+    const rows = members.map((member) => {
         const {curve} = member.test;
         const stress = valueAt(curve.strain, curve.stress, at);
-        const broken = valueAt(curve.strain, curve.bondsBroken, at);
-        const interval = Math.max(0, Math.ceil(at / histogram.width - 1e-9) - 1);
-        const inInterval = stress === undefined ? undefined
-            : (histogram.tension[interval] ?? 0) + (histogram.shear[interval] ?? 0);
+        const counts = kinds.flatMap((kind) => {
+            const strip = strips.find((one) => one.member === member && one.kind === kind);
+            if (stress === undefined || !strip) return [undefined, undefined];
+            const soFar = valueAt(strip.soFar.strain, strip.soFar.count, at);
+            return [countIn(strip.histogram, intervalOf(at, strip.histogram.width)), soFar === undefined ? undefined : Math.floor(soFar)];
+        });
         return element('tr', {},
             element('th', {}, element('i', {style: `background:${theme.series[member.colour % theme.series.length]}`}), member.shortLabel),
             element('td', {}, stress === undefined ? 'ended' : stressText(stress, peakOf(member.test).stress)),
-            element('td', {}, counted(inInterval)),
-            element('td', {}, counted(broken === undefined ? undefined : Math.floor(broken))));
+            ...counts.map((count) => element('td', {}, counted(count))));
     });
     return element('div', {},
         element('div', {}, `strain ${strainText(at)}`),
         element('table', {},
-            element('tr', {}, element('td'), element('td', {}, 'stress'), element('td', {}, 'breaks here'), element('td', {}, 'so far')),
+            element('tr', {}, ...['', 'stress', ...kinds.flatMap((kind) => [`${kind} here`, 'so far'])].map((head) => element('td', {}, head))),
             ...rows));
 }
 
@@ -171,33 +156,14 @@ function stressSeries(member: Member, range: number, scale: Scale, theme: Theme)
     }];
 }
 
-function stripSeries({member, histogram}: Prepared, strip: number, theme: Theme) {
-    const colour = theme.series[member.colour % theme.series.length]!;
-    const bars = histogram.tension.map((tension, interval) => [
-        (interval * histogram.width) / strainFactor, ((interval + 1) * histogram.width) / strainFactor, tension, histogram.shear[interval]!,
-    ]).filter((bar) => bar[2]! + bar[3]! > 0);
-    return [
-        {
-            type: 'custom', name: member.shortLabel, id: `breaks ${member.label}`, xAxisIndex: strip, yAxisIndex: 2 * strip - 1,
-            renderItem: drawBars(histogram, theme), encode: {x: [0, 1], y: [2, 3]}, data: bars, clip: true, animation: false, silent: true, z: 2,
-        },
-        {
-            type: 'line', name: member.shortLabel, id: `so far ${member.label}`, xAxisIndex: strip, yAxisIndex: 2 * strip, showSymbol: false,
-            data: pairs(member.test.curve.strain, member.test.curve.bondsBroken, strainFactor, 1), step: 'end',
-            lineStyle: {width: 1.3, color: colour, type: member.dashed ? [6, 3] : 'solid'}, itemStyle: {color: colour}, animation: false, z: 3,
-            emphasis: {disabled: true},
-        },
-    ];
-}
-
-function prepare({members}: Panel): {range: number; width: number; prepared: Prepared[]} {
+function prepare({members}: Panel): {range: number; width: number; strips: Strip[]} {
     const range = Math.max(...members.map((member) => largestOf(member.test.curve.strain)), 1e-9), width = intervalWidth(range);
-    return {range, width, prepared: members.map((member) => ({member, histogram: countBreaks(member.test.events, width, range)}))};
+    return {range, width, strips: stripsOf(members, width, range)};
 }
 
 /// Everything that ECharts needs for one panel.
 export function panelOption(panel: Panel, {top, legendTop, legendWidth, stressHeight: high, note}: PanelLayout, theme: Theme) {
-    const {members} = panel, {range, prepared} = prepare(panel);
+    const {members} = panel, {range, strips} = prepare(panel);
     const scale = scaleFor(members.map((member) => largestOf(member.test.curve.stress)), 'N/m');
 
     const text = {color: theme.ink, fontFamily, fontSize: 12};
@@ -205,7 +171,7 @@ export function panelOption(panel: Panel, {top, legendTop, legendWidth, stressHe
     const axisLine = {show: true, onZero: false, lineStyle: {color: theme.ink, width: 1}};
     const axisTick = {show: true, inside: true, length: 5, lineStyle: {color: theme.ink, width: 1}};
     const stripTop = (strip: number) => top + high + stripGap + (strip - 1) * (stripHeight + stripGap);
-    const last = members.length;
+    const last = strips.length;
 
     const xAxis = Array.from({length: last + 1}, (_, index) => ({
         type: 'value', gridIndex: index, min: 0, max: range / strainFactor, axisLine, axisTick, splitLine: {show: index === 0, lineStyle: {color: theme.grid}},
@@ -218,19 +184,20 @@ export function panelOption(panel: Panel, {top, legendTop, legendWidth, stressHe
         name: `Axial stress [${scale.unit}]`, nameLocation: 'middle', nameGap: 44, nameTextStyle: {...text, fontSize: 13},
         axisPointer: {show: false},
     }];
-    prepared.forEach(({member, histogram}, index) => {
-        const most = roundUp(histogram.most), total = roundUp(largestOf(member.test.curve.bondsBroken));
+    strips.forEach(({histogram, soFar}, index) => {
+        const most = roundUp(histogram.most), total = roundUp(largestOf(soFar.count));
         const strip = {type: 'value', gridIndex: index + 1, min: 0, splitLine: {show: false}, axisLine, axisTick, axisPointer: {show: false}};
         yAxis.push({...strip, max: most, interval: most, axisLabel: {...small, formatter: tickText}, position: 'left'});
         yAxis.push({...strip, max: total, interval: total, axisLabel: {...small, formatter: tickText}, position: 'right'});
     });
 
-    const titles = prepared.map(({member}, index) => ({
-        text: `{name|${member.shortLabel}}  {what|${counted(member.test.events.count)} breaks}`,
+    const titles = strips.map(({kind, member, count}, index) => ({
+        text: `{name|${member.shortLabel}}  ${kind === 'slips' ? '{slips|■} ' : ''}{what|${counted(count)} ${kind}}`,
         left: left + 4, top: stripTop(index + 1) - 19, padding: 0,
         textStyle: {rich: {
             name: {...text, fontSize: 11.5, fontWeight: 600, color: theme.series[member.colour % theme.series.length]},
             what: small,
+            slips: {...small, color: theme.slid},
         }},
     }));
 
@@ -263,7 +230,7 @@ export function panelOption(panel: Panel, {top, legendTop, legendWidth, stressHe
         dataZoom: [{type: 'inside', xAxisIndex: 'all', filterMode: 'none', zoomOnMouseWheel: 'shift', moveOnMouseMove: true}],
         series: [
             ...members.flatMap((member) => stressSeries(member, range, scale, theme)),
-            ...prepared.flatMap((one, index) => stripSeries(one, index + 1, theme)),
+            ...strips.flatMap((strip, index) => stripSeries(strip, index + 1, theme)),
         ],
     };
 }
@@ -315,15 +282,15 @@ export class CurvePanel {
 
 /// The values of the curves where the pointer is, as a table below the panel.
 export function readoutOf({chart, panel}: CurvePanel, theme: Theme): HTMLElement {
-    const {prepared} = prepare(panel), lineHeight = 20; // px
+    const {strips} = prepare(panel), lineHeight = 20; // px
     const idle = element('span', {class: 'hint'}, 'Point at the curves: their values are listed here.');
     const readout = element('div', {class: 'cursor', style: `min-height:${(panel.members.length + 2) * lineHeight}px`}, idle);
     const zr = chart.getZr();
     zr.on('mousemove', ({offsetX, offsetY}) => {
-        const grid = Array.from({length: panel.members.length + 1}, (_, index) => index).find((index) => chart.containPixel({gridIndex: index}, [offsetX, offsetY]));
+        const grid = Array.from({length: strips.length + 1}, (_, index) => index).find((index) => chart.containPixel({gridIndex: index}, [offsetX, offsetY]));
         if (grid === undefined) return;
         const [value] = chart.convertFromPixel({gridIndex: grid}, [offsetX, offsetY]) as [number, number];
-        readout.replaceChildren(valuesAt(value * strainFactor, prepared, theme));
+        readout.replaceChildren(valuesAt(value * strainFactor, panel, strips, theme));
     });
     zr.on('globalout', () => readout.replaceChildren(idle));
     return readout;

@@ -5,7 +5,7 @@ import {numberOf, type TestData} from '../data/report';
 import {capitalised, sortedBy, specimenName, type LabelledTest} from '../data/test_labels';
 import {element} from '../elements/dom';
 import {counted, missing, scaleFor, significant, strainFactor, strainUnit} from '../quantities/units';
-import {modeCounts} from './break_histogram';
+import {modeCounts} from './event_histogram';
 
 type Read = (test: TestData) => number | undefined;
 
@@ -116,6 +116,7 @@ const groups: readonly {title: string; rows: readonly Row[]}[] = [
         counts('of these in shear', (test) => modeCounts(test.events).shear),
         counts('up to the peak in tension', key('bonds_broken_in_tension_to_peak')),
         counts('up to the peak in shear', key('bonds_broken_in_shear_to_peak')),
+        counts('Slips', (test) => test.slips?.count, 'bonds that reached their Coulomb limit, each counted once; not among the broken ones unless they broke later'),
         counts('Interfaces lost', key('interfaces_lost')),
         counts('Fragments at the end', key('fragments'), 'groups of particles that intact bonds join'),
         percent('Largest fragment', key('largest_fragment_share'), 'of the particles’ area'),
