@@ -14,9 +14,11 @@ touching_floor = 1e-14  # of the height: what rests on frictional platens touche
 least_sliding_force = 1e-9  # of the mean strength
 
 
-def recount_places(r, model, rows):
-    """Places and orientations of events against the bodies in the frames before and after each."""
-    e, times, places = r.events, [], []
+def recount_places(r, model, rows, what, e):
+    """Places and orientations of events or slips against the bodies in the frames before and after each.
+
+    @param what  their name  @param e  their table"""
+    times, places = [], []
     for row in rows:
         p = r.results.particles(row)
         times.append(float(p["time"][0]))
@@ -51,11 +53,11 @@ def recount_places(r, model, rows):
             difference = (e["orientation"][k] - math.atan2(way[1], way[0]) + math.pi / 2) % math.pi - math.pi / 2
             turned_by.append(difference)
             allowed_turn.append(1e-9 + 2 * moved / model.circle_radius.min())
-    r.rows("events: place on the surfaces of both bodies", off, apart, allowed)
+    r.rows(f"{what}: place on the surfaces of both bodies", off, apart, allowed)
     if turned_by:
-        r.rows("events: orientation along the centres", turned_by, np.zeros(len(turned_by)), allowed_turn)
+        r.rows(f"{what}: orientation along the centres", turned_by, np.zeros(len(turned_by)), allowed_turn)
     half = np.abs(e["orientation"]) <= math.pi / 2
-    r.true("events: orientation in (-pi/2, pi/2]", np.all(half))
+    r.true(f"{what}: orientation in (-pi/2, pi/2]", np.all(half))
 
 
 def match(model, points, frame, first_frame, bonds):

@@ -257,8 +257,9 @@ def recount(folder):
         recount_slips(r, model, bonds)
         recount_parting(r, model)
         rows = r.results.frame_rows()
-        if len(r.events["time"]):
-            recount_places(r, model, rows)
+        for what, table in (("events", r.events), ("slips", r.results.slips)):
+            if table is not None and len(table["time"]):
+                recount_places(r, model, rows, what, table)
         if holds_every_step(r, rows):
             recount_history(r, model, bonds, rows)
         first = r.results.frame(rows[0])

@@ -451,6 +451,9 @@ class FaultsAreFound(unittest.TestCase):
         self.found(self.spoil_column("slips.csv", "shear_force", more), "slips: shear force")
         late = lambda column: [str(int(value) + 1000) for value in column]  # noqa: E731
         self.found(self.spoil_column("slips.csv", "step", late), "bonds_slid of slips")
+        self.found(self.spoil_column("slips.csv", "x", lambda column: column[1:] + column[:1]), "slips: place")
+        more = lambda column: [str(float(value) / 2) for value in column]  # noqa: E731
+        self.found(self.spoil_column("slips.csv", "orientation", more), "slips: orientation")
 
     def test_strength_and_energy_of_events(self):
         halved = lambda column: [str(float(value) / 2) for value in column]  # noqa: E731

@@ -180,6 +180,8 @@ class Results:
                              "run the test again") from error
         self.curve = read_table(self.folder / "curve.csv")
         self.events = read_table(self.folder / "events.csv")
+        slips = self.folder / "slips.csv"
+        self.slips = read_table(slips) if slips.is_file() else None
         if len(self.curve.get("step", [])) < 2:
             raise Unreadable(f"{self.folder}/curve.csv: found fewer than two rows, expected those of a test that was loaded; "
                              "--resume goes on with it")

@@ -6,15 +6,13 @@ import math
 import numpy as np
 
 from model import rounding
-from results import read_table
 
 
 def recount_slips(r, model, bonds):
     """Every row against the curve and each bond once: its limit is friction times the force with the back-tension."""
-    path = r.results.folder / "slips.csv"
-    if not path.is_file():
+    rows, c = r.results.slips, r.curve
+    if rows is None:
         return
-    rows, c = read_table(path), r.curve
     count = len(rows["step"])
     r.rows("curve: bonds_slid of slips", c["bonds_slid"], np.searchsorted(rows["step"], c["step"], side="right"), 0)
     if not count:
