@@ -146,7 +146,7 @@ class ConsistencyCheck {
         for (std::size_t k = 0; k < test_.mineral.size(); ++k)
             numbers(fmt::format("mineral[{}]", k + 1), mineral_material(test_, k));
         for (std::size_t k = 0; k < test_.mineral_pair.size(); ++k)
-            numbers(fmt::format("mineral_pair[{}]", k + 1), test_.mineral_pair[k].own);
+            numbers(fmt::format("mineral_pair[{}]", k + 1), pair_material(test_, k));
         if (!test_.has_table("packing")) return;
         need("material.density", "a packing has no file to take it from");
         need("material.friction_angle", "a packing has no file to take it from");
@@ -159,11 +159,13 @@ class ConsistencyCheck {
         need("material.shear_damping", "dashpots come in pairs");
     }
 
-    /// Of the table's material, whose numbers may be [material]'s.
+    /// Of the table's material, whose numbers may be another's.
     void numbers(const std::string& table, const TestCase::MaterialKeys& m) const {
         const auto key = [&](const char* name) {
             const std::string own = fmt::format("{}.{}", table, name);
-            return written(own) ? own : std::string("material.") + name;
+            if (written(own)) return own;
+            // A pair is at fault by what it gives itself: each mineral by itself has been looked at.
+            return table.starts_with("mineral_pair") ? table + ".between" : std::string("material.") + name;
         };
         if (m.residual_friction_angle && m.friction_angle && *m.residual_friction_angle > *m.friction_angle)
             refuse(key("residual_friction_angle"), fmt::format("{} deg", *m.residual_friction_angle),

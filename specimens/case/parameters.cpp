@@ -410,6 +410,22 @@ TestCase::MaterialKeys mineral_material(const TestCase& test, std::size_t minera
     return material_alone.material;
 }
 
+TestCase::MaterialKeys pair_material(const TestCase& test, std::size_t pair) {
+    TestCase::MaterialKeys keys = test.mineral_pair[pair].own;
+    for (auto key : {&TestCase::MaterialKeys::tensile_strength, &TestCase::MaterialKeys::cohesion,
+                     &TestCase::MaterialKeys::friction_angle}) {
+        if (keys.*key) continue;
+        for (std::size_t k = 0; k < test.mineral.size(); ++k) {
+            if (std::ranges::find(test.mineral_pair[pair].between, test.mineral[k].name) ==
+                test.mineral_pair[pair].between.end())
+                continue;
+            const auto own = mineral_material(test, k).*key;
+            if (own) keys.*key = std::min(own, keys.*key ? keys.*key : own);
+        }
+    }
+    return keys;
+}
+
 const Parameter* find_parameter(const std::string& table, const std::string& key) {
     for (const Parameter& p : case_parameters()) {
         if (p.table == table && p.key == key) return &p;

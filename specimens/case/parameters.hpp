@@ -83,6 +83,9 @@ const std::vector<TableDescription>& case_tables();
 
 /// What a mineral's grains are made of: [material]'s keys with the mineral's own over them.
 TestCase::MaterialKeys mineral_material(const TestCase& test, std::size_t mineral);
+
+/// What a pair gives itself, and of strengths and friction the weaker mineral's where it does not.
+TestCase::MaterialKeys pair_material(const TestCase& test, std::size_t pair);
 /// Keys of [material] that a [[mineral_pair]] may override.
 const std::vector<std::string>& mineral_pair_keys();
 /// The tables that hold keys of [material]: that itself, "mineral[1]", …, "mineral_pair[1]", …

@@ -102,6 +102,18 @@ INSTANTIATE_TEST_SUITE_P(
                 "tensile_strength = 30\ncohesion = 20\n",
                 ":21: mineral[1].tensile_strength: found 30 N, expected at most cohesion over tan(friction_angle) of "
                 "mineral[1], 20 N"},
+        Refusal{"PairBeyondTheApex",
+                "[bond]\nlaw = \"coulomb\"\n[[mineral]]\nname = \"a\"\nfriction_angle = 45\n"
+                "tensile_strength = 10\ncohesion = 20\n[[mineral_pair]]\nbetween = [\"a\", \"a\"]\n"
+                "tensile_strength = 30\n",
+                ":25: mineral_pair[1].tensile_strength: found 30 N, expected at most cohesion over "
+                "tan(friction_angle) of mineral_pair[1], 20 N"},
+        Refusal{"PairRougherWhenBroken",
+                "[bond]\nlaw = \"coulomb\"\n[[mineral]]\nname = \"a\"\nfriction_angle = 30\n"
+                "tensile_strength = 10\ncohesion = 20\n[[mineral_pair]]\nbetween = [\"a\", \"a\"]\n"
+                "residual_friction_angle = 31\n",
+                ":25: mineral_pair[1].residual_friction_angle: found 31 deg, expected at most the friction_angle of "
+                "mineral_pair[1], 30 deg"},
         Refusal{"NothingInShear",
                 "[bond]\nlaw = \"coulomb\"\n[[mineral]]\nname = \"a\"\n[[mineral_pair]]\n"
                 "between = [\"a\", \"a\"]\nshear_stiffness = 0\n",
