@@ -24,12 +24,11 @@ before(async () => {
     report(['sliding', 'sticking', 'circles-tension'], 'slips.html');
     report(['markup', 'stopped'], 'markup.html');
     report(['markup'], 'markup-title.html');
-    for (const [lab, seed] of [['first', 1], ['second', 2]]) {
-        cpSync(join(root, 'circles-tension'), join(root, lab, 'c'), {recursive: true});
-        const file = join(root, lab, 'c', 'summary.json');
-        writeFileSync(file, JSON.stringify({...JSON.parse(readFileSync(file, 'utf8')), title: 'Wet rock', seed}));
-    }
+    for (const [lab, seed] of [['first', 1], ['second', 2]]) copied(join(lab, 'c'), {title: 'Wet rock', seed});
     report(['first/c', 'second/c'], 'same-name.html');
+    copied('in-area', {material_units: 'area', bond_law: 'coulomb', mean_tensile_strength: 123, mean_cohesion: 456, out_of_plane_thickness: 1});
+    report(['in-area'], 'area.html');
+    report(['in-area', 'circles-compression'], 'both-units.html');
     browser = await launch();
 });
 
@@ -37,6 +36,13 @@ after(async () => {
     await browser?.close();
     if (root) rmSync(root, {recursive: true, force: true});
 });
+
+/// The circles' results in tension again, with other entries in the summary.
+function copied(folder, entries) {
+    cpSync(join(root, 'circles-tension'), join(root, folder), {recursive: true});
+    const file = join(root, folder, 'summary.json');
+    writeFileSync(file, JSON.stringify({...JSON.parse(readFileSync(file, 'utf8')), ...entries}));
+}
 
 function report(folders, page) {
     execFileSync(process.env.CRACKLE_PROGRAM, ['report', ...folders.map((folder) => join(root, folder)), '-o', join(root, page)]);
@@ -391,6 +397,25 @@ test('light and dark, laptop and tablet width: readable, nothing runs off the si
         assert.ok(colorScheme === 'light' ? paper - ink > 400 : ink - paper > 400, `${colorScheme}: paper ${paper}, ink ${ink}`);
     }
     await close();
+});
+
+test('stresses are in Pa where stiffnesses are given of an area, and each test keeps its own unit', async () => {
+    const peak = (results(join(root, 'in-area')).summary.peak_stress / 1000).toPrecision(3);
+    const rows = async (page, name) => Promise.all((await page.locator('table.summary tr', {has: page.locator(`th:text-is("${name}")`)}).all()).map((row) => row.locator('td').allTextContents()));
+    const alone = await open('area.html');
+    assert.deepEqual(await rows(alone.page, 'Peak stress'), [['kPa', peak]]);
+    assert.deepEqual(await rows(alone.page, 'Peak stress over the thickness'), [], 'Pa a second time');
+    assert.deepEqual(await rows(alone.page, 'Mean back-tension'), [], 'a coulomb bond has none');
+    assert.deepEqual(await rows(alone.page, 'Mean cohesion of a bond'), [['N', '456']]);
+    const panel = await alone.page.locator('[data-panel]').textContent();
+    assert.match(panel, new RegExp(`${peak}\\s?kPa`), 'label of the peak');
+    assert.match(panel, /Axial stress \[kPa\]/);
+    assert.doesNotMatch(await alone.page.locator('body').innerText(), /N\/m/);
+    await alone.close();
+    const both = await open('both-units.html');
+    const other = (results(join(root, 'circles-compression')).summary.peak_stress / 1000).toPrecision(3);
+    assert.deepEqual(await rows(both.page, 'Peak stress'), [['kPa', peak, '–'], ['kN/m', '–', other]]);
+    await both.close();
 });
 
 test('the page is one file that names no other place to fetch from', () => {

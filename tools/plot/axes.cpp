@@ -57,11 +57,23 @@ Scale scale_for(double smallest, double largest, int most_ticks) {
     return scale;
 }
 
+namespace {
+
+/// "N/m or Pa" with a prefix to each.
+std::string prefixed(const std::string& unit, const std::string& prefix) {
+    const std::string between = " or ";
+    const std::size_t at = unit.find(between);
+    if (at == std::string::npos) return prefix + unit;
+    return prefix + unit.substr(0, at) + between + prefixed(unit.substr(at + between.size()), prefix);
+}
+
+}  // namespace
+
 Unit unit_for(double largest, const std::string& unit) {
     constexpr std::array<std::pair<double, const char*>, 8> prefixes{
         {{1e9, "G"}, {1e6, "M"}, {1e3, "k"}, {1.0, ""}, {1e-3, "m"}, {1e-6, "µ"}, {1e-9, "n"}, {1e-12, "p"}}};
     for (const auto& [factor, prefix] : prefixes) {
-        if (std::abs(largest) >= 0.9995 * factor) return {factor, prefix + unit};
+        if (std::abs(largest) >= 0.9995 * factor) return {factor, prefixed(unit, prefix)};
     }
     return {1.0, unit};
 }

@@ -24,7 +24,7 @@ struct Scale {
 /// @param most_ticks  at most so many intervals, where that leaves a second tick
 Scale scale_for(double smallest, double largest, int most_ticks);
 
-/// A unit with the prefix that puts the largest value between 1 and 1000: {1e3, "kN/m"}.
+/// A unit with the prefix that puts the largest value between 1 and 1000: {1e3, "kN/m"}; of "N/m or Pa" each has it.
 struct Unit {
     double factor = 1.0;
     std::string name;

@@ -271,10 +271,19 @@ std::optional<Rect> free_place(const Axes& axes, const std::vector<PlottedTest>&
     return std::nullopt;
 }
 
+/// Of tests in units of an area Pa, of others N/m.
+std::string stress_unit(const std::vector<PlottedTest>& tests) {
+    const auto in_area = [](const PlottedTest& test) {
+        return test.results->summary.value("material_units", "point") == "area";
+    };
+    if (std::ranges::none_of(tests, in_area)) return "N/m";
+    return std::ranges::all_of(tests, in_area) ? "Pa" : "N/m or Pa";
+}
+
 /// The curves of some tests on scales of their own, within a rectangle.
 void draw_inset(Canvas& canvas, const Rect& place, const std::vector<PlottedTest>& tests) {
     canvas.rectangle(place, colour("#ffffff"));
-    const Unit unit = unit_for(largest_of(tests, "axial_stress"), "N/m");
+    const Unit unit = unit_for(largest_of(tests, "axial_stress"), stress_unit(tests));
     Axes axes;
     axes.text = small_text;
     axes.x = scale_for(0.0, largest_of(tests, "axial_strain") / strain_unit, 3);
@@ -299,7 +308,7 @@ Panel stress_strain(const std::vector<PlottedTest>& tests) {
         return 0.62 * proportional(width) + strip(width) + legend_of(measure, entries_of(tests), width).more_rows();
     };
     panel.draw = [tests, strip, single](Canvas& canvas, const Rect& place) {
-        const Unit unit = unit_for(largest_of(tests, "axial_stress"), "N/m");
+        const Unit unit = unit_for(largest_of(tests, "axial_stress"), stress_unit(tests));
         Axes upper, lower;
         upper.x = lower.x = strain_scale(tests, place.width);
         upper.y = stress_scale(tests, unit.factor, 6);

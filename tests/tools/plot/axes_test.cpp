@@ -31,6 +31,7 @@ TEST(Unit, HasThePrefixThatPutsTheLargestBetweenOneAndAThousand) {
         EXPECT_EQ(unit.factor, factor);
         EXPECT_EQ(unit.name, name);
     }
+    EXPECT_EQ(unit_for(3e6, "N/m or Pa").name, "MN/m or MPa");
 }
 
 TEST(Axes, HaveTheirLowEndsAtTheLeftAndTheBottom) {

@@ -12,7 +12,7 @@ import {expose} from './controls/test_access';
 import {Viewer} from './controls/viewer';
 import {ViewerControls} from './controls/viewer_controls';
 import {particleCount} from './data/cells';
-import {hasSlips, readReport, type CurvedTest, type Report, type TestData} from './data/report';
+import {hasSlips, inArea, readReport, stressUnitOf, type CurvedTest, type Report, type TestData} from './data/report';
 import {labelTests, sortedBy, withCurve, type LabelledTest} from './data/test_labels';
 import {SpecimenView} from './drawing/specimen_view';
 import {button, checkbox, choice, element, saveFile} from './elements/dom';
@@ -23,7 +23,7 @@ import {fragmentCard} from './panels/fragments';
 import {panels, viewsFor, type Panel, type View} from './panels/grouping';
 import {drawings, momentsOf, type Moments, magnifications} from './panels/specimen_cards';
 import {summaryTable} from './panels/summary_table';
-import {counted, strainFactor, useFileUnits} from './quantities/units';
+import {counted, strainFactor, useFileUnits, useStressUnits} from './quantities/units';
 
 const viewNames: Record<View, string> = {kind: 'Kind of test', specimen: 'Specimen', test: 'Each test'};
 
@@ -93,7 +93,15 @@ class Page {
             this.fragmentSection,
             ...(curved.length === 0 ? [] : [element('section', {id: 'summary'}, element('h2', {}, 'Summary'), summaryTable(curved))]),
             ...(this.tests.some(({test}) => test.frames.some(({roles}) => roles)) ? [this.drawingSection()] : []),
-            element('footer', {}, `Made by crackle ${this.report.version}. Strictly 2D: stresses and moduli are forces per unit length, N/m.`));
+            element('footer', {}, `Made by crackle ${this.report.version}. Strictly 2D: ${this.unitsText()}`));
+    }
+
+    private unitsText(): string {
+        const area = 'where stiffnesses are given of an area, stresses and moduli are those of a slice, Pa.';
+        const length = 'stresses and moduli are forces per unit length, N/m';
+        const tests = this.report.tests.filter(({source}) => source === 'test');
+        if (!tests.some(inArea)) return `${length}.`;
+        return tests.every(inArea) ? 'stresses and moduli are those of a slice, Pa.' : `${length}; ${area}`;
     }
 
     private curveSection(curved: LabelledTest<CurvedTest>[]): HTMLElement {
@@ -354,6 +362,7 @@ async function start(): Promise<void> {
     try {
         const report = await readReport(document.getElementById('crackle-data'));
         if (report.tests.some(({source}) => source !== 'test')) useFileUnits();
+        else useStressUnits([...new Set(report.tests.map(stressUnitOf))].sort());
         const page = new Page(report, root);
         if (page.shownViewer) expose(page.shownViewer);
         await page.draw();

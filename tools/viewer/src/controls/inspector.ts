@@ -14,7 +14,7 @@ import {button, element, select} from '../elements/dom';
 import {fontFamily} from '../elements/sheet';
 import {movedCentre} from '../geometry/rigid_motion';
 import {quantitiesOf, type Quantity} from '../quantities/quantities';
-import {missing, quantity as withUnit, scaleFor, significant, strainFactor, thinSpace} from '../quantities/units';
+import {missing, ofStress, quantity as withUnit, scaleFor, significant, strainFactor, thinSpace} from '../quantities/units';
 import {momentsOf} from './clock';
 import type {Picked, Viewer} from './viewer';
 
@@ -139,7 +139,7 @@ function valueTable({view, cell}: Picked, frame: Frame): HTMLElement {
         ...(vx === undefined || vy === undefined ? [] : [['velocity', 'Velocity', pair(vx, vy, 'm/s', 'vx'), Math.hypot(vx, vy)] as [string, string, string, number]]),
         ...(rate === undefined ? [] : [['rate', 'Rotation rate', one(rate, 'rad/s', 'rate'), rate] as [string, string, string, number]]),
         ...(sxx === undefined || syy === undefined || sxy === undefined ? [] : [
-            ['stress', 'Stress xx, yy', pair(sxx, syy, 'N/m', 'syy')] as [string, string, string], ['stress_shear', 'Stress xy', one(sxy, 'N/m', 'sxy'), sxy] as [string, string, string, number]]),
+            ['stress', 'Stress xx, yy', pair(sxx, syy, ofStress, 'syy')] as [string, string, string], ['stress_shear', 'Stress xy', one(sxy, ofStress, 'sxy'), sxy] as [string, string, string, number]]),
         ...(fragment === undefined ? [] : [['fragment', 'Fragment', fragment === 0 ? 'largest' : `${fragment + 1}`, fragment] as [string, string, string, number]]),
     ];
     return element('table', {class: 'values'}, ...rows.map(([key, name, text, value]) => element('tr', {},

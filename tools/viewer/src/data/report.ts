@@ -224,6 +224,11 @@ export function mineralsOf(summary: Summary): string[] {
 }
 
 /// A number of summary.json, or undefined where the test does not state it.
+/// Whether stiffnesses and strengths are of an area, so that stresses are in Pa as they are.
+export const inArea = (test: {summary: Summary}): boolean => test.summary['material_units'] === 'area';
+/// Of a test's stresses and moduli.
+export const stressUnitOf = (test: {summary: Summary}): string => (inArea(test) ? 'Pa' : 'N/m');
+
 export function numberOf(summary: Summary, key: string): number | undefined {
     const value = summary[key];
     return typeof value === 'number' && Number.isFinite(value) ? value : undefined;

@@ -12,12 +12,12 @@ import type {ECharts} from 'echarts/core';
 import {SVGRenderer} from 'echarts/renderers';
 
 import type {Theme} from '../colours/theme';
-import {largestOf, numberOf, peakOf, type TestData} from '../data/report';
+import {inArea, largestOf, numberOf, peakOf, stressUnitOf, type TestData} from '../data/report';
 import {unique} from '../data/test_labels';
 import {Cursor} from '../elements/chart_cursor';
 import {element} from '../elements/dom';
 import {fontFamily} from '../elements/sheet';
-import {counted, quantity, scaleFor, significant, strain as strainText, strainFactor, strainUnit, stressText, type Scale} from '../quantities/units';
+import {counted, ofStress, quantity, scaleFor, significant, strain as strainText, strainFactor, strainUnit, stressText, type Scale} from '../quantities/units';
 import {countIn, intervalOf, intervalWidth} from './event_histogram';
 import type {Member, Panel} from './grouping';
 import {pairs, stripSeries, stripsOf, type Strip, type StripKind} from './strips';
@@ -129,7 +129,7 @@ function valuesAt(at: number, {members}: Panel, strips: readonly Strip[], theme:
 
 function peakLabel(test: TestData, stress: number): string {
     const thickness = numberOf(test.summary, 'out_of_plane_thickness');
-    return quantity(stress, 'N/m') + (thickness === undefined ? '' : `, ${quantity(stress / thickness, 'Pa')}`) + (test.failed ? '' : ', peak so far');
+    return quantity(stress, stressUnitOf(test)) + (thickness === undefined || inArea(test) ? '' : `, ${quantity(stress / thickness, 'Pa')}`) + (test.failed ? '' : ', peak so far');
 }
 
 function stressSeries(member: Member, range: number, scale: Scale, theme: Theme) {
@@ -164,7 +164,7 @@ function prepare({members}: Panel): {range: number; width: number; strips: Strip
 /// Everything that ECharts needs for one panel.
 export function panelOption(panel: Panel, {top, legendTop, legendWidth, stressHeight: high, note}: PanelLayout, theme: Theme) {
     const {members} = panel, {range, strips} = prepare(panel);
-    const scale = scaleFor(members.map((member) => largestOf(member.test.curve.stress)), 'N/m');
+    const scale = scaleFor(members.map((member) => largestOf(member.test.curve.stress)), ofStress);
 
     const text = {color: theme.ink, fontFamily, fontSize: 12};
     const small = {...text, fontSize: 11, color: theme.muted};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The table of summaries: a row for each quantity with its unit, a column for each test, all values of a row in one unit.
 
-import {numberOf, type TestData} from '../data/report';
+import {inArea, numberOf, type TestData} from '../data/report';
 import {capitalised, sortedBy, specimenName, type LabelledTest} from '../data/test_labels';
 import {element} from '../elements/dom';
 import {counted, missing, scaleFor, significant, strainFactor, strainUnit} from '../quantities/units';
@@ -30,20 +30,28 @@ function measured(name: string, unit: string, read: Read, note?: string): Row {
     };
 }
 
-/// Of three dimensions, where the case gives a thickness.
-const overThickness = (read: Read): Read => (test) => (numberOf(test.summary, 'out_of_plane_thickness') === undefined ? undefined : read(test));
+const where = (holds: (test: TestData) => boolean, read: Read): Read => (test) => (holds(test) ? read(test) : undefined);
 
-/// A stress or modulus of the plane and, behind it, the same over the specimen's thickness.
-const stress = (name: string, keys: readonly string[], note?: string): Row[] => [
-    measured(name, 'N/m', either(...keys), note),
-    measured(`${name} over the thickness`, 'Pa', overThickness(either(...keys.map((one) => `${one}_pa`)))),
+/// Of three dimensions, where the case gives a thickness.
+const hasThickness = (test: TestData): boolean => !inArea(test) && numberOf(test.summary, 'out_of_plane_thickness') !== undefined;
+
+/// A stress or modulus: of tests in units of an area in Pa, of the others of the plane and, behind it, over the
+/// specimen's thickness.
+const inPlaneAndSpace = (name: string, inPlane: Read, inSpace: Read, note?: string): Row[] => [
+    measured(name, 'Pa', where(inArea, inPlane), note),
+    measured(name, 'N/m', where((test) => !inArea(test), inPlane), note),
+    measured(`${name} over the thickness`, 'Pa', where(hasThickness, inSpace)),
 ];
+const stress = (name: string, keys: readonly string[], note?: string): Row[] =>
+    inPlaneAndSpace(name, either(...keys), either(...keys.map((one) => `${one}_pa`)), note);
 
 /// The largest stress where it comes after the peak.
 const later = (name: string): Read => (test) => {
     const [peak, largest] = [numberOf(test.summary, 'peak_stress'), numberOf(test.summary, 'largest_stress')];
     return peak !== undefined && largest !== undefined && largest > peak ? numberOf(test.summary, name) : undefined;
 };
+
+const byCoulomb = (test: TestData): boolean => test.summary['bond_law'] === 'coulomb';
 
 function plain(name: string, read: Read, note?: string): Row {
     return {name, ...(note ? {note} : {}), cells: (tests) => ({unit: '–', values: tests.map(read).map((value) => (value === undefined ? undefined : significant(value)))})};
@@ -94,7 +102,9 @@ const groups: readonly {title: string; rows: readonly Row[]}[] = [
         counts('Contacts at the start', key('contacts_initial')),
         counts('Bonds', key('bonds_initial'), 'bonded contact points'),
         counts('Interfaces', key('interfaces_initial'), 'bonded pairs of bodies'),
-        measured('Mean back-tension', 'N', key('mean_back_tension'), 'mean tensile strength of a bond'),
+        measured('Mean back-tension', 'N', where((test) => !byCoulomb(test), key('mean_back_tension')), 'mean tensile strength of a bond'),
+        measured('Mean tensile strength of a bond', 'N', where(byCoulomb, key('mean_tensile_strength')), 'random factors and shares of a face included'),
+        measured('Mean cohesion of a bond', 'N', where(byCoulomb, key('mean_cohesion')), 'likewise'),
     ]},
     {title: 'Stiffness', rows: [
         ...stress('Young’s modulus E', ['youngs_modulus'], 'small strain, all bonds intact and sticking: sparse solve'),
@@ -105,8 +115,7 @@ const groups: readonly {title: string; rows: readonly Row[]}[] = [
     {title: 'Strength', rows: [
         ...stress('Peak stress', ['peak_stress', 'peak_stress_so_far'], 'the strength, positive in the test’s own sense: the first maximum that a drop follows'),
         strains('Strain at peak', either('peak_strain', 'peak_strain_so_far')),
-        measured('Larger stress after the peak', 'N/m', later('largest_stress'), 'of pieces that carry again after the drop: not the strength'),
-        measured('Larger stress after the peak over the thickness', 'Pa', overThickness(later('largest_stress_pa'))),
+        ...inPlaneAndSpace('Larger stress after the peak', later('largest_stress'), later('largest_stress_pa'), 'of pieces that carry again after the drop: not the strength'),
         strains('Strain there', later('strain_at_largest_stress')),
         {name: 'Failed', cells: (tests) => ({unit: '', values: tests.map((test) => (test.failed ? 'yes' : 'no: peak so far'))})},
     ]},

@@ -3,6 +3,7 @@
 
 import type {Cells} from '../data/cells';
 import type {Frame, Frames} from '../data/frames';
+import {ofStress} from './units';
 
 export type Scaling =
     | 'sequential' // from zero up
@@ -51,12 +52,12 @@ const all: readonly Quantity[] = [
     quantity('velocity_y', 'Velocity, vertical', 'm/s', 'diverging', ['vy'], (y) => y),
     quantity('rotation', 'Rotation', 'rad', 'diverging', ['angle'], (angle) => angle),
     quantity('rate', 'Rotation rate', 'rad/s', 'diverging', ['rate'], (rate) => rate),
-    quantity('stress_mean', 'Stress, mean', 'N/m', 'diverging', stress, (xx, yy) => (xx + yy) / 2),
-    quantity('stress_y', 'Stress, vertical', 'N/m', 'diverging', stress, (_, yy) => yy),
-    quantity('stress_x', 'Stress, horizontal', 'N/m', 'diverging', stress, (xx) => xx),
-    quantity('stress_major', 'Stress, largest principal', 'N/m', 'diverging', stress, (xx, yy, xy) => (xx + yy) / 2 + radius(xx, yy, xy)),
-    quantity('stress_minor', 'Stress, smallest principal', 'N/m', 'diverging', stress, (xx, yy, xy) => (xx + yy) / 2 - radius(xx, yy, xy)),
-    quantity('stress_shear', 'Stress, largest shear', 'N/m', 'sequential', stress, radius),
+    quantity('stress_mean', 'Stress, mean', ofStress, 'diverging', stress, (xx, yy) => (xx + yy) / 2),
+    quantity('stress_y', 'Stress, vertical', ofStress, 'diverging', stress, (_, yy) => yy),
+    quantity('stress_x', 'Stress, horizontal', ofStress, 'diverging', stress, (xx) => xx),
+    quantity('stress_major', 'Stress, largest principal', ofStress, 'diverging', stress, (xx, yy, xy) => (xx + yy) / 2 + radius(xx, yy, xy)),
+    quantity('stress_minor', 'Stress, smallest principal', ofStress, 'diverging', stress, (xx, yy, xy) => (xx + yy) / 2 - radius(xx, yy, xy)),
+    quantity('stress_shear', 'Stress, largest shear', ofStress, 'sequential', stress, radius),
 ];
 
 /// The quantities whose arrays a test has. @param meanVelocities  velocities are those between two frames

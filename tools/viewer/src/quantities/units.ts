@@ -23,12 +23,22 @@ export function useFileUnits(): void {
     unitsKnown = false;
 }
 
+/// Stands for the unit of stresses and moduli, which depends on the tests of the page.
+export const ofStress = 'stress';
+let stressUnits: readonly string[] = ['N/m'];
+
+/// @param units of the page's tests: N/m, Pa, or both
+export function useStressUnits(units: readonly string[]): void {
+    stressUnits = units;
+}
+
 /// The prefix that puts the largest of the values between 1 and 1000.
 export function scaleFor(values: readonly (number | undefined)[], unit: string): Scale {
-    if (!unitsKnown && undefinedUnits.test(unit)) return {factor: 1, unit: 'file’s units'};
+    const names = unit === ofStress ? stressUnits : [unit];
+    if (!unitsKnown && names.some((name) => undefinedUnits.test(name))) return {factor: 1, unit: 'file’s units'};
     const largest = Math.max(0, ...values.map((value) => Math.abs(value ?? 0)).filter(Number.isFinite));
     const [factor, prefix] = (largest > 0 && prefixes.find(([size]) => largest >= size * 0.9995)) || ([1, ''] as const);
-    return {factor, unit: prefix + unit};
+    return {factor, unit: names.map((name) => prefix + name).join(' or ')};
 }
 
 const withMinus = (text: string): string => text.replace('-', '−');
@@ -79,7 +89,7 @@ const leastStress = 0.005; // of the peak
 
 /// A stress of a test; what the inertia and the dashpots of the start leave, far below the peak, is no stress of the rock.
 export function stressText(value: number | undefined, peak: number | undefined): string {
-    return value !== undefined && Math.abs(value) < leastStress * (peak ?? 0) ? '≈ 0' : quantity(value, 'N/m');
+    return value !== undefined && Math.abs(value) < leastStress * (peak ?? 0) ? '≈ 0' : quantity(value, ofStress);
 }
 
 /// Strains are shown in thousandths: 1.94×10⁻³.
