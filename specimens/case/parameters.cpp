@@ -207,11 +207,11 @@ std::vector<Parameter> all_parameters() {
         CRACKLE_KEY(material, stiffness_ratio, "", "k_n over k_s, in area units.").above(0),
         CRACKLE_KEY(material, tensile_strength, "N or Pa",
                     "Of a bond with law = \"coulomb\": N a point, in area units Pa.")
-            .at_least(0),
+            .above(0),
         CRACKLE_KEY(
             material, cohesion, "N or Pa",
             "Shear strength of a bond without normal force, likewise; at least friction times tensile_strength.")
-            .at_least(0),
+            .above(0),
         CRACKLE_KEY(material, residual_friction_angle, "deg",
                     "Of contacts without a bond with law = \"coulomb\", at most friction_angle, which is the bonds'; "
                     "friction_angle if not given.")
@@ -267,8 +267,8 @@ std::vector<Parameter> all_parameters() {
         CRACKLE_KEY(bond, tensile_factor, "",
                     "Tensile strength as a factor of the back-tension averaged over all bonds, in place of "
                     "material.tensile_strength.")
-            .at_least(0),
-        CRACKLE_KEY(bond, cohesion_factor, "", "Cohesion, likewise, in place of material.cohesion.").at_least(0),
+            .above(0),
+        CRACKLE_KEY(bond, cohesion_factor, "", "Cohesion, likewise, in place of material.cohesion.").above(0),
         CRACKLE_KEY(bond, strength_distribution, "",
                     "Of a random factor, one each pair of particles, on tensile strength and cohesion; mean 1.")
             .one_of({"none", "normal", "lognormal", "weibull"})

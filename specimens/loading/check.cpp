@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/base/errors.hpp"
 #include "solver/stepping/step.hpp"
 #include "specimens/loading/prepare.hpp"
 
@@ -24,15 +25,21 @@ constexpr double fewest_grains_across = 20.0;
 // estimate may be wrong by as much.
 constexpr double deep_overlap_share = 0.5, noticed_closing_share = 0.5;
 
-double steps_per_second(World& world) {
+/// @param notices has a line more where the specimen cannot even be stepped
+double steps_per_second(World& world, std::vector<std::string>& notices) {
     using Clock = std::chrono::steady_clock;
     const Clock::time_point begun = Clock::now();
     std::int64_t steps = 0;
     double seconds = 0.0;
-    while (seconds < seconds_of_steps) {
-        for (int k = 0; k < steps_at_once; ++k) step(world);
-        steps += steps_at_once;
-        seconds = std::chrono::duration<double>(Clock::now() - begun).count();
+    const auto look_at_clock = [&] { seconds = std::chrono::duration<double>(Clock::now() - begun).count(); };
+    try {
+        while (seconds < seconds_of_steps) {
+            for (int k = 0; k < steps_at_once; ++k, ++steps) step(world);
+            look_at_clock();
+        }
+    } catch (const UnstableRun& error) {
+        notices.push_back(fmt::format("while steps were timed, {}", error.what()));
+        look_at_clock();
     }
     return static_cast<double>(steps) / seconds;
 }
@@ -87,6 +94,8 @@ void estimate_run(TestCheck& check) {
         check.to_strength = until(check.strength->strain);
 }
 
+constexpr double largest_strain_of_a_rock = 0.1;
+
 void warn(TestCheck& check) {
     const TestSetup& setup = check.test.setup;
     const TestCase& test = check.test.description;
@@ -98,10 +107,14 @@ void warn(TestCheck& check) {
                         "bond.thick less of an excess over it",
                         setup.mean_bond_overlap, setup.mean_bond_overlap / setup.bond_thick, setup.bond_thick));
     }
-    if (check.corner_distance > 0.0 && check.corner_closing > noticed_closing_share * check.corner_distance) {
+    // What else is out of proportion then follows from it.
+    const bool out_of_proportion =
+        check.strength && setup.coulomb_bonds && check.strength->strain > largest_strain_of_a_rock;
+    if (!out_of_proportion && check.corner_distance > 0.0 &&
+        check.corner_closing > noticed_closing_share * check.corner_distance) {
         check.warnings.push_back(fmt::format(
             "at the estimated strength a platen presses a corner in by {:.3g} m, {:.2g} of its distance from the "
-            "platen's face, {:.3g} m: corners may pass the platen; use a larger thickness or stiffness",
+            "platen's face, {:.3g} m: corners may pass the platen; make mesh.thick larger, or the stiffness",
             check.corner_closing, check.corner_closing / check.corner_distance, check.corner_distance));
     }
     if (check.grains_across < fewest_grains_across) {
@@ -116,7 +129,14 @@ void warn(TestCheck& check) {
             "platens = \"glued\" hold it",
             test.at("loading.platens")));
     }
-    if (check.strength && check.strength->strain > test.loading.max_axial_strain) {
+    if (out_of_proportion) {
+        check.warnings.push_back(
+            fmt::format("the estimated strength lies at a strain of {:.2g}, far beyond any rock's: strengths are {}",
+                        check.strength->strain,
+                        test.area_units() ? "in Pa, likewise contact_modulus: look at their powers of ten"
+                                          : "N a point here; in Pa they need units = \"area\" with contact_modulus and "
+                                            "stiffness_ratio"));
+    } else if (check.strength && check.strength->strain > test.loading.max_axial_strain) {
         check.warnings.push_back(fmt::format(
             "{} = {:.3g} is less than the strain of the estimated strength, {:.3g}: the test may end before "
             "the specimen fails",
@@ -165,7 +185,7 @@ TestCheck check_test(const TestCase& description, const TestHooks& hooks) {
     const TestSetup& setup = check.test.setup;
     check.grains_across = setup.width / std::sqrt(setup.width * setup.height / static_cast<double>(setup.particles));
     hooks.report_work("measuring steps a second");
-    check.steps_per_second = steps_per_second(check.test.world);
+    check.steps_per_second = steps_per_second(check.test.world, check.test.setup.notices);
     estimate_run(check);
     check.memory = largest_memory();
     warn(check);

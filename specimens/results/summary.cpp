@@ -286,7 +286,7 @@ std::vector<std::string> notices_of(const TestCase& test, const TestSetup& setup
             parting->place == "platen" ? "; platens = \"glued\" hold it" : "; a deeper grip, or a longer specimen"));
     }
     if (!test.loading.rate_tolerance) return notices;
-    const double above = state.rate.strain_above / last.axial_strain;
+    const double above = last.axial_strain > 0.0 ? state.rate.strain_above / last.axial_strain : 0.0;
     if (above > share_above_to_mention) {
         notices.push_back(
             fmt::format("the inertia error lay above rate_tolerance = {} over {:.0f} % of the strain: breaks set the "

@@ -102,6 +102,9 @@ INSTANTIATE_TEST_SUITE_P(
                 "tensile_strength = 30\ncohesion = 20\n",
                 ":21: mineral[1].tensile_strength: found 30 N, expected at most cohesion over tan(friction_angle) of "
                 "mineral[1], 20 N"},
+        Refusal{"NoStrengthAtAll",
+                "[bond]\nlaw = \"coulomb\"\n[[mineral]]\nname = \"a\"\ntensile_strength = 0\ncohesion = 20\n",
+                ":20: mineral[1].tensile_strength: found 0, expected a number > 0 in N or Pa"},
         Refusal{"PairBeyondTheApex",
                 "[bond]\nlaw = \"coulomb\"\n[[mineral]]\nname = \"a\"\nfriction_angle = 45\n"
                 "tensile_strength = 10\ncohesion = 20\n[[mineral_pair]]\nbetween = [\"a\", \"a\"]\n"

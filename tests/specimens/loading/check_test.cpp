@@ -49,6 +49,41 @@ TEST(TestCheck, CountsGrainsStepsAndSeconds) {
     EXPECT_EQ(check.rate, check.slowest_rate) << "a rate that is given stays";
 }
 
+std::string warnings_of(const std::string& material, const std::string& loading = "") {
+    const testing::ScratchFolder scratch;
+    testing::SmallCase wanted;
+    wanted.kind = "compression";
+    wanted.mesh = "voronoi";
+    wanted.material = material;
+    wanted.bond = "law = \"coulomb\"";
+    wanted.loading = loading;
+    std::string all;
+    for (const std::string& warning : check_test(read_case(testing::write_small_case(scratch / "", wanted))).warnings)
+        all += warning + '\n';
+    return all;
+}
+
+TEST(TestCheck, SaysWhereANumberLooksLikeAnotherUnit) {
+    const std::string area = "units = \"area\"\nstiffness_ratio = 2.5\n";
+    const std::string sound = warnings_of(area + "contact_modulus = 1e7\ntensile_strength = 1.5e4\ncohesion = 5e4");
+    EXPECT_EQ(sound.find("Numbers are in Pa"), std::string::npos) << sound;
+    EXPECT_EQ(sound.find("far beyond any rock's"), std::string::npos) << sound;
+    const std::string mega = warnings_of(area + "contact_modulus = 76e9\ntensile_strength = 9\ncohesion = 66");
+    EXPECT_NE(mega.find("material.tensile_strength = 9 Pa is 1e-10 of the contact modulus: is it meant in MPa?"),
+              std::string::npos)
+        << mega;
+    const std::string giga = warnings_of(area + "contact_modulus = 60\ntensile_strength = 1e-3\ncohesion = 1e-2");
+    EXPECT_NE(giga.find("while steps were timed, unstable at step"), std::string::npos) << giga;
+    EXPECT_NE(giga.find("material.contact_modulus = 60 Pa is softer than any rock or soil: is it meant in GPa?"),
+              std::string::npos)
+        << giga;
+    const std::string points = warnings_of("tensile_strength = 9e6\ncohesion = 66e6");
+    EXPECT_NE(points.find("strengths are N a point here; in Pa they need units = \"area\""), std::string::npos)
+        << points;
+    EXPECT_EQ(points.find("presses a corner in"), std::string::npos) << points;
+    EXPECT_EQ(points.find("may end before"), std::string::npos) << points;
+}
+
 /// Of what a platen does to the corners that it touches.
 TEST(TestCheck, CornersComeNearerToAPlatenAsTheThicknessShrinks) {
     const auto pressed = [](const char* thick, const char* bond) {
