@@ -135,7 +135,7 @@ TEST_F(TestFolder, HoldsWhatReadersLookFor) {
     for (const FrameHead& head : recording.frames) roles.insert(roles.end(), head.roles.begin(), head.roles.end());
     EXPECT_EQ(roles, (std::vector<std::string>{"start", "peak", "end"}));
     EXPECT_EQ(recording.cells.size(), 79u) << "77 discs and two platens";
-    EXPECT_EQ(recording.bonds.size(), results.summary["bonds"].get<std::size_t>());
+    EXPECT_EQ(recording.bonds.size(), results.summary["bonds_initial"].get<std::size_t>());
     for (const RecordedBond& bond : recording.bonds) {
         const auto gap = [&](std::int32_t cell) {
             const RecordedCell& disc = recording.cells[static_cast<std::size_t>(cell)];
