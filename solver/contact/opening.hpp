@@ -15,7 +15,8 @@
 // the force is kδ: stays_closed() says so without a look at the accelerations.
 // Exact for one disc up to the limit; for many it keeps the error bounded. δ [m], k [N/m], m [kg] effective along the
 // normal. A dashpot is the lagged one, inside p. Restitution stays first order in the step with it.
-// Tested by tests/solver/contact/opening_test.cpp and, with the energies that follow, by tests/verification/claims_test.cpp.
+// Tested by tests/solver/contact/opening_test.cpp and, with the energies that follow, by
+// tests/verification/claims_test.cpp.
 #pragma once
 
 #include <algorithm>

@@ -14,7 +14,7 @@ namespace crackle {
 
 struct TestProgress {
     double axial_strain = 0.0;
-    double share_done = 0.0;                       ///< of max_axial_strain
+    double share_done = 0.0;  ///< of max_axial_strain
     double axial_stress = 0.0, peak_stress = 0.0;
     const char* stress_unit = "";
     std::int64_t bonds_broken = 0, step = 0;

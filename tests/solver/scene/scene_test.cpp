@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Outlines that a scene cannot have.
+// Outlines and materials that a scene cannot have.
 
 #include "solver/scene/scene.hpp"
 
@@ -28,6 +28,24 @@ std::string answer_to(const std::vector<Vec2>& outline) {
         return error.what();
     }
     return "accepted";
+}
+
+TEST(Material, HasAFrictionAngleBelowNinetyDegrees) {
+    const auto answer = [](double angle) -> std::string {
+        Scene scene;
+        scene.materials = {undamped_rock(1e7, angle)};
+        scene.domain = {-1.0, 1.0, -1.0, 1.0, {true, true, true, true}};
+        scene.add_circle_body(1, 0, {{0.0, 0.0}, 0.1, 0.0});
+        try {
+            validate(scene);
+        } catch (const InputError& error) {
+            return error.what();
+        }
+        return "accepted";
+    };
+    EXPECT_EQ(answer(89.9), "accepted");
+    for (const double angle : {90.0, -0.1, 135.0})  // a tangent of infinity, or of the wrong sign
+        EXPECT_NE(answer(angle).find("friction angle: found"), std::string::npos) << answer(angle);
 }
 
 TEST(Outline, IsRefusedWhereAnyTwoOfItsSegmentsCross) {
