@@ -222,7 +222,7 @@ class Sweeper {
           move_(move),
           kick_(kick),
           thread_(thread),
-          threads_(plan_.shares.size()),
+          threads_(std::max<std::size_t>(1, plan_.shares.size())),
           profile_(thread_ == 0 ? world.workers.profile : nullptr),
           share_(plan_.shares[thread_]),
           deferred_(threads_ == 1 ? nullptr : plan_.deferred.data() + plan_.deferred_begin[thread_]) {}

@@ -162,7 +162,7 @@ class ConsistencyCheck {
     /// Of the table's material, whose numbers may be another's.
     void numbers(const std::string& table, const TestCase::MaterialKeys& m) const {
         const auto key = [&](const char* name) {
-            const std::string own = fmt::format("{}.{}", table, name);
+            std::string own = fmt::format("{}.{}", table, name);
             if (written(own)) return own;
             // A pair is at fault by what it gives itself: each mineral by itself has been looked at.
             return table.starts_with("mineral_pair") ? table + ".between" : std::string("material.") + name;
