@@ -16,113 +16,16 @@ from pathlib import Path
 sys.path.insert(0, str(Path(__file__).parent))
 sys.dont_write_bytecode = True
 import numpy as np  # noqa: E402
+from cases import (  # noqa: E402
+    area, bonded, cells, circles_every_step, cohesive, factors, friction, minerals, minerals_of_an_area, output, packing, pulled,
+    rate, rock, scattered, squeezed, strengths, triangles, voronoi, wedges
+)
 from recount import figures, recount  # noqa: E402
 from results import Results as read  # noqa: E402
 from results import Unreadable  # noqa: E402
 
 program = os.environ["CRACKLE_PROGRAM"]
 scratch = Path(tempfile.mkdtemp(prefix="recount"))
-
-rock = """
-[packing]
-count = 80
-height_to_width = 2.0
-radius_min = 1.333e-2
-radius_max = 2.667e-2
-mean_overlap = 7.74e-5
-seed = 3
-[material]
-density = 2500.0
-normal_stiffness = 1.0e7
-shear_stiffness = 2.5e6
-friction_angle = 27.0
-damping_ratio = 0.2
-"""
-output = '[output]\nframe_precision = "double"\nframes = 12\n'
-voronoi = '[mesh]\nkind = "voronoi"\nthick = 1e-3\n[bond]\nthick = 1.08e-3\n'
-triangles = '[mesh]\nkind = "delaunay"\nboundary = "domain"\nthick = 1e-3\n[bond]\nthick = 1.08e-3\n'
-minerals = '''
-[minerals]
-seed = 5
-[[mineral]]
-name = "quartz"
-area_share = 0.3
-normal_stiffness = 2.0e7
-shear_stiffness = 6.0e6
-density = 2650.0
-damping_ratio = 0.1
-[[mineral]]
-name = "feldspar"
-[[mineral]]
-name = "mica"
-area_share = 0.2
-friction_angle = 15.0
-[[mineral_pair]]
-between = ["quartz", "mica"]
-normal_stiffness = 5.0e6
-friction_angle = 20.0
-[[mineral_pair]]
-between = ["feldspar", "feldspar"]
-shear_stiffness = 3.0e6
-'''
-minerals_of_an_area = '''
-[minerals]
-seed = 5
-[[mineral]]
-name = "quartz"
-area_share = 0.4
-contact_modulus = 2.0e10
-stiffness_ratio = 2.0
-tensile_strength = 1.5e7
-cohesion = 4.0e7
-[[mineral]]
-name = "mica"
-area_share = 0.2
-friction_angle = 20.0
-residual_friction_angle = 10.0
-cohesion = 2.5e7
-[[mineral]]
-name = "feldspar"
-[[mineral_pair]]
-between = ["quartz", "mica"]
-contact_modulus = 5.0e9
-stiffness_ratio = 3.0
-tensile_strength = 4.0e6
-cohesion = 1.2e7
-residual_friction_angle = 5.0
-[[mineral_pair]]
-between = ["feldspar", "feldspar"]
-cohesion = 2.0e7
-friction_angle = 30.0
-'''
-squeezed = '[loading]\nkind = "compression"\nmax_axial_strain = 0.02\n'
-pulled = '[loading]\nkind = "tension"\nmax_axial_strain = 0.005\n'
-rate = "axial_strain_rate = 0.02\n"
-bonded = 'platens = "bonded"\n'
-friction = 'platens = "frictional"\nplaten_friction_angle = 15.0\n'
-
-# The same bodies with bonds of strengths of their own, and with stiffness and strengths of an area.
-packing = rock[: rock.index("[material]")]
-area = """[material]
-units = "area"
-density = 2500.0
-contact_modulus = 1.0e10
-stiffness_ratio = 2.5
-friction_angle = 35.0
-damping_ratio = 0.2
-"""
-strengths = "tensile_strength = 1.0e7\ncohesion = 3.0e7\nresidual_friction_angle = 25.0\n"
-cells, wedges = (text[: text.index("[bond]")] for text in (voronoi, triangles))
-cohesive = '[bond]\nlaw = "coulomb"\n'
-
-
-def scattered(distribution, cv):
-    return f'strength_distribution = "{distribution}"\nstrength_cv = {cv}\nstrength_seed = 7\n'
-
-
-factors = "tensile_factor = 1.0\ncohesion_factor = 3.0\nrange = 0.05\n" + scattered("lognormal", 0.3)
-circles_every_step = rock[len(packing) :] + cohesive + factors + squeezed + "axial_strain_rate = 0.3\n"
-
 
 # Figures of a test of circles squeezed at a rate with companions.
 figures_expected = """
