@@ -100,7 +100,9 @@ class Follower:
                     return 0.0, self._break_coulomb(step, key, point, values, dt)
                 holds = True
             elif overlap <= 0:
-                energy = kn / 2 * (opening - closing * dt) * opening + (point.shear * trial / 2 / ks if ks > 0 else 0.0)
+                # A force that turned within the step has passed through none.
+                normal, shear = max(0.0, (opening - closing * dt) * opening), max(0.0, point.shear * trial)
+                energy = kn / 2 * normal + (shear / 2 / ks if ks > 0 else 0.0)
                 self._part(step, key, energy, point)
                 return 0.0, self._release(key, point, closing, slip, dt)
         elif point.bond is None and opening <= 0:
