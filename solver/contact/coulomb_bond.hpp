@@ -9,7 +9,8 @@
 // exceeded in one step the mode is the one that the straight way of (f_n, f_t) meets first; at the apex μT = C it is
 // tension. Energy of a break: in the trapezoidal account of a step (x' and x elongations δ - δ0 before and now, y what
 // force is left of over k_n; likewise shear with the spring's force over k_s)
-//     ½k_n(x' + y)(x - y) + ½(f_t' + h)(f_t - h)/k_s   ->   strain energy before less that after, >= 0, as Δt -> 0.
+//     ½k_n(x' + y)(x - y) + ½(f_t' + h)(f_t - h)/k_s   ->   strain energy before less that after, >= 0, as Δt -> 0,
+// a term below 0 being nothing: its force turned within the step and has passed through none.
 // Source: solver/MODEL.md 5.2; verified by tests/solver/contact/coulomb_bond_test.cpp.
 #pragma once
 
@@ -80,7 +81,8 @@ inline BrokenBond break_bond(const Law<double>& law, const BondStrength<double>&
                                    std::abs(now.shear) > law.friction * broken.normal};
     broken.shear = shear_force(trial);
     broken.strength = broken.in_shear ? strength.cohesion + strength.friction * now.normal : strength.tensile;
-    broken.energy = 0.5 * (before.normal + broken.normal) * (opening - left) + slider_loss(law, trial, broken.shear);
+    broken.energy = std::max(0.0, 0.5 * (before.normal + broken.normal) * (opening - left)) +
+                    std::max(0.0, slider_loss(law, trial, broken.shear));
     return broken;
 }
 

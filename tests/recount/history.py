@@ -148,7 +148,8 @@ class Follower:
         point.failing = (kn * opening, trial)
         left = max(0.0, overlap - self.rest_after[key])
         shear = math.copysign(min(abs(trial), friction * kn * left), trial)
-        energy = kn / 2 * (before + left) * (opening - left) + (point.shear + shear) / 2 * (trial - shear) / ks
+        normal, slider = kn / 2 * (before + left) * (opening - left), (point.shear + shear) / 2 * (trial - shear) / ks
+        energy = max(0.0, normal) + max(0.0, slider)
         self._part(step, key, energy, point)
         dashpot = self._release(key, point, closing, slip, dt)
         if left > 0:

@@ -120,6 +120,25 @@ TEST(CoulombBond, InShearTakesTheEnergyOfItsSpringLessWhatFrictionKeeps) {
     EXPECT_TRUE(agrees("strength, N", event.strength, cohesion, 1e-3));
 }
 
+/// A blow so hard that a force turns and reaches its limit in one step: what it had was given back on the way.
+TEST(CoulombBond, TakesNothingOfAForceThatTurnedInTheStepOfItsBreak) {
+    const BondStrength<double> strength{tensile, cohesion, friction};
+    Law<double> law{};
+    law.normal_stiffness = stiffness;
+    law.shear_stiffness = shear_share * stiffness;
+    law.has_shear_spring = true;
+    law.friction = residual;
+    const auto energy = [&](BondForces before, BondForces now) {
+        return break_bond(law, strength, before, now, now.normal / stiffness, overlap).energy;
+    };
+    const double of_normal = 0.5 * 0.5 * 2.5 / stiffness, of_shear = 0.5 * 1.0 * 4.0 / law.shear_stiffness;
+    // Pulled at its break: nothing is left, and rubs; the account of a step takes x'x for x², f'f for f².
+    EXPECT_TRUE(agrees("neither, J", energy({-0.5, 1.0}, {-2.5, 4.0}), of_normal + of_shear, 1e-12));
+    EXPECT_TRUE(agrees("the normal one, J", energy({0.5, 1.0}, {-2.5, 4.0}), of_shear, 1e-12));
+    EXPECT_TRUE(agrees("the shear one, J", energy({-0.5, -1.0}, {-2.5, 4.0}), of_normal, 1e-12));
+    EXPECT_EQ(energy({0.5, -1.0}, {-2.5, 4.0}), 0.0) << "both";
+}
+
 TEST(CoulombBond, BrokenInShearUnderPressureGoesOnPushingAndRubsAtTheResidualFriction) {
     World world = driven_pair(5e-3, 0.0);
     for (int n = 0; n < 1000; ++n) step(world);
