@@ -95,5 +95,19 @@ TEST(StepBound, CountsAHundredContactsThatCloseAtOnce) {
     }
 }
 
+TEST(CriticalStep, WithDashpotsIsProvedBelowItsRootAndDisprovedAbove) {
+    for (const double ratio : {0.0, 0.2, 0.7}) {
+        Material material = rock();
+        material.damping_ratio = ratio;
+        World world = build_world(square_lattice(6, 8, 0.02, 8e-5, material));
+        bond_all(world, 0.0);
+        compute_forces(world);
+        const CriticalStep exact = critical_step(world, ClosedPoints::touching);
+        EXPECT_TRUE(exact.proved) << ratio;
+        EXPECT_TRUE(stable_at(world, ClosedPoints::touching, 0.999 * exact.root)) << ratio;
+        EXPECT_FALSE(stable_at(world, ClosedPoints::touching, 1.001 * exact.root)) << ratio;
+    }
+}
+
 }  // namespace
 }  // namespace crackle

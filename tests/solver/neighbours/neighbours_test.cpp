@@ -146,6 +146,22 @@ TEST(NeighbourList, MissesNoTouchingPointOfAnyMixtureOfSizes) {
     }
 }
 
+/// Squares far smaller than the thickness across which they touch.
+TEST(NeighbourList, MissesNoTouchingPointAcrossAThicknessBeyondTheBodies) {
+    std::mt19937_64 generator(3);
+    Scene scene;
+    scene.materials = {rock()};
+    scene.thick = 0.5;
+    scene.domain = {-1.0, 11.0, -1.0, 11.0, {false, false, false, false}};
+    for (int id = 1; id <= 200; ++id) {
+        const double x = uniform_number(generator, 0.0, 10.0), y = uniform_number(generator, 0.0, 10.0);
+        scene.add_chain_body(id, 0, {{x, y}, {x + 0.01, y}, {x + 0.01, y + 0.01}, {x, y + 0.01}}, true);
+    }
+    const World world = build_world(scene);
+    EXPECT_EQ(missed(world), 0U);
+    EXPECT_GT(searched(world).size(), 500U);
+}
+
 /// Bodies with many points (platens), few or none, by one thread and by several: smaller kinds first, then the largest.
 TEST(NeighbourList, EveryBodyAddsUpItsPointsInTheirOrder) {
     for (const int threads : {1, 3}) {

@@ -441,5 +441,17 @@ TEST(Packing, RefusesRequestsThatContradictThemselves) {
     EXPECT_NE(complaint([](auto& r) { r.material.density = -1.0; }).find("density"), std::string::npos);
 }
 
+TEST(PackingReport, ACircleThatTouchesAWallAloneDoesNotFloat) {
+    Scene scene;
+    scene.materials = {rock()};
+    scene.domain = {0.0, 1.0, 0.0, 2.0, {true, true, true, true}};
+    const Vec2 centres[] = {{0.019, 0.5}, {0.981, 0.6}, {0.5, 0.019}, {0.6, 1.981}, {0.5, 0.5}};
+    int id = 0;
+    for (const Vec2 centre : centres) scene.add_circle_body(++id, 0, {centre, 0.02, 0.0});
+    const PackingReport report = measure_packing(scene, UniformRadii{0.02, 0.02});
+    EXPECT_EQ(report.floating, 1) << "the last";
+    EXPECT_EQ(report.circle_contacts, 0);
+}
+
 }  // namespace
 }  // namespace crackle

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a case's keys make of the particles that a file holds.
+
+#include "specimens/making/specimen.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include "solver/demseg/geometry.hpp"
+#include "solver/scene/scene.hpp"
+#include "specimens/case/case_file.hpp"
+#include "tests/support/deck_files.hpp"
+#include "tests/support/small_rock.hpp"
+
+namespace crackle {
+namespace {
+
+/// In N s/m, where a packing would have a ratio by itself.
+TEST(Specimen, DashpotsOfTheCaseReplaceTheRatioThatAPackingHasByItself) {
+    TestCase test;
+    test.source = "dashpots.toml";
+    test.table_present["packing"] = true;
+    test.packing.count = 30;
+    test.packing.height_to_width = 2.0;
+    test.packing.radius_min = 0.015;
+    test.packing.radius_max = 0.025;
+    test.packing.mean_overlap = 7.74e-5;
+    test.material.density = 2500.0;
+    test.material.normal_stiffness = 1e7;
+    test.material.shear_stiffness = 2.5e6;
+    test.material.friction_angle = 27.0;
+    ASSERT_TRUE(make_specimen(test, {}).scene.materials.at(0).damping_ratio.has_value());
+    test.material.normal_damping = 120.0;
+    test.material.shear_damping = 40.0;
+    const Material stated = make_specimen(test, {}).scene.materials.at(0);
+    EXPECT_FALSE(stated.damping_ratio.has_value()) << "it would be taken in place of the dashpots";
+    EXPECT_EQ(stated.normal_damping, 120.0);
+    EXPECT_EQ(stated.shear_damping, 40.0);
+    test.damping_scale = 0.5;  // as a companion of --verify has it
+    const Material halved = make_specimen(test, {}).scene.materials.at(0);
+    EXPECT_EQ(halved.normal_damping, 60.0);
+    EXPECT_EQ(halved.shear_damping, 20.0);
+}
+
+TEST(Specimen, IsAtRestWithoutGravityWhateverTheFileSays) {
+    const testing::ScratchFolder folder;
+    const std::filesystem::path file = testing::write_small_case(folder / "", {});
+    Scene particles = testing::small_rock_scene();
+    particles.gravity = {0.0, -9.81};
+    for (Body& body : particles.bodies) body.velocity = {0.1, 0.2}, body.spin = 0.3;
+    std::ofstream rock(folder / "rock.dat");
+    write_geometry(rock, particles);
+    rock.close();
+    const Specimen specimen = make_specimen(read_case(file), {});
+    EXPECT_EQ(specimen.scene.gravity.x, 0.0);
+    EXPECT_EQ(specimen.scene.gravity.y, 0.0);
+    for (const Body& body : specimen.scene.bodies) {
+        EXPECT_EQ(body.velocity.x, 0.0);
+        EXPECT_EQ(body.velocity.y, 0.0);
+        EXPECT_EQ(body.spin, 0.0);
+    }
+    EXPECT_TRUE(std::ranges::any_of(
+        specimen.notices, [](const std::string& notice) { return notice.find("gravity") != std::string::npos; }));
+}
+
+}  // namespace
+}  // namespace crackle
