@@ -20,12 +20,14 @@ from cases import (  # noqa: E402
     area, bonded, cells, circles_every_step, cohesive, factors, friction, minerals, minerals_of_an_area, output, packing, pulled,
     rate, rock, scattered, squeezed, strengths, triangles, voronoi, wedges
 )
+from differences import Differences  # noqa: E402
 from recount import figures, recount  # noqa: E402
 from results import Results as read  # noqa: E402
 from results import Unreadable  # noqa: E402
 
 program = os.environ["CRACKLE_PROGRAM"]
 scratch = Path(tempfile.mkdtemp(prefix="recount"))
+differences = Differences()
 
 # Figures of a test of circles squeezed at a rate with companions.
 figures_expected = """
@@ -93,6 +95,7 @@ def differing(folder):
 class Recount(unittest.TestCase):
     def agrees(self, folder, fewest):
         r = recount(folder)
+        differences.take(folder.name, r.lines)
         for name, stated, ours, difference, tolerance, holds in r.lines:
             with self.subTest(folder=folder.name, figure=name):
                 self.assertTrue(holds, f"expected {ours} within {tolerance:.1e}, got {stated}, error {difference:.1e}")
@@ -529,7 +532,13 @@ class FaultsAreFound(unittest.TestCase):
 
 
 if __name__ == "__main__":
+    table = Path(sys.argv.pop()) if "--differences" in sys.argv[1:-1] else None
+    if table:
+        sys.argv.remove("--differences")
     try:
-        unittest.main()
+        done = unittest.main(exit=False).result
+        if table and done.wasSuccessful():
+            differences.write(table)
+        sys.exit(not done.wasSuccessful())
     finally:
         shutil.rmtree(scratch, ignore_errors=True)
