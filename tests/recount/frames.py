@@ -279,7 +279,12 @@ def recount_frame(r, model, bonds, frame, first, row):
     if leapfrog:
         # A bond that breaks in shear in this step drops to the limit and counts as a break.
         breaking = int(np.sum(r.events["step"] == c["step"][row])) if model.coulomb and len(r.events["step"]) else 0
-        r.compare(label + "curve: points_sliding", c["points_sliding"][row], int(np.sum(slides & counted)), breaking)
+        # The program turns bodies by cosine and sine, the frames have the angle: apart by up to a rounding a step. Of a stiff point that
+        # is more than the rounding of its shear force, so that it may be at its limit or not.
+        arm = np.maximum(np.hypot(*arm_i.T), np.hypot(*arm_j.T))
+        apart = np.finfo(float).eps * c["step"][row] * arm * kn
+        unsure = counted & sticks & (np.abs(shear) >= limit - rounding * tension - apart)
+        r.compare(label + "curve: points_sliding", c["points_sliding"][row], int(np.sum(slides & counted)), breaking + int(np.sum(unsure)))
     slid = int(np.sum(state == 1)) + int(np.sum(np.asarray(r.events["slid"])[:by_events]))
     r.compare(label + "curve: bonds_slid", c["bonds_slid"][row], slid, 0)
     left, right = model.gauge()
