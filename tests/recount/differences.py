@@ -22,7 +22,7 @@ class Differences:
         lines = [
             "# The largest differences seen",
             "",
-            "Made by `CRACKLE_PROGRAM=build/release/tools/crackle tests/recount/recount_test.py --differences tests/recount/differences.md`.",
+            "Made by `tests/recount/recount_test.py --differences tests/recount/differences.md`.",
             "",
             "Every figure that the tests recount, in how many tests and how often (a column of the curve or of events is one figure: its worst row stands for all), and the",
             "comparison that came nearest to its tolerance. Difference and tolerance have the figure's unit; «exact» is a number that is counted, a word, or a statement that holds.",

@@ -25,7 +25,7 @@ from recount import figures, recount  # noqa: E402
 from results import Results as read  # noqa: E402
 from results import Unreadable  # noqa: E402
 
-program = os.environ["CRACKLE_PROGRAM"]
+program = os.environ.get("CRACKLE_PROGRAM", Path(__file__).parents[2] / "build/release/tools/crackle")
 scratch = Path(tempfile.mkdtemp(prefix="recount"))
 differences = Differences()
 
