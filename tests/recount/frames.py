@@ -283,7 +283,7 @@ def recount_frame(r, model, bonds, frame, first, row):
         # is more than the rounding of its shear force, so that it may be at its limit or not.
         arm = np.maximum(np.hypot(*arm_i.T), np.hypot(*arm_j.T))
         apart = np.finfo(float).eps * c["step"][row] * arm * kn
-        unsure = counted & sticks & (np.abs(shear) >= limit - rounding * tension - apart)
+        unsure = counted & sticks & (np.abs(shear) >= limit - apart)
         r.compare(label + "curve: points_sliding", c["points_sliding"][row], int(np.sum(slides & counted)), breaking + int(np.sum(unsure)))
     slid = int(np.sum(state == 1)) + int(np.sum(np.asarray(r.events["slid"])[:by_events]))
     r.compare(label + "curve: bonds_slid", c["bonds_slid"][row], slid, 0)

@@ -1,4 +1,4 @@
-#!/usr/bin/env python3
+#!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Small tests of each kind, recounted; and files made wrong on purpose, each of which the recount must find."""
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a case's keys make of the particles that a file holds.
+// What a case's keys make of the particles that it packs or reads.
 
 #include "specimens/making/specimen.hpp"
 
