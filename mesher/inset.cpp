@@ -59,7 +59,7 @@ void Inset::drop_flat_corners(std::vector<Point>& polygon) const {
             const Point in{b.x - a.x, b.y - a.y}, out{c.x - b.x, c.y - b.y};
             const double lengths = std::sqrt(dot(in, in) * dot(out, out));
             const double turn = cross(in, out);
-            const double chord = std::hypot(c.x - a.x, c.y - a.y);
+            const double chord = distance(a, c);
             const bool straight_on = dot(in, out) > 0.0;
             if (lengths == 0.0 || (straight_on && (turn <= flattest_turn * lengths ||
                                                    turn <= 4.0 * relative_rounding * scale_ * chord))) {
@@ -123,7 +123,7 @@ void Inset::by_half_planes() {
         perimeter += length_[k];
     }
     const double shortest = std::max(shortest_share * perimeter, 16.0 * relative_rounding * scale_);
-    const auto near = [shortest](Point a, Point b) { return std::hypot(a.x - b.x, a.y - b.y) <= shortest; };
+    const auto near = [shortest](Point a, Point b) { return distance(a, b) <= shortest; };
     result_.erase(std::unique(result_.begin(), result_.end(), near), result_.end());
     while (result_.size() > 1 && near(result_.front(), result_.back())) result_.pop_back();
     drop_flat_corners(result_);
@@ -143,7 +143,7 @@ double inscribed_radius(std::span<const Point> outline, double coordinate_scale)
     double perimeter = 0.0;
     for (std::size_t k = 0; k < outline.size(); ++k) {
         const Point a = outline[k], b = outline[k + 1 == outline.size() ? 0 : k + 1];
-        perimeter += std::hypot(b.x - a.x, b.y - a.y);
+        perimeter += distance(a, b);
     }
     // A disc of radius r inside leaves each edge a triangle of height r at least: A >= rP/2.
     double low = 0.0, high = 2.0 * polygon_area(outline) / perimeter;

@@ -82,7 +82,7 @@ bool Joiner::convex(const Polygon& polygon) const {
         const Point a = corner(polygon[k]), b = corner(polygon[(k + 1) % count]), c = corner(polygon[(k + 2) % count]);
         const double ux = b.x - a.x, uy = b.y - a.y, vx = c.x - b.x, vy = c.y - b.y;
         const double turn = ux * vy - uy * vx, ahead = ux * vx + uy * vy;
-        const double flat = straight * std::hypot(ux, uy) * std::hypot(vx, vy);
+        const double flat = straight * distance(a, b) * distance(b, c);
         if (turn < -flat || (turn <= flat && ahead <= 0.0)) return false;
     }
     return true;
@@ -104,8 +104,7 @@ void Joiner::join(const std::vector<int>& destroyed) {
         std::vector<std::size_t> sides(polygon.size());
         for (std::size_t k = 0; k < sides.size(); ++k) sides[k] = k;
         const auto length = [&](std::size_t k) {
-            const Point a = corner(polygon[k]), b = corner(polygon[(k + 1) % polygon.size()]);
-            return std::hypot(b.x - a.x, b.y - a.y);
+            return distance(corner(polygon[k]), corner(polygon[(k + 1) % polygon.size()]));
         };
         std::stable_sort(sides.begin(), sides.end(),
                          [&](std::size_t a, std::size_t b) { return length(a) > length(b); });

@@ -86,7 +86,7 @@ double slenderness(std::span<const Point> outline) {
     double perimeter = 0.0;
     for (std::size_t k = 0; k < outline.size(); ++k) {
         const Point a = outline[k], b = outline[k + 1 == outline.size() ? 0 : k + 1];
-        perimeter += std::hypot(b.x - a.x, b.y - a.y);
+        perimeter += distance(a, b);
     }
     return 2.0 * polygon_area(outline) / perimeter;
 }

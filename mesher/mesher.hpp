@@ -10,6 +10,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -26,6 +27,12 @@ struct Point {
 
     friend bool operator==(const Point&, const Point&) = default;
 };
+
+/// m. Not std::hypot(), whose last digit differs from processor to processor.
+inline double distance(Point a, Point b) {
+    const double x = b.x - a.x, y = b.y - a.y;
+    return std::sqrt(x * x + y * y);
+}
 
 /// Centre from which a cell grows: a circle centre of a packing.
 using CellCentre = Point;

@@ -144,7 +144,7 @@ class Partition {
 };
 
 void Partition::insert_guards() {
-    const double reach = guard_distance * std::hypot(domain_.x2 - domain_.x1, domain_.y2 - domain_.y1);
+    const double reach = guard_distance * distance({domain_.x1, domain_.y1}, {domain_.x2, domain_.y2});
     const double x = 0.5 * (domain_.x1 + domain_.x2), y = 0.5 * (domain_.y1 + domain_.y2);
     for (const auto& [dx, dy] : {std::pair{-reach, 0.0}, {reach, 0.0}, {0.0, -reach}, {0.0, reach}}) {
         guards_.push_back(triangulation_.insert(CgalPoint(x + dx, y + dy)));

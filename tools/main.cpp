@@ -10,6 +10,7 @@
 #include <span>
 
 #include "solver/base/errors.hpp"
+#include "solver/base/instruction_set.hpp"
 #include "tools/commands/commands.hpp"
 
 int main(int argc, char** argv) {
@@ -20,6 +21,7 @@ int main(int argc, char** argv) {
     mallopt(M_TRIM_THRESHOLD, 1 << 22);
     const auto all = std::span(argv, static_cast<std::size_t>(argc));
     try {
+        crackle::chosen_set();  // an unknown CRACKLE_ISA is said before anything is done
         return call_command({all.begin() + 1, all.end()});
     } catch (const crackle::InputError& error) {
         report_error(error.what());

@@ -5,12 +5,15 @@
 // magnitude(), with_sign(), any() and none_of() below are there for both.
 //
 // Kernels load records two numbers at a time and turn them in registers: hardware gathers are slower than that on the
-// machines we know (tests/benchmarks/results/README.md). Eight lanes where the target has AVX-512, else four, which the
-// compiler splits where even those are too many. All is IEEE arithmetic in the order of the source, so that any number
-// of lanes gives the bytes of the scalar code.
+// machines we know (tests/benchmarks/results/README.md). Eight lanes where the target has AVX-512, four where it has
+// AVX, else two. All is IEEE arithmetic in the order of the source, so that any number of lanes gives the bytes of the
+// scalar code. How many there are is a matter of the source's target: only sources of kernels (instruction_set.hpp) use
+// lanes, and hand nothing of lane_count on.
 #pragma once
 
+#if defined(__SSE2__)
 #include <immintrin.h>
+#endif
 
 #include <cmath>
 #include <cstddef>
@@ -18,17 +21,36 @@
 #include <limits>
 #include <type_traits>
 
-#include "solver/base/lane_count.hpp"
-
 #define CRACKLE_INLINE inline __attribute__((always_inline))
 
 namespace crackle {
 
+// As many as a register holds: compilers split wider ones badly. CRACKLE_LANES is for tests of a form that the machine
+// may not have.
+#if defined(CRACKLE_LANES)
+inline constexpr int lane_count = CRACKLE_LANES;
+#elif defined(__AVX512F__)
+inline constexpr int lane_count = 8;
+#elif defined(__AVX__)
+inline constexpr int lane_count = 4;
+#else
+inline constexpr int lane_count = 2;
+#endif
+
 using Lanes = double __attribute__((vector_size(8 * lane_count)));
 using LaneBits = decltype(Lanes{} < Lanes{});  // of a condition: 0 or -1 each
 using LaneBit = std::remove_cvref_t<decltype(LaneBits{}[0])>;
+using Eight = double __attribute__((vector_size(64)));
 using Quad = double __attribute__((vector_size(32)));
 using Pair = double __attribute__((vector_size(16)));
+
+/// Where kernels without AVX begin: once a library has left something in the upper halves of the vector registers,
+/// every instruction of theirs waits for it (three times slower, seen on Zen). @param wider the processor has AVX
+CRACKLE_INLINE void clear_upper_halves([[maybe_unused]] bool wider) {
+#if defined(__SSE2__) && !defined(__AVX__)
+    if (wider) asm volatile("vzeroupper");
+#endif
+}
 
 /// Outcome of comparing two Numbers: bool, or LaneBits.
 template <class Number>
@@ -78,8 +100,10 @@ CRACKLE_INLINE Lanes root(const Lanes& v) {
     store_as(to, _mm512_maskz_sqrt_pd(0xff, load_as<__m512d>(from)));
 #elif defined(__AVX__)
     for (std::size_t k = 0; k < sizeof v; k += 32) store_as(to + k, _mm256_sqrt_pd(load_as<__m256d>(from + k)));
-#else
+#elif defined(__SSE2__)
     for (std::size_t k = 0; k < sizeof v; k += 16) store_as(to + k, _mm_sqrt_pd(load_as<__m128d>(from + k)));
+#else
+    for (std::size_t k = 0; k < sizeof v; k += 8) store_as(to + k, std::sqrt(load_as<double>(from + k)));
 #endif
     return result;
 }
@@ -112,9 +136,11 @@ CRACKLE_INLINE unsigned mask_of(const LaneBits& v) {
 #if defined(__AVX__)
     for (std::size_t k = 0; k < lane_count; k += 4)
         mask |= static_cast<unsigned>(_mm256_movemask_pd(load_as<__m256d>(from + 8 * k))) << k;
-#else
+#elif defined(__SSE2__)
     for (std::size_t k = 0; k < lane_count; k += 2)
         mask |= static_cast<unsigned>(_mm_movemask_pd(load_as<__m128d>(from + 8 * k))) << k;
+#else
+    for (std::size_t k = 0; k < lane_count; ++k) mask |= (load_as<LaneBit>(from + 8 * k) < 0 ? 1u : 0u) << k;
 #endif
     return mask;
 #endif
@@ -124,7 +150,7 @@ CRACKLE_INLINE unsigned mask_of(const LaneBits& v) {
 CRACKLE_INLINE bool any(bool condition) { return condition; }
 CRACKLE_INLINE bool any(const LaneBits& condition) { return mask_of(condition) != 0; }
 
-/// Of each lane the number that its index names. @param table of lane_count numbers
+/// Of each lane the number that its index names. @param table of eight numbers
 CRACKLE_INLINE Lanes looked_up(const double* table, const LaneBits& index) {
 #if defined(__AVX512F__)
     const __m512d found = _mm512_maskz_permutexvar_pd(0xff, load_as<__m512i>(&index), load_as<__m512d>(table));
@@ -150,9 +176,13 @@ CRACKLE_INLINE bool none_of(const LaneBits& v) {
         const __m256i some = load_as<__m256i>(from + k);
         none = none && _mm256_testz_si256(some, some) != 0;
     }
-#else
+#elif defined(__SSE2__)
     for (std::size_t k = 0; k < sizeof v; k += 16)
         none = none && _mm_movemask_epi8(_mm_cmpeq_epi8(load_as<__m128i>(from + k), _mm_setzero_si128())) == 0xffff;
+#else
+    LaneBit some = 0;
+    for (int l = 0; l < lane_count; ++l) some |= v[l];
+    none = some == 0;
 #endif
     return none;
 #endif
@@ -168,64 +198,64 @@ CRACKLE_INLINE Quad join(const double* a, const double* b) {
 #endif
 }
 
-#if defined(__AVX512F__) || defined(CRACKLE_EIGHT_LANES)
-
-CRACKLE_INLINE Lanes join(const double* a, const double* b, const double* c, const double* d) {
+CRACKLE_INLINE Eight join(const double* a, const double* b, const double* c, const double* d) {
     return __builtin_shufflevector(join(a, b), join(c, d), 0, 1, 2, 3, 4, 5, 6, 7);
 }
 
-/// Each number four times.
-CRACKLE_INLINE Lanes lanes_of_fours(const double (&numbers)[2]) {
+/// Each number in as many lanes as points lie together: four, or all.
+CRACKLE_INLINE Lanes lanes_of_fours(const double (&numbers)[1]) { return all_of<Lanes>(numbers[0]); }
+CRACKLE_INLINE Eight lanes_of_fours(const double (&numbers)[2]) {
     return __builtin_shufflevector(all_of<Quad>(numbers[0]), all_of<Quad>(numbers[1]), 0, 1, 2, 3, 4, 5, 6, 7);
 }
 
 /// The two numbers at each of the addresses. Pairs meet on their way from memory, which spares shuffles.
-CRACKLE_INLINE void gather_pairs(const double* const (&at)[lane_count], Lanes& first, Lanes& second) {
-    const Lanes even = join(at[0], at[2], at[4], at[6]), odd = join(at[1], at[3], at[5], at[7]);
+CRACKLE_INLINE void gather_pairs(const double* const (&at)[2], Pair& first, Pair& second) {
+    const Pair a = load_as<Pair>(at[0]), b = load_as<Pair>(at[1]);
+    first = __builtin_shufflevector(a, b, 0, 2);
+    second = __builtin_shufflevector(a, b, 1, 3);
+}
+CRACKLE_INLINE void gather_pairs(const double* const (&at)[4], Quad& first, Quad& second) {
+    const Quad even = join(at[0], at[2]), odd = join(at[1], at[3]);
+    first = __builtin_shufflevector(even, odd, 0, 4, 2, 6);
+    second = __builtin_shufflevector(even, odd, 1, 5, 3, 7);
+}
+CRACKLE_INLINE void gather_pairs(const double* const (&at)[8], Eight& first, Eight& second) {
+    const Eight even = join(at[0], at[2], at[4], at[6]), odd = join(at[1], at[3], at[5], at[7]);
     first = __builtin_shufflevector(even, odd, 0, 8, 2, 10, 4, 12, 6, 14);
     second = __builtin_shufflevector(even, odd, 1, 9, 3, 11, 5, 13, 7, 15);
 }
 
 /// Records of four numbers that lie one behind the other.
-CRACKLE_INLINE void store_quads(void* to, const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d) {
-    const Lanes ab0 = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);  // records 0, 2, 4, 6
-    const Lanes ab1 = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
-    const Lanes cd0 = __builtin_shufflevector(c, d, 0, 8, 2, 10, 4, 12, 6, 14);
-    const Lanes cd1 = __builtin_shufflevector(c, d, 1, 9, 3, 11, 5, 13, 7, 15);
-    const Lanes even04 = __builtin_shufflevector(ab0, cd0, 0, 1, 8, 9, 4, 5, 12, 13);  // records 0 and 4
-    const Lanes even26 = __builtin_shufflevector(ab0, cd0, 2, 3, 10, 11, 6, 7, 14, 15);
-    const Lanes odd15 = __builtin_shufflevector(ab1, cd1, 0, 1, 8, 9, 4, 5, 12, 13);
-    const Lanes odd37 = __builtin_shufflevector(ab1, cd1, 2, 3, 10, 11, 6, 7, 14, 15);
+CRACKLE_INLINE void store_quads(void* to, const Pair& a, const Pair& b, const Pair& c, const Pair& d) {
     char* out = static_cast<char*>(to);
-    store_as(out, __builtin_shufflevector(even04, odd15, 0, 1, 2, 3, 8, 9, 10, 11));
-    store_as(out + 64, __builtin_shufflevector(even26, odd37, 0, 1, 2, 3, 8, 9, 10, 11));
-    store_as(out + 128, __builtin_shufflevector(even04, odd15, 4, 5, 6, 7, 12, 13, 14, 15));
-    store_as(out + 192, __builtin_shufflevector(even26, odd37, 4, 5, 6, 7, 12, 13, 14, 15));
+    store_as(out, __builtin_shufflevector(a, b, 0, 2));
+    store_as(out + 16, __builtin_shufflevector(c, d, 0, 2));
+    store_as(out + 32, __builtin_shufflevector(a, b, 1, 3));
+    store_as(out + 48, __builtin_shufflevector(c, d, 1, 3));
 }
-
-#else
-
-/// Each number four times.
-CRACKLE_INLINE Lanes lanes_of_fours(const double (&numbers)[1]) { return all_of<Lanes>(numbers[0]); }
-
-/// The two numbers at each of the addresses. Pairs meet on their way from memory, which spares shuffles.
-CRACKLE_INLINE void gather_pairs(const double* const (&at)[lane_count], Lanes& first, Lanes& second) {
-    const Lanes even = join(at[0], at[2]), odd = join(at[1], at[3]);
-    first = __builtin_shufflevector(even, odd, 0, 4, 2, 6);
-    second = __builtin_shufflevector(even, odd, 1, 5, 3, 7);
-}
-
-/// Records of four numbers that lie one behind the other.
-CRACKLE_INLINE void store_quads(void* to, const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d) {
-    const Lanes ab02 = __builtin_shufflevector(a, b, 0, 4, 2, 6), ab13 = __builtin_shufflevector(a, b, 1, 5, 3, 7);
-    const Lanes cd02 = __builtin_shufflevector(c, d, 0, 4, 2, 6), cd13 = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+CRACKLE_INLINE void store_quads(void* to, const Quad& a, const Quad& b, const Quad& c, const Quad& d) {
+    const Quad ab02 = __builtin_shufflevector(a, b, 0, 4, 2, 6), ab13 = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+    const Quad cd02 = __builtin_shufflevector(c, d, 0, 4, 2, 6), cd13 = __builtin_shufflevector(c, d, 1, 5, 3, 7);
     char* out = static_cast<char*>(to);
     store_as(out, __builtin_shufflevector(ab02, cd02, 0, 1, 4, 5));
     store_as(out + 32, __builtin_shufflevector(ab13, cd13, 0, 1, 4, 5));
     store_as(out + 64, __builtin_shufflevector(ab02, cd02, 2, 3, 6, 7));
     store_as(out + 96, __builtin_shufflevector(ab13, cd13, 2, 3, 6, 7));
 }
-
-#endif
+CRACKLE_INLINE void store_quads(void* to, const Eight& a, const Eight& b, const Eight& c, const Eight& d) {
+    const Eight ab0 = __builtin_shufflevector(a, b, 0, 8, 2, 10, 4, 12, 6, 14);  // records 0, 2, 4, 6
+    const Eight ab1 = __builtin_shufflevector(a, b, 1, 9, 3, 11, 5, 13, 7, 15);
+    const Eight cd0 = __builtin_shufflevector(c, d, 0, 8, 2, 10, 4, 12, 6, 14);
+    const Eight cd1 = __builtin_shufflevector(c, d, 1, 9, 3, 11, 5, 13, 7, 15);
+    const Eight even04 = __builtin_shufflevector(ab0, cd0, 0, 1, 8, 9, 4, 5, 12, 13);  // records 0 and 4
+    const Eight even26 = __builtin_shufflevector(ab0, cd0, 2, 3, 10, 11, 6, 7, 14, 15);
+    const Eight odd15 = __builtin_shufflevector(ab1, cd1, 0, 1, 8, 9, 4, 5, 12, 13);
+    const Eight odd37 = __builtin_shufflevector(ab1, cd1, 2, 3, 10, 11, 6, 7, 14, 15);
+    char* out = static_cast<char*>(to);
+    store_as(out, __builtin_shufflevector(even04, odd15, 0, 1, 2, 3, 8, 9, 10, 11));
+    store_as(out + 64, __builtin_shufflevector(even26, odd37, 0, 1, 2, 3, 8, 9, 10, 11));
+    store_as(out + 128, __builtin_shufflevector(even04, odd15, 4, 5, 6, 7, 12, 13, 14, 15));
+    store_as(out + 192, __builtin_shufflevector(even26, odd37, 4, 5, 6, 7, 12, 13, 14, 15));
+}
 
 }  // namespace crackle

@@ -87,7 +87,7 @@ CRACKLE_INLINE PairLanes load_any_pairs(const World& world, const ContactPoint* 
     return pair;
 }
 
-/// Of points that lie in fours, those whose body_i is not that of the first.
+/// Of points that lie in fours, those whose body_i is not that of the first of them here.
 CRACKLE_INLINE LaneBits swapped_lanes(const ContactPoint* points) {
     typedef std::int32_t Words __attribute__((vector_size(4 * lane_count)));
     Words owners, firsts;
@@ -100,7 +100,7 @@ CRACKLE_INLINE LaneBits swapped_lanes(const ContactPoint* points) {
 
 /// The same where the points lie in fours between two bodies each, which are loaded once.
 CRACKLE_INLINE PairLanes load_fours(const World& world, const ContactPoint* points) {
-    constexpr std::size_t fours = lane_count / 4;
+    constexpr std::size_t fours = std::max(1, lane_count / 4);  // or half of one
     const BodyState *a[fours], *b[fours];
     for (std::size_t f = 0; f < fours; ++f) {
         const ContactPoint* const four = points + 4 * f;
@@ -262,7 +262,7 @@ struct BlockLosses {
     double friction = 0.0, law = 0.0;
     std::uint32_t broken = 0, gained = 0;
 
-    /// @param place of the first, a multiple of four
+    /// @param place of the first
     CRACKLE_INLINE void add_dashpots(PointIndex place, const Lanes& lost) {
         const PointIndex first = place % places;
         if (first + lane_count <= places) {

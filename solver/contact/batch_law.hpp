@@ -17,11 +17,12 @@
 
 namespace crackle {
 
-/// The numbers of all laws, those of one kind side by side, where there are no more laws than lanes.
+/// The numbers of all laws, those of one kind side by side, where there are few.
 struct LawTable {
+    static constexpr std::size_t most_laws = 8;  // as many as the widest lanes look up at once
     bool filled = false;
-    bool fits = false;  // no more laws than lanes, all with a shear spring or none
-    alignas(64) double numbers[11][lane_count];
+    bool fits = false;  // no more than that, all with a shear spring or none
+    alignas(64) double numbers[11][most_laws];
     bool differ[11];  // from law to law
     bool stiffness_or_friction_differ;
 
@@ -30,9 +31,9 @@ struct LawTable {
         const auto has_spring = [](const ContactLaw& law) { return law.shear_stiffness > 0.0; };
         const auto springs = std::count_if(laws.begin(), laws.end(), has_spring);
         filled = true;
-        fits = laws.size() <= lane_count && (springs == 0 || springs == static_cast<std::ptrdiff_t>(laws.size()));
+        fits = laws.size() <= most_laws && (springs == 0 || springs == static_cast<std::ptrdiff_t>(laws.size()));
         if (!fits) return;
-        for (std::size_t k = 0; k < lane_count; ++k) {
+        for (std::size_t k = 0; k < most_laws; ++k) {
             const ContactLaw& law = laws[std::min(k, laws.size() - 1)];
             const double all[] = {law.normal_stiffness,
                                   law.shear_stiffness,

@@ -30,7 +30,7 @@ void check_bodies(const World& world) {
                 world.stepping.steps, id,
                 "its position or velocity is not a number; the time step is likely too large for its contacts");
         }
-        const double move = world.stepping.time_step * std::hypot(body.vx, body.vy);
+        const double move = world.stepping.time_step * norm(Vec2{body.vx, body.vy});
         if (move > world.list.fastest_allowed_move && !world.stepping.allow_unstable) {
             throw UnstableRun(world.stepping.steps, id,
                               fmt::format("it moves {:.3g} m a step, more than half the smallest body ({:.3g} m), so "

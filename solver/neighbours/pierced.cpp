@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "solver/base/correctly_rounded.hpp"
 #include "solver/base/errors.hpp"
 #include "solver/geometry/geometry.hpp"
 
@@ -33,7 +34,8 @@ Place place_now(const World& world, BodyIndex b) {
 Place place_then(const World& world, BodyIndex b) {
     const ListReference& then = world.list.reference[b];
     const Place now = place_now(world, b);
-    const double back = then.angle - world.bodies.state[b].angle, c = std::cos(back), s = std::sin(back);
+    const double back = then.angle - world.bodies.state[b].angle, c = correctly_rounded::cos(back),
+                 s = correctly_rounded::sin(back);
     return {{then.x, then.y}, c * now.c - s * now.s, s * now.c + c * now.s};
 }
 

@@ -4,14 +4,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/distributions/lognormal.hpp>
-#include <boost/math/distributions/normal.hpp>
-#include <boost/math/distributions/weibull.hpp>
 #include <boost/math/tools/toms748_solve.hpp>
 #include <cmath>
 #include <numbers>
 #include <utility>
 
+#include "solver/base/correctly_rounded.hpp"
 #include "solver/base/errors.hpp"
 
 namespace crackle {
@@ -26,10 +24,13 @@ double root_between(F f, double low, double high) {
     return 0.5 * (a + b);
 }
 
+/// Φ, of a normal distribution of mean 0 and deviation 1.
+double share_below(double z) { return 0.5 * correctly_rounded::erfc(-z / std::sqrt(2.0)); }
+
 /// Mean and coefficient of variation of a normal distribution of mean 1 and deviation s, truncated at 0.
 std::pair<double, double> truncated_normal(double s) {
-    const boost::math::normal standard;
-    const double above = boost::math::cdf(standard, 1.0 / s), ratio = boost::math::pdf(standard, 1.0 / s) / above;
+    const double density = correctly_rounded::exp(-0.5 / (s * s)) / std::sqrt(2.0 * std::numbers::pi);
+    const double ratio = density / share_below(1.0 / s);
     const double mean = 1.0 + s * ratio, variance = s * s * (1.0 - ratio / s - ratio * ratio);
     return {mean, std::sqrt(variance) / mean};
 }
@@ -71,7 +72,9 @@ StrengthDistribution strength_distribution_named(const std::string& where, const
 double weibull_modulus(double cv) {
     return root_between(
         [&](double m) {
-            return std::exp(std::lgamma(1.0 + 2.0 / m) - 2.0 * std::lgamma(1.0 + 1.0 / m)) - 1.0 - cv * cv;
+            return correctly_rounded::exp(correctly_rounded::lgamma(1.0 + 2.0 / m) -
+                                          2.0 * correctly_rounded::lgamma(1.0 + 1.0 / m)) -
+                   1.0 - cv * cv;
         },
         0.2, 1e5);
 }
@@ -90,11 +93,11 @@ StrengthFactors::StrengthFactors(StrengthDistribution distribution, double cv, s
         first_ = 1.0 / truncated_normal(s).first;
         second_ = s * first_;
     } else if (distribution == StrengthDistribution::lognormal) {
-        second_ = std::sqrt(std::log1p(cv * cv));
+        second_ = std::sqrt(correctly_rounded::log1p(cv * cv));
         first_ = -0.5 * second_ * second_;
     } else {
         first_ = weibull_modulus(cv);
-        second_ = 1.0 / std::tgamma(1.0 + 1.0 / first_);
+        second_ = 1.0 / correctly_rounded::tgamma(1.0 + 1.0 / first_);
     }
 }
 
@@ -103,16 +106,15 @@ double StrengthFactors::quantile(double p) const {
         case StrengthDistribution::none:
             return 1.0;
         case StrengthDistribution::normal: {
-            const boost::math::normal whole(first_, second_);
-            const double below = boost::math::cdf(whole, 0.0);
-            return boost::math::quantile(whole, below + p * (1.0 - below));
+            const double below = share_below(-first_ / second_);
+            return first_ + second_ * correctly_rounded::normal_quantile(below + p * (1.0 - below));
         }
         case StrengthDistribution::lognormal:
-            return boost::math::quantile(boost::math::lognormal(first_, second_), p);
+            return correctly_rounded::exp(first_ + second_ * correctly_rounded::normal_quantile(p));
         case StrengthDistribution::weibull:
             break;
     }
-    return boost::math::quantile(boost::math::weibull(first_, second_), p);
+    return second_ * correctly_rounded::pow(-correctly_rounded::log1p(-p), 1.0 / first_);
 }
 
 double StrengthFactors::probability(double x) const {
@@ -120,16 +122,15 @@ double StrengthFactors::probability(double x) const {
         case StrengthDistribution::none:
             return x >= 1.0 ? 1.0 : 0.0;
         case StrengthDistribution::normal: {
-            const boost::math::normal whole(first_, second_);
-            const double below = boost::math::cdf(whole, 0.0);
-            return std::max(0.0, (boost::math::cdf(whole, x) - below) / (1.0 - below));
+            const double below = share_below(-first_ / second_);
+            return std::max(0.0, (share_below((x - first_) / second_) - below) / (1.0 - below));
         }
         case StrengthDistribution::lognormal:
-            return boost::math::cdf(boost::math::lognormal(first_, second_), x);
+            return x <= 0.0 ? 0.0 : share_below((correctly_rounded::log(x) - first_) / second_);
         case StrengthDistribution::weibull:
             break;
     }
-    return boost::math::cdf(boost::math::weibull(first_, second_), x);
+    return x <= 0.0 ? 0.0 : 1.0 - correctly_rounded::exp(-correctly_rounded::pow(x / second_, first_));
 }
 
 double StrengthFactors::between(int id_a, int id_b) const {

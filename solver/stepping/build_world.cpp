@@ -11,6 +11,7 @@
 #include <span>
 #include <utility>
 
+#include "solver/base/correctly_rounded.hpp"
 #include "solver/base/errors.hpp"
 #include "solver/linear/step_bound.hpp"
 #include "solver/scene/convex_pieces.hpp"
@@ -135,7 +136,7 @@ void add_elements(World& world, const Scene& scene, const Body& body, const Mass
         world.bodies.elements.push_back({offset.x, offset.y, 0.5 * scene.thick, 0.5 * scene.thick});
         info.reach = std::max(info.reach, norm(offset));
     }
-    state.angle = std::atan2(frame[1].y - frame[0].y, frame[1].x - frame[0].x);
+    state.angle = correctly_rounded::atan2(frame[1].y - frame[0].y, frame[1].x - frame[0].x);
     add_pieces(world, info, frame);
 }
 
@@ -215,14 +216,14 @@ ContactLaw law_between(const Material& a, const Material& b, const MaterialPair&
     law.normal_damping = in_series(a.damping_ratio ? 0.0 : a.normal_damping, b.damping_ratio ? 0.0 : b.normal_damping);
     law.shear_damping = in_series(a.damping_ratio ? 0.0 : a.shear_damping, b.damping_ratio ? 0.0 : b.shear_damping);
     const double angle = pair.friction_angle.value_or(std::min(a.friction_angle, b.friction_angle));
-    law.friction = std::tan(angle * std::numbers::pi / 180.0);
+    law.friction = correctly_rounded::tan(angle * std::numbers::pi / 180.0);
     law.tensile_strength = pair.tensile_strength.value_or(std::min(a.tensile_strength, b.tensile_strength));
     law.cohesion = pair.cohesion.value_or(std::min(a.cohesion, b.cohesion));
     law.bond_friction = law.friction;
     if (settings.bond_law == BondLaw::coulomb) {
         const double weaker = std::min(a.residual_friction_angle, b.residual_friction_angle);
         const double residual = std::min(pair.residual_friction_angle.value_or(weaker), angle);
-        law.friction = std::tan(residual * std::numbers::pi / 180.0);
+        law.friction = correctly_rounded::tan(residual * std::numbers::pi / 180.0);
     }
     if (settings.intact.no_sliding) law.friction = infinite;
     if (settings.intact.no_breaking) hold(law);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "solver/base/correctly_rounded.hpp"
 #include "solver/measure/point_view.hpp"
 #include "solver/world/world.hpp"
 
@@ -13,7 +14,7 @@ namespace crackle {
 
 /// Direction of a normal without its sense, in (-π/2, π/2].
 inline double orientation_of(Vec2 normal) {
-    double angle = std::atan2(normal.y, normal.x);
+    double angle = correctly_rounded::atan2(normal.y, normal.x);
     if (angle > 0.5 * std::numbers::pi) angle -= std::numbers::pi;
     if (angle <= -0.5 * std::numbers::pi) angle += std::numbers::pi;
     return angle;

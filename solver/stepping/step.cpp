@@ -33,9 +33,7 @@ double kick_now(const World& world) { return kick_before(world.stepping) + 0.5 *
 /// Kick and drift of all bodies.
 Speeds move_bodies(World& world, double kick) {
     const auto count = static_cast<std::int64_t>(world.bodies.size());
-    const auto move = world.settings.gravity == Vec2{}
-                          ? (world.bodies.some_turn ? &move_range<false, true> : &move_range<false, false>)
-                          : (world.bodies.some_turn ? &move_range<true, true> : &move_range<true, false>);
+    const MoveRange move = move_range_for(world);
     if (world.workers.threads == 1) return move(world, kick, 0, count);
     double fastest = 0.0, excess = 0.0;
 #pragma omp parallel for num_threads(world.workers.threads) schedule(static) reduction(max : fastest) \
@@ -46,14 +44,6 @@ Speeds move_bodies(World& world, double kick) {
         fastest = std::max(fastest, here.fastest);
     }
     return {fastest, excess};
-}
-
-/// The move of lists of bodies that suits the world.
-template <bool Clear>
-MoveListed move_of_lists(const World& world) {
-    return world.settings.gravity == Vec2{}
-               ? (world.bodies.some_turn ? &move_listed<false, true, Clear> : &move_listed<false, false, Clear>)
-               : (world.bodies.some_turn ? &move_listed<true, true, Clear> : &move_listed<true, false, Clear>);
 }
 
 /// Adds up what the blocks of the force pass report, in their order.
@@ -112,7 +102,7 @@ struct SweepMotion {
 
 SweepMotion motion_of_sweep(const World& world) {
     const bool clears = world.settings.integrator != Integrator::consistent;  // it looks at the last pass's forces
-    return {clears, clears ? move_of_lists<true>(world) : move_of_lists<false>(world), kick_now(world)};
+    return {clears, move_listed_for(world, clears), kick_now(world)};
 }
 
 /// Bodies that the sweep has left in place: after a break, and driven ones. @return of all bodies
@@ -120,7 +110,7 @@ Speeds move_remaining(World& world, const SweepMotion& motion) {
     Speeds speeds = move_the_rest(world, motion.move, motion.kick);
     kick_controls(world, motion.kick);
     for (const ControlState& control : world.bodies.controls)
-        speeds.add(move_of_lists<false>(world)(world, motion.kick, &control.body, 1));
+        speeds.add(move_listed_for(world, false)(world, motion.kick, &control.body, 1));
     return speeds;
 }
 

@@ -10,7 +10,9 @@
 
 #include <cstdint>
 
+#include "solver/base/instruction_set.hpp"
 #include "solver/contact/pass.hpp"
+#include "solver/stepping/motion.hpp"
 #include "solver/world/world.hpp"
 
 namespace crackle {
@@ -21,14 +23,15 @@ void plan_sweep(World& world);
 /// Makes Bodies::force ready to be added to.
 void clear_forces(World& world);
 
-/// Moves the bodies of a list and clears their forces, if they are not needed in the next pass.
-using MoveListed = Speeds (*)(World& world, double kick, const BodyIndex* bodies, std::int64_t count);
-
 /// Forces of all points, their sums, and the motion of all bodies but the driven ones, on the threads of the world;
 /// after plan_sweep() and clear_forces(). Where a thread meets a broken bond it moves no body from there on, and none
 /// at all where slips are watched: events are to be recorded as all was at time n.
 /// @param move null: bodies stay
 void sweep(World& world, const ContactFeatures& features, MoveListed move, double kick);
+
+/// The same, as compiled for an instruction set.
+template <InstructionSet>
+void sweep_of(World& world, const ContactFeatures& features, MoveListed move, double kick);
 
 /// Moves those that have been kept in place. @return of all bodies but the driven ones
 Speeds move_the_rest(World& world, MoveListed move, double kick);

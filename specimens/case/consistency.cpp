@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/base/correctly_rounded.hpp"
 #include "solver/base/errors.hpp"
 #include "solver/scene/bond_strength.hpp"
 #include "specimens/case/mineral_checks.hpp"
@@ -176,7 +177,7 @@ class ConsistencyCheck {
             refuse(key("shear_stiffness"), "0 N/m", "a number > 0 with coulomb bonds", "they hold in shear");
         if (!m.tensile_strength || !m.cohesion || !m.friction_angle) return;
         // Beyond cohesion over friction a tensile strength would never be reached.
-        const double friction = std::tan(*m.friction_angle * std::numbers::pi / 180.0);
+        const double friction = correctly_rounded::tan(*m.friction_angle * std::numbers::pi / 180.0);
         if (!(friction * *m.tensile_strength > *m.cohesion * (1.0 + 1e-12))) return;
         const std::string unit = test_.area_units() ? "Pa" : "N";
         refuse(key("tensile_strength"), fmt::format("{} {}", *m.tensile_strength, unit),

@@ -10,6 +10,7 @@
 #include <sstream>
 #include <utility>
 
+#include "solver/base/correctly_rounded.hpp"
 #include "solver/geometry/geometry.hpp"
 #include "specimens/frames/crack_faces.hpp"
 #include "specimens/frames/fragments.hpp"
@@ -140,10 +141,12 @@ int circle_corners(std::int64_t particles) {
 
 std::vector<Vec2> unit_circle_outline(int corners) {
     const double sector = 2.0 * std::numbers::pi / corners;
-    const double radius = std::sqrt(sector / std::sin(sector));  // of n triangles, each ½ radius² sin(sector)
+    const double radius =
+        std::sqrt(sector / correctly_rounded::sin(sector));  // of n triangles, each ½ radius² sin(sector)
     std::vector<Vec2> outline;
     outline.reserve(static_cast<std::size_t>(corners));
-    for (int k = 0; k < corners; ++k) outline.push_back(radius * Vec2{std::cos(k * sector), std::sin(k * sector)});
+    for (int k = 0; k < corners; ++k)
+        outline.push_back(radius * Vec2{correctly_rounded::cos(k * sector), correctly_rounded::sin(k * sector)});
     return outline;
 }
 

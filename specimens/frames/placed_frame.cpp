@@ -3,13 +3,15 @@
 
 #include <cmath>
 
+#include "solver/base/correctly_rounded.hpp"
+
 namespace crackle {
 
 PlacedFrame::PlacedFrame(const World& world, const TestSetup& setup, const Frame& frame)
     : world_(world), setup_(setup), frame_(frame), turns_(frame.bodies.size()) {
     for (std::size_t b = 0; b < turns_.size(); ++b) {
         const double turn = frame.bodies[b].angle - setup.start[b].angle;
-        turns_[b] = {std::cos(turn), std::sin(turn)};
+        turns_[b] = {correctly_rounded::cos(turn), correctly_rounded::sin(turn)};
     }
 }
 

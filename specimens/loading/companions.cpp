@@ -152,7 +152,7 @@ NumberError error_of(double asked, double resolution, const std::vector<Companio
     for (const double x : draws) mean += x / static_cast<double>(draws.size());
     for (const double x : draws) square += (x - mean) * (x - mean) / static_cast<double>(draws.size() - 1);
     const double chance = student_two * std::sqrt(2.0 * square) / std::abs(asked);
-    error.stated = std::hypot(resolution, std::max(chance, convergence_index * error.rate));
+    error.stated = norm(Vec2{resolution, std::max(chance, convergence_index * error.rate)});
     if (std::isnan(chance)) error.stated = undefined;
     return error;
 }

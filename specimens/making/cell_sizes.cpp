@@ -9,6 +9,7 @@
 #include <numbers>
 #include <span>
 
+#include "solver/base/correctly_rounded.hpp"
 #include "solver/base/errors.hpp"
 
 namespace crackle {
@@ -80,7 +81,7 @@ SizeDistribution radii_for_cells(MeshKind kind, const std::string& sizes, const 
         0.5 * asked.mean *
         std::sqrt(per_cell * filled_share * (1.0 + asked.spread * asked.spread) / (1.0 + spread * spread));
     if (!lognormal) return UniformRadii{mean * (1.0 - std::sqrt(3.0) * spread), mean * (1.0 + std::sqrt(3.0) * spread)};
-    const double deviation = std::sqrt(std::log1p(spread * spread));
+    const double deviation = std::sqrt(correctly_rounded::log1p(spread * spread));
     if (deviation == 0.0) return UniformRadii{mean, mean};
     return LognormalRadii{mean / std::sqrt(1.0 + spread * spread), deviation, 0.0, 0.0};
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "solver/base/correctly_rounded.hpp"
 #include "specimens/making/open_scene.hpp"
 
 namespace crackle {
@@ -50,7 +51,7 @@ Scene honeycomb(int columns, int rows, double apothem, double thick, const Mater
             std::vector<Vec2> outline;
             for (int k = 0; k < 6; ++k) {
                 const double angle = std::numbers::pi * (1.0 / 6.0 + k / 3.0);
-                outline.push_back(centre + corner * Vec2{std::cos(angle), std::sin(angle)});
+                outline.push_back(centre + corner * Vec2{correctly_rounded::cos(angle), correctly_rounded::sin(angle)});
             }
             scene.add_chain_body(++id, 0, outline, true);
         }

@@ -261,7 +261,7 @@ DiscAssembly scatter(const std::vector<double>& radii, double height_to_width, i
                      std::mt19937_64& generator) {
     double squares = 0.0;
     for (const double radius : radii) squares += radius * radius;
-    const double width = std::sqrt(std::acos(-1.0) * squares / quench_fill / height_to_width),
+    const double width = std::sqrt(std::numbers::pi * squares / quench_fill / height_to_width),
                  height = height_to_width * width;
     std::vector<Disc> discs;
     discs.reserve(radii.size());

@@ -4,14 +4,12 @@
 #include "specimens/packing/disc_assembly.hpp"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <numbers>
 #include <utility>
 
-#include "solver/base/lanes.hpp"
+#include "solver/base/instruction_set.hpp"
 #include "solver/neighbours/cell_grid.hpp"
 
 namespace crackle {
@@ -27,25 +25,7 @@ CellGrid grid_of(double width, double height, double cell, const std::vector<Dis
     return {layout, discs.size(), [&](std::size_t i) { return Vec2{discs[i].x, discs[i].y}; }};
 }
 
-/// Discs whose pairs are measured before their forces are summed: what is kept of them, some 10 kB, stays in the L1
-/// cache. Divides assembly_block.
-constexpr std::size_t chunk = 64;
-
-/// From entry lane_count - n on: a mask of the first n lanes.
-constexpr auto first_lanes = [] {
-    std::array<LaneBit, std::size_t{2} * lane_count> bits{};
-    std::fill_n(bits.begin(), lane_count, LaneBit{-1});
-    return bits;
-}();
-
 }  // namespace
-
-/// Over pairs as listed, so over each from both sides.
-struct DiscAssembly::PairSums {
-    Pair virial{};
-    double overlap = 0.0;
-    std::size_t contacts = 0;
-};
 
 DiscAssembly::DiscAssembly(double box_width, double box_height, std::vector<Disc> all, int thread_count)
     : width(box_width),
@@ -137,7 +117,7 @@ void DiscAssembly::build_list() {
     for (std::size_t block = 0; block < blocks; ++block)
         block_begin[block + 1] = block_begin[block] + static_cast<std::uint32_t>(found_[block].size());
     // Whole lanes are read.
-    neighbours_.resize(block_begin.back() + lane_count - 1);
+    neighbours_.resize(block_begin.back() + most_lanes - 1);
     owners_.resize(neighbours_.size());
     list_begin_[0] = 0;
 #pragma omp parallel for schedule(static) num_threads(threads) if (count >= assembly_parallel_from)
@@ -150,92 +130,9 @@ void DiscAssembly::build_list() {
         }
     }
     largest_chunk_ = 0;
-    for (std::size_t i = 0; i < count; i += chunk)
+    for (std::size_t i = 0; i < count; i += assembly_chunk)
         largest_chunk_ =
-            std::max<std::size_t>(largest_chunk_, list_begin_[std::min(count, i + chunk)] - list_begin_[i]);
-}
-
-void DiscAssembly::measure_pairs(std::size_t begin, std::size_t end, PairPush* pushes, PairSums& sums) const {
-    for (std::size_t first = begin; first < end; first += lane_count) {
-        const double *own_place[lane_count], *own_size[lane_count], *place[lane_count], *size[lane_count];
-        for (std::size_t l = 0; l < lane_count; ++l) {
-            const Disc &own = discs[owners_[first + l]], &other = discs[neighbours_[first + l]];
-            own_place[l] = &own.x;
-            own_size[l] = &own.radius;
-            place[l] = &other.x;
-            size[l] = &other.radius;
-        }
-        Lanes own_x, own_y, own_radius, x, y, radius, unused;
-        gather_pairs(own_place, own_x, own_y);
-        gather_pairs(own_size, own_radius, unused);
-        gather_pairs(place, x, y);
-        gather_pairs(size, radius, unused);
-        const Lanes dx = x - own_x, dy = y - own_y, reach = own_radius + radius;
-        const Lanes square = dx * dx + dy * dy, distance = root(square);
-        const LaneBits here =
-            load_as<LaneBits>(first_lanes.data() + lane_count - std::min<std::size_t>(end - first, lane_count));
-        const LaneBits touching = (square < reach * reach) & here;
-        const Lanes overlap = lanes_of(bits_of(reach - distance) & touching);
-        // Coincident centres have no direction: no force, the neighbours part them.
-        const Lanes pull = lanes_of(bits_of(overlap / distance) & (distance > 0.0));
-        const Lanes pull_x = pull * dx, pull_y = pull * dy;
-        PairPush* const push = pushes + (first - begin);
-        store_quads(push, pull_x, pull_y, pull_x * dx, pull_y * dy);
-        for (std::size_t l = 0; l < lane_count; ++l) {
-            sums.virial += load_as<Pair>(&push[l].virial_x);
-            sums.overlap += overlap[l];
-        }
-        sums.contacts += static_cast<std::size_t>(std::popcount(mask_of(touching)));
-    }
-}
-
-AssemblySums DiscAssembly::compute_block(std::size_t begin, std::size_t end, const DiscMotion* motion,
-                                         PairPush* pushes) {
-    AssemblySums sums;
-    PairSums pairs;
-    std::size_t measured_from = 0;
-    double power = 0.0, speed_square = 0.0, pull_square = 0.0, speed_pull = 0.0, largest_force = 0.0;
-    for (std::size_t i = begin; i < end; ++i) {
-        if ((i - begin) % chunk == 0) {
-            measured_from = list_begin_[i];
-            measure_pairs(list_begin_[i], list_begin_[std::min(end, i + chunk)], pushes, pairs);
-        }
-        const Disc disc = discs[i];
-        Pair pushed{};
-        for (std::size_t k = list_begin_[i]; k < list_begin_[i + 1]; ++k)
-            pushed -= load_as<Pair>(&pushes[k - measured_from].x);
-        Vec2 force{pushed[0], pushed[1]};
-        const auto touch_wall = [&](double distance, double& component, double sign, double& virial, bool platen) {
-            const double overlap = disc.radius - distance;
-            if (overlap <= 0.0) return;
-            component += sign * overlap;
-            virial += overlap * distance;
-            (platen ? sums.platen_overlap : sums.overlap) += overlap;
-            (platen ? sums.platen_contacts : sums.contacts) += 1.0;
-        };
-        touch_wall(disc.x, force.x, 1.0, sums.virial_x, false);
-        touch_wall(width - disc.x, force.x, -1.0, sums.virial_x, false);
-        touch_wall(disc.y, force.y, 1.0, sums.virial_y, true);
-        touch_wall(height - disc.y, force.y, -1.0, sums.virial_y, true);
-        forces[i] = force;
-        largest_force = std::max(largest_force, dot(force, force));
-        if (motion == nullptr) continue;
-        const Vec2 velocity = motion->velocity[i], pull = motion->inverse_mass[i] * force;
-        power += dot(force, velocity);
-        speed_square += dot(velocity, velocity);
-        pull_square += dot(pull, pull);
-        speed_pull += dot(velocity, pull);
-    }
-    sums.virial_x += 0.5 * pairs.virial[0];
-    sums.virial_y += 0.5 * pairs.virial[1];
-    sums.platen_overlap += 0.5 * pairs.overlap;
-    sums.platen_contacts += 0.5 * static_cast<double>(pairs.contacts);
-    sums.largest_force = largest_force;
-    sums.power = power;
-    sums.speed_square = speed_square;
-    sums.pull_square = pull_square;
-    sums.speed_pull = speed_pull;
-    return sums;
+            std::max<std::size_t>(largest_chunk_, list_begin_[std::min(count, i + assembly_chunk)] - list_begin_[i]);
 }
 
 AssemblySums DiscAssembly::compute_forces(const DiscMotion* motion, std::optional<double> moved) {
@@ -245,11 +142,12 @@ AssemblySums DiscAssembly::compute_forces(const DiscMotion* motion, std::optiona
     partial_.resize(blocks);
 #pragma omp parallel num_threads(threads) if (count >= assembly_parallel_from)
     {
-        std::vector<PairPush> pushes(largest_chunk_ + lane_count - 1);
+        std::vector<PairPush> pushes(largest_chunk_ + most_lanes - 1);
 #pragma omp for schedule(static)
         for (std::size_t block = 0; block < blocks; ++block) {
-            partial_[block] = compute_block(block * assembly_block, std::min(count, (block + 1) * assembly_block),
-                                            motion, pushes.data());
+            const std::size_t begin = block * assembly_block, end = std::min(count, begin + assembly_block);
+            partial_[block] =
+                of_chosen_set([&]<InstructionSet S>() { return compute_block<S>(begin, end, motion, pushes.data()); });
         }
     }
     AssemblySums total;

@@ -15,6 +15,7 @@
 #include <optional>
 #include <vector>
 
+#include "solver/base/instruction_set.hpp"
 #include "solver/base/vec2.hpp"
 
 namespace crackle {
@@ -94,8 +95,11 @@ class DiscAssembly {
 
     bool list_outdated(double moved_square) const;
     void build_list();
+    // By the kernels (disc_kernels.cpp).
     /// Pushes and sums of the listed pairs begin..end; pushes[0] is that of pair `begin`.
+    template <InstructionSet>
     void measure_pairs(std::size_t begin, std::size_t end, PairPush* pushes, PairSums& sums) const;
+    template <InstructionSet>
     AssemblySums compute_block(std::size_t begin, std::size_t end, const DiscMotion* motion, PairPush* pushes);
 
     double mean_radius_ = 0.0, largest_radius_ = 0.0, disc_area_ = 0.0;
@@ -110,6 +114,10 @@ class DiscAssembly {
 /// Discs handed to a thread at a time, and the unit in which sums are taken: fixed, so that sums do not depend on the
 /// threads.
 inline constexpr std::size_t assembly_block = 256;
+
+/// Discs whose pairs are measured before their forces are summed: what is kept of them, some 10 kB, stays in the L1
+/// cache. Divides assembly_block.
+inline constexpr std::size_t assembly_chunk = 64;
 
 /// Below this many discs a parallel region costs more than it saves.
 inline constexpr std::size_t assembly_parallel_from = 4096;

@@ -7,13 +7,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/math/special_functions/erf.hpp>
 #include <cmath>
 #include <fstream>
 #include <limits>
 #include <sstream>
 #include <string>
 
+#include "solver/base/correctly_rounded.hpp"
 #include "solver/base/errors.hpp"
 #include "specimens/packing/random_numbers.hpp"
 
@@ -33,12 +33,12 @@ bool positive(double value) { return value > 0.0 && std::isfinite(value); }
     throw InputError(fmt::format("{}: found {}, expected {}", key, found, expected));
 }
 
-double normal_share_below(double z) { return 0.5 * std::erfc(-z / std::sqrt(2.0)); }
+double normal_share_below(double z) { return 0.5 * correctly_rounded::erfc(-z / std::sqrt(2.0)); }
 
 /// Inverse of normal_share_below; ±infinity has no circle, so the ends stay where doubles still distinguish shares.
 double normal_quantile(double probability) {
     const double share = std::clamp(probability, std::numeric_limits<double>::min(), 1.0 - 0x1p-53);
-    return -std::sqrt(2.0) * boost::math::erfc_inv(2.0 * share);
+    return correctly_rounded::normal_quantile(share);
 }
 
 /// Shares of the untruncated distribution below its two cut-offs.
@@ -47,7 +47,7 @@ struct CutOff {
 };
 CutOff cut_off(const LognormalRadii& sizes) {
     const auto share = [&](double radius) {
-        return normal_share_below(std::log(radius / sizes.median) / sizes.log_deviation);
+        return normal_share_below(correctly_rounded::log(radius / sizes.median) / sizes.log_deviation);
     };
     return {sizes.radius_min > 0.0 ? share(sizes.radius_min) : 0.0,
             sizes.radius_max > 0.0 ? share(sizes.radius_max) : 1.0};
@@ -56,7 +56,7 @@ CutOff cut_off(const LognormalRadii& sizes) {
 /// Number of circles between the lower end of a sieve interval and `size`, for a unit of mass density: slope is the
 /// mass share per ln(size); N = slope/2·(a⁻² - size⁻²).
 double number_in_interval(const SievePoint& a, const SievePoint& b, double size) {
-    const double slope = (b.passing_by_mass - a.passing_by_mass) / std::log(b.size / a.size);
+    const double slope = (b.passing_by_mass - a.passing_by_mass) / correctly_rounded::log(b.size / a.size);
     return 0.5 * slope * (1.0 / (a.size * a.size) - 1.0 / (size * size));
 }
 
@@ -74,7 +74,7 @@ double sieve_radius(const SieveCurve& curve, double probability) {
         const SievePoint &a = curve.points[k], &b = curve.points[k + 1];
         const double here = number_in_interval(a, b, b.size);
         if (here > 0.0 && left <= here) {
-            const double slope = (b.passing_by_mass - a.passing_by_mass) / std::log(b.size / a.size);
+            const double slope = (b.passing_by_mass - a.passing_by_mass) / correctly_rounded::log(b.size / a.size);
             return 0.5 * std::clamp(1.0 / std::sqrt(1.0 / (a.size * a.size) - 2.0 * left / slope), a.size, b.size);
         }
         left -= here;
@@ -182,7 +182,7 @@ double radius_at(const SizeDistribution& sizes, double probability) {
                    [&](const LognormalRadii& lognormal) {
                        const CutOff cut = cut_off(lognormal);
                        const double z = normal_quantile(cut.below_min + probability * (cut.below_max - cut.below_min));
-                       return lognormal.median * std::exp(lognormal.log_deviation * z);
+                       return lognormal.median * correctly_rounded::exp(lognormal.log_deviation * z);
                    },
                    [&](const SieveCurve& curve) { return sieve_radius(curve, probability); }},
         sizes);
@@ -198,8 +198,8 @@ double share_below(const SizeDistribution& sizes, double radius) {
                    [&](const LognormalRadii& lognormal) {
                        const CutOff cut = cut_off(lognormal);
                        if (radius <= 0.0) return 0.0;
-                       const double below =
-                           normal_share_below(std::log(radius / lognormal.median) / lognormal.log_deviation);
+                       const double below = normal_share_below(correctly_rounded::log(radius / lognormal.median) /
+                                                               lognormal.log_deviation);
                        return std::clamp((below - cut.below_min) / (cut.below_max - cut.below_min), 0.0, 1.0);
                    },
                    [&](const SieveCurve& curve) { return sieve_share_below(curve, radius); }},

@@ -14,6 +14,7 @@
 #include <numbers>
 #include <unordered_map>
 
+#include "solver/base/correctly_rounded.hpp"
 #include "solver/base/errors.hpp"
 #include "solver/demseg/geometry.hpp"
 #include "solver/demseg/read_outputs.hpp"
@@ -48,7 +49,7 @@ std::vector<Chain> joined(const std::vector<DeckSegment>& segments) {
 
 double direction(const Chain& chain) {
     const Vec2 first = chain.points[1] - chain.points[0];
-    return std::atan2(first.y, first.x);
+    return correctly_rounded::atan2(first.y, first.x);
 }
 
 /// Shoelace formula. m2

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "solver/base/correctly_rounded.hpp"
+
 namespace crackle {
 namespace {
 
@@ -25,13 +27,13 @@ void choose_rate(RateState& state, const RateRule& rule, double kinetic, double 
     state.kinetic_share += (share - state.kinetic_share) / checks_per_transit;
     const double error = std::max(std::abs(state.out_of_balance), state.kinetic_share);
     const double steps = rule.transit_time / checks_per_transit;
-    const double push = -std::log(std::max(error / rule.tolerance, least_error_share));
+    const double push = -correctly_rounded::log(std::max(error / rule.tolerance, least_error_share));
     const double root = std::sqrt(rule.tolerance);
     const double change =
         std::clamp(gain * root * push, -fastest_fall * root, fastest_rise * root) / checks_per_transit;
     const double limit = largest_rate(rule);
     const double before = state.rate;
-    state.rate = std::clamp(before * std::exp(change), slowest_rate(rule), limit);
+    state.rate = std::clamp(before * correctly_rounded::exp(change), slowest_rate(rule), limit);
     state.slowest = std::min(state.slowest, state.rate);
     state.fastest = std::max(state.fastest, state.rate);
     if (error > rule.tolerance) state.strain_above += before * steps;

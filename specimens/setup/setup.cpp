@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <utility>
 
+#include "solver/base/correctly_rounded.hpp"
 #include "solver/geometry/geometry.hpp"
 #include "solver/measure/point_view.hpp"
 #include "solver/world/point_order.hpp"
@@ -105,8 +106,8 @@ BodyState placed_body(const World& world, const TestSetup& setup, BodyIndex b, d
     BodyState body{x, y, 0.0, 0.0, 0.0, {world.bodies.state[b].shape[0], 0.0}, angle};
     if (world.bodies.info[b].single_circle) return body;
     const double turn = angle - setup.start[b].angle;
-    body.shape[0] = std::cos(turn);
-    body.shape[1] = std::sin(turn);
+    body.shape[0] = correctly_rounded::cos(turn);
+    body.shape[1] = correctly_rounded::sin(turn);
     return body;
 }
 

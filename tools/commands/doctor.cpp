@@ -17,7 +17,7 @@
 #include <thread>
 #include <vector>
 
-#include "solver/base/lane_count.hpp"
+#include "solver/base/instruction_set.hpp"
 #include "tools/commands/build_info.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/page/page_template.hpp"
@@ -26,23 +26,13 @@
 namespace crackle::tools {
 namespace {
 
-/// Instruction sets beyond the compiler's default that the code was compiled for; another processor may lack them.
-std::string vector_instructions() {
-    std::string sets;
-#ifdef __AVX2__
-    sets += " AVX2";
-#endif
-#ifdef __FMA__
-    sets += " FMA";
-#endif
-#ifdef __AVX512F__
-    sets += " AVX-512F";
-#endif
-#ifdef __ARM_FEATURE_SVE
-    sets += " SVE";
-#endif
-    return sets.empty() ? " the processor family's baseline, runs on all of them"
-                        : sets + ", those of the building machine";
+/// "x86-64-v3 of x86-64-v2, x86-64-v3, x86-64-v4 that the kernels are built for".
+std::string instructions() {
+    std::string built_in;
+    for (const InstructionSet set : built_in_sets)
+        built_in += fmt::format("{}{}", built_in.empty() ? "" : ", ", name_of(set));
+    return fmt::format("{}, chosen from {}; CRACKLE_ISA names another; results are the same by any",
+                       name_of(chosen_set()), built_in);
 }
 
 /// Where a program is on the PATH; empty: nowhere.
@@ -90,8 +80,8 @@ int doctor(const Invocation& given) {
     line("crackle", build_info::version);
     line("build", fmt::format("{}, {}", build_info::build_type, build_info::compiler));
     if (given.messages.verbose()) line("flags", build_info::flags);
-    line("instructions", vector_instructions().substr(1));
-    line("lanes", fmt::format("{} doubles side by side in the contact kernels", lane_count));
+    line("instructions", instructions());
+    line("lanes", fmt::format("{} doubles side by side in the contact kernels", lanes_of(chosen_set())));
     line("sanitizers", build_info::sanitizers ? "address and undefined behaviour: slow, for tests" : "none");
     line("threads", fmt::format("{} on this machine; OpenMP {}; results are the same for any number",
                                 std::thread::hardware_concurrency(), _OPENMP));

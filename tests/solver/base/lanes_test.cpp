@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lanes by themselves; built with four of them and with eight, whatever the machine.
+// Lanes by themselves; built with two of them, four and eight, whatever the machine.
 
 #include "solver/base/lanes.hpp"
 

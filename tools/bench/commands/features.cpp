@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "solver/base/errors.hpp"
-#include "solver/base/lane_count.hpp"
+#include "solver/base/instruction_set.hpp"
 #include "solver/base/replace_file.hpp"
 #include "tools/bench/commands/bench.hpp"
 #include "tools/bench/commands/gnuplot.hpp"
@@ -35,7 +35,8 @@ bool holds_one(const MedianInterval& ratio) { return ratio.low <= 1.0 && 1.0 <= 
 
 std::string page_of(const std::string& command, const FeatureStudy& study, const std::vector<FeatureRow>& rows) {
     std::string text = fmt::format(
-        "# What features cost\n\nMade by `{}` on {}, {} lanes of doubles, one thread. ns of the processor a contact "
+        "# What features cost\n\nMade by `{}` on {}, kernels for {}, {} lanes of doubles, one thread. ns of the "
+        "processor a contact "
         "and step; contacts carry load. Medians of {} pairs of runs of about {:g} s, each from the same start, who "
         "begins alternating; in brackets the interval that holds the median at 95 % whatever the distribution (order "
         "statistics). Specimens are stirred by about a hundredth of an overlap.\n\n"
@@ -44,7 +45,7 @@ std::string page_of(const std::string& command, const FeatureStudy& study, const
         "`two materials` gives every second body another friction angle and stiffness.\n\n"
         "| bodies | feature | beside | particles | contacts a particle | ns a contact | ns a particle | ns a contact "
         "more | times |\n| --- | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |\n",
-        command, processor_name(), lane_count, study.pairs, study.seconds);
+        command, processor_name(), name_of(chosen_set()), lanes_of(chosen_set()), study.pairs, study.seconds);
     for (const FeatureRow& row : rows) {
         if (row.kind != FeatureRowKind::added) continue;
         text += fmt::format("| {} | {} | {} | {} | {:.2f} | {:.2f} | {:.1f} | {} | {} |\n", row.bodies, row.feature,

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "solver/base/errors.hpp"
-#include "solver/base/lane_count.hpp"
+#include "solver/base/instruction_set.hpp"
 #include "solver/base/replace_file.hpp"
 #include "solver/stepping/build_world.hpp"
 #include "solver/stepping/step.hpp"
@@ -136,7 +136,8 @@ std::string shown(double value, const char* format) {
 
 std::string page_of(const std::string& command, const Limits& limits, const std::vector<Row>& rows) {
     std::string text = fmt::format(
-        "# Throughput\n\nMade by `{}` on {}, {} lanes of doubles, one process. Triad: {:.0f} GB/s in the first cache, "
+        "# Throughput\n\nMade by `{}` on {}, kernels for {}, {} lanes of doubles, one process. Triad: {:.0f} GB/s in "
+        "the first cache, "
         "{:.0f} in the second, {:.0f} in memory. Rates in million particle-steps a second, of the whole engine as "
         "`crackle test` runs it (bonds, friction, dashpots, platens, curve, events, frames; a curve row every 100 "
         "steps); the bare kernel has neither neighbour search nor bonds, ledger, controls or observers. Contacts: "
@@ -148,7 +149,7 @@ std::string page_of(const std::string& command, const Limits& limits, const std:
         "| scene | particles | threads | contacts a particle | rate, M/s | bare kernel, M/s | ratio | ns a particle | "
         "bytes a particle | steps a list |\n"
         "| --- | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: | ---: |\n",
-        command, processor_name(), lane_count, limits.l1, limits.l2, limits.memory);
+        command, processor_name(), name_of(chosen_set()), lanes_of(chosen_set()), limits.l1, limits.l2, limits.memory);
     for (const Row& row : rows) {
         text += fmt::format("| {} | {} | {} | {:.2f} | {:.2f} | {} | {} | {:.1f} | {} | {} |\n", row.scene,
                             row.particles, row.threads, row.contacts, 1e-6 * row.rate, shown(1e-6 * row.bare, "{:.2f}"),

@@ -4,12 +4,13 @@
 // Discs of one material touch with normal spring and dashpot, incremental shear spring and dashpot under a Coulomb
 // limit, by the same code as in the engine; every point writes one record of 32 bytes, every body adds up its own in a
 // fixed order and is kicked and drifted. No neighbour search, walls, bonds, ledger, controls or observers. A body's
-// state fills a cache line, points are looked at lane_count at a time (solver/base/lanes.hpp). On one thread.
+// state fills a cache line, points are looked at several at a time (solver/base/lanes.hpp). On one thread.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
+#include "solver/base/instruction_set.hpp"
 #include "solver/stepping/step.hpp"
 #include "solver/world/world.hpp"
 
@@ -48,10 +49,15 @@ class BareKernel {
     };
 
     void move_bodies();
+    // By the kernels (bare_forces.cpp).
+    template <InstructionSet>
+    void compute_forces_of();
+    template <InstructionSet>
+    void move_bodies_of();
 
     std::vector<Body> bodies_;
     std::vector<Inertia> inertia_;
-    std::vector<Point> points_;  // padded to a multiple of lane_count with points of a lone pair
+    std::vector<Point> points_;  // padded to a multiple of most_lanes with points of a lone pair
     std::size_t real_points_ = 0;
     std::vector<PointForce> forces_;
     std::vector<std::uint32_t> begin_, slots_;

@@ -9,7 +9,7 @@
 namespace crackle::throughput {
 void least_step(World& world, const ContactFeatures& features) {
     const double kick = 0.5 * (world.stepping.drift + world.stepping.time_step);
-    const MoveListed move = &move_listed<false, false, true>;
+    const MoveListed move = of_chosen_set([]<InstructionSet S>() { return move_listed_of<S>(false, false, true); });
     clear_forces(world);
     sweep(world, features, move, kick);
     world.bodies.forces_clear = true;

@@ -9,15 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "tools/bench/throughput/triad.hpp"
+
 namespace crackle::throughput {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-void triad(double* a, const double* b, const double* c, double s, std::size_t count) {
-    for (std::size_t k = 0; k < count; ++k) a[k] = b[k] + s * c[k];
-    asm volatile("" : : "r"(a) : "memory");
-}
 
 /// Number behind a key of /proc/self/status, bytes.
 std::size_t status_bytes(const std::string& key) {
@@ -35,6 +32,7 @@ double triad_bandwidth(std::size_t bytes, double seconds) {
     const std::size_t count = bytes / (3 * sizeof(double));
     std::vector<double> a(count, 0.0), b(count, 1.0), c(count, 2.0);
     const std::size_t repeats = std::max<std::size_t>(1, (std::size_t{1} << 22) / std::max<std::size_t>(1, count));
+    const Triad triad = of_chosen_set([]<InstructionSet S>() { return &triad_of<S>; });
     double best = 0.0;
     const Clock::time_point start = Clock::now();
     do {

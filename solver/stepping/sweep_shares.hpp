@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which thread does what in a sweep, as its plan and its kernels have it.
+// Tested by tests/solver/stepping/sweep_test.cpp.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+#include "solver/world/world.hpp"
+
+namespace crackle {
+
+/// First of `count` that is thread `thread`'s.
+inline std::uint32_t share_begin(std::uint32_t count, std::size_t thread, std::size_t threads) {
+    return static_cast<std::uint32_t>(std::uint64_t{count} * thread / threads);
+}
+
+/// The thread whose share has one of `count`.
+inline std::size_t share_of(std::uint32_t one, std::uint32_t count, std::size_t threads) {
+    return ((one + std::uint64_t{1}) * threads - 1) / count;
+}
+
+inline bool has_partner(std::size_t kind) { return static_cast<PointKind>(kind) != PointKind::element_wall; }
+
+/// Of points from `begin` to `end`, of one kind, where those end that are added up four at a time.
+inline PointIndex end_of_fours(const World& world, std::size_t kind, PointIndex begin, PointIndex end) {
+    if (static_cast<PointKind>(kind) != PointKind::element_outline) return begin;
+    return std::clamp(world.points.fours_end, begin, end);
+}
+
+inline std::uint32_t end_of_chunks(const SweepPlan& plan, std::size_t thread) {
+    const std::uint32_t chunks = plan.thread_chunks[thread + 1];
+    return chunks == 0 ? 0 : plan.chunks[chunks - 1].end_body;
+}
+
+/// Whether no thread has met a broken bond.
+inline bool none_held(const SweepPlan& plan) {
+    return std::ranges::none_of(plan.shares, [](const SweepPlan::Share& share) { return share.held; });
+}
+
+}  // namespace crackle
