@@ -165,26 +165,26 @@ CRACKLE_INLINE Lanes looked_up(const double* table, const LaneBits& index) {
 /// Whether every bit of every lane is 0.
 CRACKLE_INLINE bool none_of(bool condition) { return !condition; }
 CRACKLE_INLINE bool none_of(const LaneBits& v) {
-    const char* from = reinterpret_cast<const char*>(&v);
 #if defined(__AVX512F__)
-    const __m512i all = load_as<__m512i>(from);
+    const __m512i all = load_as<__m512i>(&v);
     return _mm512_test_epi64_mask(all, all) == 0;
-#else
+#elif defined(__SSE2__)
+    const char* from = reinterpret_cast<const char*>(&v);
     bool none = true;
 #if defined(__AVX__)
     for (std::size_t k = 0; k < sizeof v; k += 32) {
         const __m256i some = load_as<__m256i>(from + k);
         none = none && _mm256_testz_si256(some, some) != 0;
     }
-#elif defined(__SSE2__)
+#else
     for (std::size_t k = 0; k < sizeof v; k += 16)
         none = none && _mm_movemask_epi8(_mm_cmpeq_epi8(load_as<__m128i>(from + k), _mm_setzero_si128())) == 0xffff;
+#endif
+    return none;
 #else
     LaneBit some = 0;
     for (int l = 0; l < lane_count; ++l) some |= v[l];
-    none = some == 0;
-#endif
-    return none;
+    return some == 0;
 #endif
 }
 

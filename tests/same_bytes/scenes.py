@@ -1,0 +1,47 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What is run to compare bytes: everything shipped, and one small case a kind."""
+
+import pathlib
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+
+# Small cases: what a shipped one is made of, and what makes it small or takes another way through the program.
+CIRCLES = "[packing]\ncount = 60\n[output]\nframes = 3\n"
+LOGNORMAL = '[packing]\ncount = 60\nsizes = "lognormal"\nradius_median = 0.02\nradius_log_deviation = 0.25\nradius_min = 0.01\nradius_max = 0.04\n[output]\nframes = 3\n'
+SMALL = {
+    "circles_tension": f'include = "circles_tension.toml"\n{CIRCLES}',
+    "circles_compression": f'include = "circles_compression.toml"\n{CIRCLES}[loading]\nmax_axial_strain = 0.004\n',
+    "circles_consistent": f'include = "circles_compression.toml"\n{CIRCLES}[loading]\nmax_axial_strain = 0.004\n[numerics]\nintegrator = "consistent"\n',
+    "circles_lognormal": f'include = "circles_tension.toml"\n{LOGNORMAL}',
+    "delaunay_tension": f'include = "delaunay_tension.toml"\n{CIRCLES}',
+    "voronoi_compression": f'include = "voronoi_compression.toml"\n{CIRCLES}[loading]\nmax_axial_strain = 0.01\n',
+    "granite_tension": 'include = "granite_tension.toml"\n[packing]\nwidth = 0.018\nheight = 0.036\n[output]\nframes = 3\n',
+    "sandstone_compression": 'include = "sandstone_compression.toml"\n[packing]\nwidth = 0.018\nheight = 0.036\n[output]\nframes = 3\n'
+                             '[loading]\nmax_axial_strain = 0.004\n',
+    "granite_normal_strengths": 'include = "granite_tension.toml"\n[packing]\nwidth = 0.018\nheight = 0.036\n[output]\nframes = 3\n'
+                                '[bond]\nstrength_distribution = "normal"\n',
+    "granite_lognormal_strengths": 'include = "granite_tension.toml"\n[packing]\nwidth = 0.018\nheight = 0.036\n[output]\nframes = 3\n'
+                                   '[bond]\nstrength_distribution = "lognormal"\n',
+}
+SMALL_DECKS = ("wave_chain", "triangle", "clump", "random_packing", "controlled_segment_force", "embankment")
+PACKING = "pack --count 300 --lognormal-median 0.01 --lognormal-deviation 0.3 --mean-overlap 1e-5 -o in_gm.dat"
+
+
+def scenes(small):
+    """{name: ({name of a file or folder: its text, or the path that it is a copy of}, commands of crackle in the folder of the scene, whose outputs are compared)}"""
+    found = {
+        "packing": ({}, [PACKING]),
+        "delaunay_mesh": ({}, [PACKING, "mesh in_gm.dat --kind delaunay --thick 5e-4 --merge -o mesh.dat"]),
+        "voronoi_mesh": ({}, [PACKING, "mesh in_gm.dat --kind voronoi --thick 5e-4 --merge -o mesh.dat"]),
+    }
+    shipped = [case for folder in ("guide_rock", "rocks") for case in sorted((ROOT / "specimens" / folder).glob("*.toml"))]
+    for name, text in SMALL.items() if small else ((case.stem, None) for case in shipped if "_" in case.stem):
+        files = {case.name: case for case in shipped}
+        if small:
+            files[f"small_{name}.toml"] = text
+            name = "small_" + name
+        found[name] = (files, [f"test {name}.toml -o out -q", f"elastic {name}.toml --json"])
+    for deck in sorted((ROOT / "specimens/demseg").iterdir()):
+        if deck.is_dir() and (not small or deck.name in SMALL_DECKS):
+            found[f"deck_{deck.name}"] = ({"deck": deck}, ["run deck -o out -q"])
+    return found
