@@ -123,7 +123,12 @@ CRACKLE_INLINE double magnitude(double v) { return std::abs(v); }
 CRACKLE_INLINE Lanes magnitude(const Lanes& v) { return lanes_of(bits_of(v) & ~sign_bit); }
 CRACKLE_INLINE double with_sign(double size, double sign) { return std::copysign(size, sign); }
 CRACKLE_INLINE Lanes with_sign(const Lanes& size, const Lanes& sign) {
-    return lanes_of((bits_of(size) & ~sign_bit) | (bits_of(sign) & sign_bit));
+    LaneBits bit = LaneBits{} + sign_bit;
+#if defined(__clang__) && defined(__AVX512F__)
+    asm(""
+        : "+v"(bit));  // clang 14 miscompiles what it knows to be a copysign under a mask: the number becomes 2^-1022
+#endif
+    return lanes_of((bits_of(size) & ~bit) | (bits_of(sign) & bit));
 }
 
 /// One bit a lane of a condition.

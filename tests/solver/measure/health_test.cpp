@@ -325,7 +325,7 @@ TEST(StableStep, OfGroupsApartIsTheLeastForAnyThreadsAndNamesItsBody) {
         }
         group.domain.wall_present = {false, false, false, false};
         least = std::min(least, build_world(group).stepping.step_bound);
-        const auto before = static_cast<int>(both.bodies.size());
+        const std::size_t before = both.bodies.size();
         for (const CircleElement& circle : group.circles)
             both.add_circle_body(static_cast<int>(both.bodies.size()) + 1, 0, circle);
         both.materials = group.materials;
