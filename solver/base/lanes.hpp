@@ -21,6 +21,8 @@
 #include <limits>
 #include <type_traits>
 
+#include "solver/base/instruction_set.hpp"
+
 #define CRACKLE_INLINE inline __attribute__((always_inline))
 
 namespace crackle {
@@ -45,10 +47,10 @@ using Quad = double __attribute__((vector_size(32)));
 using Pair = double __attribute__((vector_size(16)));
 
 /// Where kernels without AVX begin: once a library has left something in the upper halves of the vector registers,
-/// every instruction of theirs waits for it (three times slower, seen on Zen). @param wider the processor has AVX
-CRACKLE_INLINE void clear_upper_halves([[maybe_unused]] bool wider) {
+/// every instruction of theirs waits for it (three times slower, seen on Zen).
+CRACKLE_INLINE void clear_upper_halves() {
 #if defined(__SSE2__) && !defined(__AVX__)
-    if (wider) asm volatile("vzeroupper");
+    if (has_wider_registers()) asm volatile("vzeroupper");
 #endif
 }
 

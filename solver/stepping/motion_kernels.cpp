@@ -42,7 +42,7 @@ Speeds move_each(World& world, double kick, std::int64_t count, Number number) {
     [[maybe_unused]] const double* const reaches = world.bodies.turning_reach.data();
     [[maybe_unused]] PushBound* const bounds =
         world.bodies.push_bound.empty() ? nullptr : world.bodies.push_bound.data();
-    clear_upper_halves(has_wider_registers());
+    clear_upper_halves();
     Speeds speeds;
     for (std::int64_t k = 0; k < count; ++k) {
         const auto n = number(k);

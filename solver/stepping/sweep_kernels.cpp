@@ -73,7 +73,7 @@ class Sweeper {
           profile_(thread_ == 0 ? world.workers.profile : nullptr),
           share_(plan_.shares[thread_]),
           deferred_(threads_ == 1 ? nullptr : plan_.deferred.data() + plan_.deferred_begin[thread_]) {
-        clear_upper_halves(has_wider_registers());
+        clear_upper_halves();
     }
 
     void do_smaller_kinds() {

@@ -68,7 +68,7 @@ void DiscAssembly::measure_pairs<InstructionSet::CRACKLE_SET>(std::size_t begin,
 template <>
 AssemblySums DiscAssembly::compute_block<InstructionSet::CRACKLE_SET>(std::size_t begin, std::size_t end,
                                                                       const DiscMotion* motion, PairPush* pushes) {
-    clear_upper_halves(has_wider_registers());
+    clear_upper_halves();
     AssemblySums sums;
     PairSums pairs;
     std::size_t measured_from = 0;

@@ -14,7 +14,7 @@ namespace crackle::throughput {
 
 template <>
 void BareKernel::compute_forces_of<InstructionSet::CRACKLE_SET>() {
-    clear_upper_halves(has_wider_registers());
+    clear_upper_halves();
     const Body* const bodies = bodies_.data();
     const Law<Lanes> law(law_);
     const Lanes root_mass = all_of<Lanes>(root_mass_), zero{};
