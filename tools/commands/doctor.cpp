@@ -21,6 +21,7 @@
 #include "tools/commands/build_info.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/page/page_template.hpp"
+#include "tools/terminal/shipped.hpp"
 #include "tools/terminal/terminal.hpp"
 
 namespace crackle::tools {
@@ -100,6 +101,9 @@ int doctor(const Invocation& given) {
     line("report page", page == 0
                             ? "absent: `crackle report` and `crackle view` can write none"
                             : fmt::format("embedded, {} KiB: `crackle report` works without a network", page / 1024));
+    const std::string shipped = shipped_folder();
+    line("shipped", shipped.empty() ? "found no cases: `crackle test specimens/...` finds them where they are alone"
+                                    : "specimens/... is also looked for in " + shipped);
     line("gnuplot", gnuplot.empty() ? "found none on the PATH: `crackle bench` leaves tables and scripts, no pictures"
                                     : gnuplot + ": draws the pictures of `crackle bench`");
     const bool coloured = !styled("", Style::heading, Stream::out).empty();

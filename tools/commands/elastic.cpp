@@ -14,6 +14,7 @@
 #include "specimens/elastic/analysis.hpp"
 #include "specimens/loading/prepare.hpp"
 #include "tools/commands/commands.hpp"
+#include "tools/terminal/shipped.hpp"
 
 namespace crackle::tools {
 namespace {
@@ -163,7 +164,7 @@ int elastic(const Invocation& given) {
         throw InputError(fmt::format("{}: exists already, expected a new file; choose another name, or --force",
                                      values["bonds"].as<std::string>()));
     }
-    TestCase description = read_case(given.operands.front());
+    TestCase description = read_case(given_or_shipped(given.operands.front()));
     TestHooks hooks;
     if (!values.contains("json") || messages.verbose())
         hooks.stage = [&messages](const std::string& text) { messages.stage(text); };

@@ -10,6 +10,7 @@
 #include "solver/demseg/deck_run.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/terminal/interrupt.hpp"
+#include "tools/terminal/shipped.hpp"
 
 namespace crackle::tools {
 namespace {
@@ -17,7 +18,7 @@ namespace {
 DeckOptions deck_options(const Invocation& given) {
     const po::variables_map& values = given.values;
     DeckOptions options;
-    options.folder = given.operands.front();
+    options.folder = given_or_shipped(given.operands.front());
     if (values.contains("output")) options.output = values["output"].as<std::string>();
     options.goes_on = values.contains("continue");
     options.overwrite = values.contains("force");

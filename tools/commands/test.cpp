@@ -18,6 +18,7 @@
 #include "specimens/results/summary.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/terminal/interrupt.hpp"
+#include "tools/terminal/shipped.hpp"
 
 namespace crackle::tools {
 namespace {
@@ -253,7 +254,7 @@ int check(const Invocation& given) {
                             other));
     }
     if (given.operands.empty()) throw InputError("crackle test: found no CASE.toml, expected one with --check");
-    TestCase description = read_case(given.operands.front());
+    TestCase description = read_case(given_or_shipped(given.operands.front()));
     if (values.contains("allow-unstable")) description.numerics.allow_unstable = true;
     if (values.contains("threads")) description.numerics.threads = values["threads"].as<int>();
     watch_interrupts();
@@ -364,7 +365,7 @@ int test(const Invocation& given) {
     if (resume) {
         outcome = resume_test(options, hooks);
     } else {
-        TestCase description = read_case(given.operands.front());
+        TestCase description = read_case(given_or_shipped(given.operands.front()));
         if (values.contains("allow-unstable")) description.numerics.allow_unstable = true;
         try {
             outcome = run_test(description, options, hooks);

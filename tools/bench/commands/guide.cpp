@@ -18,6 +18,7 @@
 #include "tools/bench/guide/experiments.hpp"
 #include "tools/bench/guide/page.hpp"
 #include "tools/terminal/interrupt.hpp"
+#include "tools/terminal/shipped.hpp"
 
 namespace crackle::tools {
 namespace {
@@ -236,7 +237,7 @@ int bench_guide(const Invocation& invocation) {
     const Plan plan = plan_of(given);
     const fs::path folder = given["output"].as<std::string>();
     studies::EnsembleOptions ensemble;
-    ensemble.cases = given["cases"].as<std::string>();
+    ensemble.cases = given_or_shipped(given["cases"].as<std::string>());
     ensemble.cache = folder / "cache";
     ensemble.rate_factor = given["rate-factor"].as<double>();
     ensemble.jobs = given["jobs"].as<int>();

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/terminal/shipped.hpp"
+
+#include <system_error>
+
+namespace crackle::tools {
+namespace fs = std::filesystem;
+
+fs::path shipped_folder() {
+    std::error_code none;
+    const fs::path program = fs::read_symlink("/proc/self/exe", none);
+    if (none) return {};
+    const fs::path folder = program.parent_path();
+    // Installed: PREFIX/bin. Built: SOURCES/build/PRESET/tools.
+    for (const fs::path& data : {folder / "../share/crackle", folder / "../../.."})
+        if (fs::is_directory(data / "specimens/guide_rock", none)) return fs::weakly_canonical(data, none);
+    return {};
+}
+
+fs::path given_or_shipped(const std::string& path) {
+    std::error_code none;
+    if (fs::exists(path, none) || !path.starts_with("specimens/")) return path;
+    const fs::path folder = shipped_folder();
+    return !folder.empty() && fs::exists(folder / path, none) ? folder / path : fs::path(path);
+}
+
+}  // namespace crackle::tools
