@@ -19,7 +19,7 @@ enum class Phase : std::uint8_t {
     bookkeeping,   // breaks, losses, driven bodies
     integrate,     // kick and drift
     observe,       // curve rows, breaks, peak
-    write,         // files, frames drawn for them included
+    write,         // files: rows, checkpoints, waiting for frames that another thread draws
     check,         // health of the run
     set_the_rate,  // loading by tolerance
 };

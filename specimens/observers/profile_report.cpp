@@ -24,7 +24,7 @@ constexpr std::array<PhaseName, phase_count> phase_names{{
     {"bookkeeping", "breaks, losses, driven bodies"},
     {"integrate", "kick and drift"},
     {"observe", "curve rows, breaks, peak"},
-    {"write", "files, frames drawn for them included"},
+    {"write", "files; waiting for frames, which another thread draws"},
     {"check", "health of the run"},
     {"rate", "platen speed, loading by tolerance"},
 }};

@@ -2,8 +2,8 @@
 #include "specimens/results/files.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <set>
-#include <span>
 #include <system_error>
 #include <vector>
 
@@ -16,6 +16,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::chrono::seconds collection_interval{1};
+/// Frames that may wait to be drawn, of specimens whose frames are small.
+constexpr std::size_t most_waiting = 4, most_bodies_of_several = 20'000;
 
 /// Pictures that the state does not know of were taken after its checkpoint, and may not be taken again.
 void remove_unlisted_frames(const fs::path& frames, const TestState& state) {
@@ -63,31 +65,52 @@ void TestFiles::add_frame(const Frame& frame, const TestSetup& setup, TestState&
                                         [](const FrameEntry& entry, std::int64_t row) { return entry.row < row; });
     if (later != state.frames.end() && later->row == frame.row) return;
     state.frames.insert(later, {frame.row, frame.axial_strain, frame.time});
-    if (!painter_ || !painter_->paints(world, setup)) painter_.emplace(world, setup, precision_);
-    const PlacedFrame placed(world, setup, frame);
-    const FrameForces forces = find_forces(placed);
-    const auto cracks = std::span(state.history.cracks).first(frame.cracks);
-    folder_.write("frames/" + particles_file(frame.row),
-                  [&](std::ostream& out) { painter_->write_particles(out, placed, forces); });
-    folder_.write("frames/" + contacts_file(frame.row),
-                  [&](std::ostream& out) { painter_->write_contacts(out, placed, forces, cracks); });
-    folder_.write("frames/" + cracks_file(frame.row),
-                  [&](std::ostream& out) { painter_->write_cracks(out, placed, cracks); });
+    if (!painter_ || !painter_->paints(world, setup)) {
+        background_.wait();
+        painter_.emplace(world, setup, precision_);
+    }
     collection_due_ = true;
-    if (std::chrono::steady_clock::now() - collected_ >= collection_interval) write_collection(state);
+    const bool collects = std::chrono::steady_clock::now() - collected_ >= collection_interval;
+    // What changes while it is drawn is copied; of the world only what a test leaves as it was made is looked at.
+    struct Job {
+        Frame frame;
+        std::vector<Crack> cracks;
+        std::string collection;  // frames.pvd once the frame is there; empty: later
+    };
+    const auto first = state.history.cracks.begin();
+    const auto job = std::make_shared<const Job>(
+        Job{frame, {first, first + static_cast<std::ptrdiff_t>(frame.cracks)}, collects ? due_collection(state) : ""});
+    const std::size_t waiting = world.bodies.size() <= most_bodies_of_several ? most_waiting : 0;
+    background_.add(
+        [this, job, &world, &setup] {
+            const PlacedFrame placed(world, setup, job->frame);
+            const FrameForces forces = find_forces(placed);
+            folder_.write("frames/" + particles_file(job->frame.row),
+                          [&](std::ostream& out) { painter_->write_particles(out, placed, forces); });
+            folder_.write("frames/" + contacts_file(job->frame.row),
+                          [&](std::ostream& out) { painter_->write_contacts(out, placed, forces, job->cracks); });
+            folder_.write("frames/" + cracks_file(job->frame.row),
+                          [&](std::ostream& out) { painter_->write_cracks(out, placed, job->cracks); });
+            if (!job->collection.empty()) folder_.write("frames/frames.pvd", job->collection);
+        },
+        waiting);
 }
 
-void TestFiles::write_collection(const TestState& state) {
-    if (!collection_due_) return;
+std::string TestFiles::due_collection(const TestState& state) {
     std::vector<CollectionEntry> entries;
     for (const FrameEntry& frame : state.frames) {
         entries.push_back({frame.time, 0, particles_file(frame.row)});
         entries.push_back({frame.time, 1, contacts_file(frame.row)});
         entries.push_back({frame.time, 2, cracks_file(frame.row)});
     }
-    folder_.write("frames/frames.pvd", pvd_text(entries));
     collection_due_ = false;
     collected_ = std::chrono::steady_clock::now();
+    return pvd_text(entries);
+}
+
+void TestFiles::write_collection(const TestState& state) {
+    background_.wait();
+    if (collection_due_) folder_.write("frames/frames.pvd", due_collection(state));
 }
 
 void TestFiles::write_checkpoint(const TestSetup& setup, TestState& state, const World& world) {
@@ -100,6 +123,7 @@ void TestFiles::write_checkpoint(const TestSetup& setup, TestState& state, const
 }
 
 void TestFiles::flush() {
+    background_.wait();
     curve_.flush();
     events_.flush();
     if (slips_) slips_->flush();

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "specimens/frames/frame_painter.hpp"
+#include "specimens/results/background.hpp"
 #include "specimens/results/output_folder.hpp"
 #include "specimens/results/summary.hpp"
 
@@ -22,8 +23,9 @@ class TestFiles {
     void add_row(const CurveRow& row);
     void add_event(const BreakEvent& event, double axial_strain);
     void add_slip(const SlipEvent& event, double axial_strain);
-    /// Writes the pictures of a frame and lists it in state.frames, in the order of rows. frames.pvd follows within
-    /// a second, or with the checkpoint or the summary: replacing a file costs more than a small specimen's frame.
+    /// Lists a frame in state.frames, in the order of rows, and has its pictures written beside the stepping: they are
+    /// there, all of them, before a checkpoint or a summary is. frames.pvd follows within a second, or then: replacing
+    /// a file costs more than a small specimen's frame. World and setup must outlive these files.
     void add_frame(const Frame& frame, const TestSetup& setup, TestState& state, const World& world);
     /// Flushes the growing files, notes their lengths in the state, and writes the checkpoint.
     void write_checkpoint(const TestSetup& setup, TestState& state, const World& world);
@@ -32,6 +34,7 @@ class TestFiles {
     void write_summary(const nlohmann::ordered_json& summary, const TestState& state);
 
   private:
+    std::string due_collection(const TestState& state);
     void write_collection(const TestState& state);
 
     const OutputFolder& folder_;
@@ -42,6 +45,7 @@ class TestFiles {
     std::optional<FramePainter> painter_;  // once there is a frame
     bool collection_due_;                  // frames.pvd is not of the state
     std::chrono::steady_clock::time_point collected_;
+    Background background_;  // last: what it still has to do needs the others
 };
 
 }  // namespace crackle

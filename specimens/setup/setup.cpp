@@ -103,8 +103,11 @@ void record_bonds(TestSetup& setup, const World& world) {
 }  // namespace
 
 BodyState placed_body(const World& world, const TestSetup& setup, BodyIndex b, double x, double y, double angle) {
-    BodyState body{x, y, 0.0, 0.0, 0.0, {world.bodies.state[b].shape[0], 0.0}, angle};
-    if (world.bodies.info[b].single_circle) return body;
+    BodyState body{x, y, 0.0, 0.0, 0.0, {0.0, 0.0}, angle};
+    if (world.bodies.info[b].single_circle) {
+        body.shape[0] = world.bodies.state[b].shape[0];  // its radius, which never changes
+        return body;
+    }
     const double turn = angle - setup.start[b].angle;
     body.shape[0] = correctly_rounded::cos(turn);
     body.shape[1] = correctly_rounded::sin(turn);
