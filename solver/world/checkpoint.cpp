@@ -12,12 +12,15 @@
 #include <cereal/types/optional.hpp>
 #include <cereal/types/vector.hpp>
 
-#include <cstring>
+#include <cstdint>
+#include <istream>
 #include <memory>
 #include <sstream>
+#include <utility>
 
 #include "solver/base/archive.hpp"
 #include "solver/base/errors.hpp"
+#include "solver/base/read_pieces.hpp"
 #include "solver/base/watching_buffer.hpp"
 
 namespace crackle {
@@ -49,13 +52,13 @@ std::string save_world(const World& world) {
     return std::move(out).str();
 }
 
-World load_world(const std::string& bytes, const std::string& name) {
-    constexpr std::size_t head = sizeof checkpoint_magic + sizeof checkpoint_version, tail = sizeof(XXH64_hash_t);
+World load_world(std::istream& in, std::streamoff end, const std::string& name) {
+    constexpr std::streamoff head = sizeof checkpoint_magic + sizeof checkpoint_version, tail = sizeof(XXH64_hash_t);
+    const std::streamoff begin = in.tellg();
+    if (!in || end - begin < head + tail)
+        throw InputError(fmt::format("{}: found {} bytes, expected a crackle checkpoint", name, in ? end - begin : 0));
     std::uint64_t magic = 0;
     std::uint32_t version = 0;
-    if (bytes.size() < head + tail)
-        throw InputError(fmt::format("{}: found {} bytes, expected a crackle checkpoint", name, bytes.size()));
-    std::istringstream in(bytes, std::ios::binary);
     cereal::BinaryInputArchive archive(in);
     archive(magic, version);
     if (magic != checkpoint_magic)
@@ -66,15 +69,24 @@ World load_world(const std::string& bytes, const std::string& name) {
                         version, checkpoint_version));
     }
     // Checked before a single length in it is used.
-    XXH64_hash_t hash = 0;
-    std::memcpy(&hash, bytes.data() + bytes.size() - tail, tail);
-    if (XXH3_64bits(bytes.data(), bytes.size() - tail) != hash)
+    const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> hash(XXH3_createState(), &XXH3_freeState);
+    XXH3_64bits_reset(hash.get());
+    const auto add = [&](std::string_view piece) { XXH3_64bits_update(hash.get(), piece.data(), piece.size()); };
+    XXH64_hash_t noted = 0;
+    const bool read = read_pieces(in, begin, end - tail, add) && in.read(reinterpret_cast<char*>(&noted), tail);
+    if (!read || XXH3_64bits_digest(hash.get()) != noted)
         throw InputError(fmt::format("{}: found a truncated or damaged checkpoint, expected a complete one", name));
+    in.seekg(begin + head);
     World world;
     archive(world);
     world.workers.marks.resize(world.bodies.size());
     set_threads(world, 1);
     return world;
+}
+
+World load_world(std::string bytes, const std::string& name) {
+    std::istringstream in(std::move(bytes), std::ios::binary);
+    return load_world(in, length_of_stream(in), name);
 }
 
 }  // namespace crackle

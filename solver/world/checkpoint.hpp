@@ -3,7 +3,6 @@
 // Tested by tests/verification/determinism_test.cpp.
 #pragma once
 
-#include <cstdint>
 #include <iosfwd>
 #include <string>
 #include <vector>
@@ -15,7 +14,10 @@ namespace crackle {
 /// Complete state, versioned; straight and restarted runs agree byte for byte.
 void save_world(const World& world, std::ostream& out);
 std::string save_world(const World& world);
+/// From where a stream stands up to `end`, which are read twice: first to see that nothing is damaged. Takes no more
+/// memory than the world.
 /// @throws InputError on a foreign, truncated or newer checkpoint; `name` is used in the message.
-World load_world(const std::string& bytes, const std::string& name);
+World load_world(std::istream& in, std::streamoff end, const std::string& name);
+World load_world(std::string bytes, const std::string& name);
 
 }  // namespace crackle

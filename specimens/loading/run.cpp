@@ -203,7 +203,9 @@ TestOutcome resume_test(const TestOptions& options, const TestHooks& hooks) {
     const fs::path case_path = folder.path() / "case.toml";
     VirtualTest test;
     test.description = read_case(case_path);
-    TestCheckpoint checkpoint = load_test(read_bytes(checkpoint_path), checkpoint_path.string());
+    std::ifstream saved(checkpoint_path, std::ios::binary);
+    TestCheckpoint checkpoint = load_test(saved, checkpoint_path.string());
+    saved.close();
     if (checkpoint.case_hash != sha256(read_bytes(case_path))) {
         throw InputError(fmt::format(
             "{}: found another case than the one the checkpoint belongs to, expected it unchanged; restore it, "

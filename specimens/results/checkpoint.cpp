@@ -3,18 +3,17 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include <cereal/archives/binary.hpp>
 #include <cereal/types/array.hpp>
 #include <cereal/types/optional.hpp>
 #include <cereal/types/string.hpp>
 #include <cereal/types/utility.hpp>
 #include <cereal/types/vector.hpp>
-#include <sstream>
+#include <istream>
 
 #include "solver/base/archive.hpp"
 #include "solver/base/errors.hpp"
+#include "solver/base/read_pieces.hpp"
 #include "solver/base/watching_buffer.hpp"
 #include "solver/world/checkpoint.hpp"
 #include "specimens/results/sha256.hpp"
@@ -39,35 +38,38 @@ void save_test(std::ostream& out, const std::string& case_hash, const TestSetup&
     out << hash.digits();
 }
 
-TestCheckpoint load_test(const std::string& bytes, const std::string& name) {
+TestCheckpoint load_test(std::istream& in, const std::string& name) {
     const std::string title = checkpoint_title;
-    const std::size_t line_end = bytes.find('\n');
-    if (!bytes.starts_with(title) || line_end == std::string::npos) {
+    const std::streamoff length = length_of_stream(in);
+    std::string line;
+    constexpr std::size_t longest_line = 64;
+    for (char letter = 0; line.size() < longest_line && in.get(letter) && letter != '\n';) line += letter;
+    if (!in || !line.starts_with(title) || line.size() == longest_line) {
         throw InputError(fmt::format(
             "{}: found other data, expected a crackle test checkpoint; run the test again with --force", name));
     }
-    const std::string version = bytes.substr(title.size(), line_end - title.size());
+    const std::string version = line.substr(title.size());
     if (version != checkpoint_version) {
         throw InputError(fmt::format(
             "{}: found checkpoint version {}, expected {}; resume with the crackle that wrote it, or run the "
             "test again with --force",
             name, version, checkpoint_version));
     }
-    const std::size_t begin = line_end + 1;
-    const std::size_t end = std::max(begin + hash_digits, bytes.size()) - hash_digits;
-    if (bytes.compare(end, hash_digits, sha256(std::string_view(bytes).substr(0, end))) != 0) {
+    const std::streamoff begin = in.tellg(), end = length - static_cast<std::streamoff>(hash_digits);
+    Sha256 hash;
+    std::string digits(hash_digits, ' ');
+    if (end < begin || !read_pieces(in, 0, end, [&](std::string_view piece) { hash.add(piece); }) ||
+        !in.read(digits.data(), static_cast<std::streamsize>(hash_digits)) || digits != hash.digits()) {
         throw InputError(
             fmt::format("{}: found a truncated or damaged checkpoint, expected a complete one; run the test again with "
                         "--force",
                         name));
     }
+    in.seekg(begin);
     TestCheckpoint checkpoint;
-    std::istringstream in(bytes, std::ios::binary);
-    in.seekg(static_cast<std::streamoff>(begin));
     cereal::BinaryInputArchive archive(in);
     archive(checkpoint.case_hash, checkpoint.setup, checkpoint.state);
-    const auto world_begin = static_cast<std::size_t>(in.tellg());
-    checkpoint.world = load_world(bytes.substr(world_begin, end - world_begin), name);
+    checkpoint.world = load_world(in, end, name);
     return checkpoint;
 }
 

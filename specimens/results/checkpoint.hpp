@@ -3,7 +3,7 @@
 //
 // Layout: the line "crackle test checkpoint 10", cereal's binary archive of the resolved case's SHA-256, setup, state
 // and world, and the SHA-256 of all that. The hash is checked first, so that damage never reaches the archive. Written
-// as it comes, for the whole is as large as the world.
+// as it comes and read from the file, for the whole is as large as the world.
 // Tested by tests/tools/commands/resume_test.cpp.
 #pragma once
 
@@ -25,7 +25,8 @@ struct TestCheckpoint {
 void save_test(std::ostream& out, const std::string& case_hash, const TestSetup& setup, const TestState& state,
                const World& world);
 
-/// @throws InputError on foreign, damaged, truncated or newer data; `name` is used in the message.
-TestCheckpoint load_test(const std::string& bytes, const std::string& name);
+/// The whole stream, read twice (load_world()). @throws InputError on foreign, damaged, truncated or newer data; `name`
+/// is used in the message.
+TestCheckpoint load_test(std::istream& in, const std::string& name);
 
 }  // namespace crackle

@@ -65,7 +65,7 @@ json read_file(const std::string& file) {
 /// Cell data of particles and contacts as they must be at the end of a test.
 json state_of(const std::string& folder) {
     std::ifstream in(folder + "/checkpoint", std::ios::binary);
-    TestCheckpoint test = load_test({std::istreambuf_iterator<char>(in), {}}, folder + "/checkpoint");
+    TestCheckpoint test = load_test(in, folder + "/checkpoint");
     World& world = test.world;
     const TestSetup& setup = test.setup;
     compute_forces(world);
