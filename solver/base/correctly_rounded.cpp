@@ -9,10 +9,23 @@
 namespace crackle::correctly_rounded {
 namespace {
 
+/// What MPFR keeps of π and the like, each thread its own, goes with the thread.
+struct CacheOfThread {
+    CacheOfThread() = default;
+    CacheOfThread(const CacheOfThread&) = delete;
+    CacheOfThread& operator=(const CacheOfThread&) = delete;
+    ~CacheOfThread() { mpfr_free_cache(); }
+    void use() const {}
+};
+const thread_local CacheOfThread cache_of_thread;
+
 /// Number of MPFR, of a double's precision: what its functions put there is rounded to nearest, once.
 class Number {
   public:
-    explicit Number(mpfr_prec_t bits = 53) { mpfr_init2(value_, bits); }
+    explicit Number(mpfr_prec_t bits = 53) {
+        cache_of_thread.use();  // made by its first use
+        mpfr_init2(value_, bits);
+    }
     explicit Number(double x, mpfr_prec_t bits = 53) : Number(bits) { mpfr_set_d(value_, x, MPFR_RNDN); }
     Number(const Number&) = delete;
     Number& operator=(const Number&) = delete;
