@@ -46,11 +46,12 @@ std::size_t chosen_place();
 template <class Call>
 auto of_chosen_set(Call call) {
     using Result = decltype(call.template operator()<built_in_sets[0]>());
-    return [&]<std::size_t... K>(std::index_sequence<K...>) {
+    const auto call_chosen = [&]<std::size_t... K>(std::index_sequence<K...>) {
         static constexpr std::array<Result (*)(Call&), sizeof...(K)> calls{
             [](Call& of) -> Result { return of.template operator()<built_in_sets[K]>(); }...};
         return calls[chosen_place()](call);
-    }(std::make_index_sequence<built_in_sets.size()>{});
+    };
+    return call_chosen(std::make_index_sequence<built_in_sets.size()>{});
 }
 
 }  // namespace crackle
