@@ -109,6 +109,9 @@ double atan2(double y, double x) {
 double exp(double x) {
     return nearest(std::exp(static_cast<long double>(x)), [x] { return exactly(&mpfr_exp, x); });
 }
+double expm1(double x) {
+    return nearest(std::expm1(static_cast<long double>(x)), [x] { return exactly(&mpfr_expm1, x); });
+}
 double log(double x) {
     return nearest(std::log(static_cast<long double>(x)), [x] { return exactly(&mpfr_log, x); });
 }
@@ -126,6 +129,8 @@ double erfc(double x) {
 // Called a few times a specimen; close to its zeros long double's lgamma() is far off.
 double tgamma(double x) { return exactly(&mpfr_gamma, x); }
 double lgamma(double x) { return exactly(&mpfr_lngamma, x); }
+
+double normal_share_below(double z) { return 0.5 * erfc(-z / std::sqrt(2.0)); }
 
 double normal_quantile(double p) {
     // 2p and 1 - 2p are exact in a long double.

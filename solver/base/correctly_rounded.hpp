@@ -17,6 +17,7 @@ double asin(double x);
 double acos(double x);
 double atan2(double y, double x);
 double exp(double x);
+double expm1(double x);
 double log(double x);
 double log1p(double x);
 double pow(double x, double y);
@@ -24,6 +25,8 @@ double erfc(double x);
 double tgamma(double x);
 double lgamma(double x);
 
+/// Φ(z) = ½ erfc(-z/√2), of the rounded argument.
+double normal_share_below(double z);
 /// z with Φ(z) = ½ erfc(-z/√2) = p, 0 < p < 1.
 double normal_quantile(double p);
 

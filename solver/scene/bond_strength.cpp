@@ -24,13 +24,10 @@ double root_between(F f, double low, double high) {
     return 0.5 * (a + b);
 }
 
-/// Φ, of a normal distribution of mean 0 and deviation 1.
-double share_below(double z) { return 0.5 * correctly_rounded::erfc(-z / std::sqrt(2.0)); }
-
 /// Mean and coefficient of variation of a normal distribution of mean 1 and deviation s, truncated at 0.
 std::pair<double, double> truncated_normal(double s) {
     const double density = correctly_rounded::exp(-0.5 / (s * s)) / std::sqrt(2.0 * std::numbers::pi);
-    const double ratio = density / share_below(1.0 / s);
+    const double ratio = density / correctly_rounded::normal_share_below(1.0 / s);
     const double mean = 1.0 + s * ratio, variance = s * s * (1.0 - ratio / s - ratio * ratio);
     return {mean, std::sqrt(variance) / mean};
 }
@@ -106,7 +103,7 @@ double StrengthFactors::quantile(double p) const {
         case StrengthDistribution::none:
             return 1.0;
         case StrengthDistribution::normal: {
-            const double below = share_below(-first_ / second_);
+            const double below = correctly_rounded::normal_share_below(-first_ / second_);
             return first_ + second_ * correctly_rounded::normal_quantile(below + p * (1.0 - below));
         }
         case StrengthDistribution::lognormal:
@@ -122,15 +119,17 @@ double StrengthFactors::probability(double x) const {
         case StrengthDistribution::none:
             return x >= 1.0 ? 1.0 : 0.0;
         case StrengthDistribution::normal: {
-            const double below = share_below(-first_ / second_);
-            return std::max(0.0, (share_below((x - first_) / second_) - below) / (1.0 - below));
+            const double below = correctly_rounded::normal_share_below(-first_ / second_);
+            return std::max(0.0,
+                            (correctly_rounded::normal_share_below((x - first_) / second_) - below) / (1.0 - below));
         }
         case StrengthDistribution::lognormal:
-            return x <= 0.0 ? 0.0 : share_below((correctly_rounded::log(x) - first_) / second_);
+            return x <= 0.0 ? 0.0
+                            : correctly_rounded::normal_share_below((correctly_rounded::log(x) - first_) / second_);
         case StrengthDistribution::weibull:
             break;
     }
-    return x <= 0.0 ? 0.0 : 1.0 - correctly_rounded::exp(-correctly_rounded::pow(x / second_, first_));
+    return x <= 0.0 ? 0.0 : -correctly_rounded::expm1(-correctly_rounded::pow(x / second_, first_));
 }
 
 double StrengthFactors::between(int id_a, int id_b) const {

@@ -33,9 +33,7 @@ bool positive(double value) { return value > 0.0 && std::isfinite(value); }
     throw InputError(fmt::format("{}: found {}, expected {}", key, found, expected));
 }
 
-double normal_share_below(double z) { return 0.5 * correctly_rounded::erfc(-z / std::sqrt(2.0)); }
-
-/// Inverse of normal_share_below; ±infinity has no circle, so the ends stay where doubles still distinguish shares.
+/// Inverse of Φ; ±infinity has no circle, so the ends stay where doubles still distinguish shares.
 double normal_quantile(double probability) {
     const double share = std::clamp(probability, std::numeric_limits<double>::min(), 1.0 - 0x1p-53);
     return correctly_rounded::normal_quantile(share);
@@ -47,7 +45,8 @@ struct CutOff {
 };
 CutOff cut_off(const LognormalRadii& sizes) {
     const auto share = [&](double radius) {
-        return normal_share_below(correctly_rounded::log(radius / sizes.median) / sizes.log_deviation);
+        return correctly_rounded::normal_share_below(correctly_rounded::log(radius / sizes.median) /
+                                                     sizes.log_deviation);
     };
     return {sizes.radius_min > 0.0 ? share(sizes.radius_min) : 0.0,
             sizes.radius_max > 0.0 ? share(sizes.radius_max) : 1.0};
@@ -189,21 +188,21 @@ double radius_at(const SizeDistribution& sizes, double probability) {
 }
 
 double share_below(const SizeDistribution& sizes, double radius) {
-    return std::visit(
-        overloaded{[&](const UniformRadii& uniform) {
-                       if (radius >= uniform.radius_max) return 1.0;
-                       if (radius <= uniform.radius_min) return 0.0;
-                       return (radius - uniform.radius_min) / (uniform.radius_max - uniform.radius_min);
-                   },
-                   [&](const LognormalRadii& lognormal) {
-                       const CutOff cut = cut_off(lognormal);
-                       if (radius <= 0.0) return 0.0;
-                       const double below = normal_share_below(correctly_rounded::log(radius / lognormal.median) /
-                                                               lognormal.log_deviation);
-                       return std::clamp((below - cut.below_min) / (cut.below_max - cut.below_min), 0.0, 1.0);
-                   },
-                   [&](const SieveCurve& curve) { return sieve_share_below(curve, radius); }},
-        sizes);
+    return std::visit(overloaded{[&](const UniformRadii& uniform) {
+                                     if (radius >= uniform.radius_max) return 1.0;
+                                     if (radius <= uniform.radius_min) return 0.0;
+                                     return (radius - uniform.radius_min) / (uniform.radius_max - uniform.radius_min);
+                                 },
+                                 [&](const LognormalRadii& lognormal) {
+                                     const CutOff cut = cut_off(lognormal);
+                                     if (radius <= 0.0) return 0.0;
+                                     const double below = correctly_rounded::normal_share_below(
+                                         correctly_rounded::log(radius / lognormal.median) / lognormal.log_deviation);
+                                     return std::clamp((below - cut.below_min) / (cut.below_max - cut.below_min), 0.0,
+                                                       1.0);
+                                 },
+                                 [&](const SieveCurve& curve) { return sieve_share_below(curve, radius); }},
+                      sizes);
 }
 
 std::vector<double> sample_radii(const SizeDistribution& sizes, std::size_t count, std::mt19937_64& generator) {
