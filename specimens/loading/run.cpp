@@ -29,9 +29,14 @@ using namespace nlohmann::literals;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-std::string read_bytes(const fs::path& path) {
+std::ifstream open_file(const fs::path& path) {
     std::ifstream in(path, std::ios::binary);
     if (!in) throw InputError(fmt::format("{}: cannot be read, expected a file; check the path", path.string()));
+    return in;
+}
+
+std::string read_bytes(const fs::path& path) {
+    std::ifstream in = open_file(path);
     return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
@@ -203,7 +208,7 @@ TestOutcome resume_test(const TestOptions& options, const TestHooks& hooks) {
     const fs::path case_path = folder.path() / "case.toml";
     VirtualTest test;
     test.description = read_case(case_path);
-    std::ifstream saved(checkpoint_path, std::ios::binary);
+    std::ifstream saved = open_file(checkpoint_path);
     TestCheckpoint checkpoint = load_test(saved, checkpoint_path.string());
     saved.close();
     if (checkpoint.case_hash != sha256(read_bytes(case_path))) {

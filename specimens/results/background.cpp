@@ -21,9 +21,14 @@ void Background::throw_error(std::unique_lock<std::mutex>& locked) {
     std::rethrow_exception(error);
 }
 
-void Background::add(std::function<void()> job, std::size_t most_waiting) {
+void Background::make_room(std::size_t most_waiting) {
     std::unique_lock locked(mutex_);
     changed_.wait(locked, [&] { return jobs_.size() <= most_waiting; });
+    throw_error(locked);
+}
+
+void Background::add(std::function<void()> job) {
+    std::unique_lock locked(mutex_);
     throw_error(locked);
     jobs_.push_back(std::move(job));
     if (!thread_.joinable()) thread_ = std::thread([this] { work(); });

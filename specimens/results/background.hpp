@@ -23,8 +23,9 @@ class Background {
     /// Waits for what is still to do.
     ~Background();
 
-    /// @param most_waiting jobs not begun yet; while there are more, the caller waits
-    void add(std::function<void()> job, std::size_t most_waiting);
+    /// Waits while more jobs than that have not begun, so that what a job needs is copied once there is room for it.
+    void make_room(std::size_t most_waiting);
+    void add(std::function<void()> job);
     /// Until nothing is left to do.
     void wait();
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The checkpoint of a test: complete state as bytes. A resumed test ends with the bytes of an uninterrupted one.
 //
-// Layout: the line "crackle test checkpoint 10", cereal's binary archive of the resolved case's SHA-256, setup, state
+// Layout: the line "crackle test checkpoint N", cereal's binary archive of the resolved case's SHA-256, setup, state
 // and world, and the SHA-256 of all that. The hash is checked first, so that damage never reaches the archive. Written
 // as it comes and read from the file, for the whole is as large as the world.
 // Tested by tests/tools/commands/resume_test.cpp.

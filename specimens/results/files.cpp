@@ -71,6 +71,7 @@ void TestFiles::add_frame(const Frame& frame, const TestSetup& setup, TestState&
     }
     collection_due_ = true;
     const bool collects = std::chrono::steady_clock::now() - collected_ >= collection_interval;
+    background_.make_room(world.bodies.size() <= most_bodies_of_several ? most_waiting : 0);
     // What changes while it is drawn is copied; of the world only what a test leaves as it was made is looked at.
     struct Job {
         Frame frame;
@@ -80,20 +81,17 @@ void TestFiles::add_frame(const Frame& frame, const TestSetup& setup, TestState&
     const auto first = state.history.cracks.begin();
     const auto job = std::make_shared<const Job>(
         Job{frame, {first, first + static_cast<std::ptrdiff_t>(frame.cracks)}, collects ? due_collection(state) : ""});
-    const std::size_t waiting = world.bodies.size() <= most_bodies_of_several ? most_waiting : 0;
-    background_.add(
-        [this, job, &world, &setup] {
-            const PlacedFrame placed(world, setup, job->frame);
-            const FrameForces forces = find_forces(placed);
-            folder_.write("frames/" + particles_file(job->frame.row),
-                          [&](std::ostream& out) { painter_->write_particles(out, placed, forces); });
-            folder_.write("frames/" + contacts_file(job->frame.row),
-                          [&](std::ostream& out) { painter_->write_contacts(out, placed, forces, job->cracks); });
-            folder_.write("frames/" + cracks_file(job->frame.row),
-                          [&](std::ostream& out) { painter_->write_cracks(out, placed, job->cracks); });
-            if (!job->collection.empty()) folder_.write("frames/frames.pvd", job->collection);
-        },
-        waiting);
+    background_.add([this, job, &world, &setup] {
+        const PlacedFrame placed(world, setup, job->frame);
+        const FrameForces forces = find_forces(placed);
+        folder_.write("frames/" + particles_file(job->frame.row),
+                      [&](std::ostream& out) { painter_->write_particles(out, placed, forces); });
+        folder_.write("frames/" + contacts_file(job->frame.row),
+                      [&](std::ostream& out) { painter_->write_contacts(out, placed, forces, job->cracks); });
+        folder_.write("frames/" + cracks_file(job->frame.row),
+                      [&](std::ostream& out) { painter_->write_cracks(out, placed, job->cracks); });
+        if (!job->collection.empty()) folder_.write("frames/frames.pvd", job->collection);
+    });
 }
 
 std::string TestFiles::due_collection(const TestState& state) {

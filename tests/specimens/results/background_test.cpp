@@ -18,7 +18,10 @@ TEST(Background, DoesAllJobsInTheOrderInWhichTheyCame) {
     std::iota(expected.begin(), expected.end(), 0);
     {
         Background background;
-        for (const int k : expected) background.add([&done, k] { done.push_back(k); }, 2);
+        for (const int k : expected) {
+            background.make_room(2);
+            background.add([&done, k] { done.push_back(k); });
+        }
     }
     EXPECT_EQ(done, expected);
 }
@@ -28,12 +31,10 @@ TEST(Background, WaitsUntilNothingIsLeftToDo) {
     Background background;
     background.wait();
     for (int k = 0; k < 5; ++k) {
-        background.add(
-            [&done] {
-                std::this_thread::sleep_for(std::chrono::milliseconds(2));
-                ++done;
-            },
-            10);
+        background.add([&done] {
+            std::this_thread::sleep_for(std::chrono::milliseconds(2));
+            ++done;
+        });
     }
     background.wait();
     EXPECT_EQ(done, 5);
@@ -47,10 +48,11 @@ TEST(Background, HoldsNoMoreThanWhatMayWait) {
         ++begun;
         while (!go_on) std::this_thread::yield();
     };
-    background.add(job, 0);
+    background.add(job);
     std::atomic<bool> added = false;
     std::thread second([&] {
-        background.add(job, 0);
+        background.make_room(0);
+        background.add(job);
         added = true;
     });
     while (begun == 0) std::this_thread::yield();
@@ -65,17 +67,15 @@ TEST(Background, HoldsNoMoreThanWhatMayWait) {
 TEST(Background, ThrowsWhatAJobThrewOnceAndDropsThoseBehindIt) {
     bool later = false;
     Background background;
-    background.add(
-        [] {
-            std::this_thread::sleep_for(std::chrono::milliseconds(20));
-            throw std::runtime_error("disk is full");
-        },
-        10);
-    background.add([&later] { later = true; }, 10);
+    background.add([] {
+        std::this_thread::sleep_for(std::chrono::milliseconds(20));
+        throw std::runtime_error("disk is full");
+    });
+    background.add([&later] { later = true; });
     EXPECT_THROW(background.wait(), std::runtime_error);
     EXPECT_NO_THROW(background.wait());
     EXPECT_FALSE(later);
-    background.add([&later] { later = true; }, 10);
+    background.add([&later] { later = true; });
     background.wait();
     EXPECT_TRUE(later);
 }
