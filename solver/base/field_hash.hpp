@@ -31,8 +31,8 @@ class FieldHasher {
             XXH3_64bits_update(state_.get(), &value, sizeof value);
         }
     }
-    template <class T>
-    void add(const std::vector<T>& values) {
+    template <class T, class Room>
+    void add(const std::vector<T, Room>& values) {
         add(values.size());
         if constexpr (std::is_arithmetic_v<T>) {
             XXH3_64bits_update(state_.get(), values.data(), values.size() * sizeof(T));

@@ -155,8 +155,22 @@ CRACKLE_INLINE void prefetch_outlines(const World& world, const ContactPoint* po
     }
 }
 
-/// Points of outlines beyond which a mesh is taken to be larger than the caches: some 8 MB.
+/// Points beyond which a scene is taken to be larger than the caches: some 8 MB.
 inline constexpr std::size_t points_in_cache = 50'000;
+
+/// Bodies that the points of circles name later on. Beyond the caches this spares a twentieth of a step; the points'
+/// own arrays come by themselves.
+CRACKLE_INLINE void prefetch_circles(const World& world, PointIndex k, PointIndex count) {
+    constexpr PointIndex bodies_ahead = 128, points_ahead = 256, points_in_line = 64 / sizeof(ContactPoint);
+    if (k + count + points_ahead > world.points.kind_begin[1]) return;
+    const ContactPoint* const points = world.points.contact.data() + k;
+    for (PointIndex l = 0; l < count; l += points_in_line) __builtin_prefetch(points + points_ahead + l);
+    for (PointIndex l = 0; l < count; ++l) {
+        const BodyIndex j = points[bodies_ahead + l].body_j;  // i has been some other's j
+        __builtin_prefetch(&world.bodies.state[j]);
+        __builtin_prefetch(&world.bodies.force[j]);
+    }
+}
 
 /// The edge faced last and its corners are tried for all points; the search is left to geometry.hpp where one
 /// has got beyond them or the outline is not one convex piece.

@@ -270,10 +270,13 @@ void force_block_in_batches(World& world, const PointBlock& block) {
     BlockLosses loss;
     BatchLaw law(world, world.points.state[block.begin].law);
     const PointIndex fours_end = K == PointKind::element_outline ? std::min(block.end, world.points.fours_end) : 0;
+    [[maybe_unused]] const bool in_memory = world.points.size() > points_in_cache;
     PointIndex k = block.begin;
     while (k + lane_count <= block.end && !world.workers.one_by_one) {
         const bool fours = k + lane_count <= fours_end;
         const PointIndex batches = std::min<PointIndex>(ahead, ((fours ? fours_end : block.end) - k) / lane_count);
+        if constexpr (K == PointKind::circle_circle)
+            if (in_memory) prefetch_circles(world, k, batches * lane_count);
         if (fours)
             geometry_batches<K, true>(world, k, batches, geometry);
         else

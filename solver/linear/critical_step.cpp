@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/linear/lanczos_bound.hpp"
 #include "solver/linear/mass_scaled.hpp"
 #include "solver/linear/step_bound.hpp"
 
@@ -78,7 +79,10 @@ CriticalStep critical_step(const World& world, ClosedPoints which) {
     const double guaranteed = stable_step_bound(world);  // over all listed points: never above the limit sought
     CriticalStep result{guaranteed, infinite, false, std::vector<BodyMotion>(world.bodies.size())};
     if (pencil.size() == 0 || !std::isfinite(guaranteed)) return {infinite, infinite, true, result.mode};
-    if (pencil.size() > most_exact_unknowns) return result;
+    if (pencil.size() > most_exact_unknowns) {
+        result.step = std::max(guaranteed, lanczos_step(pencil, guaranteed));
+        return result;
+    }
     const bool damped = pencil.damped();
     double dt = guaranteed;
     for (int n = 0; n < newton_steps; ++n) {
@@ -101,7 +105,7 @@ CriticalStep critical_step(const World& world, ClosedPoints which) {
 
 bool stable_at(const World& world, ClosedPoints which, double dt) {
     const MassScaled pencil(world, which);
-    if (pencil.size() > most_exact_unknowns) return dt <= stable_step_bound(world);
+    if (pencil.size() > most_exact_unknowns) return dt <= stable_step_bound(world) || lanczos_finds_stable(pencil, dt);
     return pencil.size() == 0 || positive_definite(pencil, dt / (1.0 - critical_step_margin));
 }
 

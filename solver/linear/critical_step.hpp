@@ -20,13 +20,14 @@
 namespace crackle {
 
 struct CriticalStep {
-    double step;                   ///< s, stable at and below: the root less `margin`, or the block bound if not proved
-    double root;                   ///< s, where the pencil becomes singular; infinite where nothing is stiff
-    bool proved;                   ///< Cholesky: 4M - 2Δt·C - Δt²·K is positive definite at `step`
+    double step;  ///< s, stable at and below: the root less `margin`, if not proved the block bound, in large worlds
+                  ///< that of lanczos_bound.hpp
+    double root;  ///< s, where the pencil becomes singular; infinite where nothing is stiff
+    bool proved;  ///< Cholesky: 4M - 2Δt·C - Δt²·K is positive definite at `step`
     std::vector<BodyMotion> mode;  ///< per body, the motion that grows first; largest component of M^½ times it 1
 };
 
-/// Beyond so many degrees of freedom (100,000 free bodies) the guaranteed bound of all listed points takes its place:
+/// Beyond so many degrees of freedom (100,000 free bodies) a step within 2 % of it takes its place (lanczos_bound.hpp):
 /// factors of millions of rows need minutes and gigabytes.
 inline constexpr std::int64_t most_exact_unknowns = 300'000;
 

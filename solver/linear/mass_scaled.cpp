@@ -54,12 +54,27 @@ MassScaled::Matrix MassScaled::matrix(double damping_share, double stiffness_sha
     return matrix;
 }
 
+double MassScaled::Row::times(const Vector& x) const {
+    double stretch = 0.0;
+    for (int a = 0; a < 6; ++a) stretch += number[a] < 0 ? 0.0 : value[a] * x[number[a]];
+    return stretch;
+}
+
+MassScaled::Vector MassScaled::times(double damping_share, double stiffness_share, const Vector& x) const {
+    Vector result = Vector::Zero(size());
+    for (const Spring& s : springs_) {
+        const Row row = row_of(s);
+        const double force = (damping_share * s.damping + stiffness_share * s.stiffness) * row.times(x);
+        for (int a = 0; a < 6; ++a)
+            if (row.number[a] >= 0) result[row.number[a]] += force * row.value[a];
+    }
+    return result;
+}
+
 MassScaled::Quotient MassScaled::quotient(const Vector& x) const {
     Quotient q{0.0, 0.0};
     for (const Spring& s : springs_) {
-        const Row row = row_of(s);
-        double stretch = 0.0;
-        for (int a = 0; a < 6; ++a) stretch += row.number[a] < 0 ? 0.0 : row.value[a] * x[row.number[a]];
+        const double stretch = row_of(s).times(x);
         q.damping += s.damping * stretch * stretch;
         q.stiffness += s.stiffness * stretch * stretch;
     }

@@ -98,7 +98,7 @@ BodyIndex body_of_id(const World& world, int id) {
 
 void forget_point_forces(World& world) {
     world.points.keep_forces = false;
-    std::vector<PointForce>().swap(world.points.force);  // `= {}` would keep the room
+    Array<PointForce>().swap(world.points.force);  // `= {}` would keep the room
 }
 
 std::array<Vec2, 4> measure_wall_forces(const World& world) {

@@ -46,7 +46,7 @@ class OldPoints {
 
 /// Points of a new list and which points of the old one they are.
 struct MergedList {
-    std::vector<ContactPoint> points;
+    Array<ContactPoint> points;
     std::vector<PointIndex> old;  // no_point: was not listed
 };
 
@@ -76,7 +76,7 @@ void insert_kept(const World& world, const std::vector<KeptPoint>& kept, MergedL
 /// The new list of a kind, in the room of the points found. A bond is carried over whether its point was found or not:
 /// it lasts until the force pass finds it broken, and intact ones hold at any opening. So is a point that had a bond
 /// and keeps properties from it: what it is must not depend on when the list was built.
-MergedList merge_lists(World& world, PointKind kind, std::vector<ContactPoint> found) {
+MergedList merge_lists(World& world, PointKind kind, Array<ContactPoint> found) {
     MergedList next{std::move(found), {}};
     next.old.resize(next.points.size());
     const bool consistent = world.settings.integrator == Integrator::consistent;
@@ -142,8 +142,8 @@ PointIndex put_fours_first(MergedList& next) {
 }
 
 /// Puts one kind behind another, in the room of the larger.
-template <class T>
-void append(std::vector<T>& all, std::vector<T> more) {
+template <class Numbers>
+void append(Numbers& all, Numbers more) {
     if (all.size() < more.size()) {
         more.insert(more.begin(), all.begin(), all.end());
         all = std::move(more);
@@ -154,8 +154,8 @@ void append(std::vector<T>& all, std::vector<T> more) {
 
 /// One remembered quantity in the new order; nothing in a world that does not keep it.
 template <class T>
-void carry_over(std::vector<T>& values, const std::vector<PointIndex>& old, bool kept = true) {
-    std::vector<T> now(kept ? old.size() : 0, T{});
+void carry_over(Array<T>& values, const std::vector<PointIndex>& old, bool kept = true) {
+    Array<T> now(kept ? old.size() : 0, T{});
     if (!values.empty()) {
         for (std::size_t k = 0; k < now.size(); ++k) {
             if (old[k] != no_point) now[k] = values[old[k]];

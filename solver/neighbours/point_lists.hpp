@@ -12,7 +12,7 @@
 namespace crackle {
 
 /// By kind, in the order of the pairs.
-using PointLists = std::array<std::vector<ContactPoint>, point_kinds>;
+using PointLists = std::array<Array<ContactPoint>, point_kinds>;
 
 /// @param pairs as near_pairs() finds them
 PointLists list_points(const World& world, const std::vector<std::uint64_t>& pairs);

@@ -204,7 +204,7 @@ void finish_bonding(World& world) {
     evaluate_step_bound(world);
     world.bonds.broken = world.bonds.broken_after_sliding = 0;
     world.bonds.interfaces_lost = 0;
-    visit_remembered(world.points, [&]<class T>(std::vector<T>& values, Remembered remembered) {
+    visit_remembered(world.points, [&]<class T>(Array<T>& values, Remembered remembered) {
         if (remembered != Remembered::always && remembered != Remembered::own_shares)
             values.assign(keeps(world, remembered) ? world.points.size() : 0, T{});
     });

@@ -8,10 +8,9 @@ MoveRange move_range_for(const World& world) {
         [&]<InstructionSet S>() { return move_range_of<S>(world.settings.gravity != Vec2{}, world.bodies.some_turn); });
 }
 
-MoveListed move_listed_for(const World& world, bool clear) {
-    return of_chosen_set([&]<InstructionSet S>() {
-        return move_listed_of<S>(world.settings.gravity != Vec2{}, world.bodies.some_turn, clear);
-    });
+MoveListed move_listed_for(const World& world, bool turning, bool clear) {
+    return of_chosen_set(
+        [&]<InstructionSet S>() { return move_listed_of<S>(world.settings.gravity != Vec2{}, turning, clear); });
 }
 
 }  // namespace crackle

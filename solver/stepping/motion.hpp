@@ -25,6 +25,6 @@ MoveListed move_listed_of(bool gravity, bool turning, bool clear);
 
 /// Those that suit a world.
 MoveRange move_range_for(const World& world);
-MoveListed move_listed_for(const World& world, bool clear);
+MoveListed move_listed_for(const World& world, bool turning, bool clear);
 
 }  // namespace crackle

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Tested by tests/solver/stepping/sweep_test.cpp.
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -43,11 +44,15 @@ Speeds move_each(World& world, double kick, std::int64_t count, Number number) {
     [[maybe_unused]] PushBound* const bounds =
         world.bodies.push_bound.empty() ? nullptr : world.bodies.push_bound.data();
     clear_upper_halves();
+    // Bodies move in the order of their numbers, or nearly so; a tenth of this pass beyond the caches.
+    constexpr std::size_t bodies_ahead = 32;
+    const std::size_t last = world.bodies.size() - 1;
     Speeds speeds;
     for (std::int64_t k = 0; k < count; ++k) {
-        const auto n = number(k);
+        const auto n = static_cast<std::size_t>(number(k));
         BodyState& body = bodies[n];
         const BodyInertia& inertia = inertias[n];
+        __builtin_prefetch(inertias + std::min(n + bodies_ahead, last));
         const BodyForce force = forces[n];
         if constexpr (Clear) forces[n] = {};
         Pair push = load_as<Pair>(&force.fx);

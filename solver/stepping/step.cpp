@@ -102,7 +102,7 @@ struct SweepMotion {
 
 SweepMotion motion_of_sweep(const World& world) {
     const bool clears = world.settings.integrator != Integrator::consistent;  // it looks at the last pass's forces
-    return {clears, move_listed_for(world, clears), kick_now(world)};
+    return {clears, move_listed_for(world, world.workers.plan.free_ones_turn, clears), kick_now(world)};
 }
 
 /// Bodies that the sweep has left in place: after a break, and driven ones. @return of all bodies
@@ -110,7 +110,7 @@ Speeds move_remaining(World& world, const SweepMotion& motion) {
     Speeds speeds = move_the_rest(world, motion.move, motion.kick);
     kick_controls(world, motion.kick);
     for (const ControlState& control : world.bodies.controls)
-        speeds.add(move_listed_for(world, false)(world, motion.kick, &control.body, 1));
+        speeds.add(move_listed_for(world, world.bodies.some_turn, false)(world, motion.kick, &control.body, 1));
     return speeds;
 }
 

@@ -118,6 +118,9 @@ void plan_sweep(World& world) {
     std::vector<std::uint32_t> next = begin;
     for (std::size_t b = 0; b < spans.size(); ++b) plan.order[next[finishing[b]]++] = static_cast<BodyIndex>(b);
 
+    plan.free_ones_turn = std::any_of(plan.order.begin(), plan.order.begin() + plan.driven_begin,
+                                      [&](BodyIndex b) { return world.bodies.turning_reach[b] > 0.0; });
+
     plan.chunks.clear();
     plan.thread_chunks.assign(1, 0);
     std::uint32_t first_body = 0;

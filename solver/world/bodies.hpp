@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "solver/base/array.hpp"
 #include "solver/scene/scene.hpp"
 
 namespace crackle {
@@ -183,22 +184,21 @@ struct PushBound {
 };
 
 struct Bodies {
-    std::vector<BodyState> state;
-    std::vector<BodyInertia> inertia;
+    Array<BodyState> state;
+    Array<BodyInertia> inertia;
     /// Of the last force pass: after compute_forces() of all bodies, after step() of driven ones.
-    std::vector<BodyForce> force;
-    bool forces_clear = false;          // those of all but driven bodies are 0
-    std::vector<BodyForce> last_force;  // of the pass before; consistent integrator only
-    std::vector<PushBound> push_bound;  // consistent integrator only
-    std::vector<BodyInfo> info;
-    std::vector<double> turning_reach;  // m per body: how far turning moves its surface (0: single circles)
-    bool some_turn = false;             // any of these is not 0
-    std::vector<Element> elements;
-    std::vector<Piece> pieces;
-    std::vector<Edge> edges;
+    Array<BodyForce> force;
+    bool forces_clear = false;    // those of all but driven bodies are 0
+    Array<BodyForce> last_force;  // of the pass before; consistent integrator only
+    Array<PushBound> push_bound;  // consistent integrator only
+    Array<BodyInfo> info;
+    Array<double> turning_reach;  // m per body: how far turning moves its surface (0: single circles)
+    bool some_turn = false;       // any of these is not 0
+    Array<Element> elements;
+    Array<Piece> pieces;
+    Array<Edge> edges;
     bool convex_outlines = true;  // every outline is one convex piece
-    std::vector<Edge>
-        segments;  // by element: the segment that begins there (length 0: none); empty without guide's law
+    Array<Edge> segments;  // by element: the segment that begins there (length 0: none); empty without guide's law
     std::vector<ControlState> controls;
 
     std::size_t size() const { return state.size(); }

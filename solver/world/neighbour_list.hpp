@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "solver/base/array.hpp"
+
 namespace crackle {
 
 /// Widest common skin as a share of the median bounding radius: an intact specimen strains by less, and few idle points
@@ -29,8 +31,8 @@ struct NeighbourList {
     double skin = 0.0;         // m
     double widest_skin = 0.0;  // m; in a bonded world the skin follows the motion up to this; 0: it stays as given
     // m per body: how far its surface may move until the list is rebuilt; half the skin, or more for a fast body.
-    std::vector<double> half_skins;
-    std::vector<ListReference> reference;
+    Array<double> half_skins;
+    Array<ListReference> reference;
     std::vector<std::uint32_t> size_rank;  // bodies by bounding radius, largest 0; a pair is found by its larger body
     std::vector<double> largest_smaller;   // m per body: bounding radius of the next in that order
     double travelled = 0.0;                // m, bound on any surface point's way since ways were last looked at

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "solver/base/array.hpp"
 #include "solver/base/fields.hpp"
 #include "solver/world/bodies.hpp"
 
@@ -143,32 +144,32 @@ enum class Remembered : std::uint8_t {
 };
 
 struct Points {
-    std::vector<ContactPoint> contact;  // grouped by kind, ordered by (i, j, element) within (but for fours_end)
+    Array<ContactPoint> contact;  // grouped by kind, ordered by (i, j, element) within (but for fours_end)
     std::array<PointIndex, point_kinds + 1> kind_begin{};
     /// Points of element_outline up to here lie in fours, each four between the same two bodies: the interfaces of a
     /// mesh. The others of that kind follow.
     PointIndex fours_end = 0;
-    std::vector<double> root_mass;  // square root of the effective mass times stiffness_share, sqrt(kg)
-    std::vector<PointState> state;
-    std::vector<double> shear_force;  // elastic, N on body_i along the normal (i to j) turned by +90 degrees
+    Array<double> root_mass;  // square root of the effective mass times stiffness_share, sqrt(kg)
+    Array<PointState> state;
+    Array<double> shear_force;  // elastic, N on body_i along the normal (i to j) turned by +90 degrees
     /// δ0, m; back-tension f_b = -k_n δ0. Of a coulomb bond that broke the overlap without force, max(δ0, 0).
-    std::vector<double> bond_overlap;
+    Array<double> bond_overlap;
     /// What a point has of the law's stiffness, and of its strength, the bond's random factor included: of a face its
     /// length over the distance of centroids, and its length (geometry/contact_share.hpp). Floats: no digit is lost
     /// that a rock would have. Empty where all are 1.
-    std::vector<float> stiffness_share, strength_share;
+    Array<float> stiffness_share, strength_share;
     // Dashpot forces of the last force pass, N: their work is taken by the trapezoidal rule. Floats, like strong
     // forces: they are reported, no motion follows from them, and they are much of what is moved.
-    std::vector<float> normal_dashpot, shear_dashpot;
-    std::vector<SpringWork> spring_work;
-    std::vector<OpeningMemory> opening;
-    std::vector<LastOverlap> last_overlap;  // beside `opening`
-    std::vector<double> last_normal;        // N, spring and dashpot in the last force pass; beside `opening`
+    Array<float> normal_dashpot, shear_dashpot;
+    Array<SpringWork> spring_work;
+    Array<OpeningMemory> opening;
+    Array<LastOverlap> last_overlap;  // beside `opening`
+    Array<double> last_normal;        // N, spring and dashpot in the last force pass; beside `opening`
     // Elastic forces of a back-tension bond in the last step in which it carried at least half its strength, N: normal,
     // compression positive, and shear.
-    std::vector<float> strong_normal, strong_shear;
-    std::vector<PointForce> force;  // of the last force pass; empty unless kept
-    bool keep_forces = true;        // looked at when the list is rebuilt
+    Array<float> strong_normal, strong_shear;
+    Array<PointForce> force;  // of the last force pass; empty unless kept
+    bool keep_forces = true;  // looked at when the list is rebuilt
 
     std::size_t size() const { return contact.size(); }
 

@@ -30,6 +30,7 @@ struct SweepPlan {
     std::vector<BodyIndex> order;              // bodies of the chunks, late ones, driven ones
     std::uint32_t late_begin = 0;  // into `order`: bodies with points of the largest kind in chunks of several threads
     std::uint32_t driven_begin = 0;  // into `order`: bodies that a control drives
+    bool free_ones_turn = false;     // a body that no control drives has a frame that turns with it
 
     // For several threads: what one cannot add to a body at once, because another's points come first.
     std::vector<std::uint16_t> owner;           // per body: thread that adds to it

@@ -48,8 +48,8 @@ FrameForces find_forces(const PlacedFrame& placed) {
                 continue;
             }
             const Bond& bond = setup.bonds[k];
-            add.template operator()<K>(bond.point, holds(frame.states[k]) ? bond.overlap : bond.rest_overlap,
-                                       bond.stiffness_share, frame.shear_force[k]);
+            add.template operator()<K>(bond.point, holds(frame.states[k]) ? bond.overlap : setup.rest_overlap(bond),
+                                       setup.bond_shares.empty() ? 1.0 : setup.bond_shares[k], frame.shear_force[k]);
         }
     });
     visit_kinds(frame.loose.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {

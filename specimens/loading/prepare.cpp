@@ -30,7 +30,7 @@ void report_bonded(const TestHooks& hooks, const World& world, const TestSetup& 
         test.numerics.time_step ? std::string("given by the case")
                                 : fmt::format("{:.3g} of the bound, followed as contacts open and close",
                                               world.stepping.time_step / world.stepping.step_bound),
-        setup.stable_time_step, setup.stable_time_step_proved ? "" : " (a bound itself)", setup.time_step_bound));
+        setup.stable_time_step, setup.stable_time_step_proved ? "" : " (from below)", setup.time_step_bound));
 }
 
 // Loading by tolerance counts from where this share of the bonded points has given way by the linear solution, which is

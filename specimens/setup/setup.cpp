@@ -64,7 +64,14 @@ void record_bonds(TestSetup& setup, const World& world) {
     std::map<std::pair<BodyIndex, BodyIndex>, double> interfaces;  // ordered: the sum must not depend on hashing
     double overlap = 0.0, tension = 0.0, tensile = 0.0, cohesion = 0.0;
     setup.bonds.reserve(static_cast<std::size_t>(world.bonds.initial));
+    const bool own_shares = !world.points.stiffness_share.empty();
+    struct BondOfKind {
+        Bond bond;
+        float share;
+    };
+    std::vector<BondOfKind> of_kind;
     visit_kinds(world.points.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
+        of_kind.clear();
         for (PointIndex k = begin; k < end; ++k) {
             const ContactPoint& point = world.points.contact[k];
             const PointState& state = world.points.state[k];
@@ -72,9 +79,7 @@ void record_bonds(TestSetup& setup, const World& world) {
             if ((state.flags & point_bonded) == 0) continue;
             const ContactLaw law = law_of(world, k);
             const double bond_overlap = world.points.bond_overlap[k];
-            setup.bonds.push_back({point, bond_overlap,
-                                   world.points.stiffness_share.empty() ? 1.0F : world.points.stiffness_share[k],
-                                   setup.coulomb_bonds ? std::max(bond_overlap, 0.0) : 0.0});
+            of_kind.push_back({{point, bond_overlap}, own_shares ? world.points.stiffness_share[k] : 1.0F});
             if (setup.coulomb_bonds && (state.flags & point_held) == 0) {
                 tensile += law.tensile_strength;
                 cohesion += law.cohesion;
@@ -84,9 +89,11 @@ void record_bonds(TestSetup& setup, const World& world) {
             tension += back_tension;
             interfaces[std::minmax(point.body_i, point.body_j)] += back_tension;
         }
-        const PointIndex first = setup.bond_kind_begin[static_cast<std::size_t>(K)];
-        std::sort(setup.bonds.begin() + first, setup.bonds.end(),
-                  [](const Bond& a, const Bond& b) { return key_of(K, a.point) < key_of(K, b.point); });
+        std::ranges::sort(of_kind, {}, [](const BondOfKind& one) { return key_of(K, one.bond.point); });
+        for (const BondOfKind& one : of_kind) {
+            setup.bonds.push_back(one.bond);
+            if (own_shares) setup.bond_shares.push_back(one.share);
+        }
         setup.bond_kind_begin[static_cast<std::size_t>(K) + 1] = static_cast<PointIndex>(setup.bonds.size());
     });
     if (setup.bonds.empty()) return;

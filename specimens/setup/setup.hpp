@@ -2,6 +2,7 @@
 // What a loaded specimen was when loading began: everything that a measurement refers back to.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <string>
@@ -29,17 +30,12 @@ struct StartPlace {
 /// A point bonded when loading began.
 struct Bond {
     ContactPoint point;
-    double overlap = 0.0;          ///< δ0, m
-    float stiffness_share = 1.0F;  ///< as Points::stiffness_share
-    /// m: the overlap without force once it has broken
-    double rest_overlap = 0.0;
+    double overlap = 0.0;  ///< δ0, m
 
     template <class Self, class Visit>
     static constexpr void fields(Self& s, Visit&& visit) {
         visit("point", s.point);
         visit("overlap", s.overlap);
-        visit("stiffness_share", s.stiffness_share);
-        visit("rest_overlap", s.rest_overlap);
     }
 };
 
@@ -78,10 +74,14 @@ struct TestSetup {
     std::vector<StartPlace> start;  ///< by body
     std::vector<Bond> bonds;        ///< by kind and in the order in which a world lists its points (point_order.hpp)
     std::array<PointIndex, point_kinds + 1> bond_kind_begin{};  ///< into bonds
+    std::vector<float> bond_shares;  ///< of each bond, as Points::stiffness_share; empty where all are 1
     std::vector<std::string> notices;
     std::vector<std::pair<std::string, double>> packing;  ///< figures of the packing by name; empty for a particle file
 
     std::vector<MineralShare> minerals;  ///< empty of a rock of one material
+
+    /// m, of a bond: the overlap without force once it has broken.
+    double rest_overlap(const Bond& bond) const { return coulomb_bonds ? std::max(bond.overlap, 0.0) : 0.0; }
 
     bool is_platen(BodyIndex body) const { return body == bottom || body == top; }
     double axial_strain(const World& world) const;
@@ -129,6 +129,7 @@ struct TestSetup {
         visit("start", s.start);
         visit("bonds", s.bonds);
         visit("bond_kind_begin", s.bond_kind_begin);
+        visit("bond_shares", s.bond_shares);
         visit("notices", s.notices);
         visit("packing", s.packing);
         visit("minerals", s.minerals);

@@ -10,8 +10,8 @@
 
 namespace crackle::testing {
 
-template <class T>
-bool same_bytes(const std::vector<T>& a, const std::vector<T>& b) {
+template <class T, class Room>
+bool same_bytes(const std::vector<T, Room>& a, const std::vector<T, Room>& b) {
     return a.size() == b.size() && (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof(T)) == 0);
 }
 

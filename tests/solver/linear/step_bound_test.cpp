@@ -5,8 +5,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "solver/linear/critical_step.hpp"
+#include "solver/linear/lanczos_bound.hpp"
+#include "solver/linear/step_bound.hpp"
 #include "solver/stepping/bonding.hpp"
 #include "solver/stepping/build_world.hpp"
 #include "solver/stepping/step.hpp"
@@ -107,6 +110,39 @@ TEST(CriticalStep, WithDashpotsIsProvedBelowItsRootAndDisprovedAbove) {
         EXPECT_TRUE(stable_at(world, ClosedPoints::touching, 0.999 * exact.root)) << ratio;
         EXPECT_FALSE(stable_at(world, ClosedPoints::touching, 1.001 * exact.root)) << ratio;
     }
+}
+
+/// The limit by factorisation and what worlds too large for that go by, with and without dashpots.
+TEST(LanczosBound, LiesWithinTwoPerCentBelowTheExactLimit) {
+    for (const double ratio : {0.0, 0.2, 0.7}) {
+        for (const bool polygons : {false, true}) {
+            Material material = rock();
+            material.damping_ratio = ratio;
+            DisorderedDiscs discs;
+            discs.columns = 40, discs.rows = 60;
+            ShakenCells cells;
+            cells.columns = cells.rows = 20;
+            World world = build_world(polygons ? shaken_cells(cells, material) : disordered_discs(discs, material));
+            bond_all(world, polygons ? 1.5 * world.settings.thick : 0.0);
+            compute_forces(world);
+            const ClosedPoints which = ClosedPoints::touching;
+            const double exact = critical_step(world, ClosedPoints::touching).root;
+            const double found = lanczos_step(world, which, stable_step_bound(world));
+            fmt::print("  {}, damping ratio {}: expected 0.98 to 1 of {:.6g} s, got {:.6g} s, {:.4f} of it\n",
+                       polygons ? "polygons" : "discs", ratio, exact, found, found / exact);
+            EXPECT_LE(found, exact);
+            EXPECT_GE(found, 0.98 * exact);
+            EXPECT_TRUE(lanczos_finds_stable(world, which, 0.97 * exact));
+            EXPECT_FALSE(lanczos_finds_stable(world, which, 1.001 * exact));
+        }
+    }
+}
+
+TEST(LanczosBound, OfLooseBodiesIsInfinite) {
+    Scene scene = square_lattice(5, 5, 0.02, -1e-3, rock());
+    World world = build_world(std::move(scene));
+    compute_forces(world);
+    EXPECT_EQ(lanczos_step(world, ClosedPoints::touching, 1e-5), std::numeric_limits<double>::infinity());
 }
 
 }  // namespace

@@ -399,7 +399,7 @@ TEST(NeighbourList, IntactBondsOfAWholeSpecimenKeepTheirOrderWhenItIsBlownUp) {
     };
     const auto before = bonds();
     for (const double scale : {1.5, 1.3, 0.7, 1.0}) {
-        const std::vector<BodyState> start = world.bodies.state;
+        const Array<BodyState> start = world.bodies.state;
         for (BodyState& body : world.bodies.state) body.x *= scale, body.y *= scale;
         world.list.valid = false;
         world.stepping.forces_current = false;

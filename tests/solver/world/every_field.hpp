@@ -23,8 +23,8 @@ struct Fill {
             T::fields(value, [&](const char* /*name*/, auto& field, const auto&... /*more*/) { add(field); });
         }
     }
-    template <class T>
-    void add(std::vector<T>& values) {
+    template <class T, class Room>
+    void add(std::vector<T, Room>& values) {
         if (values.empty()) values.emplace_back();
         for (T& value : values) add(value);
     }
@@ -72,8 +72,8 @@ class Change {
     void walk(std::string& text, const std::string& name) {
         if (chosen(name)) text += "x";
     }
-    template <class T>
-    void walk(std::vector<T>& values, const std::string& name) {
+    template <class T, class Room>
+    void walk(std::vector<T, Room>& values, const std::string& name) {
         elements(values, name);
         if (chosen(name + ".size()")) values.emplace_back();
     }

@@ -154,7 +154,7 @@ void expect_all_carried(World world, int fewest) {
     });
     std::size_t array = 0;
     Points now = world.points;
-    visit_remembered(now, [&]<class T>(std::vector<T>& values, Remembered remembered) {
+    visit_remembered(now, [&]<class T>(Array<T>& values, Remembered remembered) {
         if (!keeps(world, remembered)) {
             EXPECT_TRUE(values.empty());
             ++array;

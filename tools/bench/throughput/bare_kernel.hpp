@@ -55,12 +55,12 @@ class BareKernel {
     template <InstructionSet>
     void move_bodies_of();
 
-    std::vector<Body> bodies_;
-    std::vector<Inertia> inertia_;
-    std::vector<Point> points_;  // padded to a multiple of most_lanes with points of a lone pair
+    Array<Body> bodies_;
+    Array<Inertia> inertia_;
+    Array<Point> points_;  // padded to a multiple of most_lanes with points of a lone pair
     std::size_t real_points_ = 0;
-    std::vector<PointForce> forces_;
-    std::vector<std::uint32_t> begin_, slots_;
+    Array<PointForce> forces_;
+    Array<std::uint32_t> begin_, slots_;
     std::vector<BodyIndex> world_body_;
     ContactLaw law_;
     double root_mass_;  // sqrt(kg), of every point

@@ -338,7 +338,7 @@ std::vector<ClaimRow> bonded_specimens_turn_round_unharmed() {
             body.omega = spin;
         }
         const Momentum start = momentum_of(world);
-        const std::vector<BodyState> before = world.bodies.state;
+        const Array<BodyState> before = world.bodies.state;
         const auto steps = static_cast<std::int64_t>(2.0 * pi / spin / world.stepping.time_step);
         const Endured endured = endure(world, steps, 500);
         const std::string name = name_of(kind);

@@ -65,7 +65,7 @@ std::vector<ClaimRow> free_bonded_specimen_keeps_momentum_and_energy() {
 /// Largest spring force after a full turn imposed in equal steps about the origin, over k_n times the mean overlap.
 double force_after_turn(Kind kind, int steps, std::int64_t& broken) {
     World world = free_specimen(kind, 27.0);
-    const std::vector<BodyState> start = world.bodies.state;
+    const Array<BodyState> start = world.bodies.state;
     const double by = 2.0 * std::numbers::pi / steps, dt = world.stepping.time_step;
     double worst = 0.0;
     compute_forces(world);
@@ -161,7 +161,7 @@ std::vector<ClaimRow> frictionless_motion_runs_backwards() {
     for (const Kind kind : {Kind::discs, Kind::polygons}) {
         World world = free_specimen(kind, 0.0);
         shake(world, 1e-4 * breaking_energy(world), 12);
-        const std::vector<BodyState> start = world.bodies.state;
+        const Array<BodyState> start = world.bodies.state;
         const auto farthest = [&] {
             double off = 0.0;
             for (std::size_t b = 0; b < start.size(); ++b)

@@ -52,7 +52,7 @@ std::vector<ClaimRow> bond_squeezed_to_ten_times_its_strength_holds() {
 }
 
 /// A disc thrown against another that it barely touches.
-std::vector<BodyState> rebound(double overlap, bool bonded, std::int64_t& broken) {
+Array<BodyState> rebound(double overlap, bool bonded, std::int64_t& broken) {
     Scene scene;
     scene.materials = {rock()};
     scene.domain.wall_present = {false, false, false, false};
@@ -74,7 +74,7 @@ std::vector<ClaimRow> bond_of_vanishing_strength_equals_no_bond() {
     for (int k = 0; k < 2; ++k) {
         const double overlap = k == 0 ? 2e-9 : 2e-11;  // m
         std::int64_t broken = 0, none = 0;
-        const std::vector<BodyState> with = rebound(overlap, true, broken), without = rebound(overlap, false, none);
+        const Array<BodyState> with = rebound(overlap, true, broken), without = rebound(overlap, false, none);
         for (std::size_t b = 0; b < 2; ++b) {
             errors[k] = std::max({errors[k], std::abs(with[b].vx - without[b].vx) / 0.01,
                                   std::abs(with[b].vy - without[b].vy) / 0.01,

@@ -74,7 +74,7 @@ FirstBreak pull(const Pull& request) {
     scene.intact.no_new_contacts = true;
     World world = build_world(std::move(scene));
     bond_all(world, 0.0);
-    const std::vector<BodyState> start = world.bodies.state;
+    const Array<BodyState> start = world.bodies.state;
     const BodyIndex inner = body_of_id(world, 12);           // the middle of rows of 5, 4, 5, 4, 5
     const double by = 1.4 * overlap / spacing / increments;  // across, bonds open by ¾ of the strain or less
     const double c11 = std::sqrt(3.0) / 4.0 * (3.0 + request.shear_share) * kn;

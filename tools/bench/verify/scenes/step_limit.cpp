@@ -63,7 +63,7 @@ class Projection {
     }
 
   private:
-    std::vector<BodyState> rest_;
+    Array<BodyState> rest_;
     std::vector<BodyMotion> mode_;
 };
 
