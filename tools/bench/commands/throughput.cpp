@@ -3,6 +3,7 @@
 // Tested by tests/tools/bench/commands/bench_test.cpp.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -219,6 +220,9 @@ CommandLine describe_bench_throughput() {
         ("seconds", po::value<double>()->value_name("X"), "of stepping, each run (default 2; quick: 0.3)")  //
         ("repeats", po::value<int>()->value_name("N"),
          "runs of a scene, of which the median counts (default 3; quick: 1)")  //
+        ("kinds", po::value<std::vector<std::string>>()->multitoken()->value_name("KIND"),
+         "circles, voronoi, delaunay, flowing (default all, polygons up to 50000)")                            //
+        ("threads", po::value<std::vector<int>>()->multitoken()->value_name("N"), "of circles (default 1 2)")  //
         ("quick", "small and short");
     return {.synopses = {"crackle bench throughput [OPTIONS]"},
             .description =
@@ -229,7 +233,8 @@ CommandLine describe_bench_throughput() {
             .examples = {{"crackle bench throughput --quick", "seconds: small scenes, half a second each"},
                          {"crackle bench throughput -o out/throughput",
                           "minutes: up to a million circles; throughput.md, .csv, .svg"},
-                         {"crackle bench throughput --counts 300 5000 --repeats 5"}},
+                         {"crackle bench throughput --counts 300 5000 --repeats 5"},
+                         {"crackle bench throughput --kinds circles voronoi --threads 1"}},
             .notes = {"Rates are particle-steps a second. Machines are noisy: compare what stands in one table."}};
 }
 
@@ -257,6 +262,19 @@ int bench_throughput(const Invocation& invocation) {
             fmt::format("bench throughput: --seconds: found {}, expected above 0, at most 600", settings.seconds));
     if (settings.repeats < 1 || settings.repeats > 100)
         throw InputError(fmt::format("bench throughput: --repeats: found {}, expected 1 to 100", settings.repeats));
+    const std::vector<std::string> all_kinds{"circles", "voronoi", "delaunay", "flowing"};
+    const auto kinds = given.contains("kinds") ? given["kinds"].as<std::vector<std::string>>() : all_kinds;
+    for (const std::string& kind : kinds) {
+        if (std::ranges::find(all_kinds, kind) == all_kinds.end())
+            throw InputError(fmt::format("bench throughput: --kinds: found '{:.40}', expected some of {}", kind,
+                                         fmt::join(all_kinds, ", ")));
+    }
+    const auto wanted = [&](const char* kind) { return std::ranges::find(kinds, kind) != kinds.end(); };
+    const auto threads = given.contains("threads") ? given["threads"].as<std::vector<int>>() : std::vector<int>{1, 2};
+    for (const int number : threads) {
+        if (number < 1 || number > 64)
+            throw InputError(fmt::format("bench throughput: --threads: found {}, expected 1 to 64", number));
+    }
     make_results_folder(settings.folder);
 
     std::string command = "crackle bench throughput";
@@ -282,16 +300,18 @@ int bench_throughput(const Invocation& invocation) {
         plan.push_back({fmt::format("{} {} on {}", count, kind, threads),
                         [=, &settings] { return measure_test(settings, kind, count, threads, with_bare); }});
     };
-    for (const std::int64_t count : counts) plan_test("circles", count, 1, true);
-    for (const std::int64_t count : counts) {
-        if (count >= 5000) plan_test("circles", count, 2, false);
+    for (const int number : threads) {
+        for (const std::int64_t count : counts) {
+            if (wanted("circles") && (number == 1 || count >= 5000)) plan_test("circles", count, number, number == 1);
+        }
     }
     for (const char* kind : {"voronoi", "delaunay"}) {
         for (const std::int64_t count : counts) {
-            if (count <= 50'000) plan_test(kind, count, 1, false);
+            if (wanted(kind) && (count <= 50'000 || given.contains("kinds"))) plan_test(kind, count, 1, false);
         }
     }
     for (const bool polygons : {false, true}) {
+        if (!wanted("flowing")) break;
         for (const std::int64_t count : {std::int64_t{582}, std::int64_t{50'000}}) {
             if (count > *std::max_element(counts.begin(), counts.end())) continue;
             plan.push_back({fmt::format("{} flowing {}", count, polygons ? "hexagons" : "circles"),

@@ -39,6 +39,8 @@ TEST_F(BenchCommand, ThroughputWritesATableOfEveryKindOfScene) {
     expect_refused("throughput --counts 3", "--counts: found 3, expected 100 to 4000000");
     expect_refused("throughput --repeats 0", "--repeats: found 0");
     expect_refused("throughput --seconds -1", "--seconds: found -1");
+    expect_refused("throughput --kinds squares", "--kinds: found 'squares', expected some of circles, voronoi");
+    expect_refused("throughput --threads 0", "--threads: found 0, expected 1 to 64");
     const testing::Answer answer = call("throughput --quick --counts 300 --seconds 0.02 -o rates");
     ASSERT_EQ(answer.code, 0) << answer.err;
     EXPECT_EQ(answer.out, read("rates/throughput.md"));
