@@ -270,8 +270,9 @@ int bench_throughput(const Invocation& invocation) {
                                          fmt::join(all_kinds, ", ")));
     }
     const auto wanted = [&](const char* kind) { return std::ranges::find(kinds, kind) != kinds.end(); };
-    const auto threads = given.contains("threads") ? given["threads"].as<std::vector<int>>() : std::vector<int>{1, 2};
-    for (const int number : threads) {
+    const auto thread_counts =
+        given.contains("threads") ? given["threads"].as<std::vector<int>>() : std::vector<int>{1, 2};
+    for (const int number : thread_counts) {
         if (number < 1 || number > 64)
             throw InputError(fmt::format("bench throughput: --threads: found {}, expected 1 to 64", number));
     }
@@ -300,7 +301,7 @@ int bench_throughput(const Invocation& invocation) {
         plan.push_back({fmt::format("{} {} on {}", count, kind, threads),
                         [=, &settings] { return measure_test(settings, kind, count, threads, with_bare); }});
     };
-    for (const int number : threads) {
+    for (const int number : thread_counts) {
         for (const std::int64_t count : counts) {
             if (wanted("circles") && (number == 1 || count >= 5000)) plan_test("circles", count, number, number == 1);
         }
