@@ -5,9 +5,14 @@
 #include <fmt/format.h>
 #include <malloc.h>
 
+#include <cerrno>
+#include <cstdio>
+#include <exception>
 #include <filesystem>
+#include <iostream>
 #include <new>
 #include <span>
+#include <system_error>
 
 #include "solver/base/errors.hpp"
 #include "solver/base/instruction_set.hpp"
@@ -22,7 +27,14 @@ int main(int argc, char** argv) {
     const auto all = std::span(argv, static_cast<std::size_t>(argc));
     try {
         crackle::chosen_set();  // an unknown CRACKLE_ISA is said before anything is done
-        return call_command({all.begin() + 1, all.end()});
+        const int code = call_command({all.begin() + 1, all.end()});
+        // A result that nobody receives is none: a full disk shows when the last of it is written.
+        errno = 0;
+        const bool written = std::cout.flush() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
+        if (written) return code;
+        report_error(fmt::format("standard output: {}, expected one that takes all that is printed",
+                                 errno != 0 ? std::generic_category().message(errno) : "cannot be written"));
+        return exit_system_fails;
     } catch (const crackle::InputError& error) {
         report_error(error.what());
         return exit_bad_input;
@@ -36,5 +48,9 @@ int main(int argc, char** argv) {
     } catch (const crackle::UnstableRun& error) {
         report_error(error.what());
         return exit_unstable;
+    } catch (const std::exception& error) {  // of a library, which does not know what it was asked for
+        report_error(fmt::format("{}: found '{}', expected to go on; please report it with the command and its files",
+                                 argc > 1 ? argv[1] : "crackle", error.what()));
+        return exit_system_fails;
     }
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/base/replace_file.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -16,7 +18,17 @@ void refuse_output(const std::filesystem::path& path) {
                                  path.string(), std::strerror(errno)));
 }
 
-void replace_file(const std::filesystem::path& path, const std::string& contents) {
+void bring_to_disc(const std::filesystem::path& path) {
+    const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+    if (file < 0) refuse_output(path);
+    const int failed = ::fsync(file);
+    const int reason = errno;
+    ::close(file);
+    errno = reason;
+    if (failed != 0) refuse_output(path);
+}
+
+void replace_file(const std::filesystem::path& path, const std::string& contents, Durable durable) {
     std::filesystem::path temporary = path;
     temporary += ".tmp";
     errno = 0;
@@ -30,8 +42,10 @@ void replace_file(const std::filesystem::path& path, const std::string& contents
         errno = reason;
         refuse_output(path);
     }
+    if (durable == Durable::yes) bring_to_disc(temporary);
     std::filesystem::rename(temporary, path, error);
     if (error) throw InputError(fmt::format("{}: cannot be replaced ({})", path.string(), error.message()));
+    if (durable == Durable::yes) bring_to_disc(path.has_parent_path() ? path.parent_path() : ".");
 }
 
 }  // namespace crackle

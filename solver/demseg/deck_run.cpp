@@ -10,7 +10,8 @@
 #include <utility>
 
 #include "solver/base/errors.hpp"
-#include "solver/base/replace_file.hpp"
+#include "solver/base/file_set.hpp"
+#include "solver/base/folder_lock.hpp"
 #include "solver/demseg/contact_files.hpp"
 #include "solver/demseg/deck_reader.hpp"
 #include "solver/demseg/deck_state.hpp"
@@ -29,6 +30,7 @@ namespace {
 constexpr std::int64_t health_interval = 100;
 
 constexpr const char* state_name = "new_state.bin";
+constexpr const char* journal_name = "new_files.journal";  // while the files for the next part are replaced
 
 template <typename Write>
 std::string text_of(Write&& write) {
@@ -63,6 +65,7 @@ DeckRun::DeckRun(DeckOptions options) : options_(std::move(options)) {
     if (std::filesystem::equivalent(options_.folder, options_.output, same)) options_.output.clear();
     if (options_.steps && *options_.steps < 1)
         throw InputError(fmt::format("steps: found {}, expected at least 1", *options_.steps));
+    complete_earlier_run();
     Texts texts;
     for (std::size_t k = 0; k < texts.contents.size(); ++k) {
         const std::filesystem::path path = input(deck_text_names[k]);
@@ -81,6 +84,19 @@ DeckRun::DeckRun(DeckOptions options) : options_(std::move(options)) {
     first_step_ = world_.stepping.steps;
     last_step_ = first_step_ + options_.steps.value_or(asked_.steps);
     refuse_existing_outputs();
+}
+
+/// The last run here may have been stopped while it replaced the files for the next part.
+void DeckRun::complete_earlier_run() const {
+    const std::filesystem::path journal = options_.folder / journal_name;
+    if (!std::filesystem::exists(journal)) return;
+    const FolderLock lock(options_.folder);
+    if (!complete_replacement(journal) || options_.goes_on) return;
+    throw InputError(
+        fmt::format("{}: found new_*.dat of a run that was stopped while it wrote them, expected all of one run; they "
+                    "are complete now: if the deck's files are copies of them, copy them again; then repeat the "
+                    "command",
+                    options_.folder.string()));
 }
 
 void DeckRun::start_new(const Texts& texts) {
@@ -227,6 +243,9 @@ void DeckRun::run(const std::function<bool(const World&)>& go_on) {
     if (error)
         throw InputError(fmt::format("{}: cannot be made ({}), expected a writable folder", output_folder().string(),
                                      error.message()));
+    const FolderLock lock(output_folder());
+    complete_replacement(output_folder() / journal_name);  // of a run that this one replaces
+    refuse_existing_outputs();                             // another run may have been here since
     const bool first_part = asked_.start != DeckStart::continued;
     if (appends()) drop_rows_after(output_folder(), first_step_);
     DeckOutputs outputs(output_folder(), appends()    ? OutputMode::appending
@@ -249,7 +268,7 @@ void DeckRun::run(const std::function<bool(const World&)>& go_on) {
     check_health(world_);
     if (first_part || world_.stepping.steps > first_step_) write_rows(outputs);
     outputs.flush();
-    for (const auto& [name, contents] : files) replace_file(output_folder() / name, contents);
+    replace_files(output_folder() / journal_name, files);
 }
 
 Scene DeckRun::present_scene() const {
@@ -290,7 +309,7 @@ BoundaryConditions DeckRun::boundary_for_next() const {
     return next;
 }
 
-std::vector<std::pair<std::string, std::string>> DeckRun::files_for_next() const {
+FileSet DeckRun::files_for_next() const {
     const BoundaryConditions next = boundary_for_next();
     const DeckTexts texts{
         text_of([&](std::ostream& out) { write_geometry(out, present_scene(), base_.large_segments); }),
@@ -302,7 +321,7 @@ std::vector<std::pair<std::string, std::string>> DeckRun::files_for_next() const
     state.world = world_;
     state.base_geometry = text_of([&](std::ostream& out) { write_geometry(out, base_.scene, base_.large_segments); });
     state.base_boundary = text_of([&](std::ostream& out) { write_boundary(out, finished() ? next : boundary_); });
-    std::vector<std::pair<std::string, std::string>> files;
+    FileSet files;
     for (std::size_t k = 0; k < texts.size(); ++k)
         files.emplace_back(std::string("new_") + deck_text_names[k], texts[k]);
     files.emplace_back(state_name, save_deck_state(state, texts));

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/base/file_set.hpp"
 #include "solver/demseg/boundary.hpp"
 #include "solver/demseg/geometry.hpp"
 #include "solver/world/world.hpp"
@@ -62,6 +63,7 @@ class DeckRun {
     bool start_from_state(const Texts& texts);
     void enter_steps_before();
     void find_bodies();
+    void complete_earlier_run() const;
     void refuse_existing_outputs() const;
     bool appends() const { return options_.goes_on && options_.output.empty(); }
     std::filesystem::path input(const std::string& name) const;
@@ -73,7 +75,7 @@ class DeckRun {
     Scene present_scene() const;
     BoundaryConditions boundary_for_next() const;
     /// Contents of new_in_gm.dat, new_in_bc.dat, new_in_cf.dat, new_in_cf0.dat and new_state.bin, by name.
-    std::vector<std::pair<std::string, std::string>> files_for_next() const;
+    FileSet files_for_next() const;
 
     DeckOptions options_;
     BoundaryConditions asked_;     // in_bc.dat of this run

@@ -7,6 +7,7 @@
 
 #include <cerrno>
 #include <charconv>
+#include <cstring>
 #include <iterator>
 #include <string_view>
 #include <system_error>
@@ -53,7 +54,13 @@ bool read_head(std::string_view line, bool frame, std::int64_t& step, std::int64
 
 /// Bytes up to the last complete row or frame of a step up to `step`.
 std::uintmax_t length_up_to(const std::filesystem::path& path, std::int64_t step, bool frames) {
+    errno = 0;
     std::ifstream file(path, std::ios::binary);
+    const auto refuse_unread = [&] {  // or all of it would be cut off
+        throw InputError(fmt::format("{}: cannot be read ({}), expected the rows of an earlier part", path.string(),
+                                     std::strerror(errno)));
+    };
+    if (!file) refuse_unread();
     std::string line;
     std::uintmax_t at = 0, kept = 0;
     std::int64_t number = 0, row_step = 0, lines_left = 0;
@@ -73,6 +80,7 @@ std::uintmax_t length_up_to(const std::filesystem::path& path, std::int64_t step
         }
         if (lines_left == 0) kept = at;
     }
+    if (file.bad()) refuse_unread();
     return kept;
 }
 

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <optional>
@@ -142,12 +143,19 @@ TestOutcome finished_test(VirtualTest& test, const TestOptions& options, const T
     const bool exists = fs::is_regular_file(name, error);
     if (exists) outcome.summary = nlohmann::ordered_json::parse(read_bytes(name), nullptr, false);
     const auto& old = outcome.summary;
-    const bool readable = exists && old.is_object() && old.value("ended_by", "") == test.state.ended_by;
+    const bool readable =
+        exists && old.is_object() && old.contains("ended_by") && old["ended_by"] == test.state.ended_by;
     const bool verified = readable && old.contains("/numerical_errors/companions"_json_pointer);
     outcome.was_finished = readable && (verified || !options.verify);
     if (outcome.was_finished) return outcome;
     TestTiming timing{0.0, 0.0, test.world.workers.threads};
-    if (readable) timing = {old.value("wall_seconds", 0.0), old.value("step_seconds", 0.0), old.value("threads", 1)};
+    const auto number = [&](const char* key, double otherwise) {  // whoever wrote what is there
+        const auto found = old.find(key);
+        return found != old.end() && found->is_number() ? found->get<double>() : otherwise;
+    };
+    if (readable)
+        timing = {number("wall_seconds", 0.0), number("step_seconds", 0.0),
+                  static_cast<int>(std::clamp(number("threads", 1.0), 1.0, 1e6))};
     std::optional<NumericalErrors> errors;
     const auto write_summary = [&] {
         outcome.summary =

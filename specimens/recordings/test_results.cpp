@@ -68,6 +68,9 @@ nlohmann::ordered_json read_summary(const std::filesystem::path& file) {
         throw InputError(
             fmt::format("{}: found broken JSON at byte {}; write the results again with `crackle test --force`",
                         file.string(), error.byte));
+    } catch (const nlohmann::json::out_of_range&) {
+        throw InputError(fmt::format(
+            "{}: found a number beyond 1.8e308; write the results again with `crackle test --force`", file.string()));
     }
     const auto expect = [&](const char* key, bool right, const char* expected) {
         if (right) return;
@@ -82,6 +85,8 @@ nlohmann::ordered_json read_summary(const std::filesystem::path& file) {
     expect("kind", text("kind") == "compression" || text("kind") == "tension", "\"compression\" or \"tension\"");
     expect("specimen", !text("specimen").empty(), "\"circles\", \"delaunay\" or \"voronoi\"");
     expect("failed", summary.contains("failed") && summary["failed"].is_boolean(), "true or false");
+    expect("material_units", !summary.contains("material_units") || summary["material_units"].is_string(),
+           "\"point\" or \"area\"");
     return summary;
 }
 

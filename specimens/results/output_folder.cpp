@@ -3,7 +3,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -201,23 +200,6 @@ void probe(const fs::path& folder) {
 }
 
 }  // namespace
-
-FolderLock::FolderLock(const fs::path& folder)
-    : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
-    if (descriptor_ < 0) cannot_write(folder, last_error());
-    if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
-    const bool taken = errno == EWOULDBLOCK;
-    const std::string why = last_error();
-    ::close(descriptor_);
-    if (!taken) cannot_write(folder, why);
-    throw InputError(fmt::format(
-        "{}: another crackle is writing here, expected a folder of one's own; wait for it, or choose another -o",
-        folder.string()));
-}
-
-FolderLock::~FolderLock() {
-    if (descriptor_ >= 0) ::close(descriptor_);  // which unlocks
-}
 
 namespace {
 

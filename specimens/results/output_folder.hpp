@@ -16,6 +16,8 @@
 #include <utility>
 #include <vector>
 
+#include "solver/base/folder_lock.hpp"
+
 namespace crackle {
 
 /// What a test makes in its folder.
@@ -34,19 +36,6 @@ bool holds_test_results(const std::filesystem::path& folder);
 
 /// First line of a test's case.toml: by it a folder's case is known to be a result, not a user's own.
 inline constexpr const char* resolved_case_mark = "# Resolved case of crackle ";
-
-/// Holds a folder against other processes as long as it lives.
-class FolderLock {
-  public:
-    /// @throws InputError if another process holds it.
-    explicit FolderLock(const std::filesystem::path& folder);
-    FolderLock(FolderLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
-    FolderLock& operator=(FolderLock&&) = delete;
-    ~FolderLock();
-
-  private:
-    int descriptor_;
-};
 
 class OutputFolder {
   public:

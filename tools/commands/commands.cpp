@@ -103,6 +103,7 @@ const std::vector<ExitCode>& exit_codes() {
         {exit_claim_fails, "a row of crackle bench fails"},
         {exit_bad_input, "bad input"},
         {exit_unstable, "the run became unstable (its output so far is kept)"},
+        {exit_system_fails, "the system or a library failed (likewise)"},
         {exit_interrupted, "interrupted (likewise)"},
     };
     return all;

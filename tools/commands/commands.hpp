@@ -56,6 +56,7 @@ inline constexpr int exit_done = 0;
 inline constexpr int exit_claim_fails = 1;
 inline constexpr int exit_bad_input = 2;      // InputError, wrong options
 inline constexpr int exit_unstable = 3;       // UnstableRun
+inline constexpr int exit_system_fails = 4;   // the output cannot be written, a library gives up
 inline constexpr int exit_interrupted = 130;  // as a shell's own of SIGINT
 
 struct ExitCode {

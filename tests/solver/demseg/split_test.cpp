@@ -8,6 +8,9 @@
 #include <fstream>
 #include <random>
 
+#include "solver/base/errors.hpp"
+#include "solver/base/file_set.hpp"
+#include "solver/base/folder_lock.hpp"
 #include "solver/demseg/deck_state.hpp"
 #include "solver/demseg/outputs.hpp"
 #include "tests/support/claim.hpp"
@@ -130,6 +133,72 @@ TEST_P(SplitRun, FromTheTextFilesAloneAgreesTo1e9) {
     }
     EXPECT_TRUE(within("positions over the extent", error / extent, 0.0, 1e-9));
     EXPECT_TRUE(within("velocities over the largest", speed_error / fastest, 0.0, 1e-9));
+}
+
+/// Two parts of a deck in one folder; the second is stopped at each moment of replacing the files for the next.
+class StoppedDeck : public ::testing::Test {
+  protected:
+    static constexpr const char* next_files[] = {"new_in_gm.dat", "new_in_bc.dat", "new_in_cf.dat", "new_in_cf0.dat",
+                                                 "new_state.bin"};
+
+    static void run(const std::filesystem::path& folder, bool goes_on) {
+        DeckOptions options;
+        options.folder = goes_on ? folder : shipped_deck("embankment");
+        options.output = folder;
+        options.steps = 300;
+        options.goes_on = goes_on;
+        DeckRun(options).run();
+    }
+
+    ScratchFolder scratch_;
+};
+
+TEST_F(StoppedDeck, WhileItsFilesWereReplacedGoesOnWithTheBytesOfOneThatWasNot) {
+    const auto undisturbed = scratch_ / "undisturbed", first = scratch_ / "first";
+    run(undisturbed, false);
+    std::filesystem::copy(undisturbed, first);
+    run(undisturbed, true);
+    FileSet second;
+    for (const char* name : next_files) second.emplace_back(name, read_text_file(undisturbed / name));
+    const auto after_second = scratch_ / "after_second";
+    std::filesystem::copy(undisturbed, after_second);
+    run(undisturbed, true);
+    for (std::size_t replaced = 0; replaced <= second.size(); ++replaced) {
+        const auto stopped = scratch_ / ("stopped" + std::to_string(replaced));
+        std::filesystem::copy(after_second, stopped);
+        for (std::size_t k = replaced; k < second.size(); ++k)
+            std::filesystem::copy_file(first / second[k].first, stopped / second[k].first,
+                                       std::filesystem::copy_options::overwrite_existing);
+        write_journal(stopped / "new_files.journal", second);
+        run(stopped, true);
+        for (const auto& file : std::filesystem::directory_iterator(undisturbed)) {
+            const auto name = file.path().filename();
+            EXPECT_TRUE(read_text_file(stopped / name) == read_text_file(file.path())) << replaced << ": " << name;
+        }
+        EXPECT_FALSE(std::filesystem::exists(stopped / "new_files.journal"));
+    }
+}
+
+TEST_F(StoppedDeck, WhoseFilesAreCopiedByHandIsToldToCopyThemAgain) {
+    const auto folder = scratch_ / "deck";
+    run(folder, false);
+    FileSet files;
+    for (const char* name : next_files) files.emplace_back(name, read_text_file(folder / name));
+    write_journal(folder / "new_files.journal", files);
+    for (const char* name : {"in_gm.dat", "in_bc.dat", "in_cf.dat", "in_cf0.dat"})
+        std::filesystem::copy_file(folder / (std::string("new_") + name), folder / name);
+    DeckOptions options;
+    options.folder = folder;
+    options.output = scratch_ / "next";
+    EXPECT_THROW(DeckRun{options}, InputError);
+    EXPECT_NO_THROW(DeckRun{options}) << "said once: they are complete now";
+}
+
+TEST_F(StoppedDeck, TwoRunsDoNotShareAFolder) {
+    const auto folder = scratch_ / "deck";
+    run(folder, false);
+    const FolderLock held(folder);
+    EXPECT_THROW(run(folder, true), InputError);
 }
 
 TEST(DeckThreads, DoNotChangeAByte) {

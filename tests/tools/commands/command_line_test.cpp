@@ -133,6 +133,15 @@ TEST_F(CommandLines, ManualPageIsSoundRoffAndNamesEveryOption) {
     fmt::print("  {} options, {} bytes\n", options, page.out.size());
 }
 
+TEST_F(CommandLines, AResultThatCannotBePrintedIsNoSuccess) {
+    for (const char* command : {"doctor", "man", "--help", "test --keys", "completion bash"}) {
+        const Answer answer = shell(std::string("crackle ") + command + " > /dev/full");
+        EXPECT_EQ(answer.code, 4) << command;
+        EXPECT_NE(answer.err.find("standard output: "), std::string::npos) << command << ": " << answer.err;
+        EXPECT_EQ(count_of(answer.err, "\n"), 1U) << answer.err;
+    }
+}
+
 TEST_F(CommandLines, BashCompletesCommandsOptionsAndTheirWords) {
     const Words all = listed(call("--help").out);
     std::set<std::string> expected(all.begin(), all.end());

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Files of a folder that belong together, replaced all or none: whoever is stopped at any moment, by a signal, a full
+// disc or a loss of power, leaves the earlier set or the new one, never a mixture.
+//
+// The whole new set is first written as one file, the journal; from the moment it has its name the replacement counts
+// as done, and whoever reads the set next ends what is left of it.
+// Tested by tests/solver/base/file_set_test.cpp and tests/solver/demseg/split_test.cpp.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace crackle {
+
+/// Names in one folder, with contents.
+using FileSet = std::vector<std::pair<std::string, std::string>>;
+
+/// @param journal its path; the files lie beside it @throws InputError if something cannot be written
+void replace_files(const std::filesystem::path& journal, const FileSet& files);
+
+/// The first half of that: the journal alone.
+void write_journal(const std::filesystem::path& journal, const FileSet& files);
+
+/// The other half, or what is left of it. @return whether there was a journal
+/// @throws InputError if it is damaged, or something cannot be written
+bool complete_replacement(const std::filesystem::path& journal);
+
+}  // namespace crackle

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Tested by tests/specimens/results/files_test.cpp and tests/solver/demseg/split_test.cpp.
+#pragma once
+
+#include <filesystem>
+#include <utility>
+
+namespace crackle {
+
+/// Holds a folder against other processes as long as it lives.
+class FolderLock {
+  public:
+    /// @throws InputError if another process holds it.
+    explicit FolderLock(const std::filesystem::path& folder);
+    FolderLock(FolderLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
+    FolderLock& operator=(FolderLock&&) = delete;
+    ~FolderLock();
+
+  private:
+    int descriptor_;
+};
+
+}  // namespace crackle

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// All files of a set are replaced or none, wherever the one who replaces them is stopped.
+#include "solver/base/file_set.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <iterator>
+
+#include "solver/base/errors.hpp"
+#include "tests/support/deck_files.hpp"
+
+namespace crackle {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Files : public ::testing::Test {
+  protected:
+    const FileSet old_{{"a.dat", "old a"}, {"b.dat", "old b"}, {"c.bin", std::string("old\0c", 5)}};
+    const FileSet new_{{"a.dat", "new a\n"}, {"b.dat", ""}, {"c.bin", std::string(100'000, 'c')}};
+
+    testing::ScratchFolder scratch_;
+    fs::path folder_ = scratch_ / "set";
+
+    Files() { fs::create_directory(folder_); }
+
+    fs::path journal() const { return folder_ / "set.journal"; }
+
+    void write(const std::string& name, const std::string& contents) const {
+        std::ofstream(folder_ / name, std::ios::binary) << contents;
+    }
+    std::string read(const std::string& name) const {
+        std::ifstream in(folder_ / name, std::ios::binary);
+        return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    }
+    void expect_whole(const FileSet& files) const {
+        for (const auto& [name, contents] : files) EXPECT_TRUE(read(name) == contents) << name;
+        std::size_t there = 0;
+        for ([[maybe_unused]] const fs::directory_entry& entry : fs::directory_iterator(folder_)) ++there;
+        EXPECT_EQ(there, files.size()) << "something was left behind";
+    }
+};
+
+TEST_F(Files, AreAllReplacedAndNothingIsLeftBehind) {
+    replace_files(journal(), old_);
+    expect_whole(old_);
+    replace_files(journal(), new_);
+    expect_whole(new_);
+    EXPECT_FALSE(complete_replacement(journal()));
+}
+
+TEST_F(Files, StoppedAfterAnyOfThemAreCompletedByTheNextReader) {
+    for (std::size_t replaced = 0; replaced <= new_.size(); ++replaced) {
+        for (const auto& [name, contents] : old_) write(name, contents);
+        write_journal(journal(), new_);
+        for (std::size_t k = 0; k < replaced; ++k) write(new_[k].first, new_[k].second);
+        if (replaced < new_.size()) write(new_[replaced].first + ".tmp", "half");
+        EXPECT_TRUE(complete_replacement(journal())) << replaced;
+        expect_whole(new_);
+    }
+}
+
+TEST_F(Files, OfADamagedJournalStayAsTheyAre) {
+    for (const auto& [name, contents] : old_) write(name, contents);
+    write_journal(journal(), new_);
+    const std::string whole = read("set.journal");
+    for (const std::size_t at : {std::size_t{0}, std::size_t{9}, std::size_t{20}, whole.size() - 1}) {
+        std::string damaged = whole;
+        damaged[at] = static_cast<char>(damaged[at] ^ 1);
+        write("set.journal", damaged);
+        EXPECT_THROW(complete_replacement(journal()), InputError) << at;
+        write("set.journal", whole.substr(0, at));
+        EXPECT_THROW(complete_replacement(journal()), InputError) << at;
+    }
+    fs::remove(journal());
+    expect_whole(old_);
+}
+
+TEST_F(Files, OfAJournalThatNamesOtherFoldersAreRefused) {
+    write_journal(journal(), {{"../outside.dat", "x"}});
+    EXPECT_THROW(complete_replacement(journal()), InputError);
+    EXPECT_FALSE(fs::exists(folder_.parent_path() / "outside.dat"));
+}
+
+}  // namespace
+}  // namespace crackle
