@@ -33,7 +33,7 @@ struct LargePages {
 #endif
         return static_cast<T*>(room);
     }
-    void deallocate(T* room, std::size_t count) { ::operator delete(room, count * sizeof(T), alignment(count)); }
+    void deallocate(T* room, std::size_t count) { ::operator delete(room, alignment(count)); }
 
     friend bool operator==(const LargePages& /*a*/, const LargePages& /*b*/) { return true; }
 

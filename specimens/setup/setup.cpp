@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <unordered_map>
 #include <utility>
 
@@ -61,7 +60,6 @@ void find_axial_gauge(TestSetup& setup, const World& world, double outer) {
 }
 
 void record_bonds(TestSetup& setup, const World& world) {
-    std::map<std::pair<BodyIndex, BodyIndex>, double> interfaces;  // ordered: the sum must not depend on hashing
     double overlap = 0.0, tension = 0.0, tensile = 0.0, cohesion = 0.0;
     setup.bonds.reserve(static_cast<std::size_t>(world.bonds.initial));
     const bool own_shares = !world.points.stiffness_share.empty();
@@ -87,7 +85,6 @@ void record_bonds(TestSetup& setup, const World& world) {
             const double back_tension = law.normal_stiffness * bond_overlap;
             overlap += world.points.bond_overlap[k];
             tension += back_tension;
-            interfaces[std::minmax(point.body_i, point.body_j)] += back_tension;
         }
         std::ranges::sort(of_kind, {}, [](const BondOfKind& one) { return key_of(K, one.bond.point); });
         for (const BondOfKind& one : of_kind) {
@@ -99,7 +96,7 @@ void record_bonds(TestSetup& setup, const World& world) {
     if (setup.bonds.empty()) return;
     setup.mean_bond_overlap = overlap / static_cast<double>(setup.bonds.size());
     setup.mean_back_tension = tension / static_cast<double>(setup.bonds.size());
-    setup.mean_back_tension_interface = tension / static_cast<double>(interfaces.size());
+    setup.mean_back_tension_interface = tension / static_cast<double>(world.bonds.interfaces_initial);
     const auto breakable = static_cast<double>(world.bonds.initial - world.bonds.held);
     if (setup.coulomb_bonds && breakable > 0.0) {
         setup.mean_tensile_strength = tensile / breakable;
