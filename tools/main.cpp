@@ -31,7 +31,7 @@ int main(int argc, char** argv) {
         // A result that nobody receives is none: a full disk shows when the last of it is written.
         errno = 0;
         const bool written = std::cout.flush() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
-        if (written) return code;
+        if (written || code != exit_done) return code;
         report_error(fmt::format("standard output: {}, expected one that takes all that is printed",
                                  errno != 0 ? std::generic_category().message(errno) : "cannot be written"));
         return exit_system_fails;

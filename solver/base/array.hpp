@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Arrays of a world, on large pages where they are large: a step runs through a dozen of them side by side, and pages
 // of 4 KB have the processor look up an address every few points and stop fetching ahead there (a sixth of the step of
-// a million circles). Tested by tests/solver/base/array_test.cpp.
+// a million circles).
+// Tested by tests/solver/base/array_test.cpp.
 #pragma once
 
 #if defined(__linux__)

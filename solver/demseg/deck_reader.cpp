@@ -10,12 +10,11 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
-#include <fstream>
-#include <sstream>
 #include <system_error>
 #include <utility>
 
 #include "solver/base/errors.hpp"
+#include "solver/files/read_file.hpp"
 
 namespace crackle {
 namespace {
@@ -43,27 +42,12 @@ bool parse_number(std::string_view word, double& value) {
 
 }  // namespace
 
-std::string read_text_file(const std::filesystem::path& path) {
-    if (std::filesystem::is_directory(path))
-        throw InputError(fmt::format("{}: found a folder, expected a file", path.string()));
-    errno = 0;
-    std::ifstream file(path, std::ios::binary);
-    if (!file) {
-        throw InputError(fmt::format("{}: cannot be read ({}), expected a file", path.string(), std::strerror(errno)));
-    }
-    std::ostringstream text;
-    text << file.rdbuf();
-    if (file.bad())
-        throw InputError(fmt::format("{}: reading stopped with an error ({})", path.string(), std::strerror(errno)));
-    return std::move(text).str();
-}
-
 DeckReader::DeckReader(std::string name, std::string text, int first_line)
     : name_(std::move(name)), text_(std::move(text)), line_(first_line), token_line_(first_line) {
     if (text_.starts_with("\xef\xbb\xbf")) position_ = 3;  // byte order mark that some editors put in front
 }
 
-DeckReader DeckReader::open(const std::filesystem::path& path) { return {path.string(), read_text_file(path)}; }
+DeckReader DeckReader::open(const std::filesystem::path& path) { return {path.string(), read_file(path)}; }
 
 void DeckReader::skip_blanks() {
     while (position_ < text_.size() && is_blank(text_[position_])) {

@@ -57,7 +57,4 @@ class DeckReader {
     int token_line_;  // of token_
 };
 
-/// Whole contents. @throws InputError if the file cannot be read.
-std::string read_text_file(const std::filesystem::path& path);
-
 }  // namespace crackle

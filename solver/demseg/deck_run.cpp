@@ -10,13 +10,14 @@
 #include <utility>
 
 #include "solver/base/errors.hpp"
-#include "solver/base/file_set.hpp"
-#include "solver/base/folder_lock.hpp"
 #include "solver/demseg/contact_files.hpp"
 #include "solver/demseg/deck_reader.hpp"
 #include "solver/demseg/deck_state.hpp"
 #include "solver/demseg/outputs.hpp"
 #include "solver/demseg/random_circles.hpp"
+#include "solver/files/file_set.hpp"
+#include "solver/files/folder_lock.hpp"
+#include "solver/files/read_file.hpp"
 #include "solver/measure/health.hpp"
 #include "solver/measure/point_view.hpp"
 #include "solver/stepping/bonding.hpp"
@@ -66,12 +67,15 @@ DeckRun::DeckRun(DeckOptions options) : options_(std::move(options)) {
     if (options_.steps && *options_.steps < 1)
         throw InputError(fmt::format("steps: found {}, expected at least 1", *options_.steps));
     complete_earlier_run();
+    if (appends()) lock_.emplace(options_.folder);
+    std::optional<FolderLock> reading;  // files of one run, not of one that replaces them meanwhile
+    if (options_.goes_on && !appends()) reading.emplace(options_.folder, Hold::to_read);
     Texts texts;
     for (std::size_t k = 0; k < texts.contents.size(); ++k) {
         const std::filesystem::path path = input(deck_text_names[k]);
         texts.names[k] = path.string();
         texts.present[k] = k < 2 || std::filesystem::exists(path);  // reading in_gm.dat and in_bc.dat reports those two
-        if (texts.present[k]) texts.contents[k] = read_text_file(path);
+        if (texts.present[k]) texts.contents[k] = read_file(path);
     }
     DeckReader reader = texts.reader(1);
     asked_ = read_boundary(reader);
@@ -243,7 +247,7 @@ void DeckRun::run(const std::function<bool(const World&)>& go_on) {
     if (error)
         throw InputError(fmt::format("{}: cannot be made ({}), expected a writable folder", output_folder().string(),
                                      error.message()));
-    const FolderLock lock(output_folder());
+    if (!lock_) lock_.emplace(output_folder());
     complete_replacement(output_folder() / journal_name);  // of a run that this one replaces
     refuse_existing_outputs();                             // another run may have been here since
     const bool first_part = asked_.start != DeckStart::continued;

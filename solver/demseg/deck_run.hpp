@@ -14,9 +14,10 @@
 #include <string>
 #include <vector>
 
-#include "solver/base/file_set.hpp"
 #include "solver/demseg/boundary.hpp"
 #include "solver/demseg/geometry.hpp"
+#include "solver/files/file_set.hpp"
+#include "solver/files/folder_lock.hpp"
 #include "solver/world/world.hpp"
 
 namespace crackle {
@@ -78,6 +79,8 @@ class DeckRun {
     FileSet files_for_next() const;
 
     DeckOptions options_;
+    std::optional<FolderLock>
+        lock_;                     // of the output folder, from before its files are read where the run goes on there
     BoundaryConditions asked_;     // in_bc.dat of this run
     DeckGeometry base_;            // bodies as they were when the run, all parts of it, began
     BoundaryConditions boundary_;  // and its conditions: ramps are counted from its steps_before

@@ -12,6 +12,7 @@
 
 #include "solver/base/errors.hpp"
 #include "solver/demseg/deck_reader.hpp"
+#include "solver/files/read_file.hpp"
 #include "solver/world/checkpoint.hpp"
 
 namespace crackle {
@@ -75,7 +76,7 @@ std::string save_deck_state(const DeckState& state, const DeckTexts& texts) {
 std::optional<DeckState> load_deck_state(const std::filesystem::path& path, const DeckTexts& texts,
                                          const std::array<bool, 4>& present, std::vector<std::string>& edited) {
     const std::string name = path.string();
-    const std::string bytes = read_text_file(path);
+    const std::string bytes = read_file(path);
     Source source(name, bytes);
     if (source.take(magic.size()) != magic)
         throw InputError(fmt::format("{}: found other data, expected a deck's state; remove it to go without", name));

@@ -14,8 +14,8 @@
 #include <utility>
 
 #include "solver/base/errors.hpp"
-#include "solver/base/replace_file.hpp"
 #include "solver/demseg/contact_files.hpp"
+#include "solver/files/replace_file.hpp"
 #include "solver/measure/ledger.hpp"
 #include "solver/measure/point_view.hpp"
 

@@ -79,15 +79,17 @@ CriticalStep critical_step(const World& world, ClosedPoints which) {
     const double guaranteed = stable_step_bound(world);  // over all listed points: never above the limit sought
     CriticalStep result{guaranteed, infinite, false, std::vector<BodyMotion>(world.bodies.size())};
     if (pencil.size() == 0 || !std::isfinite(guaranteed)) return {infinite, infinite, true, result.mode};
-    if (pencil.size() > most_exact_unknowns) {
+    const auto unproved = [&] {
         result.step = std::max(guaranteed, lanczos_step(pencil, guaranteed));
+        result.proved = std::isinf(result.step);  // nothing is closed
         return result;
-    }
+    };
+    if (pencil.size() > most_exact_unknowns) return unproved();
     const bool damped = pencil.damped();
     double dt = guaranteed;
     for (int n = 0; n < newton_steps; ++n) {
         const Vector x = extreme_vector(pencil.matrix(2.0 * dt, dt * dt));
-        if (x.size() == 0) return result;
+        if (x.size() == 0) return unproved();
         const MassScaled::Quotient q = pencil.quotient(x);
         if (q.damping == 0.0 && q.stiffness == 0.0)
             return {infinite, infinite, true, result.mode};  // nothing is closed
@@ -99,7 +101,8 @@ CriticalStep critical_step(const World& world, ClosedPoints which) {
     }
     result.root = dt;
     result.proved = positive_definite(pencil, dt * (1.0 - critical_step_margin));
-    if (result.proved) result.step = dt * (1.0 - critical_step_margin);
+    if (!result.proved) return unproved();
+    result.step = dt * (1.0 - critical_step_margin);
     return result;
 }
 

@@ -20,10 +20,10 @@
 namespace crackle {
 
 struct CriticalStep {
-    double step;  ///< s, stable at and below: the root less `margin`, if not proved the block bound, in large worlds
-                  ///< that of lanczos_bound.hpp
-    double root;  ///< s, where the pencil becomes singular; infinite where nothing is stiff
-    bool proved;  ///< Cholesky: 4M - 2Δt·C - Δt²·K is positive definite at `step`
+    double
+        step;  ///< s, stable at and below: the root less `margin`, within 2 % of it if not proved (lanczos_bound.hpp)
+    double root;                   ///< s, where the pencil becomes singular; infinite where nothing is stiff
+    bool proved;                   ///< Cholesky: 4M - 2Δt·C - Δt²·K is positive definite at `step`
     std::vector<BodyMotion> mode;  ///< per body, the motion that grows first; largest component of M^½ times it 1
 };
 

@@ -20,8 +20,8 @@
 
 #include "solver/base/archive.hpp"
 #include "solver/base/errors.hpp"
-#include "solver/base/read_pieces.hpp"
 #include "solver/base/watching_buffer.hpp"
+#include "solver/files/read_pieces.hpp"
 
 namespace crackle {
 

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <iterator>
 #include <optional>
 #include <sstream>
 #include <utility>
@@ -13,6 +12,7 @@
 
 #include "solver/base/errors.hpp"
 #include "solver/demseg/geometry.hpp"
+#include "solver/files/read_file.hpp"
 #include "specimens/loading/companions.hpp"
 #include "specimens/loading/load_specimen.hpp"
 #include "specimens/loading/prepare.hpp"
@@ -34,11 +34,6 @@ std::ifstream open_file(const fs::path& path) {
     std::ifstream in(path, std::ios::binary);
     if (!in) throw InputError(fmt::format("{}: cannot be read, expected a file; check the path", path.string()));
     return in;
-}
-
-std::string read_bytes(const fs::path& path) {
-    std::ifstream in = open_file(path);
-    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
 
 PointPrecision precision_of(const TestCase& test) {
@@ -69,7 +64,7 @@ std::string resolved_case(const TestCase& test, const fs::path& folder) {
     std::ostringstream text;
     text << resolved_case_mark << CRACKLE_VERSION << ": every value in the open. Its inputs, with their SHA-256:\n";
     for (const fs::path& input : test.inputs) {
-        text << "#   " << sha256(read_bytes(input)) << "  " << input.filename().string() << '\n';
+        text << "#   " << sha256(read_file(input)) << "  " << input.filename().string() << '\n';
     }
     write_resolved_case(text, test, folder);
     return text.str();
@@ -141,7 +136,7 @@ TestOutcome finished_test(VirtualTest& test, const TestOptions& options, const T
     // Without one the process was stopped in between: what only the clock knew is lost.
     std::error_code error;
     const bool exists = fs::is_regular_file(name, error);
-    if (exists) outcome.summary = nlohmann::ordered_json::parse(read_bytes(name), nullptr, false);
+    if (exists) outcome.summary = nlohmann::ordered_json::parse(read_file(name), nullptr, false);
     const auto& old = outcome.summary;
     const bool readable =
         exists && old.is_object() && old.contains("ended_by") && old["ended_by"] == test.state.ended_by;
@@ -219,7 +214,7 @@ TestOutcome resume_test(const TestOptions& options, const TestHooks& hooks) {
     std::ifstream saved = open_file(checkpoint_path);
     TestCheckpoint checkpoint = load_test(saved, checkpoint_path.string());
     saved.close();
-    if (checkpoint.case_hash != sha256(read_bytes(case_path))) {
+    if (checkpoint.case_hash != sha256(read_file(case_path))) {
         throw InputError(fmt::format(
             "{}: found another case than the one the checkpoint belongs to, expected it unchanged; restore it, "
             "or run the test again with --force",

@@ -7,23 +7,23 @@
 #include <charconv>
 #include <cmath>
 #include <fstream>
-#include <iterator>
 #include <system_error>
 
 #include "solver/base/errors.hpp"
+#include "solver/files/read_file.hpp"
 
 namespace crackle {
 namespace {
 
 std::string read_text(const std::filesystem::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    if (!in || std::filesystem::is_directory(file)) {
+    std::error_code unknown;  // reading it tells
+    if (!std::filesystem::is_regular_file(file, unknown)) {
         throw InputError(
             fmt::format("{}: file not found, expected the results of a finished test; make them with "
                         "`crackle test CASE.toml -o {}`",
                         file.string(), file.parent_path().string()));
     }
-    return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+    return read_file(file);
 }
 
 std::vector<std::string_view> split(std::string_view line) {

@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "solver/base/folder_lock.hpp"
+#include "solver/files/folder_lock.hpp"
 
 namespace crackle {
 

@@ -12,6 +12,7 @@
 
 #include "solver/demseg/deck_reader.hpp"
 #include "solver/demseg/deck_run.hpp"
+#include "solver/files/read_file.hpp"
 
 namespace crackle::testing {
 
@@ -49,7 +50,7 @@ class ScratchFolder {
 
 /// Numbers of every line that is no comment.
 inline Rows read_rows(const std::filesystem::path& path) {
-    const std::string text = read_text_file(path);
+    const std::string text = read_file(path);
     Rows rows;
     for (std::size_t begin = 0; begin < text.size();) {
         const std::size_t end = std::min(text.find('\n', begin), text.size());

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "solver/files/read_file.hpp"
 #include "tests/support/deck_files.hpp"
 
 namespace crackle::testing {
@@ -18,7 +19,7 @@ inline std::map<std::string, std::string> contents(const std::filesystem::path& 
     std::map<std::string, std::string> files;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
         if (!entry.is_regular_file()) continue;
-        std::string text = read_text_file(entry.path());
+        std::string text = read_file(entry.path());
         if (entry.path().filename() == "summary.json") {
             auto json = nlohmann::ordered_json::parse(text);
             for (const char* key : {"wall_seconds", "step_seconds", "particle_steps_per_second", "threads"})

@@ -16,13 +16,14 @@
 #include <vector>
 
 #include "solver/demseg/deck_reader.hpp"
+#include "solver/files/read_file.hpp"
 #include "specimens/frames/base64.hpp"
 
 namespace crackle::testing {
 
 class PageContents {
   public:
-    explicit PageContents(const std::filesystem::path& page) : text_(read_text_file(page)) {
+    explicit PageContents(const std::filesystem::path& page) : text_(read_file(page)) {
         manifest = nlohmann::json::parse(element("crackle-data"));
     }
 

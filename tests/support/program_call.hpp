@@ -14,6 +14,7 @@
 #include <string>
 #include <utility>
 
+#include "solver/files/read_file.hpp"
 #include "tests/support/deck_files.hpp"
 
 namespace crackle::testing {
@@ -35,7 +36,7 @@ class ProgramCall : public ::testing::Test {
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(out_), read(err_)};
     }
 
-    std::string read(const std::string& name) const { return read_text_file(folder_ / name); }
+    std::string read(const std::string& name) const { return read_file(folder_ / name); }
     void write(const std::string& name, const std::string& text) const { std::ofstream(folder_ / name) << text; }
     bool exists(const std::string& name) const { return std::filesystem::exists(folder_ / name); }
 
@@ -50,8 +51,7 @@ class ProgramCall : public ::testing::Test {
         std::map<std::string, std::string> files;
         for (const auto& entry : std::filesystem::recursive_directory_iterator(folder_)) {
             const std::string name = entry.path().filename();
-            if (entry.is_regular_file() && name != out_ && name != err_)
-                files[entry.path()] = read_text_file(entry.path());
+            if (entry.is_regular_file() && name != out_ && name != err_) files[entry.path()] = read_file(entry.path());
         }
         return files;
     }

@@ -95,7 +95,7 @@ void print(const VirtualTest& test, const ElasticAnalysis& a, double seconds) {
                a.stable_time_step_proved ? ", proved"
                : test.world.settings.segment_law != SegmentLaw::rounded
                    ? " (a bound: the law's stiffness is unsymmetric)"
-                   : " (within 2 % below the exact one: too many particles to factor)",
+                   : " (at most 2 % below the exact one, which was not proved)",
                a.time_step_bound / a.stable_time_step, a.time_step / a.stable_time_step);
     if (a.free.count > 0) {
         std::string ids;

@@ -12,9 +12,10 @@
 #include <string>
 
 #include "solver/base/errors.hpp"
-#include "solver/base/replace_file.hpp"
 #include "solver/demseg/deck_reader.hpp"
 #include "solver/demseg/geometry.hpp"
+#include "solver/files/read_file.hpp"
+#include "solver/files/replace_file.hpp"
 #include "specimens/making/cell_bodies.hpp"
 #include "tools/commands/centre_list.hpp"
 #include "tools/commands/commands.hpp"
@@ -250,7 +251,7 @@ int mesh(const Invocation& given) {
     const fs::path output = output_path(values, request.kind, name);
     Messages& messages = given.messages;
     messages.progress().begin("reading " + name, 3.0, "");
-    const std::string text = read_text_file(name);
+    const std::string text = read_file(name);
     Source source =
         looks_like_centre_list(text) ? centres_of_list(name, text, values) : centres_of_deck(name, text, values);
     messages.detail(fmt::format("read {} centres from {}, {} bytes", source.centres.size(), name, text.size()));

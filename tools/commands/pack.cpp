@@ -9,8 +9,8 @@
 #include <string>
 
 #include "solver/base/errors.hpp"
-#include "solver/base/replace_file.hpp"
 #include "solver/demseg/geometry.hpp"
+#include "solver/files/replace_file.hpp"
 #include "specimens/packing/packing.hpp"
 #include "tools/commands/commands.hpp"
 

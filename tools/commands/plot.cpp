@@ -13,7 +13,7 @@
 #include <optional>
 
 #include "solver/base/errors.hpp"
-#include "solver/base/replace_file.hpp"
+#include "solver/files/replace_file.hpp"
 #include "specimens/recordings/distinct_names.hpp"
 #include "specimens/recordings/recording.hpp"
 #include "tools/commands/commands.hpp"

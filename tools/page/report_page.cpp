@@ -7,7 +7,7 @@
 #include <system_error>
 
 #include "solver/base/errors.hpp"
-#include "solver/base/replace_file.hpp"
+#include "solver/files/replace_file.hpp"
 #include "specimens/recordings/distinct_names.hpp"
 #include "tools/page/page_data.hpp"
 #include "tools/page/page_template.hpp"

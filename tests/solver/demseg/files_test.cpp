@@ -16,6 +16,7 @@
 #include "solver/demseg/deck_reader.hpp"
 #include "solver/demseg/outputs.hpp"
 #include "solver/demseg/random_circles.hpp"
+#include "solver/files/read_file.hpp"
 #include "solver/measure/ledger.hpp"
 #include "solver/measure/point_view.hpp"
 #include "solver/stepping/bonding.hpp"
@@ -363,7 +364,7 @@ class DeckFolder : public ::testing::Test {
         return result;
     }
     void edit(const std::string& name, const std::string& what, const std::string& by) const {
-        std::string text = read_text_file(folder_ / name);
+        std::string text = read_file(folder_ / name);
         const std::size_t at = text.find(what);
         ASSERT_NE(at, std::string::npos);
         std::ofstream(folder_ / name) << text.replace(at, what.size(), by);
@@ -382,13 +383,13 @@ TEST_F(DeckFolder, BondsFromPresentOverlapsWhereBackTensionsAreAbsent) {
 
 TEST_F(DeckFolder, OutputsAreNeverOverwrittenUnasked) {
     DeckRun(options()).run();
-    const std::string before = read_text_file(folder_ / "energy.dat");
+    const std::string before = read_file(folder_ / "energy.dat");
     EXPECT_NE(refusal([&] { DeckRun{options()}; }).find("found the output of an earlier run"), std::string::npos);
-    EXPECT_EQ(read_text_file(folder_ / "energy.dat"), before);
+    EXPECT_EQ(read_file(folder_ / "energy.dat"), before);
     DeckOptions forced = options();
     forced.overwrite = true;
     DeckRun(forced).run();
-    EXPECT_EQ(read_text_file(folder_ / "energy.dat"), before);
+    EXPECT_EQ(read_file(folder_ / "energy.dat"), before);
 }
 
 TEST_F(DeckFolder, GoingOnInPlaceAppends) {
@@ -415,7 +416,7 @@ TEST_F(DeckFolder, GoingOnDropsWhatAFailedPartHadWrittenBeyondItsBeginning) {
         DeckRun(first).run();
         std::map<std::string, std::string> left;
         for (const char* name : {"new_in_gm.dat", "new_in_bc.dat", "new_in_cf.dat", "new_in_cf0.dat", "new_state.bin"})
-            left[name] = read_text_file(first.output / name);
+            left[name] = read_file(first.output / name);
         DeckRun(second).run();  // the part that is lost: rows and frames to step 200, the last of them cut short
         for (const auto& [name, text] : left) std::ofstream(first.output / name, std::ios::binary) << text;
         if (!with_state) std::filesystem::remove(first.output / "new_state.bin");
@@ -426,7 +427,7 @@ TEST_F(DeckFolder, GoingOnDropsWhatAFailedPartHadWrittenBeyondItsBeginning) {
         DeckRun(second).run();
         for (const char* name : outputs) {
             if (with_state) {
-                EXPECT_TRUE(read_text_file(first.output / name) == read_text_file(whole.output / name)) << name;
+                EXPECT_TRUE(read_file(first.output / name) == read_file(whole.output / name)) << name;
                 continue;
             }
             const Rows expected = read_rows(whole.output / name), got = read_rows(first.output / name);
@@ -444,7 +445,7 @@ TEST_F(DeckFolder, ARunInterruptedBeforeItsFirstStepHasTheRowOfItsBeginning) {
     DeckRun(options(true)).run([](const World&) { return false; });
     DeckRun(options(true)).run();
     for (const char* name : {"output.dat", "cont.dat", "cont2.dat", "energy.dat", "f-d_curve.dat", "velocity_y.dat"})
-        EXPECT_TRUE(read_text_file(folder_ / name) == read_text_file(whole.output / name)) << name;
+        EXPECT_TRUE(read_file(folder_ / name) == read_file(whole.output / name)) << name;
 }
 
 TEST_F(DeckFolder, AForeignOutputIsRefusedBeforeAnythingIsAppended) {
@@ -452,7 +453,7 @@ TEST_F(DeckFolder, AForeignOutputIsRefusedBeforeAnythingIsAppended) {
     std::ofstream(folder_ / "energy.dat") << "once upon a time\n";
     DeckRun next(options(true));
     EXPECT_NE(refusal([&] { next.run(); }).find("energy.dat:1: found 'once"), std::string::npos);
-    EXPECT_EQ(read_text_file(folder_ / "energy.dat"), "once upon a time\n");
+    EXPECT_EQ(read_file(folder_ / "energy.dat"), "once upon a time\n");
 }
 
 TEST_F(DeckFolder, ADerivedStepIsHandedOnAsTheStepInUse) {
@@ -518,7 +519,7 @@ TEST_F(DeckFolder, RenamedFilesGoOnWithTheStateUnlessTheyWereEdited) {
 
 TEST_F(DeckFolder, DamagedStateIsRefusedWithARemedy) {
     DeckRun(options()).run();
-    const std::string bytes = read_text_file(folder_ / "new_state.bin");
+    const std::string bytes = read_file(folder_ / "new_state.bin");
     std::ofstream(folder_ / "new_state.bin") << bytes.substr(0, bytes.size() / 2);
     EXPECT_NE(refusal([&] { DeckRun{options(true)}; }).find("found a truncated state"), std::string::npos);
 }

@@ -11,6 +11,7 @@
 #include "solver/demseg/contact_files.hpp"
 #include "solver/demseg/deck_reader.hpp"
 #include "solver/demseg/geometry.hpp"
+#include "solver/files/read_file.hpp"
 #include "solver/stepping/bonding.hpp"
 #include "solver/stepping/build_world.hpp"
 #include "tests/support/claim.hpp"
@@ -64,16 +65,16 @@ double refused(const std::string& text, const std::function<void(DeckReader&)>& 
 
 TEST(DamagedDecks, AreReadOrRefusedWithFileAndLine) {
     for (const char* name : {"circle", "clump", "triangle", "controlled_segment_force", "slope_k1", "embankment"}) {
-        const std::string text = read_text_file(shipped_deck(name) / "in_gm.dat");
+        const std::string text = read_file(shipped_deck(name) / "in_gm.dat");
         EXPECT_GT(refused(text, [](DeckReader& reader) { read_deck_geometry(reader); }), 0.3) << name;
     }
-    EXPECT_GT(refused(read_text_file(shipped_deck("repose") / "in_gm.dat"),
+    EXPECT_GT(refused(read_file(shipped_deck("repose") / "in_gm.dat"),
                       [](DeckReader& reader) { read_random_geometry(reader); }),
               0.3);
-    EXPECT_GT(refused(read_text_file(shipped_deck("wave_chain") / "in_bc.dat"),
-                      [](DeckReader& reader) { read_boundary(reader); }),
-              0.3);
-    EXPECT_GT(refused(read_text_file(shipped_deck("controlled_segment_force") / "in_bc.dat"),
+    EXPECT_GT(
+        refused(read_file(shipped_deck("wave_chain") / "in_bc.dat"), [](DeckReader& reader) { read_boundary(reader); }),
+        0.3);
+    EXPECT_GT(refused(read_file(shipped_deck("controlled_segment_force") / "in_bc.dat"),
                       [](DeckReader& reader) { read_boundary(reader); }),
               0.3);
 }
@@ -81,7 +82,7 @@ TEST(DamagedDecks, AreReadOrRefusedWithFileAndLine) {
 TEST(DamagedContactFiles, AreReadOrRefusedWithFileAndLine) {
     const Scene scene = read_geometry(shipped_deck("chain_pulled") / "in_gm.dat");
     const World fresh = build_world(scene);
-    EXPECT_GT(refused(read_text_file(shipped_deck("chain_pulled") / "in_cf0.dat"),
+    EXPECT_GT(refused(read_file(shipped_deck("chain_pulled") / "in_cf0.dat"),
                       [&](DeckReader& reader) {
                           World world = fresh;
                           read_back_tensions(reader, scene, world);

@@ -9,10 +9,11 @@
 #include <random>
 
 #include "solver/base/errors.hpp"
-#include "solver/base/file_set.hpp"
-#include "solver/base/folder_lock.hpp"
 #include "solver/demseg/deck_state.hpp"
 #include "solver/demseg/outputs.hpp"
+#include "solver/files/file_set.hpp"
+#include "solver/files/folder_lock.hpp"
+#include "solver/files/read_file.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/deck_files.hpp"
 
@@ -55,7 +56,7 @@ class SplitRun : public ::testing::TestWithParam<SplitCase> {
         for (const auto& file : std::filesystem::directory_iterator(shipped)) {
             const std::string name = file.path().filename().string();
             if (!name.starts_with("in_")) continue;
-            std::string text = read_text_file(file.path());
+            std::string text = read_file(file.path());
             if (name == "in_gm.dat") {  // dt begins the second line
                 const std::size_t at = text.find('\n') + 1;
                 text.replace(at, text.find(' ', at) - at, "0");
@@ -104,12 +105,12 @@ TEST_P(SplitRun, HasTheBytesOfTheRunInOne) {
     const auto parts = run_parts(GetParam().steps, true);
     for (const char* name : deck_output_names) {
         std::string joined;
-        for (const auto& folder : parts) joined += read_text_file(folder / name);
-        EXPECT_TRUE(joined == read_text_file(whole / name)) << name << " of the parts, put together";
+        for (const auto& folder : parts) joined += read_file(folder / name);
+        EXPECT_TRUE(joined == read_file(whole / name)) << name << " of the parts, put together";
         EXPECT_FALSE(std::string(name) != "f-d_curve.dat" && joined.empty()) << name;
     }
     for (const char* name : {"new_in_gm.dat", "new_in_bc.dat", "new_in_cf.dat", "new_in_cf0.dat", "new_state.bin"}) {
-        EXPECT_TRUE(read_text_file(parts.back() / name) == read_text_file(whole / name)) << name;
+        EXPECT_TRUE(read_file(parts.back() / name) == read_file(whole / name)) << name;
     }
 }
 
@@ -159,7 +160,7 @@ TEST_F(StoppedDeck, WhileItsFilesWereReplacedGoesOnWithTheBytesOfOneThatWasNot) 
     std::filesystem::copy(undisturbed, first);
     run(undisturbed, true);
     FileSet second;
-    for (const char* name : next_files) second.emplace_back(name, read_text_file(undisturbed / name));
+    for (const char* name : next_files) second.emplace_back(name, read_file(undisturbed / name));
     const auto after_second = scratch_ / "after_second";
     std::filesystem::copy(undisturbed, after_second);
     run(undisturbed, true);
@@ -173,7 +174,7 @@ TEST_F(StoppedDeck, WhileItsFilesWereReplacedGoesOnWithTheBytesOfOneThatWasNot) 
         run(stopped, true);
         for (const auto& file : std::filesystem::directory_iterator(undisturbed)) {
             const auto name = file.path().filename();
-            EXPECT_TRUE(read_text_file(stopped / name) == read_text_file(file.path())) << replaced << ": " << name;
+            EXPECT_TRUE(read_file(stopped / name) == read_file(file.path())) << replaced << ": " << name;
         }
         EXPECT_FALSE(std::filesystem::exists(stopped / "new_files.journal"));
     }
@@ -183,7 +184,7 @@ TEST_F(StoppedDeck, WhoseFilesAreCopiedByHandIsToldToCopyThemAgain) {
     const auto folder = scratch_ / "deck";
     run(folder, false);
     FileSet files;
-    for (const char* name : next_files) files.emplace_back(name, read_text_file(folder / name));
+    for (const char* name : next_files) files.emplace_back(name, read_file(folder / name));
     write_journal(folder / "new_files.journal", files);
     for (const char* name : {"in_gm.dat", "in_bc.dat", "in_cf.dat", "in_cf0.dat"})
         std::filesystem::copy_file(folder / (std::string("new_") + name), folder / name);
@@ -197,8 +198,35 @@ TEST_F(StoppedDeck, WhoseFilesAreCopiedByHandIsToldToCopyThemAgain) {
 TEST_F(StoppedDeck, TwoRunsDoNotShareAFolder) {
     const auto folder = scratch_ / "deck";
     run(folder, false);
-    const FolderLock held(folder);
-    EXPECT_THROW(run(folder, true), InputError);
+    DeckOptions options;
+    options.folder = folder;
+    options.steps = 300;
+    options.goes_on = true;
+    {
+        DeckRun first(options);
+        EXPECT_THROW(DeckRun{options}, InputError) << "from the moment its files were read";
+        options.output = scratch_ / "apart";
+        EXPECT_THROW(DeckRun{options}, InputError) << "its files are about to be replaced";
+        first.run();
+    }
+    const DeckRun one(options);
+    options.output = scratch_ / "apart too";
+    EXPECT_NO_THROW(DeckRun{options}) << "two may go on from one folder in others";
+}
+
+TEST_F(StoppedDeck, RowsThatCannotBeReadAreNotCutOff) {
+    const auto folder = scratch_ / "deck";
+    run(folder, false);
+    std::filesystem::remove(folder / "energy.dat");
+    std::filesystem::create_symlink("/proc/self/mem", folder / "energy.dat");
+    const std::string frames = read_file(folder / "output.dat");
+    try {
+        run(folder, true);
+        ADD_FAILURE() << "took what cannot be read for empty";
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("energy.dat: cannot be read"), std::string::npos) << error.what();
+    }
+    EXPECT_TRUE(read_file(folder / "output.dat") == frames);
 }
 
 TEST(DeckThreads, DoNotChangeAByte) {
@@ -215,7 +243,7 @@ TEST(DeckThreads, DoNotChangeAByte) {
     const auto one = run(1), three = run(3);
     for (const char* name :
          {"output.dat", "cont.dat", "energy.dat", "f-d_curve.dat", "new_in_gm.dat", "new_in_cf.dat", "new_state.bin"}) {
-        EXPECT_TRUE(read_text_file(one / name) == read_text_file(three / name)) << name;
+        EXPECT_TRUE(read_file(one / name) == read_file(three / name)) << name;
     }
 }
 

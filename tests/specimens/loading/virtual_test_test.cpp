@@ -12,6 +12,7 @@
 #include <map>
 
 #include "solver/base/errors.hpp"
+#include "solver/files/read_file.hpp"
 #include "solver/measure/point_view.hpp"
 #include "solver/stepping/step.hpp"
 #include "tests/support/claim.hpp"
@@ -311,7 +312,7 @@ TEST_F(VirtualRock, RaggedFacesThatPlatensHoldByACornerAreRefused) {
         wanted.kind = "compression";
         wanted.loading = loading;
         const auto path = write_small_case(scratch_ / "", wanted);
-        std::string text = read_text_file(path);
+        std::string text = read_file(path);
         text.insert(text.find("[bond]"), more + "\n");
         const std::string lattice = "[particles]\nfile = \"rock.dat\"\n[material]\n";
         text.replace(text.find(lattice), lattice.size(),

@@ -18,6 +18,7 @@
 #include <sstream>
 
 #include "solver/base/errors.hpp"
+#include "solver/files/read_file.hpp"
 #include "solver/stepping/build_world.hpp"
 #include "solver/world/world.hpp"
 #include "specimens/case/case_file.hpp"
@@ -364,7 +365,7 @@ TEST_F(MineralRock, TwoMineralsOfEqualPropertiesGiveTheBytesOfOne) {
         std::vector<std::string> curves, events;
         for (const bool minerals : {false, true}) {
             const auto path = write("", mesh);
-            std::string text = read_text_file(path);
+            std::string text = read_file(path);
             text.insert(text.find("damping_ratio"), fmt::format("normal_stiffness = {}\n", stiffness));
             if (minerals)
                 text += fmt::format(
@@ -375,8 +376,8 @@ TEST_F(MineralRock, TwoMineralsOfEqualPropertiesGiveTheBytesOfOne) {
             TestOptions options;
             options.folder = scratch_ / fmt::format("{}{}", mesh, minerals);
             const TestOutcome outcome = run_test(read_case(path), options);
-            curves.push_back(read_text_file(outcome.folder / "curve.csv"));
-            events.push_back(read_text_file(outcome.folder / "events.csv"));
+            curves.push_back(read_file(outcome.folder / "curve.csv"));
+            events.push_back(read_file(outcome.folder / "events.csv"));
             EXPECT_EQ(outcome.summary.contains("minerals"), minerals);
         }
         EXPECT_GT(std::ranges::count(events[0], '\n'), 5) << "breaks";

@@ -12,6 +12,7 @@
 #include <set>
 
 #include "solver/base/errors.hpp"
+#include "solver/files/read_file.hpp"
 #include "specimens/frames/frame.hpp"
 #include "specimens/frames/read_frames.hpp"
 #include "specimens/loading/run.hpp"
@@ -143,7 +144,7 @@ TEST_F(TestFolder, HoldsWhatReadersLookFor) {
         };
         EXPECT_LT(std::max(gap(bond.i), gap(bond.j)), testing::rock_overlap) << "bonds act where surfaces meet";
     }
-    const std::string curve = read_text_file(scratch_ / "out/curve.csv");
+    const std::string curve = read_file(scratch_ / "out/curve.csv");
     EXPECT_EQ(static_cast<std::ptrdiff_t>(results.curve.rows()), std::count(curve.begin(), curve.end(), '\n') - 1);
     EXPECT_EQ(results.events.rows(), results.summary["bonds_broken"].get<std::size_t>());
     const std::vector<double>& stress = *results.curve.find("axial_stress");
@@ -154,7 +155,7 @@ TEST_F(TestFolder, HoldsWhatReadersLookFor) {
     // Figures and their presence: tests/recount.
     EXPECT_EQ(outcome.summary["title"], "case");
     EXPECT_EQ(outcome.summary["command"], options("out").command);
-    const std::string text = read_text_file(scratch_ / "out/case.toml");
+    const std::string text = read_file(scratch_ / "out/case.toml");
     EXPECT_NE(text.find("crackle " + outcome.summary["version"].get<std::string>()), std::string::npos) << text;
     EXPECT_EQ(outcome.summary["columns"].size(), results.curve.columns.size());
     EXPECT_NE(
@@ -163,8 +164,7 @@ TEST_F(TestFolder, HoldsWhatReadersLookFor) {
                    "step,interfaces_lost,points_sliding,dashpot_loss,friction_loss,fracture_loss,platen_work,"
                    "energy_error,gauge_strain,bonds_slid\n"),
         std::string::npos);
-    EXPECT_NE(read_text_file(scratch_ / "out/case.toml").find("rock.dat"), std::string::npos)
-        << "inputs and their hashes";
+    EXPECT_NE(read_file(scratch_ / "out/case.toml").find("rock.dat"), std::string::npos) << "inputs and their hashes";
 }
 
 TEST_F(TestFolder, FramesAreReadInTheOrderOfTheirRows) {
@@ -205,7 +205,7 @@ TEST_F(TestFolder, EndsBeforeFailureWithAPeakSoFar) {
 TEST_F(TestFolder, ResolvedCaseRunsToTheSameCurve) {
     run_test(small_case(), options("out"));
     run_test(read_case(scratch_ / "out/case.toml"), options("again"));
-    EXPECT_EQ(read_text_file(scratch_ / "out/curve.csv"), read_text_file(scratch_ / "again/curve.csv"));
+    EXPECT_EQ(read_file(scratch_ / "out/curve.csv"), read_file(scratch_ / "again/curve.csv"));
 }
 
 TEST_F(TestFolder, HasTheSameBytesForAnyNumberOfThreads) {
@@ -306,7 +306,7 @@ TEST_F(TestFolder, ResumingRefusesWhatDoesNotFit) {
     };
     refused("out: found no such folder");
     run_test(small_case(), options("out"), stopping_at(3));
-    const std::string checkpoint = read_text_file(scratch_ / "out/checkpoint");
+    const std::string checkpoint = read_file(scratch_ / "out/checkpoint");
     const auto put = [&](const std::string& bytes) {
         std::ofstream(scratch_ / "out/checkpoint", std::ios::binary) << bytes;
     };
@@ -347,7 +347,7 @@ TEST_F(TestFolder, KeepsEarlierResultsUntilNewOnesAreComplete) {
     run_test(small_case(wanted), forced);
     EXPECT_FALSE(fs::exists(scratch_ / "out.new"));
     EXPECT_NE(contents(scratch_ / "out")["case.toml"], earlier.at("case.toml")) << "replaced";
-    EXPECT_EQ(read_text_file(scratch_ / "out/notes.txt"), "mine\n") << "what is not ours stays";
+    EXPECT_EQ(read_file(scratch_ / "out/notes.txt"), "mine\n") << "what is not ours stays";
 }
 
 TEST_F(TestFolder, PeakAndFailureDoNotDependOnTheRowsWritten) {
@@ -394,8 +394,8 @@ TEST_F(TestFolder, IsRefusedWhereAnInputOrForeignFilesWouldBeReplaced) {
     std::ofstream(scratch_ / "out/frames/holiday.png") << "mine\n";
     std::ofstream(scratch_ / "out/report.html") << "my own page\n";
     run_test(small_case(), forced);
-    EXPECT_EQ(read_text_file(scratch_ / "out/frames/holiday.png"), "mine\n");
-    EXPECT_EQ(read_text_file(scratch_ / "out/report.html"), "my own page\n");
+    EXPECT_EQ(read_file(scratch_ / "out/frames/holiday.png"), "mine\n");
+    EXPECT_EQ(read_file(scratch_ / "out/report.html"), "my own page\n");
 }
 
 TEST_F(TestFolder, IsRefusedWhileAnotherTestWritesIntoIt) {

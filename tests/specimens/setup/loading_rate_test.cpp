@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "solver/base/errors.hpp"
+#include "solver/files/read_file.hpp"
 #include "specimens/loading/companions.hpp"
 #include "specimens/loading/load_specimen.hpp"
 #include "specimens/loading/prepare.hpp"
@@ -303,7 +304,7 @@ TEST(StatedError, APeakIsConvergedInStressAndStrainByStepAndRate) {
 TEST_F(ByTolerance, HoldsWhereNoRateIsGivenAndRefusesARateBesideIt) {
     const auto answer = [&](const std::string& from, const std::string& to) {
         const auto path = testing::write_small_case(scratch_ / "", {});
-        std::string text = read_text_file(path);
+        std::string text = read_file(path);
         text.replace(text.find(from), from.size(), to);
         std::ofstream(path) << text;
         try {

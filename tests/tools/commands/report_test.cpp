@@ -171,6 +171,16 @@ TEST_F(Report, NamesBrokenJson) {
     expect_refused("test -o page.html", {"test/summary.json: found broken JSON at byte"});
 }
 
+TEST_F(Report, NamesANumberThatNoDoubleHolds) {
+    replace_in(root / "test" / "summary.json", "\"kind\":", "\"steps\": 1e400, \"kind\":");
+    expect_refused("test -o page.html", {"test/summary.json: found a number beyond 1.8e308"});
+}
+
+TEST_F(Report, NamesUnitsThatAreNoWord) {
+    replace_in(root / "test" / "summary.json", "\"kind\":", "\"material_units\": 3, \"kind\":");
+    expect_refused("test -o page.html", {"material_units: found 3, expected \"point\" or \"area\""});
+}
+
 TEST_F(Report, NamesAnImpossibleKind) {
     replace_in(root / "test" / "summary.json", "\"compression\"", "\"bending\"");
     expect_refused("test -o page.html",

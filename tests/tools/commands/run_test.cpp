@@ -12,6 +12,7 @@
 #include <fstream>
 #include <thread>
 
+#include "solver/files/read_file.hpp"
 #include "tests/support/deck_files.hpp"
 
 namespace crackle {
@@ -27,7 +28,7 @@ class RunCommand : public ::testing::Test {
             fmt::format("'{}' {} > '{}' 2>&1", CRACKLE_PROGRAM, words, (scratch_ / "printed").string());
         return WEXITSTATUS(std::system(line.c_str()));
     }
-    std::string printed() const { return read_text_file(scratch_ / "printed"); }
+    std::string printed() const { return read_file(scratch_ / "printed"); }
     std::string quoted(const std::filesystem::path& path) const { return fmt::format("'{}'", path.string()); }
 
     ScratchFolder scratch_;
@@ -46,7 +47,7 @@ TEST_F(RunCommand, WritesEveryOutputOfTheGuide) {
 
 TEST_F(RunCommand, TheGuidesLawIsAnOptionThatARunKeeps) {
     const std::string deck = quoted(shipped_deck("triangle"));
-    const auto energy = [&](const char* folder) { return read_text_file(scratch_ / folder / "energy.dat"); };
+    const auto energy = [&](const char* folder) { return read_file(scratch_ / folder / "energy.dat"); };
     const auto run = [&](const std::string& what, const char* folder) {
         return crackle(fmt::format("run -q {} -o {}", what, quoted(scratch_ / folder)));
     };
@@ -78,7 +79,7 @@ TEST_F(RunCommand, TheGuidesLawIsAnOptionThatARunKeeps) {
 
 TEST_F(RunCommand, TheIntegratorIsAnOptionThatARunKeeps) {
     const std::string deck = quoted(shipped_deck("circle"));
-    const auto energy = [&](const char* folder) { return read_text_file(scratch_ / folder / "energy.dat"); };
+    const auto energy = [&](const char* folder) { return read_file(scratch_ / folder / "energy.dat"); };
     const auto run = [&](const std::string& what, const char* folder) {
         return crackle(fmt::format("run -q {} -o {}", what, quoted(scratch_ / folder)));
     };
@@ -106,7 +107,7 @@ TEST_F(RunCommand, BadInputEndsInOneMessageAndCode2) {
     EXPECT_EQ(crackle("run " + quoted(deck)), 2);
     EXPECT_NE(printed().find("in_gm.dat: cannot be read (No such file or directory)"), std::string::npos) << printed();
     std::filesystem::copy_file(shipped_deck("circle") / "in_bc.dat", deck / "in_bc.dat");
-    const std::string geometry = read_text_file(shipped_deck("circle") / "in_gm.dat");
+    const std::string geometry = read_file(shipped_deck("circle") / "in_gm.dat");
     std::ofstream(deck / "in_gm.dat") << geometry.substr(0, geometry.size() / 2);
     EXPECT_EQ(crackle("run " + quoted(deck)), 2);
     EXPECT_NE(printed().find("found the end of the file"), std::string::npos) << printed();
@@ -124,7 +125,7 @@ TEST_F(RunCommand, AStepAboveTheBoundNeedsAllowUnstable) {
     const auto deck = scratch_ / "deck";
     std::filesystem::create_directories(deck);
     std::ofstream(deck / "in_bc.dat") << "0 0 200 100 10 0 0";
-    std::string geometry = read_text_file(shipped_deck("circle") / "in_gm.dat");
+    std::string geometry = read_file(shipped_deck("circle") / "in_gm.dat");
     std::ofstream(deck / "in_gm.dat") << geometry.replace(geometry.find("5.0d-5"), 6, "1.2d-3");
     EXPECT_EQ(crackle("run " + quoted(deck)), 2);
     EXPECT_NE(printed().find("0.0012"), std::string::npos) << printed();
@@ -179,8 +180,7 @@ TEST_F(RunCommand, AnInterruptedRunGoesOnAsIfNothingHadHappened) {
     ASSERT_EQ(crackle(fmt::format("run -q '{}' --continue", out)), 0) << printed();
     for (const char* name :
          {"output.dat", "cont.dat", "energy.dat", "f-d_curve.dat", "new_in_gm.dat", "new_in_bc.dat", "new_state.bin"}) {
-        EXPECT_TRUE(read_text_file(std::filesystem::path(out) / name) ==
-                    read_text_file(std::filesystem::path(whole) / name))
+        EXPECT_TRUE(read_file(std::filesystem::path(out) / name) == read_file(std::filesystem::path(whole) / name))
             << name;
     }
 }

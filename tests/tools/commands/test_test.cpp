@@ -14,6 +14,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
+#include "solver/files/read_file.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/program_call.hpp"
 #include "tests/support/small_rock.hpp"
@@ -237,7 +238,7 @@ TEST_F(CrackleTest, WrongWords) {
     expect_refused("case.toml -o out --frobnicate", "frobnicate");
 }
 
-nlohmann::json read_json(const fs::path& file) { return nlohmann::json::parse(read_text_file(file)); }
+nlohmann::json read_json(const fs::path& file) { return nlohmann::json::parse(read_file(file)); }
 
 TEST_F(CrackleTest, ProfileAccountsForTheLoopAndChangesNoNumber) {
     expect_refused("--resume out --profile", "found --profile with --resume");
@@ -332,12 +333,12 @@ TEST_F(CrackleTest, VerifyOfATestThatHasNotFailedJudgesNoPeak) {
 TEST_F(CrackleTest, VerifyOfAFinishedTestAddsTheErrorsAndTouchesNothingElse) {
     ASSERT_EQ(call("case.toml -o out -q").code, 0);
     const auto before = read_json(folder_ / "out/summary.json");
-    const std::string curve = read_text_file(folder_ / "out/curve.csv");
+    const std::string curve = read_file(folder_ / "out/curve.csv");
     EXPECT_NE(call("--resume out").out.find("nothing is left to do"), std::string::npos);
     EXPECT_EQ(call("--resume out --verify -q").code, 0);
     auto after = read_json(folder_ / "out/summary.json");
     EXPECT_EQ(after["numerical_errors"]["companions"].size(), 4U);
-    EXPECT_EQ(read_text_file(folder_ / "out/curve.csv"), curve);
+    EXPECT_EQ(read_file(folder_ / "out/curve.csv"), curve);
     for (const char* key : {"peak_stress", "steps", "wall_seconds", "step_seconds", "particle_steps_per_second",
                             "frame_peak", "command", "youngs_modulus"})
         EXPECT_EQ(after[key], before[key]) << key;
@@ -414,14 +415,14 @@ TEST_F(CrackleTest, CtrlCEndsCleanlyAndResumeEndsWithTheSameCurve) {
     ASSERT_EQ(waitpid(child, &status, 0), child);
     ASSERT_TRUE(WIFEXITED(status));
     EXPECT_EQ(WEXITSTATUS(status), 130);
-    const auto summary = nlohmann::json::parse(read_text_file(folder_ / "out/summary.json"));
+    const auto summary = nlohmann::json::parse(read_file(folder_ / "out/summary.json"));
     EXPECT_TRUE(summary["interrupted"].get<bool>());
     EXPECT_FALSE(summary["failed"].get<bool>());
 
     EXPECT_EQ(call("--resume out -q").code, 0);
     EXPECT_EQ(call("case.toml -o whole -q").code, 0);
-    EXPECT_TRUE(read_text_file(curve) == read_text_file(folder_ / "whole/curve.csv"));
-    EXPECT_TRUE(read_text_file(folder_ / "out/events.csv") == read_text_file(folder_ / "whole/events.csv"));
+    EXPECT_TRUE(read_file(curve) == read_file(folder_ / "whole/curve.csv"));
+    EXPECT_TRUE(read_file(folder_ / "out/events.csv") == read_file(folder_ / "whole/events.csv"));
 }
 
 }  // namespace

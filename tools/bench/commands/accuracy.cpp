@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "solver/base/errors.hpp"
-#include "solver/base/replace_file.hpp"
+#include "solver/files/replace_file.hpp"
 #include "tools/bench/accuracy/accuracy.hpp"
 #include "tools/bench/commands/bench.hpp"
 #include "tools/bench/commands/gnuplot.hpp"

@@ -13,7 +13,7 @@
 
 #include "solver/base/errors.hpp"
 #include "solver/base/instruction_set.hpp"
-#include "solver/base/replace_file.hpp"
+#include "solver/files/replace_file.hpp"
 #include "tools/bench/commands/bench.hpp"
 #include "tools/bench/commands/gnuplot.hpp"
 #include "tools/bench/commands/results_folder.hpp"

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "solver/base/errors.hpp"
-#include "solver/base/replace_file.hpp"
+#include "solver/files/replace_file.hpp"
 #include "tools/bench/commands/bench.hpp"
 #include "tools/bench/guide/experiments.hpp"
 #include "tools/bench/guide/page.hpp"

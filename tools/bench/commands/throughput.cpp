@@ -17,7 +17,7 @@
 
 #include "solver/base/errors.hpp"
 #include "solver/base/instruction_set.hpp"
-#include "solver/base/replace_file.hpp"
+#include "solver/files/replace_file.hpp"
 #include "solver/stepping/build_world.hpp"
 #include "solver/stepping/step.hpp"
 #include "tools/bench/commands/bench.hpp"

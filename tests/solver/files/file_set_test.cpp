@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // All files of a set are replaced or none, wherever the one who replaces them is stopped.
-#include "solver/base/file_set.hpp"
+#include "solver/files/file_set.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tested by tests/tools/commands/report_test.cpp and tests/solver/base/file_set_test.cpp.
+// Tested by tests/tools/commands/report_test.cpp and tests/solver/files/file_set_test.cpp.
 #pragma once
 
 #include <filesystem>
@@ -14,8 +14,8 @@ enum class Durable : bool { no, yes };
 /// @throws InputError if it cannot be written
 void replace_file(const std::filesystem::path& path, const std::string& contents, Durable durable = Durable::no);
 
-/// Has the system bring a file, or the names in a folder, to the disc. @throws InputError if it cannot
-void bring_to_disc(const std::filesystem::path& path);
+/// Has the system bring the names in a folder to the disc. @throws InputError if it cannot
+void bring_names_to_disc(const std::filesystem::path& folder);
 
 /// "cannot be written", with the system's reason in errno. @throws InputError
 [[noreturn]] void refuse_output(const std::filesystem::path& path);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "solver/base/replace_file.hpp"
+#include "solver/files/replace_file.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -18,14 +18,23 @@ void refuse_output(const std::filesystem::path& path) {
                                  path.string(), std::strerror(errno)));
 }
 
-void bring_to_disc(const std::filesystem::path& path) {
+namespace {
+
+/// @return what the system says of it, 0: done
+int bring_to_disc(const std::filesystem::path& path) {
     const int file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
-    if (file < 0) refuse_output(path);
-    const int failed = ::fsync(file);
-    const int reason = errno;
+    if (file < 0) return errno;
+    const int reason = ::fsync(file) == 0 ? 0 : errno;
     ::close(file);
-    errno = reason;
-    if (failed != 0) refuse_output(path);
+    return reason;
+}
+
+}  // namespace
+
+void bring_names_to_disc(const std::filesystem::path& folder) {
+    const std::filesystem::path here = folder.empty() ? "." : folder;
+    errno = bring_to_disc(here);
+    if (errno != 0 && errno != EINVAL) refuse_output(here);  // EINVAL: a file system that knows no such thing
 }
 
 void replace_file(const std::filesystem::path& path, const std::string& contents, Durable durable) {
@@ -35,17 +44,20 @@ void replace_file(const std::filesystem::path& path, const std::string& contents
     std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
     file.write(contents.data(), static_cast<std::streamsize>(contents.size()));
     file.close();
+    const int reason = !file ? errno : durable == Durable::yes ? bring_to_disc(temporary) : 0;
     std::error_code error;
-    if (!file) {
-        const int reason = errno;
+    if (!file || reason != 0) {
         std::filesystem::remove(temporary, error);
         errno = reason;
         refuse_output(path);
     }
-    if (durable == Durable::yes) bring_to_disc(temporary);
     std::filesystem::rename(temporary, path, error);
-    if (error) throw InputError(fmt::format("{}: cannot be replaced ({})", path.string(), error.message()));
-    if (durable == Durable::yes) bring_to_disc(path.has_parent_path() ? path.parent_path() : ".");
+    if (error) {
+        std::error_code ignored;
+        std::filesystem::remove(temporary, ignored);
+        throw InputError(fmt::format("{}: cannot be replaced ({})", path.string(), error.message()));
+    }
+    if (durable == Durable::yes) bring_names_to_disc(path.parent_path());
 }
 
 }  // namespace crackle

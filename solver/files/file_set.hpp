@@ -4,7 +4,7 @@
 //
 // The whole new set is first written as one file, the journal; from the moment it has its name the replacement counts
 // as done, and whoever reads the set next ends what is left of it.
-// Tested by tests/solver/base/file_set_test.cpp and tests/solver/demseg/split_test.cpp.
+// Tested by tests/solver/files/file_set_test.cpp and tests/solver/demseg/split_test.cpp.
 #pragma once
 
 #include <filesystem>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "solver/base/folder_lock.hpp"
+#include "solver/files/folder_lock.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
@@ -9,14 +9,14 @@
 #include <cerrno>
 
 #include "solver/base/errors.hpp"
-#include "solver/base/replace_file.hpp"
+#include "solver/files/replace_file.hpp"
 
 namespace crackle {
 
-FolderLock::FolderLock(const std::filesystem::path& folder)
+FolderLock::FolderLock(const std::filesystem::path& folder, Hold hold)
     : descriptor_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
     if (descriptor_ < 0) refuse_output(folder);
-    if (::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
+    if (::flock(descriptor_, (hold == Hold::to_read ? LOCK_SH : LOCK_EX) | LOCK_NB) == 0) return;
     const int reason = errno;
     ::close(descriptor_);
     errno = reason;

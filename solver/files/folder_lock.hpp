@@ -7,11 +7,13 @@
 
 namespace crackle {
 
-/// Holds a folder against other processes as long as it lives.
+enum class Hold : bool { to_write, to_read };
+
+/// Holds a folder against other processes as long as it lives: who reads does not keep out others who read.
 class FolderLock {
   public:
     /// @throws InputError if another process holds it.
-    explicit FolderLock(const std::filesystem::path& folder);
+    explicit FolderLock(const std::filesystem::path& folder, Hold hold = Hold::to_write);
     FolderLock(FolderLock&& other) noexcept : descriptor_(std::exchange(other.descriptor_, -1)) {}
     FolderLock& operator=(FolderLock&&) = delete;
     ~FolderLock();

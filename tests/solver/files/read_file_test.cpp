@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// All bytes of a file, or an error: never the first part of it.
+#include "solver/files/read_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "solver/base/errors.hpp"
+#include "tests/support/deck_files.hpp"
+
+namespace crackle {
+namespace {
+
+std::string refusal_of(const std::filesystem::path& path) {
+    try {
+        static_cast<void>(read_file(path));
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return "";
+}
+
+TEST(ReadFile, GivesEveryByteWhateverTheLength) {
+    const testing::ScratchFolder scratch;
+    for (const std::size_t length : {std::size_t{0}, std::size_t{1}, std::size_t{65536}, std::size_t{200'001}}) {
+        std::string bytes(length, '\0');
+        for (std::size_t k = 0; k < length; ++k) bytes[k] = static_cast<char>(k * k);
+        std::ofstream(scratch / "file", std::ios::binary) << bytes;
+        EXPECT_TRUE(read_file(scratch / "file") == bytes) << length;
+    }
+}
+
+TEST(ReadFile, RefusesWhatIsNoneOrStopsBeforeItsEnd) {
+    const testing::ScratchFolder scratch;
+    EXPECT_NE(refusal_of(scratch / "absent").find("No such file"), std::string::npos);
+    EXPECT_NE(refusal_of(scratch / "").find("found a folder"), std::string::npos);
+    // Opens, and reading it gives EIO: what a failing disc does.
+    EXPECT_NE(refusal_of("/proc/self/mem").find("reading stopped with an error (Input/output error)"),
+              std::string::npos)
+        << refusal_of("/proc/self/mem");
+}
+
+}  // namespace
+}  // namespace crackle
