@@ -247,7 +247,7 @@ void DeckRun::run(const std::function<bool(const World&)>& go_on) {
     if (error)
         throw InputError(fmt::format("{}: cannot be made ({}), expected a writable folder", output_folder().string(),
                                      error.message()));
-    if (!lock_) lock_.emplace(output_folder());
+    const FolderLock lock = lock_ ? *std::exchange(lock_, std::nullopt) : FolderLock(output_folder());
     complete_replacement(output_folder() / journal_name);  // of a run that this one replaces
     refuse_existing_outputs();                             // another run may have been here since
     const bool first_part = asked_.start != DeckStart::continued;

@@ -79,8 +79,8 @@ class DeckRun {
     FileSet files_for_next() const;
 
     DeckOptions options_;
-    std::optional<FolderLock>
-        lock_;                     // of the output folder, from before its files are read where the run goes on there
+    // Of the output folder, from before its files are read where the run goes on there.
+    std::optional<FolderLock> lock_;
     BoundaryConditions asked_;     // in_bc.dat of this run
     DeckGeometry base_;            // bodies as they were when the run, all parts of it, began
     BoundaryConditions boundary_;  // and its conditions: ramps are counted from its steps_before
