@@ -44,7 +44,7 @@ bool parse_number(std::string_view word, double& value) {
 
 DeckReader::DeckReader(std::string name, std::string text, int first_line)
     : name_(std::move(name)), text_(std::move(text)), line_(first_line), token_line_(first_line) {
-    if (text_.starts_with("\xef\xbb\xbf")) position_ = 3;  // byte order mark that some editors put in front
+    position_ = text_.size() - without_byte_order_mark(text_).size();
 }
 
 DeckReader DeckReader::open(const std::filesystem::path& path) { return {path.string(), read_file(path)}; }

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <sstream>
 #include <unordered_map>
 #include <utility>
@@ -38,6 +39,20 @@ std::string text_of(Write&& write) {
     std::ostringstream out;
     write(out);
     return std::move(out).str();
+}
+
+/// Whether bodies and conditions are those that a world was built from.
+bool belongs_to(const DeckGeometry& geometry, const BoundaryConditions& boundary, const World& world) {
+    std::unordered_map<int, std::uint32_t> elements_of;
+    for (const BodyInfo& info : world.bodies.info) elements_of.emplace(info.id, info.element_count);
+    const auto is_there = [&](int id) { return elements_of.contains(id); };
+    return geometry.scene.bodies.size() == world.bodies.size() && elements_of.size() == world.bodies.size() &&
+           std::ranges::all_of(geometry.scene.bodies,
+                               [&](const Body& body) {
+                                   return is_there(body.id) &&
+                                          elements_of[body.id] == body.circle_count + body.vertex_count;
+                               }) &&
+           std::ranges::all_of(boundary.watched, is_there);
 }
 
 bool due(std::int64_t step, std::int64_t interval) { return step % interval == 0; }
@@ -179,6 +194,11 @@ bool DeckRun::start_from_state(const Texts& texts) {
         base_ = read_deck_geometry(geometry);
         boundary_ = read_boundary(boundary);
         world_ = std::move(state->world);
+        if (!belongs_to(base_, boundary_, world_))
+            throw InputError(
+                fmt::format("{}: found a state of other bodies than its geometry's, expected one that "
+                            "crackle wrote; remove it to go on from the text files",
+                            path.string()));
         if (options_.law && *options_.law != world_.settings.segment_law)
             throw InputError(
                 fmt::format("law: found another contact law than that of {}, expected the same or none; "

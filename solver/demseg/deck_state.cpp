@@ -94,6 +94,7 @@ std::optional<DeckState> load_deck_state(const std::filesystem::path& path, cons
     state.base_geometry = source.text();
     state.base_boundary = source.text();
     state.world = load_world(source.text(), name);
+    require_whole(state.world, name);
     if (!source.at_end())
         throw InputError(
             fmt::format("{}: found bytes after its end, expected a complete state; remove it to go without", name));

@@ -5,8 +5,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <cstring>
 #include <iterator>
 #include <string_view>
@@ -32,6 +34,8 @@ constexpr std::array<const char*, 6> headers{
     "# step body vy\n",
 };
 
+constexpr std::int64_t most_lines = 1'000'000'000;  // of one frame and count
+
 /// Whole numbers at the beginning of a row: its step, and from the third word on the counts of a frame's lines.
 /// @return false if the row is none of ours
 bool read_head(std::string_view line, bool frame, std::int64_t& step, std::int64_t& lines) {
@@ -46,7 +50,7 @@ bool read_head(std::string_view line, bool frame, std::int64_t& step, std::int64
     while (result.ptr != end) {
         std::int64_t count = 0;
         result = std::from_chars(result.ptr + 1, end, count);
-        if (result.ec != std::errc() || count < 0) return false;
+        if (result.ec != std::errc() || count < 0 || count > most_lines) return false;
         lines += count;
     }
     return true;
@@ -113,7 +117,19 @@ DeckOutputs::DeckOutputs(const std::filesystem::path& folder, OutputMode mode) :
     flush();
 }
 
-void DeckOutputs::write(Which which, const std::string& text) {
+void DeckOutputs::write(Which which, const World& world, const std::string& text) {
+    // Rows are numbers: a letter n is in inf and nan alone.
+    if (text.find('n') != std::string::npos) {
+        const auto largest = std::max_element(
+            world.bodies.force.begin(), world.bodies.force.end(), [](const BodyForce& a, const BodyForce& b) {
+                return std::abs(a.fx) + std::abs(a.fy) < std::abs(b.fx) + std::abs(b.fy);
+            });
+        const auto body = static_cast<std::size_t>(largest - world.bodies.force.begin());
+        throw UnstableRun(world.stepping.steps, world.bodies.info[body].id,
+                          fmt::format("a number of {} would be infinite or none (this body bears the largest force); "
+                                      "look for a force, mass or stiffness that is no size of anything",
+                                      deck_output_names[which]));
+    }
     errno = 0;
     files_[which].write(text.data(), static_cast<std::streamsize>(text.size()));
     if (!files_[which]) refuse_output(folder_ / deck_output_names[which]);
@@ -147,7 +163,7 @@ void DeckOutputs::write_frame(const World& world, std::span<const BodyIndex> ord
                            end.y);
         }
     }
-    write(positions,
+    write(positions, world,
           fmt::format("{} {} {} {}\n", world.stepping.steps, world.stepping.time, circle_count, segment_count) +
               circles + segments);
 
@@ -166,17 +182,18 @@ void DeckOutputs::write_frame(const World& world, std::span<const BodyIndex> ord
                        view.bonded ? -view.normal_stiffness * view.bond_overlap : 0.0);
     }
     const std::string head = fmt::format("{} {} {}\n", world.stepping.steps, world.stepping.time, contacts);
-    write(contact_forces, head + forces);
-    write(contact_details, head + details);
+    write(contact_forces, world, head + forces);
+    write(contact_details, world, head + details);
 }
 
 void DeckOutputs::write_energy_row(const World& world, std::span<const BodyIndex> bodies) {
     const Ledger e = measure_ledger(world);
-    write(energies, fmt::format("{} {} {} {} {} {} {} {} {} {}\n", world.stepping.steps, e.potential, e.kinetic,
-                                e.strain, e.dashpot_loss, e.friction_loss, e.displacement_work, e.force_work,
-                                e.closing_error - e.law_loss, e.fracture_loss));
+    write(energies, world,
+          fmt::format("{} {} {} {} {} {} {} {} {} {}\n", world.stepping.steps, e.potential, e.kinetic, e.strain,
+                      e.dashpot_loss, e.friction_loss, e.displacement_work, e.force_work, e.closing_error - e.law_loss,
+                      e.fracture_loss));
     for (const BodyIndex b : bodies)
-        write(velocities,
+        write(velocities, world,
               fmt::format("{} {} {}\n", world.stepping.steps, world.bodies.info[b].id, world.bodies.state[b].vy));
 }
 
@@ -184,8 +201,9 @@ void DeckOutputs::write_force_rows(const World& world, std::span<const BodyIndex
     for (const BodyIndex b : bodies) {
         const BodyForce& f = world.bodies.force[b];
         const BodyState& s = world.bodies.state[b];
-        write(force_displacement, fmt::format("{} {} {} {} {} {} {} {}\n", world.stepping.steps,
-                                              world.bodies.info[b].id, f.fx, s.x, f.fy, s.y, f.torque, s.angle));
+        write(force_displacement, world,
+              fmt::format("{} {} {} {} {} {} {} {}\n", world.stepping.steps, world.bodies.info[b].id, f.fx, s.x, f.fy,
+                          s.y, f.torque, s.angle));
     }
 }
 

@@ -31,6 +31,8 @@ class DeckOutputs {
     /// @throws InputError naming a file that cannot be written.
     DeckOutputs(const std::filesystem::path& folder, OutputMode mode);
 
+    // All three throw UnstableRun instead of writing a number that is not finite.
+
     /// output.dat, cont.dat, cont2.dat. Needs current forces. @param order bodies in the order of the deck.
     void write_frame(const World& world, std::span<const BodyIndex> order);
     /// energy.dat and velocity_y.dat. @param bodies whose velocity is written.
@@ -43,7 +45,7 @@ class DeckOutputs {
   private:
     enum Which { positions, contact_forces, contact_details, energies, force_displacement, velocities };
 
-    void write(Which which, const std::string& text);
+    void write(Which which, const World& world, const std::string& text);
 
     std::filesystem::path folder_;
     std::array<std::ofstream, 6> files_;

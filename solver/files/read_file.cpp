@@ -32,4 +32,16 @@ std::string read_file(const std::filesystem::path& path) {
     return bytes;
 }
 
+std::string_view without_byte_order_mark(std::string_view text) {
+    constexpr std::string_view mark = "\xef\xbb\xbf";
+    if (text.starts_with(mark)) text.remove_prefix(mark.size());
+    return text;
+}
+
+std::string read_text(const std::filesystem::path& path) {
+    std::string text = read_file(path);
+    text.erase(0, text.size() - without_byte_order_mark(text).size());
+    return text;
+}
+
 }  // namespace crackle

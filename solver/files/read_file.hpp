@@ -4,11 +4,18 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace crackle {
 
 /// The bytes of a file, all of them.
 /// @throws InputError if it is none, cannot be opened, or reading stops before its end
 std::string read_file(const std::filesystem::path& path);
+
+/// A text without the byte order mark (UTF-8) that some editors put in front.
+std::string_view without_byte_order_mark(std::string_view text);
+
+/// A file of text: its bytes without such a mark. @throws InputError as read_file()
+std::string read_text(const std::filesystem::path& path);
 
 }  // namespace crackle

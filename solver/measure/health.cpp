@@ -66,15 +66,7 @@ double rounding_energy(const World& world, const Ledger& ledger) {
            rounding * (std::abs(world.account.initial_energy) + std::abs(ledger.potential));
 }
 
-/// Energy that has come from nowhere: more than all that was there, put in, or fallen.
-void check_energy(World& world) {
-    if (world.stepping.allow_unstable || !world.stepping.forces_current) return;
-    const Ledger ledger = measure_ledger(world);
-    const double mechanical = ledger.kinetic + ledger.strain;
-    const double supply =
-        world.account.initial_energy - ledger.potential + ledger.displacement_work + ledger.force_work;
-    world.account.largest_supply = std::max({world.account.largest_supply, std::abs(supply), mechanical * 1e-3});
-    if (mechanical <= supply + world.account.largest_supply + rounding_energy(world, ledger)) return;
+std::size_t liveliest_body(const World& world) {
     std::size_t fastest = 0;
     double most = -1.0;
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
@@ -82,7 +74,26 @@ void check_energy(World& world) {
                                                               world.bodies.state[b].vy * world.bodies.state[b].vy);
         if (energy > most) most = energy, fastest = b;
     }
-    throw UnstableRun(world.stepping.steps, world.bodies.info[fastest].id,
+    return fastest;
+}
+
+/// Energy that has come from nowhere: more than all that was there, put in, or fallen.
+void check_energy(World& world) {
+    if (world.stepping.allow_unstable || !world.stepping.forces_current) return;
+    const Ledger ledger = measure_ledger(world);
+    const double mechanical = ledger.kinetic + ledger.strain;
+    const double supply =
+        world.account.initial_energy - ledger.potential + ledger.displacement_work + ledger.force_work;
+    if (!std::isfinite(mechanical) || !std::isfinite(supply)) {
+        throw UnstableRun(world.stepping.steps, world.bodies.info[liveliest_body(world)].id,
+                          fmt::format("{:.4g} J kinetic and stored where {:.4g} J were put in, beyond the largest "
+                                      "number (this body carries most of the kinetic energy); look for a force, mass "
+                                      "or stiffness that is no size of anything",
+                                      mechanical, supply));
+    }
+    world.account.largest_supply = std::max({world.account.largest_supply, std::abs(supply), mechanical * 1e-3});
+    if (mechanical <= supply + world.account.largest_supply + rounding_energy(world, ledger)) return;
+    throw UnstableRun(world.stepping.steps, world.bodies.info[liveliest_body(world)].id,
                       fmt::format("runaway energy, {:.4g} J kinetic and stored where {:.4g} J were put in (this body "
                                   "carries most); the time step "
                                   "({:.4g} s, bound {:.4g} s) is likely too large",

@@ -12,6 +12,7 @@
 #include <cereal/types/optional.hpp>
 #include <cereal/types/vector.hpp>
 
+#include <algorithm>
 #include <cstdint>
 #include <istream>
 #include <memory>
@@ -19,6 +20,7 @@
 #include <utility>
 
 #include "solver/base/archive.hpp"
+#include "solver/base/checked_input.hpp"
 #include "solver/base/errors.hpp"
 #include "solver/base/watching_buffer.hpp"
 #include "solver/files/read_pieces.hpp"
@@ -59,8 +61,9 @@ World load_world(std::istream& in, std::streamoff end, const std::string& name) 
         throw InputError(fmt::format("{}: found {} bytes, expected a crackle checkpoint", name, in ? end - begin : 0));
     std::uint64_t magic = 0;
     std::uint32_t version = 0;
-    cereal::BinaryInputArchive archive(in);
-    archive(magic, version);
+    const std::string damaged =
+        fmt::format("{}: found a truncated or damaged checkpoint, expected a complete one", name);
+    CheckedInput(in, end, damaged)(magic, version);
     if (magic != checkpoint_magic)
         throw InputError(fmt::format("{}: found other data, expected a crackle checkpoint", name));
     if (version != checkpoint_version) {
@@ -74,14 +77,86 @@ World load_world(std::istream& in, std::streamoff end, const std::string& name) 
     const auto add = [&](std::string_view piece) { XXH3_64bits_update(hash.get(), piece.data(), piece.size()); };
     XXH64_hash_t noted = 0;
     const bool read = read_pieces(in, begin, end - tail, add) && in.read(reinterpret_cast<char*>(&noted), tail);
-    if (!read || XXH3_64bits_digest(hash.get()) != noted)
-        throw InputError(fmt::format("{}: found a truncated or damaged checkpoint, expected a complete one", name));
+    if (!read || XXH3_64bits_digest(hash.get()) != noted) throw InputError(damaged);
     in.seekg(begin + head);
     World world;
+    CheckedInput archive(in, end - tail, damaged);
     archive(world);
     world.workers.marks.resize(world.bodies.size());
     set_threads(world, 1);
     return world;
+}
+
+namespace {
+
+constexpr std::int64_t most_steps = 1'000'000'000'000'000;  // sums of a few stay far below overflow
+
+/// Whether a range of `count` from `first` on lies within an array.
+bool within(std::size_t first, std::size_t count, std::size_t size) { return first <= size && count <= size - first; }
+
+bool bodies_are_whole(const World& world) {
+    const Bodies& b = world.bodies;
+    const std::size_t n = b.size();
+    const auto may_be_absent = [n](const auto& values) { return values.empty() || values.size() == n; };
+    const NeighbourList& list = world.list;
+    if (b.inertia.size() != n || b.force.size() != n || b.info.size() != n || b.turning_reach.size() != n ||
+        list.size_rank.size() != n || list.largest_smaller.size() != n || !may_be_absent(b.last_force) ||
+        !may_be_absent(b.push_bound) || !may_be_absent(list.half_skins) || !may_be_absent(list.reference) ||
+        !may_be_absent(world.account.opening_defects) ||
+        !(b.segments.empty() || b.segments.size() == b.elements.size()))
+        return false;
+    if (list.valid && (list.half_skins.size() != n || list.reference.size() != n)) return false;
+    if (world.settings.integrator == Integrator::consistent &&
+        (b.last_force.size() != n || b.push_bound.size() != n || world.account.opening_defects.size() != n))
+        return false;
+    return std::ranges::all_of(b.info,
+                               [&](const BodyInfo& info) {
+                                   return info.material < world.settings.materials.size() &&
+                                          within(info.first_element, info.element_count, b.elements.size()) &&
+                                          within(info.first_piece, info.piece_count, b.pieces.size());
+                               }) &&
+           std::ranges::all_of(
+               b.pieces,
+               [&](const Piece& piece) { return within(piece.first_edge, piece.edge_count, b.edges.size()); }) &&
+           std::ranges::all_of(b.edges,
+                               [n](const Edge& edge) { return edge.outline_of == no_body || edge.outline_of < n; }) &&
+           std::ranges::all_of(b.controls, [n](const ControlState& control) { return control.body < n; }) &&
+           std::ranges::all_of(list.size_rank, [n](std::uint32_t rank) { return rank < n; });
+}
+
+bool points_are_whole(const World& world) {
+    const Points& points = world.points;
+    const std::size_t n = world.bodies.size(), count = points.size();
+    if (points.kind_begin.front() != 0 || points.kind_begin.back() != count ||
+        !std::ranges::is_sorted(points.kind_begin) || points.fours_end > count || points.root_mass.size() != count ||
+        !(points.force.empty() || points.force.size() == count))
+        return false;
+    bool whole = true;
+    visit_remembered(points, [&](const auto& values, Remembered remembered) {
+        whole = whole && values.size() == (keeps(world, remembered) ? count : 0);
+    });
+    if (!whole) return false;
+    const std::size_t walls = points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
+    for (std::size_t k = 0; k < count; ++k) {
+        const ContactPoint& point = points.contact[k];
+        if (point.body_i >= n || point.body_j >= (k < walls ? n : world.settings.domain.wall_present.size()) ||
+            point.element_i >= world.bodies.elements.size() ||
+            point.feature_j >= std::max(world.bodies.elements.size(), world.bodies.edges.size()) + 2 ||
+            points.state[k].law >= world.settings.laws.size())
+            return false;
+    }
+    return true;
+}
+
+}  // namespace
+
+void require_whole(const World& world, const std::string& name) {
+    const std::size_t materials = world.settings.materials.size(), laws = 2 * world.settings.pair_count() + materials;
+    if (world.stepping.steps >= 0 && world.stepping.steps <= most_steps && world.settings.laws.size() == laws &&
+        bodies_are_whole(world) && points_are_whole(world))
+        return;
+    throw InputError(
+        fmt::format("{}: found parts that do not belong together, expected a checkpoint as crackle wrote it", name));
 }
 
 World load_world(std::string bytes, const std::string& name) {

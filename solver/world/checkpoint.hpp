@@ -20,4 +20,9 @@ std::string save_world(const World& world);
 World load_world(std::istream& in, std::streamoff end, const std::string& name);
 World load_world(std::string bytes, const std::string& name);
 
+/// Whether the parts of a loaded world belong together: arrays as long as there are bodies and points, indices within
+/// them. A hash tells damage from whole bytes, not bytes that this program wrote from others.
+/// @throws InputError if they do not
+void require_whole(const World& world, const std::string& name);
+
 }  // namespace crackle

@@ -16,8 +16,10 @@
 #include <vector>
 
 #include "solver/base/errors.hpp"
+#include "solver/files/read_file.hpp"
 #include "specimens/case/consistency.hpp"
 #include "specimens/case/parameters.hpp"
+#include "specimens/case/toml_shape.hpp"
 
 namespace crackle {
 namespace {
@@ -48,7 +50,7 @@ std::string kind_name(const toml::node& node) {
 }
 
 std::string shown(const toml::node& node) {
-    if (const auto* text = node.as_string()) return fmt::format("\"{}\"", text->get());
+    if (const auto* text = node.as_string()) return fmt::format("\"{:.40}\"", text->get());
     if (const auto* number = node.as_integer()) return fmt::format("{}", number->get());
     if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
     if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
@@ -105,10 +107,12 @@ toml::table parse(const fs::path& path) {
     if (!fs::is_regular_file(path, error)) {
         throw InputError(fmt::format("{}: found no such file, expected a case file; check the path", path.string()));
     }
+    const std::string text = read_text(path);
+    check_toml_shape(path.string(), text);
     try {
-        return toml::parse_file(path.string());
+        return toml::parse(text, path.string());
     } catch (const toml::parse_error& problem) {
-        throw InputError(fmt::format("{}:{}: not valid TOML: {}", path.string(), problem.source().begin.line,
+        throw InputError(fmt::format("{}:{}: not valid TOML: {:.200}", path.string(), problem.source().begin.line,
                                      problem.description()));
     }
 }
@@ -138,7 +142,7 @@ std::string key_label(const Parameter& p, std::size_t entry) {
             if (!t.name.empty()) known.push_back(t.heading());
         }
     }
-    throw InputError(fmt::format("{}: {}: found an unknown key, expected one of {}; correct or remove it", where,
+    throw InputError(fmt::format("{}: {:.40}: found an unknown key, expected one of {}; correct or remove it", where,
                                  table.empty() ? key : table + "." + key, fmt::join(known, ", ")));
 }
 
@@ -230,14 +234,14 @@ void take_with_includes(TestCase& test, const fs::path& path, std::vector<fs::pa
         const fs::path other = (path.parent_path() / text->get()).lexically_normal();
         std::error_code error;
         if (!fs::is_regular_file(other, error)) {
-            throw InputError(fmt::format("{}: include: found no file {}, expected a case file; check the path", where,
-                                         other.string()));
+            throw InputError(fmt::format("{}: include: found no file {:.200}, expected a case file; check the path",
+                                         where, other.string()));
         }
         within.push_back(path);
         if (std::any_of(within.begin(), within.end(),
                         [&](const fs::path& file) { return fs::equivalent(file, other, error); })) {
             throw InputError(
-                fmt::format("{}: include: found {}, which includes this file, expected no ring; remove one", where,
+                fmt::format("{}: include: found {:.200}, which includes this file, expected no ring; remove one", where,
                             other.string()));
         }
         take_with_includes(test, other, std::move(within));
@@ -354,7 +358,8 @@ void write_resolved_case(std::ostream& out, const TestCase& test, const fs::path
 
 void describe_case_keys(std::ostream& out) {
     out << "include = \"FILE\" at the top: values of FILE hold wherever the case is silent; FILE may include "
-           "another. A list, [[mineral]] or [[mineral_pair]], holds as a whole.\n";
+           "another. A list, [[mineral]] or [[mineral_pair]], holds as a whole. A line has at most "
+        << longest_toml_line << " bytes.\n";
     for (const TableDescription& table : case_tables()) {
         if (!table.name.empty()) out << '\n' << table.heading() << "  " << table.sentence << '\n';
         for (const Parameter& p : case_parameters()) {

@@ -57,10 +57,11 @@ class MineralCheck {
             const std::string& name = test_.mineral[k].name;
             const auto is_digit = [](char c) { return std::isdigit(static_cast<unsigned char>(c)) != 0; };
             if (std::all_of(name.begin(), name.end(), is_digit))
-                refuse(key_of(k, "name"), name.empty() ? "an empty text" : "\"" + name + "\"", "a name with a letter",
-                       "a whole number in a file of labels is a mineral's place in the list");
+                refuse(key_of(k, "name"), name.empty() ? "an empty text" : fmt::format("\"{:.40}\"", name),
+                       "a name with a letter", "a whole number in a file of labels is a mineral's place in the list");
             if (!taken.insert(name).second)
-                refuse(key_of(k, "name"), fmt::format("\"{}\" a second time", name), "a name of its own", "rename one");
+                refuse(key_of(k, "name"), fmt::format("\"{:.40}\" a second time", name), "a name of its own",
+                       "rename one");
         }
     }
 
@@ -147,7 +148,7 @@ class MineralCheck {
             std::array<std::string, 2> between = test_.mineral_pair[k].between;
             for (const std::string& name : between) {
                 if (std::find(names.begin(), names.end(), name) == names.end())
-                    refuse(key + ".between", fmt::format("\"{}\"", name),
+                    refuse(key + ".between", fmt::format("\"{:.40}\"", name),
                            fmt::format("names of minerals: {}", fmt::join(names, ", ")), "correct it");
             }
             std::sort(between.begin(), between.end());

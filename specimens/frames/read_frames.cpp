@@ -138,7 +138,7 @@ void append_cells(const std::filesystem::path& file, const pugi::xml_node& list,
     const std::vector<double> connectivity = read_array(file, array_named(list, "connectivity"));
     double begin = 0;
     for (const double end : offsets) {
-        if (end < begin || end > static_cast<double>(connectivity.size()))
+        if (!(end >= begin && end <= static_cast<double>(connectivity.size())))
             refuse_frame(file, "cell offsets do not rise within the connectivity");
         PolyData::Cell cell{line, {}};
         for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {

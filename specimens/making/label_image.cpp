@@ -5,9 +5,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <memory>
+#include <string_view>
 #include <system_error>
 
 #include "solver/base/errors.hpp"
@@ -50,6 +53,25 @@ Box box_of(const Scene& scene, const Body& body) {
     return box;
 }
 
+// Pixels that are taken into the memory at once, 600 MB; an empty image of more has a few kilobytes.
+constexpr std::uint64_t most_pixels = 100'000'000;
+
+/// Pixels of a PNG by its head; 0 of any other file.
+std::uint64_t pixels_of(const std::filesystem::path& file) {
+    constexpr std::string_view signature = "\x89PNG\r\n\x1a\n";
+    constexpr std::size_t width_at = 16, height_at = 20;  // four bytes each, highest first
+    std::array<char, 24> head{};
+    std::ifstream in(file, std::ios::binary);
+    if (!in.read(head.data(), head.size()) || !std::string_view(head.data(), head.size()).starts_with(signature))
+        return 0;
+    const auto number_at = [&](std::size_t at) {
+        std::uint64_t number = 0;
+        for (std::size_t k = 0; k < 4; ++k) number = number << 8 | static_cast<std::uint8_t>(head[at + k]);
+        return number;
+    };
+    return number_at(width_at) * number_at(height_at);
+}
+
 std::string expected_colours(std::span<const std::uint32_t> colours, std::span<const std::string> names) {
     std::string text;
     for (std::size_t k = 0; k < colours.size(); ++k)
@@ -66,6 +88,10 @@ LabelImage::LabelImage(const std::filesystem::path& file, std::span<const std::u
     if (!std::filesystem::is_regular_file(file, error)) {
         throw InputError(
             fmt::format("{}: found no file {}, expected a PNG image; check the path", where, file.string()));
+    }
+    if (const std::uint64_t pixels = pixels_of(file); pixels > most_pixels) {
+        throw InputError(fmt::format("{}: found {} with {} pixels, expected at most {}; save it smaller", where,
+                                     file.string(), pixels, most_pixels));
     }
     const std::unique_ptr<cairo_surface_t, void (*)(cairo_surface_t*)> surface(
         cairo_image_surface_create_from_png(file.string().c_str()), cairo_surface_destroy);

@@ -7,10 +7,11 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <numeric>
+#include <sstream>
 
 #include "solver/base/errors.hpp"
+#include "solver/files/read_file.hpp"
 #include "specimens/case/colour.hpp"
 #include "specimens/making/label_image.hpp"
 
@@ -97,11 +98,12 @@ std::size_t mineral_called(const std::vector<std::string>& names, const std::str
 Minerals read_labels(const TestCase& test, std::size_t grains) {
     const auto file = test.resolve_path("minerals.labels", *test.minerals.labels);
     const std::vector<std::string> names = names_of(test);
-    std::ifstream in(file);
-    if (!in) {
-        throw InputError(fmt::format("{}: found no readable file {}, expected labels; check the path",
+    std::error_code unknown;  // reading it tells
+    if (!std::filesystem::exists(file, unknown)) {
+        throw InputError(fmt::format("{}: found no file {}, expected labels; check the path",
                                      test.at("minerals.labels"), file.string()));
     }
+    std::istringstream in(read_text(file));
     Minerals minerals;
     std::string label;
     for (int line = 1; std::getline(in, label); ++line) {
@@ -111,7 +113,7 @@ Minerals read_labels(const TestCase& test, std::size_t grains) {
         if (label.empty() || label[0] == '#') continue;
         minerals.push_back(mineral_called(names, label));
         if (minerals.back() < names.size()) continue;
-        throw InputError(fmt::format("{}:{}: label: found \"{}\", expected a mineral: {}, or its number from 1",
+        throw InputError(fmt::format("{}:{}: label: found \"{:.40}\", expected a mineral: {}, or its number from 1",
                                      file.string(), line, label, fmt::join(names, ", ")));
     }
     if (minerals.size() != grains) {

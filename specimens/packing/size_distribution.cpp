@@ -8,13 +8,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <sstream>
 #include <string>
 
 #include "solver/base/correctly_rounded.hpp"
 #include "solver/base/errors.hpp"
+#include "solver/files/read_file.hpp"
 #include "specimens/packing/random_numbers.hpp"
 
 namespace crackle {
@@ -91,18 +91,22 @@ double sieve_share_below(const SieveCurve& curve, double radius) {
     return number / total_number(curve);
 }
 
+// Sizes: squares of these are numbers, and ratios of neighbouring ones have a logarithm.
+constexpr double least_sieve = 1e-30, largest_sieve = 1e30, least_growth = 1e-9;
+
 void validate_sieve(const SieveCurve& curve) {
     if (curve.points.size() < 2)
         throw InputError("sieve curve: found fewer than two points, expected at least the sizes with shares 0 and 1");
     for (std::size_t k = 0; k < curve.points.size(); ++k) {
         const SievePoint& point = curve.points[k];
         const std::string where = fmt::format("sieve curve: point {}", k + 1);
-        if (!positive(point.size)) refuse(where + ": size", point.size, "a diameter > 0 in m");
+        if (!(point.size >= least_sieve && point.size <= largest_sieve))
+            refuse(where + ": size", point.size, "a diameter > 0 in m");
         if (!(point.passing_by_mass >= 0.0 && point.passing_by_mass <= 1.0)) {
             refuse(where + ": passing_by_mass", point.passing_by_mass, "a share from 0 to 1");
         }
         if (k == 0) continue;
-        if (!(point.size > curve.points[k - 1].size))
+        if (!(point.size > (1.0 + least_growth) * curve.points[k - 1].size))
             refuse(where + ": size", point.size, "sizes that increase from row to row");
         if (point.passing_by_mass < curve.points[k - 1].passing_by_mass) {
             refuse(where + ": passing_by_mass", point.passing_by_mass, "shares that do not decrease from row to row");
@@ -127,7 +131,7 @@ double parse_number(const std::string& text, const std::string& where, const cha
         used = 0;
     }
     if (used == 0 || text.find_first_not_of(" \t\r", used) != std::string::npos) {
-        throw InputError(fmt::format("{}: {}: found '{}', expected a number", where, name, text));
+        throw InputError(fmt::format("{}: {}: found '{:.40}', expected a number", where, name, text));
     }
     return value;
 }
@@ -232,10 +236,7 @@ double kolmogorov_distance(const SizeDistribution& sizes, std::vector<double> ra
 }
 
 SieveCurve read_sieve_curve(const std::filesystem::path& path) {
-    std::ifstream in(path);
-    if (!in)
-        throw InputError(
-            fmt::format("{}: cannot be read; expected a CSV with the columns size,passing_by_mass", path.string()));
+    std::istringstream in(read_text(path));
     SieveCurve curve;
     std::string line;
     bool header = false;
@@ -249,13 +250,13 @@ SieveCurve read_sieve_curve(const std::filesystem::path& path) {
         if (!header) {
             if (first != "size" || second != "passing_by_mass") {
                 throw InputError(
-                    fmt::format("{}: found '{}', expected the column names size,passing_by_mass", where, text));
+                    fmt::format("{}: found '{:.40}', expected the column names size,passing_by_mass", where, text));
             }
             header = true;
             continue;
         }
         if (comma == std::string::npos || second.find(',') != std::string::npos) {
-            throw InputError(fmt::format("{}: found '{}', expected two values: size,passing_by_mass", where, text));
+            throw InputError(fmt::format("{}: found '{:.40}', expected two values: size,passing_by_mass", where, text));
         }
         curve.points.push_back({parse_number(first, where, "size"), parse_number(second, where, "passing_by_mass")});
     }

@@ -40,10 +40,12 @@ std::vector<double> column_if_there(const fs::path& file, const PolyData& data, 
     return data.cell_data.contains(name) ? cell_values(file, data, name) : std::vector<double>();
 }
 
-int body_number(const fs::path& file, double id) {
-    if (!(std::abs(id) < 2e9)) refuse_frame(file, fmt::format("found body {}, expected a whole number", id));
-    return static_cast<int>(id);
+int whole_number(const fs::path& file, const char* what, double value) {
+    if (!(std::abs(value) < 2e9)) refuse_frame(file, fmt::format("found {} {}, expected a whole number", what, value));
+    return static_cast<int>(value);
 }
+
+int body_number(const fs::path& file, double id) { return whole_number(file, "body", id); }
 
 std::vector<Vec2> centres(const fs::path& file, const PolyData& data) {
     std::vector<Vec2> all, corners;
@@ -65,7 +67,7 @@ void append_cells(const fs::path& file, const PolyData& data, std::vector<Record
     for (std::size_t k = 0; k < data.cells.size(); ++k) {
         const bool line = data.cells[k].line;
         RecordedCell cell{body_number(file, id[k]), 1, radius[k], line, line, centre[k], {}};
-        if (!material.empty()) cell.material = static_cast<int>(material[k]);
+        if (!material.empty()) cell.material = whole_number(file, "material", material[k]);
         for (const std::size_t point : data.cells[k].points) {
             if (cell.radius == 0.0) cell.outline.push_back(data.points[point]);
         }
@@ -235,8 +237,9 @@ Recording read_test_recording(const fs::path& folder, std::size_t most_frames) {
     if (rows.empty()) return recording;
     for (const char* role : roles) {
         const std::string named = named_frame(recording.results, role);
-        if (!named.empty() && !fs::exists(folder / named))
-            throw InputError(fmt::format("{}: file not found, expected the frame at {} that summary.json names",
+        std::error_code unknown;  // a name that cannot be one
+        if (!named.empty() && !fs::exists(folder / named, unknown))
+            throw InputError(fmt::format("{:.200}: file not found, expected the frame at {} that summary.json names",
                                          (folder / named).string(), role));
     }
 

@@ -15,7 +15,7 @@
 namespace crackle {
 namespace {
 
-std::string read_text(const std::filesystem::path& file) {
+std::string read_result(const std::filesystem::path& file) {
     std::error_code unknown;  // reading it tells
     if (!std::filesystem::is_regular_file(file, unknown)) {
         throw InputError(
@@ -23,7 +23,7 @@ std::string read_text(const std::filesystem::path& file) {
                         "`crackle test CASE.toml -o {}`",
                         file.string(), file.parent_path().string()));
     }
-    return read_file(file);
+    return read_text(file);
 }
 
 std::vector<std::string_view> split(std::string_view line) {
@@ -60,10 +60,20 @@ void require_whole_numbers(const std::filesystem::path& file, const NumberTable&
     }
 }
 
+constexpr int deepest_summary = 100;  // levels; it has three, and what walks through them does so by recursion
+
 nlohmann::ordered_json read_summary(const std::filesystem::path& file) {
-    nlohmann::ordered_json summary;
+    using Json = nlohmann::ordered_json;
+    Json summary;
+    const auto bound_depth = [&](int depth, Json::parse_event_t /*event*/, Json& /*value*/) {
+        if (depth <= deepest_summary) return true;
+        throw InputError(
+            fmt::format("{}: found more than {} brackets within each other, expected a test's summary; "
+                        "write the results again with `crackle test --force`",
+                        file.string(), deepest_summary));
+    };
     try {
-        summary = nlohmann::ordered_json::parse(read_text(file));
+        summary = Json::parse(read_result(file), bound_depth);
     } catch (const nlohmann::json::parse_error& error) {
         throw InputError(
             fmt::format("{}: found broken JSON at byte {}; write the results again with `crackle test --force`",
@@ -75,7 +85,7 @@ nlohmann::ordered_json read_summary(const std::filesystem::path& file) {
     const auto expect = [&](const char* key, bool right, const char* expected) {
         if (right) return;
         const std::string found = summary.is_object() && summary.contains(key) ? summary[key].dump() : "nothing";
-        throw InputError(fmt::format("{}: {}: found {}, expected {}", file.string(), key, found, expected));
+        throw InputError(fmt::format("{}: {}: found {:.40}, expected {}", file.string(), key, found, expected));
     };
     const auto text = [&](const char* key) {
         return summary.is_object() && summary.contains(key) && summary[key].is_string()
@@ -107,7 +117,7 @@ const std::vector<double>* NumberTable::find(std::string_view name) const {
 
 NumberTable read_number_table(const std::filesystem::path& file, std::string_view word_column,
                               const std::vector<std::string>& words) {
-    const std::string text = read_text(file);
+    const std::string text = read_result(file);
     NumberTable table;
     std::string_view rest = text;
     for (int line_number = 1; !rest.empty(); ++line_number) {
@@ -130,15 +140,16 @@ NumberTable read_number_table(const std::filesystem::path& file, std::string_vie
             if (!word_column.empty() && table.names[k] == word_column) {
                 const auto word = std::find(words.begin(), words.end(), fields[k]);
                 if (word == words.end()) {
-                    throw InputError(fmt::format("{}:{}: {}: found '{}', expected one of: {}", file.string(),
+                    throw InputError(fmt::format("{}:{}: {}: found '{:.40}', expected one of: {}", file.string(),
                                                  line_number, word_column, fields[k], fmt::join(words, ", ")));
                 }
                 value = static_cast<double>(word - words.begin());
             } else {
                 const auto [end, error] = std::from_chars(fields[k].data(), fields[k].data() + fields[k].size(), value);
-                if (error != std::errc() || end != fields[k].data() + fields[k].size()) {
-                    throw InputError(fmt::format("{}:{}: {}: found '{}', expected a number", file.string(), line_number,
-                                                 table.names[k], fields[k]));
+                // Not a number is what has no value, such as a strain without gauge; infinite is nothing.
+                if (error != std::errc() || end != fields[k].data() + fields[k].size() || std::isinf(value)) {
+                    throw InputError(fmt::format("{}:{}: {:.40}: found '{:.40}', expected a number or nan",
+                                                 file.string(), line_number, table.names[k], fields[k]));
                 }
             }
             table.columns[k].push_back(value);

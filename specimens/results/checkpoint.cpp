@@ -12,6 +12,7 @@
 #include <istream>
 
 #include "solver/base/archive.hpp"
+#include "solver/base/checked_input.hpp"
 #include "solver/base/errors.hpp"
 #include "solver/base/watching_buffer.hpp"
 #include "solver/files/read_pieces.hpp"
@@ -55,21 +56,21 @@ TestCheckpoint load_test(std::istream& in, const std::string& name) {
             "test again with --force",
             name, version, checkpoint_version));
     }
+    const std::string damaged = fmt::format(
+        "{}: found a truncated or damaged checkpoint, expected a complete one; run the test again with --force", name);
     const std::streamoff begin = in.tellg(), end = length - static_cast<std::streamoff>(hash_digits);
     Sha256 hash;
     std::string digits(hash_digits, ' ');
     if (end < begin || !read_pieces(in, 0, end, [&](std::string_view piece) { hash.add(piece); }) ||
         !in.read(digits.data(), static_cast<std::streamsize>(hash_digits)) || digits != hash.digits()) {
-        throw InputError(
-            fmt::format("{}: found a truncated or damaged checkpoint, expected a complete one; run the test again with "
-                        "--force",
-                        name));
+        throw InputError(damaged);
     }
     in.seekg(begin);
     TestCheckpoint checkpoint;
-    cereal::BinaryInputArchive archive(in);
+    CheckedInput archive(in, end, damaged);
     archive(checkpoint.case_hash, checkpoint.setup, checkpoint.state);
     checkpoint.world = load_world(in, end, name);
+    require_whole(checkpoint.world, name);
     return checkpoint;
 }
 

@@ -70,7 +70,7 @@ CentreList parse_centre_list(const std::string& name, std::string_view text) {
         Vec2 place;
         for (const auto& [word, value] : {std::pair{words[0], &place.x}, {words[1], &place.y}}) {
             if (!parse_number(word, *value)) {
-                throw InputError(fmt::format("{}:{}: {}: found '{}', expected a finite number", name, line,
+                throw InputError(fmt::format("{}:{}: {}: found '{:.40}', expected a finite number", name, line,
                                              value == &place.x ? "x" : "y", word));
             }
         }

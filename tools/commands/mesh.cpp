@@ -251,7 +251,7 @@ int mesh(const Invocation& given) {
     const fs::path output = output_path(values, request.kind, name);
     Messages& messages = given.messages;
     messages.progress().begin("reading " + name, 3.0, "");
-    const std::string text = read_file(name);
+    const std::string text = read_text(name);
     Source source =
         looks_like_centre_list(text) ? centres_of_list(name, text, values) : centres_of_deck(name, text, values);
     messages.detail(fmt::format("read {} centres from {}, {} bytes", source.centres.size(), name, text.size()));

@@ -540,6 +540,35 @@ TEST_F(DeckFolder, AnUnstableRunKeepsItsOutputsAndEndsThere) {
     EXPECT_FALSE(std::filesystem::exists(folder_ / "new_in_gm.dat"));
 }
 
+TEST_F(DeckFolder, AForceBeyondAllMeasureStopsTheRunBeforeARowOfIt) {
+    DeckRun(options()).run();
+    std::istringstream lines(read_file(folder_ / "new_in_cf.dat"));
+    std::ostringstream edited;
+    bool done = false;
+    for (std::string line; std::getline(lines, line);) {
+        int other = 0, element = 0, partner = 0, slid = 0;
+        double shear = 0.0, tension = 0.0;
+        std::istringstream words(line);
+        if (!done && words >> other >> element >> partner >> shear >> tension >> slid) {
+            line = fmt::format("{} {} {} 1e308 {} {}", other, element, partner, tension, slid);
+            done = true;
+        }
+        edited << line << '\n';
+    }
+    ASSERT_TRUE(done);
+    std::ofstream(folder_ / "new_in_cf.dat") << edited.str();
+    for (const bool allow_unstable : {false, true}) {
+        DeckOptions next = options(true);
+        next.output = scratch_ / (allow_unstable ? "allowed" : "checked");
+        next.allow_unstable = allow_unstable;
+        DeckRun run(next);
+        EXPECT_THROW(run.run(), UnstableRun);
+        for (const char* name : deck_output_names)
+            EXPECT_EQ(read_file(next.output / name).find("inf"), std::string::npos) << name;
+        EXPECT_FALSE(std::filesystem::exists(next.output / "new_in_gm.dat"));
+    }
+}
+
 TEST_F(DeckFolder, AnUnwritableFolderIsOneClearError) {
     std::ofstream(scratch_ / "occupied") << "a file";
     DeckOptions next = options();

@@ -41,5 +41,15 @@ TEST(ReadFile, RefusesWhatIsNoneOrStopsBeforeItsEnd) {
         << refusal_of("/proc/self/mem");
 }
 
+TEST(ReadText, LeavesOutTheByteOrderMarkOnce) {
+    const testing::ScratchFolder scratch;
+    for (const char* text : {"", "size", "\xef\xbb", "\xef\xbb\xbf"}) {
+        std::ofstream(scratch / "marked", std::ios::binary) << "\xef\xbb\xbf" << text;
+        EXPECT_EQ(read_text(scratch / "marked"), text);
+    }
+    std::ofstream(scratch / "plain", std::ios::binary) << "\xef\xbb?";
+    EXPECT_EQ(read_text(scratch / "plain"), "\xef\xbb?");
+}
+
 }  // namespace
 }  // namespace crackle

@@ -6,15 +6,18 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <xxhash.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <set>
 #include <string>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
+#include "solver/base/errors.hpp"
 #include "solver/base/field_hash.hpp"
 #include "solver/stepping/bonding.hpp"
 #include "solver/stepping/build_world.hpp"
@@ -68,6 +71,30 @@ TEST(WorldGroups, EachFieldIsHashedOnItsOwnAndSurvivesACheckpoint) {
     }
     fmt::print("  {} fields, {} changes\n", fields.size(), changes);
     EXPECT_EQ(fields.size(), hash_fields(start).size());
+}
+
+/// A checkpoint with one byte changed and its hash made right again, as whoever writes one by hand would leave it.
+std::string tampered(std::string bytes, std::size_t at, char value) {
+    bytes[at] = value;
+    const std::size_t end = bytes.size() - sizeof(XXH64_hash_t);
+    const XXH64_hash_t hash = XXH3_64bits(bytes.data(), end);
+    std::memcpy(bytes.data() + end, &hash, sizeof hash);
+    return bytes;
+}
+
+TEST(Checkpoint, LengthsThatItCannotHoldAndFlagsThatAreNoneAreRefused) {
+    const std::string bytes = save_world(world_with_something_everywhere());
+    int refused = 0;
+    for (std::size_t at = 12; at + 8 < bytes.size(); ++at) {  // behind magic and version
+        try {
+            load_world(tampered(bytes, at, '\x7f'), "memory");
+        } catch (const InputError& error) {
+            EXPECT_STREQ(error.what(), "memory: found a truncated or damaged checkpoint, expected a complete one");
+            ++refused;
+        }
+    }
+    fmt::print("  {} bytes, {} of them in lengths and flags\n", bytes.size(), refused);
+    EXPECT_GT(refused, 200);
 }
 
 TEST(WorldGroups, NamesOfFieldsAreTheirOwn) {

@@ -12,6 +12,7 @@
 
 #include "solver/base/errors.hpp"
 #include "specimens/case/parameters.hpp"
+#include "specimens/case/toml_shape.hpp"
 #include "tests/support/deck_files.hpp"
 
 namespace crackle {
@@ -233,6 +234,45 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"NotToml", "[packing]", "[packing", ":1: not valid TOML"},
         Refusal{"Twice", "count = 50", "count = 50\ncount = 51", ":3: not valid TOML"}),
     [](const auto& refused) { return refused.param.name; });
+
+TEST_F(CaseFile, MayBeginWithAByteOrderMark) {
+    EXPECT_EQ(read(std::string("\xef\xbb\xbf") + good_case).packing.count, 50);
+}
+
+std::string repeated(const std::string& text, int times) {
+    std::string all;
+    for (int k = 0; k < times; ++k) all += text;
+    return all;
+}
+
+// toml++ takes tables apart by recursion: some 50,000 levels use up the stack of the main thread.
+TEST_F(CaseFile, OfManyLevelsIsRefusedBeforeItIsParsed) {
+    EXPECT_NE(refusal("\n" + repeated("a.", 50'000) + "a = 1\n").find("case.toml:2: found a line of 100005 bytes"),
+              std::string::npos);
+    const std::string deep = "found more than 100 dots and brackets in one entry";
+    EXPECT_NE(refusal("[" + repeated("a.", 101) + "a]\n").find("case.toml:1: " + deep), std::string::npos);
+    EXPECT_NE(refusal("a = [\n" + repeated("[\n", 200)).find("case.toml:101: " + deep), std::string::npos)
+        << "in lines";
+    EXPECT_NE(refusal("a = [" + repeated("{a.a.a.a = [\n", 60)).find(deep), std::string::npos) << "of both kinds";
+}
+
+TEST_F(CaseFile, DotsAndBracketsInTextsAndCommentsAreNoLevels) {
+    const std::string many = repeated("[{.", 200), three_single(3, '\''), three_double(3, '"');
+    for (const std::string& title :
+         {"\"" + many + "\"", "'" + many + "'", three_double + "\\\"" + many + "\n#\"" + many + "\"" + three_double,
+          three_single + "\n'" + many + "\n" + three_single, "\"\\\\\"  # " + many})
+        EXPECT_NO_THROW(read("title = " + title + "\n" + good_case)) << title;
+    EXPECT_NO_THROW(check_toml_shape("numbers", repeated("a = 1.5\n", 1000)));
+    EXPECT_NE(refusal("title = \"open" + many + "\n" + good_case).find("case.toml:1: not valid TOML"),
+              std::string::npos);
+}
+
+TEST_F(CaseFile, TextsOfItAreCutInErrors) {
+    const std::string kind = repeated("stretching ", 500);
+    EXPECT_NE(refusal(with("\"tension\"", "\"" + kind + "\"")).find("found \"" + kind.substr(0, 40) + "\", expected"),
+              std::string::npos);
+    EXPECT_LT(refusal(repeated("key", 1000) + " = 1\n" + good_case).size(), 1000u);
+}
 
 TEST_F(CaseFile, CellsMayBeInsetByNothing) {
     const char* cells = "[mesh]\nkind = \"voronoi\"\nthick = 1e-3\ninset = 0\n[bond]\nthick = 1.1e-3\n[loading]";

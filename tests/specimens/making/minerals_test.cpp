@@ -275,8 +275,15 @@ TEST_F(MineralRock, LabelsByNameOrNumberInTheOrderOfTheFile) {
               std::string::npos);
     std::ofstream(scratch_ / "labels.txt") << "4\n";
     EXPECT_NE(refusal(minerals + three_minerals).find("labels.txt:1: label: found \"4\""), std::string::npos);
+    std::ofstream(scratch_ / "labels.txt") << std::string(100'000, 'x');
+    EXPECT_LT(refusal(minerals + three_minerals).size(), 400u);
+    std::ofstream(scratch_ / "labels.txt") << "\xef\xbb\xbfquartz\n";
+    EXPECT_NE(refusal(minerals + three_minerals).find("found 1 labels"), std::string::npos) << "a byte order mark";
     std::filesystem::remove(scratch_ / "labels.txt");
-    EXPECT_NE(refusal(minerals + three_minerals).find("minerals.labels: found no readable file"), std::string::npos);
+    EXPECT_NE(refusal(minerals + three_minerals).find("minerals.labels: found no file"), std::string::npos);
+    std::filesystem::create_directory(scratch_ / "labels.txt");
+    EXPECT_NE(refusal(minerals + three_minerals).find("labels.txt: found a folder, expected a file"),
+              std::string::npos);
 }
 
 /// Writes an image whose pixel colours are given row by row from the top, 0xaarrggbb.

@@ -383,6 +383,16 @@ TEST(SizeDistribution, ReadsASieveCurveAndNamesTheLineOfABadOne) {
         }
         return "accepted";
     };
+    EXPECT_EQ(read("\xef\xbb\xbf\nsize,passing_by_mass\n1,0\n2,1\n").points.size(), 2u) << "a byte order mark";
+    EXPECT_NE(complaint("size,passing_by_mass\n1e-200,0\n2,1\n").find("point 1: size: found 1e-200"),
+              std::string::npos);
+    EXPECT_NE(complaint("size,passing_by_mass\n1,0\n1.0000000000000002,1\n").find("sizes that increase"),
+              std::string::npos);
+    EXPECT_LT(complaint(std::string(100'000, 'x')).size(), 300u);
+    std::filesystem::remove(folder / "curve.csv");
+    std::filesystem::create_directory(folder / "curve.csv");
+    EXPECT_NE(complaint("").find("curve.csv: found a folder, expected a file"), std::string::npos);
+    std::filesystem::remove(folder / "curve.csv");
     EXPECT_NE(complaint("diameter,passing\n1,0\n2,1\n").find("curve.csv:1"), std::string::npos);
     EXPECT_NE(complaint("size,passing_by_mass\n0.001,0\n0.002,much\n").find("curve.csv:3"), std::string::npos);
     EXPECT_NE(complaint("size,passing_by_mass\n0.002,0\n0.001,1\n").find("increase"), std::string::npos);

@@ -145,6 +145,23 @@ TEST_F(Report, NamesFileLineAndColumnOfABadNumber) {
     expect_refused("test -o page.html", {"test/curve.csv:2: axial_stress: found 'zero', expected a number"});
 }
 
+TEST_F(Report, NamesFileLineAndColumnOfAnInfiniteNumber) {
+    replace_in(root / "test" / "curve.csv", "\n0,0,0,", "\n0,inf,0,");
+    expect_refused("test -o page.html", {"test/curve.csv:2: axial_stress: found 'inf', expected a number"});
+}
+
+TEST_F(Report, OfTablesThatBeginWithAByteOrderMark) {
+    const std::string text = text_of(root / "test" / "curve.csv");
+    std::ofstream(root / "test" / "curve.csv", std::ios::binary) << "\xef\xbb\xbf" << text;
+    EXPECT_EQ(run("test -o page.html").code, 0);
+}
+
+TEST_F(Report, RefusesASummaryOfManyLevels) {
+    std::ofstream(root / "test" / "summary.json")
+        << "{\"kind\": " << std::string(200'000, '[') << std::string(200'000, ']') << "}";
+    expect_refused("test -o page.html", {"test/summary.json: found more than 100 brackets within each other"});
+}
+
 TEST_F(Report, NamesTheLineOfATruncatedRow) {
     const std::string text = text_of(root / "test" / "curve.csv");
     std::ofstream(root / "test" / "curve.csv", std::ios::binary) << text.substr(0, text.rfind(','));
