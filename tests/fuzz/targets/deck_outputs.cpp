@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// output.dat, cont.dat, cont2.dat and in_gm.dat of a deck's run: shown, and shortened for the next part.
+
+#include "solver/demseg/outputs.hpp"
+
+#include "solver/base/errors.hpp"
+#include "specimens/recordings/recording.hpp"
+#include "tests/fuzz/input.hpp"
+#include "tests/fuzz/targets.hpp"
+
+void crackle::fuzz::deck_outputs(std::string_view bytes) {
+    const auto [output, forces, details, geometry] = files_of<4>(bytes);
+    std::filesystem::create_directories(scratch() / "outputs");
+    write_file("outputs/output.dat", output);
+    write_file("outputs/cont.dat", forces);
+    write_file("outputs/cont2.dat", details);
+    write_file("outputs/in_gm.dat", geometry);
+    const std::filesystem::path folder = scratch() / "outputs";
+    try {
+        const Recording recording = read_deck_recording(folder, 3);
+        for (std::size_t k = 0; k < recording.frames.size(); ++k) recording.frame(k);
+    } catch (const InputError&) {  // drop_rows_after() may think otherwise
+    }
+    drop_rows_after(folder, 5);
+}

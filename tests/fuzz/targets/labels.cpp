@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Labels of minerals, one a grain, for four grains.
+
+#include "specimens/making/minerals.hpp"
+#include "tests/fuzz/input.hpp"
+#include "tests/fuzz/targets.hpp"
+
+void crackle::fuzz::labels(std::string_view bytes) {
+    Scene scene;
+    Material material;
+    material.density = 1.0;
+    scene.materials.assign(2, material);
+    for (int id = 1; id <= 4; ++id) scene.add_circle_body(id, 0, {{2.0 * id, 0.0}, 1.0});
+    TestCase test;
+    test.mineral.resize(2);
+    test.mineral[0].name = "quartz";
+    test.mineral[1].name = "mica";
+    test.minerals.assign = "labels";
+    test.minerals.labels = "labels.txt";
+    test.position["minerals.labels"] = (scratch() / "case.toml:1").string();
+    write_file("labels.txt", bytes);
+    std::vector<std::string> notices;
+    assign_minerals(scene, test, notices);
+}
