@@ -34,7 +34,7 @@ constexpr std::array<const char*, 6> headers{
     "# step body vy\n",
 };
 
-constexpr std::int64_t most_lines = 1'000'000'000;  // of one frame and count
+constexpr std::int64_t most_lines_a_count = 1'000'000'000;  // of one frame and count
 
 /// Whole numbers at the beginning of a row: its step, and from the third word on the counts of a frame's lines.
 /// @return false if the row is none of ours
@@ -50,7 +50,7 @@ bool read_head(std::string_view line, bool frame, std::int64_t& step, std::int64
     while (result.ptr != end) {
         std::int64_t count = 0;
         result = std::from_chars(result.ptr + 1, end, count);
-        if (result.ec != std::errc() || count < 0 || count > most_lines) return false;
+        if (result.ec != std::errc() || count < 0 || count > most_lines_a_count) return false;
         lines += count;
     }
     return true;
