@@ -17,6 +17,7 @@
 #include "solver/base/errors.hpp"
 #include "solver/base/instruction_set.hpp"
 #include "tools/commands/commands.hpp"
+#include "tools/terminal/interrupt.hpp"
 
 int main(int argc, char** argv) {
     using namespace crackle::tools;
@@ -25,6 +26,7 @@ int main(int argc, char** argv) {
     mallopt(M_MMAP_THRESHOLD, 1 << 20);
     mallopt(M_TRIM_THRESHOLD, 1 << 22);
     const auto all = std::span(argv, static_cast<std::size_t>(argc));
+    make_writing_fail_by_error();
     try {
         crackle::chosen_set();  // an unknown CRACKLE_ISA is said before anything is done
         const int code = call_command({all.begin() + 1, all.end()});
@@ -32,6 +34,7 @@ int main(int argc, char** argv) {
         errno = 0;
         const bool written = std::cout.flush() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
         if (written || code != exit_done) return code;
+        if (errno == EPIPE) return exit_system_fails;  // `| head` has seen what it wanted
         report_error(fmt::format("standard output: {}, expected one that takes all that is printed",
                                  errno != 0 ? std::generic_category().message(errno) : "cannot be written"));
         return exit_system_fails;

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <sstream>
 #include <unordered_map>
 #include <utility>
@@ -30,6 +31,7 @@ namespace {
 
 // Steps between two looks at the run's health; one look costs about a step.
 constexpr std::int64_t health_interval = 100;
+constexpr std::int64_t steps_between_clock_looks = 64;
 
 constexpr const char* state_name = "new_state.bin";
 constexpr const char* journal_name = "new_files.journal";  // while the files for the next part are replaced
@@ -240,10 +242,12 @@ void DeckRun::refuse_existing_outputs() const {
     for (const std::string& name : names) {
         const std::filesystem::path path = output_folder() / name;
         if (!std::filesystem::exists(path)) continue;
+        const bool can_go_on = std::filesystem::exists(output_folder() / (std::string("new_") + deck_text_names[0]));
         throw InputError(fmt::format(
-            "{}: found the output of an earlier run, expected none; give another folder with -o, go on with that run "
-            "with --continue, or replace it with --force",
-            path.string()));
+            "{}: found the output of an earlier run{}, expected none; give another folder with -o, {}replace it with "
+            "--force",
+            path.string(), can_go_on ? "" : ", stopped before it could be gone on with",
+            can_go_on ? "go on with that run with --continue, or " : "or "));
     }
 }
 
@@ -272,20 +276,23 @@ void DeckRun::run(const std::function<bool(const World&)>& go_on) {
     refuse_existing_outputs();                             // another run may have been here since
     const bool first_part = asked_.start != DeckStart::continued;
     if (appends()) drop_rows_after(output_folder(), first_step_);
+    if (first_part) remove_files_of_earlier_run();
     DeckOutputs outputs(output_folder(), appends()    ? OutputMode::appending
                                          : first_part ? OutputMode::fresh
                                                       : OutputMode::part);
+    using Clock = std::chrono::steady_clock;
+    Clock::time_point saved = Clock::now();
     while (world_.stepping.steps < last_step_ && (!go_on || go_on(world_))) {
-        const bool check_due = due(world_.stepping.steps, health_interval);
-        if (!check_due && !rows_due()) {
-            step(world_);
+        const bool clock_due = due(world_.stepping.steps, steps_between_clock_looks);
+        if (!clock_due || std::chrono::duration<double>(Clock::now() - saved).count() < options_.save_interval) {
+            do_step(outputs, first_part);
             continue;
         }
-        compute_forces(world_);
-        if (check_due) check_health(world_);
-        if (first_part || world_.stepping.steps > first_step_)
-            write_rows(outputs);  // the last part has written the row of its last step
-        advance(world_);
+        const FileSet files = files_for_next();
+        do_step(outputs, first_part);  // whoever goes on from the files takes its row for written
+        outputs.flush();
+        replace_files(output_folder() / journal_name, files);
+        saved = Clock::now();
     }
     const auto files = files_for_next();
     compute_forces(world_);
@@ -293,6 +300,32 @@ void DeckRun::run(const std::function<bool(const World&)>& go_on) {
     if (first_part || world_.stepping.steps > first_step_) write_rows(outputs);
     outputs.flush();
     replace_files(output_folder() / journal_name, files);
+}
+
+void DeckRun::do_step(DeckOutputs& outputs, bool first_part) {
+    const bool check_due = due(world_.stepping.steps, health_interval);
+    if (!check_due && !rows_due()) {
+        step(world_);
+        return;
+    }
+    compute_forces(world_);
+    if (check_due) check_health(world_);
+    if (first_part || world_.stepping.steps > first_step_)
+        write_rows(outputs);  // the last part has written the row of its last step
+    advance(world_);
+}
+
+void DeckRun::remove_files_of_earlier_run() const {
+    std::vector<std::string> names{state_name};  // without which the text files go on all the same, so it is the first
+    for (const char* name : deck_text_names) names.push_back(std::string("new_") + name);
+    for (const std::string& name : names) {
+        std::error_code error;
+        std::filesystem::remove(output_folder() / name, error);
+        if (error) {
+            throw InputError(
+                fmt::format("{}: cannot be removed ({})", (output_folder() / name).string(), error.message()));
+        }
+    }
 }
 
 Scene DeckRun::present_scene() const {

@@ -35,6 +35,7 @@ struct DeckOptions {
     std::optional<Integrator> integrator;  ///< leapfrog if not given; likewise
     bool allow_unstable = false;
     int threads = 1;
+    double save_interval = 60.0;  ///< s of wall clock, after which new_* is written, to go on from should the run stop
 };
 
 class DeckRun {
@@ -45,8 +46,8 @@ class DeckRun {
 
     /// Steps to the end and writes. @param go_on asked before every step; on false the run ends there, with all its
     /// files.
-    /// @throws InputError if something cannot be written; UnstableRun, after which the outputs so far are there and
-    /// new_* as they were before.
+    /// @throws InputError if something cannot be written; UnstableRun, after which the outputs so far are there, and
+    /// new_* as they were last saved.
     void run(const std::function<bool(const World&)>& go_on = {});
 
     const World& world() const { return world_; }
@@ -72,6 +73,10 @@ class DeckRun {
     /// Whether write_rows() has something to write at the present step.
     bool rows_due() const;
     void write_rows(DeckOutputs& outputs) const;
+    /// One step, with the rows that are due before it.
+    void do_step(DeckOutputs& outputs, bool first_part);
+    /// That no file for the next part is of another run than the outputs, whenever this one is stopped.
+    void remove_files_of_earlier_run() const;
     bool finished() const { return world_.stepping.steps - boundary_.steps_before >= boundary_.steps; }
     Scene present_scene() const;
     BoundaryConditions boundary_for_next() const;

@@ -14,6 +14,7 @@
 #include <sstream>
 #include <string_view>
 
+#include "solver/base/checked_input.hpp"
 #include "solver/base/errors.hpp"
 #include "solver/files/read_file.hpp"
 #include "solver/files/replace_file.hpp"
@@ -25,11 +26,11 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view magic = "CRKLSET1";
 
-[[noreturn]] void refuse_damaged(const fs::path& journal) {
-    throw InputError(
-        fmt::format("{}: found a damaged journal, expected one that is whole; the files beside it may belong to two "
-                    "runs: remove them with it and run again",
-                    journal.string()));
+std::string damage(const fs::path& journal) {
+    return fmt::format(
+        "{}: found a damaged journal, expected one that is whole; the files beside it may belong to two runs: remove "
+        "them with it and run again",
+        journal.string());
 }
 
 std::uint64_t hash_of(std::string_view bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }
@@ -37,15 +38,16 @@ std::uint64_t hash_of(std::string_view bytes) { return XXH3_64bits(bytes.data(),
 FileSet read_journal(const fs::path& journal) {
     const std::string text = read_file(journal);
     std::uint64_t hash = 0;
-    if (text.size() < magic.size() + sizeof hash || !text.starts_with(magic)) refuse_damaged(journal);
+    if (text.size() < magic.size() + sizeof hash || !text.starts_with(magic)) throw InputError(damage(journal));
     std::memcpy(&hash, text.data() + magic.size(), sizeof hash);
     const std::string packed = text.substr(magic.size() + sizeof hash);
-    if (hash != hash_of(packed)) refuse_damaged(journal);
+    if (hash != hash_of(packed)) throw InputError(damage(journal));
     std::istringstream in(packed);
     FileSet files;
-    cereal::BinaryInputArchive{in}(files);
+    CheckedInput(in, static_cast<std::streamoff>(packed.size()), damage(journal))(files);
     for (const auto& [name, contents] : files)
-        if (name.empty() || fs::path(name).filename() != name) refuse_damaged(journal);
+        if (name.empty() || name == "." || name == ".." || fs::path(name).filename() != name)
+            throw InputError(damage(journal));
     return files;
 }
 
@@ -58,7 +60,7 @@ void write_journal(const fs::path& journal, const FileSet& files) {
     const std::uint64_t hash = hash_of(packed);
     std::string text(magic);
     text.append(reinterpret_cast<const char*>(&hash), sizeof hash);
-    replace_file(journal, text + packed, Durable::yes);
+    replace_file(journal, text + packed);
 }
 
 bool complete_replacement(const fs::path& journal) {
@@ -66,8 +68,7 @@ bool complete_replacement(const fs::path& journal) {
     const bool found = fs::exists(journal, error);
     if (error) throw InputError(fmt::format("{}: cannot be looked for ({})", journal.string(), error.message()));
     if (!found) return false;
-    for (const auto& [name, contents] : read_journal(journal))
-        replace_file(journal.parent_path() / name, contents, Durable::yes);
+    for (const auto& [name, contents] : read_journal(journal)) replace_file(journal.parent_path() / name, contents);
     if (!fs::remove(journal, error)) refuse_output(journal);
     bring_names_to_disc(journal.parent_path());  // else a loss of power brings it back, over what is edited since
     return true;

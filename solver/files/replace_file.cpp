@@ -37,14 +37,31 @@ void bring_names_to_disc(const std::filesystem::path& folder) {
     if (errno != 0 && errno != EINVAL) refuse_output(here);  // EINVAL: a file system that knows no such thing
 }
 
-void replace_file(const std::filesystem::path& path, const std::string& contents, Durable durable) {
+void refuse_replacing(const std::filesystem::path& output, bool force, std::span<const std::filesystem::path> inputs) {
+    std::error_code error;
+    if (!std::filesystem::exists(output, error) && !error) return;
+    if (error) throw InputError(fmt::format("{}: cannot be looked for ({})", output.string(), error.message()));
+    for (const std::filesystem::path& input : inputs) {
+        if (std::filesystem::equivalent(output, input, error) && !error) {
+            throw InputError(
+                fmt::format("{}: found an input of the same command, expected another file to write", output.string()));
+        }
+    }
+    if (!force) {
+        throw InputError(fmt::format(
+            "{}: found there already, expected a new file; choose another name, or add --force to replace it",
+            output.string()));
+    }
+}
+
+void replace_file(const std::filesystem::path& path, const std::string& contents) {
     std::filesystem::path temporary = path;
     temporary += ".tmp";
     errno = 0;
     std::ofstream file(temporary, std::ios::binary | std::ios::trunc);
     file.write(contents.data(), static_cast<std::streamsize>(contents.size()));
     file.close();
-    const int reason = !file ? errno : durable == Durable::yes ? bring_to_disc(temporary) : 0;
+    const int reason = !file ? errno : bring_to_disc(temporary);
     std::error_code error;
     if (!file || reason != 0) {
         std::filesystem::remove(temporary, error);
@@ -57,7 +74,7 @@ void replace_file(const std::filesystem::path& path, const std::string& contents
         std::filesystem::remove(temporary, ignored);
         throw InputError(fmt::format("{}: cannot be replaced ({})", path.string(), error.message()));
     }
-    if (durable == Durable::yes) bring_names_to_disc(path.parent_path());
+    bring_names_to_disc(path.parent_path());
 }
 
 }  // namespace crackle

@@ -3,19 +3,23 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
 
 namespace crackle {
 
-enum class Durable : bool { no, yes };
-
-/// Writes a whole file under a temporary name and renames it, so that a failure leaves the earlier one as it was.
-/// @param durable on the disc when this returns: a loss of power leaves the earlier one or this
+/// Writes a whole file under a temporary name and renames it. A failure leaves the earlier one as it was, a loss of
+/// power that or this; when this returns it is on the disc.
 /// @throws InputError if it cannot be written
-void replace_file(const std::filesystem::path& path, const std::string& contents, Durable durable = Durable::no);
+void replace_file(const std::filesystem::path& path, const std::string& contents);
 
 /// Has the system bring the names in a folder to the disc. @throws InputError if it cannot
 void bring_names_to_disc(const std::filesystem::path& folder);
+
+/// For a file that the user names to be written. @param inputs what the command reads: never replaced
+/// @throws InputError if it is one of these, or is there already without `force`
+void refuse_replacing(const std::filesystem::path& output, bool force,
+                      std::span<const std::filesystem::path> inputs = {});
 
 /// "cannot be written", with the system's reason in errno. @throws InputError
 [[noreturn]] void refuse_output(const std::filesystem::path& path);

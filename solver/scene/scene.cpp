@@ -24,11 +24,13 @@ namespace {
 }
 
 void require_positive(const std::string& where, double value, const char* unit) {
-    if (!(value > 0.0) || !std::isfinite(value)) refuse(where, value, fmt::format("a finite number > 0 in {}", unit));
+    if (!(value > 0.0) || !is_a_size(value))
+        refuse(where, value, fmt::format("a number from 1e-30 to 1e30 in {}", unit));
 }
 
 void require_not_negative(const std::string& where, double value, const char* unit) {
-    if (!(value >= 0.0) || !std::isfinite(value)) refuse(where, value, fmt::format("a finite number >= 0 in {}", unit));
+    if (!(value >= 0.0) || !is_a_size(value))
+        refuse(where, value, fmt::format("0, or a number from 1e-30 to 1e30 in {}", unit));
 }
 
 void require_finite(const std::string& where, double value) {

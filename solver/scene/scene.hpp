@@ -8,6 +8,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -17,6 +18,13 @@
 #include "solver/base/vec2.hpp"
 
 namespace crackle {
+
+/// Whether a number is 0 or of a size that something has in some unit, 1e-30 to 1e30: products of several such numbers
+/// are still finite.
+inline bool is_a_size(double number) {
+    constexpr double smallest = 1e-30, largest = 1e30;
+    return number == 0.0 || (std::abs(number) >= smallest && std::abs(number) <= largest);
+}
 
 /// A number not set yet; validate() refuses it.
 inline constexpr double unset = std::numeric_limits<double>::quiet_NaN();

@@ -17,6 +17,7 @@
 
 #include "solver/base/errors.hpp"
 #include "solver/files/read_file.hpp"
+#include "solver/scene/scene.hpp"
 #include "specimens/case/consistency.hpp"
 #include "specimens/case/parameters.hpp"
 #include "specimens/case/toml_shape.hpp"
@@ -75,7 +76,9 @@ CaseValue value_of(const Parameter& p, const toml::node& node, const std::string
         case ValueKind::real:
             if (node.is_number()) {
                 const double number = *node.value<double>();
-                if (!p.accepts(number)) refuse(shown(node));
+                if (!p.accepts(number))
+                    refuse(shown(node) +
+                           (is_a_size(number) || !std::isfinite(number) ? "" : ", which is no size of anything"));
                 return CaseValue(number);
             }
             break;

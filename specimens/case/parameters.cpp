@@ -3,6 +3,7 @@
 
 #include "specimens/case/parameters.hpp"
 
+#include "solver/scene/scene.hpp"
 #include "specimens/packing/packing.hpp"
 
 #include <fmt/format.h>
@@ -291,7 +292,7 @@ std::vector<Parameter> all_parameters() {
             .above(0)
             .at_most(1),
         CRACKLE_KEY(loading, max_axial_strain, "", "The test ends here if the specimen has not failed before.")
-            .above(0)
+            .at_least(1e-9)
             .below(1),
         CRACKLE_KEY(loading, strength_drop, "",
                     "The strength is the first maximum of the stress that a drop of this share follows and stays for a "
@@ -473,7 +474,7 @@ const std::vector<TableDescription>& case_tables() {
 }
 
 bool Parameter::accepts(double value) const {
-    if (!std::isfinite(value)) return false;
+    if (!is_a_size(value)) return false;
     if (lowest_allowed ? value < lowest : value <= lowest) return false;
     return highest_allowed ? value <= highest : value < highest;
 }

@@ -54,7 +54,7 @@ struct Parameter {
     std::string full_key() const { return table.empty() ? key : table + "." + key; }
     /// What is accepted, in words: "a number > 0 in m".
     std::string expected() const;
-    /// Whether a number lies in the range (finite included).
+    /// Whether a number lies in the range, and is_a_size().
     bool accepts(double value) const;
 };
 

@@ -17,4 +17,16 @@ fs::path TestCase::resolve_path(const std::string& key, const std::string& writt
     return (fs::path(where.substr(0, where.rfind(':'))).parent_path() / written).lexically_normal();
 }
 
+std::vector<std::filesystem::path> files_read(const TestCase& test) {
+    std::vector<std::filesystem::path> files = test.inputs;
+    const auto add = [&](const char* key, const std::optional<std::string>& file) {
+        if (file) files.push_back(test.resolve_path(key, *file));
+    };
+    add("particles.file", test.particles.file);
+    add("packing.sieve", test.packing.sieve);
+    add("minerals.labels", test.minerals.labels);
+    add("minerals.image", test.minerals.image);
+    return files;
+}
+
 }  // namespace crackle

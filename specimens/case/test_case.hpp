@@ -158,4 +158,7 @@ struct TestCase {
     std::filesystem::path resolve_path(const std::string& key, const std::string& written) const;
 };
 
+/// Every file that a test of this case reads: the case, what it includes, and what its keys name.
+std::vector<std::filesystem::path> files_read(const TestCase& test);
+
 }  // namespace crackle

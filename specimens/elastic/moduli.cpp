@@ -1,13 +1,48 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "specimens/elastic/moduli.hpp"
 
+#include <fmt/format.h>
+
 #include <limits>
 
+#include "solver/base/errors.hpp"
+
 namespace crackle {
+namespace {
+
+// As find_free_motions() has it: below this share of its springs' stiffness a motion takes no energy.
+constexpr double free_share = 1e-9;
+
+/// J, that all springs take up where every body moves with the mean strain of 1: no solution takes more.
+double energy_of_mean_strain(const World& world, const TestSetup& setup) {
+    const double low = world.bodies.state[setup.bottom].y, high = world.bodies.state[setup.top].y;
+    std::vector<BodyMotion> motion(world.bodies.size());
+    for (std::size_t b = 0; b < motion.size(); ++b)
+        motion[b].y = setup.height * (world.bodies.state[b].y - low) / (high - low);
+    double sum = 0.0;
+    for (const Spring& spring : springs_of(world, ClosedPoints::bonded)) {
+        const double stretch = times(spring, spring.gradient, motion);
+        sum += 0.5 * spring.stiffness * stretch * stretch;
+    }
+    return sum;
+}
+
+void refuse_mechanism(const World& world, const TestSetup& setup, double energy) {
+    const double share = energy / energy_of_mean_strain(world, setup);
+    if (share > free_share) return;
+    throw InputError(fmt::format(
+        "found a mechanism: strained as a whole the specimen takes up {:.1g} of the energy that its springs "
+        "would if all particles moved alike, for they roll or slide past one another; expected "
+        "shear_stiffness and friction_angle above 0, and bonds that reach from platen to platen",
+        share));
+}
+
+}  // namespace
 
 Moduli solve_moduli(const World& world, const TestSetup& setup) {
     Moduli moduli{};
     moduli.solution = solve_elastic(world, {{setup.bottom, {}}, {setup.top, {0.0, setup.height, 0.0}}});
+    refuse_mechanism(world, setup, moduli.solution.energy);
     const std::vector<BodyMotion>& reaction = moduli.solution.reaction;
     moduli.youngs_modulus = 0.5 * (reaction[1].y - reaction[0].y) / setup.width;
     moduli.poissons_ratio = moduli.gauge_modulus = std::numeric_limits<double>::quiet_NaN();

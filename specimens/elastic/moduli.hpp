@@ -21,7 +21,7 @@ struct SmallStrain {
 };
 
 /// @param world bonded, with the platens and side particles of `setup`
-/// @throws InputError where there is no linear solution
+/// @throws InputError where there is no linear solution, or one of a mechanism, which bears nothing
 Moduli solve_moduli(const World& world, const TestSetup& setup);
 
 }  // namespace crackle

@@ -85,13 +85,9 @@ void estimate_run(TestCheck& check) {
     const TestCase::Loading& loading = test.description.loading;
     check.rate = loading.axial_strain_rate ? *loading.axial_strain_rate : test.state.rate.rate;
     check.slowest_rate = loading.axial_strain_rate ? check.rate : slowest_rate(test.setup.rate_rule);
-    const auto until = [&](double strain) {
-        const double steps = strain / check.rate / test.world.stepping.time_step;
-        return RunEstimate{strain, steps, steps / check.steps_per_second};
-    };
-    check.to_end = until(loading.max_axial_strain);
+    check.to_end = expected_run(test, loading.max_axial_strain, check.steps_per_second);
     if (check.strength && check.strength->strain < loading.max_axial_strain)
-        check.to_strength = until(check.strength->strain);
+        check.to_strength = expected_run(test, check.strength->strain, check.steps_per_second);
 }
 
 constexpr double largest_strain_of_a_rock = 0.1;
@@ -189,6 +185,11 @@ TestCheck check_test(const TestCase& description, const TestHooks& hooks) {
     estimate_run(check);
     check.memory = largest_memory();
     warn(check);
+    try {
+        refuse_endless(check.test, check.to_end);
+    } catch (const InputError& error) {
+        check.warnings.emplace_back(error.what());
+    }
     return check;
 }
 

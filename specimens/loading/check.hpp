@@ -15,6 +15,7 @@
 
 #include "specimens/case/case_file.hpp"
 #include "specimens/elastic/analysis.hpp"
+#include "specimens/loading/expected_run.hpp"
 #include "specimens/loading/virtual_test.hpp"
 #include "specimens/making/hooks.hpp"
 
@@ -30,12 +31,6 @@ struct StrengthEstimate {
     double stress = 0.0, strain = 0.0;  ///< as FirstLoss
     double share = 0.0;                 ///< of the breakable points, by which it was estimated
     double factor = 1.0;                ///< by which it was off at worst where it was calibrated
-};
-
-/// Steps and seconds up to an axial strain, at the first rate.
-struct RunEstimate {
-    double strain = 0.0;
-    double steps = 0.0, seconds = 0.0;
 };
 
 struct TestCheck {

@@ -159,6 +159,9 @@ class LoadingLoop {
         const PhaseTimer writing(world_.workers.profile, Phase::write);
         if (index % judged_per_written_ == 0 || !state_.ended_by.empty()) files_->add_row(row);
         const bool frame_due = row.axial_strain >= frame_spacing_ * static_cast<double>(state_.next_frame);
+        // In one go over those that a step passes, and exactly over the last.
+        const auto passed = static_cast<std::int64_t>(row.axial_strain / frame_spacing_);
+        state_.next_frame = std::max(state_.next_frame, passed - 1);
         while (row.axial_strain >= frame_spacing_ * static_cast<double>(state_.next_frame)) ++state_.next_frame;
         const bool frame_wanted = frame_due || !state_.ended_by.empty();
         if (!frame_wanted && !new_peak) return;

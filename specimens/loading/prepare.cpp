@@ -40,12 +40,17 @@ constexpr double first_yield_share = 0.02;
 // Solving 50,000 cells takes 27 s and 3 GB, and both grow faster than the number of bodies: more are solved on demand.
 constexpr std::size_t most_bodies_solved = 200'000;
 
+void note_no_small_strain(VirtualTest& test, const std::string& why) {
+    test.no_small_strain = why;
+    test.setup.notices.push_back("no small-strain modulus: " + why);
+}
+
 /// Linear solution of a world with bonded platens, or a notice why there is none.
 void solve_small_strain(VirtualTest& test, const World& world, const TestSetup& own, const SolutionVisitor& visit) {
     if (world.bodies.size() > most_bodies_solved) {
-        test.setup.notices.push_back(fmt::format(
-            "no small-strain modulus: {} bodies, more than {} are not solved beside a test; `crackle elastic` does it",
-            world.bodies.size(), most_bodies_solved));
+        note_no_small_strain(
+            test, fmt::format("{} bodies, more than {} are not solved beside a test; `crackle elastic` does it",
+                              world.bodies.size(), most_bodies_solved));
         return;
     }
     try {
@@ -58,7 +63,7 @@ void solve_small_strain(VirtualTest& test, const World& world, const TestSetup& 
         if (visit) visit(world, own, solved.moduli);
         test.small_strain = std::move(solved);
     } catch (const InputError& error) {
-        test.setup.notices.push_back(fmt::format("no small-strain modulus: {}", error.what()));
+        note_no_small_strain(test, error.what());
     }
 }
 
@@ -159,7 +164,7 @@ VirtualTest bond_test(const TestCase& description, const TestHooks& hooks, const
             check_platen_hold(twin.world, own, twin.platens, description);
             solve_small_strain(test, twin.world, own, visit);
         } catch (const InputError& error) {
-            test.setup.notices.push_back(fmt::format("no small-strain modulus: {}", error.what()));
+            note_no_small_strain(test, error.what());
         }
     }
     if (std::isfinite(test.state.youngs_modulus)) {

@@ -66,10 +66,10 @@ void settle_dashpots(World& world, const TestSetup& setup, const std::vector<boo
 
 RateRule rate_rule_of(const VirtualTest& test, double tolerance) {
     if (!test.small_strain || !(test.small_strain->moduli.youngs_modulus > 0.0)) {
-        throw InputError(
-            fmt::format("{}: found a specimen without elastic solution, expected one to derive the rate "
-                        "from; write axial_strain_rate in its place",
-                        test.description.at("loading.rate_tolerance")));
+        throw InputError(fmt::format(
+            "{}: expected an elastic solution to derive the rate from, or axial_strain_rate in its place: {}",
+            test.description.at("loading.rate_tolerance"),
+            test.small_strain ? "the specimen has no stiffness" : test.no_small_strain));
     }
     const TestSetup& setup = test.setup;
     double mass = 0.0;

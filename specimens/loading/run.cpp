@@ -14,6 +14,7 @@
 #include "solver/demseg/geometry.hpp"
 #include "solver/files/read_file.hpp"
 #include "specimens/loading/companions.hpp"
+#include "specimens/loading/expected_run.hpp"
 #include "specimens/loading/load_specimen.hpp"
 #include "specimens/loading/prepare.hpp"
 #include "specimens/results/checkpoint.hpp"
@@ -38,6 +39,19 @@ std::ifstream open_file(const fs::path& path) {
 
 PointPrecision precision_of(const TestCase& test) {
     return test.output.frame_precision == "double" ? PointPrecision::double_ : PointPrecision::single_;
+}
+
+/// Of the threads asked for those that are of use.
+void choose_threads(World& world, const TestOptions& options, int asked, const TestHooks& hooks) {
+    const auto worth = static_cast<std::int64_t>(world.bodies.size()) / options.fewest_bodies_a_thread;
+    const int most = static_cast<int>(std::clamp<std::int64_t>(worth, 1, options.most_threads));
+    set_threads(world, std::min(asked, most));
+    if (most < asked) {
+        hooks.report_stage(fmt::format("notice: {} of {} threads are used: {}", most, asked,
+                                       most < options.most_threads
+                                           ? fmt::format("{} bodies are no work for more", world.bodies.size())
+                                           : fmt::format("this process has {} processors", most)));
+    }
 }
 
 /// The specimen's files until there is a place for them: a test that cannot be made leaves none.
@@ -97,7 +111,7 @@ TestOutcome run_with_files(VirtualTest& test, const TestOptions& options, const 
         write_peak();
         write_summary();
         throw UnstableRun(error, fmt::format("output so far in {}{}", folder.path().string(),
-                                             folder.staged() ? "; earlier results are as they were" : ""));
+                                             folder.staged() ? "; " + folder.fate_of_earlier_results() : ""));
     }
     outcome.interrupted = test.state.ended_by.empty();
     if (outcome.interrupted) {
@@ -170,18 +184,18 @@ TestOutcome finished_test(VirtualTest& test, const TestOptions& options, const T
 
 TestOutcome run_test(const TestCase& description, const TestOptions& options, const TestHooks& hooks) {
     TestCase recorded = description;
-    if (description.particles.file)
-        recorded.inputs.push_back(description.resolve_path("particles.file", *description.particles.file));
-    if (description.packing.sieve)
-        recorded.inputs.push_back(description.resolve_path("packing.sieve", *description.packing.sieve));
-    if (description.minerals.labels)
-        recorded.inputs.push_back(description.resolve_path("minerals.labels", *description.minerals.labels));
-    if (description.minerals.image)
-        recorded.inputs.push_back(description.resolve_path("minerals.image", *description.minerals.image));
+    recorded.inputs = files_read(description);
     OutputFolder folder = OutputFolder::create(options.folder, options.force, recorded.inputs);
     std::optional<SpecimenFiles> specimen(std::in_place);
-    VirtualTest test = prepare_test(description, specimen->collecting(hooks));
-    if (options.threads > 0) set_threads(test.world, options.threads);
+    const int threads = options.threads > 0 ? options.threads : static_cast<int>(description.numerics.threads);
+    TestCase made = description;
+    made.numerics.threads = std::min(threads, options.most_threads);
+    VirtualTest test = prepare_test(made, specimen->collecting(hooks));
+    choose_threads(test.world, options, threads, hooks);
+    const RunEstimate run = expected_run(test, description.loading.max_axial_strain, roughly_steps_per_second(test));
+    if (!options.endless) refuse_endless(test, run);
+    hooks.report_detail(
+        fmt::format("{:.3g} steps to max_axial_strain = {:g}, in about {:.2g} s", run.steps, run.strain, run.seconds));
     Profile profile;
     if (options.profile) test.world.workers.profile = &profile;
     test.state.command = options.command;
@@ -191,10 +205,15 @@ TestOutcome run_test(const TestCase& description, const TestOptions& options, co
     const std::string text = resolved_case(recorded, folder.target());
     // Empty until loading: by that a test that has only begun is known.
     TestFiles files(folder, sha256(text), test.state, precision_of(description), description.output.slips);
-    specimen->write(folder);
-    specimen.reset();  // not kept while the test runs
-    folder.write("case.toml", text);
-    return run_with_files(test, options, hooks, folder, files);
+    try {
+        specimen->write(folder);
+        specimen.reset();  // not kept while the test runs
+        folder.write("case.toml", text);
+        return run_with_files(test, options, hooks, folder, files);
+    } catch (const InputError& error) {
+        if (!folder.staged()) throw;
+        throw InputError(fmt::format("{}; {}", error.what(), folder.fate_of_earlier_results()));
+    }
 }
 
 TestOutcome resume_test(const TestOptions& options, const TestHooks& hooks) {
@@ -223,8 +242,8 @@ TestOutcome resume_test(const TestOptions& options, const TestHooks& hooks) {
     test.setup = std::move(checkpoint.setup);
     test.state = std::move(checkpoint.state);
     test.world = std::move(checkpoint.world);
-    set_threads(test.world,
-                options.threads > 0 ? options.threads : static_cast<int>(test.description.numerics.threads));
+    choose_threads(test.world, options,
+                   options.threads > 0 ? options.threads : static_cast<int>(test.description.numerics.threads), hooks);
     if (!test.state.ended_by.empty()) return finished_test(test, options, hooks, folder);
     // That of the interrupt: curve and frames go beyond it from here.
     fs::remove(folder.path() / "summary.json", error);

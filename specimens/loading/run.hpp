@@ -4,6 +4,7 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
@@ -19,6 +20,10 @@ struct TestOptions {
     bool verify = false;   ///< run the companions, specimens/loading/companions.hpp
     bool profile = false;  ///< time the phases of a step, for the summary
     int threads = 0;       ///< 0: the case's
+    // Fewer threads than asked for do the work beyond these; what is written is the same.
+    int most_threads = 1024;
+    std::int64_t fewest_bodies_a_thread = 1;
+    bool endless = false;  ///< as many steps and days as it takes; refuse_endless() is not asked
     std::string command;   ///< for the summary
     std::chrono::steady_clock::time_point process_start = std::chrono::steady_clock::now();
 };

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 
 #include "solver/world/world.hpp"
 #include "specimens/case/case_file.hpp"
@@ -18,7 +19,8 @@ struct VirtualTest {
     TestSetup setup;
     TestState state;
     World world;
-    std::optional<SmallStrain> small_strain;  ///< linear solution with bonded platens; none: a notice gives the reason
+    std::optional<SmallStrain> small_strain;  ///< linear solution with bonded platens
+    std::string no_small_strain;              ///< why there is none; a notice says it, too
     double specimen_seconds = 0.0;            ///< wall clock that making the specimen took
 };
 

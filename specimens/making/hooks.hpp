@@ -34,9 +34,11 @@ struct TestHooks {
     void report_stage(const std::string& line) const {
         if (stage) stage(line);
     }
-    void report_work(const std::string& what) const {
-        if (working) working(what);
+    void report_detail(const std::string& line) const {
+        if (detail) detail(line);
     }
+    /// Before loading. @throws TestInterrupted if that is asked for
+    void report_work(const std::string& what) const;
     void report_made(const std::string& name, const Scene& scene) const {
         if (made) made(name, scene);
     }
@@ -47,5 +49,10 @@ class TestInterrupted : public std::runtime_error {
   public:
     TestInterrupted() : std::runtime_error("interrupted before loading began, nothing is written") {}
 };
+
+inline void TestHooks::report_work(const std::string& what) const {
+    if (interrupted && interrupted()) throw TestInterrupted();
+    if (working) working(what);
+}
 
 }  // namespace crackle

@@ -11,6 +11,7 @@
 
 #include "solver/base/errors.hpp"
 #include "solver/files/read_file.hpp"
+#include "specimens/recordings/replacement.hpp"
 
 namespace crackle {
 namespace {
@@ -164,6 +165,7 @@ TestResults read_results(const std::filesystem::path& folder) {
             "{}: found no such folder, expected the results of a test; make them with `crackle test CASE.toml -o {}`",
             folder.string(), folder.string()));
     }
+    refuse_half_replaced(folder);
     TestResults results;
     results.name = std::filesystem::weakly_canonical(folder).filename().string();
     results.summary = read_summary(folder / "summary.json");

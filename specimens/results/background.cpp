@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "specimens/results/background.hpp"
 
+#include <system_error>
 #include <utility>
 
 namespace crackle {
@@ -30,8 +31,15 @@ void Background::make_room(std::size_t most_waiting) {
 void Background::add(std::function<void()> job) {
     std::unique_lock locked(mutex_);
     throw_error(locked);
+    if (!thread_.joinable()) {
+        try {
+            thread_ = std::thread([this] { work(); });
+        } catch (const std::system_error&) {  // no more threads for this user: the work is done all the same
+            job();
+            return;
+        }
+    }
     jobs_.push_back(std::move(job));
-    if (!thread_.joinable()) thread_ = std::thread([this] { work(); });
     locked.unlock();
     changed_.notify_all();
 }

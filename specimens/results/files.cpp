@@ -39,14 +39,14 @@ TestFiles::TestFiles(const OutputFolder& folder, std::string case_hash, const Te
                      PointPrecision precision, bool slips)
     : folder_(folder),
       case_hash_(std::move(case_hash)),
-      curve_(folder.path() / "curve.csv", state.curve_bytes),
-      events_(folder.path() / "events.csv", state.events_bytes),
+      curve_(folder.path() / "curve.csv", state.curve),
+      events_(folder.path() / "events.csv", state.events),
       precision_(precision),
       collection_due_(!state.frames.empty()) {
-    if (state.curve_bytes == 0) curve_.write(curve_header());
-    if (state.events_bytes == 0) events_.write(events_header());
-    if (slips) slips_.emplace(folder.path() / "slips.csv", state.slips_bytes);
-    if (slips && state.slips_bytes == 0) slips_->write(slips_header());
+    if (state.curve.bytes == 0) curve_.write(curve_header());
+    if (state.events.bytes == 0) events_.write(events_header());
+    if (slips) slips_.emplace(folder.path() / "slips.csv", state.slips);
+    if (slips && state.slips.bytes == 0) slips_->write(slips_header());
     remove_unlisted_frames(folder.path() / "frames", state);
 }
 
@@ -114,10 +114,11 @@ void TestFiles::write_collection(const TestState& state) {
 void TestFiles::write_checkpoint(const TestSetup& setup, TestState& state, const World& world) {
     flush();
     write_collection(state);
-    state.curve_bytes = curve_.bytes();
-    state.events_bytes = events_.bytes();
-    if (slips_) state.slips_bytes = slips_->bytes();
-    folder_.write("checkpoint", [&](std::ostream& out) { save_test(out, case_hash_, setup, state, world); });
+    state.curve = curve_.mark();
+    state.events = events_.mark();
+    if (slips_) state.slips = slips_->mark();
+    folder_.write(
+        "checkpoint", [&](std::ostream& out) { save_test(out, case_hash_, setup, state, world); }, Durable::yes);
 }
 
 void TestFiles::flush() {
@@ -129,7 +130,7 @@ void TestFiles::flush() {
 
 void TestFiles::write_summary(const nlohmann::ordered_json& summary, const TestState& state) {
     write_collection(state);
-    folder_.write("summary.json", summary.dump(2) + '\n');
+    folder_.write("summary.json", summary.dump(2) + '\n', Durable::yes);
 }
 
 }  // namespace crackle

@@ -8,6 +8,7 @@
 
 #include "specimens/frames/frame_painter.hpp"
 #include "specimens/results/background.hpp"
+#include "specimens/results/growing_file.hpp"
 #include "specimens/results/output_folder.hpp"
 #include "specimens/results/summary.hpp"
 
@@ -27,7 +28,8 @@ class TestFiles {
     /// there, all of them, before a checkpoint or a summary is. frames.pvd follows within a second, or then: replacing
     /// a file costs more than a small specimen's frame. World and setup must outlive these files.
     void add_frame(const Frame& frame, const TestSetup& setup, TestState& state, const World& world);
-    /// Flushes the growing files, notes their lengths in the state, and writes the checkpoint.
+    /// Flushes the growing files, notes how far they go in the state, and writes the checkpoint when all is on the
+    /// disc.
     void write_checkpoint(const TestSetup& setup, TestState& state, const World& world);
     /// Without a checkpoint: for a run that has gone wrong, whose last good checkpoint stays.
     void flush();

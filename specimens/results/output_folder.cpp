@@ -9,13 +9,18 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <fstream>
 #include <optional>
 #include <set>
+#include <sstream>
 #include <system_error>
 
 #include "solver/base/errors.hpp"
+#include "solver/files/read_file.hpp"
+#include "solver/files/replace_file.hpp"
 #include "specimens/frames/frame.hpp"
 #include "specimens/making/specimen.hpp"
+#include "specimens/recordings/replacement.hpp"
 #include "specimens/recordings/test_results.hpp"
 
 namespace crackle {
@@ -47,24 +52,35 @@ constexpr auto result_names = [] {
 constexpr const char* report_name =
     "report.html";  // made of the results by another command; stale once they are replaced
 constexpr const char* temporary_suffix = ".tmp";
-constexpr const char* staged_mark = "replaces-older-results";  // in OUT.new: a forced test's own, to be begun again
-constexpr const char* staging_suffix = ".new";
-// First line of the mark once the results are complete and take the old ones' place; names of their frames follow.
-constexpr const char* moving_line = "complete, being moved";
+
+/// Has the system bring all that was written to the file system of a folder to the disc.
+void sync_file_system(const fs::path& folder) {
+    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0) refuse_output(folder);
+    const int reason = ::syncfs(descriptor) == 0 ? 0 : errno;
+    ::close(descriptor);
+    errno = reason;
+    if (reason != 0) refuse_output(folder);
+}
 
 [[noreturn]] void cannot_write(const fs::path& path, const std::string& why) {
     throw InputError(
-        fmt::format("{}: cannot be written ({}), expected a writable folder with free space; earlier results are as "
-                    "they were",
-                    path.string(), why));
+        fmt::format("{}: cannot be written ({}), expected a writable folder with free space", path.string(), why));
 }
 
 std::string last_error() { return std::strerror(errno); }
 
-bool holds_results(const fs::path& folder) {
+/// @throws InputError if the system does not say
+bool is_there(const fs::path& path) {
     std::error_code error;
+    const bool there = fs::exists(path, error);
+    if (error) throw InputError(fmt::format("{}: cannot be looked for ({})", path.string(), error.message()));
+    return there;
+}
+
+bool holds_results(const fs::path& folder) {
     return std::any_of(result_names.begin(), result_names.end(),
-                       [&](const char* name) { return fs::exists(folder / name, error); });
+                       [&](const char* name) { return is_there(folder / name); });
 }
 
 bool begins_with(const fs::path& file, const std::string& mark) {
@@ -73,30 +89,27 @@ bool begins_with(const fs::path& file, const std::string& mark) {
     return in.read(begin.data(), static_cast<std::streamsize>(begin.size())) && begin == mark;
 }
 
-/// Whether a text file holds a heading at most. One that is not there does.
+/// Whether a text file holds a heading at most. One that is not there does. @throws InputError if it cannot be read
 bool is_heading_alone(const fs::path& file) {
-    std::ifstream in(file, std::ios::binary);
-    std::string heading, row;
-    std::getline(in, heading);
-    return !std::getline(in, row);
+    if (!is_there(file)) return true;
+    const std::string text = read_file(file);
+    const std::size_t end = text.find('\n');
+    return end == std::string::npos || end + 1 == text.size();
 }
 
 /// Of a test that was stopped before its first checkpoint: headings without a row, and a case that is still elsewhere.
 bool has_only_begun(const fs::path& folder) {
-    std::error_code error;
-    for (const char* name : {"checkpoint", "summary.json", "frames"}) {
-        if (fs::exists(folder / name, error)) return false;
-    }
+    for (const char* name : {"checkpoint", "summary.json", "frames"})
+        if (is_there(folder / name)) return false;
     const fs::path own_case = folder / "case.toml";
-    return fs::exists(folder / "curve.csv", error) && is_heading_alone(folder / "curve.csv") &&
+    return is_there(folder / "curve.csv") && is_heading_alone(folder / "curve.csv") &&
            is_heading_alone(folder / "events.csv") &&
-           (!fs::exists(own_case, error) || begins_with(own_case, resolved_case_mark));
+           (!is_there(own_case) || begins_with(own_case, resolved_case_mark));
 }
 
 /// A case.toml or a frames/ alone may be the user's own.
 bool are_of_a_test(const fs::path& folder) {
-    std::error_code error;
-    return fs::exists(folder / "summary.json", error) || fs::exists(folder / "checkpoint", error) ||
+    return is_there(folder / "summary.json") || is_there(folder / "checkpoint") ||
            begins_with(folder / "case.toml", resolved_case_mark);
 }
 
@@ -121,54 +134,70 @@ void remove_temporaries(const fs::path& folder) {
 
 /// Names of the frames that are being moved out of a folder of staged results; none: nothing is.
 std::optional<std::set<std::string>> frames_being_moved(const fs::path& working) {
-    std::ifstream in(working / staged_mark, std::ios::binary);
-    std::string line;
-    if (!std::getline(in, line) || line != moving_line) return std::nullopt;
+    std::string lines;
+    if (!is_being_moved(working, lines)) return std::nullopt;
+    std::istringstream in(lines);
     std::set<std::string> names;
-    while (std::getline(in, line)) names.insert(line);
+    for (std::string line; std::getline(in, line);) names.insert(line);
     return names;
+}
+
+/// Names of what a folder holds; none where there is no folder. @throws InputError if it cannot be listed
+std::set<std::string> names_in(const fs::path& folder) {
+    std::set<std::string> names;
+    std::error_code error;
+    fs::directory_iterator entry(folder, error);
+    if (error == std::errc::no_such_file_or_directory) return names;
+    for (; !error && entry != fs::directory_iterator(); entry.increment(error))
+        names.insert(entry->path().filename().string());
+    if (error) throw InputError(fmt::format("{}: cannot be listed ({})", folder.string(), error.message()));
+    return names;
+}
+
+void rename_or_throw(const fs::path& from, const fs::path& to) {
+    std::error_code error;
+    fs::rename(from, to, error);
+    if (error) cannot_write(to, error.message());
+}
+
+void remove_or_throw(const fs::path& path) {
+    std::error_code error;
+    fs::remove(path, error);
+    if (error) throw InputError(fmt::format("{}: cannot be removed ({})", path.string(), error.message()));
 }
 
 /// Puts the frames in `from` in the place of those in `to`; other files there stay. Stopped at any moment and done
 /// again, it ends the same. @param names of the new ones
-void replace_frames(const fs::path& from, const fs::path& to, const std::set<std::string>& names,
-                    std::error_code& error) {
-    std::vector<fs::path> old_frames, new_frames;
+void replace_frames(const fs::path& from, const fs::path& to, const std::set<std::string>& names) {
+    std::error_code error;
     fs::create_directories(to, error);
-    if (error) return;
-    for (const auto& entry : fs::directory_iterator(from, error)) new_frames.push_back(entry.path());
-    for (const fs::path& file : new_frames) {
-        fs::rename(file, to / file.filename(), error);
-        if (error) return;
-    }
-    for (const auto& entry : fs::directory_iterator(to, error)) {
-        const std::string name = entry.path().filename().string();
-        if (is_frame(name) && !names.contains(name)) old_frames.push_back(entry.path());
-    }
-    for (const fs::path& file : old_frames) fs::remove(file, error);
-    fs::remove(from, error);
+    if (error) cannot_write(to, error.message());
+    for (const std::string& name : names_in(from)) rename_or_throw(from / name, to / name);
+    for (const std::string& name : names_in(to))
+        if (is_frame(name) && !names.contains(name)) remove_or_throw(to / name);
+    remove_or_throw(from);
 }
 
 /// Puts complete results in the place of the old ones, or goes on with that. @param names of the new frames
 void move_staged(const fs::path& working, const fs::path& target, const std::set<std::string>& names) {
-    std::error_code error;
-    if (is_report_page(target / report_name)) fs::remove(target / report_name, error);
+    if (is_report_page(target / report_name)) remove_or_throw(target / report_name);
     // Nothing has been moved while the first file is still here: what the new results lack is of the old ones.
-    if (fs::exists(working / result_names.front(), error)) {
+    if (is_there(working / result_names.front())) {
         for (const char* name : {circles_file, polygons_file})
-            if (!fs::exists(working / name, error)) fs::remove(target / name, error);
+            if (!is_there(working / name)) remove_or_throw(target / name);
     }
     for (const std::string name : result_names) {
-        if (!fs::exists(working / name, error)) continue;
+        if (!is_there(working / name)) continue;
         if (name == "frames") {
-            replace_frames(working / name, target / name, names, error);
+            replace_frames(working / name, target / name, names);
         } else {
-            fs::rename(working / name, target / name, error);
+            rename_or_throw(working / name, target / name);
         }
-        if (error) cannot_write(target / name, error.message());
     }
-    fs::remove(working / staged_mark, error);
-    fs::remove(working, error);
+    sync_file_system(target);  // else a loss of power may leave the old results, and nothing of the new ones
+    remove_or_throw(working / staged_mark);
+    std::error_code not_empty;  // of files that are not ours
+    fs::remove(working, not_empty);
 }
 
 void refuse_inputs_among_results(const fs::path& target, std::span<const fs::path> inputs) {
@@ -248,7 +277,7 @@ OutputFolder OutputFolder::create(const fs::path& wanted, bool force, std::span<
                             target.string()));
         }
         working = fs::path(target.string() + staging_suffix);
-        if (holds_results(working) && !fs::exists(working / staged_mark, error)) {
+        if (holds_results(working) && !is_there(working / staged_mark)) {
             throw InputError(
                 fmt::format("{}: found results, expected nothing where the new ones grow before they replace those in "
                             "{}; move or remove them",
@@ -295,11 +324,13 @@ OutputFolder::~OutputFolder() {
     if (made_) fs::remove(working_, ignored);
 }
 
-void OutputFolder::write(const std::string& name, const std::string& bytes) const {
-    write(name, [&](std::ostream& out) { out.write(bytes.data(), static_cast<std::streamsize>(bytes.size())); });
+void OutputFolder::write(const std::string& name, const std::string& bytes, Durable durable) const {
+    write(
+        name, [&](std::ostream& out) { out.write(bytes.data(), static_cast<std::streamsize>(bytes.size())); }, durable);
 }
 
-void OutputFolder::write(const std::string& name, const std::function<void(std::ostream&)>& write_to) const {
+void OutputFolder::write(const std::string& name, const std::function<void(std::ostream&)>& write_to,
+                         Durable durable) const {
     const fs::path file = working_ / name;
     const fs::path temporary = file.string() + temporary_suffix;
     std::error_code error;
@@ -317,53 +348,31 @@ void OutputFolder::write(const std::string& name, const std::function<void(std::
         fs::remove(temporary, error);
         cannot_write(file, why);
     }
+    if (durable == Durable::yes) sync_file_system(file.parent_path());
     fs::rename(temporary, file, error);
     if (error) cannot_write(file, error.message());
+}
+
+std::string OutputFolder::fate_of_earlier_results() const {
+    if (frames_being_moved(working_)) {
+        return fmt::format(
+            "the new results are complete in {} and only partly in {}: `crackle test --resume {}` ends that",
+            working_.string(), target_.string(), target_.string());
+    }
+    return fmt::format("earlier results in {} {}", target_.string(),
+                       holds_results(target_) ? "are as they were" : "are no longer there");
 }
 
 void OutputFolder::finish() {
     if (!staged()) return;
     std::string mark = std::string(moving_line) + '\n';
-    std::set<std::string> names;
-    std::error_code error;
-    for (const auto& entry : fs::directory_iterator(working_ / "frames", error))
-        names.insert(entry.path().filename().string());
+    const std::set<std::string> names = names_in(working_ / "frames");
     for (const std::string& name : names) mark += name + '\n';
-    write(staged_mark, mark);  // whoever finds it ends the move
+    write(staged_mark, mark, Durable::yes);  // whoever finds it ends the move
+    sync_file_system(working_);              // nothing is moved before its name is on the disc
     move_staged(working_, target_, names);
     working_ = target_;
     made_ = false;
-}
-
-GrowingFile::GrowingFile(fs::path path, std::uint64_t bytes) : path_(std::move(path)), bytes_(bytes) {
-    std::error_code error;
-    if (bytes == 0) {
-        fs::remove(path_, error);
-    } else {
-        const auto there = fs::file_size(path_, error);
-        if (error || there < bytes) {
-            throw InputError(
-                fmt::format("{}: found {} bytes, expected at least the {} of the checkpoint; the file was changed, run "
-                            "the test again with --force",
-                            path_.string(), error ? 0 : there, bytes));
-        }
-        fs::resize_file(path_, bytes, error);
-        if (error) cannot_write(path_, error.message());
-    }
-    errno = 0;
-    out_.open(path_, std::ios::binary | std::ios::app);
-    if (!out_) cannot_write(path_, last_error());
-}
-
-void GrowingFile::write(const std::string& text) {
-    out_ << text;
-    bytes_ += text.size();
-}
-
-void GrowingFile::flush() {
-    errno = 0;
-    out_.flush();
-    if (!out_) cannot_write(path_, last_error());
 }
 
 }  // namespace crackle

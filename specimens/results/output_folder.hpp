@@ -7,13 +7,11 @@
 // Tested by tests/specimens/results/files_test.cpp.
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
-#include <fstream>
 #include <functional>
+#include <iosfwd>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "solver/files/folder_lock.hpp"
@@ -37,6 +35,8 @@ bool holds_test_results(const std::filesystem::path& folder);
 /// First line of a test's case.toml: by it a folder's case is known to be a result, not a user's own.
 inline constexpr const char* resolved_case_mark = "# Resolved case of crackle ";
 
+enum class Durable : bool { no, yes };
+
 class OutputFolder {
   public:
     /// @param inputs files of the case, which must not lie where results go
@@ -58,11 +58,16 @@ class OutputFolder {
     bool staged() const { return working_ != target_; }
 
     /// Writes a whole file, under a temporary name first. @param name relative to the folder
-    void write(const std::string& name, const std::string& bytes) const;
+    /// @param durable it gets its name when it and all that was written before are on the disc: it never knows of more
+    /// than a loss of power leaves
+    void write(const std::string& name, const std::string& bytes, Durable durable = Durable::no) const;
     /// The same, of a file that is not in memory as a whole.
-    void write(const std::string& name, const std::function<void(std::ostream&)>& write_to) const;
+    void write(const std::string& name, const std::function<void(std::ostream&)>& write_to,
+               Durable durable = Durable::no) const;
     /// Puts staged results in the place of the old ones; path() is target() from then on.
     void finish();
+    /// Of a staged folder whose finish() did not end: what has become of the earlier results, as a sentence.
+    std::string fate_of_earlier_results() const;
 
   private:
     OutputFolder(std::filesystem::path target, std::filesystem::path working)
@@ -71,23 +76,6 @@ class OutputFolder {
     std::filesystem::path target_, working_;
     bool made_ = false;
     std::vector<FolderLock> locks_;
-};
-
-/// A text file that grows; knows its length, so that a checkpoint can record where to go on.
-class GrowingFile {
-  public:
-    /// Keeps the first `bytes` bytes and goes on behind them; 0 starts again.
-    /// @throws InputError if the file is shorter or cannot be written.
-    GrowingFile(std::filesystem::path path, std::uint64_t bytes);
-    void write(const std::string& text);
-    /// @throws InputError if the disc did not take it all.
-    void flush();
-    std::uint64_t bytes() const { return bytes_; }
-
-  private:
-    std::filesystem::path path_;
-    std::ofstream out_;
-    std::uint64_t bytes_;
 };
 
 }  // namespace crackle

@@ -13,6 +13,7 @@
 #include "specimens/observers/contact_history.hpp"
 #include "specimens/observers/curve.hpp"
 #include "specimens/observers/peak_and_failure.hpp"
+#include "specimens/results/growing_file.hpp"
 #include "specimens/setup/loading_rate.hpp"
 
 namespace crackle {
@@ -55,9 +56,9 @@ struct TestState {
     double gauge_modulus = std::numeric_limits<double>::quiet_NaN();  ///< N/m, stress over strain of the gauge length
     double modulus_residual = std::numeric_limits<double>::quiet_NaN();  ///< of the solve, its relative error
 
-    std::uint64_t curve_bytes = 0, events_bytes = 0, slips_bytes = 0;  ///< lengths of the files at the checkpoint
-    double wall_seconds = 0.0, step_seconds = 0.0;                     ///< spent before this process
-    std::string command;                                               ///< that began the test
+    FileMark curve, events, slips;                  ///< the files at the checkpoint
+    double wall_seconds = 0.0, step_seconds = 0.0;  ///< spent before this process
+    std::string command;                            ///< that began the test
 
     template <class Self, class Visit>
     static constexpr void fields(Self& s, Visit&& visit) {
@@ -78,9 +79,9 @@ struct TestState {
         visit("poissons_ratio", s.poissons_ratio);
         visit("gauge_modulus", s.gauge_modulus);
         visit("modulus_residual", s.modulus_residual);
-        visit("curve_bytes", s.curve_bytes);
-        visit("events_bytes", s.events_bytes);
-        visit("slips_bytes", s.slips_bytes);
+        visit("curve", s.curve);
+        visit("events", s.events);
+        visit("slips", s.slips);
         visit("wall_seconds", s.wall_seconds);
         visit("step_seconds", s.step_seconds);
         visit("command", s.command);

@@ -5,12 +5,12 @@
 
 #include <chrono>
 #include <cmath>
-#include <fstream>
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "solver/base/errors.hpp"
+#include "solver/files/replace_file.hpp"
 #include "specimens/elastic/analysis.hpp"
 #include "specimens/loading/prepare.hpp"
 #include "tools/commands/commands.hpp"
@@ -110,16 +110,14 @@ void print(const VirtualTest& test, const ElasticAnalysis& a, double seconds) {
         fmt::print("  mode {:<3} {:.6g} rad/s\n", k + 1, a.frequencies[k]);
 }
 
-void write_bonds(const std::string& path, const ElasticAnalysis& a) {
-    std::ofstream out(path);
-    out << "body_i,body_j,x_m,y_m,strength_N,normal_force_N,shear_force_N,break_strain,slip_strain\n";
+std::string bonds_table(const ElasticAnalysis& a) {
+    std::string text = "body_i,body_j,x_m,y_m,strength_N,normal_force_N,shear_force_N,break_strain,slip_strain\n";
     for (const LinearBond& b : a.bonds) {
-        out << fmt::format("{},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", b.body_i, b.body_j,
-                           b.position.x, b.position.y, b.strength, b.normal_force, b.shear_force, b.break_strain,
-                           b.slip_strain);
+        text += fmt::format("{},{},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g},{:.17g}\n", b.body_i, b.body_j,
+                            b.position.x, b.position.y, b.strength, b.normal_force, b.shear_force, b.break_strain,
+                            b.slip_strain);
     }
-    out.flush();
-    if (!out) throw InputError(fmt::format("{}: cannot be written, expected a writable path with free space", path));
+    return text;
 }
 
 }  // namespace
@@ -159,12 +157,9 @@ int elastic(const Invocation& given) {
         throw InputError(fmt::format("crackle elastic: --strain: found {}, expected a number > 0 and < 1", strain));
     const int modes = values["modes"].as<int>();
     if (modes < 0) throw InputError(fmt::format("crackle elastic: --modes: found {}, expected a number >= 0", modes));
-    if (values.contains("bonds") && !values.contains("force") &&
-        std::filesystem::exists(values["bonds"].as<std::string>())) {
-        throw InputError(fmt::format("{}: exists already, expected a new file; choose another name, or --force",
-                                     values["bonds"].as<std::string>()));
-    }
     TestCase description = read_case(given_or_shipped(given.operands.front()));
+    if (values.contains("bonds"))
+        refuse_replacing(values["bonds"].as<std::string>(), values.contains("force"), files_read(description));
     TestHooks hooks;
     if (!values.contains("json") || messages.verbose())
         hooks.stage = [&messages](const std::string& text) { messages.stage(text); };
@@ -186,7 +181,7 @@ int elastic(const Invocation& given) {
     messages.detail(fmt::format("solved for {} unknowns, residual {:.1e}", analysis.unknowns, analysis.residual));
     if (hooks.stage)
         for (const std::string& notice : test.setup.notices) hooks.stage("notice: " + notice);
-    if (values.contains("bonds")) write_bonds(values["bonds"].as<std::string>(), analysis);
+    if (values.contains("bonds")) replace_file(values["bonds"].as<std::string>(), bonds_table(analysis));
     if (values.contains("json"))
         std::cout << as_json(test, analysis, seconds).dump(2) << '\n';
     else

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <iostream>
 #include <sstream>
@@ -173,14 +174,7 @@ fs::path output_path(const po::variables_map& values, MeshKind kind, const fs::p
     const char* usual = kind == MeshKind::delaunay ? "in_gm_tri.dat" : "in_gm_volo.dat";
     fs::path path = values.contains("output") ? values["output"].as<std::string>() : std::string(usual);
     if (fs::is_directory(path)) path /= usual;
-    std::error_code missing;
-    if (fs::equivalent(path, input, missing)) {
-        throw InputError(fmt::format("--output: found {}, the input itself, expected another file", path.string()));
-    }
-    if (fs::exists(path) && !values.contains("force")) {
-        throw InputError(fmt::format("--output: found {} there already, expected a new file; add --force to replace it",
-                                     path.string()));
-    }
+    refuse_replacing(path, values.contains("force"), std::array{input});
     return path;
 }
 

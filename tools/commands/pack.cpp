@@ -7,12 +7,14 @@
 #include <iostream>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "solver/base/errors.hpp"
 #include "solver/demseg/geometry.hpp"
 #include "solver/files/replace_file.hpp"
 #include "specimens/packing/packing.hpp"
 #include "tools/commands/commands.hpp"
+#include "tools/terminal/threads.hpp"
 
 namespace crackle::tools {
 namespace {
@@ -42,7 +44,7 @@ SizeDistribution sizes_of(const po::variables_map& values) {
     return UniformRadii{*low, *high};
 }
 
-PackingRequest packing_request(const po::variables_map& values) {
+PackingRequest packing_request(const po::variables_map& values, Messages& messages) {
     PackingRequest request;
     request.count = optional_value<std::int64_t>(values, "count");
     request.height_to_width = optional_value<double>(values, "height-to-width");
@@ -54,7 +56,7 @@ PackingRequest packing_request(const po::variables_map& values) {
     const auto seed = values["seed"].as<std::int64_t>();
     if (seed < 0) throw InputError(fmt::format("--seed: found {}, expected a whole number >= 0", seed));
     request.seed = static_cast<std::uint64_t>(seed);
-    request.threads = values["threads"].as<int>();
+    request.threads = threads_of_machine(values["threads"].as<int>(), messages);
     request.material.density = values["density"].as<double>();
     request.material.normal_stiffness = values["normal-stiffness"].as<double>();
     request.material.shear_stiffness = values["shear-stiffness"].as<double>();
@@ -129,13 +131,11 @@ CommandLine describe_pack() {
 int pack(const Invocation& given) {
     const po::variables_map& values = given.values;
     const std::string output = values["output"].as<std::string>();
-    std::error_code unreadable;  // writing reports what cannot be written
-    if (std::filesystem::exists(output, unreadable) && !values.contains("force")) {
-        throw InputError(
-            fmt::format("--output: found {} there already, expected a new file; add --force to replace it", output));
-    }
-    const PackingRequest request = packing_request(values);
+    std::vector<std::filesystem::path> inputs;
+    if (values.contains("sieve")) inputs.emplace_back(values["sieve"].as<std::string>());
+    refuse_replacing(output, values.contains("force"), inputs);
     Messages& messages = given.messages;
+    const PackingRequest request = packing_request(values, messages);
     std::string stage;
     const Packing packing = make_packing(request, [&](const PackingProgress& p) {
         if (messages.verbose() && p.stage != stage) {

@@ -149,6 +149,7 @@ void plot_tests(const po::variables_map& given, const Words& folders, const Look
     const std::string extension = output.extension().string();
     const Format format =
         format_named(fmt::format("--output {}", output.string()), extension.empty() ? "" : extension.substr(1));
+    refuse_replacing(output, given.contains("force"));
     Words what = given.contains("what") ? given["what"].as<Words>() : Words{"all"};
     for (const std::string& word : what) {
         if (word != "curve" && word != "ae" && word != "specimen" && word != "all")
@@ -184,7 +185,9 @@ void plot_tests(const po::variables_map& given, const Words& folders, const Look
     if (!messages.quiet()) std::cout << output.string() << '\n';
 }
 
-/// Figures 26 to 29 of the guide: its circles, the partitions made of them, and what these bear.
+constexpr int first_guide_figure = 26, last_guide_figure = 29;
+
+/// These figures of the guide: its circles, the partitions made of them, and what these bear.
 void plot_guide(const po::variables_map& given, const Look& look, Messages& messages) {
     const fs::path folder = given["guide"].as<std::string>(), output = given["output"].as<std::string>();
     const std::string extension = given["format"].as<std::string>();
@@ -192,6 +195,9 @@ void plot_guide(const po::variables_map& given, const Look& look, Messages& mess
     if (fs::exists(output) && !fs::is_directory(output))
         throw InputError(fmt::format("plot: --output: found {}, a file, expected a folder for the guide's figures",
                                      output.string()));
+    const auto file_of = [&](int number) { return output / fmt::format("figure{}.{}", number, extension); };
+    for (int number = first_guide_figure; number <= last_guide_figure; ++number)
+        refuse_replacing(file_of(number), given.contains("force"));
     std::map<std::string, Recording> tests;
     for (const char* specimen : {"circles", "delaunay", "voronoi"}) {
         for (const char* kind : {"tension", "compression"}) {
@@ -233,7 +239,7 @@ void plot_guide(const po::variables_map& given, const Look& look, Messages& mess
     std::error_code error;
     fs::create_directories(output, error);  // replace_file() reports what cannot be written
     for (const auto& [number, panels] : figures) {
-        const fs::path file = output / fmt::format("figure{}.{}", number, extension);
+        const fs::path file = file_of(number);
         replace_file(file, figure(panels, given["title"].as<std::string>(), look.width, format, look.sheet));
         if (!messages.quiet()) std::cout << file.string() << '\n';
     }
@@ -263,7 +269,8 @@ CommandLine describe_plot() {
         ("guide", po::value<std::string>()->value_name("FOLDER"),
          "folder of the six tests of tools/quickstart: figures 26 to 29 of DEMseg's guide")  //
         ("format", po::value<std::string>()->value_name("FORMAT")->default_value("pdf"),
-         "of the guide's figures: svg, pdf or png");
+         "of the guide's figures: svg, pdf or png")  //
+        ("force", "replace figures that are there");
     return {
         .synopses = {"crackle plot OUT... -o FIGURE [OPTIONS]", "crackle plot --guide FOLDER -o FOLDER [OPTIONS]"},
         .description =

@@ -11,6 +11,7 @@
 #include "tools/commands/commands.hpp"
 #include "tools/terminal/interrupt.hpp"
 #include "tools/terminal/shipped.hpp"
+#include "tools/terminal/threads.hpp"
 
 namespace crackle::tools {
 namespace {
@@ -28,7 +29,7 @@ DeckOptions deck_options(const Invocation& given) {
     if (values.contains("integrator"))
         options.integrator = integrator_named("--integrator", values["integrator"].as<std::string>());
     options.allow_unstable = values.contains("allow-unstable");
-    options.threads = values["threads"].as<int>();
+    options.threads = threads_of_machine(values["threads"].as<int>(), given.messages);
     return options;
 }
 

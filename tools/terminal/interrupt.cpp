@@ -20,6 +20,12 @@ extern "C" void take_down_interrupt(int signal) {
 void watch_interrupts() {
     std::signal(SIGINT, take_down_interrupt);
     std::signal(SIGTERM, take_down_interrupt);
+    std::signal(SIGHUP, take_down_interrupt);
+}
+
+void make_writing_fail_by_error() {
+    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
 }
 
 bool interrupted() { return asked; }

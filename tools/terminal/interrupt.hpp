@@ -1,14 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Ctrl-C as a wish to end cleanly.
+// Signals: Ctrl-C as a wish to end cleanly.
 // Tested by tests/tools/commands/command_line_test.cpp.
 #pragma once
 
 namespace crackle::tools {
 
-/// From now on SIGINT and SIGTERM are taken down instead of ending the program; a second one of the same kind ends it.
+/// From now on SIGINT, SIGTERM and SIGHUP (a closed terminal) are taken down instead of ending the program; a second
+/// one of the same kind ends it.
 void watch_interrupts();
 
-/// Whether one has come.
+/// From now on a pipe without a reader and a file beyond the limit on its size are errors of writing, as a full disc
+/// is, and not the end of the program in the middle of a file.
+void make_writing_fail_by_error();
+
+/// Whether a signal to end has come.
 bool interrupted();
 
 }  // namespace crackle::tools

@@ -13,6 +13,24 @@ namespace {
 
 constexpr std::string_view notice_mark = "notice:";
 
+// Of one message: more is a file's contents that found its way into it.
+constexpr std::size_t longest_message = 2000;
+
+/// What a terminal may be sent: names and contents of files may hold anything, its commands too.
+std::string printable(std::string_view text) {
+    std::string shown;
+    for (const char letter : text.substr(0, longest_message)) {
+        const auto byte = static_cast<unsigned char>(letter);
+        if ((byte < 0x20 && letter != '\n' && letter != '\t') || byte == 0x7f) {
+            shown += fmt::format("\\x{:02x}", byte);
+        } else {
+            shown += letter;
+        }
+    }
+    if (text.size() > longest_message) shown += fmt::format("... ({} bytes more)", text.size() - longest_message);
+    return shown;
+}
+
 }  // namespace
 
 Messages::Messages(Loudness loudness)
@@ -30,9 +48,10 @@ void Messages::line(const std::string& text) {
         last_line_ = now;
     }
     if (text.starts_with(notice_mark)) {
-        std::cerr << styled(std::string(notice_mark), Style::notice, Stream::err) << text.substr(notice_mark.size());
+        std::cerr << styled(std::string(notice_mark), Style::notice, Stream::err)
+                  << printable(text.substr(notice_mark.size()));
     } else {
-        std::cerr << text;
+        std::cerr << printable(text);
     }
     std::cerr << '\n';
 }
@@ -48,7 +67,7 @@ void Messages::detail(const std::string& text) {
 void Messages::notice(const std::string& text) {
     if (quiet()) return;
     progress_.clear();
-    std::cerr << styled("crackle:", Style::notice, Stream::err) << ' ' << text << '\n';
+    std::cerr << styled("crackle:", Style::notice, Stream::err) << ' ' << printable(text) << '\n';
 }
 
 void report_error(const std::string& text) {
@@ -57,7 +76,8 @@ void report_error(const std::string& text) {
     const bool named = text.starts_with(own) && colon != std::string::npos &&
                        text.find_first_of("/.", own.size()) > colon;  // no file's name
     const std::string beginning = named ? text.substr(0, colon + 1) : "crackle:";
-    std::cerr << styled(beginning, Style::error, Stream::err) << ' ' << (named ? text.substr(colon + 2) : text) << '\n';
+    std::cerr << styled(beginning, Style::error, Stream::err) << ' ' << printable(named ? text.substr(colon + 2) : text)
+              << '\n';
 }
 
 }  // namespace crackle::tools

@@ -180,6 +180,49 @@ TEST_F(StoppedDeck, WhileItsFilesWereReplacedGoesOnWithTheBytesOfOneThatWasNot) 
     }
 }
 
+TEST_F(StoppedDeck, ThatWasKilledGoesOnFromWhatItSavedLast) {
+    struct Killed {};
+    const auto whole = scratch_ / "whole", killed = scratch_ / "killed";
+    run(whole, false);
+    DeckOptions options;
+    options.folder = shipped_deck("embankment");
+    options.output = killed;
+    options.steps = 300;
+    options.save_interval = 0.0;  // whenever the clock is looked at, every 64 steps
+    const auto die = [](const World& world) {
+        if (world.stepping.steps == 200) throw Killed();
+        return true;
+    };
+    EXPECT_THROW(DeckRun(options).run(die), Killed);
+    DeckOptions rest;
+    rest.folder = killed;
+    rest.goes_on = true;
+    rest.steps = 300 - 192;
+    DeckRun second(rest);
+    EXPECT_EQ(second.first_step(), 192);
+    second.run();
+    for (const auto& file : std::filesystem::directory_iterator(whole)) {
+        const auto name = file.path().filename();
+        EXPECT_TRUE(read_file(killed / name) == read_file(file.path())) << name;
+    }
+}
+
+TEST_F(StoppedDeck, OfANewRunLeavesNoFilesOfTheOneItReplaces) {
+    const auto folder = scratch_ / "deck";
+    run(folder, false);
+    DeckOptions options;
+    options.folder = shipped_deck("embankment");
+    options.output = folder;
+    options.overwrite = true;
+    bool looked = false;
+    DeckRun(options).run([&](const World&) {
+        for (const char* name : next_files) EXPECT_FALSE(std::filesystem::exists(folder / name)) << name;
+        looked = true;
+        return false;
+    });
+    EXPECT_TRUE(looked);
+}
+
 TEST_F(StoppedDeck, WhoseFilesAreCopiedByHandIsToldToCopyThemAgain) {
     const auto folder = scratch_ / "deck";
     run(folder, false);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <fstream>
 #include <map>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -93,10 +94,14 @@ class TestFolder : public ::testing::Test {
         sliding.output += "\nslips = true";
         return {pulled, squeezed, discs, sliding};
     }
-    /// Stops when asked for the nth time; the loop asks every 64 steps.
+    /// Stops when asked for the nth time while it loads; the loop asks every 64 steps.
     static TestHooks stopping_at(int questions) {
         TestHooks hooks;
-        hooks.interrupted = [left = questions]() mutable { return --left < 0; };
+        const auto loading = std::make_shared<bool>(false);
+        hooks.stage = [loading](const std::string& line) {
+            *loading = *loading || line.starts_with("small strain: ") || line.starts_with("resumed at step ");
+        };
+        hooks.interrupted = [loading, left = questions]() mutable { return *loading && --left < 0; };
         return hooks;
     }
 

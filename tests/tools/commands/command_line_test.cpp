@@ -142,6 +142,20 @@ TEST_F(CommandLines, AResultThatCannotBePrintedIsNoSuccess) {
     }
 }
 
+TEST_F(CommandLines, WhatFilesAreCalledCannotReachTheTerminal) {
+    const Answer answer = shell("crackle test \"$(printf '\\033[31mred\\007.toml')\" -o out");
+    EXPECT_EQ(answer.code, 2);
+    EXPECT_NE(answer.err.find("\\x1b[31mred\\x07.toml"), std::string::npos) << answer.err;
+    EXPECT_EQ(answer.err.find('\x1b'), std::string::npos);
+}
+
+TEST_F(CommandLines, MessagesHaveAnEnd) {
+    const Answer answer = shell("crackle test \"$(head -c 100000 /dev/zero | tr '\\0' x)\" -o out");
+    EXPECT_EQ(answer.code, 2);
+    EXPECT_LT(answer.err.size(), 2200U);
+    EXPECT_NE(answer.err.find("bytes more)"), std::string::npos);
+}
+
 TEST_F(CommandLines, BashCompletesCommandsOptionsAndTheirWords) {
     const Words all = listed(call("--help").out);
     std::set<std::string> expected(all.begin(), all.end());
@@ -228,8 +242,9 @@ TEST_F(CommandLines, VerboseTestTellsStagesStepThreadsAndBytes) {
     testing::write_small_case(folder_, {.mesh = "voronoi"});
     const Answer verbose = call("test case.toml -o out -v --threads 2");
     ASSERT_EQ(verbose.code, 0) << verbose.err;
-    for (const char* part : {"meshed into", "bonded ", "small strain", "contact points touch", "time step",
-                             "guaranteed bound", "on 2 threads", "bytes in out"})
+    for (const char* part :
+         {"meshed into", "bonded ", "small strain", "contact points touch", "time step", "guaranteed bound",
+          "steps to max_axial_strain", "1 of 2 threads are used", "on 1 threads", "bytes in out"})
         EXPECT_NE(verbose.err.find(part), std::string::npos) << part << '\n' << verbose.err;
 }
 

@@ -53,6 +53,11 @@ TEST_F(CrackleElastic, SaysPascalWhereTheUnitsAreOfAnArea) {
     EXPECT_TRUE(nlohmann::json::parse(json.out)["units"]["first_break_stress"].get<std::string>().starts_with("Pa,"));
 }
 
+TEST_F(CrackleElastic, NeverReplacesItsOwnInput) {
+    for (const std::string input : {"case.toml", "rock.dat"})
+        expect_refused("case.toml -q --force --bonds " + input, input + ": found an input of the same command");
+}
+
 TEST_F(CrackleElastic, WritesBondForcesOfHalfTheStrainHalfAsLarge) {
     ASSERT_EQ(call("case.toml -q --strain 1e-4 --bonds full.csv").code, 0);
     ASSERT_EQ(call("case.toml -q --strain 5e-5 --bonds half.csv").code, 0);
@@ -81,7 +86,7 @@ TEST_F(CrackleElastic, RefusesWhatItCannotUse) {
     expect_refused("case.toml -q --strain 0", "--strain: found 0, expected a number > 0");
     expect_refused("case.toml -q --modes -1", "--modes: found -1");
     expect_refused("case.toml -q --modes 100000", "ask for fewer");
-    expect_refused("case.toml -q --bonds mine.csv", "mine.csv: exists already");
+    expect_refused("case.toml -q --bonds mine.csv", "mine.csv: found there already");
 }
 
 }  // namespace

@@ -102,7 +102,8 @@ TEST_F(CrackleMesh, LeavesAnExistingFileAlone) {
     write("mine.dat", "precious\n");
     const std::string words = "seeds.txt --kind voronoi --thick 1e-3 --domain 0 1 0 1 -o mine.dat";
     expect_refused(words, "--force");
-    expect_refused("seeds.txt --kind voronoi --thick 1e-3 --domain 0 1 0 1 --force -o seeds.txt", "the input itself");
+    expect_refused("seeds.txt --kind voronoi --thick 1e-3 --domain 0 1 0 1 --force -o seeds.txt",
+                   "found an input of the same command");
     expect_refused("seeds.txt --kind voronoi --thick 1e-3 --domain 0 1 0 0 --force -o mine.dat", "y1 < y2");
     EXPECT_EQ(read("mine.dat"), "precious\n");
     EXPECT_EQ(call(words + " --force").code, 0);

@@ -51,6 +51,12 @@ TEST_F(CracklePack, TakesASieveCurveAVoidRatioAndAMaterial) {
     EXPECT_NE(answer.out.find("void ratio       0.19"), std::string::npos) << answer.out;
 }
 
+TEST_F(CracklePack, NeverReplacesItsOwnInput) {
+    write("curve.csv", "size,passing_by_mass\n0.02,0\n0.03,0.4\n0.04,1\n");
+    expect_refused("--count 60 --sieve curve.csv" + target_ + " --force -o ./curve.csv",
+                   "curve.csv: found an input of the same command");
+}
+
 TEST_F(CracklePack, LeavesAnExistingFileAlone) {
     write("mine.dat", "precious\n");
     const std::string words = "--count 60" + sizes_ + target_ + " -o mine.dat";

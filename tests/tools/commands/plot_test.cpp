@@ -30,7 +30,7 @@ class PlotCommand : public ProgramCall {
         write_sample_results(folder_ / "squeezed", SampleTest{});
     }
     std::string drawn(const std::string& words, const std::string& file) const {
-        const Answer answer = call(words + " -o " + file);
+        const Answer answer = call(words + " --force -o " + file);
         EXPECT_EQ(answer.code, 0) << answer.err;
         EXPECT_EQ(answer.out, file + "\n");
         return read(file);
@@ -399,19 +399,23 @@ TEST_F(PlotCommand, ATestWithoutFramesHasItsCurves) {
 
 TEST_F(PlotCommand, RefusesWhatItCannotDrawAndLeavesTheFigureThatIsThere) {
     write("figure.pdf", "an earlier figure\n");
+    expect_refused("pulled -o figure.pdf", "figure.pdf: found there already, expected a new file");
     expect_refused("", "found no folder of results");
     expect_refused("pulled", "found no -o");
     expect_refused("pulled -o figure.eps", "found 'eps', expected svg, pdf or png");
     expect_refused("pulled -o figure", "found '', expected svg, pdf or png");
-    expect_refused("nowhere -o figure.pdf", "nowhere: found no such folder");
-    expect_refused("pulled -o figure.pdf --what cracks", "--what: found 'cracks', expected curve, ae, specimen or all");
-    expect_refused("pulled -o figure.pdf --at 0.5", "--at: found 0.5, expected 0 to 0.0015, the last strain of pulled");
-    expect_refused("pulled -o figure.pdf --at soon", "--at: found 'soon', expected a strain, start, peak or end");
-    expect_refused("pulled -o figure.pdf --width 3", "--width: found 3, expected 30 to 1000 mm");
-    expect_refused("pulled -o figure.pdf --columns 3", "--columns: found 3, expected 1 or 2");
-    expect_refused("pulled -o figure.pdf --font-size 0", "--font-size: found 0");
-    expect_refused("pulled -o figure.pdf --dpi 1e9", "--dpi: found");
-    expect_refused("pulled squeezed -o figure.pdf --labels one", "--labels: found 1 names, expected 2");
+    expect_refused("nowhere --force -o figure.pdf", "nowhere: found no such folder");
+    expect_refused("pulled --force -o figure.pdf --what cracks",
+                   "--what: found 'cracks', expected curve, ae, specimen or all");
+    expect_refused("pulled --force -o figure.pdf --at 0.5",
+                   "--at: found 0.5, expected 0 to 0.0015, the last strain of pulled");
+    expect_refused("pulled --force -o figure.pdf --at soon",
+                   "--at: found 'soon', expected a strain, start, peak or end");
+    expect_refused("pulled --force -o figure.pdf --width 3", "--width: found 3, expected 30 to 1000 mm");
+    expect_refused("pulled --force -o figure.pdf --columns 3", "--columns: found 3, expected 1 or 2");
+    expect_refused("pulled --force -o figure.pdf --font-size 0", "--font-size: found 0");
+    expect_refused("pulled --force -o figure.pdf --dpi 1e9", "--dpi: found");
+    expect_refused("pulled squeezed --force -o figure.pdf --labels one", "--labels: found 1 names, expected 2");
     expect_refused("pulled -o no/such/figure.pdf", "cannot be written");
 }
 

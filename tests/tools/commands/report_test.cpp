@@ -204,6 +204,15 @@ TEST_F(Report, NamesAnImpossibleKind) {
                    {"test/summary.json: kind: found \"bending\", expected \"compression\" or \"tension\""});
 }
 
+TEST_F(Report, RefusesResultsThatAreHalfReplaced) {
+    fs::create_directories(root / "test.new");
+    std::ofstream(root / "test.new/replaces-older-results") << "";  // a forced test that is still running
+    EXPECT_EQ(run("test -o first.html").code, 0);
+    std::ofstream(root / "test.new/replaces-older-results") << "complete, being moved\nparticles_00000.vtp\n";
+    for (const char* name : {"test", "test/"})
+        expect_refused(name + std::string(" -o page.html"), {"results of two tests", "crackle test --resume test"});
+}
+
 TEST_F(Report, NamesAFrameThatIsMissing) {
     fs::remove(root / "test" / "frames" / "particles_00400.vtp");
     expect_refused("test -o page.html", {"particles_00400.vtp: file not found"});

@@ -395,34 +395,45 @@ TEST_F(CrackleTest, BondsDeeperThanTheirFacesAreSaid) {
     EXPECT_NE(call("case.toml -o wrong").out.find("share no face"), std::string::npos);
 }
 
-TEST_F(CrackleTest, CtrlCEndsCleanlyAndResumeEndsWithTheSameCurve) {
+TEST_F(CrackleTest, SignalsToEndEndCleanlyAndResumeEndsWithTheSameCurve) {
     // Slow enough that the signal meets it while it loads, whatever the machine.
     write_small_case(folder_, {.rate = 2e-4, .max_strain = 0.005});
-    const fs::path curve = folder_ / "out/curve.csv";
-    const pid_t child = fork();
-    ASSERT_GE(child, 0);
-    if (child == 0) {
-        ASSERT_EQ(chdir(folder_.c_str()), 0);
-        execl(CRACKLE_PROGRAM, CRACKLE_PROGRAM, "test", "case.toml", "-o", "out", "-q", static_cast<char*>(nullptr));
-        _exit(127);
-    }
-    for (int wait = 0; wait < 3000 && !fs::exists(folder_ / "out/checkpoint"); ++wait) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    }
-    ASSERT_TRUE(fs::exists(folder_ / "out/checkpoint")) << "loading has begun";
-    kill(child, SIGINT);
-    int status = 0;
-    ASSERT_EQ(waitpid(child, &status, 0), child);
-    ASSERT_TRUE(WIFEXITED(status));
-    EXPECT_EQ(WEXITSTATUS(status), 130);
-    const auto summary = nlohmann::json::parse(read_file(folder_ / "out/summary.json"));
-    EXPECT_TRUE(summary["interrupted"].get<bool>());
-    EXPECT_FALSE(summary["failed"].get<bool>());
-
-    EXPECT_EQ(call("--resume out -q").code, 0);
     EXPECT_EQ(call("case.toml -o whole -q").code, 0);
-    EXPECT_TRUE(read_file(curve) == read_file(folder_ / "whole/curve.csv"));
-    EXPECT_TRUE(read_file(folder_ / "out/events.csv") == read_file(folder_ / "whole/events.csv"));
+    for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+        fs::remove_all(folder_ / "out");
+        const pid_t child = fork();
+        ASSERT_GE(child, 0);
+        if (child == 0) {
+            ASSERT_EQ(chdir(folder_.c_str()), 0);
+            execl(CRACKLE_PROGRAM, CRACKLE_PROGRAM, "test", "case.toml", "-o", "out", "-q",
+                  static_cast<char*>(nullptr));
+            _exit(127);
+        }
+        for (int wait = 0; wait < 3000 && !fs::exists(folder_ / "out/checkpoint"); ++wait) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+        ASSERT_TRUE(fs::exists(folder_ / "out/checkpoint")) << "loading has begun";
+        kill(child, signal);
+        int status = 0;
+        ASSERT_EQ(waitpid(child, &status, 0), child);
+        ASSERT_TRUE(WIFEXITED(status)) << "signal " << signal;
+        EXPECT_EQ(WEXITSTATUS(status), 130);
+        const auto summary = nlohmann::json::parse(read_file(folder_ / "out/summary.json"));
+        EXPECT_TRUE(summary["interrupted"].get<bool>());
+        EXPECT_FALSE(summary["failed"].get<bool>());
+
+        EXPECT_EQ(call("--resume out -q").code, 0);
+        for (const char* file : {"curve.csv", "events.csv"})
+            EXPECT_TRUE(read_file(folder_ / "out" / file) == read_file(folder_ / "whole" / file)) << file;
+    }
+}
+
+TEST_F(CrackleTest, UsesNoMoreThreadsThanThereAreProcessors) {
+    write_small_case(folder_, {.max_strain = 1e-4});
+    const Answer answer = call("case.toml -o out --threads 1000");
+    EXPECT_EQ(answer.code, 0) << answer.err;
+    EXPECT_NE(answer.err.find("of 1000 threads are used"), std::string::npos) << answer.err;
+    EXPECT_LE(read_json(folder_ / "out/summary.json")["threads"].get<unsigned>(), std::thread::hardware_concurrency());
 }
 
 }  // namespace

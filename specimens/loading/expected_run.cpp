@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/loading/expected_run.hpp"
+
+#include <fmt/format.h>
+
+#include "solver/base/errors.hpp"
+
+namespace crackle {
+namespace {
+
+// Particle-steps a second and thread (tests/benchmarks/results/throughput.md).
+constexpr double rate_of_circles = 2e7, rate_of_polygons = 4e6;
+
+// A step below this share of the stable one, and a first strain below this, are what makes a run long.
+constexpr double small_step_share = 0.01, small_first_strain = 1e-6;
+
+/// The key that makes a run long, with its value.
+std::string likely_cause(const VirtualTest& test) {
+    const TestCase& asked = test.description;
+    if (asked.numerics.time_step && *asked.numerics.time_step < small_step_share * test.setup.stable_time_step) {
+        return fmt::format("{} = {:.3g} s, where {:.3g} s are stable", asked.at("numerics.time_step"),
+                           *asked.numerics.time_step, test.setup.stable_time_step);
+    }
+    if (asked.loading.axial_strain_rate)
+        return fmt::format("{} = {:.3g} 1/s", asked.at("loading.axial_strain_rate"), *asked.loading.axial_strain_rate);
+    if (test.setup.rate_rule.first_strain < small_first_strain) {
+        return fmt::format(
+            "{} = {:g}: its first points slide or break at a strain of {:.2g}, and loading goes on as slowly as that "
+            "asks for; look at friction angles and strengths, or give axial_strain_rate",
+            asked.at("loading.rate_tolerance"), *asked.loading.rate_tolerance, test.setup.rate_rule.first_strain);
+    }
+    return fmt::format("{} = {:g}", asked.at("loading.rate_tolerance"), *asked.loading.rate_tolerance);
+}
+
+}  // namespace
+
+RunEstimate expected_run(const VirtualTest& test, double strain, double steps_per_second) {
+    const TestCase::Loading& loading = test.description.loading;
+    const double rate = loading.axial_strain_rate ? *loading.axial_strain_rate : test.state.rate.rate;
+    const double steps = strain / rate / test.world.stepping.time_step;
+    return {strain, steps, steps / steps_per_second};
+}
+
+double roughly_steps_per_second(const VirtualTest& test) {
+    const double rate = test.setup.polygons ? rate_of_polygons : rate_of_circles;
+    return rate * test.world.workers.threads / static_cast<double>(test.world.bodies.size());
+}
+
+void refuse_endless(const VirtualTest& test, const RunEstimate& run) {
+    if (run.steps <= most_steps && run.seconds <= most_seconds) return;
+    constexpr double seconds_a_day = 86400.0;
+    throw InputError(
+        fmt::format("{} = {:g} is {:.2g} steps away, about {:.2g} days, expected at most {:g} steps and a day without "
+                    "--long. It comes from {}",
+                    test.description.at("loading.max_axial_strain"), run.strain, run.steps, run.seconds / seconds_a_day,
+                    most_steps, likely_cause(test)));
+}
+
+}  // namespace crackle
