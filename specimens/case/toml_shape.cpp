@@ -26,6 +26,12 @@ class Walk {
                 pass(std::min(rest_.find('\n'), rest_.size()));
                 continue;
             }
+            if ((static_cast<unsigned char>(c) & 0x80U) != 0) {
+                throw InputError(
+                    fmt::format("{}:{}: found a letter that is not ASCII outside of a text, expected keys and "
+                                "values without; put it into quotes",
+                                name_, line_));
+            }
             if (c == '\n' && open_ == 0) levels_ = 0;
             if (c == '[' || c == '{') ++open_;
             if ((c == ']' || c == '}') && open_ > 0) --open_;

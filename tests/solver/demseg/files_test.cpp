@@ -14,6 +14,7 @@
 #include "solver/demseg/boundary.hpp"
 #include "solver/demseg/contact_files.hpp"
 #include "solver/demseg/deck_reader.hpp"
+#include "solver/demseg/deck_state.hpp"
 #include "solver/demseg/outputs.hpp"
 #include "solver/demseg/random_circles.hpp"
 #include "solver/files/read_file.hpp"
@@ -454,6 +455,10 @@ TEST_F(DeckFolder, AForeignOutputIsRefusedBeforeAnythingIsAppended) {
     DeckRun next(options(true));
     EXPECT_NE(refusal([&] { next.run(); }).find("energy.dat:1: found 'once"), std::string::npos);
     EXPECT_EQ(read_file(folder_ / "energy.dat"), "once upon a time\n");
+    const std::string counts = "0 0 9223372036854775807 9223372036854775807";
+    std::ofstream(folder_ / "output.dat") << counts << '\n';
+    EXPECT_NE(refusal([&] { DeckRun(options(true)).run(); }).find("output.dat:1: found '" + counts.substr(0, 40)),
+              std::string::npos);
 }
 
 TEST_F(DeckFolder, ADerivedStepIsHandedOnAsTheStepInUse) {
@@ -522,6 +527,25 @@ TEST_F(DeckFolder, DamagedStateIsRefusedWithARemedy) {
     const std::string bytes = read_file(folder_ / "new_state.bin");
     std::ofstream(folder_ / "new_state.bin") << bytes.substr(0, bytes.size() / 2);
     EXPECT_NE(refusal([&] { DeckRun{options(true)}; }).find("found a truncated state"), std::string::npos);
+}
+
+TEST_F(DeckFolder, AStateOfOtherBodiesThanItsGeometryIsRefusedWithARemedy) {
+    DeckRun(options()).run();
+    DeckTexts texts;
+    for (std::size_t k = 0; k < texts.size(); ++k)
+        texts[k] = read_file(folder_ / (std::string("new_") + deck_text_names[k]));
+    std::vector<std::string> edited;
+    std::optional<DeckState> state =
+        load_deck_state(folder_ / "new_state.bin", texts, {true, true, true, true}, edited);
+    ASSERT_TRUE(state.has_value());
+    state->world.bodies.info[0].id = 4711;
+    std::ofstream(folder_ / "new_state.bin", std::ios::binary) << save_deck_state(*state, texts);
+    EXPECT_NE(refusal([&] { DeckRun{options(true)}; }).find("found a state of other bodies than its geometry's"),
+              std::string::npos);
+    state->world.points.contact[0].body_i = 4711;  // there are twenty
+    std::ofstream(folder_ / "new_state.bin", std::ios::binary) << save_deck_state(*state, texts);
+    EXPECT_NE(refusal([&] { DeckRun{options(true)}; }).find("found parts that do not belong together"),
+              std::string::npos);
 }
 
 TEST_F(DeckFolder, ContinuingWithoutContactsIsRefused) {

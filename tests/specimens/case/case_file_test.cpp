@@ -267,6 +267,17 @@ TEST_F(CaseFile, DotsAndBracketsInTextsAndCommentsAreNoLevels) {
               std::string::npos);
 }
 
+TEST_F(CaseFile, LettersBeyondAsciiStandInTextsAndCommentsAlone) {
+    EXPECT_EQ(read(std::string("title = \"Gr\xc3\xbc\xc3\x9f"
+                               "e\"  # \xcb\xba\n") +
+                   good_case)
+                  .title,
+              "Gr\xc3\xbc\xc3\x9f"
+              "e");
+    EXPECT_NE(refusal("title = \"\"\ndens\xcb\xba = 1\n").find("case.toml:2: found a letter that is not ASCII"),
+              std::string::npos);
+}
+
 TEST_F(CaseFile, TextsOfItAreCutInErrors) {
     const std::string kind = repeated("stretching ", 500);
     EXPECT_NE(refusal(with("\"tension\"", "\"" + kind + "\"")).find("found \"" + kind.substr(0, 40) + "\", expected"),

@@ -344,6 +344,10 @@ TEST_F(MineralRock, ImagesThatDoNotFitAreRefused) {
     EXPECT_NE(refusal(minerals).find(":18: minerals.image: found no file"), std::string::npos);
     std::ofstream(scratch_ / "section.png") << "GIF89a";
     EXPECT_NE(refusal(minerals).find("cannot be read as PNG"), std::string::npos);
+    // Unpacked it would take 1.6 GB.
+    std::ofstream(scratch_ / "section.png", std::ios::binary)
+        << std::string("\x89PNG\r\n\x1a\n\0\0\0\rIHDR\0\0\x4e\x20\0\0\x4e\x20", 24);
+    EXPECT_NE(refusal(minerals).find("with 400000000 pixels, expected at most 100000000"), std::string::npos);
     write_png(scratch_ / "section.png", 2, {red, green, blue, 0xff0000fe});
     const std::string colour = refusal(minerals);
     EXPECT_NE(colour.find("section.png: pixel 2 of row 2: found #0000fe, expected a colour of a mineral"),
