@@ -22,7 +22,8 @@ namespace crackle::fuzz {
     USE(centres)                  \
     USE(sieve)                    \
     USE(labels)                   \
-    USE(image)
+    USE(image)                    \
+    USE(journal)
 
 #define CRACKLE_FUZZ_DECLARE(name) void name(std::string_view bytes);
 CRACKLE_FUZZ_TARGETS(CRACKLE_FUZZ_DECLARE)
