@@ -1,0 +1,115 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What came of a disturbed command: whether it says so, what it did to earlier results, and what the same command makes of it afterwards."""
+
+from dataclasses import dataclass, field
+from pathlib import PurePosixPath
+
+from program import CAUSES, contents, differences
+
+# Outcomes that are as they should be.
+UNTOUCHED, UNREACHED, SAID, STOPPED, FURTHER, LEFT = (
+    "results right all the same", "not reached", "said so, then right", "stopped by the signal, then right", "repeated, it goes one part further",
+    "right, a file left over")
+GOOD = (UNTOUCHED, UNREACHED, SAID, STOPPED, FURTHER, LEFT)
+# And those that are not, worst first.
+SILENT, LOST, MIXED, HUNG, ABORTED, UNMENDED, WORDS, CODE = (
+    "exit 0, results wrong", "earlier results lost", "went on from a mixture", "hung", "aborted", "not right afterwards", "words", "exit code")
+BAD = (SILENT, LOST, MIXED, HUNG, ABORTED, UNMENDED, WORDS, CODE)
+
+
+def worst_of(faults):
+    """The kind of an outcome with such faults."""
+    return min((kind for kind, _ in faults), key=lambda kind: (*BAD, *GOOD).index(kind))
+
+
+def left_over(final, scene):
+    """Names beside right results; empty: there are none, or results are not right."""
+    for right in scene.accepted:
+        if all(final.get(name) == data for name, data in right.items()):
+            return ", ".join(name for name in final if name not in right)
+    return ""
+
+
+@dataclass
+class Outcome:
+    kind: str
+    faults: list = field(default_factory=list)  # (kind, detail) of what is not as it should be, or worth a look
+
+
+def names_for(path):
+    """How a message may name what could not be had: the file, what it was to become, or the folder it lies in."""
+    path = PurePosixPath(path)
+    name = path.name.removesuffix(".tmp")
+    found = {name} if name else set()
+    found |= {part for part in path.parent.parts}
+    return found | ({"."} if len(path.parts) <= 1 else set())
+
+
+def wrong_words(run, error, calls):
+    """What one line of an error should be and is not; None: all is well."""
+    lines = run.err.splitlines()
+    if len(lines) != 1:
+        return f"{len(lines)} lines: {run.err.strip()[:160]!r}"
+    if error is None:
+        return None
+    if CAUSES[error] not in lines[0]:
+        return f"no cause ({CAUSES[error]}): {lines[0]}"
+    if error != "ENOMEM" and calls and not any(name in lines[0] for call in calls for name in names_for(call.path)):
+        return f"names no file ({calls[0].path}): {lines[0]}"
+    return None
+
+
+def went_on(program, scene, place, stopped, after):
+    """Does what a user does next. @return faults found"""
+    found = []
+    for words in scene.ways_on(stopped, after):
+        done = program.run(words, place)
+        if done.hung:
+            return [(HUNG, f"crackle {words}")]
+        if done.code == 0:
+            final = contents(place / "work")
+            if final in scene.accepted:
+                return found
+            if scene.one_further is not None and final == scene.one_further:
+                return [*found, (FURTHER, f"crackle {words}")]
+            if names := left_over(final, scene):
+                return [*found, (LEFT, f"crackle {words}: {names}")]
+            return [*found, (MIXED, f"crackle {words}: exit 0, {differences(final, scene.expected)}")]
+        if not 1 <= done.code <= 4:
+            return [*found, (ABORTED, f"crackle {words} ended with {done.code}: {done.err.strip()[:160]}")]
+        if complaint := wrong_words(done, None, []):
+            found.append((WORDS, f"crackle {words}: {complaint}"))
+    return [*found, (UNMENDED, f"crackle {words}: {done.err.strip()[:200]}")]
+
+
+def judge(program, scene, place, run, error=None, signal=None, mend=lambda: None):
+    """Of a run with a call that failed, or a signal (its name). error: the name of what the call gave; mend: before the user goes on"""
+    if run.hung:
+        return Outcome(HUNG, faults=[(HUNG, "longer than a minute")])
+    after = contents(place / "work")
+    if run.code == 0:
+        if after in scene.accepted:
+            return Outcome(UNTOUCHED if run.calls else UNREACHED)
+        if names := left_over(after, scene):
+            return Outcome(LEFT, faults=[(LEFT, names)])
+        return Outcome(SILENT, faults=[(SILENT, differences(after, scene.expected))])
+    faults = []
+    if signal is None:
+        if run.code < 0:
+            faults.append((ABORTED, f"signal {-run.code}: {run.err.strip()[:160]}"))
+        elif run.code > 4:
+            faults.append((CODE, f"{run.code}: {run.err.strip()[:160]}"))
+        elif complaint := wrong_words(run, error, run.calls):
+            faults.append((WORDS, complaint))
+    elif run.code > 0:
+        if complaint := wrong_words(run, None, []):
+            faults.append((WORDS, complaint))
+    if lost := scene.damage(after):
+        faults.append((LOST, lost + (f"; it says: {run.err.strip()[-60:]}" if "as they were" in run.err else "")))
+    elif "as they were" in run.err and not all(after.get(name) == data for name, data in scene.before.items()):
+        faults.append((WORDS, f"says as they were, and they are not: {run.err.strip()[:200]}"))
+    mend()
+    faults += went_on(program, scene, place, run, after)
+    if faults:
+        return Outcome(worst_of(faults), faults=faults)
+    return Outcome(SAID if run.code > 0 else STOPPED)

@@ -1,0 +1,81 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Real places without room: a small file system in memory that fills up, and a folder that the user may not write."""
+
+import os
+import shutil
+import subprocess
+
+from judgement import UNREACHED, UNTOUCHED, judge
+from program import Call
+
+NOBODY = 65534
+PAGE = 4  # kB
+MOST = 1 << 16  # kB: room for all
+
+
+class NotHere(Exception):
+    """Why it cannot be tried."""
+
+
+def mounted(folder, kilobytes, again=False):
+    options = ("remount," if again else "") + f"size={kilobytes}k,mode=755"
+    done = subprocess.run(["mount", "-t", "tmpfs", "-o", options, "tmpfs", str(folder)], capture_output=True, text=True)
+    if done.returncode:
+        raise NotHere(f"mount: {done.stderr.strip()}")
+
+
+def copied(origin, folder):
+    for path in sorted(origin.rglob("*")):
+        target = folder / path.relative_to(origin)
+        target.mkdir() if path.is_dir() else shutil.copyfile(path, target)
+
+
+def pages(folder):
+    return 1 + sum(1 if path.is_dir() else 1 + -(-path.stat().st_size // (1024 * PAGE)) for path in folder.rglob("*"))
+
+
+def full_disc(program, scene, place, origin, quick):
+    """Larger and larger discs, until the command is done. @yield outcomes with the kilobytes"""
+    if os.geteuid() != 0:
+        raise NotHere("mount: only root may")
+    work, used, more = place / "work", pages(origin / "before"), 1
+    while True:
+        shutil.rmtree(work, ignore_errors=True)
+        work.mkdir(parents=True)
+        size = (used + more) * PAGE
+        mounted(work, size)
+        try:
+            copied(origin / "before", work)
+            run = program.run(scene.command, place)
+            run.calls = [Call("write", 0, scene.results[0])]
+            outcome = judge(program, scene, place, run, "ENOSPC", mend=lambda: mounted(work, MOST, again=True))
+        finally:
+            subprocess.run(["umount", str(work)], check=True)
+        yield outcome, size
+        if outcome.kind in (UNTOUCHED, UNREACHED):
+            return
+        more = 4 * more if quick else more + max(1, more // 6)
+
+
+def read_only(program, scene, place, origin):
+    """The command as a user to whom the folder does not belong."""
+    if os.geteuid() != 0 or shutil.which("setpriv") is None:
+        raise NotHere("setpriv: only root may become someone else")
+    scene.restore(place, origin)
+    work = place / "work"
+    as_nobody = ["setpriv", f"--reuid={NOBODY}", f"--regid={NOBODY}", "--clear-groups"]
+    for path in [*work.rglob("*"), work]:
+        path.chmod(0o555 if path.is_dir() else 0o444)
+    for parent in place.parents:
+        if not os.stat(parent).st_mode & 0o001:
+            raise NotHere(f"{parent}: not open to others")
+    reachable = subprocess.run([*as_nobody, str(program.program), "--version"], capture_output=True)
+    if reachable.returncode:
+        raise NotHere(f"{program.program}: cannot be started by others")
+    run = program.run(scene.command, place, before=as_nobody)
+    run.calls = [Call("open", 0, scene.results[0])]
+
+    def writable():
+        for path in [*work.rglob("*"), work]:
+            path.chmod(0o755 if path.is_dir() else 0o644)
+    return judge(program, scene, place, run, "EACCES", mend=writable)

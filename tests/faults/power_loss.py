@@ -1,0 +1,50 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Loss of power at each moment of a command, played from its trace (disc.py); then what its user does next."""
+
+import random
+
+from disc import Disc, read_trace
+from judgement import SAID, Outcome, went_on, worst_of
+from program import Run, put
+
+SURE = (("lost", "lost"), ("lost", "kept"), ("kept", "lost"))  # of data, of names
+BY_CHANCE = 200
+
+
+def trace_of(program, scene, place, origin):
+    scene.restore(place, origin)
+    file = place / "trace"
+    program.run(scene.command, place, trace=file)
+    return read_trace(file, place / "work")
+
+
+def states(before, operations, quick):
+    """Folders as a loss of power may leave them, each once: [(after so many operations, what was lost, {name: bytes})]."""
+    disc, chance = Disc(before), random.Random(1)
+    moments = sorted(chance.choices(range(1, len(operations) + 1), k=BY_CHANCE // 10 if quick else BY_CHANCE))
+    seen, found = set(), []
+
+    def add(moment, what, files):
+        key = hash(tuple(sorted(files.items())))
+        if key not in seen:
+            seen.add(key)
+            found.append((moment, what, files))
+    every = max(1, len(operations) // 8) if quick else 1
+    for moment, operation in enumerate(operations, 1):
+        disc.do(operation)
+        if moment % every == 0 or moment == len(operations):
+            for data, names in SURE:
+                add(moment, f"data {data}, names {names}", disc.after_loss(data, names))
+        for _ in range(moments.count(moment)):
+            add(moment, "by chance", disc.after_loss("chance", "chance", chance))
+    return found
+
+
+def attempt(program, scene, place, files):
+    """What comes of a folder as the loss left it."""
+    put(place / "work", files)
+    stopped = Run(scene.command, 130 if "run" in scene.name else -9, "", "")  # a user tries --continue first
+    faults = went_on(program, scene, place, stopped, files)
+    if not faults:
+        return Outcome(SAID)
+    return Outcome(worst_of(faults), faults=faults)
