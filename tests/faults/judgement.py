@@ -5,12 +5,13 @@ from dataclasses import dataclass, field
 from pathlib import PurePosixPath
 
 from program import CAUSES, contents, differences
+from scenes import as_it_was
 
 # Outcomes that are as they should be.
-UNTOUCHED, UNREACHED, SAID, STOPPED, FURTHER, LEFT = (
+UNTOUCHED, UNREACHED, SAID, STOPPED, FURTHER, LEFT, GONE = (
     "results right all the same", "not reached", "said so, then right", "stopped by the signal, then right", "repeated, it goes one part further",
-    "right, a file left over")
-GOOD = (UNTOUCHED, UNREACHED, SAID, STOPPED, FURTHER, LEFT)
+    "right, a file left over", "said so, earlier outputs gone, then right")
+GOOD = (UNTOUCHED, UNREACHED, SAID, STOPPED, FURTHER, LEFT, GONE)
 # And those that are not, worst first.
 SILENT, LOST, MIXED, HUNG, ABORTED, UNMENDED, WORDS, CODE = (
     "exit 0, results wrong", "earlier results lost", "went on from a mixture", "hung", "aborted", "not right afterwards", "words", "exit code")
@@ -19,7 +20,7 @@ BAD = (SILENT, LOST, MIXED, HUNG, ABORTED, UNMENDED, WORDS, CODE)
 
 def worst_of(faults):
     """The kind of an outcome with such faults."""
-    return min((kind for kind, _ in faults), key=lambda kind: (*BAD, *GOOD).index(kind))
+    return min((kind for kind, _ in faults), key=(*BAD, GONE, FURTHER, LEFT).index)
 
 
 def left_over(final, scene):
@@ -108,6 +109,8 @@ def judge(program, scene, place, run, error=None, signal=None, mend=lambda: None
         faults.append((LOST, lost + (f"; it says: {run.err.strip()[-60:]}" if "as they were" in run.err else "")))
     elif "as they were" in run.err and not all(after.get(name) == data for name, data in scene.before.items()):
         faults.append((WORDS, f"says as they were, and they are not: {run.err.strip()[:200]}"))
+    elif scene.at_once and (gone := as_it_was(scene.before, after, scene.expected, scene.results)):
+        faults.append((GONE, gone))
     mend()
     faults += went_on(program, scene, place, run, after)
     if faults:

@@ -43,7 +43,7 @@ def states(before, operations, quick):
 def attempt(program, scene, place, files):
     """What comes of a folder as the loss left it."""
     put(place / "work", files)
-    stopped = Run(scene.command, 130 if "run" in scene.name else -9, "", "")  # a user tries --continue first
+    stopped = Run(scene.command, 130 if scene.further else -9, "", "")  # a user tries --continue first
     faults = went_on(program, scene, place, stopped, files)
     if not faults:
         return Outcome(SAID)

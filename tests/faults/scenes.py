@@ -123,7 +123,7 @@ class Scene:
         ways = []
         if kind == "test" and "out/" in after and "out/" not in self.before:
             ways.append(self.resume)
-        if kind == "run" and stopped.code == 130 and "out/" in after:
+        if self.further and stopped.code == 130 and "out/" in after:
             ways.append(GO_ON)
         return list(dict.fromkeys([*ways, self.command, self.forced(), self.otherwise or self.command]))
 
