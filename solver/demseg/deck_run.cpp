@@ -20,6 +20,7 @@
 #include "solver/files/file_set.hpp"
 #include "solver/files/folder_lock.hpp"
 #include "solver/files/read_file.hpp"
+#include "solver/files/replace_file.hpp"
 #include "solver/measure/health.hpp"
 #include "solver/measure/point_view.hpp"
 #include "solver/stepping/bonding.hpp"
@@ -91,7 +92,7 @@ DeckRun::DeckRun(DeckOptions options) : options_(std::move(options)) {
     for (std::size_t k = 0; k < texts.contents.size(); ++k) {
         const std::filesystem::path path = input(deck_text_names[k]);
         texts.names[k] = path.string();
-        texts.present[k] = k < 2 || std::filesystem::exists(path);  // reading in_gm.dat and in_bc.dat reports those two
+        texts.present[k] = k < 2 || is_there(path);  // reading in_gm.dat and in_bc.dat reports those two
         if (texts.present[k]) texts.contents[k] = read_file(path);
     }
     DeckReader reader = texts.reader(1);
@@ -110,7 +111,7 @@ DeckRun::DeckRun(DeckOptions options) : options_(std::move(options)) {
 /// The last run here may have been stopped while it replaced the files for the next part.
 void DeckRun::complete_earlier_run() const {
     const std::filesystem::path journal = options_.folder / journal_name;
-    if (!std::filesystem::exists(journal)) return;
+    if (!is_there(journal)) return;
     const FolderLock lock(options_.folder);
     if (!complete_replacement(journal) || options_.goes_on) return;
     throw InputError(
@@ -183,7 +184,7 @@ bool DeckRun::start_from_state(const Texts& texts) {
     if (!options_.goes_on) candidates.push_back(options_.folder / "in_state.bin");
     candidates.push_back(options_.folder / state_name);
     for (const std::filesystem::path& path : candidates) {
-        if (!std::filesystem::exists(path)) continue;
+        if (!is_there(path)) continue;
         std::vector<std::string> edited;
         std::optional<DeckState> state = load_deck_state(path, texts.contents, texts.present, edited);
         if (!state) {
@@ -241,8 +242,8 @@ void DeckRun::refuse_existing_outputs() const {
     // new_state.bin may be there as an input, as DEMseg's users rename the text files alone.
     for (const std::string& name : names) {
         const std::filesystem::path path = output_folder() / name;
-        if (!std::filesystem::exists(path)) continue;
-        const bool can_go_on = std::filesystem::exists(output_folder() / (std::string("new_") + deck_text_names[0]));
+        if (!is_there(path)) continue;
+        const bool can_go_on = is_there(output_folder() / (std::string("new_") + deck_text_names[0]));
         throw InputError(fmt::format(
             "{}: found the output of an earlier run{}, expected none; give another folder with -o, {}replace it with "
             "--force",
@@ -266,11 +267,7 @@ void DeckRun::write_rows(DeckOutputs& outputs) const {
 }
 
 void DeckRun::run(const std::function<bool(const World&)>& go_on) {
-    std::error_code error;
-    std::filesystem::create_directories(output_folder(), error);
-    if (error)
-        throw InputError(fmt::format("{}: cannot be made ({}), expected a writable folder", output_folder().string(),
-                                     error.message()));
+    make_folder(output_folder());
     const FolderLock lock = lock_ ? *std::exchange(lock_, std::nullopt) : FolderLock(output_folder());
     complete_replacement(output_folder() / journal_name);  // of a run that this one replaces
     refuse_existing_outputs();                             // another run may have been here since
@@ -289,9 +286,9 @@ void DeckRun::run(const std::function<bool(const World&)>& go_on) {
             continue;
         }
         const FileSet files = files_for_next();
-        do_step(outputs, first_part);  // whoever goes on from the files takes its row for written
+        do_step(outputs, first_part);  // its row is taken for written, too
         outputs.flush();
-        replace_files(output_folder() / journal_name, files);
+        save(files);
         saved = Clock::now();
     }
     const auto files = files_for_next();
@@ -299,6 +296,11 @@ void DeckRun::run(const std::function<bool(const World&)>& go_on) {
     check_health(world_);
     if (first_part || world_.stepping.steps > first_step_) write_rows(outputs);
     outputs.flush();
+    save(files);
+}
+
+void DeckRun::save(const FileSet& files) const {
+    bring_all_to_disc(output_folder());  // whoever goes on from the files takes the rows before them for written
     replace_files(output_folder() / journal_name, files);
 }
 

@@ -82,6 +82,8 @@ class DeckRun {
     BoundaryConditions boundary_for_next() const;
     /// Contents of new_in_gm.dat, new_in_bc.dat, new_in_cf.dat, new_in_cf0.dat and new_state.bin, by name.
     FileSet files_for_next() const;
+    /// Puts them in the place of the earlier ones, once the outputs are on the disc.
+    void save(const FileSet& files) const;
 
     DeckOptions options_;
     // Of the output folder, from before its files are read where the run goes on there.

@@ -17,6 +17,7 @@
 
 #include "solver/base/errors.hpp"
 #include "solver/demseg/contact_files.hpp"
+#include "solver/files/read_file.hpp"
 #include "solver/files/replace_file.hpp"
 #include "solver/measure/ledger.hpp"
 #include "solver/measure/point_view.hpp"
@@ -96,7 +97,7 @@ void drop_rows_after(const std::filesystem::path& folder, std::int64_t step) {
     std::vector<std::pair<std::filesystem::path, std::uintmax_t>> lengths;
     for (std::size_t k = 0; k < deck_output_names.size(); ++k) {
         const std::filesystem::path path = folder / deck_output_names[k];
-        if (std::filesystem::exists(path)) lengths.emplace_back(path, length_up_to(path, step, k < 3));
+        if (is_there(path)) lengths.emplace_back(path, length_up_to(path, step, k < 3));
     }
     for (const auto& [path, length] : lengths) {
         std::error_code error;

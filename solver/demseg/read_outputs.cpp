@@ -6,12 +6,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <limits>
 #include <utility>
 
 #include "solver/base/errors.hpp"
 #include "solver/demseg/deck_reader.hpp"
+#include "solver/files/read_file.hpp"
 
 namespace crackle {
 namespace {
@@ -41,16 +44,18 @@ const DeckFrameFile::Head* head_of_step(const DeckFrameFile& file, std::int64_t 
 }
 
 std::optional<DeckFrameFile> file_if_there(const std::filesystem::path& path) {
-    if (!std::filesystem::exists(path)) return std::nullopt;
+    if (!is_there(path)) return std::nullopt;
     return DeckFrameFile(path, 1);
 }
 
 }  // namespace
 
 DeckFrameFile::DeckFrameFile(std::filesystem::path path, int counts) : path_(std::move(path)) {
+    errno = 0;
     std::ifstream file(path_, std::ios::binary);
     if (!file)
-        throw InputError(fmt::format("{}: cannot be read, expected the output of `crackle run`", path_.string()));
+        throw InputError(fmt::format("{}: cannot be read ({}), expected the output of `crackle run`", path_.string(),
+                                     std::strerror(errno)));
     std::string line;
     std::int64_t at = 0;
     int number = 0;

@@ -64,11 +64,9 @@ void write_journal(const fs::path& journal, const FileSet& files) {
 }
 
 bool complete_replacement(const fs::path& journal) {
-    std::error_code error;
-    const bool found = fs::exists(journal, error);
-    if (error) throw InputError(fmt::format("{}: cannot be looked for ({})", journal.string(), error.message()));
-    if (!found) return false;
+    if (!is_there(journal)) return false;
     for (const auto& [name, contents] : read_journal(journal)) replace_file(journal.parent_path() / name, contents);
+    std::error_code error;
     if (!fs::remove(journal, error)) refuse_output(journal);
     bring_names_to_disc(journal.parent_path());  // else a loss of power brings it back, over what is edited since
     return true;

@@ -12,6 +12,35 @@
 
 namespace crackle {
 
+namespace {
+
+[[noreturn]] void refuse_unknown(const std::filesystem::path& path, const std::error_code& error) {
+    throw InputError(fmt::format("{}: cannot be looked for ({})", path.string(), error.message()));
+}
+
+}  // namespace
+
+void refuse_failed(const std::istream& in, const std::string& name) {
+    if (in.bad()) throw InputError(fmt::format("{}: reading stopped with an error ({})", name, std::strerror(errno)));
+}
+
+bool is_there(const std::filesystem::path& path) {
+    std::error_code error;
+    const bool there = std::filesystem::exists(path, error);
+    // A name too long for a file is none, nor is one below a file.
+    if (error && error != std::errc::filename_too_long && error != std::errc::not_a_directory)
+        refuse_unknown(path, error);
+    return there;
+}
+
+bool is_file(const std::filesystem::path& path) {
+    if (!is_there(path)) return false;
+    std::error_code error;
+    const bool file = std::filesystem::is_regular_file(path, error);
+    if (error) refuse_unknown(path, error);
+    return file;
+}
+
 std::string read_file(const std::filesystem::path& path) {
     std::error_code unknown;  // opening tells
     if (std::filesystem::is_directory(path, unknown))
@@ -27,8 +56,7 @@ std::string read_file(const std::filesystem::path& path) {
         file.read(piece.data(), piece.size());
         bytes.append(piece.data(), static_cast<std::size_t>(file.gcount()));
     } while (file);
-    if (file.bad())
-        throw InputError(fmt::format("{}: reading stopped with an error ({})", path.string(), std::strerror(errno)));
+    refuse_failed(file, path.string());
     return bytes;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <iosfwd>
 #include <string>
 #include <string_view>
 
@@ -17,5 +18,12 @@ std::string_view without_byte_order_mark(std::string_view text);
 
 /// A file of text: its bytes without such a mark. @throws InputError as read_file()
 std::string read_text(const std::filesystem::path& path);
+
+/// @throws InputError if the system gave an error while a stream was read, which is no end of it
+void refuse_failed(const std::istream& in, const std::string& name);
+
+/// Whether a path is there; a file, not a folder. @throws InputError if the system does not say: that is no "no"
+bool is_there(const std::filesystem::path& path);
+bool is_file(const std::filesystem::path& path);
 
 }  // namespace crackle

@@ -10,6 +10,7 @@
 #include <fstream>
 
 #include "solver/base/errors.hpp"
+#include "solver/files/read_file.hpp"
 
 namespace crackle {
 
@@ -37,10 +38,26 @@ void bring_names_to_disc(const std::filesystem::path& folder) {
     if (errno != 0 && errno != EINVAL) refuse_output(here);  // EINVAL: a file system that knows no such thing
 }
 
-void refuse_replacing(const std::filesystem::path& output, bool force, std::span<const std::filesystem::path> inputs) {
+void make_folder(const std::filesystem::path& folder) {
     std::error_code error;
-    if (!std::filesystem::exists(output, error) && !error) return;
-    if (error) throw InputError(fmt::format("{}: cannot be looked for ({})", output.string(), error.message()));
+    std::filesystem::create_directories(folder, error);
+    if (!error) return;
+    errno = error.value();
+    refuse_output(folder);
+}
+
+void bring_all_to_disc(const std::filesystem::path& folder) {
+    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+    if (descriptor < 0) refuse_output(folder);
+    const int reason = ::syncfs(descriptor) == 0 ? 0 : errno;
+    ::close(descriptor);
+    errno = reason;
+    if (reason != 0) refuse_output(folder);
+}
+
+void refuse_replacing(const std::filesystem::path& output, bool force, std::span<const std::filesystem::path> inputs) {
+    if (!is_there(output)) return;
+    std::error_code error;
     for (const std::filesystem::path& input : inputs) {
         if (std::filesystem::equivalent(output, input, error) && !error) {
             throw InputError(

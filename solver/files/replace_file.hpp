@@ -21,6 +21,13 @@ void bring_names_to_disc(const std::filesystem::path& folder);
 void refuse_replacing(const std::filesystem::path& output, bool force,
                       std::span<const std::filesystem::path> inputs = {});
 
+/// Makes a folder and those it lies in, where they are missing. @throws InputError if it cannot
+void make_folder(const std::filesystem::path& folder);
+
+/// Has the system bring all that was written to the file system of a folder to the disc. @throws InputError if it
+/// cannot
+void bring_all_to_disc(const std::filesystem::path& folder);
+
 /// "cannot be written", with the system's reason in errno. @throws InputError
 [[noreturn]] void refuse_output(const std::filesystem::path& path);
 

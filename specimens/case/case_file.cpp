@@ -106,8 +106,7 @@ CaseValue value_of(const Parameter& p, const toml::node& node, const std::string
 }
 
 toml::table parse(const fs::path& path) {
-    std::error_code error;
-    if (!fs::is_regular_file(path, error)) {
+    if (!is_file(path)) {
         throw InputError(fmt::format("{}: found no such file, expected a case file; check the path", path.string()));
     }
     const std::string text = read_text(path);
@@ -236,7 +235,7 @@ void take_with_includes(TestCase& test, const fs::path& path, std::vector<fs::pa
         }
         const fs::path other = (path.parent_path() / text->get()).lexically_normal();
         std::error_code error;
-        if (!fs::is_regular_file(other, error)) {
+        if (!is_file(other)) {
             throw InputError(fmt::format("{}: include: found no file {:.200}, expected a case file; check the path",
                                          where, other.string()));
         }

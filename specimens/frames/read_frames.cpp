@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cerrno>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
@@ -14,6 +15,7 @@
 #include <string>
 
 #include "solver/base/errors.hpp"
+#include "solver/files/read_file.hpp"
 #include "specimens/frames/base64.hpp"
 
 namespace crackle {
@@ -121,11 +123,9 @@ pugi::xml_node array_named(const pugi::xml_node& parent, const char* name) {
 }
 
 pugi::xml_document load(const std::filesystem::path& file) {
+    const std::string text = read_file(file);
     pugi::xml_document document;
-    const pugi::xml_parse_result result = document.load_file(file.c_str());
-    if (result.status == pugi::status_file_not_found) {
-        throw InputError(fmt::format("{}: file not found, expected a frame of a test", file.string()));
-    }
+    const pugi::xml_parse_result result = document.load_buffer(text.data(), text.size());
     if (!result)
         refuse_frame(file, fmt::format("found broken XML ({} at byte {})", result.description(), result.offset));
     return document;
@@ -195,11 +195,16 @@ PolyData read_polydata(const std::filesystem::path& file) {
 }
 
 std::map<std::string, double> read_field_values(const std::filesystem::path& file) {
+    errno = 0;
     std::ifstream in(file, std::ios::binary);
-    if (!in) throw InputError(fmt::format("{}: file not found, expected a frame of a test", file.string()));
+    if (!in) {
+        throw InputError(
+            fmt::format("{}: cannot be read ({}), expected a frame of a test", file.string(), std::strerror(errno)));
+    }
     std::string text, line;
     constexpr std::size_t most = 1 << 16;  // a few numbers
     while (text.size() < most && line != "</FieldData>" && std::getline(in, line)) text += line + '\n';
+    refuse_failed(in, file.string());
     const std::size_t begin = text.find("<FieldData>");
     pugi::xml_document document;
     if (begin == std::string::npos || line != "</FieldData>" || !document.load_string(text.c_str() + begin))

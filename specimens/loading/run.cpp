@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <optional>
 #include <sstream>
@@ -32,8 +34,10 @@ using namespace nlohmann::literals;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 std::ifstream open_file(const fs::path& path) {
+    errno = 0;
     std::ifstream in(path, std::ios::binary);
-    if (!in) throw InputError(fmt::format("{}: cannot be read, expected a file; check the path", path.string()));
+    if (!in)
+        throw InputError(fmt::format("{}: cannot be read ({}), expected a file", path.string(), std::strerror(errno)));
     return in;
 }
 
@@ -148,8 +152,7 @@ TestOutcome finished_test(VirtualTest& test, const TestOptions& options, const T
     outcome.folder = folder.path();
     const fs::path name = folder.path() / "summary.json";
     // Without one the process was stopped in between: what only the clock knew is lost.
-    std::error_code error;
-    const bool exists = fs::is_regular_file(name, error);
+    const bool exists = is_file(name);
     if (exists) outcome.summary = nlohmann::ordered_json::parse(read_file(name), nullptr, false);
     const auto& old = outcome.summary;
     const bool readable =
@@ -207,8 +210,8 @@ TestOutcome run_test(const TestCase& description, const TestOptions& options, co
     TestFiles files(folder, sha256(text), test.state, precision_of(description), description.output.slips);
     try {
         specimen->write(folder);
-        specimen.reset();  // not kept while the test runs
-        folder.write("case.toml", text);
+        specimen.reset();                               // not kept while the test runs
+        folder.write("case.toml", text, Durable::yes);  // by its contents a folder is known to be a test's
         return run_with_files(test, options, hooks, folder, files);
     } catch (const InputError& error) {
         if (!folder.staged()) throw;
@@ -220,7 +223,7 @@ TestOutcome resume_test(const TestOptions& options, const TestHooks& hooks) {
     OutputFolder folder = OutputFolder::reopen(options.folder);
     const fs::path checkpoint_path = folder.path() / "checkpoint";
     std::error_code error;
-    if (!fs::is_regular_file(checkpoint_path, error)) {
+    if (!is_file(checkpoint_path)) {
         throw InputError(fmt::format("{}: found no checkpoint, {}", checkpoint_path.string(),
                                      holds_test_results(folder.path())
                                          ? "expected one to resume from; run the test again with --force"

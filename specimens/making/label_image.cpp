@@ -14,6 +14,7 @@
 #include <system_error>
 
 #include "solver/base/errors.hpp"
+#include "solver/files/read_file.hpp"
 
 namespace crackle {
 namespace {
@@ -84,8 +85,7 @@ std::string expected_colours(std::span<const std::uint32_t> colours, std::span<c
 LabelImage::LabelImage(const std::filesystem::path& file, std::span<const std::uint32_t> colours,
                        std::span<const std::string> names, const std::string& where)
     : labels_(colours.size()) {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(file, error)) {
+    if (!is_file(file)) {
         throw InputError(
             fmt::format("{}: found no file {}, expected a PNG image; check the path", where, file.string()));
     }

@@ -98,8 +98,7 @@ std::size_t mineral_called(const std::vector<std::string>& names, const std::str
 Minerals read_labels(const TestCase& test, std::size_t grains) {
     const auto file = test.resolve_path("minerals.labels", *test.minerals.labels);
     const std::vector<std::string> names = names_of(test);
-    std::error_code unknown;  // reading it tells
-    if (!std::filesystem::exists(file, unknown)) {
+    if (!is_there(file)) {
         throw InputError(fmt::format("{}: found no file {}, expected labels; check the path",
                                      test.at("minerals.labels"), file.string()));
     }

@@ -12,8 +12,7 @@ namespace fs = std::filesystem;
 
 bool is_being_moved(const fs::path& working, std::string& frames) {
     const fs::path mark = working / staged_mark;
-    std::error_code error;
-    if (!fs::exists(mark, error)) return false;
+    if (!is_there(mark)) return false;
     const std::string text = read_file(mark), first = std::string(moving_line) + '\n';
     if (!text.starts_with(first)) return false;
     frames = text.substr(first.size());

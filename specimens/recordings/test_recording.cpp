@@ -10,6 +10,7 @@
 #include <memory>
 
 #include "solver/base/errors.hpp"
+#include "solver/files/read_file.hpp"
 #include "specimens/frames/frame.hpp"
 #include "specimens/frames/read_frames.hpp"
 #include "specimens/recordings/cell_finder.hpp"
@@ -23,7 +24,7 @@ namespace fs = std::filesystem;
 /// The numbers of the pictures of the particles, ascending.
 std::vector<std::int64_t> drawn_rows(const fs::path& frames) {
     std::vector<std::int64_t> rows;
-    if (!fs::exists(frames)) return rows;
+    if (!is_there(frames)) return rows;
     for (const auto& entry : fs::directory_iterator(frames)) {
         const std::string name = entry.path().filename().string();
         constexpr std::string_view head = "particles_";
@@ -96,7 +97,7 @@ class TestFrames {
         append_cells(file, read_polydata(file), recording.cells);
         for (const RecordedCell& cell : recording.cells) start_.push_back({cell.centre, cell.id});
         const fs::path contacts = frames_ / contacts_file(rows_.front());
-        if (!fs::exists(contacts)) return;
+        if (!is_there(contacts)) return;
         finder_.emplace(recording.cells);
         const PolyData data = read_polydata(contacts);
         const auto [i, j, state] = columns(contacts, data);
@@ -237,8 +238,7 @@ Recording read_test_recording(const fs::path& folder, std::size_t most_frames) {
     if (rows.empty()) return recording;
     for (const char* role : roles) {
         const std::string named = named_frame(recording.results, role);
-        std::error_code unknown;  // a name that cannot be one
-        if (!named.empty() && !fs::exists(folder / named, unknown))
+        if (!named.empty() && !is_there(folder / named))
             throw InputError(fmt::format("{:.200}: file not found, expected the frame at {} that summary.json names",
                                          (folder / named).string(), role));
     }

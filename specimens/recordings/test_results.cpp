@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 #include <system_error>
 
@@ -17,8 +19,7 @@ namespace crackle {
 namespace {
 
 std::string read_result(const std::filesystem::path& file) {
-    std::error_code unknown;  // reading it tells
-    if (!std::filesystem::is_regular_file(file, unknown)) {
+    if (!is_file(file)) {
         throw InputError(
             fmt::format("{}: file not found, expected the results of a finished test; make them with "
                         "`crackle test CASE.toml -o {}`",
@@ -104,11 +105,14 @@ nlohmann::ordered_json read_summary(const std::filesystem::path& file) {
 }  // namespace
 
 bool is_report_page(const std::filesystem::path& file) {
-    std::error_code error;
-    if (!std::filesystem::is_regular_file(file, error)) return false;
+    if (!is_file(file)) return false;
+    errno = 0;
     std::ifstream in(file);
     std::string first, second;
-    return std::getline(in, first) && std::getline(in, second) && second == report_mark;
+    const bool is_page = std::getline(in, first) && std::getline(in, second) && second == report_mark;
+    if (!in.is_open()) throw InputError(fmt::format("{}: cannot be read ({})", file.string(), std::strerror(errno)));
+    refuse_failed(in, file.string());
+    return is_page;
 }
 
 const std::vector<double>* NumberTable::find(std::string_view name) const {
@@ -175,7 +179,7 @@ TestResults read_results(const std::filesystem::path& folder) {
     require_columns(folder / "events.csv", results.events,
                     {"time", "axial_strain", "x", "y", "body_i", "body_j", "mode", "last_of_interface"});
     require_whole_numbers(folder / "events.csv", results.events, {"body_i", "body_j", "last_of_interface"});
-    if (const std::filesystem::path slips = folder / "slips.csv"; std::filesystem::exists(slips)) {
+    if (const std::filesystem::path slips = folder / "slips.csv"; is_there(slips)) {
         results.slips = read_number_table(slips);
         require_columns(slips, *results.slips, {"time", "axial_strain", "x", "y", "orientation"});
     }

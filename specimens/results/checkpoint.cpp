@@ -15,6 +15,7 @@
 #include "solver/base/checked_input.hpp"
 #include "solver/base/errors.hpp"
 #include "solver/base/watching_buffer.hpp"
+#include "solver/files/read_file.hpp"
 #include "solver/files/read_pieces.hpp"
 #include "solver/world/checkpoint.hpp"
 #include "specimens/results/sha256.hpp"
@@ -45,6 +46,7 @@ TestCheckpoint load_test(std::istream& in, const std::string& name) {
     std::string line;
     constexpr std::size_t longest_line = 64;
     for (char letter = 0; line.size() < longest_line && in.get(letter) && letter != '\n';) line += letter;
+    refuse_failed(in, name);
     if (!in || !line.starts_with(title) || line.size() == longest_line) {
         throw InputError(fmt::format(
             "{}: found other data, expected a crackle test checkpoint; run the test again with --force", name));
@@ -61,8 +63,10 @@ TestCheckpoint load_test(std::istream& in, const std::string& name) {
     const std::streamoff begin = in.tellg(), end = length - static_cast<std::streamoff>(hash_digits);
     Sha256 hash;
     std::string digits(hash_digits, ' ');
-    if (end < begin || !read_pieces(in, 0, end, [&](std::string_view piece) { hash.add(piece); }) ||
-        !in.read(digits.data(), static_cast<std::streamsize>(hash_digits)) || digits != hash.digits()) {
+    const bool whole = begin <= end && read_pieces(in, 0, end, [&](std::string_view piece) { hash.add(piece); }) &&
+                       in.read(digits.data(), static_cast<std::streamsize>(hash_digits)) && digits == hash.digits();
+    refuse_failed(in, name);
+    if (!whole) {
         throw InputError(damaged);
     }
     in.seekg(begin);

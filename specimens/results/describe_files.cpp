@@ -56,6 +56,11 @@ constexpr const char* folder_text = R"(
 A folder that holds results is refused; with `--force` the new results grow in `OUT.new` (a file `replaces-older-results` marks it) and
 take the place of the old ones once they are complete. `crackle report OUT` adds `report.html`.
 
+What a stop leaves: a signal, a full disc or a loss of power at any moment leaves the earlier results whole, or a checkpoint from which
+`--resume` goes on to the same bytes. A checkpoint gets its name when it and all that it knows of are on the disc; `curve.csv`,
+`events.csv` and `slips.csv` must still begin with what was written up to it (by their hash), or the test is not resumed. Files that are
+moved away or changed while the test runs end it with an error.
+
 Units are those of the case, SI in what is shipped. Everything is per unit thickness: masses are in kg, forces in N, stresses and moduli are
 force over a length, N/m. «Positive in the sense of the test»: compression positive when the specimen is squeezed, tension positive when it is
 pulled. A normal force is positive when it pushes apart. Angles are in radians, counter-clockwise. Ids are those of the particle file or

@@ -5,11 +5,13 @@
 #include <xxhash.h>
 
 #include <cerrno>
+#include <cstring>
 #include <new>
 #include <system_error>
 #include <utility>
 
 #include "solver/base/errors.hpp"
+#include "solver/files/read_file.hpp"
 #include "solver/files/read_pieces.hpp"
 #include "solver/files/replace_file.hpp"
 
@@ -26,11 +28,15 @@ GrowingFile::GrowingFile(fs::path path, const FileMark& marked)
     if (!hash_) throw std::bad_alloc();
     XXH3_64bits_reset(hash_.get());
     if (marked.bytes > 0) {
+        errno = 0;
         std::ifstream there(path_, std::ios::binary);
+        if (!there && errno != ENOENT)
+            throw InputError(fmt::format("{}: cannot be read ({})", path_.string(), std::strerror(errno)));
         const auto end = static_cast<std::streamoff>(marked.bytes);
         const bool whole = there && read_pieces(there, 0, end, [&](std::string_view piece) {
                                XXH3_64bits_update(hash_.get(), piece.data(), piece.size());
                            });
+        refuse_failed(there, path_.string());
         if (!whole || mark().hash != marked.hash) {
             throw InputError(fmt::format(
                 "{}: found {}, expected the first {} bytes as they were written; restore the file, or run the test "

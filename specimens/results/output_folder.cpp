@@ -53,30 +53,12 @@ constexpr const char* report_name =
     "report.html";  // made of the results by another command; stale once they are replaced
 constexpr const char* temporary_suffix = ".tmp";
 
-/// Has the system bring all that was written to the file system of a folder to the disc.
-void sync_file_system(const fs::path& folder) {
-    const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (descriptor < 0) refuse_output(folder);
-    const int reason = ::syncfs(descriptor) == 0 ? 0 : errno;
-    ::close(descriptor);
-    errno = reason;
-    if (reason != 0) refuse_output(folder);
-}
-
 [[noreturn]] void cannot_write(const fs::path& path, const std::string& why) {
     throw InputError(
         fmt::format("{}: cannot be written ({}), expected a writable folder with free space", path.string(), why));
 }
 
 std::string last_error() { return std::strerror(errno); }
-
-/// @throws InputError if the system does not say
-bool is_there(const fs::path& path) {
-    std::error_code error;
-    const bool there = fs::exists(path, error);
-    if (error) throw InputError(fmt::format("{}: cannot be looked for ({})", path.string(), error.message()));
-    return there;
-}
 
 bool holds_results(const fs::path& folder) {
     return std::any_of(result_names.begin(), result_names.end(),
@@ -194,7 +176,7 @@ void move_staged(const fs::path& working, const fs::path& target, const std::set
             rename_or_throw(working / name, target / name);
         }
     }
-    sync_file_system(target);  // else a loss of power may leave the old results, and nothing of the new ones
+    bring_all_to_disc(target);  // else a loss of power may leave the old results, and nothing of the new ones
     remove_or_throw(working / staged_mark);
     std::error_code not_empty;  // of files that are not ours
     fs::remove(working, not_empty);
@@ -306,7 +288,7 @@ OutputFolder OutputFolder::reopen(const fs::path& wanted) {
     if (target.extension() == staging_suffix && frames_being_moved(target)) target.replace_extension();
     complete_move(target);
     std::error_code error;
-    if (!fs::is_directory(target, error)) {
+    if (!is_there(target) || !fs::is_directory(target, error)) {
         throw InputError(fmt::format("{}: found no such folder, expected one that a test was writing; check the path",
                                      target.string()));
     }
@@ -320,7 +302,9 @@ OutputFolder OutputFolder::reopen(const fs::path& wanted) {
 
 OutputFolder::~OutputFolder() {
     std::error_code ignored;  // not empty: results are kept
-    if (staged() && !holds_results(working_)) fs::remove(working_ / staged_mark, ignored);
+    const bool empty = std::none_of(result_names.begin(), result_names.end(),
+                                    [&](const char* name) { return fs::exists(working_ / name, ignored) || ignored; });
+    if (staged() && empty) fs::remove(working_ / staged_mark, ignored);
     if (made_) fs::remove(working_, ignored);
 }
 
@@ -348,7 +332,7 @@ void OutputFolder::write(const std::string& name, const std::function<void(std::
         fs::remove(temporary, error);
         cannot_write(file, why);
     }
-    if (durable == Durable::yes) sync_file_system(file.parent_path());
+    if (durable == Durable::yes) bring_all_to_disc(file.parent_path());
     fs::rename(temporary, file, error);
     if (error) cannot_write(file, error.message());
 }
@@ -369,7 +353,7 @@ void OutputFolder::finish() {
     const std::set<std::string> names = names_in(working_ / "frames");
     for (const std::string& name : names) mark += name + '\n';
     write(staged_mark, mark, Durable::yes);  // whoever finds it ends the move
-    sync_file_system(working_);              // nothing is moved before its name is on the disc
+    bring_all_to_disc(working_);             // nothing is moved before its name is on the disc
     move_staged(working_, target_, names);
     working_ = target_;
     made_ = false;

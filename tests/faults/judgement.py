@@ -8,10 +8,10 @@ from program import CAUSES, contents, differences
 from scenes import as_it_was
 
 # Outcomes that are as they should be.
-UNTOUCHED, UNREACHED, SAID, STOPPED, FURTHER, LEFT, GONE = (
+UNTOUCHED, UNREACHED, SAID, STOPPED, FURTHER, LEFT, GONE, REFUSED = (
     "results right all the same", "not reached", "said so, then right", "stopped by the signal, then right", "repeated, it goes one part further",
-    "right, a file left over", "said so, earlier outputs gone, then right")
-GOOD = (UNTOUCHED, UNREACHED, SAID, STOPPED, FURTHER, LEFT, GONE)
+    "right, a file left over", "said so, earlier outputs gone, then right", "refused until the folder is moved away")
+GOOD = (UNTOUCHED, UNREACHED, SAID, STOPPED, FURTHER, LEFT, GONE, REFUSED)
 # And those that are not, worst first.
 SILENT, LOST, MIXED, HUNG, ABORTED, UNMENDED, WORDS, CODE = (
     "exit 0, results wrong", "earlier results lost", "went on from a mixture", "hung", "aborted", "not right afterwards", "words", "exit code")
@@ -20,7 +20,7 @@ BAD = (SILENT, LOST, MIXED, HUNG, ABORTED, UNMENDED, WORDS, CODE)
 
 def worst_of(faults):
     """The kind of an outcome with such faults."""
-    return min((kind for kind, _ in faults), key=(*BAD, GONE, FURTHER, LEFT).index)
+    return min((kind for kind, _ in faults), key=(*BAD, REFUSED, GONE, FURTHER, LEFT).index)
 
 
 def left_over(final, scene):

@@ -4,7 +4,7 @@
 import random
 
 from disc import Disc, read_trace
-from judgement import SAID, Outcome, went_on, worst_of
+from judgement import REFUSED, SAID, UNMENDED, Outcome, went_on, worst_of
 from program import Run, put
 
 SURE = (("lost", "lost"), ("lost", "kept"), ("kept", "lost"))  # of data, of names
@@ -47,4 +47,6 @@ def attempt(program, scene, place, files):
     faults = went_on(program, scene, place, stopped, files)
     if not faults:
         return Outcome(SAID)
+    # Left by chance so that nobody can tell whose they are; the message says what to do.
+    faults = [(REFUSED if kind == UNMENDED and "move" in words else kind, words) for kind, words in faults]
     return Outcome(worst_of(faults), faults=faults)

@@ -152,8 +152,7 @@ int pack(const Invocation& given) {
     std::ostringstream deck;
     write_geometry(deck, packing.scene);
     const std::filesystem::path folder = std::filesystem::path(output).parent_path();
-    std::error_code refused;  // replace_file() reports what cannot be written
-    if (!folder.empty()) std::filesystem::create_directories(folder, refused);
+    if (!folder.empty()) make_folder(folder);
     replace_file(output, deck.str());
     if (!messages.quiet()) print_report(packing.report, output);
     return exit_done;

@@ -236,8 +236,7 @@ void plot_guide(const po::variables_map& given, const Look& look, Messages& mess
                at("voronoi_tension", "start", "Voronoi")})}},
         {28, {loaded("delaunay"), curves("delaunay")}},
         {29, {loaded("voronoi"), curves("voronoi")}}};
-    std::error_code error;
-    fs::create_directories(output, error);  // replace_file() reports what cannot be written
+    make_folder(output);
     for (const auto& [number, panels] : figures) {
         const fs::path file = file_of(number);
         replace_file(file, figure(panels, given["title"].as<std::string>(), look.width, format, look.sheet));

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "solver/base/errors.hpp"
+#include "solver/files/read_file.hpp"
 #include "solver/files/replace_file.hpp"
 #include "specimens/recordings/distinct_names.hpp"
 #include "tools/page/page_data.hpp"
@@ -52,8 +53,7 @@ void append_block(std::string& out, std::size_t recording, std::size_t block, co
 }
 
 void refuse_foreign_file(const std::filesystem::path& output) {
-    std::error_code error;  // replace_file() reports what cannot be written
-    if (!std::filesystem::exists(output, error) || is_report_page(output)) return;
+    if (!is_there(output) || is_report_page(output)) return;
     throw InputError(fmt::format(
         "{}: found something that is not a page of crackle, expected a new name or an earlier page; choose another "
         "name with -o",
