@@ -18,34 +18,49 @@ class Walk {
     void check() {
         while (!rest_.empty()) {
             const char c = rest_.front();
-            if (c == '"' || c == '\'') {
-                pass_text(c);
-                continue;
-            }
             if (c == '#') {
                 pass(std::min(rest_.find('\n'), rest_.size()));
                 continue;
             }
-            if ((static_cast<unsigned char>(c) & 0x80U) != 0) {
-                throw InputError(
-                    fmt::format("{}:{}: found a letter that is not ASCII outside of a text, expected keys and "
-                                "values without; put it into quotes",
-                                name_, line_));
-            }
-            if (c == '\n' && open_ == 0) levels_ = 0;
-            if (c == '[' || c == '{') ++open_;
-            if ((c == ']' || c == '}') && open_ > 0) --open_;
+            refuse_beyond_ascii(c);
+            if (c == '\n') misplaced_ = false;
+            if (is_misplaced(c)) misplaced_ = true;
+            if (c == '\n' && open_.empty()) levels_ = 0;
+            if (c == '\n' || c == ',' || c == '{') assigned_ = false;
+            if (c == '=') assigned_ = true;
+            if (c == '[' || c == '{') open_ += c;
+            if ((c == ']' || c == '}') && !open_.empty()) open_.pop_back();
             if ((c == '.' || c == '[' || c == '{') && ++levels_ > deepest_toml_entry) {
-                throw InputError(fmt::format(
-                    "{}:{}: found more than {} dots and brackets in one entry, expected at most two levels: tables in "
-                    "[brackets], then key = value",
-                    name_, line_, deepest_toml_entry));
+                refuse(fmt::format("more than {} dots and brackets in one entry", deepest_toml_entry),
+                       "at most two levels: tables in [brackets], then key = value");
             }
-            pass(1);
+            if (c != ' ' && c != '\t' && c != '\r') before_ = c;
+            if (c == '"' || c == '\'') {
+                pass_text(c);
+            } else {
+                pass(1);
+            }
         }
     }
 
   private:
+    [[noreturn]] void refuse(const std::string& found, const char* expected) const {
+        throw InputError(fmt::format("{}:{}: found {}, expected {}", name_, line_, found, expected));
+    }
+
+    void refuse_beyond_ascii(char c) const {
+        if ((static_cast<unsigned char>(c) & 0x80U) != 0)
+            refuse("a letter that is not ASCII outside of a text", "keys and values without; put it into quotes");
+    }
+
+    /// Texts and brackets begin a key or a value, and a key has one value: behind anything else the parser takes what
+    /// comes on this line for part of a number, before it finds that it is none.
+    bool is_misplaced(char c) const {
+        const bool begins = c == '"' || c == '\'' || c == '[' || c == '{';
+        if (begins) return std::string_view("\n=[,{").find(before_) == std::string_view::npos;
+        return c == '=' && (assigned_ || (!open_.empty() && open_.back() == '['));
+    }
+
     void pass(std::size_t count) {
         line_ += static_cast<int>(std::count(rest_.begin(), rest_.begin() + static_cast<std::ptrdiff_t>(count), '\n'));
         rest_.remove_prefix(count);
@@ -58,6 +73,7 @@ class Walk {
         pass(several ? 3 : 1);
         while (!rest_.empty()) {
             if (quote == '"' && rest_.front() == '\\') {
+                if (misplaced_ && rest_.size() > 1) refuse_beyond_ascii(rest_[1]);
                 pass(std::min<std::size_t>(2, rest_.size()));
             } else if (several ? rest_.starts_with(three) : rest_.front() == quote) {
                 pass(several ? 3 : 1);
@@ -65,6 +81,7 @@ class Walk {
                 return;
             } else {
                 if (!several && rest_.front() == '\n') return;  // not closed
+                if (misplaced_) refuse_beyond_ascii(rest_.front());
                 pass(1);
             }
         }
@@ -72,9 +89,12 @@ class Walk {
 
     const std::string& name_;
     std::string_view rest_;
+    char before_ = '\n';  // the last that is no blank
     int line_ = 1;
-    int open_ = 0;    // brackets
-    int levels_ = 0;  // of the entry so far
+    std::string open_;        // brackets
+    bool assigned_ = false;   // the key has its =
+    bool misplaced_ = false;  // something on this line
+    int levels_ = 0;          // of the entry so far
 };
 
 }  // namespace

@@ -278,6 +278,16 @@ TEST_F(CaseFile, LettersBeyondAsciiStandInTextsAndCommentsAlone) {
               std::string::npos);
 }
 
+TEST_F(CaseFile, TextsBeginKeysAndValuesAlone) {
+    EXPECT_NE(refusal("title = +\"\xef\xbf\xbf\"\n").find("case.toml:1: found a letter that is not ASCII"),
+              std::string::npos);
+    for (const char* text :
+         {"a = -2=\"\xca\x8f\"", "a = [1, 2=\"\xca\x8f\"]", "a = 1[\"\xca\x8f\"]", "a = {b = 1 = \"\xca\x8f\"}"})
+        EXPECT_THROW(check_toml_shape("places", text), InputError) << text;
+    EXPECT_NO_THROW(check_toml_shape(
+        "quotes", "'a' = [\r\n 'c', # d\n\t\"e\" ]\n['f']\nh = {'i' = 'j', 'k' = \"\"\"\xca\x8f\"\"\"}"));
+}
+
 TEST_F(CaseFile, TextsOfItAreCutInErrors) {
     const std::string kind = repeated("stretching ", 500);
     EXPECT_NE(refusal(with("\"tension\"", "\"" + kind + "\"")).find("found \"" + kind.substr(0, 40) + "\", expected"),
