@@ -31,18 +31,18 @@ def copied(origin, folder):
 
 
 def pages(folder):
-    return 1 + sum(1 if path.is_dir() else 1 + -(-path.stat().st_size // (1024 * PAGE)) for path in folder.rglob("*"))
+    return sum(-(-path.stat().st_size // (1024 * PAGE)) for path in folder.rglob("*") if path.is_file())
 
 
 def full_disc(program, scene, place, origin, quick):
     """Larger and larger discs, until the command is done. @yield outcomes with the kilobytes"""
     if os.geteuid() != 0:
         raise NotHere("mount: only root may")
-    work, used, more = place / "work", pages(origin / "before"), 1
+    work, used, more = place / "work", pages(origin / "before"), 0
     while True:
         shutil.rmtree(work, ignore_errors=True)
         work.mkdir(parents=True)
-        size = (used + more) * PAGE
+        size = max(1, used + more) * PAGE  # 0 would be without a bound
         mounted(work, size)
         try:
             copied(origin / "before", work)
@@ -54,7 +54,7 @@ def full_disc(program, scene, place, origin, quick):
         yield outcome, size
         if outcome.kind in (UNTOUCHED, UNREACHED):
             return
-        more = 4 * more if quick else more + max(1, more // 6)
+        more = 4 * more + 1 if quick else more + max(1, more // 6)
 
 
 def read_only(program, scene, place, origin):

@@ -48,5 +48,5 @@ def attempt(program, scene, place, files):
     if not faults:
         return Outcome(SAID)
     # Left by chance so that nobody can tell whose they are; the message says what to do.
-    faults = [(REFUSED if kind == UNMENDED and "move" in words else kind, words) for kind, words in faults]
+    faults = [(REFUSED if kind == UNMENDED and ("move" in words or "choose another" in words) else kind, words) for kind, words in faults]
     return Outcome(worst_of(faults), faults=faults)
