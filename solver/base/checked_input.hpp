@@ -7,8 +7,10 @@
 #include <cereal/archives/binary.hpp>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <ios>
 #include <istream>
 #include <string>
@@ -30,6 +32,7 @@ class CheckedInput : public cereal::InputArchive<CheckedInput, cereal::AllowEmpt
 
     template <class T>
     void read(T* to, std::size_t bytes) {
+        errno = 0;
         if (bytes > static_cast<std::size_t>(left_)) refuse();
         const auto count = static_cast<std::streamsize>(bytes);
         if constexpr (std::is_same_v<T, bool>) {
@@ -46,10 +49,14 @@ class CheckedInput : public cereal::InputArchive<CheckedInput, cereal::AllowEmpt
 
     /// A length, of things of at least a byte each.
     void expect(std::uint64_t count) const {
+        errno = 0;
         if (count > static_cast<std::uint64_t>(left_)) refuse();
     }
 
-    [[noreturn]] void refuse() const { throw InputError(refusal_); }
+    /// With the system's reason where there is one.
+    [[noreturn]] void refuse() const {
+        throw InputError(errno == 0 ? refusal_ : refusal_ + " (" + std::strerror(errno) + ')');
+    }
 
   private:
     std::istream& in_;

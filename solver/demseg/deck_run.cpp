@@ -318,8 +318,9 @@ void DeckRun::do_step(DeckOutputs& outputs, bool first_part) {
 }
 
 void DeckRun::remove_files_of_earlier_run() const {
-    std::vector<std::string> names{state_name};  // without which the text files go on all the same, so it is the first
+    std::vector<std::string> names;
     for (const char* name : deck_text_names) names.push_back(std::string("new_") + name);
+    names.emplace_back(state_name);  // the last: nothing goes on without in_gm.dat, text alone without the state
     for (const std::string& name : names) {
         std::error_code error;
         std::filesystem::remove(output_folder() / name, error);
@@ -327,6 +328,7 @@ void DeckRun::remove_files_of_earlier_run() const {
             throw InputError(
                 fmt::format("{}: cannot be removed ({})", (output_folder() / name).string(), error.message()));
         }
+        bring_names_to_disc(output_folder());  // one after the other
     }
 }
 

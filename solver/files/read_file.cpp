@@ -41,6 +41,14 @@ bool is_file(const std::filesystem::path& path) {
     return file;
 }
 
+bool is_folder(const std::filesystem::path& path) {
+    if (!is_there(path)) return false;
+    std::error_code error;
+    const bool folder = std::filesystem::is_directory(path, error);
+    if (error) refuse_unknown(path, error);
+    return folder;
+}
+
 std::string read_file(const std::filesystem::path& path) {
     std::error_code unknown;  // opening tells
     if (std::filesystem::is_directory(path, unknown))

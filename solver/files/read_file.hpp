@@ -22,8 +22,9 @@ std::string read_text(const std::filesystem::path& path);
 /// @throws InputError if the system gave an error while a stream was read, which is no end of it
 void refuse_failed(const std::istream& in, const std::string& name);
 
-/// Whether a path is there; a file, not a folder. @throws InputError if the system does not say: that is no "no"
+/// Whether a path is there; a file; a folder. @throws InputError if the system does not say: that is no "no"
 bool is_there(const std::filesystem::path& path);
 bool is_file(const std::filesystem::path& path);
+bool is_folder(const std::filesystem::path& path);
 
 }  // namespace crackle

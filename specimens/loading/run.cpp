@@ -209,9 +209,9 @@ TestOutcome run_test(const TestCase& description, const TestOptions& options, co
     // Empty until loading: by that a test that has only begun is known.
     TestFiles files(folder, sha256(text), test.state, precision_of(description), description.output.slips);
     try {
+        folder.write("case.toml", text, Durable::yes);  // first: by its contents a folder is known to be a test's
         specimen->write(folder);
-        specimen.reset();                               // not kept while the test runs
-        folder.write("case.toml", text, Durable::yes);  // by its contents a folder is known to be a test's
+        specimen.reset();  // not kept while the test runs
         return run_with_files(test, options, hooks, folder, files);
     } catch (const InputError& error) {
         if (!folder.staged()) throw;

@@ -237,7 +237,7 @@ bool is_result_name(const std::string& name) {
 OutputFolder OutputFolder::create(const fs::path& wanted, bool force, std::span<const fs::path> inputs) {
     const fs::path target = without_trailing_slash(wanted);
     std::error_code error;
-    if (fs::exists(target, error) && !fs::is_directory(target, error)) {
+    if (is_there(target) && !is_folder(target)) {
         throw InputError(
             fmt::format("{}: found a file, expected a folder or nothing; choose another -o", target.string()));
     }
@@ -288,7 +288,7 @@ OutputFolder OutputFolder::reopen(const fs::path& wanted) {
     if (target.extension() == staging_suffix && frames_being_moved(target)) target.replace_extension();
     complete_move(target);
     std::error_code error;
-    if (!is_there(target) || !fs::is_directory(target, error)) {
+    if (!is_folder(target)) {
         throw InputError(fmt::format("{}: found no such folder, expected one that a test was writing; check the path",
                                      target.string()));
     }

@@ -13,15 +13,15 @@
 namespace crackle {
 namespace {
 
-struct Hold {
+struct BondedFace {
     int bonds = 0;
     double from = std::numeric_limits<double>::infinity(), to = -from;  // m, extent of the particles held
 
     double length() const { return bonds > 0 ? to - from : 0.0; }
 };
 
-Hold hold_of(const World& world, const TestSetup& setup, BodyIndex platen) {
-    Hold hold;
+BondedFace hold_of(const World& world, const TestSetup& setup, BodyIndex platen) {
+    BondedFace hold;
     for (const Bond& one : setup.bonds) {
         const ContactPoint& bond = one.point;
         if (bond.body_i != platen && bond.body_j != platen) continue;
@@ -48,7 +48,7 @@ bool connected(const TestSetup& setup, std::size_t bodies) {
 
 void check_platen_hold(const World& world, const TestSetup& setup, const Platens& platens, const TestCase& test) {
     for (const BodyIndex platen : {setup.bottom, setup.top}) {
-        const Hold hold = hold_of(world, setup, platen);
+        const BondedFace hold = hold_of(world, setup, platen);
         if (hold.length() >= min_platen_hold * setup.width) continue;
         const bool lower = platen == setup.bottom;
         throw InputError(
