@@ -23,6 +23,7 @@
 #include "solver/base/checked_input.hpp"
 #include "solver/base/errors.hpp"
 #include "solver/base/watching_buffer.hpp"
+#include "solver/files/read_file.hpp"
 #include "solver/files/read_pieces.hpp"
 
 namespace crackle {
@@ -77,6 +78,7 @@ World load_world(std::istream& in, std::streamoff end, const std::string& name) 
     const auto add = [&](std::string_view piece) { XXH3_64bits_update(hash.get(), piece.data(), piece.size()); };
     XXH64_hash_t noted = 0;
     const bool read = read_pieces(in, begin, end - tail, add) && in.read(reinterpret_cast<char*>(&noted), tail);
+    refuse_failed(in, name);
     if (!read || XXH3_64bits_digest(hash.get()) != noted) throw InputError(damaged);
     in.seekg(begin + head);
     World world;

@@ -66,9 +66,7 @@ TestCheckpoint load_test(std::istream& in, const std::string& name) {
     const bool whole = begin <= end && read_pieces(in, 0, end, [&](std::string_view piece) { hash.add(piece); }) &&
                        in.read(digits.data(), static_cast<std::streamsize>(hash_digits)) && digits == hash.digits();
     refuse_failed(in, name);
-    if (!whole) {
-        throw InputError(damaged);
-    }
+    if (!whole) throw InputError(damaged);
     in.seekg(begin);
     TestCheckpoint checkpoint;
     CheckedInput archive(in, end, damaged);
