@@ -319,6 +319,7 @@ void DeckRun::do_step(DeckOutputs& outputs, bool first_part) {
 
 void DeckRun::remove_files_of_earlier_run() const {
     std::vector<std::string> names;
+    names.reserve(deck_text_names.size() + 1);
     for (const char* name : deck_text_names) names.push_back(std::string("new_") + name);
     names.emplace_back(state_name);  // the last: nothing goes on without in_gm.dat, text alone without the state
     for (const std::string& name : names) {
