@@ -16,6 +16,12 @@ class InputError : public std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
+/// A place that cannot be written: whatever else is asked for would fail alike. Exit code 2.
+class OutputError : public InputError {
+  public:
+    using InputError::InputError;
+};
+
 /// A simulation that went wrong (not a number, runaway energy, a body leaving the world). Exit code 3.
 class UnstableRun : public std::runtime_error {
   public:

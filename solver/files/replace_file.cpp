@@ -15,8 +15,8 @@
 namespace crackle {
 
 void refuse_output(const std::filesystem::path& path) {
-    throw InputError(fmt::format("{}: cannot be written ({}), expected a writable folder with room on the disc",
-                                 path.string(), std::strerror(errno)));
+    throw OutputError(fmt::format("{}: cannot be written ({}), expected a writable folder with room on the disc",
+                                  path.string(), std::strerror(errno)));
 }
 
 namespace {
@@ -89,7 +89,7 @@ void replace_file(const std::filesystem::path& path, const std::string& contents
     if (error) {
         std::error_code ignored;
         std::filesystem::remove(temporary, ignored);
-        throw InputError(fmt::format("{}: cannot be replaced ({})", path.string(), error.message()));
+        throw OutputError(fmt::format("{}: cannot be replaced ({})", path.string(), error.message()));
     }
     bring_names_to_disc(path.parent_path());
 }

@@ -10,7 +10,7 @@ namespace crackle {
 
 /// Writes a whole file under a temporary name and renames it. A failure leaves the earlier one as it was, a loss of
 /// power that or this; when this returns it is on the disc.
-/// @throws InputError if it cannot be written
+/// @throws OutputError if it cannot be written
 void replace_file(const std::filesystem::path& path, const std::string& contents);
 
 /// Has the system bring the names in a folder to the disc. @throws InputError if it cannot
@@ -28,7 +28,7 @@ void make_folder(const std::filesystem::path& folder);
 /// cannot
 void bring_all_to_disc(const std::filesystem::path& folder);
 
-/// "cannot be written", with the system's reason in errno. @throws InputError
+/// "cannot be written", with the system's reason in errno. @throws OutputError
 [[noreturn]] void refuse_output(const std::filesystem::path& path);
 
 }  // namespace crackle

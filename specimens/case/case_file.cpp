@@ -6,12 +6,14 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <toml++/toml.h>
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <memory>
 #include <ostream>
 #include <sstream>
 #include <system_error>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -20,43 +22,13 @@
 #include "solver/scene/scene.hpp"
 #include "specimens/case/consistency.hpp"
 #include "specimens/case/parameters.hpp"
+#include "specimens/case/toml_file.hpp"
 #include "specimens/case/toml_shape.hpp"
 
 namespace crackle {
 namespace {
 
 namespace fs = std::filesystem;
-
-std::string line_of(const fs::path& file, const toml::node& node) {
-    return fmt::format("{}:{}", file.string(), node.source().begin.line);
-}
-
-std::string kind_name(const toml::node& node) {
-    switch (node.type()) {
-        case toml::node_type::string:
-            return "a text";
-        case toml::node_type::integer:
-            return "a whole number";
-        case toml::node_type::floating_point:
-            return "a number";
-        case toml::node_type::boolean:
-            return "true or false";
-        case toml::node_type::table:
-            return "a table";
-        case toml::node_type::array:
-            return "an array";
-        default:
-            return "a date or time";
-    }
-}
-
-std::string shown(const toml::node& node) {
-    if (const auto* text = node.as_string()) return fmt::format("\"{:.40}\"", text->get());
-    if (const auto* number = node.as_integer()) return fmt::format("{}", number->get());
-    if (const auto* number = node.as_floating_point()) return fmt::format("{}", number->get());
-    if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
-    return kind_name(node);
-}
 
 /// The value of a node as the parameter wants it. @throws InputError
 CaseValue value_of(const Parameter& p, const toml::node& node, const std::string& where, const std::string& name) {
@@ -105,20 +77,6 @@ CaseValue value_of(const Parameter& p, const toml::node& node, const std::string
     return {};
 }
 
-toml::table parse(const fs::path& path) {
-    if (!is_file(path)) {
-        throw InputError(fmt::format("{}: found no such file, expected a case file; check the path", path.string()));
-    }
-    const std::string text = read_text(path);
-    check_toml_shape(path.string(), text);
-    try {
-        return toml::parse(text, path.string());
-    } catch (const toml::parse_error& problem) {
-        throw InputError(fmt::format("{}:{}: not valid TOML: {:.200}", path.string(), problem.source().begin.line,
-                                     problem.description()));
-    }
-}
-
 const TableDescription* find_table(const std::string& name) {
     for (const TableDescription& t : case_tables())
         if (t.name == name) return &t;
@@ -148,9 +106,8 @@ std::string key_label(const Parameter& p, std::size_t entry) {
                                  table.empty() ? key : table + "." + key, fmt::join(known, ", ")));
 }
 
-void take_value(TestCase& test, const fs::path& file, const std::string& table, const std::string& key,
+void take_value(TestCase& test, const std::string& where, const std::string& table, const std::string& key,
                 const toml::node& node, std::size_t entry = 0) {
-    const std::string where = line_of(file, node);
     const Parameter* p = find_parameter(table, key);
     if (p == nullptr) refuse_unknown(where, table, key);
     const std::string name = key_label(*p, entry);
@@ -175,13 +132,14 @@ void take_list(TestCase& test, const fs::path& file, const TableDescription& tab
         const toml::node& inner = *entries->get(entry);
         test.position[table_label(table.name, entry)] = line_of(file, inner);
         for (const auto& [key, value] : *inner.as_table())
-            take_value(test, file, table.name, std::string(key.str()), value, entry);
+            take_value(test, line_of(file, value), table.name, std::string(key.str()), value, entry);
     }
 }
 
 /// Of alternative keys for one quantity, the one that a file uses replaces those of the files before it.
-void forget_other_ways(TestCase& test, const toml::table& content) {
-    const auto writes = [&](const std::string& key) { return static_cast<bool>(content.at_path(key)); };
+/// @param writes whether the file writes this full key
+template <class Writes>
+void forget_other_ways(TestCase& test, const Writes& writes) {
     for (const Alternatives& ways : case_alternatives()) {
         for (const auto& taken : ways) {
             if (std::none_of(taken.begin(), taken.end(), writes)) continue;
@@ -199,7 +157,7 @@ void forget_other_ways(TestCase& test, const toml::table& content) {
 
 /// Puts the file's values into the case, over what is there.
 void take_file(TestCase& test, const fs::path& file, const toml::table& content) {
-    forget_other_ways(test, content);
+    forget_other_ways(test, [&](const std::string& key) { return static_cast<bool>(content.at_path(key)); });
     for (const auto& [name, node] : content) {
         const std::string key(name.str());
         if (key == "include") continue;
@@ -209,14 +167,14 @@ void take_file(TestCase& test, const fs::path& file, const toml::table& content)
         }
         const toml::table* inner = node.as_table();
         if (inner == nullptr) {
-            take_value(test, file, "", key, node);
+            take_value(test, line_of(file, node), "", key, node);
             continue;
         }
         if (find_table(key) == nullptr) refuse_unknown(line_of(file, node), "", key);
         test.table_present[key] = true;
         test.position[key] = line_of(file, node);
         for (const auto& [inner_name, inner_node] : *inner) {
-            take_value(test, file, key, std::string(inner_name.str()), inner_node);
+            take_value(test, line_of(file, inner_node), key, std::string(inner_name.str()), inner_node);
         }
     }
 }
@@ -224,7 +182,7 @@ void take_file(TestCase& test, const fs::path& file, const toml::table& content)
 /// Reads a file after what it includes, so that its own keys stand over it.
 /// @param within the files that include this one, the case first: none may come again
 void take_with_includes(TestCase& test, const fs::path& path, std::vector<fs::path> within) {
-    const toml::table content = parse(path);
+    const toml::table content = parse_toml(path, "a case file");
     test.inputs.push_back(path);
     if (const toml::node* include = content.get("include")) {
         const std::string where = line_of(path, *include);
@@ -249,6 +207,49 @@ void take_with_includes(TestCase& test, const fs::path& path, std::vector<fs::pa
         take_with_includes(test, other, std::move(within));
     }
     take_file(test, path, content);
+}
+
+/// A value as a node of a file, so that it is judged as one.
+std::unique_ptr<toml::node> node_of(const CaseValue& value) {
+    return std::visit(
+        [](const auto& one) -> std::unique_ptr<toml::node> {
+            using Value = std::decay_t<decltype(one)>;
+            if constexpr (std::is_same_v<Value, std::array<std::string, 2>>)
+                return std::make_unique<toml::array>(one[0], one[1]);
+            else
+                return std::make_unique<toml::value<Value>>(one);
+        },
+        value);
+}
+
+/// Puts one value into the case, over what is there.
+void take_setting(TestCase& test, const CaseSetting& setting) {
+    const std::size_t dot = setting.key.find('.');
+    std::string table = dot == std::string::npos ? "" : setting.key.substr(0, dot);
+    const std::string key = dot == std::string::npos ? setting.key : setting.key.substr(dot + 1);
+    std::size_t entry = 0;
+    const std::size_t bracket = table.find('[');
+    const TableDescription* list = find_table(table.substr(0, bracket));
+    if (list != nullptr && list->repeated()) {
+        const std::size_t count = list->count(test);
+        const std::string number = bracket == std::string::npos ? "" : table.substr(bracket + 1);
+        const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), entry);
+        if (error != std::errc() || std::string(end, number.data() + number.size()) != "]" || entry < 1 ||
+            entry > count) {
+            throw InputError(fmt::format("{}: {:.40}: found no such table, expected {}[1] to {}[{}], as the case has",
+                                         setting.where, table, list->name, list->name, count));
+        }
+        --entry;
+        table = list->name;
+    } else {
+        if (list == nullptr) refuse_unknown(setting.where, "", table);
+        forget_other_ways(test, [&](const std::string& other) { return other == setting.key; });
+        if (!table.empty()) {
+            test.table_present[table] = true;
+            test.position.try_emplace(table, setting.where);
+        }
+    }
+    take_value(test, setting.where, table, key, *node_of(setting.value), entry);
 }
 
 /// Whether the case uses an alternative to this key.
@@ -294,14 +295,20 @@ void fill_defaults(TestCase& test) {
 
 }  // namespace
 
-TestCase read_case(const fs::path& path) {
-    TestCase test;
-    test.source = path;
-    take_with_includes(test, path, {});
+CaseFiles::CaseFiles(const fs::path& path) {
+    written_.source = path;
+    take_with_includes(written_, path, {});
+}
+
+TestCase CaseFiles::with(std::span<const CaseSetting> settings) const {
+    TestCase test = written_;
+    for (const CaseSetting& setting : settings) take_setting(test, setting);
     fill_defaults(test);
     check_consistency(test);
     return test;
 }
+
+TestCase read_case(const fs::path& path) { return CaseFiles(path).with({}); }
 
 namespace {
 
@@ -338,23 +345,34 @@ bool left_out(const TestCase& test, const std::string& table) {
 
 }  // namespace
 
-void write_resolved_case(std::ostream& out, const TestCase& test, const fs::path& folder) {
+std::vector<ResolvedKey> resolved_keys(const TestCase& test) {
+    std::vector<ResolvedKey> keys;
     for (const TableDescription& table : case_tables()) {
         if (left_out(test, table.name)) continue;
         const std::size_t entries = table.repeated() ? table.count(test) : 1;
         for (std::size_t entry = 0; entry < entries; ++entry) {
-            std::string lines;
             for (const Parameter& p : case_parameters()) {
                 if (p.table != table.name) continue;
-                const std::optional<CaseValue> value = p.get(test, entry);
-                if (!value) continue;
-                lines += fmt::format("{} = {}  # {}{}\n", p.key, written_value(test, p, *value, folder),
-                                     p.unit.empty() ? "" : p.unit + ": ", p.sentence);
+                if (std::optional<CaseValue> value = p.get(test, entry))
+                    keys.push_back({key_label(p, entry), &p, *std::move(value)});
             }
-            if (lines.empty()) continue;
-            if (!table.name.empty()) out << '\n' << table.heading() << "  # " << table.sentence << '\n';
-            out << lines;
         }
+    }
+    return keys;
+}
+
+void write_resolved_case(std::ostream& out, const TestCase& test, const fs::path& folder) {
+    std::string table;
+    for (const ResolvedKey& key : resolved_keys(test)) {
+        const Parameter& p = *key.parameter;
+        const std::string own = key.label.substr(0, key.label.size() - p.key.size());
+        if (own != table) {
+            const TableDescription& described = *find_table(p.table);
+            out << '\n' << described.heading() << "  # " << described.sentence << '\n';
+            table = own;
+        }
+        out << fmt::format("{} = {}  # {}{}\n", p.key, written_value(test, p, key.value, folder),
+                           p.unit.empty() ? "" : p.unit + ": ", p.sentence);
     }
 }
 

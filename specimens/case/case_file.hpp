@@ -9,10 +9,33 @@
 
 #include <filesystem>
 #include <iosfwd>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "specimens/case/test_case.hpp"
 
 namespace crackle {
+
+/// A value for one key, over what the files say: a point of a campaign's axis, say.
+struct CaseSetting {
+    std::string key;  ///< "material.cohesion"; of a table that may come several times "mineral[2].cohesion"
+    CaseValue value;
+    std::string where;  ///< "file:line" for errors; paths are relative to that file
+};
+
+/// What a case and the files it includes say, before settings and defaults: read once, made into many tests.
+class CaseFiles {
+  public:
+    /// @throws InputError as read_case(), but for what only the whole case shows
+    explicit CaseFiles(const std::filesystem::path& path);
+
+    /// The test with settings over what the files say, the last one over those before it. @throws InputError
+    TestCase with(std::span<const CaseSetting> settings) const;
+
+  private:
+    TestCase written_;
+};
 
 /// Reads and checks a case. @throws InputError «file:line: key: found X, expected Y; what to do».
 TestCase read_case(const std::filesystem::path& path);
@@ -20,6 +43,17 @@ TestCase read_case(const std::filesystem::path& path);
 /// Writes the case with every value in the open, each with its unit and sentence; reading it back gives the same test.
 /// @param folder where the text will stand: paths are written relative to it.
 void write_resolved_case(std::ostream& out, const TestCase& test, const std::filesystem::path& folder);
+
+struct Parameter;
+
+/// One key of a case with the value that it has, written or by default.
+struct ResolvedKey {
+    std::string label;  ///< "material.cohesion", "mineral[2].cohesion"
+    const Parameter* parameter;
+    CaseValue value;
+};
+/// All that have one, in the order of a written case. Equal lists are equal tests, but for what files contain.
+std::vector<ResolvedKey> resolved_keys(const TestCase& test);
 
 /// The table of all keys with unit, default, range and sentence, for people.
 void describe_case_keys(std::ostream& out);

@@ -12,15 +12,11 @@
 #include <optional>
 #include <string>
 #include <type_traits>
-#include <variant>
 #include <vector>
 
 #include "specimens/case/test_case.hpp"
 
 namespace crackle {
-
-/// A value as TOML knows it.
-using CaseValue = std::variant<bool, std::int64_t, double, std::string, std::array<std::string, 2>>;
 
 enum class ValueKind { flag, integer, real, text, text_pair };
 

@@ -11,9 +11,13 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace crackle {
+
+/// A value as TOML knows it.
+using CaseValue = std::variant<bool, std::int64_t, double, std::string, std::array<std::string, 2>>;
 
 /// Of a packing whose case sets no damping: a particle ringing on its contacts loses 95 % of its energy a
 /// period, exp(-4πh) = 1/20; it shortens the stable step by a fifth.
@@ -140,6 +144,12 @@ struct TestCase {
     /// No key: the companions of a test are made with it. Times the damping of every material, after packing.
     double damping_scale = 1.0;
     double step_scale = 1.0;  ///< of a derived time step
+
+    /// A smaller safety factor would leave alone a step that the bound holds below it.
+    void halve_step() {
+        if (numerics.time_step) *numerics.time_step *= 0.5;
+        step_scale *= 0.5;
+    }
 
     std::filesystem::path source;  ///< the case file
     std::map<std::string, std::string>

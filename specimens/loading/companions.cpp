@@ -33,11 +33,8 @@ std::vector<Plan> plans_for(const TestCase& asked, int threads) {
         plans.back().description.numerics.threads = threads;
         return plans.back().description;
     };
-    TestCase& step = plan("half_time_step");
-    if (step.numerics.time_step) *step.numerics.time_step *= 0.5;
-    step.step_scale = 0.5;  // a smaller safety factor would leave alone a step that the bound holds below it
-    TestCase& rate = plan("half_rate");
-    rate.loading.scale_rate(0.5);
+    plan("half_time_step").halve_step();
+    plan("half_rate").loading.scale_rate(0.5);
     plan("half_damping").damping_scale = 0.5;
     TestCase& doubled = plan("double_damping");
     doubled.damping_scale = 2.0;

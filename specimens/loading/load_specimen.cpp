@@ -26,6 +26,10 @@ constexpr double seconds_between_progress = 0.2;
 // not depend on how much of it is looked at.
 constexpr std::int64_t min_judged_rows = 2000;
 
+std::int64_t judged_per_written(const VirtualTest& test) {
+    return (min_judged_rows - 1) / test.description.output.curve_rows + 1;
+}
+
 class LoadingLoop {
   public:
     LoadingLoop(VirtualTest& test, const TestHooks& hooks, TestFiles* files)
@@ -36,7 +40,7 @@ class LoadingLoop {
           files_(files),
           max_strain_(test.description.loading.max_axial_strain),
           stress_unit_(test.description.stress_unit()),
-          judged_per_written_((min_judged_rows - 1) / test.description.output.curve_rows + 1),
+          judged_per_written_(judged_per_written(test)),
           row_spacing_(max_strain_ / static_cast<double>(test.description.output.curve_rows * judged_per_written_)),
           frame_spacing_(max_strain_ / static_cast<double>(test.description.output.frames.value())),
           checkpoint_interval_(test.description.output.checkpoint_interval),
@@ -225,6 +229,15 @@ class LoadingLoop {
 void load_specimen(VirtualTest& test, const TestHooks& hooks, TestFiles* files) {
     malloc_trim(0);  // what packing, meshing and bonding needed: a third of all there is at 200,000 discs
     LoadingLoop(test, hooks, files).run();
+}
+
+std::vector<CurveRow> written_rows(const VirtualTest& test) {
+    const std::vector<CurveRow>& rows = test.state.rows;
+    const auto every = static_cast<std::size_t>(judged_per_written(test));
+    std::vector<CurveRow> written;
+    for (std::size_t k = 0; k < rows.size(); ++k)
+        if (k % every == 0 || k + 1 == rows.size()) written.push_back(rows[k]);
+    return written;
 }
 
 }  // namespace crackle

@@ -5,6 +5,8 @@
 // they come. Nothing of this reaches the kernels. Tested by tests/specimens/loading/virtual_test_test.cpp.
 #pragma once
 
+#include <vector>
+
 #include "specimens/loading/virtual_test.hpp"
 #include "specimens/making/hooks.hpp"
 
@@ -16,5 +18,9 @@ class TestFiles;
 /// world.bonds.events)
 /// @throws UnstableRun with everything so far kept.
 void load_specimen(VirtualTest& test, const TestHooks& hooks = {}, TestFiles* files = nullptr);
+
+/// Rows of a loaded test that curve.csv holds: of those that are judged, so many as output.curve_rows asks for, and the
+/// last.
+std::vector<CurveRow> written_rows(const VirtualTest& test);
 
 }  // namespace crackle

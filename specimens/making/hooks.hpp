@@ -12,6 +12,10 @@
 
 namespace crackle {
 
+struct Packing;
+struct PackingRequest;
+struct TestCase;
+
 struct TestProgress {
     double axial_strain = 0.0;
     double share_done = 0.0;  ///< of max_axial_strain
@@ -30,6 +34,9 @@ struct TestHooks {
     std::function<void(const TestProgress&)> progress;  ///< a few times a second
     std::function<bool()> interrupted;
     std::function<void(const std::string& name, const Scene&)> made;  ///< circles, then polygons, as they are tested
+
+    /// Gives the packing of a case, made by `make` or made before; not asked for where it is empty.
+    std::function<Packing(const TestCase&, const PackingRequest&, const std::function<Packing()>& make)> keep_packing;
 
     void report_stage(const std::string& line) const {
         if (stage) stage(line);

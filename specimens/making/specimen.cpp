@@ -141,7 +141,9 @@ Packing pack(const TestCase& test, PackingRequest request, const PackingCallback
     }
 }
 
-Scene packed_scene(const TestCase& test, const TestHooks& hooks, Specimen& specimen) {
+}  // namespace
+
+Packing packing_of(const TestCase& test, const TestHooks& hooks) {
     const auto& keys = test.packing;
     PackingRequest request;
     request.width = keys.width;
@@ -155,11 +157,20 @@ Scene packed_scene(const TestCase& test, const TestHooks& hooks, Specimen& speci
     request.material.damping_ratio = default_damping_ratio;
     apply_material(test.material, request.material);
     request.material.tensile_strength = request.material.cohesion = 0.0;  // nothing is bonded yet
-    Packing packing = pack(test, std::move(request), [&](const PackingProgress& p) {
-        if (hooks.interrupted && hooks.interrupted()) throw TestInterrupted();
-        hooks.report_work(fmt::format("{} (draw {}): unbalanced by {:.1e} of the mean contact force", p.stage,
-                                      p.attempt, p.residual));
-    });
+    const auto make = [&] {
+        return pack(test, request, [&](const PackingProgress& p) {
+            if (hooks.interrupted && hooks.interrupted()) throw TestInterrupted();
+            hooks.report_work(fmt::format("{} (draw {}): unbalanced by {:.1e} of the mean contact force", p.stage,
+                                          p.attempt, p.residual));
+        });
+    };
+    return hooks.keep_packing ? hooks.keep_packing(test, request, make) : make();
+}
+
+namespace {
+
+Scene packed_scene(const TestCase& test, const TestHooks& hooks, Specimen& specimen) {
+    Packing packing = packing_of(test, hooks);
     const PackingReport& report = packing.report;
     specimen.notices = packing_notices(report);
     specimen.packing = {{"void_ratio", report.void_ratio},
@@ -175,7 +186,7 @@ Scene packed_scene(const TestCase& test, const TestHooks& hooks, Specimen& speci
     hooks.report_stage(
         fmt::format("packed {} circles into {:.4g} m x {:.4g} m: void ratio {:.4g}, mean overlap {:.4g} m, seed {}",
                     packing.report.circles, packing.report.width, packing.report.height, packing.report.void_ratio,
-                    packing.report.mean_overlap, keys.seed));
+                    packing.report.mean_overlap, test.packing.seed));
     for (Material& material : packing.scene.materials) apply_material(test.material, material);
     return std::move(packing.scene);
 }

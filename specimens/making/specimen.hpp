@@ -38,6 +38,10 @@ struct Specimen {
 inline constexpr const char* circles_file = "specimen_circles.dat";
 inline constexpr const char* polygons_file = "specimen_polygons.dat";
 
+/// The circles alone, of a case with [packing]: from hooks.keep_packing where it is given.
+/// @throws InputError for what cannot be packed, naming the case's key; TestInterrupted
+Packing packing_of(const TestCase& test, const TestHooks& hooks);
+
 /// Makes or reads the specimen that the case describes.
 /// @throws InputError for what cannot be read, packed, meshed or tested, naming the case's key; TestInterrupted.
 Specimen make_specimen(const TestCase& test, const TestHooks& hooks);

@@ -112,24 +112,22 @@ double shortfall(const Compression& draw, double radius_scale) {
                      std::abs(radius_scale - 1.0) / max_radius_scaling});
 }
 
-Scene make_scene(const PackingRequest& request, const Compression& draw, double scale, double width, double height) {
+}  // namespace
+
+Scene scene_of_circles(const std::vector<CircleElement>& circles, double width, double height, const Material& material,
+                       int threads) {
     Scene scene;
-    scene.materials.push_back(request.material);
+    scene.materials.push_back(material);
     scene.domain.x1 = scene.domain.y1 = 0.0;
     scene.domain.x2 = width;
     scene.domain.y2 = height;
-    scene.threads = request.threads;
+    scene.threads = threads;
     int id = 0;
-    for (const Disc& disc : draw.assembly.discs) {
-        scene.add_circle_body(
-            ++id, 0, {.centre = {scale * disc.x, scale * disc.y}, .radius = scale * disc.radius, .angle = 0.0});
-    }
+    for (const CircleElement& circle : circles) scene.add_circle_body(++id, 0, circle);
     validate(scene);
     scene.time_step = deck_time_step(scene);
     return scene;
 }
-
-}  // namespace
 
 double deck_time_step(const Scene& scene) {
     double shortest = std::numeric_limits<double>::infinity();
@@ -183,7 +181,12 @@ Packing make_packing(const PackingRequest& request, const PackingCallback& progr
     const double width = box_asked ? *request.width : best->assembly.width;
     const double height = box_asked ? *request.height : best->assembly.height;
     Packing packing;
-    packing.scene = make_scene(request, *best, best_scale, width, height);
+    std::vector<CircleElement> circles;
+    for (const Disc& disc : best->assembly.discs) {
+        circles.push_back(
+            {.centre = {best_scale * disc.x, best_scale * disc.y}, .radius = best_scale * disc.radius, .angle = 0.0});
+    }
+    packing.scene = scene_of_circles(circles, width, height, request.material, request.threads);
     packing.report = measure_packing(packing.scene, request.sizes);
     packing.report.radius_scale = best_scale;
     packing.report.aspect_error = best->aspect_error;

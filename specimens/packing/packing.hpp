@@ -16,6 +16,7 @@
 // exactly. Packings that miss one of these are drawn again, with the next stream of random numbers (report: attempts);
 // the one that came nearest is taken, and its report states what it missed (isotropic, box_met). Where circles are all
 // alike there is nothing to trade: with a count the box may then leave its shape by max_aspect_error.
+// Circles do not depend on the material: it gives the report its stresses, and the deck its time step.
 //
 // Reachable void ratios end where frictionless circles jam: looser arrangements cannot carry load at rest.
 #pragma once
@@ -103,6 +104,10 @@ PackingReport measure_packing(const Scene& scene, const SizeDistribution& sizes)
 
 /// What the packing misses of what was asked, in words; nothing where all was met.
 std::vector<std::string> packing_notices(const PackingReport& report);
+
+/// Circles 1, 2, … in a box between four walls, at rest, with the time step of the deck.
+Scene scene_of_circles(const std::vector<CircleElement>& circles, double width, double height, const Material& material,
+                       int threads);
 
 /// Time step written into the deck: a tenth of the lightest circle's 2·sqrt(m/k_n) [s]. Its contacts number at most
 /// about six and carry dashpots, so that the bound of the bonded specimen is a few times larger.

@@ -46,13 +46,16 @@ void print_overview(std::ostream& out, Stream stream) {
 }
 
 int call(const Command& command, const std::string& name, const Arguments& words) {
-    if (command.studies != nullptr) {
+    const bool itself = command.run != nullptr && (command.studies == nullptr || words.empty() ||
+                                                   (!asks_for_help(words[0]) && !named(command.studies(), words[0])));
+    if (!itself) {
         const std::vector<Command>& studies = command.studies();
         const std::string known = fmt::format("{}", fmt::join(names_of(studies), ", "));
         if (words.empty()) throw InputError(fmt::format("{}: found no study, expected one of {}", name, known));
         if (asks_for_help(words[0])) {
             print_help(command.describe());
-            std::cout << '\n' << styled("studies:", Style::heading, Stream::out) << '\n';
+            std::cout << '\n'
+                      << styled(command.run == nullptr ? "studies:" : "further:", Style::heading, Stream::out) << '\n';
             list(std::cout, studies);
             return exit_done;
         }
@@ -84,6 +87,8 @@ const std::vector<Command>& commands() {
          test},
         {"elastic", "the same specimen by a sparse solve: moduli, first break and slip, stable time step",
          describe_elastic, elastic},
+        {"campaign", "a table of tests on all processors or a cluster: means, scatter, bias", describe_campaign,
+         campaign, campaign_studies},
         {"report", "one self-contained HTML page from the results of tests", describe_report, report},
         {"view", "a page to look at a particle file, a deck's run or tests, in motion", describe_view, view},
         {"plot", "figures for papers: curves, breaks, specimens, as SVG, PDF or PNG", describe_plot, plot},

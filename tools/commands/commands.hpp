@@ -18,7 +18,7 @@ struct Command {
     const char* summary;
     CommandLine (*describe)();
     int (*run)(const Invocation& given);                 ///< absent: one of its studies is run
-    const std::vector<Command>& (*studies)() = nullptr;  ///< named by the next word
+    const std::vector<Command>& (*studies)() = nullptr;  ///< named by the next word; else run() has it
 };
 
 /// In the order of a user's work.
@@ -34,6 +34,9 @@ CommandLine describe_test();
 int test(const Invocation& given);
 CommandLine describe_elastic();
 int elastic(const Invocation& given);
+CommandLine describe_campaign();
+int campaign(const Invocation& given);
+const std::vector<Command>& campaign_studies();
 CommandLine describe_report();
 int report(const Invocation& given);
 CommandLine describe_view();

@@ -21,17 +21,18 @@ struct Completed {
     std::string summary;
     CommandLine line;
     Arguments studies;
+    bool itself = true;  ///< runs without naming a study
 };
 
 std::vector<Completed> completed_commands() {
     std::vector<Completed> all;
     for (const Command& command : commands()) {
-        Completed one{command.name, command.summary, command.describe(), {}};
+        Completed one{command.name, command.summary, command.describe(), {}, command.run != nullptr};
         std::vector<Completed> studies;
         if (command.studies != nullptr) {
             for (const Command& study : command.studies()) {
                 one.studies.emplace_back(study.name);
-                studies.push_back({one.name + ' ' + study.name, study.summary, study.describe(), {}});
+                studies.push_back({one.name + ' ' + study.name, study.summary, study.describe(), {}, true});
             }
         }
         all.push_back(std::move(one));
@@ -108,15 +109,17 @@ std::string bash_completion(const std::string& shell) {
     std::string studies, arguments, lists, options;
     for (const Completed& command : completed_commands()) {
         if (!command.studies.empty()) {
+            // One that runs by itself may be given a file, or an option, in the place of a study.
             studies += fmt::format(
                 "        {0})\n"
-                "            if [ \"$COMP_CWORD\" -eq 2 ]; then\n"
-                "                COMPREPLY=($(compgen -W '{1}' -- \"$word\"))\n"
+                "            if [ \"$COMP_CWORD\" -eq 2 ]{2}; then\n"
+                "                COMPREPLY=($(compgen {3}-W '{1}' -- \"$word\"))\n"
                 "                return\n"
                 "            fi\n"
-                "            called=\"{0} ${{COMP_WORDS[2]}}\" ;;\n",
-                command.name, joined(command.studies));
-            continue;
+                "            case ${{COMP_WORDS[2]}} in {4}) called=\"{0} ${{COMP_WORDS[2]}}\" ;; esac ;;\n",
+                command.name, joined(command.studies), command.itself ? " && [ \"${word#-}\" = \"$word\" ]" : "",
+                command.itself ? "-f " : "", fmt::join(command.studies, "|"));
+            if (!command.itself) continue;
         }
         Arguments names;
         for (const OptionFacts& option : options_of(command.line)) {
@@ -169,7 +172,7 @@ std::string fish_completion() {
         text += fmt::format("complete -c crackle -n 'test (count (commandline -opc)) -eq {}{}' -f -a {} -d {}\n",
                             before.empty() ? 1 : 2, before.empty() ? "" : "; and __crackle_calls " + before, name,
                             quoted(command.summary));
-        if (!command.studies.empty()) continue;
+        if (!command.itself) continue;
         for (const OptionFacts& option : options_of(command.line)) {
             text += fmt::format("complete -c crackle -n '__crackle_calls {}' -l {}", command.name, option.name);
             if (option.letter != '\0') text += fmt::format(" -s {}", option.letter);

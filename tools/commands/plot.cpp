@@ -16,6 +16,7 @@
 #include "solver/files/replace_file.hpp"
 #include "specimens/recordings/distinct_names.hpp"
 #include "specimens/recordings/recording.hpp"
+#include "tools/campaign/page/figures.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/page/report_page.hpp"
 #include "tools/plot/panels.hpp"
@@ -185,6 +186,25 @@ void plot_tests(const po::variables_map& given, const Words& folders, const Look
     if (!messages.quiet()) std::cout << output.string() << '\n';
 }
 
+/// All figures of a campaign, one below the other.
+void plot_campaign(const po::variables_map& given, const fs::path& folder, const Look& look, Messages& messages) {
+    const fs::path output = given["output"].as<std::string>();
+    const std::string extension = output.extension().string();
+    const Format format =
+        format_named(fmt::format("--output {}", output.string()), extension.empty() ? "" : extension.substr(1));
+    refuse_replacing(output, given.contains("force"));
+    const CampaignRecord record =
+        read_campaign(folder, given.contains("figure") ? given["figure"].as<Words>() : Words{});
+    std::vector<Panel> panels;
+    for (CampaignFigure& part : campaign_figures(record))
+        panels.insert(panels.end(), part.panels.begin(), part.panels.end());
+    if (panels.empty())
+        throw InputError(fmt::format("plot: {}: found nothing to draw, expected figures or curves", folder.string()));
+    const std::string title = given["title"].as<std::string>();
+    replace_file(output, figure(panels, title, look.width, format, look.sheet));
+    if (!messages.quiet()) std::cout << output.string() << '\n';
+}
+
 constexpr int first_guide_figure = 26, last_guide_figure = 29;
 
 /// These figures of the guide: its circles, the partitions made of them, and what these bear.
@@ -269,13 +289,15 @@ CommandLine describe_plot() {
          "folder of the six tests of tools/quickstart: figures 26 to 29 of DEMseg's guide")  //
         ("format", po::value<std::string>()->value_name("FORMAT")->default_value("pdf"),
          "of the guide's figures: svg, pdf or png")  //
+        ("figure", po::value<Words>()->multitoken()->value_name("NAME"),
+         "of a campaign: figures of summary.json that are drawn (default: moduli and strength)")  //
         ("force", "replace figures that are there");
     return {
         .synopses = {"crackle plot OUT... -o FIGURE [OPTIONS]", "crackle plot --guide FOLDER -o FOLDER [OPTIONS]"},
         .description =
             "Figures for a paper from the folders that `crackle test` wrote: axial stress over axial strain with "
             "the breaks beneath, bonds broken along the loading (what acoustic emission hears), specimens at given "
-            "strains with their cracks.",
+            "strains with their cracks. Of a campaign's folder: bands of curves, distributions, figures over its axes.",
         .options = {{"options", options}},
         .operand = "OUT",
         .several_operands = true,
@@ -286,6 +308,7 @@ CommandLine describe_plot() {
         .examples = {{"crackle plot out/pulled out/squeezed -o curves.pdf --what curve"},
                      {"crackle plot out/squeezed -o squeezed.svg --at start 0.001 peak end"},
                      {"crackle plot out/squeezed -o specimen.png --what specimen --at peak end --dpi 600 --width 120"},
+                     {"crackle plot out/granite -o granite.pdf", "a campaign"},
                      {"crackle plot --guide out/guide_rock -o out/figures",
                       "figures 26 to 29 of DEMseg's guide, from the tests of tools/quickstart"}}};
 }
@@ -301,8 +324,13 @@ int plot(const Invocation& given) {
     if (!values.contains("output"))
         throw InputError("plot: found no -o, expected the figure's name: -o figure.pdf, .svg or .png");
     const Look look = look_of(values);
-    values.contains("guide") ? plot_guide(values, look, given.messages)
-                             : plot_tests(values, given.operands, look, given.messages);
+    const bool of_campaign = given.operands.size() == 1 && is_campaign(given.operands.front());
+    if (values.contains("guide"))
+        plot_guide(values, look, given.messages);
+    else if (of_campaign)
+        plot_campaign(values, given.operands.front(), look, given.messages);
+    else
+        plot_tests(values, given.operands, look, given.messages);
     return exit_done;
 }
 

@@ -1,14 +1,43 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `crackle report OUT... -o report.html`: the results of one or several tests on one self-contained page.
 
+#include <fmt/format.h>
+
 #include <filesystem>
 #include <iostream>
 
 #include "solver/base/errors.hpp"
+#include "solver/files/read_file.hpp"
+#include "solver/files/replace_file.hpp"
+#include "specimens/recordings/test_results.hpp"
+#include "tools/campaign/page/campaign_page.hpp"
+#include "tools/campaign/page/figures.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/page/report_page.hpp"
 
 namespace crackle::tools {
+
+namespace {
+
+/// The page of a campaign's folder.
+int report_campaign(const Invocation& given) {
+    const std::filesystem::path folder = given.operands.front();
+    if (given.operands.size() > 1)
+        throw InputError(fmt::format("report: found {} folders, expected a campaign's by itself: {}",
+                                     given.operands.size(), folder.string()));
+    const std::filesystem::path output = given.values.contains("output")
+                                             ? std::filesystem::path(given.values["output"].as<std::string>())
+                                             : folder / "report.html";
+    if (is_there(output) && !is_report_page(output))
+        throw InputError(fmt::format("{}: found a file that is no report, expected a page to write; choose another -o",
+                                     output.string()));
+    const CampaignRecord record = read_campaign(folder);
+    replace_file(output, campaign_page(record, given.values["title"].as<std::string>(), output.parent_path()));
+    if (!given.messages.quiet()) std::cout << output.string() << '\n';
+    return exit_done;
+}
+
+}  // namespace
 
 CommandLine describe_report() {
     po::options_description options;
@@ -22,7 +51,7 @@ CommandLine describe_report() {
             .description =
                 "One self-contained page from the folders that `crackle test` wrote: stress-strain curves with bond "
                 "breaks beneath, each specimen in motion and at start, peak and end, a table of the summaries. Opens "
-                "in any browser, needs no network.",
+                "in any browser, needs no network. Of a campaign's folder: its means, distributions, bands of curves.",
             .options = {{"options", options}},
             .operand = "OUT",
             .several_operands = true,
@@ -38,6 +67,7 @@ int report(const Invocation& given) {
             "report: found no folder of results, expected at least one: crackle report OUT... (see --help)");
     }
     Messages& messages = given.messages;
+    if (is_campaign(folders.front())) return report_campaign(given);
     std::vector<Recording> tests;
     for (const std::string& folder : folders) {
         tests.push_back(read_test_recording(folder, given.values["frames"].as<std::size_t>()));

@@ -11,20 +11,13 @@
 #include <optional>
 
 #include "tools/plot/axes.hpp"
+#include "tools/plot/legend.hpp"
 #include "tools/plot/panels.hpp"
 
 namespace crackle::plot {
 namespace {
 
-constexpr double strain_unit = 1e-3;
-constexpr const char* strain_title = "axial strain, 10⁻³";
-constexpr double curve_width = 0.9;  // pt
-
-// As in the report (tools/viewer/src/colours/theme.ts): distinguishable with any colour vision.
-const std::array<Colour, 8> series{colour("#22262a"), colour("#00896b"), colour("#aa3377"), colour("#8a6d00"),
-                                   colour("#6a51a3"), colour("#737a80"), colour("#a6611a"), colour("#33a3c2")};
-
-const Colour& colour_of(const PlottedTest& test) { return series[test.colour % series.size()]; }
+const Colour& colour_of(const PlottedTest& test) { return series_colour(test.colour); }
 
 const std::vector<double>& column(const TestResults& results, const char* name) { return *results.curve.find(name); }
 
@@ -59,61 +52,6 @@ std::vector<Point> curve_points(const Axes& axes, const std::vector<double>& x, 
     return points;
 }
 
-/// Samples of line and name, in as many columns of equal width as fit between the sides.
-class Legend {
-  public:
-    struct Entry {
-        std::string label;
-        Colour colour;
-        bool dashed = false, bar = false;
-    };
-    Legend(const Canvas& canvas, std::vector<Entry> entries, double width) : entries_(std::move(entries)) {
-        constexpr double between = 10.0;  // pt
-        double widest = 0.0;
-        const auto measure = [&] {
-            line_ = 1.25 * canvas.size_of("Xy", text_).height;
-            for (const Entry& entry : entries_)
-                widest = std::max(widest, sample + 3.0 + canvas.size_of(escaped(entry.label), text_).width + between);
-            return static_cast<std::size_t>(std::max(1.0, std::floor((width + between) / widest)));
-        };
-        std::size_t columns = measure();
-        if (columns < std::min<std::size_t>(2, entries_.size())) {  // smaller letters where that makes a second column
-            text_ = 0.85;
-            widest = 0.0;
-            columns = measure();
-        }
-        columns = std::min(columns, std::max<std::size_t>(1, entries_.size()));
-        rows_ = static_cast<int>((entries_.size() + columns - 1) / columns);
-        for (std::size_t k = 0; k < entries_.size(); ++k) {
-            const std::size_t row = k / columns;
-            places_.push_back({widest * static_cast<double>(k % columns), line_ * static_cast<double>(row)});
-        }
-    }
-    double height() const { return entries_.size() < 2 ? 0.0 : line_ * rows_ + 2.0; }
-    void draw(Canvas& canvas, Point corner) const {
-        if (entries_.size() < 2) return;
-        for (std::size_t k = 0; k < entries_.size(); ++k) {
-            const Entry& entry = entries_[k];
-            const double x = corner.x + places_[k].x, middle = corner.y + places_[k].y + 0.5 * line_;
-            if (entry.bar) {
-                canvas.rectangle({x + 0.25 * sample, middle - 2.5, 0.5 * sample, 5.0}, entry.colour);
-            } else {
-                canvas.line({{x, middle}, {x + sample, middle}}, entry.colour, curve_width, entry.dashed);
-            }
-            canvas.text({x + sample + 3.0, middle}, escaped(entry.label), Across::left, Down::middle, text_, ink);
-        }
-    }
-    /// Room of the rows beyond the first: a panel is so much higher.
-    double more_rows() const { return line_ * std::max(0, rows_ - 1); }
-
-  private:
-    static constexpr double sample = 14.0;  // pt
-    std::vector<Entry> entries_;
-    std::vector<Point> places_;
-    double line_ = 0.0, text_ = 1.0;  // text: of the font size
-    int rows_ = 0;
-};
-
 std::vector<Legend::Entry> entries_of(const std::vector<PlottedTest>& tests) {
     std::vector<Legend::Entry> entries;
     entries.reserve(tests.size());
@@ -121,15 +59,7 @@ std::vector<Legend::Entry> entries_of(const std::vector<PlottedTest>& tests) {
     return entries;
 }
 
-/// The width that a diagram's height is a share of: a page's width is no reason to be as high as half a page.
-double proportional(double width) { return std::min(width, 340.0); }
-
-constexpr double small_text = 0.75;     // of the font size
-constexpr double beside_letter = 20.0;  // pt, from the left of a panel, where its letter stands
-
-Legend legend_of(const Canvas& canvas, std::vector<Legend::Entry> entries, double width) {
-    return {canvas, std::move(entries), width - beside_letter - 4.0};
-}
+constexpr double small_text = 0.75;  // of the font size
 
 /// Breaks in equal intervals of strain: k width < strain <= (k + 1) width in the one of number k, as in the report.
 struct Histogram {

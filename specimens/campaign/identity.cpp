@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/campaign/identity.hpp"
+
+#include <fmt/format.h>
+#include <xxhash.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "solver/files/read_file.hpp"
+#include "specimens/case/parameters.hpp"
+#include "specimens/results/sha256.hpp"
+
+namespace crackle {
+namespace {
+
+// Of the keys of a case, those that no figure depends on.
+constexpr std::array<std::string_view, 6> without_figures{"title",         "numerics.threads",
+                                                          "output.frames", "output.frame_precision",
+                                                          "output.slips",  "output.checkpoint_interval"};
+
+std::string text_of(const TestCase& test, const ResolvedKey& key, FileHashes& files) {
+    if (key.parameter->is_path) return files.of(test.resolve_path(key.label, std::get<std::string>(key.value)));
+    return std::visit(
+        [](const auto& value) {
+            if constexpr (std::is_same_v<std::decay_t<decltype(value)>, std::array<std::string, 2>>)
+                return fmt::format("{}\n{}", value[0], value[1]);
+            else
+                return fmt::format("{}", value);
+        },
+        key.value);
+}
+
+std::string hash_of(const std::string& text) {
+    const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
+    return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
+/// "key = value" of those that are wanted, each value with its length: none can look like two.
+template <class Wanted>
+std::string listed(const TestCase& test, FileHashes& files, const Wanted& wanted) {
+    std::string text = fmt::format("results {}\n", results_version);
+    for (const ResolvedKey& key : resolved_keys(test)) {
+        if (!wanted(key)) continue;
+        const std::string value = text_of(test, key, files);
+        text += fmt::format("{} {} {}\n", key.label, value.size(), value);
+    }
+    return text;
+}
+
+}  // namespace
+
+const std::string& FileHashes::of(const std::filesystem::path& file) {
+    auto known = known_.find(file);
+    if (known == known_.end()) known = known_.emplace(file, sha256(read_file(file))).first;
+    return known->second;
+}
+
+std::string identity_of(const TestCase& test, FileHashes& files) {
+    const auto counts = [](const ResolvedKey& key) {
+        return std::find(without_figures.begin(), without_figures.end(), key.label) == without_figures.end();
+    };
+    return hash_of(listed(test, files, counts) +
+                   fmt::format("damping {} step {}\n", test.damping_scale, test.step_scale));
+}
+
+std::string packing_identity(const TestCase& test, FileHashes& files) {
+    const bool for_cells = test.packing.cell_diameter.has_value();
+    return hash_of(listed(test, files, [&](const ResolvedKey& key) {
+        return key.parameter->table == "packing" || (for_cells && key.parameter->table == "mesh");
+    }));
+}
+
+}  // namespace crackle

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What comes out of a plan: points and rows. plan_file.cpp reads it.
+#include "specimens/campaign/plan.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "solver/base/errors.hpp"
+
+namespace crackle {
+namespace {
+
+bool is_for(const Axis& axis, const PlannedTest& test) {
+    return axis.tests.empty() || std::find(axis.tests.begin(), axis.tests.end(), test.name) != axis.tests.end();
+}
+
+/// All combinations of the axes of one test: the last axis changes fastest, the design before all grid axes.
+void add_points(Plan& plan, std::size_t test, const std::vector<std::vector<double>>& design) {
+    PlanPoint point;
+    point.test = test;
+    std::size_t design_axes = 0, combinations = 1;
+    for (std::size_t a = 0; a < plan.axes.size(); ++a) {
+        if (!is_for(plan.axes[a], plan.tests[test])) continue;
+        point.axes.push_back(a);
+        if (plan.axes[a].of_design())
+            ++design_axes;
+        else
+            combinations *= plan.axes[a].values.size();
+    }
+    const std::size_t designs = design_axes > 0 ? design.size() : 1;
+    for (std::size_t d = 0; d < designs; ++d) {
+        for (std::size_t combination = 0; combination < combinations; ++combination) {
+            point.settings.clear();
+            std::size_t left = combinations, rest = combination, dimension = 0;
+            for (std::size_t a = 0; a < plan.axes.size(); ++a) {
+                const Axis& axis = plan.axes[a];
+                const std::size_t own = axis.of_design() ? dimension++ : 0;
+                if (!is_for(axis, plan.tests[test])) continue;
+                if (axis.of_design()) {
+                    point.settings.push_back({axis.key, axis.at(design[d][own]), axis.where});
+                    continue;
+                }
+                left /= axis.values.size();
+                point.settings.push_back({axis.key, axis.values[rest / left], axis.where});
+                rest %= left;
+            }
+            plan.points.push_back(point);
+        }
+    }
+}
+
+/// Of everything that is random in a case.
+std::vector<std::string> seeds_of(const TestCase& test) {
+    std::vector<std::string> keys;
+    if (test.has_table("packing")) keys.emplace_back("packing.seed");
+    if (test.bond.strength_distribution != "none") keys.emplace_back("bond.strength_seed");
+    if (!test.mineral.empty() && test.minerals.assign == "random") keys.emplace_back("minerals.seed");
+    return keys;
+}
+
+std::vector<CaseSetting> settings_of(const Plan& plan, const PlanPoint& point) {
+    std::vector<CaseSetting> settings = plan.tests[point.test].settings;
+    settings.insert(settings.end(), point.settings.begin(), point.settings.end());
+    return settings;
+}
+
+/// Each point is made once, so that no test is begun before all of them are known to be possible.
+void judge_points(Plan& plan) {
+    for (PlanPoint& point : plan.points) {
+        const PlannedTest& kind = plan.tests[point.test];
+        try {
+            const TestCase test = kind.files.with(settings_of(plan, point));
+            point.seeds = seeds_of(test);
+            if (plan.packings > 1 && point.seeds.empty()) {
+                throw InputError(
+                    fmt::format("{}: packings.count: found {}, expected 1: nothing in the test {} is random; give it "
+                                "[packing] or a strength_distribution, or leave [packings] out",
+                                plan.file.string(), plan.packings, kind.name));
+            }
+        } catch (const InputError& error) {
+            std::string at;
+            for (const CaseSetting& s : point.settings)
+                at += fmt::format("{}{} = {}", at.empty() ? "" : ", ", s.key, value_text(s.value));
+            throw InputError(at.empty() ? std::string(error.what())
+                                        : fmt::format("{} (test {} at {})", error.what(), kind.name, at));
+        }
+    }
+}
+
+}  // namespace
+
+const char* name_of(Variant variant) {
+    constexpr std::array<const char*, variants> names{"as_asked", "half_step", "half_rate"};
+    return names[static_cast<std::size_t>(variant)];
+}
+
+std::string value_text(const CaseValue& value) {
+    if (const auto* text = std::get_if<std::string>(&value)) return *text;
+    if (const auto* pair = std::get_if<std::array<std::string, 2>>(&value))
+        return fmt::format("{}-{}", (*pair)[0], (*pair)[1]);
+    if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
+    if (const auto* whole = std::get_if<std::int64_t>(&value)) return fmt::format("{}", *whole);
+    return fmt::format("{}", std::get<double>(value));
+}
+
+TestCase Plan::test_of(const PlanRow& row) const {
+    const PlanPoint& point = points[row.point];
+    std::vector<CaseSetting> settings = settings_of(*this, point);
+    const PlannedTest& kind = tests[point.test];
+    for (const std::string& key : point.seeds) settings.push_back({key, row.seed, file.string() + ":1"});
+    TestCase test = kind.files.with(settings);
+    if (row.variant == Variant::half_step) test.halve_step();
+    if (row.variant == Variant::half_rate) test.loading.scale_rate(0.5);
+    return test;
+}
+
+void expand(Plan& plan, const DesignRequest& design, bool with_companions) {
+    std::size_t design_axes = 0;
+    for (const Axis& axis : plan.axes) design_axes += axis.of_design() ? 1 : 0;
+    const auto shares = design_axes > 0 ? design_points(design.sequence, design.points, design_axes)
+                                        : std::vector<std::vector<double>>{};
+    double rows = 0.0;
+    for (const PlannedTest& test : plan.tests) {
+        double of_test = static_cast<double>(plan.packings) * (with_companions ? variants : 1);
+        bool designed = false;
+        for (const Axis& axis : plan.axes) {
+            if (!is_for(axis, test)) continue;
+            designed = designed || axis.of_design();
+            if (!axis.of_design()) of_test *= static_cast<double>(axis.values.size());
+        }
+        rows += designed ? of_test * static_cast<double>(design.points) : of_test;
+    }
+    if (rows > static_cast<double>(most_plan_rows)) {
+        throw InputError(fmt::format("{}: found {:.3g} tests, expected at most {}; fewer values, or fewer packings",
+                                     plan.file.string(), rows, most_plan_rows));
+    }
+    for (std::size_t test = 0; test < plan.tests.size(); ++test) add_points(plan, test, shares);
+    judge_points(plan);
+    for (std::int64_t k = 0; k < plan.packings; ++k) {
+        for (std::size_t point = 0; point < plan.points.size(); ++point) {
+            for (int variant = 0; variant < (with_companions ? variants : 1); ++variant)
+                plan.rows.push_back({point, plan.first_seed + k, static_cast<Variant>(variant)});
+        }
+    }
+}
+
+}  // namespace crackle

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A campaign's results by points of its plan: what the packings of each point say.
+// Tested by tests/specimens/campaign/campaign_test.cpp.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "specimens/campaign/ledger.hpp"
+#include "specimens/campaign/statistics.hpp"
+
+namespace crackle {
+
+struct PointSummary {
+    std::string test;
+    std::vector<std::pair<std::string, Cell>> axes;  ///< those that are for it
+    std::int64_t planned = 0, done = 0, gone_wrong = 0;
+    std::int64_t unfailed = 0;  ///< done, and not failed by max_axial_strain: they have no strength
+    bool area_units = false;
+    std::map<std::string, MeanFigure> figures;
+    std::map<std::string, MeanBias> biases;  ///< where the plan has companions
+
+    std::string at() const;  ///< "material.cohesion = 2e7, …"; empty without axes
+};
+
+/// Names of figures that are numbers, in the order of summary.json.
+std::vector<std::string> numeric_figures(const LedgerTable& results);
+
+/// @param figures that are asked for @throws InputError for one that no test has, naming those there are
+std::vector<PointSummary> summarise(const LedgerTable& results, const std::vector<std::string>& figures);
+
+/// Of a figure, as in summary.json; empty for none, or one that it does not list.
+std::string unit_of_figure(const std::string& figure, bool area_units);
+
+/// What the error of a mean is mostly made of, and what would lessen it, as a sentence.
+std::string verdict_on(const MeanFigure& mean, const MeanBias& bias);
+
+/// As CSV, a row a point and figure, in the order asked for.
+std::string points_csv(const std::vector<PointSummary>& points, const std::vector<std::string>& figures);
+/// As CSV, a row a test, as the view `results` of the ledger but for what differs from machine to machine.
+std::string tests_csv(const LedgerTable& results);
+
+}  // namespace crackle

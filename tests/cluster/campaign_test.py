@@ -1,0 +1,116 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A campaign on Slurm: cancelled half-way, submitted again, gathered twice, it is to the byte what one machine makes.
+
+    tests/cluster/campaign_test.py CRACKLE [--tests N] [--shards K]
+
+Starts a cluster of this machine alone (tests/cluster/slurm), and exits with 77 and the reason where it cannot.
+"""
+import argparse
+import os
+import pathlib
+import sqlite3
+import subprocess
+import sys
+import tempfile
+import time
+
+CASE = """[packing]
+count = 40
+radius_min = 1.333e-2
+radius_max = 2.667e-2
+mean_overlap = 7.74e-5
+[material]
+density = 2500.0
+normal_stiffness = 1.0e7
+shear_stiffness = 2.5e6
+friction_angle = 27.0
+damping_ratio = 0.2
+[loading]
+kind = "tension"
+axial_strain_rate = 0.002
+max_axial_strain = 0.004
+"""
+PLAN = """[[test]]
+case = "case.toml"
+[[axis]]
+key = "material.friction_angle"
+values = [20.0, 35.0]
+[packings]
+count = {}
+"""
+
+
+def called(*words):
+    return subprocess.run(words, check=True, stdout=subprocess.PIPE, text=True).stdout
+
+
+def ended(folder):
+    """Tests that the shares have run so far."""
+    count = 0
+    for file in folder.glob("shards/*.sqlite"):
+        try:
+            with sqlite3.connect(f"file:{file}?mode=ro", uri=True, timeout=10) as ledger:
+                count += ledger.execute("SELECT count(*) FROM test").fetchone()[0]
+        except sqlite3.OperationalError:
+            pass  # not made yet
+    return count
+
+
+def wait_for_jobs():
+    while called("squeue", "-h").strip():
+        time.sleep(1)
+
+
+def on_the_cluster(crackle, tests, shards):
+    with tempfile.TemporaryDirectory() as scratch:
+        here = pathlib.Path(scratch)
+        (here / "case.toml").write_text(CASE)
+        plan, shared, whole = here / "plan.toml", here / "shared", here / "whole"
+        plan.write_text(PLAN.format(tests // 2))
+        begun = time.time()
+        called(crackle, "campaign", str(plan), "-o", str(whole), "-q")
+        alone = time.time() - begun
+        expected = called(crackle, "campaign", "show", str(whole), "--tests")
+
+        begun = time.time()
+        submit = (crackle, "campaign", "submit", str(plan), "-o", str(shared), "--shards", str(shards), "-q")
+        called(*submit)
+        while ended(shared) < tests // 2 and called("squeue", "-h").strip():
+            time.sleep(0.2)
+        called("scancel", "-u", "root")
+        wait_for_jobs()
+        half = ended(shared)
+        called(*submit)
+        wait_for_jobs()
+        first = called(crackle, "campaign", "gather", str(shared))
+        second = called(crackle, "campaign", "gather", str(shared))
+        got = called(crackle, "campaign", "show", str(shared), "--tests")
+        print(f"{tests} tests in {shards} shares: cancelled after {half}, then {first.strip()}; again: {second.strip()}")
+        print(f"one machine {alone:.1f} s, the cluster {time.time() - begun:.1f} s; tables of {len(got)} bytes "
+              f"{'equal' if got == expected else 'DIFFER'}")
+        for log in sorted(shared.glob("shards/*.log")):
+            if log.read_text().strip():
+                print(log.name, log.read_text())
+        assert 0 < half < tests, "it was not cancelled half-way"
+        assert second.startswith("0 tests from"), second
+        assert got == expected
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("crackle")
+    parser.add_argument("--tests", type=int, default=40)
+    parser.add_argument("--shards", type=int, default=4)
+    given = parser.parse_args()
+    crackle = os.path.abspath(given.crackle)
+    if "SLURM_CONF" in os.environ:
+        on_the_cluster(crackle, given.tests, given.shards)
+        return 0
+    cluster = pathlib.Path(__file__).resolve().parent / "slurm"
+    return subprocess.run([str(cluster), sys.executable, __file__, crackle, "--tests", str(given.tests), "--shards",
+                           str(given.shards)]).returncode
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a plan is said to take before it has begun, and the script for a cluster.
+
+#include "specimens/campaign/estimate.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "specimens/campaign/campaign.hpp"
+#include "specimens/campaign/plan_file.hpp"
+#include "tests/support/claim.hpp"
+#include "tests/support/deck_files.hpp"
+#include "tests/support/small_plan.hpp"
+
+namespace crackle {
+namespace {
+
+TEST(Estimate, IsOfTheRightSizeBeforeAndOfTheMeasuredTestsAfterwards) {
+    const testing::ScratchFolder scratch;
+    const Plan plan = read_plan(testing::write_small_plan(scratch / "", 3));
+    const PlanEstimate before = estimate_plan(plan, nullptr);
+    ASSERT_EQ(before.kinds.size(), 2U);
+    EXPECT_EQ(before.kinds[0].rows, 6);
+    EXPECT_FALSE(before.kinds[0].measured);
+    CampaignOptions options;
+    options.folder = scratch / "out";
+    const CampaignOutcome outcome = run_campaign(plan, options);
+    const Ledger ledger = Ledger::read(outcome.ledger);
+    const PlanEstimate after = estimate_plan(plan, &ledger);
+    EXPECT_TRUE(after.kinds[0].measured && after.kinds[1].measured);
+    EXPECT_TRUE(testing::agrees("all tests, as measured", after.seconds, outcome.processor_seconds, 1e-9));
+    fmt::print("  estimated {:.3g} s, took {:.3g} s\n", before.seconds, outcome.processor_seconds);
+    EXPECT_GT(before.seconds, outcome.processor_seconds / 20.0);
+    EXPECT_LT(before.seconds, outcome.processor_seconds * 20.0);
+}
+
+TEST(BatchScript, AsksForThreeTimesTheWorkOfAShareAndQuotesPaths) {
+    BatchRequest request{"/opt/crackle", "/home/o'brien/my plan.toml", "/scratch/out", 20, 2, 7200.0, " --verify"};
+    EXPECT_TRUE(testing::agrees("wall clock of a share, s", wall_limit(request), 300.0 + 3.0 * 7200.0 / 40.0, 1e-12));
+    const std::string script = batch_script(request);
+    for (const char* part : {"#SBATCH --array=1-20\n", "#SBATCH --cpus-per-task=2\n", "#SBATCH --time=0:14:00\n",
+                             "#SBATCH --output=/scratch/out/shards/%a.log\n", "'/home/o'\\''brien/my plan.toml'",
+                             "--shard \"$SLURM_ARRAY_TASK_ID/20\" --workers 2 --verify -q\n"})
+        EXPECT_NE(script.find(part), std::string::npos) << part << " in\n" << script;
+    const testing::ScratchFolder scratch;
+    testing::write_text(scratch / "script", script);
+    EXPECT_EQ(std::system(("bash -n '" + (scratch / "script").string() + "'").c_str()), 0) << "no shell reads it";
+}
+
+}  // namespace
+}  // namespace crackle

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Two tests are the same where, and only where, no figure can differ.
+
+#include "specimens/campaign/identity.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "solver/files/read_file.hpp"
+#include "specimens/case/parameters.hpp"
+#include "specimens/results/sha256.hpp"
+#include "tests/support/deck_files.hpp"
+#include "tests/support/small_plan.hpp"
+
+namespace crackle {
+namespace {
+
+TestCase with(const CaseFiles& files, const std::string& key, const CaseValue& value) {
+    return files.with(std::vector<CaseSetting>{{key, value, "here:1"}});
+}
+
+TEST(Identity, ChangesWithEveryKeyButThoseThatNoFigureDependsOn) {
+    const testing::ScratchFolder scratch;
+    const CaseFiles files(testing::write_packed_case(scratch / "case.toml"));
+    FileHashes hashes;
+    const std::string asked = identity_of(files.with({}), hashes);
+    EXPECT_EQ(asked.size(), 32U);
+    std::set<std::string> seen{asked};
+    for (const auto& [key, value] :
+         std::vector<std::pair<std::string, CaseValue>>{{"packing.seed", std::int64_t{2}},
+                                                        {"packing.count", std::int64_t{61}},
+                                                        {"material.friction_angle", 27.000000001},
+                                                        {"loading.kind", std::string("compression")},
+                                                        {"loading.strength_drop", 0.2},
+                                                        {"numerics.safety_factor", 0.5},
+                                                        {"output.curve_rows", std::int64_t{201}},
+                                                        {"output.out_of_plane_thickness", 0.1},
+                                                        {"bond.thick", 1e-5}})
+        EXPECT_TRUE(seen.insert(identity_of(with(files, key, value), hashes)).second) << key;
+    for (const auto& [key, value] :
+         std::vector<std::pair<std::string, CaseValue>>{{"title", std::string("Another")},
+                                                        {"numerics.threads", std::int64_t{2}},
+                                                        {"output.frames", std::int64_t{7}},
+                                                        {"output.slips", true},
+                                                        {"output.frame_precision", std::string("double")},
+                                                        {"output.checkpoint_interval", 5.0}})
+        EXPECT_EQ(identity_of(with(files, key, value), hashes), asked) << key;
+    TestCase halved = files.with({});
+    halved.halve_step();
+    EXPECT_TRUE(seen.insert(identity_of(halved, hashes)).second);
+}
+
+TEST(Identity, LooksIntoFilesAndNotAtTheirNames) {
+    const testing::ScratchFolder scratch;
+    std::filesystem::create_directory(scratch / "a");
+    std::filesystem::create_directory(scratch / "b");
+    const auto identity = [&](const char* folder, const char* contents) {
+        const std::string text =
+            "[particles]\nfile = \"rock.dat\"\n[loading]\nkind = \"tension\"\nmax_axial_strain = 1e-3\n";
+        testing::write_text(scratch / folder / "case.toml", text);
+        testing::write_text(scratch / folder / "rock.dat", contents);
+        FileHashes hashes;
+        return identity_of(read_case(scratch / folder / "case.toml"), hashes);
+    };
+    EXPECT_EQ(identity("a", "1 2 3"), identity("b", "1 2 3"));
+    EXPECT_NE(identity("a", "1 2 3"), identity("b", "1 2 4"));
+}
+
+TEST(Identity, OfThePackingAloneLeavesTheRestOut) {
+    const testing::ScratchFolder scratch;
+    const CaseFiles files(testing::write_packed_case(scratch / "case.toml"));
+    FileHashes hashes;
+    const std::string asked = packing_identity(files.with({}), hashes);
+    EXPECT_EQ(packing_identity(with(files, "material.normal_stiffness", 2e7), hashes), asked);
+    EXPECT_EQ(packing_identity(with(files, "loading.kind", std::string("compression")), hashes), asked);
+    EXPECT_NE(packing_identity(with(files, "packing.seed", std::int64_t{2}), hashes), asked);
+    EXPECT_NE(packing_identity(with(files, "packing.mean_overlap", 8e-5), hashes), asked);
+}
+
+// What the version stands for: curves, events and summaries of the small scenes. A change of these without another
+// version would have a campaign mix old figures with new ones.
+TEST(Identity, ResultsVersionGoesUpWhenResultsChange) {
+    std::string curves;
+    const std::string pinned =
+        read_file(std::filesystem::path(CRACKLE_SOURCE_DIR) / "tests/same_bytes/pinned_small.csv");
+    for (std::size_t at = 0; at < pinned.size();) {
+        const std::size_t end = std::min(pinned.find('\n', at), pinned.size());
+        const std::string line = pinned.substr(at, end - at);
+        if (line.find("curve.csv") != std::string::npos || line.find("events.csv") != std::string::npos)
+            curves += line + '\n';
+        at = end + 1;
+    }
+    ASSERT_FALSE(curves.empty());
+    fmt::print("  results version {}: {}\n", results_version, sha256(curves));
+    EXPECT_EQ(sha256(curves), "a2f6be759c643556006f135d689166940e99f53a774659f56b0ae1d9cbd46e8a")
+        << "results have changed: raise results_version, and give this test the new hash";
+    EXPECT_EQ(results_version, 1);
+}
+
+}  // namespace
+}  // namespace crackle

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What comes out of a plan, and what is refused.
+
+#include "specimens/campaign/plan_file.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "solver/base/errors.hpp"
+#include "tests/support/deck_files.hpp"
+#include "tests/support/small_plan.hpp"
+
+namespace crackle {
+namespace {
+
+using testing::write_packed_case;
+using testing::write_small_plan;
+using testing::write_text;
+
+class PlanTest : public ::testing::Test {
+  protected:
+    Plan plan_of(const std::string& text, bool companions = false) const {
+        write_packed_case(folder_ / "tension.toml");
+        write_text(folder_ / "plan.toml", text);
+        return read_plan(folder_ / "plan.toml", companions);
+    }
+    void expect_refused(const std::string& text, const std::string& says) const {
+        try {
+            plan_of(text);
+            ADD_FAILURE() << "accepted: " << text;
+        } catch (const InputError& error) {
+            fmt::print("  {}\n", error.what());
+            EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
+        }
+    }
+
+    testing::ScratchFolder scratch_;
+    std::filesystem::path folder_ = scratch_ / "";
+    const std::string test_ = "[[test]]\ncase = \"tension.toml\"\n";
+};
+
+TEST_F(PlanTest, HasEveryCombinationWithEveryPacking) {
+    const Plan plan = read_plan(write_small_plan(folder_, 3));
+    ASSERT_EQ(plan.points.size(), 4U) << "two tests at two values";
+    ASSERT_EQ(plan.rows.size(), 12U);
+    for (std::size_t k = 0; k < plan.rows.size(); ++k) EXPECT_EQ(plan.rows[k].seed, 1 + static_cast<int>(k) / 4);
+    const TestCase last = plan.test_of(plan.rows.back());
+    EXPECT_EQ(last.loading.kind, "compression");
+    EXPECT_EQ(last.material.friction_angle, 35.0);
+    EXPECT_EQ(last.packing.seed, 3);
+    EXPECT_EQ(plan.test_of(plan.rows[0]).material.friction_angle, 20.0);
+}
+
+TEST_F(PlanTest, AnAxisOfOneTestLeavesTheOthersAlone) {
+    write_packed_case(folder_ / "compression.toml", "compression");
+    const Plan plan = plan_of(test_ +
+                              "[[test]]\ncase = \"compression.toml\"\nname = \"squeezed\"\n"
+                              "[[axis]]\nkey = \"loading.max_axial_strain\"\nvalues = [1e-3, 2e-3, 3e-3]\n"
+                              "tests = [\"squeezed\"]\n");
+    ASSERT_EQ(plan.points.size(), 4U);
+    EXPECT_TRUE(plan.points[0].settings.empty());
+    EXPECT_EQ(plan.test_of(plan.rows[0]).loading.max_axial_strain, 0.008);
+    EXPECT_EQ(plan.test_of(plan.rows[3]).loading.max_axial_strain, 3e-3);
+}
+
+TEST_F(PlanTest, ASettingReplacesTheOtherWayToSayIt) {
+    const Plan plan = plan_of(test_ +
+                              "set = {\"loading.rate_tolerance\" = 0.02, \"material.cohesion\" = 5.0, "
+                              "\"bond.law\" = \"coulomb\", \"material.tensile_strength\" = 7.0}\n");
+    const TestCase test = plan.test_of(plan.rows[0]);
+    EXPECT_FALSE(test.loading.axial_strain_rate.has_value());
+    EXPECT_EQ(test.loading.rate_tolerance, 0.02);
+    EXPECT_EQ(test.material.cohesion, 5.0);
+}
+
+TEST_F(PlanTest, SpacesAxesEvenlyInValuesOrInTheirLogarithms) {
+    const Plan plan = plan_of(test_ +
+                              "[[axis]]\nkey = \"material.normal_stiffness\"\nfrom = 1e6\nto = 1e8\ncount = 3\n"
+                              "spacing = \"logarithmic\"\n[[axis]]\nkey = \"packing.count\"\nfrom = 40\nto = 60\n"
+                              "count = 3\n");
+    ASSERT_EQ(plan.axes[0].values.size(), 3U);
+    EXPECT_NEAR(std::get<double>(plan.axes[0].values[1]), 1e7, 1e7 * 1e-12);
+    EXPECT_EQ(std::get<std::int64_t>(plan.axes[1].values[1]), 50) << "whole where the key is";
+    EXPECT_EQ(plan.points.size(), 9U);
+    EXPECT_EQ(plan.test_of(plan.rows[1]).packing.count, 50) << "the last axis changes fastest";
+}
+
+/// Largest difference of the share of points in a box from its size, over boxes from the corner 0.
+double star_discrepancy(const std::vector<std::vector<double>>& points) {
+    double worst = 0.0;
+    for (double a = 0.1; a <= 1.0; a += 0.1) {
+        for (double b = 0.1; b <= 1.0; b += 0.1) {
+            const auto inside =
+                std::count_if(points.begin(), points.end(), [&](const auto& p) { return p[0] < a && p[1] < b; });
+            worst = std::max(worst, std::abs(static_cast<double>(inside) / static_cast<double>(points.size()) - a * b));
+        }
+    }
+    return worst;
+}
+
+TEST_F(PlanTest, DesignsFillTheBoxEvenly) {
+    for (const Sequence sequence : {Sequence::sobol, Sequence::halton}) {
+        const auto points = design_points(sequence, 256, 2);
+        const double worst = star_discrepancy(points);
+        fmt::print("  discrepancy of 256 points: {:.3g}, of random ones about {:.3g}\n", worst, 1.0 / 16.0);
+        EXPECT_LT(worst, 0.02);
+        const auto fewer = design_points(sequence, 10, 2);
+        EXPECT_TRUE(std::equal(fewer.begin(), fewer.end(), points.begin())) << "a design can be gone on with";
+        const auto many = design_points(sequence, 64, most_design_axes);
+        for (const auto& point : many)
+            for (const double share : point) EXPECT_TRUE(share >= 0.0 && share < 1.0);
+    }
+    const Plan plan = plan_of(test_ +
+                              "[[axis]]\nkey = \"material.normal_stiffness\"\nfrom = 1e6\nto = 1e8\n"
+                              "spacing = \"logarithmic\"\n[[axis]]\nkey = \"material.friction_angle\"\nfrom = 10\n"
+                              "to = 50\n[design]\npoints = 16\n");
+    ASSERT_EQ(plan.points.size(), 16U);
+    std::set<double> seen;
+    for (const PlanRow& row : plan.rows) {
+        const TestCase test = plan.test_of(row);
+        seen.insert(*test.material.friction_angle);
+        EXPECT_TRUE(*test.material.normal_stiffness >= 1e6 && *test.material.normal_stiffness <= 1e8);
+        EXPECT_TRUE(*test.material.friction_angle >= 10.0 && *test.material.friction_angle <= 50.0);
+    }
+    EXPECT_EQ(seen.size(), 16U);
+}
+
+TEST_F(PlanTest, CompanionsHaveHalfTheStepOrHalfTheRate) {
+    const Plan plan = plan_of(test_, true);
+    ASSERT_EQ(plan.rows.size(), 3U);
+    const TestCase asked = plan.test_of(plan.rows[0]), step = plan.test_of(plan.rows[1]),
+                   rate = plan.test_of(plan.rows[2]);
+    EXPECT_EQ(asked.step_scale, 1.0);
+    EXPECT_EQ(step.step_scale, 0.5);
+    EXPECT_EQ(step.loading.axial_strain_rate, asked.loading.axial_strain_rate);
+    EXPECT_EQ(*rate.loading.axial_strain_rate, 0.5 * *asked.loading.axial_strain_rate);
+    EXPECT_EQ(rate.step_scale, 1.0);
+}
+
+TEST_F(PlanTest, APackingsNumberIsTheSeedOfAllThatIsRandom) {
+    const Plan plan = plan_of(
+        "[[test]]\ncase = \"tension.toml\"\nset = {\"bond.law\" = \"coulomb\", \"material.tensile_strength\" = 7.0, "
+        "\"material.cohesion\" = 9.0, \"bond.strength_distribution\" = \"weibull\", \"bond.strength_cv\" = 0.3, "
+        "\"bond.strength_seed\" = 77}\n[packings]\ncount = 2\nfirst_seed = 5\n");
+    const TestCase second = plan.test_of(plan.rows[1]);
+    EXPECT_EQ(second.packing.seed, 6);
+    EXPECT_EQ(second.bond.strength_seed, 6);
+}
+
+TEST_F(PlanTest, RefusesWhatCannotBe) {
+    expect_refused("", "found no [[test]]");
+    expect_refused("[[test]]\n", "case: found nothing");
+    expect_refused("[[test]]\ncase = \"none.toml\"\n", "found no file");
+    expect_refused(test_ + "[[axis]]\nvalues = [1]\n", "key: found nothing");
+    expect_refused(test_ + "[[axis]]\nkey = \"material.colour\"\nvalues = [1]\n", "\"material.colour\"");
+    expect_refused(test_ + "[[axis]]\nkey = \"material.friction_angle\"\n", "values, or from and to");
+    expect_refused(test_ + "[[axis]]\nkey = \"material.friction_angle\"\nvalues = []\n", "values: found none");
+    expect_refused(test_ + "[[axis]]\nkey = \"material.friction_angle\"\nvalues = [1]\nfrom = 2\n", "one of both");
+    expect_refused(test_ + "[[axis]]\nkey = \"material.friction_angle\"\nvalues = [120]\n", "found 120");
+    expect_refused(test_ + "[[axis]]\nkey = \"material.friction_angle\"\nvalues = [20, \"steep\"]\n",
+                   "test tension at material.friction_angle = steep");
+    expect_refused(test_ +
+                       "[[axis]]\nkey = \"material.density\"\nfrom = -1\nto = 5\ncount = 3\n"
+                       "spacing = \"logarithmic\"\n",
+                   "numbers > 0");
+    expect_refused(test_ + "[[axis]]\nkey = \"material.density\"\nfrom = 1\nto = 5\n", "points in [design]");
+    expect_refused(test_ + "[design]\npoints = 4\n", "an [[axis]] with from and to");
+    expect_refused(test_ + "[packings]\ncount = 0\n", "found 0");
+    expect_refused(test_ + "[run]\nkeep = \"nothing\"\n", "\"nothing\"");
+    expect_refused(test_ + "[run]\ntime_limit = -1\n", "found -1");
+    expect_refused(test_ + "[runs]\n", "unknown key");
+    expect_refused(test_ + test_, "two tests called tension");
+    expect_refused(test_ + "[[axis]]\nkey = \"material.density\"\nvalues = [1]\ntests = [\"tense\"]\n", "found tense");
+    expect_refused(test_ + "[[axis]]\nkey = \"mineral[2].cohesion\"\nvalues = [1]\n", "no such table");
+    expect_refused(test_ + "[[axis]]\nkey = \"packing.seed\"\nfrom = 1\nto = 10000000\ncount = 100000000\n",
+                   "found 100000000");
+    const std::string many = "[[axis]]\nkey = \"material.density\"\nfrom = 1\nto = 2\ncount = 10000\n"
+                             "[[axis]]\nkey = \"material.friction_angle\"\nfrom = 1\nto = 2\ncount = 10000\n";
+    expect_refused(test_ + many, "at most 10000000");
+}
+
+TEST_F(PlanTest, RefusesPackingsWhereNothingIsRandom) {
+    write_packed_case(folder_ / "made.toml");
+    std::string text = "[particles]\nfile = \"rock.dat\"\n[loading]\nkind = \"tension\"\nmax_axial_strain = 1e-3\n";
+    write_text(folder_ / "fixed.toml", text);
+    write_text(folder_ / "rock.dat", "");
+    expect_refused("[[test]]\ncase = \"fixed.toml\"\n[packings]\ncount = 2\n", "nothing in the test fixed is random");
+}
+
+}  // namespace
+}  // namespace crackle

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `crackle campaign` as a user calls it: run, show, gather, submit; what is refused, and what a signal leaves.
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/stat.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <thread>
+
+#include "tests/support/program_call.hpp"
+#include "tests/support/small_plan.hpp"
+
+namespace crackle {
+namespace {
+
+using testing::Answer;
+using testing::write_small_plan;
+
+class CampaignCommand : public testing::ProgramCall {
+  protected:
+    CampaignCommand() : ProgramCall("campaign") { write_small_plan(folder_, 2); }
+};
+
+TEST_F(CampaignCommand, RunsAndShowsMeansAndIntervals) {
+    const Answer answer = call("plan.toml -o out");
+    EXPECT_EQ(answer.code, 0) << answer.err;
+    EXPECT_NE(answer.out.find("8 of 8 tests done, 0 gone wrong, 0 left; 8 run now"), std::string::npos) << answer.out;
+    EXPECT_EQ(answer.err.find('\r'), std::string::npos) << "no progress line in a pipe";
+    const Answer show = call("show out");
+    EXPECT_EQ(show.code, 0) << show.err;
+    for (const char* part :
+         {"A small rock: 8 of 8 tests done", "tension, material.friction_angle = 20: 2 of 2 packings",
+          "youngs_modulus N/m", "95 % of the mean"})
+        EXPECT_NE(show.out.find(part), std::string::npos) << part << " in\n" << show.out;
+    const Answer csv = call("show out --csv --figure peak_stress");
+    EXPECT_EQ(std::count(csv.out.begin(), csv.out.end(), '\n'), 5) << csv.out;
+    EXPECT_EQ(csv.out.rfind("test,material.friction_angle,figure,unit,packings,mean,", 0), 0U) << csv.out;
+    const Answer tests = call("show out --tests");
+    EXPECT_EQ(std::count(tests.out.begin(), tests.out.end(), '\n'), 9);
+    const Answer quiet = call("plan.toml -o out -q");
+    EXPECT_EQ(quiet.out + quiet.err, "");
+}
+
+TEST_F(CampaignCommand, IsDrawnAndReported) {
+    write_small_plan(folder_, 3, "[run]\nkeep = \"all\"\n");
+    ASSERT_EQ(call("plan.toml -o out -q").code, 0);
+    const auto crackle = [&](const std::string& words) {
+        return std::system(
+            fmt::format("cd '{}' && '{}' {} > out.txt 2> err.txt", folder_.string(), CRACKLE_PROGRAM, words).c_str());
+    };
+    ASSERT_EQ(crackle("plot out -o figure.svg"), 0) << read("err.txt");
+    EXPECT_GT(read("figure.svg").size(), 20'000U);
+    EXPECT_NE(crackle("plot out -o figure.svg"), 0) << "nothing is replaced without --force";
+    ASSERT_EQ(crackle("plot out -o one.svg --figure peak_stress"), 0) << read("err.txt");
+    EXPECT_LT(read("one.svg").size(), read("figure.svg").size());
+    EXPECT_NE(crackle("plot out -o two.svg --figure beauty"), 0);
+    EXPECT_NE(read("err.txt").find("found no figure 'beauty', expected one of"), std::string::npos);
+    ASSERT_EQ(crackle("report out"), 0) << read("err.txt");
+    const std::string page = read("out/report.html");
+    for (const char* part :
+         {"<h1>A small rock</h1>", "12 of 12 tests done", "peak stress", "/summary.json\">summary.json</a>",
+          "data:image/svg+xml;base64,", "tension over material.friction_angle"})
+        EXPECT_NE(page.find(part), std::string::npos) << part;
+    ASSERT_EQ(crackle("report out"), 0) << "a report takes the place of a report";
+    EXPECT_EQ(read("out/report.html"), page);
+}
+
+TEST_F(CampaignCommand, DryRunJudgesAndEstimatesAndWritesNothing) {
+    const auto before = snapshot();
+    const Answer answer = call("plan.toml --dry-run -o out");
+    EXPECT_EQ(answer.code, 0) << answer.err;
+    EXPECT_NE(answer.out.find("A small rock: 8 tests of 4 points with 2 packings"), std::string::npos) << answer.out;
+    EXPECT_NE(answer.out.find("of a processor, "), std::string::npos) << answer.out;
+    EXPECT_TRUE(snapshot() == before) << "files were made";
+}
+
+TEST_F(CampaignCommand, RefusesWithOneLine) {
+    expect_refused("", "found no PLAN.toml");
+    expect_refused("plan.toml", "found no -o");
+    expect_refused("none.toml -o out", "found no such file");
+    expect_refused("plan.toml -o out --workers 0", "--workers: found 0");
+    for (const char* shard : {"0/2", "3/2", "2", "a/b", "1/2x", "1/0"})
+        expect_refused(std::string("plan.toml -o out --shard ") + shard, "expected I/N");
+    expect_refused("show", "found no DIR");
+    expect_refused("show nowhere", "found no ledger");
+    expect_refused("gather nowhere", "found no shards");
+    write("plan.toml",
+          "[[test]]\ncase = \"tension.toml\"\n[[axis]]\nkey = \"material.friction_angle\"\nvalues = [99]\n");
+    expect_refused("plan.toml -o out", "found 99");
+}
+
+TEST_F(CampaignCommand, SharesAreGathered) {
+    EXPECT_EQ(call("plan.toml -o out --shard 1/2 -q").code, 0);
+    EXPECT_EQ(call("plan.toml -o out --shard 2/2 -q").code, 0);
+    const Answer answer = call("gather out");
+    EXPECT_EQ(answer.code, 0) << answer.err;
+    EXPECT_NE(answer.out.find("8 tests from 2 shares; 8 of 8 done"), std::string::npos) << answer.out;
+    const std::string gathered = call("show out --tests").out;
+    EXPECT_EQ(call("plan.toml -o whole -q").code, 0);
+    EXPECT_EQ(call("show whole --tests").out, gathered);
+}
+
+TEST_F(CampaignCommand, SubmitsTheScriptThatDryRunShows) {
+    const Answer script = call("submit plan.toml -o out --shards 3 --dry-run");
+    EXPECT_EQ(script.code, 0) << script.err;
+    for (const char* part :
+         {"#!/bin/bash\n", "#SBATCH --array=1-3\n", "#SBATCH --time=0:", "--shard \"$SLURM_ARRAY_TASK_ID/3\""})
+        EXPECT_NE(script.out.find(part), std::string::npos) << part << " in\n" << script.out;
+    EXPECT_FALSE(exists("out"));
+    // An sbatch that runs the array's tasks one after the other.
+    write("sbatch",
+          "#!/bin/sh\nfor k in 1 2 3; do SLURM_ARRAY_TASK_ID=$k bash \"$1\" || exit 1; done\n"
+          "echo Submitted batch job 7\n");
+    ::chmod((folder_ / "sbatch").c_str(), 0755);
+    const std::string path = ::getenv("PATH");
+    ::setenv("PATH", (folder_.string() + ":" + path).c_str(), 1);
+    const Answer answer = call("submit plan.toml -o out --shards 3");
+    ::setenv("PATH", path.c_str(), 1);
+    EXPECT_EQ(answer.code, 0) << answer.err;
+    EXPECT_NE(answer.out.find("Submitted batch job 7"), std::string::npos) << answer.out;
+    EXPECT_NE(call("gather out").out.find("8 of 8 done"), std::string::npos);
+}
+
+TEST_F(CampaignCommand, AnInterruptLosesAtMostTheTestsAtWork) {
+    write_small_plan(folder_, 30);
+    const pid_t process = ::fork();
+    if (process == 0) {
+        ::chdir(folder_.c_str());
+        ::freopen("out.txt", "w", stdout);
+        ::freopen("err.txt", "w", stderr);
+        ::execl(CRACKLE_PROGRAM, "crackle", "campaign", "plan.toml", "-o", "out", nullptr);
+        std::_Exit(127);
+    }
+    std::this_thread::sleep_for(std::chrono::milliseconds(900));
+    ::kill(process, SIGINT);
+    int status = 0;
+    ::waitpid(process, &status, 0);
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 130);
+    EXPECT_NE(read("err.txt").find("interrupted; the same command goes on"), std::string::npos) << read("err.txt");
+    const Answer answer = call("plan.toml -o out");
+    EXPECT_NE(answer.out.find(", 0 left; "), std::string::npos) << answer.out;
+    EXPECT_EQ(answer.out.find("; 120 run now"), std::string::npos) << "what had been run was run again: " << answer.out;
+}
+
+TEST_F(CampaignCommand, ListsTheKeysOfAPlan) {
+    const Answer answer = call("--keys");
+    EXPECT_EQ(answer.code, 0);
+    for (const char* key : {"[[test]]", "[[axis]]", "[design]", "[packings]", "[run]", "time_limit"})
+        EXPECT_NE(answer.out.find(key), std::string::npos) << key;
+}
+
+}  // namespace
+}  // namespace crackle

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `crackle campaign submit PLAN.toml -o DIR --shards N` and `crackle campaign gather DIR`: a campaign in shares.
+// Tested by tests/tools/campaign/campaign_test.cpp.
+
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <cstring>
+#include <iostream>
+#include <string>
+
+#include "solver/base/errors.hpp"
+#include "solver/files/read_file.hpp"
+#include "solver/files/replace_file.hpp"
+#include "specimens/campaign/campaign.hpp"
+#include "specimens/campaign/estimate.hpp"
+#include "specimens/campaign/plan_file.hpp"
+#include "tools/campaign/campaign.hpp"
+#include "tools/terminal/shipped.hpp"
+
+namespace crackle::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Runs `sbatch SCRIPT`, which prints the job's number. @throws InputError if there is none, or it refuses
+void call_sbatch(const fs::path& script) {
+    std::string program = "sbatch", file = script.string();
+    char* words[] = {program.data(), file.data(), nullptr};
+    pid_t process = 0;
+    const int reason = ::posix_spawnp(&process, "sbatch", nullptr, nullptr, words, environ);
+    if (reason != 0) {
+        throw InputError(fmt::format(
+            "sbatch: cannot be run ({}), expected Slurm's; {} is written, take it to the cluster, or see --dry-run",
+            std::strerror(reason), file));
+    }
+    int status = 0;
+    while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
+    }
+    if (!WIFEXITED(status) || WEXITSTATUS(status) != 0)
+        throw InputError(fmt::format("sbatch: refused {}, expected a job's number; see what it says above", file));
+}
+
+}  // namespace
+
+CommandLine describe_campaign_submit() {
+    po::options_description options;
+    options.add_options()("output,o", po::value<std::string>()->value_name("DIR"), "folder of the campaign")           //
+        ("shards", po::value<int>()->value_name("N"), "shares (default: five minutes of work each)")                   //
+        ("workers", po::value<int>()->value_name("N")->default_value(1), "processes of a share, on one node")          //
+        ("verify", "as of crackle campaign")                                                                           //
+        ("retry", "as of crackle campaign")                                                                            //
+        ("dry-run", "print the script; write and submit nothing");
+    return {.synopses = {"crackle campaign submit PLAN.toml -o DIR [--shards N] [OPTIONS]"},
+            .description =
+                "Writes DIR/shards/submit.sh, an array job of Slurm with one task a share, its time limit from what "
+                "tests have taken or are estimated to take, and submits it with sbatch. When it has ended, `crackle "
+                "campaign gather DIR` puts the shares together. The same --shard serves GNU parallel, Snakemake or "
+                "ssh. DIR must be seen by all nodes.",
+            .options = {{"options", options}},
+            .operand = "PLAN.toml",
+            .examples = {{"crackle campaign submit plan.toml -o out/plan --shards 20 --dry-run"},
+                         {"crackle campaign submit plan.toml -o out/plan --shards 20"},
+                         {"crackle campaign gather out/plan"}}};
+}
+
+int campaign_submit(const Invocation& given) {
+    const po::variables_map& values = given.values;
+    if (given.operands.empty()) throw InputError("crackle campaign submit: found no PLAN.toml, expected one");
+    if (!values.contains("output"))
+        throw InputError("crackle campaign submit: found no -o, expected -o DIR, a folder for the campaign");
+    const fs::path plan_file = given_or_shipped(given.operands.front());
+    const Plan plan = read_plan(plan_file, values.contains("verify"));
+    BatchRequest request;
+    request.program = fs::read_symlink("/proc/self/exe");
+    request.plan = fs::absolute(plan_file).lexically_normal();
+    request.folder = fs::absolute(values["output"].as<std::string>()).lexically_normal();
+    request.workers = values["workers"].as<int>();
+    if (request.workers < 1)
+        throw InputError(fmt::format("crackle campaign submit: --workers: found {}, expected >= 1", request.workers));
+    const fs::path file = ledger_file(request.folder);
+    const std::optional<Ledger> ledger = is_file(file) ? std::optional(Ledger::read(file)) : std::nullopt;
+    request.seconds = estimate_plan(plan, ledger ? &*ledger : nullptr).seconds;
+    const double worth = std::ceil(request.seconds / least_work_a_shard);
+    constexpr int most_shards = 100'000;
+    request.shards = values.contains("shards") ? values["shards"].as<int>()
+                                               : static_cast<int>(std::clamp(worth, 1.0, double{most_shards}));
+    if (request.shards < 1 || request.shards > most_shards)
+        throw InputError(
+            fmt::format("crackle campaign submit: --shards: found {}, expected 1 to {}", request.shards, most_shards));
+    if (values.contains("verify")) request.options += " --verify";
+    if (values.contains("retry")) request.options += " --retry";
+    const std::string script = batch_script(request);
+    if (values.contains("dry-run")) {
+        std::cout << script;
+        return exit_done;
+    }
+    if (request.shards > worth && request.shards > 1)
+        given.messages.notice(fmt::format("{} shares of {:.2g} s each: {:.0f} would have five minutes of work each",
+                                          request.shards, request.seconds / request.shards, std::max(1.0, worth)));
+    const fs::path path = request.folder / "shards" / "submit.sh";
+    make_folder(path.parent_path());
+    replace_file(path, script);
+    call_sbatch(path);
+    return exit_done;
+}
+
+CommandLine describe_campaign_gather() {
+    return {.synopses = {"crackle campaign gather DIR"},
+            .description =
+                "Adds what the shares in DIR/shards have run to DIR/campaign.sqlite. May be called any number of times; "
+                "on a network file system when the shares have ended.",
+            .operand = "DIR",
+            .examples = {{"crackle campaign gather out/plan"}}};
+}
+
+int campaign_gather(const Invocation& given) {
+    if (given.operands.empty()) throw InputError("crackle campaign gather: found no DIR, expected a campaign's folder");
+    const fs::path folder = given.operands.front();
+    const Gathered gathered = gather_shards(folder);
+    if (!given.messages.quiet())
+        fmt::print("{} tests from {} shares; {} of {} done, {} gone wrong: crackle campaign show {}\n", gathered.tests,
+                   gathered.shards, gathered.counts.done, gathered.counts.tests, gathered.counts.gone_wrong,
+                   folder.string());
+    return exit_done;
+}
+
+}  // namespace crackle::tools

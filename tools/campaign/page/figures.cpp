@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/campaign/page/figures.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <map>
+#include <optional>
+
+#include "solver/base/errors.hpp"
+#include "solver/files/read_file.hpp"
+#include "specimens/campaign/campaign.hpp"
+#include "specimens/recordings/test_results.hpp"
+#include "tools/plot/campaign_panels.hpp"
+
+namespace crackle::tools {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace plot;
+
+constexpr std::size_t most_bundles = 6;  // in one diagram
+constexpr std::array<const char*, 4> usual_figures{"youngs_modulus", "poissons_ratio", "peak_stress", "peak_strain"};
+
+std::size_t place_of(const LedgerTable& table, const std::string& column) {
+    const auto at = std::find(table.columns.begin(), table.columns.end(), column);
+    return static_cast<std::size_t>(at - table.columns.begin());
+}
+
+std::string text_of(const std::vector<Cell>& row, std::size_t column) {
+    if (column >= row.size()) return "";
+    const auto* text = std::get_if<std::string>(&row[column]);
+    return text != nullptr ? *text : "";
+}
+
+/// Rows of a point that are as asked, not companions.
+std::vector<const std::vector<Cell>*> rows_of(const CampaignRecord& record, const PointSummary& point) {
+    const std::size_t test = place_of(record.results, "test"), variant = place_of(record.results, "variant");
+    std::vector<const std::vector<Cell>*> rows;
+    for (const std::vector<Cell>& row : record.results.rows) {
+        if (text_of(row, test) != point.test || text_of(row, variant) != name_of(Variant::as_asked)) continue;
+        const bool same = std::all_of(point.axes.begin(), point.axes.end(), [&](const auto& axis) {
+            return row[place_of(record.results, axis.first)] == axis.second;
+        });
+        if (same) rows.push_back(&row);
+    }
+    return rows;
+}
+
+std::vector<double> values_of(const CampaignRecord& record, const PointSummary& point, const std::string& figure) {
+    const std::size_t column = place_of(record.results, figure);
+    std::vector<double> values;
+    for (const auto* row : rows_of(record, point))
+        if (const auto* value = column < row->size() ? std::get_if<double>(&(*row)[column]) : nullptr)
+            values.push_back(*value);
+    return values;
+}
+
+Sample sample_of(const CampaignRecord& record, const PointSummary& point, const std::string& figure,
+                 const std::string& label) {
+    const MeanFigure& mean = point.figures.at(figure);
+    return {label, values_of(record, point, figure), mean.mean, mean.low, mean.high};
+}
+
+/// The curves that were kept, of `crackle test` or beside the ledger.
+std::optional<NumberTable> curve_of(const fs::path& folder, const std::string& identity) {
+    for (const fs::path& file : {folder / "curves" / (identity + ".csv"), folder / "tests" / identity / "curve.csv"})
+        if (is_file(file)) return read_number_table(file);
+    return std::nullopt;
+}
+
+std::optional<CurveBundle> bundle_of(const CampaignRecord& record, const PointSummary& point) {
+    CurveBundle bundle;
+    bundle.label = point.axes.empty() ? point.test : point.at();
+    bundle.stress_unit = point.area_units ? "Pa" : "N/m";
+    const std::size_t identity = place_of(record.results, "identity");
+    for (const auto* row : rows_of(record, point)) {
+        const std::optional<NumberTable> table = curve_of(record.folder, text_of(*row, identity));
+        if (!table) continue;
+        const std::vector<double>*strain = table->find("axial_strain"), *stress = table->find("axial_stress");
+        if (strain == nullptr || stress == nullptr) continue;
+        auto& curve = bundle.curves.emplace_back();
+        for (std::size_t k = 0; k < strain->size(); ++k) curve.emplace_back((*strain)[k], (*stress)[k]);
+    }
+    if (bundle.curves.empty()) return std::nullopt;
+    return bundle;
+}
+
+/// A figure over an axis, a line for each combination of the other axes.
+std::optional<Panel> panel_over(const CampaignRecord& record, const std::vector<const PointSummary*>& points,
+                                const std::string& axis, const std::string& figure) {
+    std::map<std::string, Series> all;
+    for (const PointSummary* point : points) {
+        const double* x = nullptr;
+        std::string others;
+        for (const auto& [key, value] : point->axes) {
+            if (key == axis)
+                x = std::get_if<double>(&value);
+            else if (const auto* number = std::get_if<double>(&value))
+                others += fmt::format("{}{} = {}", others.empty() ? "" : ", ", key, *number);
+            else if (const auto* text = std::get_if<std::string>(&value))
+                others += fmt::format("{}{} = {}", others.empty() ? "" : ", ", key, *text);
+        }
+        if (x == nullptr) continue;
+        Series& series = all[others];
+        series.label = others;
+        series.x.push_back(*x);
+        series.samples.push_back(sample_of(record, *point, figure, ""));
+    }
+    std::vector<Series> listed;
+    for (auto& [label, series] : all)
+        if (series.x.size() > 1) listed.push_back(std::move(series));
+    if (listed.empty() || listed.size() > most_bundles) return std::nullopt;
+    return over_axis(axis, spoken_figure(figure), unit_of_figure(figure, points.front()->area_units), listed);
+}
+
+}  // namespace
+
+std::string spoken_figure(const std::string& figure) {
+    std::string text = figure;
+    std::replace(text.begin(), text.end(), '_', ' ');
+    if (text == "youngs modulus") return "Young's modulus";
+    if (text == "poissons ratio") return "Poisson's ratio";
+    return text;
+}
+
+bool is_campaign(const fs::path& folder) { return is_folder(folder) && is_file(ledger_file(folder)); }
+
+CampaignRecord read_campaign(const fs::path& folder, const std::vector<std::string>& figures) {
+    const Ledger ledger = Ledger::read(ledger_file(folder));
+    CampaignRecord record;
+    record.folder = folder;
+    record.title = ledger.meta("title");
+    record.results = ledger.results();
+    record.counts = ledger.counts();
+    record.figures = figures;
+    if (figures.empty()) {
+        const std::vector<std::string> known = numeric_figures(record.results);
+        for (const char* figure : usual_figures)
+            if (std::find(known.begin(), known.end(), figure) != known.end()) record.figures.emplace_back(figure);
+    }
+    record.points = summarise(record.results, record.figures);
+    if (record.counts.done == 0)
+        throw InputError(fmt::format("{}: found no test that is done, expected some; `crackle campaign` runs them",
+                                     folder.string()));
+    return record;
+}
+
+std::vector<CampaignFigure> campaign_figures(const CampaignRecord& record) {
+    std::vector<std::string> kinds;
+    for (const PointSummary& point : record.points)
+        if (std::find(kinds.begin(), kinds.end(), point.test) == kinds.end()) kinds.push_back(point.test);
+    std::vector<CampaignFigure> all;
+    for (const std::string& kind : kinds) {
+        std::vector<const PointSummary*> points;
+        for (const PointSummary& point : record.points)
+            if (point.test == kind) points.push_back(&point);
+        std::vector<CurveBundle> bundles;
+        for (std::size_t k = 0; k < points.size() && bundles.size() < most_bundles; ++k)
+            if (std::optional<CurveBundle> bundle = bundle_of(record, *points[k]))
+                bundles.push_back(*std::move(bundle));
+        if (!bundles.empty()) {
+            const bool some = points.size() > bundles.size();
+            all.push_back(
+                {fmt::format("{}: the median of the packings, and the range of the middle 80 %{}", kind,
+                             some ? fmt::format("; the first {} of {} points", bundles.size(), points.size()) : ""),
+                 {curve_bands(bundles)}});
+        }
+        std::vector<std::string> axes;
+        for (const auto& [key, value] : points.front()->axes)
+            if (std::holds_alternative<double>(value)) axes.push_back(key);
+        for (const std::string& axis : axes) {
+            CampaignFigure figure;
+            figure.caption = fmt::format("{} over {}: means with 95 % intervals, and every packing", kind, axis);
+            for (const std::string& name : record.figures)
+                if (std::optional<Panel> panel = panel_over(record, points, axis, name))
+                    figure.panels.push_back(*std::move(panel));
+            if (!figure.panels.empty()) all.push_back(std::move(figure));
+        }
+        CampaignFigure spread;
+        spread.caption = fmt::format("{}: every packing, and the mean with its 95 % interval", kind);
+        constexpr std::size_t most_samples = 12;
+        for (const std::string& name : record.figures) {
+            std::vector<Sample> samples;
+            for (std::size_t k = 0; k < points.size() && k < most_samples; ++k)
+                samples.push_back(
+                    sample_of(record, *points[k], name, points[k]->axes.empty() ? kind : points[k]->at()));
+            if (std::any_of(samples.begin(), samples.end(), [](const Sample& s) { return !s.values.empty(); }))
+                spread.panels.push_back(
+                    distributions(spoken_figure(name), unit_of_figure(name, points.front()->area_units), samples));
+        }
+        if (!spread.panels.empty()) all.push_back(std::move(spread));
+    }
+    return all;
+}
+
+}  // namespace crackle::tools

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The figures of a campaign's folder: curves of its packings as bands, and what they say of each figure.
+// Tested by tests/tools/campaign/campaign_test.cpp.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "specimens/campaign/ledger.hpp"
+#include "specimens/campaign/point_table.hpp"
+#include "tools/plot/panels.hpp"
+
+namespace crackle::tools {
+
+/// What is read of a campaign.
+struct CampaignRecord {
+    std::filesystem::path folder;
+    std::string title;
+    LedgerTable results;
+    LedgerCounts counts;
+    std::vector<std::string> figures;  ///< those that are drawn
+    std::vector<PointSummary> points;  ///< with these
+};
+
+/// Whether a folder is a campaign's.
+bool is_campaign(const std::filesystem::path& folder);
+
+/// @param figures of summary.json; empty: the usual ones that there are
+CampaignRecord read_campaign(const std::filesystem::path& folder, const std::vector<std::string>& figures = {});
+
+/// "peak stress" of peak_stress, as titles have it.
+std::string spoken_figure(const std::string& figure);
+
+/// Of one kind of test: bands of curves where they were kept, distributions of each figure, and each figure over every
+/// axis that has several values.
+struct CampaignFigure {
+    std::string caption;
+    std::vector<plot::Panel> panels;
+};
+std::vector<CampaignFigure> campaign_figures(const CampaignRecord& record);
+
+}  // namespace crackle::tools

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/plot/campaign_panels.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/plot/axes.hpp"
+#include "tools/plot/legend.hpp"
+
+namespace crackle::plot {
+namespace {
+
+/// A colour mixed with white.
+Colour tinted(const Colour& colour, double share) {
+    const auto mixed = [&](double part) { return 1.0 - share * (1.0 - part); };
+    return {mixed(colour.red), mixed(colour.green), mixed(colour.blue)};
+}
+
+/// Between the points of a curve; not a number beyond its end.
+double stress_at(const std::vector<std::pair<double, double>>& curve, double strain) {
+    const auto after = std::lower_bound(curve.begin(), curve.end(), strain,
+                                        [](const auto& point, double value) { return point.first < value; });
+    if (after == curve.end()) return std::nan("");
+    if (after == curve.begin()) return after->second;
+    const auto before = after - 1;
+    const double share = (strain - before->first) / (after->first - before->first);
+    return before->second + share * (after->second - before->second);
+}
+
+/// Between sorted values.
+double quantile(const std::vector<double>& sorted, double share) {
+    const double at = share * static_cast<double>(sorted.size() - 1);
+    const auto below = static_cast<std::size_t>(at);
+    if (below + 1 >= sorted.size()) return sorted.back();
+    return sorted[below] + (at - static_cast<double>(below)) * (sorted[below + 1] - sorted[below]);
+}
+
+/// A scale that begins near the smallest value where that is far from 0: figures, unlike curves, need no 0.
+Scale figure_scale(double smallest, double largest, int ticks) {
+    constexpr double near_zero = 0.35;
+    if (smallest <= 0.0 || largest - smallest > (1.0 - near_zero) * largest) return scale_for(smallest, largest, ticks);
+    const double range = std::max(largest - smallest, 1e-3 * largest);
+    Scale scale = scale_for(0.0, range, ticks);
+    scale.low = smallest - 0.08 * range;
+    scale.high = largest + 0.08 * range;
+    return scale;
+}
+
+std::string titled(const std::string& title, const std::string& unit) {
+    return unit.empty() ? title : title + ", " + unit;
+}
+
+void draw_mean(Canvas& canvas, Point mean, Point low, Point high, const Colour& colour, bool across) {
+    const Colour white = plot::colour("#ffffff");
+    constexpr double cap = 2.5;  // pt
+    if (std::isfinite(low.x) && std::isfinite(low.y) && std::isfinite(high.x) && std::isfinite(high.y)) {
+        canvas.line({low, high}, colour, curve_width);
+        for (const Point& end : {low, high}) {
+            if (across)
+                canvas.line({{end.x, end.y - cap}, {end.x, end.y + cap}}, colour, curve_width);
+            else
+                canvas.line({{end.x - cap, end.y}, {end.x + cap, end.y}}, colour, curve_width);
+        }
+    }
+    canvas.circle(mean, 2.2, &white, &colour, curve_width);
+}
+
+}  // namespace
+
+Band band_of(const CurveBundle& bundle, double share, std::size_t strains) {
+    std::vector<double> ends;
+    for (const auto& curve : bundle.curves)
+        if (!curve.empty()) ends.push_back(curve.back().first);
+    Band band;
+    if (ends.empty()) return band;
+    std::sort(ends.begin(), ends.end());
+    const double last = ends[(ends.size() - 1) / 2];
+    for (std::size_t k = 0; k < strains; ++k) {
+        const double strain = last * static_cast<double>(k) / static_cast<double>(strains - 1);
+        std::vector<double> values;
+        for (const auto& curve : bundle.curves) {
+            const double stress = curve.empty() ? std::nan("") : stress_at(curve, strain);
+            if (std::isfinite(stress)) values.push_back(stress);
+        }
+        std::sort(values.begin(), values.end());
+        band.strain.push_back(strain);
+        band.low.push_back(quantile(values, share));
+        band.median.push_back(quantile(values, 0.5));
+        band.high.push_back(quantile(values, 1.0 - share));
+    }
+    return band;
+}
+
+Panel curve_bands(const std::vector<CurveBundle>& bundles) {
+    const auto entries = [bundles] {
+        std::vector<Legend::Entry> all;
+        for (std::size_t k = 0; k < bundles.size(); ++k)
+            all.push_back({bundles[k].label, series_colour(k), false, false});
+        return all;
+    };
+    Panel panel;
+    panel.height = [entries](const Canvas& measure, double width) {
+        return 0.62 * proportional(width) + legend_of(measure, entries(), width).more_rows();
+    };
+    panel.draw = [bundles, entries](Canvas& canvas, const Rect& place) {
+        std::vector<Band> bands;
+        double strain = 0.0, smallest = 0.0, largest = 0.0;
+        for (const CurveBundle& bundle : bundles) {
+            bands.push_back(band_of(bundle));
+            for (const double value : bands.back().strain) strain = std::max(strain, value);
+            for (const double value : bands.back().low) smallest = std::min(smallest, value);
+            for (const double value : bands.back().high) largest = std::max(largest, value);
+        }
+        const Unit unit = unit_for(largest, bundles.empty() ? "N/m" : bundles.front().stress_unit);
+        Axes axes;
+        axes.x = scale_for(0.0, strain / strain_unit, place.width < 300.0 ? 6 : 10);
+        axes.y = scale_for(smallest / unit.factor, largest / unit.factor, 6);
+        const Legend legend = legend_of(canvas, entries(), place.width);
+        const double left = Axes::room_left(canvas, axes.y);
+        const double top = place.y + std::max(legend.height(), 1.6 * canvas.style().font_size);
+        axes.frame = {place.x + left, top, place.width - left - 4.0, place.bottom() - Axes::room_below(canvas) - top};
+        legend.draw(canvas, {place.x + beside_letter, place.y});
+        const auto line = [&](const Band& band, const std::vector<double>& values) {
+            std::vector<Point> points;
+            for (std::size_t k = 0; k < values.size(); ++k)
+                points.push_back(axes.at(band.strain[k] / strain_unit, values[k] / unit.factor));
+            return points;
+        };
+        for (std::size_t b = 0; b < bands.size(); ++b) {
+            std::vector<Point> outline = line(bands[b], bands[b].low);
+            const std::vector<Point> upper = line(bands[b], bands[b].high);
+            outline.insert(outline.end(), upper.rbegin(), upper.rend());
+            const Colour fill = tinted(series_colour(b), 0.18), edge = tinted(series_colour(b), 0.45);
+            if (outline.size() > 2) canvas.polygon(outline, &fill, &edge, 0.3);
+        }
+        for (std::size_t b = 0; b < bands.size(); ++b)
+            canvas.line(line(bands[b], bands[b].median), series_colour(b), 1.3 * curve_width);
+        axes.draw(canvas, strain_title, fmt::format("axial stress, {}", unit.name));
+    };
+    return panel;
+}
+
+Panel distributions(const std::string& title, const std::string& unit_name, const std::vector<Sample>& samples) {
+    constexpr double row = 2.6;  // of the font size
+    Panel panel;
+    panel.height = [samples](const Canvas& measure, double /*width*/) {
+        return row * measure.style().font_size * static_cast<double>(samples.size()) + Axes::room_below(measure) +
+               1.6 * measure.style().font_size;
+    };
+    panel.draw = [title, unit_name, samples](Canvas& canvas, const Rect& place) {
+        double smallest = INFINITY, largest = -INFINITY, widest = 0.0;
+        for (const Sample& sample : samples) {
+            for (const double value : sample.values) {
+                smallest = std::min(smallest, value);
+                largest = std::max(largest, value);
+            }
+            widest = std::max(widest, canvas.size_of(escaped(sample.label), 0.85).width);
+        }
+        if (!std::isfinite(smallest)) smallest = largest = 0.0;
+        const Unit unit = unit_name.empty() ? Unit{1.0, ""} : unit_for(largest, unit_name);
+        Axes axes;
+        axes.x = figure_scale(smallest / unit.factor, largest / unit.factor, place.width < 300.0 ? 5 : 8);
+        axes.y = {0.0, static_cast<double>(std::max<std::size_t>(1, samples.size())), 1e9};
+        const double top = place.y + 1.6 * canvas.style().font_size;
+        widest = std::min(widest, 0.4 * place.width);
+        axes.frame = {place.x + widest + 8.0, top, place.width - widest - 14.0,
+                      place.bottom() - Axes::room_below(canvas) - top};
+        for (std::size_t s = 0; s < samples.size(); ++s) {
+            const double middle = static_cast<double>(samples.size() - s) - 0.5;
+            const Colour &colour = series_colour(s), faint = tinted(colour, 0.55);
+            for (const double value : samples[s].values)
+                canvas.circle(axes.at(value / unit.factor, middle - 0.17), 1.3, &faint, nullptr, 0.0);
+            const auto at = [&](double value) { return axes.at(value / unit.factor, middle + 0.2); };
+            if (std::isfinite(samples[s].mean))
+                draw_mean(canvas, at(samples[s].mean), at(samples[s].low), at(samples[s].high), colour, true);
+            canvas.text({axes.frame.x - 5.0, axes.at(axes.x.low, middle).y}, escaped(samples[s].label), Across::right,
+                        Down::middle, 0.85, ink);
+        }
+        for (const double tick : axes.x.ticks()) {
+            const Point mark = axes.at(tick, 0.0);
+            canvas.line({mark, {mark.x, axes.frame.y}}, plot::colour("#e3e6e9"), 0.3);
+        }
+        axes.y.step = 1e9;  // rows have names in place of ticks
+        axes.draw(canvas, titled(title, unit.name), "");
+    };
+    return panel;
+}
+
+Panel over_axis(const std::string& x_title, const std::string& y_title, const std::string& y_unit,
+                const std::vector<Series>& all) {
+    const auto entries = [all] {
+        std::vector<Legend::Entry> list;
+        for (std::size_t k = 0; k < all.size(); ++k) list.push_back({all[k].label, series_colour(k), false, false});
+        return list;
+    };
+    Panel panel;
+    panel.height = [entries](const Canvas& measure, double width) {
+        return 0.55 * proportional(width) + legend_of(measure, entries(), width).more_rows();
+    };
+    panel.draw = [=](Canvas& canvas, const Rect& place) {
+        double left_x = INFINITY, right_x = -INFINITY, smallest = INFINITY, largest = -INFINITY;
+        for (const Series& series : all) {
+            for (const double x : series.x) {
+                left_x = std::min(left_x, x);
+                right_x = std::max(right_x, x);
+            }
+            for (const Sample& sample : series.samples) {
+                for (const double value : sample.values) {
+                    smallest = std::min(smallest, value);
+                    largest = std::max(largest, value);
+                }
+            }
+        }
+        if (!std::isfinite(smallest)) smallest = largest = left_x = right_x = 0.0;
+        const Unit unit = y_unit.empty() ? Unit{1.0, ""} : unit_for(largest, y_unit);
+        const double power = right_x > 0.0 && (right_x >= 1e4 || right_x < 1e-2)
+                                 ? std::pow(10.0, std::floor(std::log10(right_x)))
+                                 : 1.0;
+        Axes axes;
+        axes.x = figure_scale(left_x / power, right_x / power, place.width < 300.0 ? 5 : 8);
+        axes.y = figure_scale(smallest / unit.factor, largest / unit.factor, 5);
+        const Legend legend = legend_of(canvas, entries(), place.width);
+        const double left = Axes::room_left(canvas, axes.y);
+        const double top = place.y + std::max(legend.height(), 1.6 * canvas.style().font_size);
+        axes.frame = {place.x + left, top, place.width - left - 4.0, place.bottom() - Axes::room_below(canvas) - top};
+        legend.draw(canvas, {place.x + beside_letter, place.y});
+        for (std::size_t s = 0; s < all.size(); ++s) {
+            const Colour &colour = series_colour(s), faint = tinted(colour, 0.45);
+            std::vector<Point> means;
+            for (std::size_t k = 0; k < all[s].x.size(); ++k) {
+                const Sample& sample = all[s].samples[k];
+                const auto at = [&](double value) { return axes.at(all[s].x[k] / power, value / unit.factor); };
+                for (const double value : sample.values) canvas.circle(at(value), 1.0, &faint, nullptr, 0.0);
+                if (std::isfinite(sample.mean)) means.push_back(at(sample.mean));
+            }
+            canvas.line(means, colour, curve_width);
+            for (std::size_t k = 0; k < all[s].x.size(); ++k) {
+                const Sample& sample = all[s].samples[k];
+                const auto at = [&](double value) { return axes.at(all[s].x[k] / power, value / unit.factor); };
+                if (std::isfinite(sample.mean))
+                    draw_mean(canvas, at(sample.mean), at(sample.low), at(sample.high), colour, false);
+            }
+        }
+        axes.draw(canvas,
+                  power == 1.0 ? x_title
+                               : fmt::format("{}, 10<sup>{}</sup>", x_title, static_cast<int>(std::log10(power))),
+                  titled(y_title, unit.name));
+    };
+    return panel;
+}
+
+}  // namespace crackle::plot

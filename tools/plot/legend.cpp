@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/plot/legend.hpp"
+
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace crackle::plot {
+
+const Colour& series_colour(std::size_t number) {
+    static const std::array<Colour, 8> series{colour("#22262a"), colour("#00896b"), colour("#aa3377"),
+                                              colour("#8a6d00"), colour("#6a51a3"), colour("#737a80"),
+                                              colour("#a6611a"), colour("#33a3c2")};
+    return series[number % series.size()];
+}
+
+Legend::Legend(const Canvas& canvas, std::vector<Entry> entries, double width) : entries_(std::move(entries)) {
+    constexpr double between = 10.0;  // pt
+    double widest = 0.0;
+    const auto measure = [&] {
+        line_ = 1.25 * canvas.size_of("Xy", text_).height;
+        for (const Entry& entry : entries_)
+            widest = std::max(widest, sample + 3.0 + canvas.size_of(escaped(entry.label), text_).width + between);
+        return static_cast<std::size_t>(std::max(1.0, std::floor((width + between) / widest)));
+    };
+    std::size_t columns = measure();
+    if (columns < std::min<std::size_t>(2, entries_.size())) {  // smaller letters where that makes a second column
+        text_ = 0.85;
+        widest = 0.0;
+        columns = measure();
+    }
+    columns = std::min(columns, std::max<std::size_t>(1, entries_.size()));
+    rows_ = static_cast<int>((entries_.size() + columns - 1) / columns);
+    for (std::size_t k = 0; k < entries_.size(); ++k) {
+        const std::size_t row = k / columns;
+        places_.push_back({widest * static_cast<double>(k % columns), line_ * static_cast<double>(row)});
+    }
+}
+
+void Legend::draw(Canvas& canvas, Point corner) const {
+    if (entries_.size() < 2) return;
+    for (std::size_t k = 0; k < entries_.size(); ++k) {
+        const Entry& entry = entries_[k];
+        const double x = corner.x + places_[k].x, middle = corner.y + places_[k].y + 0.5 * line_;
+        if (entry.bar) {
+            canvas.rectangle({x + 0.25 * sample, middle - 2.5, 0.5 * sample, 5.0}, entry.colour);
+        } else {
+            canvas.line({{x, middle}, {x + sample, middle}}, entry.colour, curve_width, entry.dashed);
+        }
+        canvas.text({x + sample + 3.0, middle}, escaped(entry.label), Across::left, Down::middle, text_, ink);
+    }
+}
+
+Legend legend_of(const Canvas& canvas, std::vector<Legend::Entry> entries, double width) {
+    return {canvas, std::move(entries), width - beside_letter - 4.0};
+}
+
+}  // namespace crackle::plot
