@@ -13,6 +13,7 @@
 
 #include "solver/base/errors.hpp"
 #include "solver/demseg/contact_files.hpp"
+#include "solver/demseg/deck_folder.hpp"
 #include "solver/demseg/deck_reader.hpp"
 #include "solver/demseg/deck_state.hpp"
 #include "solver/demseg/outputs.hpp"
@@ -33,9 +34,6 @@ namespace {
 // Steps between two looks at the run's health; one look costs about a step.
 constexpr std::int64_t health_interval = 100;
 constexpr std::int64_t steps_between_clock_looks = 64;
-
-constexpr const char* state_name = "new_state.bin";
-constexpr const char* journal_name = "new_files.journal";  // while the files for the next part are replaced
 
 template <typename Write>
 std::string text_of(Write&& write) {
@@ -110,10 +108,7 @@ DeckRun::DeckRun(DeckOptions options) : options_(std::move(options)) {
 
 /// The last run here may have been stopped while it replaced the files for the next part.
 void DeckRun::complete_earlier_run() const {
-    const std::filesystem::path journal = options_.folder / journal_name;
-    if (!is_there(journal)) return;
-    const FolderLock lock(options_.folder);
-    if (!complete_replacement(journal) || options_.goes_on) return;
+    if (!complete_deck_replacement(options_.folder) || options_.goes_on) return;
     throw InputError(
         fmt::format("{}: found new_*.dat of a run that was stopped while it wrote them, expected all of one run; they "
                     "are complete now: if the deck's files are copies of them, copy them again; then repeat the "
@@ -237,19 +232,14 @@ void DeckRun::find_bodies() {
 
 void DeckRun::refuse_existing_outputs() const {
     if (options_.overwrite || appends()) return;
-    std::vector<std::string> names(deck_output_names.begin(), deck_output_names.end());
-    for (const char* name : deck_text_names) names.push_back(std::string("new_") + name);
-    // new_state.bin may be there as an input, as DEMseg's users rename the text files alone.
-    for (const std::string& name : names) {
-        const std::filesystem::path path = output_folder() / name;
-        if (!is_there(path)) continue;
-        const bool can_go_on = is_there(output_folder() / (std::string("new_") + deck_text_names[0]));
-        throw InputError(fmt::format(
-            "{}: found the output of an earlier run{}, expected none; give another folder with -o, {}replace it with "
-            "--force",
-            path.string(), can_go_on ? "" : ", stopped before it could be gone on with",
-            can_go_on ? "go on with that run with --continue, or " : "or "));
-    }
+    const std::optional<std::filesystem::path> earlier = earlier_output(output_folder());
+    if (!earlier) return;
+    const bool can_go_on = is_there(output_folder() / (std::string("new_") + deck_text_names[0]));
+    throw InputError(fmt::format(
+        "{}: found the output of an earlier run{}, expected none; give another folder with -o, {}replace it with "
+        "--force",
+        earlier->string(), can_go_on ? "" : ", stopped before it could be gone on with",
+        can_go_on ? "go on with that run with --continue, or " : "or "));
 }
 
 bool DeckRun::rows_due() const {
@@ -269,42 +259,56 @@ void DeckRun::write_rows(DeckOutputs& outputs) const {
 void DeckRun::run(const std::function<bool(const World&)>& go_on) {
     make_folder(output_folder());
     const FolderLock lock = lock_ ? *std::exchange(lock_, std::nullopt) : FolderLock(output_folder());
-    complete_replacement(output_folder() / journal_name);  // of a run that this one replaces
-    refuse_existing_outputs();                             // another run may have been here since
-    const bool first_part = asked_.start != DeckStart::continued;
+    complete_replacement(deck_journal(output_folder()));  // of a run that this one replaces
+    refuse_existing_outputs();                            // another run may have been here since
+    remove_staged_outputs(output_folder());
     if (appends()) drop_rows_after(output_folder(), first_step_);
-    if (first_part) remove_files_of_earlier_run();
-    DeckOutputs outputs(output_folder(), appends()    ? OutputMode::appending
-                                         : first_part ? OutputMode::fresh
-                                                      : OutputMode::part);
+    const bool replaces = !appends() && earlier_output(output_folder());
+    DeckOutputs outputs(output_folder(), mode(), replaces ? OutputNames::staged : OutputNames::own);
+    try {
+        step_to_end(outputs, go_on);
+    } catch (const UnstableRun& error) {
+        if (outputs.renames().empty()) throw;
+        throw UnstableRun(error, fmt::format("earlier outputs in {0} are as they were, those of this run so far in "
+                                             "{0}/*.dat{1}",
+                                             output_folder().string(), staged_suffix));
+    }
+}
+
+OutputMode DeckRun::mode() const {
+    if (appends()) return OutputMode::appending;
+    return first_part() ? OutputMode::fresh : OutputMode::part;
+}
+
+void DeckRun::step_to_end(DeckOutputs& outputs, const std::function<bool(const World&)>& go_on) {
     using Clock = std::chrono::steady_clock;
     Clock::time_point saved = Clock::now();
     while (world_.stepping.steps < last_step_ && (!go_on || go_on(world_))) {
         const bool clock_due = due(world_.stepping.steps, steps_between_clock_looks);
         if (!clock_due || std::chrono::duration<double>(Clock::now() - saved).count() < options_.save_interval) {
-            do_step(outputs, first_part);
+            do_step(outputs);
             continue;
         }
         const FileSet files = files_for_next();
-        do_step(outputs, first_part);  // its row is taken for written, too
-        outputs.flush();
-        save(files);
+        do_step(outputs);  // its row is taken for written, too
+        save(files, outputs);
         saved = Clock::now();
     }
     const auto files = files_for_next();
     compute_forces(world_);
     check_health(world_);
-    if (first_part || world_.stepping.steps > first_step_) write_rows(outputs);
+    if (first_part() || world_.stepping.steps > first_step_) write_rows(outputs);
+    save(files, outputs);
+}
+
+void DeckRun::save(const FileSet& files, DeckOutputs& outputs) const {
     outputs.flush();
-    save(files);
-}
-
-void DeckRun::save(const FileSet& files) const {
     bring_all_to_disc(output_folder());  // whoever goes on from the files takes the rows before them for written
-    replace_files(output_folder() / journal_name, files);
+    replace_files(deck_journal(output_folder()), files, outputs.renames());
+    outputs.have_own_names();
 }
 
-void DeckRun::do_step(DeckOutputs& outputs, bool first_part) {
+void DeckRun::do_step(DeckOutputs& outputs) {
     const bool check_due = due(world_.stepping.steps, health_interval);
     if (!check_due && !rows_due()) {
         step(world_);
@@ -312,25 +316,9 @@ void DeckRun::do_step(DeckOutputs& outputs, bool first_part) {
     }
     compute_forces(world_);
     if (check_due) check_health(world_);
-    if (first_part || world_.stepping.steps > first_step_)
+    if (first_part() || world_.stepping.steps > first_step_)
         write_rows(outputs);  // the last part has written the row of its last step
     advance(world_);
-}
-
-void DeckRun::remove_files_of_earlier_run() const {
-    std::vector<std::string> names;
-    names.reserve(deck_text_names.size() + 1);
-    for (const char* name : deck_text_names) names.push_back(std::string("new_") + name);
-    names.emplace_back(state_name);  // the last: nothing goes on without in_gm.dat, text alone without the state
-    for (const std::string& name : names) {
-        std::error_code error;
-        std::filesystem::remove(output_folder() / name, error);
-        if (error) {
-            throw InputError(
-                fmt::format("{}: cannot be removed ({})", (output_folder() / name).string(), error.message()));
-        }
-        bring_names_to_disc(output_folder());  // one after the other
-    }
 }
 
 Scene DeckRun::present_scene() const {

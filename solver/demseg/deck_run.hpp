@@ -23,6 +23,7 @@
 namespace crackle {
 
 class DeckOutputs;
+enum class OutputMode;
 
 struct DeckOptions {
     std::filesystem::path folder;  ///< of in_gm.dat and in_bc.dat
@@ -47,7 +48,7 @@ class DeckRun {
     /// Steps to the end and writes. @param go_on asked before every step; on false the run ends there, with all its
     /// files.
     /// @throws InputError if something cannot be written; UnstableRun, after which the outputs so far are there, and
-    /// new_* as they were last saved.
+    /// new_* as they were last saved. Until they are first saved the files of an earlier run are as they were.
     void run(const std::function<bool(const World&)>& go_on = {});
 
     const World& world() const { return world_; }
@@ -74,16 +75,17 @@ class DeckRun {
     bool rows_due() const;
     void write_rows(DeckOutputs& outputs) const;
     /// One step, with the rows that are due before it.
-    void do_step(DeckOutputs& outputs, bool first_part);
-    /// That no file for the next part is of another run than the outputs, whenever this one is stopped.
-    void remove_files_of_earlier_run() const;
+    void do_step(DeckOutputs& outputs);
+    void step_to_end(DeckOutputs& outputs, const std::function<bool(const World&)>& go_on);
+    bool first_part() const { return asked_.start != DeckStart::continued; }
+    OutputMode mode() const;
     bool finished() const { return world_.stepping.steps - boundary_.steps_before >= boundary_.steps; }
     Scene present_scene() const;
     BoundaryConditions boundary_for_next() const;
     /// Contents of new_in_gm.dat, new_in_bc.dat, new_in_cf.dat, new_in_cf0.dat and new_state.bin, by name.
     FileSet files_for_next() const;
-    /// Puts them in the place of the earlier ones, once the outputs are on the disc.
-    void save(const FileSet& files) const;
+    /// Puts them in the place of the earlier ones, once the outputs are on the disc, which get their own names with it.
+    void save(const FileSet& files, DeckOutputs& outputs) const;
 
     DeckOptions options_;
     // Of the output folder, from before its files are read where the run goes on there.

@@ -107,15 +107,26 @@ void drop_rows_after(const std::filesystem::path& folder, std::int64_t step) {
     }
 }
 
-DeckOutputs::DeckOutputs(const std::filesystem::path& folder, OutputMode mode) : folder_(folder) {
+DeckOutputs::DeckOutputs(const std::filesystem::path& folder, OutputMode mode, OutputNames names)
+    : folder_(folder), suffix_(names == OutputNames::staged ? staged_suffix : "") {
     for (std::size_t k = 0; k < files_.size(); ++k) {
         errno = 0;
-        files_[k].open(folder / deck_output_names[k],
-                       std::ios::binary | (mode == OutputMode::appending ? std::ios::app : std::ios::trunc));
-        if (!files_[k]) refuse_output(folder / deck_output_names[k]);
+        files_[k].open(path(k), std::ios::binary | (mode == OutputMode::appending ? std::ios::app : std::ios::trunc));
+        if (!files_[k]) refuse_output(path(k));
         if (mode == OutputMode::fresh) files_[k] << headers[k];
     }
     flush();
+}
+
+std::filesystem::path DeckOutputs::path(std::size_t which) const {
+    return folder_ / (deck_output_names[which] + suffix_);
+}
+
+Renames DeckOutputs::renames() const {
+    Renames renames;
+    if (suffix_.empty()) return renames;
+    for (const char* name : deck_output_names) renames.emplace_back(name + suffix_, name);
+    return renames;
 }
 
 void DeckOutputs::write(Which which, const World& world, const std::string& text) {
@@ -133,13 +144,13 @@ void DeckOutputs::write(Which which, const World& world, const std::string& text
     }
     errno = 0;
     files_[which].write(text.data(), static_cast<std::streamsize>(text.size()));
-    if (!files_[which]) refuse_output(folder_ / deck_output_names[which]);
+    if (!files_[which]) refuse_output(path(which));
 }
 
 void DeckOutputs::flush() {
     for (std::size_t k = 0; k < files_.size(); ++k) {
         errno = 0;
-        if (!files_[k].flush()) refuse_output(folder_ / deck_output_names[k]);
+        if (!files_[k].flush()) refuse_output(path(k));
     }
 }
 

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/files/file_set.hpp"
 #include "solver/world/world.hpp"
 
 namespace crackle {
@@ -19,6 +20,11 @@ namespace crackle {
 /// Names of the output files, in the order in which DeckOutputs holds them.
 inline constexpr std::array<const char*, 6> deck_output_names{"output.dat", "cont.dat",      "cont2.dat",
                                                               "energy.dat", "f-d_curve.dat", "velocity_y.dat"};
+
+/// Behind the name of an output of a run whose earlier outputs keep theirs until it can be gone on with.
+inline constexpr const char* staged_suffix = ".new";
+
+enum class OutputNames : bool { own, staged };
 
 enum class OutputMode {
     fresh,      ///< begins files with their headers
@@ -29,7 +35,7 @@ enum class OutputMode {
 class DeckOutputs {
   public:
     /// @throws InputError naming a file that cannot be written.
-    DeckOutputs(const std::filesystem::path& folder, OutputMode mode);
+    DeckOutputs(const std::filesystem::path& folder, OutputMode mode, OutputNames names = OutputNames::own);
 
     // All three throw UnstableRun instead of writing a number that is not finite.
 
@@ -42,12 +48,20 @@ class DeckOutputs {
     /// @throws InputError if something could not be written (a full disc, say).
     void flush();
 
+    /// From the names that they are written under to their own; none where these are the same.
+    Renames renames() const;
+    /// Once the files have been renamed so.
+    void have_own_names() { suffix_ = ""; }
+
   private:
     enum Which { positions, contact_forces, contact_details, energies, force_displacement, velocities };
 
     void write(Which which, const World& world, const std::string& text);
 
+    std::filesystem::path path(std::size_t which) const;
+
     std::filesystem::path folder_;
+    std::string suffix_;
     std::array<std::ofstream, 6> files_;
 };
 

@@ -4,20 +4,23 @@
 #include "solver/demseg/read_outputs.hpp"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <limits>
 #include <utility>
 
 #include "solver/base/errors.hpp"
+#include "solver/demseg/deck_folder.hpp"
 #include "solver/demseg/deck_reader.hpp"
 #include "solver/files/read_file.hpp"
 
 namespace crackle {
 namespace {
+
+constexpr std::array<const char*, 3> frame_files{"output.dat", "cont.dat", "cont2.dat"};
 
 constexpr int largest_id = std::numeric_limits<int>::max();
 constexpr std::int64_t most_lines = 1'000'000'000;
@@ -52,14 +55,14 @@ std::optional<DeckFrameFile> file_if_there(const std::filesystem::path& path) {
 
 DeckFrameFile::DeckFrameFile(std::filesystem::path path, int counts) : path_(std::move(path)) {
     errno = 0;
-    std::ifstream file(path_, std::ios::binary);
-    if (!file)
+    file_.open(path_, std::ios::binary);
+    if (!file_)
         throw InputError(fmt::format("{}: cannot be read ({}), expected the output of `crackle run`", path_.string(),
                                      std::strerror(errno)));
     std::string line;
     std::int64_t at = 0;
     int number = 0;
-    while (std::getline(file, line) && !file.eof()) {
+    while (std::getline(file_, line) && !file_.eof()) {
         at += static_cast<std::int64_t>(line.size()) + 1;
         ++number;
         if (line.starts_with('#')) continue;
@@ -79,7 +82,7 @@ DeckFrameFile::DeckFrameFile(std::filesystem::path path, int counts) : path_(std
         }
         head.offset = at;
         head.line = number;
-        for (; lines > 0 && std::getline(file, line) && !file.eof(); --lines) {
+        for (; lines > 0 && std::getline(file_, line) && !file_.eof(); --lines) {
             at += static_cast<std::int64_t>(line.size()) + 1;
             ++number;
         }
@@ -89,18 +92,39 @@ DeckFrameFile::DeckFrameFile(std::filesystem::path path, int counts) : path_(std
 }
 
 std::string DeckFrameFile::lines(const Head& head) const {
-    std::ifstream file(path_, std::ios::binary);
     std::string text(static_cast<std::size_t>(head.bytes), '\0');
-    file.seekg(head.offset);
-    file.read(text.data(), head.bytes);
-    if (!file) throw InputError(fmt::format("{}:{}: the frame cannot be read", path_.string(), head.line));
+    file_.clear();
+    file_.seekg(head.offset);
+    file_.read(text.data(), head.bytes);
+    if (!file_) throw InputError(fmt::format("{}:{}: the frame cannot be read", path_.string(), head.line));
     return text;
 }
 
+DeckFrames::Identities DeckFrames::identities(const std::filesystem::path& folder) {
+    Identities all{};
+    for (std::size_t k = 0; k < frame_files.size(); ++k) {
+        struct stat found {};
+        if (::stat((folder / frame_files[k]).c_str(), &found) == 0) all[k] = {found.st_dev, found.st_ino};
+    }
+    return all;
+}
+
+DeckFrames::Identities DeckFrames::whole_set(const std::filesystem::path& folder) {
+    complete_deck_replacement(folder);
+    return identities(folder);
+}
+
 DeckFrames::DeckFrames(const std::filesystem::path& folder)
-    : positions_(folder / "output.dat", 2),
-      forces_(file_if_there(folder / "cont.dat")),
-      details_(file_if_there(folder / "cont2.dat")) {
+    : opened_(whole_set(folder)),
+      positions_(folder / frame_files[0], 2),
+      forces_(file_if_there(folder / frame_files[1])),
+      details_(file_if_there(folder / frame_files[2])) {
+    if (identities(folder) != opened_) {
+        throw InputError(
+            fmt::format("{}: found outputs that a new run replaced while they were read, expected those of one run; "
+                        "repeat the command",
+                        folder.string()));
+    }
     if (positions_.heads().empty()) {
         throw InputError(
             fmt::format("{}: found no complete frame, expected those of `crackle run`", positions_.path().string()));

@@ -3,8 +3,10 @@
 // Tested by tests/tools/commands/view_test.cpp.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <optional>
 #include <string>
 #include <vector>
@@ -54,12 +56,15 @@ class DeckFrameFile {
 
   private:
     std::filesystem::path path_;
+    mutable std::ifstream file_;  // open all the while: another file that gets its name is none of this list
     std::vector<Head> heads_;
 };
 
 class DeckFrames {
   public:
+    /// Ends a replacement of the folder's files that was stopped.
     /// @param folder  holds output.dat; the two others may be absent
+    /// @throws InputError on files that are none of ours, or that a run replaces meanwhile
     explicit DeckFrames(const std::filesystem::path& folder);
 
     const std::vector<DeckFrameFile::Head>& heads() const { return positions_.heads(); }
@@ -73,6 +78,12 @@ class DeckFrames {
     std::vector<DeckContact> contacts(std::size_t k) const;
 
   private:
+    /// Device and number of each file; zeros where there is none.
+    using Identities = std::array<std::array<std::uint64_t, 2>, 3>;
+    static Identities identities(const std::filesystem::path& folder);
+    static Identities whole_set(const std::filesystem::path& folder);
+
+    Identities opened_;  // before the others are
     DeckFrameFile positions_;
     std::optional<DeckFrameFile> forces_, details_;
 };

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Layout of a journal: magic, XXH3 (64 bits) of what follows, the set as cereal writes it.
+// Layout of a journal: magic, XXH3 (64 bits) of what follows, files and renames as cereal writes them. Journals of the
+// first layout have no renames.
 #include "solver/files/file_set.hpp"
 
 #include <fmt/format.h>
@@ -24,7 +25,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view magic = "CRKLSET1";
+constexpr std::string_view magic = "CRKLSET2", magic_without_renames = "CRKLSET1";
+static_assert(magic.size() == magic_without_renames.size());
+
+struct Replacement {
+    FileSet files;
+    Renames renames;
+};
 
 std::string damage(const fs::path& journal) {
     return fmt::format(
@@ -35,27 +42,47 @@ std::string damage(const fs::path& journal) {
 
 std::uint64_t hash_of(std::string_view bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }
 
-FileSet read_journal(const fs::path& journal) {
+bool is_name(const std::string& name) {
+    return !name.empty() && name != "." && name != ".." && fs::path(name).filename() == name;
+}
+
+Replacement read_journal(const fs::path& journal) {
     const std::string text = read_file(journal);
     std::uint64_t hash = 0;
-    if (text.size() < magic.size() + sizeof hash || !text.starts_with(magic)) throw InputError(damage(journal));
+    const bool with_renames = text.starts_with(magic);
+    if (text.size() < magic.size() + sizeof hash || !(with_renames || text.starts_with(magic_without_renames)))
+        throw InputError(damage(journal));
     std::memcpy(&hash, text.data() + magic.size(), sizeof hash);
     const std::string packed = text.substr(magic.size() + sizeof hash);
     if (hash != hash_of(packed)) throw InputError(damage(journal));
     std::istringstream in(packed);
-    FileSet files;
-    CheckedInput(in, static_cast<std::streamoff>(packed.size()), damage(journal))(files);
-    for (const auto& [name, contents] : files)
-        if (name.empty() || name == "." || name == ".." || fs::path(name).filename() != name)
-            throw InputError(damage(journal));
-    return files;
+    Replacement all;
+    CheckedInput input(in, static_cast<std::streamoff>(packed.size()), damage(journal));
+    input(all.files);
+    if (with_renames) input(all.renames);
+    for (const auto& [name, contents] : all.files)
+        if (!is_name(name)) throw InputError(damage(journal));
+    for (const auto& [from, to] : all.renames)
+        if (!is_name(from) || !is_name(to)) throw InputError(damage(journal));
+    return all;
+}
+
+void rename_files(const fs::path& folder, const Renames& renames) {
+    for (const auto& [from, to] : renames) {
+        if (!is_there(folder / from)) continue;  // it has its name already
+        std::error_code error;
+        fs::rename(folder / from, folder / to, error);
+        if (error)
+            throw InputError(fmt::format("{}: cannot be replaced ({})", (folder / to).string(), error.message()));
+    }
+    if (!renames.empty()) bring_names_to_disc(folder);
 }
 
 }  // namespace
 
-void write_journal(const fs::path& journal, const FileSet& files) {
+void write_journal(const fs::path& journal, const FileSet& files, const Renames& renames) {
     std::ostringstream out;
-    cereal::BinaryOutputArchive{out}(files);
+    cereal::BinaryOutputArchive{out}(files, renames);
     const std::string packed = std::move(out).str();
     const std::uint64_t hash = hash_of(packed);
     std::string text(magic);
@@ -65,15 +92,17 @@ void write_journal(const fs::path& journal, const FileSet& files) {
 
 bool complete_replacement(const fs::path& journal) {
     if (!is_there(journal)) return false;
-    for (const auto& [name, contents] : read_journal(journal)) replace_file(journal.parent_path() / name, contents);
+    const Replacement all = read_journal(journal);
+    for (const auto& [name, contents] : all.files) replace_file(journal.parent_path() / name, contents);
+    rename_files(journal.parent_path(), all.renames);
     std::error_code error;
     if (!fs::remove(journal, error)) refuse_output(journal);
     bring_names_to_disc(journal.parent_path());  // else a loss of power brings it back, over what is edited since
     return true;
 }
 
-void replace_files(const fs::path& journal, const FileSet& files) {
-    write_journal(journal, files);
+void replace_files(const fs::path& journal, const FileSet& files, const Renames& renames) {
+    write_journal(journal, files, renames);
     complete_replacement(journal);
 }
 

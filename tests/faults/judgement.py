@@ -5,13 +5,12 @@ from dataclasses import dataclass, field
 from pathlib import PurePosixPath
 
 from program import CAUSES, contents, differences
-from scenes import as_it_was
 
 # Outcomes that are as they should be.
-UNTOUCHED, UNREACHED, SAID, STOPPED, FURTHER, LEFT, GONE, REFUSED = (
+UNTOUCHED, UNREACHED, SAID, STOPPED, FURTHER, LEFT, REFUSED = (
     "results right all the same", "not reached", "said so, then right", "stopped by the signal, then right", "repeated, it goes one part further",
-    "right, a file left over", "said so, earlier outputs gone, then right", "refused until the folder is moved away")
-GOOD = (UNTOUCHED, UNREACHED, SAID, STOPPED, FURTHER, LEFT, GONE, REFUSED)
+    "right, a file left over", "refused until the folder is moved away")
+GOOD = (UNTOUCHED, UNREACHED, SAID, STOPPED, FURTHER, LEFT, REFUSED)
 # And those that are not, worst first.
 SILENT, LOST, MIXED, HUNG, ABORTED, UNMENDED, WORDS, CODE = (
     "exit 0, results wrong", "earlier results lost", "went on from a mixture", "hung", "aborted", "not right afterwards", "words", "exit code")
@@ -20,7 +19,7 @@ BAD = (SILENT, LOST, MIXED, HUNG, ABORTED, UNMENDED, WORDS, CODE)
 
 def worst_of(faults):
     """The kind of an outcome with such faults."""
-    return min((kind for kind, _ in faults), key=(*BAD, REFUSED, GONE, FURTHER, LEFT).index)
+    return min((kind for kind, _ in faults), key=(*BAD, REFUSED, FURTHER, LEFT).index)
 
 
 def left_over(final, scene):
@@ -105,12 +104,10 @@ def judge(program, scene, place, run, error=None, signal=None, mend=lambda: None
     elif run.code > 0:
         if complaint := wrong_words(run, None, []):
             faults.append((WORDS, complaint))
-    if lost := scene.damage(after):
+    if lost := None if run.code == 130 and scene.saves_itself else scene.damage(after):
         faults.append((LOST, lost + (f"; it says: {run.err.strip()[-60:]}" if "as they were" in run.err else "")))
     elif "as they were" in run.err and not all(after.get(name) == data for name, data in scene.before.items()):
         faults.append((WORDS, f"says as they were, and they are not: {run.err.strip()[:200]}"))
-    elif scene.at_once and (gone := as_it_was(scene.before, after, scene.expected, scene.results)):
-        faults.append((GONE, gone))
     mend()
     faults += went_on(program, scene, place, run, after)
     if faults:

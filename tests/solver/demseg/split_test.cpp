@@ -207,22 +207,6 @@ TEST_F(StoppedDeck, ThatWasKilledGoesOnFromWhatItSavedLast) {
     }
 }
 
-TEST_F(StoppedDeck, OfANewRunLeavesNoFilesOfTheOneItReplaces) {
-    const auto folder = scratch_ / "deck";
-    run(folder, false);
-    DeckOptions options;
-    options.folder = shipped_deck("embankment");
-    options.output = folder;
-    options.overwrite = true;
-    bool looked = false;
-    DeckRun(options).run([&](const World&) {
-        for (const char* name : next_files) EXPECT_FALSE(std::filesystem::exists(folder / name)) << name;
-        looked = true;
-        return false;
-    });
-    EXPECT_TRUE(looked);
-}
-
 TEST_F(StoppedDeck, WhoseFilesAreCopiedByHandIsToldToCopyThemAgain) {
     const auto folder = scratch_ / "deck";
     run(folder, false);

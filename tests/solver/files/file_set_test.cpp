@@ -3,7 +3,9 @@
 #include "solver/files/file_set.hpp"
 
 #include <gtest/gtest.h>
+#include <xxhash.h>
 
+#include <cstdint>
 #include <fstream>
 #include <iterator>
 
@@ -61,6 +63,35 @@ TEST_F(Files, StoppedAfterAnyOfThemAreCompletedByTheNextReader) {
     }
 }
 
+TEST_F(Files, WrittenUnderOtherNamesGetTheirsWithTheSet) {
+    const Renames renames{{"large.dat.new", "large.dat"}, {"other.dat.new", "other.dat"}};
+    FileSet all = new_;
+    all.emplace_back("large.dat", "new rows");
+    all.emplace_back("other.dat", "new, too");
+    for (std::size_t renamed = 0; renamed <= renames.size(); ++renamed) {
+        for (const auto& [name, contents] : old_) write(name, contents);
+        for (const auto& [name, contents] : all) {
+            if (name != "large.dat" && name != "other.dat") continue;
+            write(name, "old");
+            write(name + ".new", contents);
+        }
+        write_journal(journal(), new_, renames);
+        for (std::size_t k = 0; k < renamed; ++k) fs::rename(folder_ / renames[k].first, folder_ / renames[k].second);
+        EXPECT_TRUE(complete_replacement(journal())) << renamed;
+        expect_whole(all);
+    }
+}
+
+TEST_F(Files, OfAJournalOfTheFirstLayoutAreReplaced) {
+    write_journal(journal(), old_);
+    // The same without renames: the number of them, 0, is the last word.
+    const std::string text = read("set.journal"), packed = text.substr(16, text.size() - 16 - 8);
+    const std::uint64_t hash = XXH3_64bits(packed.data(), packed.size());
+    write("set.journal", "CRKLSET1" + std::string(reinterpret_cast<const char*>(&hash), sizeof hash) + packed);
+    EXPECT_TRUE(complete_replacement(journal()));
+    expect_whole(old_);
+}
+
 TEST_F(Files, OfADamagedJournalStayAsTheyAre) {
     for (const auto& [name, contents] : old_) write(name, contents);
     write_journal(journal(), new_);
@@ -78,8 +109,11 @@ TEST_F(Files, OfADamagedJournalStayAsTheyAre) {
 }
 
 TEST_F(Files, OfAJournalThatNamesOtherFoldersAreRefused) {
-    write_journal(journal(), {{"../outside.dat", "x"}});
-    EXPECT_THROW(complete_replacement(journal()), InputError);
+    write("inside.dat", "x");
+    for (const Renames& renames : {Renames{}, {{"inside.dat", "../outside.dat"}}, {{"../set/inside.dat", "a.dat"}}}) {
+        write_journal(journal(), {{renames.empty() ? "../outside.dat" : "b.dat", "x"}}, renames);
+        EXPECT_THROW(complete_replacement(journal()), InputError);
+    }
     EXPECT_FALSE(fs::exists(folder_.parent_path() / "outside.dat"));
 }
 

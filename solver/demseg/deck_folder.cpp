@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/demseg/deck_folder.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <system_error>
+
+#include "solver/base/errors.hpp"
+#include "solver/demseg/deck_state.hpp"
+#include "solver/demseg/outputs.hpp"
+#include "solver/files/file_set.hpp"
+#include "solver/files/folder_lock.hpp"
+#include "solver/files/read_file.hpp"
+
+namespace crackle {
+
+namespace fs = std::filesystem;
+
+fs::path deck_journal(const fs::path& folder) { return folder / "new_files.journal"; }
+
+bool complete_deck_replacement(const fs::path& folder) {
+    const fs::path journal = deck_journal(folder);
+    if (!is_there(journal)) return false;
+    const FolderLock lock(folder);
+    return complete_replacement(journal);
+}
+
+std::optional<fs::path> earlier_output(const fs::path& folder) {
+    for (const char* name : deck_output_names)
+        if (is_there(folder / name)) return folder / name;
+    for (const char* name : deck_text_names) {
+        const fs::path path = folder / (std::string("new_") + name);
+        if (is_there(path)) return path;
+    }
+    return std::nullopt;
+}
+
+void remove_staged_outputs(const fs::path& folder) {
+    for (const char* name : deck_output_names) {
+        const fs::path path = folder / (std::string(name) + staged_suffix);
+        std::error_code error;
+        fs::remove(path, error);
+        if (error) throw InputError(fmt::format("{}: cannot be removed ({})", path.string(), error.message()));
+    }
+}
+
+}  // namespace crackle
