@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reads back the frames of a test: VTK XML PolyData with zlib-compressed inline binary arrays, as frame_painter.hpp
 // writes them. Polygon cells are particles (circles as polygons with a radius), line cells are open chains (platens).
-// Tested by tests/specimens/frames/frame_test.cpp.
+// Tested by tests/specimens/frames/frame_test.cpp and tests/specimens/frames/read_frames_test.cpp.
 #pragma once
 
 #include <filesystem>
