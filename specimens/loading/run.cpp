@@ -159,6 +159,11 @@ TestOutcome finished_test(VirtualTest& test, const TestOptions& options, const T
         exists && old.is_object() && old.contains("ended_by") && old["ended_by"] == test.state.ended_by;
     const bool verified = readable && old.contains("/numerical_errors/companions"_json_pointer);
     outcome.was_finished = readable && (verified || !options.verify);
+    if (readable) {
+        const FileMarks stated = stated_files(old, name.string());
+        for (const auto& [file, mark] : stated)
+            require_as_stated(stated, folder.path() / file, mark_of_file(folder.path() / file));
+    }
     if (outcome.was_finished) return outcome;
     TestTiming timing{0.0, 0.0, test.world.workers.threads};
     const auto number = [&](const char* key, double otherwise) {  // whoever wrote what is there
@@ -172,7 +177,9 @@ TestOutcome finished_test(VirtualTest& test, const TestOptions& options, const T
     const auto write_summary = [&] {
         outcome.summary =
             make_summary(test.description, test.setup, test.state, test.world, timing, errors ? &*errors : nullptr);
-        folder.write("summary.json", outcome.summary.dump(2) + '\n');
+        FileMarks files{{"curve.csv", test.state.curve}, {"events.csv", test.state.events}};
+        if (test.description.output.slips) files.emplace_back("slips.csv", test.state.slips);
+        crackle::write_summary(folder, outcome.summary, std::move(files));
     };
     write_summary();
     if (options.verify) {

@@ -14,6 +14,7 @@
 #include "solver/base/errors.hpp"
 #include "solver/files/read_file.hpp"
 #include "specimens/recordings/replacement.hpp"
+#include "specimens/recordings/stated_files.hpp"
 
 namespace crackle {
 namespace {
@@ -25,7 +26,7 @@ std::string read_result(const std::filesystem::path& file) {
                         "`crackle test CASE.toml -o {}`",
                         file.string(), file.parent_path().string()));
     }
-    return read_text(file);
+    return read_file(file);
 }
 
 std::vector<std::string_view> split(std::string_view line) {
@@ -75,7 +76,8 @@ nlohmann::ordered_json read_summary(const std::filesystem::path& file) {
                         file.string(), deepest_summary));
     };
     try {
-        summary = Json::parse(read_result(file), bound_depth);
+        const std::string text = read_result(file);
+        summary = Json::parse(without_byte_order_mark(text), bound_depth);
     } catch (const nlohmann::json::parse_error& error) {
         throw InputError(
             fmt::format("{}: found broken JSON at byte {}; write the results again with `crackle test --force`",
@@ -102,29 +104,12 @@ nlohmann::ordered_json read_summary(const std::filesystem::path& file) {
     return summary;
 }
 
-}  // namespace
-
-bool is_report_page(const std::filesystem::path& file) {
-    if (!is_file(file)) return false;
-    errno = 0;
-    std::ifstream in(file);
-    std::string first, second;
-    const bool is_page = std::getline(in, first) && std::getline(in, second) && second == report_mark;
-    if (!in.is_open()) throw InputError(fmt::format("{}: cannot be read ({})", file.string(), std::strerror(errno)));
-    refuse_failed(in, file.string());
-    return is_page;
-}
-
-const std::vector<double>* NumberTable::find(std::string_view name) const {
-    const auto found = std::find(names.begin(), names.end(), name);
-    return found == names.end() ? nullptr : &columns[static_cast<std::size_t>(found - names.begin())];
-}
-
-NumberTable read_number_table(const std::filesystem::path& file, std::string_view word_column,
-                              const std::vector<std::string>& words) {
-    const std::string text = read_result(file);
+/// Comma-separated numbers under a line of names. The words of column `word_column`, if given, are read as their place
+/// in `words`. @throws InputError naming file, line and column
+NumberTable number_table(const std::filesystem::path& file, std::string_view text, std::string_view word_column,
+                         const std::vector<std::string>& words) {
     NumberTable table;
-    std::string_view rest = text;
+    std::string_view rest = without_byte_order_mark(text);
     for (int line_number = 1; !rest.empty(); ++line_number) {
         const std::size_t line_end = rest.find('\n');
         std::string_view line = rest.substr(0, line_end);
@@ -163,6 +148,24 @@ NumberTable read_number_table(const std::filesystem::path& file, std::string_vie
     return table;
 }
 
+}  // namespace
+
+bool is_report_page(const std::filesystem::path& file) {
+    if (!is_file(file)) return false;
+    errno = 0;
+    std::ifstream in(file);
+    std::string first, second;
+    const bool is_page = std::getline(in, first) && std::getline(in, second) && second == report_mark;
+    if (!in.is_open()) throw InputError(fmt::format("{}: cannot be read ({})", file.string(), std::strerror(errno)));
+    refuse_failed(in, file.string());
+    return is_page;
+}
+
+const std::vector<double>* NumberTable::find(std::string_view name) const {
+    const auto found = std::find(names.begin(), names.end(), name);
+    return found == names.end() ? nullptr : &columns[static_cast<std::size_t>(found - names.begin())];
+}
+
 TestResults read_results(const std::filesystem::path& folder) {
     if (!std::filesystem::is_directory(folder)) {
         throw InputError(fmt::format(
@@ -173,14 +176,22 @@ TestResults read_results(const std::filesystem::path& folder) {
     TestResults results;
     results.name = std::filesystem::weakly_canonical(folder).filename().string();
     results.summary = read_summary(folder / "summary.json");
-    results.curve = read_number_table(folder / "curve.csv");
+    const FileMarks stated = stated_files(results.summary, (folder / "summary.json").string());
+    const auto read_table = [&](const char* name, std::string_view word_column = {},
+                                const std::vector<std::string>& words = {}) {
+        const std::string text = read_result(folder / name);
+        require_as_stated(stated, folder / name, mark_of(text));
+        return number_table(folder / name, text, word_column, words);
+    };
+    results.curve = read_table("curve.csv");
     require_columns(folder / "curve.csv", results.curve, {"axial_strain", "axial_stress", "bonds_broken", "time"});
-    results.events = read_number_table(folder / "events.csv", "mode", {"tension", "shear"});
+    results.events = read_table("events.csv", "mode", {"tension", "shear"});
     require_columns(folder / "events.csv", results.events,
                     {"time", "axial_strain", "x", "y", "body_i", "body_j", "mode", "last_of_interface"});
     require_whole_numbers(folder / "events.csv", results.events, {"body_i", "body_j", "last_of_interface"});
-    if (const std::filesystem::path slips = folder / "slips.csv"; is_there(slips)) {
-        results.slips = read_number_table(slips);
+    const std::filesystem::path slips = folder / "slips.csv";
+    if (is_there(slips) || states(stated, "slips.csv")) {
+        results.slips = read_table("slips.csv");
         require_columns(slips, *results.slips, {"time", "axial_strain", "x", "y", "orientation"});
     }
     return results;

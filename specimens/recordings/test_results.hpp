@@ -34,13 +34,9 @@ struct TestResults {
     std::optional<NumberTable> slips;  ///< columns of slips.csv; none where the test did not record slips
 };
 
-/// Comma-separated numbers under a line of names. The words of column `word_column`, if given, are read as their place
-/// in `words`. @throws InputError naming file, line and column
-NumberTable read_number_table(const std::filesystem::path& file, std::string_view word_column = {},
-                              const std::vector<std::string>& words = {});
-
 /// @param folder  what `crackle test -o` made
-/// @throws InputError naming the file that is missing or wrong, and how to make it
+/// @throws InputError naming the file that is missing, wrong or not what the test wrote (stated_files.hpp), and how to
+/// make it
 TestResults read_results(const std::filesystem::path& folder);
 
 }  // namespace crackle

@@ -59,7 +59,8 @@ take the place of the old ones once they are complete. `crackle report OUT` adds
 What a stop leaves: a signal, a full disc or a loss of power at any moment leaves the earlier results whole, or a checkpoint from which
 `--resume` goes on to the same bytes. A checkpoint gets its name when it and all that it knows of are on the disc; `curve.csv`,
 `events.csv` and `slips.csv` must still begin with what was written up to it (by their hash), or the test is not resumed. Files that are
-moved away or changed while the test runs end it with an error.
+moved away or changed while the test runs end it with an error. `summary.json` states length and hash of these files and of the checkpoint:
+whatever reads results, and `--resume` of a finished test, refuses a file that is not the one that the test wrote.
 
 Units are those of the case, SI in what is shipped. Everything is per unit thickness: masses are in kg, forces in N, stresses and moduli are
 force over a length, N/m. «Positive in the sense of the test»: compression positive when the specimen is squeezed, tension positive when it is

@@ -7,6 +7,7 @@
 #include <system_error>
 #include <vector>
 
+#include "solver/files/read_file.hpp"
 #include "specimens/observers/events.hpp"
 #include "specimens/results/checkpoint.hpp"
 
@@ -128,9 +129,18 @@ void TestFiles::flush() {
     if (slips_) slips_->flush();
 }
 
-void TestFiles::write_summary(const nlohmann::ordered_json& summary, const TestState& state) {
+void TestFiles::write_summary(nlohmann::ordered_json& summary, const TestState& state) {
     write_collection(state);
-    folder_.write("summary.json", summary.dump(2) + '\n', Durable::yes);
+    FileMarks files{{"curve.csv", curve_.mark()}, {"events.csv", events_.mark()}};
+    if (slips_) files.emplace_back("slips.csv", slips_->mark());
+    crackle::write_summary(folder_, summary, std::move(files));
+}
+
+void write_summary(const OutputFolder& folder, nlohmann::ordered_json& summary, FileMarks files) {
+    const fs::path checkpoint = folder.path() / "checkpoint";
+    if (is_there(checkpoint)) files.emplace_back("checkpoint", mark_of_file(checkpoint));
+    state_files(summary, files);
+    folder.write("summary.json", summary.dump(2) + '\n', Durable::yes);
 }
 
 }  // namespace crackle

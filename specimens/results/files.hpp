@@ -7,12 +7,16 @@
 #include <string>
 
 #include "specimens/frames/frame_painter.hpp"
+#include "specimens/recordings/stated_files.hpp"
 #include "specimens/results/background.hpp"
 #include "specimens/results/growing_file.hpp"
 #include "specimens/results/output_folder.hpp"
 #include "specimens/results/summary.hpp"
 
 namespace crackle {
+
+/// Writes summary.json, which states these files (stated_files.hpp) and the checkpoint, if there is one.
+void write_summary(const OutputFolder& folder, nlohmann::ordered_json& summary, FileMarks files);
 
 class TestFiles {
   public:
@@ -33,7 +37,7 @@ class TestFiles {
     void write_checkpoint(const TestSetup& setup, TestState& state, const World& world);
     /// Without a checkpoint: for a run that has gone wrong, whose last good checkpoint stays.
     void flush();
-    void write_summary(const nlohmann::ordered_json& summary, const TestState& state);
+    void write_summary(nlohmann::ordered_json& summary, const TestState& state);
 
   private:
     std::string due_collection(const TestState& state);

@@ -10,21 +10,11 @@
 #include <memory>
 #include <string>
 
+#include "solver/files/file_mark.hpp"
+
 struct XXH3_state_s;
 
 namespace crackle {
-
-/// The beginning of a file.
-struct FileMark {
-    std::uint64_t bytes = 0;
-    std::uint64_t hash = 0;  ///< XXH3 (64 bits) of these
-
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("bytes", s.bytes);
-        visit("hash", s.hash);
-    }
-};
 
 class GrowingFile {
   public:

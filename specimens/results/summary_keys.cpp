@@ -237,6 +237,11 @@ std::vector<SummaryKey> all_summary_keys() {
         {{"profile.phases[].meaning", "", "what the phase does"}},
         {{"columns", "", "unit and meaning of each column of curve.csv"}, unlisted},
         {{"units", "", "unit and meaning of the keys above"}, unlisted},
+        {{"files", "",
+          "`curve.csv`, `events.csv`, `slips.csv` where there is one, `checkpoint`: as the test left them"},
+         unlisted},
+        {{"files.*.bytes", "", "length"}, unlisted},
+        {{"files.*.xxh3", "", "XXH3 (64 bits) of the file, 16 hexadecimal digits as of `xxhsum -H3`"}, unlisted},
     };
 }
 

@@ -196,6 +196,14 @@ def recount_given(r, model):
             r.key(f"numerical_errors.{name}.energy_closing", abs(r.summary["energy_closing_error"]))
 
 
+def recount_lengths(r):
+    """Of the files beside the summary; their hashes are the program's to look at."""
+    for name, stated in r.summary.get("files", {}).items():
+        figure = f"files.{name}.bytes"
+        r.compare(figure, stated["bytes"], (r.results.folder / name).stat().st_size, 0)
+        r.keys.add(figure)
+
+
 def recount_errors(r):
     """Stated errors from the companions' own results (specimens/METHODS.md 7)."""
     errors = r.summary.get("numerical_errors") or {}
@@ -253,6 +261,7 @@ def recount(folder):
             recount_minerals(r, model)
         bonds = recount_specimen(r, model)
         recount_given(r, model)
+        recount_lengths(r)
         recount_events(r, model, bonds)
         recount_slips(r, model, bonds)
         recount_parting(r, model)
