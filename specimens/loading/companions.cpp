@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "solver/base/errors.hpp"
+#include "solver/base/threads_to_be_had.hpp"
 #include "specimens/loading/load_specimen.hpp"
 #include "specimens/loading/prepare.hpp"
 
@@ -159,12 +160,15 @@ std::optional<NumericalErrors> run_companions(const VirtualTest& test, const Tes
     const std::vector<Plan> plans = plans_for(test.description, test.world.workers.threads);
     if (hooks.stage) hooks.stage(fmt::format("verifying: {} companions of the test", plans.size()));
     std::vector<std::optional<Companion>> done(plans.size());
-    const std::size_t at_once = std::max(
-        1U, std::thread::hardware_concurrency() / static_cast<unsigned>(std::max(1, test.world.workers.threads)));
+    const int threads = std::max(1, test.world.workers.threads);
+    const int had = threads_to_be_had(std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
+    const auto at_once = static_cast<std::size_t>(std::max(1, had / threads));
+    // One at a time needs no thread of its own.
+    const auto policy = at_once > 1 ? std::launch::async : std::launch::deferred;
     for (std::size_t first = 0; first < plans.size(); first += at_once) {
         std::vector<std::future<std::optional<Companion>>> running;
         for (std::size_t k = first; k < std::min(plans.size(), first + at_once); ++k)
-            running.push_back(std::async(std::launch::async, [&, k] { return run_one(plans[k], test, hooks); }));
+            running.push_back(std::async(policy, [&, k] { return run_one(plans[k], test, hooks); }));
         for (std::size_t k = 0; k < running.size(); ++k) {
             std::optional<Companion>& companion = done[first + k];
             companion = running[k].get();

@@ -54,7 +54,7 @@ void choose_threads(World& world, const TestOptions& options, int asked, const T
         hooks.report_stage(fmt::format("notice: {} of {} threads are used: {}", most, asked,
                                        most < options.most_threads
                                            ? fmt::format("{} bodies are no work for more", world.bodies.size())
-                                           : fmt::format("this process has {} processors", most)));
+                                           : options.most_threads_why));
     }
 }
 

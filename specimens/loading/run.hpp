@@ -22,6 +22,7 @@ struct TestOptions {
     int threads = 0;       ///< 0: the case's
     // Fewer threads than asked for do the work beyond these; what is written is the same.
     int most_threads = 1024;
+    std::string most_threads_why;  ///< for a notice
     std::int64_t fewest_bodies_a_thread = 1;
     bool endless = false;  ///< as many steps and days as it takes; refuse_endless() is not asked
     std::string command;   ///< for the summary

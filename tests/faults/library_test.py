@@ -35,6 +35,7 @@ CALLS = {
     "stat": "os.stat('old')",
     "flock": "fcntl.flock(file, fcntl.LOCK_EX)",
     "memory": "bytearray(1 << 20)",
+    "thread": "threading.Thread(target=int).start()",
 }
 
 
@@ -57,7 +58,7 @@ class Library(unittest.TestCase):
         file = self.work.parent / "log"
         return file.read_text().splitlines() if file.exists() else []
 
-    BEGIN = "import os, mmap, fcntl\nfile = os.open('old', os.O_RDWR)\n"
+    BEGIN = "import os, mmap, fcntl, threading\nfile = os.open('old', os.O_RDWR)\n"
 
     def test_each_kind_fails_with_its_error(self):
         for kind, text in CALLS.items():
@@ -73,8 +74,8 @@ class Library(unittest.TestCase):
                     (self.work / "folder").rmdir()
                 (self.work.parent / "log").unlink(missing_ok=True)
                 error = ERRORS[kind][0]
-                raised = "MemoryError" if kind == "memory" else "OSError"
-                done = self.run_python(f"{self.BEGIN}import errno\ntry: {text}\nexcept {raised} as e:\n    print(getattr(e, 'errno', errno.ENOMEM) == errno.{error})",
+                raised = {"memory": "MemoryError", "thread": "RuntimeError"}.get(kind, "OSError")
+                done = self.run_python(f"{self.BEGIN}import errno\ntry: {text}\nexcept {raised} as e:\n    print(getattr(e, 'errno', errno.{error}) == errno.{error})",
                                        call=kind, at=at, errno=error)
                 self.assertEqual(done.stdout, "True\n", done.stderr)
                 self.assertEqual([line.split()[:2] for line in self.log()], [[kind, str(at)]])

@@ -30,23 +30,24 @@ namespace {
 constexpr std::size_t least_counted = std::size_t{128} << 10;
 
 constexpr auto call_count = static_cast<std::size_t>(Call::last_);
-constexpr std::array<const char*, call_count> call_names{"open",    "read",    "write",    "fsync", "rename",
-                                                         "unlink",  "mkdir",   "truncate", "mmap",  "close",
-                                                         "opendir", "readdir", "stat",     "flock", "memory"};
+constexpr std::array<const char*, call_count> call_names{"open",  "read",     "write",  "fsync", "rename",  "unlink",
+                                                         "mkdir", "truncate", "mmap",   "close", "opendir", "readdir",
+                                                         "stat",  "flock",    "memory", "thread"};
 
 struct Named {
     const char* name;
     int value;
 };
-constexpr std::array<Named, 9> errors{{{"EIO", EIO},
-                                       {"ENOSPC", ENOSPC},
-                                       {"EACCES", EACCES},
-                                       {"EMFILE", EMFILE},
-                                       {"ENOMEM", ENOMEM},
-                                       {"EROFS", EROFS},
-                                       {"EDQUOT", EDQUOT},
-                                       {"ENOLCK", ENOLCK},
-                                       {"EPERM", EPERM}}};
+constexpr std::array<Named, 10> errors{{{"EIO", EIO},
+                                        {"EAGAIN", EAGAIN},
+                                        {"ENOSPC", ENOSPC},
+                                        {"EACCES", EACCES},
+                                        {"EMFILE", EMFILE},
+                                        {"ENOMEM", ENOMEM},
+                                        {"EROFS", EROFS},
+                                        {"EDQUOT", EDQUOT},
+                                        {"ENOLCK", ENOLCK},
+                                        {"EPERM", EPERM}}};
 constexpr std::array<Named, 6> signals{
     {{"KILL", SIGKILL}, {"TERM", SIGTERM}, {"HUP", SIGHUP}, {"INT", SIGINT}, {"PIPE", SIGPIPE}, {"XFSZ", SIGXFSZ}}};
 
@@ -193,6 +194,8 @@ bool looked_at(const Path& path) {
 bool fails(Call call, const Path& path) { return ready && looked_at(path) && count(call, path.text); }
 bool fails(Call call, const char* name) { return ready && fails(call, path_at(AT_FDCWD, name)); }
 bool fails(Call call, int descriptor) { return ready && fails(call, path_of(descriptor)); }
+
+bool thread_fails() { return ready && count(Call::thread, "thread"); }
 
 bool memory_fails(std::size_t bytes) { return ready && bytes >= least_counted && count(Call::memory, "memory"); }
 

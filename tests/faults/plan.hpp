@@ -8,7 +8,8 @@
 
 namespace crackle::faults {
 
-/// Kinds of calls, counted each for itself. memory: what malloc and its kin take from the system (mmap, by itself).
+/// Kinds of calls, counted each for itself. memory: what malloc and its kin take from the system (mmap, by itself);
+/// thread: one that is begun.
 enum class Call {
     open,
     read,
@@ -25,6 +26,7 @@ enum class Call {
     stat,
     flock,
     memory,
+    thread,
     last_
 };
 
@@ -44,6 +46,7 @@ bool fails(Call call, const char* name);
 bool fails(Call call, int descriptor);
 /// Counts an allocation of so many bytes, if it is large enough to be counted.
 bool memory_fails(std::size_t bytes);
+bool thread_fails();
 
 /// Whether the path lies in the folder that is looked at.
 bool looked_at(const Path& path);

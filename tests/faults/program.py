@@ -16,9 +16,11 @@ LONGEST = 60  # s: what takes longer hangs
 ERRORS = {"open": ("EACCES", "EMFILE"), "read": ("EIO", "EIO"), "write": ("ENOSPC", "ENOSPC"), "fsync": ("EIO", "EIO"),
           "rename": ("EACCES", "ENOSPC"), "unlink": ("EACCES", "EROFS"), "mkdir": ("ENOSPC", "EACCES"), "truncate": ("EIO", "EPERM"),
           "mmap": ("ENOMEM", "ENOMEM"), "close": ("EIO", "ENOSPC"), "opendir": ("EACCES", "EMFILE"), "readdir": ("EIO", "EIO"),
-          "stat": ("EACCES", "EIO"), "flock": ("ENOLCK", "ENOLCK"), "memory": ("ENOMEM", "ENOMEM")}
+          "stat": ("EACCES", "EIO"), "flock": ("ENOLCK", "ENOLCK"), "memory": ("ENOMEM", "ENOMEM"),
+          "thread": ("EAGAIN", "EAGAIN")}
 CAUSES = {"EACCES": "Permission denied", "EMFILE": "Too many open files", "EIO": "Input/output error", "ENOSPC": "No space left on device",
-          "EROFS": "Read-only file system", "EPERM": "Operation not permitted", "ENOMEM": "memory", "ENOLCK": "No locks available"}
+          "EROFS": "Read-only file system", "EPERM": "Operation not permitted", "ENOMEM": "memory", "ENOLCK": "No locks available",
+          "EAGAIN": "Resource temporarily unavailable"}
 
 
 @dataclass

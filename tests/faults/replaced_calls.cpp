@@ -6,6 +6,7 @@
 #include <dirent.h>
 #include <dlfcn.h>
 #include <fcntl.h>
+#include <pthread.h>
 #include <sys/file.h>
 #include <sys/mman.h>
 #include <sys/stat.h>
@@ -329,6 +330,11 @@ int fstatat64(int folder, const char* name, struct stat64* found, int flags) noe
 int flock(int file, int operation) noexcept {
     CRACKLE_REAL(flock);
     return fails(Call::flock, file) ? -1 : real(file, operation);
+}
+
+int pthread_create(pthread_t* thread, const pthread_attr_t* attributes, void* (*begin)(void*), void* with) {
+    CRACKLE_REAL(pthread_create);
+    return crackle::faults::thread_fails() ? EAGAIN : real(thread, attributes, begin, with);
 }
 
 }  // extern "C"

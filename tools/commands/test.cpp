@@ -368,7 +368,9 @@ int test(const Invocation& given) {
     options.verify = values.contains("verify");
     options.profile = values.contains("profile");
     options.threads = values.contains("threads") ? values["threads"].as<int>() : 0;
-    options.most_threads = processors();
+    const ThreadRoom room = room_for_threads(options.most_threads);
+    options.most_threads = room.threads;
+    options.most_threads_why = room.why;
     options.fewest_bodies_a_thread = bodies_worth_a_thread;
     options.endless = values.contains("long");
     options.command = "crackle test";

@@ -6,15 +6,30 @@
 #include <algorithm>
 #include <thread>
 
+#include "solver/base/threads_to_be_had.hpp"
+
 namespace crackle::tools {
+namespace {
 
 int processors() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
+}  // namespace
+
+ThreadRoom room_for_threads(int asked) {
+    const int most = std::min(asked, processors());
+    // Frames are drawn beside them on one more.
+    const int had = most > 1 ? std::clamp(threads_to_be_had(most + 1) - 1, 1, most) : most;
+    if (had < most) return {had, fmt::format("the system lets this process have {} more", had)};
+    return {had, fmt::format("this process has {} processors", had)};
+}
+
 int threads_of_machine(int asked, Messages& messages) {
     constexpr int most_threads = 1024;
-    if (asked <= processors() || asked > most_threads) return asked;
-    messages.notice(fmt::format("{0} of {1} threads are used: this process has {0} processors", processors(), asked));
-    return processors();
+    if (asked <= 1 || asked > most_threads) return asked;
+    const ThreadRoom room = room_for_threads(asked);
+    if (room.threads < asked)
+        messages.notice(fmt::format("{} of {} threads are used: {}", room.threads, asked, room.why));
+    return room.threads;
 }
 
 }  // namespace crackle::tools

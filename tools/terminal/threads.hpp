@@ -1,16 +1,24 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tested by tests/tools/commands/test_test.cpp.
+// Tested by tests/tools/commands/test_test.cpp and tests/faults/threads_test.py.
 #pragma once
+
+#include <string>
 
 #include "tools/terminal/messages.hpp"
 
 namespace crackle::tools {
 
-/// Processors that this process may use, at least 1.
-int processors();
+struct ThreadRoom {
+    int threads = 1;
+    std::string why;  ///< there are no more
+};
 
-/// Threads asked for, at most as many as this process has processors, with a notice where these are fewer: threads that
-/// share one wait for each other at every step. Numbers that are none (below 1, above 1024) are left to be refused.
+/// Threads that are of use here: at most as many as asked for, as this process has processors (threads that share one
+/// wait for each other at every step), and as the system gives it now.
+ThreadRoom room_for_threads(int asked);
+
+/// The same, with a notice where these are fewer than asked for. Numbers that are none (below 1, above 1024) are left
+/// to be refused.
 int threads_of_machine(int asked, Messages& messages);
 
 }  // namespace crackle::tools
