@@ -29,27 +29,31 @@ constexpr double newton_tolerance = 1e-10;
 class Multiply {
   public:
     using Scalar = double;
-    explicit Multiply(const Matrix& lower) : full_(lower.selfadjointView<Eigen::Lower>()) {}
+    Multiply(const MassScaled& pencil, const Matrix& lower)
+        : pencil_(pencil), full_(lower.selfadjointView<Eigen::Lower>()) {}
     Eigen::Index rows() const { return full_.rows(); }
     Eigen::Index cols() const { return full_.cols(); }
     void perform_op(const double* in, double* out) const {
+        pencil_.hear();
         Eigen::Map<Vector>(out, rows()).noalias() = full_ * Eigen::Map<const Vector>(in, cols());
     }
 
   private:
+    const MassScaled& pencil_;
     Matrix full_;
 };
 
 /// Vector of the largest eigenvalue. Starts at random numbers of a fixed seed (Spectra's), so it is the same every
 /// time.
-Vector extreme_vector(const Matrix& lower) {
+Vector extreme_vector(const MassScaled& pencil, double damping_share, double stiffness_share) {
+    const Matrix lower = pencil.matrix(damping_share, stiffness_share);
     const Eigen::Index n = lower.rows();
     if (lower.squaredNorm() == 0.0) return Vector::Unit(n, 0);  // nothing is closed, and Lanczos has nothing to go by
     if (n <= lanczos_vectors) {
         const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> dense{Eigen::MatrixXd(lower)};  // reads the lower triangle
         return dense.eigenvectors().col(n - 1);
     }
-    Multiply multiply(lower);
+    Multiply multiply(pencil, lower);
     Spectra::SymEigsSolver<Multiply> solver(multiply, 1, lanczos_vectors);
     solver.init();
     solver.compute(Spectra::SortRule::LargestAlge, lanczos_restarts, lanczos_tolerance);
@@ -62,7 +66,9 @@ bool positive_definite(const MassScaled& pencil, double dt) {
     Matrix rest(pencil.size(), pencil.size());
     rest.setIdentity();
     rest = 4.0 * rest - pencil.matrix(2.0 * dt, dt * dt);
+    pencil.hear();
     const Eigen::SimplicialLLT<Matrix, Eigen::Lower> factor(rest);
+    pencil.hear();
     return factor.info() == Eigen::Success;
 }
 
@@ -88,7 +94,7 @@ CriticalStep critical_step(const World& world, ClosedPoints which) {
     const bool damped = pencil.damped();
     double dt = guaranteed;
     for (int n = 0; n < newton_steps; ++n) {
-        const Vector x = extreme_vector(pencil.matrix(2.0 * dt, dt * dt));
+        const Vector x = extreme_vector(pencil, 2.0 * dt, dt * dt);
         if (x.size() == 0) return unproved();
         const MassScaled::Quotient q = pencil.quotient(x);
         if (q.damping == 0.0 && q.stiffness == 0.0)
@@ -116,8 +122,7 @@ double growth_per_step(const World& world, ClosedPoints which, double dt) {
     const MassScaled pencil(world, which);
     double zeta = 1.0;
     for (int n = 0; n < newton_steps; ++n) {
-        const Vector x =
-            extreme_vector(pencil.matrix(dt / (1.0 + zeta), dt * dt * zeta / ((1.0 + zeta) * (1.0 + zeta))));
+        const Vector x = extreme_vector(pencil, dt / (1.0 + zeta), dt * dt * zeta / ((1.0 + zeta) * (1.0 + zeta)));
         if (x.size() == 0) break;
         // Larger root of ζ² + (2 - Δt c - Δt² k)ζ + 1 - Δt c = 0
         const MassScaled::Quotient q = pencil.quotient(x);

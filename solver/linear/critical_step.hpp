@@ -8,7 +8,7 @@
 // Newton's method on the Rayleigh quotient: for a given vector the root of 4m - 2Δt c - Δt² k lies at or above the
 // limit, for the extreme vector of the pencil at that Δt (Lanczos, Spectra) it is closer by the square. A sparse
 // Cholesky factorisation just below the result then proves that nothing was missed.
-// Tested by tests/solver/linear/step_bound_test.cpp.
+// Tested by tests/solver/linear/step_bound_test.cpp and stopped_solve_test.cpp.
 #pragma once
 
 #include <cstdint>

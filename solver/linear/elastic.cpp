@@ -101,12 +101,14 @@ void require_factor(const Solver& factor) {
 
 /// @param full K as it acts on a vector
 template <class Solver, class Full>
-Vector refine(const Solver& factor, const Full& full, const Vector& load, double& residual) {
+Vector refine(const Workers& workers, const Solver& factor, const Full& full, const Vector& load, double& residual) {
     require_factor(factor);
+    workers.hear();
     const double size = load.norm();
     Vector u = factor.solve(load);
     Vector rest = load - full * u;
     for (int k = 0; k < refinements && rest.norm() > 1e-3 * residual_goal * size; ++k) {
+        workers.hear();
         const Vector better = u + factor.solve(rest);
         const Vector after = load - full * better;
         if (!(after.norm() < rest.norm())) break;
@@ -123,15 +125,16 @@ Vector refine(const Solver& factor, const Full& full, const Vector& load, double
     return u;
 }
 
-Vector solve(const ScaledSystem& system, const Vector& load, double& residual) {
+Vector solve(const Workers& workers, const ScaledSystem& system, const Vector& load, double& residual) {
     const Matrix& stiffness = system.stiffness();
+    workers.hear();
     if (system.symmetric()) {
         const Factor factor(system.shifted(shift));
-        return refine(factor, stiffness.selfadjointView<Eigen::Lower>(), load, residual);
+        return refine(workers, factor, stiffness.selfadjointView<Eigen::Lower>(), load, residual);
     }
     Eigen::SparseLU<Matrix> factor;
     factor.compute(system.shifted(shift));
-    return refine(factor, stiffness, load, residual);
+    return refine(workers, factor, stiffness, load, residual);
 }
 
 }  // namespace
@@ -165,7 +168,7 @@ ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>&
                 if (row >= 0) load[row] += force[d] * system.scale(row);
             }
         }
-        const Vector u = solve(system, load, solution.residual);
+        const Vector u = solve(world.workers, system, load, solution.residual);
         for (std::size_t b = 0; b < held.size(); ++b) {
             for (int d = 0; d < 3; ++d) {
                 const int row = system.number(b, d);
@@ -193,15 +196,18 @@ FreeMotions find_free_motions(const World& world, const std::vector<BodyIndex>& 
     const ScaledSystem system(world, symmetric_majorant(world, springs_of(world, ClosedPoints::bonded)), held);
     FreeMotions free;
     if (system.stiffness().rows() == 0) return free;
+    world.workers.hear();
     Factor factor(system.shifted(-free_energy));
     require_factor(factor);
     free.count = (factor.vectorD().array() < 0.0).count();
     if (free.count == 0) return free;
+    world.workers.hear();
     factor.compute(system.shifted(shift));
     require_factor(factor);
     std::vector<bool> takes_part(world.bodies.size(), false);
     std::minstd_rand random(1);
     for (int n = 0; n < probes; ++n) {
+        world.workers.hear();
         Vector z(system.stiffness().rows());
         for (double& value : z) value = 2.0 * static_cast<double>(random()) / std::minstd_rand::max() - 1.0;
         z = shift * factor.solve(z);  // leaves what has no energy, and 1e-12 over its energy of the rest

@@ -13,7 +13,7 @@
 //
 // Under the guide's law K is unsymmetric (springs.hpp): solved by LU, as exact; the energy is then the work done along
 // a straight way to the solution, and free motions are those of its symmetric part's majorant.
-// Tested by tests/verification/claims_test.cpp.
+// Tested by tests/verification/claims_test.cpp and tests/solver/linear/stopped_solve_test.cpp.
 #pragma once
 
 #include <cstdint>

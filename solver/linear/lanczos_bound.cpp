@@ -44,6 +44,7 @@ double largest_eigenvalue(const MassScaled& pencil, double dt, const Vector& sta
     Eigen::Index done = 0;
     double coupling = 0.0;
     while (done < most) {
+        pencil.hear();
         Vector next = pencil.times(2.0 * dt, dt * dt, now);
         const double own = now.dot(next);
         diagonal[done++] = own;

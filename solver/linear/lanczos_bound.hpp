@@ -5,7 +5,7 @@
 // more than the share ε with a probability of at most 1.648 √n exp(-√ε(2k - 1)) (Kuczyński and Woźniakowski, SIAM J.
 // Matrix Anal. Appl. 13 (1992), 1094). With A(Δt) = 2Δt·C + Δt²·K in mass-scaled coordinates, λ what Lanczos finds of
 // A(Δt) and s <= 1, A(sΔt) <= sA(Δt), so that sΔt is stable where sλ/(1 - ε) <= 4.
-// Tested by tests/solver/linear/step_bound_test.cpp.
+// Tested by tests/solver/linear/step_bound_test.cpp and stopped_solve_test.cpp.
 #pragma once
 
 #include "solver/linear/springs.hpp"

@@ -7,7 +7,7 @@
 namespace crackle {
 
 MassScaled::MassScaled(const World& world, ClosedPoints which)
-    : springs_(symmetric_majorant(world, springs_of(world, which))) {
+    : while_solving_(world.workers.while_solving), springs_(symmetric_majorant(world, springs_of(world, which))) {
     number_.resize(3 * world.bodies.size(), -1);
     const auto take = [&](std::size_t dof, double inverse) {
         if (inverse == 0.0) return;

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <Eigen/SparseCore>
+#include <functional>
 #include <vector>
 
 #include "solver/linear/elastic.hpp"
@@ -34,6 +35,11 @@ class MassScaled {
     };
     Quotient quotient(const Vector& x) const;
 
+    /// Between two steps of what is done with it: Workers::hear() of the world that it is of.
+    void hear() const {
+        if (while_solving_) while_solving_();
+    }
+
     /// u = M^-½ x per body, the largest component of x taken for 1.
     std::vector<BodyMotion> motion(const Vector& x) const;
 
@@ -45,6 +51,7 @@ class MassScaled {
     };
     Row row_of(const Spring& spring) const;
 
+    std::function<void()> while_solving_;
     std::vector<Spring> springs_;
     std::vector<int> number_;   // per body and degree of freedom: row, -1 where held
     std::vector<double> root_;  // per row: M^-½

@@ -26,7 +26,7 @@ constexpr double shift_share = 1e-12;
 class Inverse {
   public:
     using Scalar = double;
-    explicit Inverse(const Matrix& lower) : lower_(lower) {}
+    Inverse(const MassScaled& system, const Matrix& lower) : system_(system), lower_(lower) {}
     Eigen::Index rows() const { return lower_.rows(); }
     Eigen::Index cols() const { return lower_.cols(); }
     void set_shift(double sigma) {
@@ -37,10 +37,12 @@ class Inverse {
             throw InputError("vibration modes: the stiffness matrix could not be factorised; is any body bonded?");
     }
     void perform_op(const double* in, double* out) const {
+        system_.hear();
         Eigen::Map<Vector>(out, rows()) = factor_.solve(Eigen::Map<const Vector>(in, cols()));
     }
 
   private:
+    const MassScaled& system_;
     const Matrix& lower_;
     Eigen::SimplicialLDLT<Matrix, Eigen::Lower> factor_;
 };
@@ -58,7 +60,7 @@ std::vector<VibrationMode> lowest_modes(const World& world, std::int64_t count, 
     }
     const Matrix stiffness = system.matrix(0.0, 1.0);
     const double sigma = -shift_share * stiffness.diagonal().maxCoeff();
-    Inverse inverse(stiffness);
+    Inverse inverse(system, stiffness);
     const auto wanted = static_cast<Eigen::Index>(all);
     const Eigen::Index vectors = std::min<Eigen::Index>(system.size(), 2 * wanted + 20);
     Spectra::SymEigsShiftSolver<Inverse> solver(inverse, wanted, vectors, sigma);

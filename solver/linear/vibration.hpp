@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Lowest undamped vibration modes of a bonded world, K u = ω² M u, driven degrees of freedom held.
-// Tested by tests/verification/claims_test.cpp.
+// Tested by tests/verification/claims_test.cpp and tests/solver/linear/stopped_solve_test.cpp.
 #pragma once
 
 #include <cstdint>

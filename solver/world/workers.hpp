@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "solver/world/points.hpp"
@@ -57,6 +58,11 @@ struct Workers {
     std::vector<std::uint8_t> marks;        // per body, 0 but within count_new_points()
     Profile* profile = nullptr;             // times the phases where set
     bool one_by_one = false;                // no points side by side: what they must give the bytes of
+    std::function<void()> while_solving;    // called between the steps of linear solves; what it throws ends them
+
+    void hear() const {
+        if (while_solving) while_solving();
+    }
 };
 
 }  // namespace crackle

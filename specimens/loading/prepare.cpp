@@ -137,7 +137,12 @@ VirtualTest bond_test(const TestCase& description, const TestHooks& hooks, const
     test.specimen_seconds = std::chrono::duration<double>(Clock::now() - begun).count();
     if (specimen.mesh_thick > 0.0) test.description.mesh.thick = specimen.mesh_thick;
     hooks.report_work("bonding");
-    BondedSpecimen bonded = bond_specimen(specimen, description, description.loading);
+    std::function<void()> while_solving;
+    if (hooks.interrupted)
+        while_solving = [asked = hooks.interrupted] {
+            if (asked()) throw TestInterrupted();
+        };
+    BondedSpecimen bonded = bond_specimen(specimen, description, description.loading, while_solving);
     test.world = std::move(bonded.world);
     test.world.bonds.watch_slips = description.output.slips;
     const double grip = description.loading.grip.value_or(0.0);
@@ -158,7 +163,7 @@ VirtualTest bond_test(const TestCase& description, const TestHooks& hooks, const
     } else {
         TestCase::Loading held = description.loading;
         held.platens = "bonded";
-        const BondedSpecimen twin = bond_specimen(specimen, description, held);
+        const BondedSpecimen twin = bond_specimen(specimen, description, held, while_solving);
         try {
             const TestSetup own = record_setup(twin.world, specimen, twin.platens, test.setup.compression, grip);
             check_platen_hold(twin.world, own, twin.platens, description);
@@ -185,6 +190,7 @@ VirtualTest prepare_test(const TestCase& description, const TestHooks& hooks, co
         notice_fast_loading(test);
     }
     for (const std::string& notice : test.setup.notices) hooks.report_stage("notice: " + notice);
+    test.world.workers.while_solving = {};  // loading hears by itself, and has something to keep
     return test;
 }
 

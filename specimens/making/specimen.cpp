@@ -159,7 +159,6 @@ Packing packing_of(const TestCase& test, const TestHooks& hooks) {
     request.material.tensile_strength = request.material.cohesion = 0.0;  // nothing is bonded yet
     const auto make = [&] {
         return pack(test, request, [&](const PackingProgress& p) {
-            if (hooks.interrupted && hooks.interrupted()) throw TestInterrupted();
             hooks.report_work(fmt::format("{} (draw {}): unbalanced by {:.1e} of the mean contact force", p.stage,
                                           p.attempt, p.residual));
         });

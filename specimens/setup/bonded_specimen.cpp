@@ -66,7 +66,8 @@ std::function<bool(Vec2, BodyIndex, BodyIndex)> grips_of(const World& world, con
 
 }  // namespace
 
-BondedSpecimen bond_specimen(const Specimen& specimen, const TestCase& test, const TestCase::Loading& loading) {
+BondedSpecimen bond_specimen(const Specimen& specimen, const TestCase& test, const TestCase::Loading& loading,
+                             std::function<void()> while_solving) {
     Scene scene = specimen.scene;
     scene.thick = test.bond.thick     ? *test.bond.thick
                   : specimen.polygons ? specimen.mesh_gap
@@ -86,6 +87,7 @@ BondedSpecimen bond_specimen(const Specimen& specimen, const TestCase& test, con
     bonded.platens = add_platens(scene, specimen, loading, scene.thick);
     const double thick = scene.thick;
     bonded.world = build_world(std::move(scene));
+    bonded.world.workers.while_solving = std::move(while_solving);
     forget_point_forces(bonded.world);  // platens give the stress, the curve's rows the energy of springs
     Bonding bonding = bonding_of(specimen, test, thick);
     if (loading.platens == "glued")

@@ -3,6 +3,8 @@
 // Tested by tests/specimens/loading/virtual_test_test.cpp.
 #pragma once
 
+#include <functional>
+
 #include "solver/world/world.hpp"
 #include "specimens/case/case_file.hpp"
 #include "specimens/making/specimen.hpp"
@@ -16,8 +18,9 @@ struct BondedSpecimen {
 };
 
 /// Platens added, world built, bonds made, platens in place, forces known.
-/// @param loading of the test, or with other platens
+/// @param loading of the test, or with other platens @param while_solving for the world (Workers)
 /// @throws InputError for a step above the exact stable step, naming the case's key
-BondedSpecimen bond_specimen(const Specimen& specimen, const TestCase& test, const TestCase::Loading& loading);
+BondedSpecimen bond_specimen(const Specimen& specimen, const TestCase& test, const TestCase::Loading& loading,
+                             std::function<void()> while_solving = {});
 
 }  // namespace crackle

@@ -1,23 +1,48 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/terminal/interrupt.hpp"
 
+#include <unistd.h>
+
 #include <atomic>
+#include <cerrno>
 #include <csignal>
+#include <string_view>
+
+#include "tools/terminal/terminal.hpp"
 
 namespace crackle::tools {
 namespace {
 
-std::atomic<bool> asked{false};
+std::atomic<bool> asked{false}, on_terminal{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler");
 
+constexpr unsigned patience = 2;  // s
+
+void put(std::string_view text) {
+    // What cannot be written to a closed terminal is no concern of one who ends.
+    [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text.data(), text.size());
+}
+
 extern "C" void take_down_interrupt(int signal) {
+    const int reason = errno;
     asked = true;
     std::signal(signal, SIG_DFL);
+    ::alarm(patience);
+    errno = reason;
+}
+
+extern "C" void report_still_here(int /*signal*/) {
+    const int reason = errno;
+    if (on_terminal) put("\r\x1b[K");  // in place of the progress line
+    put("crackle: ends as soon as the present solve or file is done; a second Ctrl-C ends it at once\n");
+    errno = reason;
 }
 
 }  // namespace
 
 void watch_interrupts() {
+    on_terminal = is_terminal(Stream::err);
+    std::signal(SIGALRM, report_still_here);
     std::signal(SIGINT, take_down_interrupt);
     std::signal(SIGTERM, take_down_interrupt);
     std::signal(SIGHUP, take_down_interrupt);

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Signals: Ctrl-C as a wish to end cleanly.
-// Tested by tests/tools/commands/command_line_test.cpp.
+// Tested by tests/tools/terminal/interrupt_test.cpp and tests/tools/commands/test_test.cpp.
 #pragma once
 
 namespace crackle::tools {
 
 /// From now on SIGINT, SIGTERM and SIGHUP (a closed terminal) are taken down instead of ending the program; a second
-/// one of the same kind ends it.
+/// one of the same kind ends it. Where the program is still there two seconds later, in a library's call that it cannot
+/// leave, say, a line on standard error tells of the second one.
 void watch_interrupts();
 
 /// From now on a pipe without a reader and a file beyond the limit on its size are errors of writing, as a full disc

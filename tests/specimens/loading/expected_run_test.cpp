@@ -77,7 +77,11 @@ TEST_F(ExpectedRun, IsNoReasonToRefuseWhereThatIsAskedFor) {
     options.folder = scratch_ / "out";
     options.endless = true;
     TestHooks hooks;
-    hooks.interrupted = [asked = 0]() mutable { return ++asked > 20; };
+    bool loading = false;
+    hooks.detail = [&](const std::string& line) {
+        loading = loading || line.find(" steps to max_axial_strain") != std::string::npos;
+    };
+    hooks.interrupted = [&] { return loading; };
     EXPECT_TRUE(run_test(small_case(slow), options, hooks).interrupted);
 }
 

@@ -99,13 +99,14 @@ TEST(VoronoiCompression, HasTheSameFilesForAnyNumberOfThreadsAndResumedAtFiveRan
             expect_same(contents(options.folder), one, fmt::format("{} threads", threads));
             continue;
         }
-        // Packing asks, too: counting begins with loading.
+        // Packing and solves ask, too: counting begins with loading.
         const auto stop = [&] {
             const auto loading = std::make_shared<bool>(false);
             TestHooks hooks;
-            hooks.stage = [loading](const std::string& line) {
-                *loading = *loading || line.starts_with("bonded") || line.starts_with("resumed");
+            hooks.detail = [loading](const std::string& line) {
+                *loading = *loading || line.find(" steps to max_axial_strain") != std::string::npos;
             };
+            hooks.stage = [loading](const std::string& line) { *loading = *loading || line.starts_with("resumed"); };
             hooks.interrupted = [loading,
                                  left = uniform_below(generator, static_cast<std::uint64_t>(questions / 6))]() mutable {
                 return *loading && left-- == 0;

@@ -98,8 +98,12 @@ class TestFolder : public ::testing::Test {
     static TestHooks stopping_at(int questions) {
         TestHooks hooks;
         const auto loading = std::make_shared<bool>(false);
+        // Solves ask, too: the last line before loading counts.
+        hooks.detail = [loading](const std::string& line) {
+            *loading = *loading || line.find(" steps to max_axial_strain") != std::string::npos;
+        };
         hooks.stage = [loading](const std::string& line) {
-            *loading = *loading || line.starts_with("small strain: ") || line.starts_with("resumed at step ");
+            *loading = *loading || line.starts_with("resumed at step ");
         };
         hooks.interrupted = [loading, left = questions]() mutable { return *loading && --left < 0; };
         return hooks;

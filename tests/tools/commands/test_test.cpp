@@ -379,6 +379,35 @@ TEST_F(CrackleTest, CtrlCAmongTheCompanionsKeepsTheFinishedTest) {
     EXPECT_TRUE(summary["peak_converged"].is_null());
 }
 
+TEST_F(CrackleTest, CtrlCWhileTheStepOfALargeSpecimenIsSoughtIsHeardBeforeItIsFound) {
+    write_small_case(folder_, {.rate = 1e-3, .max_strain = 0.005});
+    testing::write_small_rock(folder_ / "rock.dat", 50, 100);
+    int errors[2];
+    ASSERT_EQ(pipe(errors), 0);
+    const pid_t child = fork();
+    ASSERT_GE(child, 0);
+    if (child == 0) {
+        ASSERT_EQ(chdir(folder_.c_str()), 0);
+        dup2(errors[1], STDERR_FILENO);
+        execl(CRACKLE_PROGRAM, CRACKLE_PROGRAM, "test", "case.toml", "-o", "out", static_cast<char*>(nullptr));
+        _exit(127);
+    }
+    close(errors[1]);
+    std::string printed;
+    char letter = 0;
+    while (printed.find("read ") == std::string::npos && ::read(errors[0], &letter, 1) == 1) printed += letter;
+    kill(child, SIGINT);
+    while (::read(errors[0], &letter, 1) == 1) printed += letter;
+    close(errors[0]);
+    int status = 0;
+    ASSERT_EQ(waitpid(child, &status, 0), child);
+    ASSERT_TRUE(WIFEXITED(status)) << printed;
+    EXPECT_EQ(WEXITSTATUS(status), 130);
+    EXPECT_NE(printed.find("interrupted before loading began, nothing is written"), std::string::npos) << printed;
+    EXPECT_EQ(printed.find("bonded "), std::string::npos) << printed;
+    EXPECT_FALSE(fs::exists(folder_ / "out"));
+}
+
 TEST_F(CrackleTest, LoadingFarFasterThanTheRuleIsSaid) {
     write_small_case(folder_, {.rate = 1.0});
     const Answer fast = call("case.toml -o fast");

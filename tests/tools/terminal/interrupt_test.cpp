@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a first and a second signal do to work that hears none.
+#include "tools/terminal/interrupt.hpp"
+
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <string>
+#include <thread>
+
+namespace crackle::tools {
+namespace {
+
+/// A process that gets a signal and works on for so long, as one in a call of a library.
+class DeafWork {
+  public:
+    DeafWork(int signal, std::chrono::milliseconds longer) {
+        int errors[2];
+        EXPECT_EQ(pipe(errors), 0);
+        child_ = fork();
+        if (child_ == 0) {
+            dup2(errors[1], STDERR_FILENO);
+            close(errors[0]);
+            close(errors[1]);
+            watch_interrupts();
+            raise(signal);
+            const auto end = std::chrono::steady_clock::now() + longer;
+            while (std::chrono::steady_clock::now() < end) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+            _exit(interrupted() ? 130 : 1);
+        }
+        close(errors[1]);
+        errors_ = errors[0];
+    }
+    ~DeafWork() { close(errors_); }
+
+    std::string line() const {
+        std::string text;
+        char letter = 0;
+        while (::read(errors_, &letter, 1) == 1 && letter != '\n') text += letter;
+        return text;
+    }
+    void send(int signal) const { kill(child_, signal); }
+    int status() const {
+        int status = 0;
+        EXPECT_EQ(waitpid(child_, &status, 0), child_);
+        return status;
+    }
+
+  private:
+    pid_t child_ = -1;
+    int errors_ = -1;
+};
+
+TEST(Interrupt, ThatIsNotHeardTellsOfTheSecondWhichEndsTheProcess) {
+    for (const int signal : {SIGINT, SIGTERM}) {
+        const DeafWork work(signal, std::chrono::seconds(60));
+        EXPECT_EQ(work.line(),
+                  "crackle: ends as soon as the present solve or file is done; a second Ctrl-C ends it at once");
+        work.send(signal);
+        const int status = work.status();
+        ASSERT_TRUE(WIFSIGNALED(status));
+        EXPECT_EQ(WTERMSIG(status), signal);
+    }
+}
+
+TEST(Interrupt, ThatIsHeardSoonSaysNothing) {
+    const DeafWork work(SIGINT, std::chrono::milliseconds(100));
+    EXPECT_EQ(work.line(), "");
+    const int status = work.status();
+    ASSERT_TRUE(WIFEXITED(status));
+    EXPECT_EQ(WEXITSTATUS(status), 130);
+}
+
+}  // namespace
+}  // namespace crackle::tools
