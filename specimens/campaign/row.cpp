@@ -33,10 +33,10 @@ double processor_seconds() {
 }
 
 // Keys of a summary that tell of the run, or of files.
-constexpr std::array<std::string_view, 16> no_figures{
+constexpr std::array<std::string_view, 17> no_figures{
     "title",       "note",       "version",      "compiler",     "command",
     "threads",     "profile",    "wall_seconds", "step_seconds", "particle_steps_per_second",
-    "frame_start", "frame_peak", "columns",      "frame_end",    "units",
+    "frame_start", "frame_peak", "columns",      "frame_end",    "units", "files",
     "notices"};
 
 void add_figures(Json& figures, const std::string& prefix, const Json& table) {

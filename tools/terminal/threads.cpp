@@ -9,11 +9,8 @@
 #include "solver/base/threads_to_be_had.hpp"
 
 namespace crackle::tools {
-namespace {
 
 int processors() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
-
-}  // namespace
 
 ThreadRoom room_for_threads(int asked) {
     const int most = std::min(asked, processors());

@@ -8,6 +8,9 @@
 
 namespace crackle::tools {
 
+/// Processors that this process may use, at least 1.
+int processors();
+
 struct ThreadRoom {
     int threads = 1;
     std::string why;  ///< there are no more
