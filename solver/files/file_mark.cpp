@@ -16,9 +16,7 @@
 
 namespace crackle {
 
-FileMark mark_of(std::string_view contents) {
-    return {contents.size(), XXH3_64bits(contents.data(), contents.size())};
-}
+FileMark mark_of(std::string_view contents) { return {contents.size(), XXH3_64bits(contents.data(), contents.size())}; }
 
 FileMark mark_of_file(const std::filesystem::path& file) {
     const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(), XXH3_freeState);
@@ -34,7 +32,8 @@ FileMark mark_of_file(const std::filesystem::path& file) {
                            XXH3_64bits_update(state.get(), piece.data(), piece.size());
                        });
     refuse_failed(in, file.string());
-    if (!whole) throw InputError(fmt::format("{}: became shorter while it was read, expected a file at rest", file.string()));
+    if (!whole)
+        throw InputError(fmt::format("{}: became shorter while it was read, expected a file at rest", file.string()));
     return {static_cast<std::uint64_t>(length), XXH3_64bits_digest(state.get())};
 }
 

@@ -75,8 +75,7 @@ void require_as_stated(const FileMarks& stated, const std::filesystem::path& fil
     throw InputError(fmt::format(
         "{}: found {}, expected the {} that the test wrote (summary.json, files.{}); restore the file, or run the test "
         "again with --force",
-        file.string(),
-        same_length ? fmt::format("{} other bytes", found.bytes) : fmt::format("{} bytes", found.bytes),
+        file.string(), same_length ? fmt::format("{} other bytes", found.bytes) : fmt::format("{} bytes", found.bytes),
         written->second.bytes, name));
 }
 

@@ -3,10 +3,26 @@
 
 #include <fmt/format.h>
 
+#include "solver/base/errors.hpp"
+#include "solver/base/threads_to_be_had.hpp"
+
 namespace crackle::plot {
+namespace {
+
+/// Pango begins two to look for fonts, and ends the process where it is refused one.
+void refuse_without_threads() {
+    constexpr int needed = 3;  // with this one
+    if (threads_to_be_had(needed) == needed) return;
+    throw InputError(
+        "plot: found no room for a further thread (Resource temporarily unavailable), expected two, which look for "
+        "fonts; end other programs of this user, or raise its limit (ulimit -u)");
+}
+
+}  // namespace
 
 std::string figure(const std::vector<Panel>& panels, const std::string& title, double width, Format format,
                    const SheetStyle& style) {
+    refuse_without_threads();
     constexpr double margin = 2.0;  // pt, around the figure
     const double between = 1.5 * style.font_size;
     const double inside = width - 2.0 * margin;

@@ -150,9 +150,9 @@ TEST_F(ReplacedDeck, KeepsItsFilesWhereTheNewRunIsUnstable) {
         DeckRun(options).run(spoil);
         ADD_FAILURE() << "ran to its end";
     } catch (const UnstableRun& error) {
-        EXPECT_EQ(std::string(error.what()),
-                  "unstable at step 50, body 1: as a test has it; earlier outputs in " + folder_.string() +
-                      " are as they were, those of this run so far in " + folder_.string() + "/*.dat.new");
+        EXPECT_EQ(std::string(error.what()), "unstable at step 50, body 1: as a test has it; earlier outputs in " +
+                                                 folder_.string() + " are as they were, those of this run so far in " +
+                                                 folder_.string() + "/*.dat.new");
     }
     EXPECT_TRUE(named() == earlier_);
 }
