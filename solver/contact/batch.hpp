@@ -62,7 +62,7 @@ struct PairLanes {
     Lanes cosine_i, sine_i, cosine_j, sine_j;
 };
 
-CRACKLE_INLINE PairLanes load_any_pairs(const World& world, const ContactPoint* points) {
+CRACKLE_INLINE PairLanes load_any_pairs(const World& world, const BodyPair* points) {
     static_assert(offsetof(BodyState, angle) == offsetof(BodyState, shape) + 2 * sizeof(double));
     const BodyState* const bodies = world.bodies.state.data();
     BatchBodies i, j;
@@ -88,7 +88,7 @@ CRACKLE_INLINE PairLanes load_any_pairs(const World& world, const ContactPoint* 
 }
 
 /// Of points that lie in fours, those whose body_i is not that of the first of them here.
-CRACKLE_INLINE LaneBits swapped_lanes(const ContactPoint* points) {
+CRACKLE_INLINE LaneBits swapped_lanes(const BodyPair* points) {
     typedef std::int32_t Words __attribute__((vector_size(4 * lane_count)));
     Words owners, firsts;
     for (int l = 0; l < lane_count; ++l) {
@@ -99,11 +99,11 @@ CRACKLE_INLINE LaneBits swapped_lanes(const ContactPoint* points) {
 }
 
 /// The same where the points lie in fours between two bodies each, which are loaded once.
-CRACKLE_INLINE PairLanes load_fours(const World& world, const ContactPoint* points) {
+CRACKLE_INLINE PairLanes load_fours(const World& world, const BodyPair* points) {
     constexpr std::size_t fours = std::max(1, lane_count / 4);  // or half of one
     const BodyState *a[fours], *b[fours];
     for (std::size_t f = 0; f < fours; ++f) {
-        const ContactPoint* const four = points + 4 * f;
+        const BodyPair* const four = points + 4 * f;
         a[f] = &world.bodies.state[four->body_i];
         b[f] = &world.bodies.state[four->body_j];
     }
@@ -143,12 +143,13 @@ struct OutlineStage {
 
 /// What points that come later look at. In a mesh beyond the caches it comes from memory, from places that only the
 /// points name: a sixth of the step of 50,000 cells.
-CRACKLE_INLINE void prefetch_outlines(const World& world, const ContactPoint* points) {
+CRACKLE_INLINE void prefetch_outlines(const World& world, const BodyPair* points, const PointParts* parts) {
     constexpr std::ptrdiff_t points_ahead = 128;
-    if (world.points.contact.data() + world.points.fours_end - points < points_ahead + lane_count) return;
-    const ContactPoint* const later = points + points_ahead;
-    for (int l = 0; l < lane_count; ++l) __builtin_prefetch(&world.bodies.edges[later[l].feature_j]);
-    for (int l = 0; l < lane_count; l += 2) __builtin_prefetch(&world.bodies.elements[later[l].element_i]);
+    if (world.points.contact.pairs.data() + world.points.fours_end - points < points_ahead + lane_count) return;
+    const BodyPair* const later = points + points_ahead;
+    const PointParts* const later_parts = parts + points_ahead;
+    for (int l = 0; l < lane_count; ++l) __builtin_prefetch(&world.bodies.edges[later_parts[l].feature_j]);
+    for (int l = 0; l < lane_count; l += 2) __builtin_prefetch(&world.bodies.elements[later_parts[l].element_i]);
     for (int l = 0; l < lane_count; l += 4) {
         __builtin_prefetch(&world.bodies.state[later[l].body_i]);
         __builtin_prefetch(&world.bodies.state[later[l].body_j]);
@@ -161,9 +162,9 @@ inline constexpr std::size_t points_in_cache = 50'000;
 /// Bodies that the points of circles name later on. Beyond the caches this spares a twentieth of a step; the points'
 /// own arrays come by themselves.
 CRACKLE_INLINE void prefetch_circles(const World& world, PointIndex k, PointIndex count) {
-    constexpr PointIndex bodies_ahead = 128, points_ahead = 256, points_in_line = 64 / sizeof(ContactPoint);
+    constexpr PointIndex bodies_ahead = 128, points_ahead = 256, points_in_line = 64 / sizeof(BodyPair);
     if (k + count + points_ahead > world.points.kind_begin[1]) return;
-    const ContactPoint* const points = world.points.contact.data() + k;
+    const BodyPair* const points = world.points.contact.pairs.data() + k;
     for (PointIndex l = 0; l < count; l += points_in_line) __builtin_prefetch(points + points_ahead + l);
     for (PointIndex l = 0; l < count; ++l) {
         const BodyIndex j = points[bodies_ahead + l].body_j;  // i has been some other's j
@@ -173,19 +174,27 @@ CRACKLE_INLINE void prefetch_circles(const World& world, PointIndex k, PointInde
 }
 
 /// The edge faced last and its corners are tried for all points; the search is left to geometry.hpp where one
-/// has got beyond them or the outline is not one convex piece.
-CRACKLE_INLINE void outline_stage(const World& world, ContactPoint* points, const PairLanes& pair,
+/// has got beyond them or the outline is not one convex piece. @tparam Fours all elements are corners of a mesh
+template <bool Fours>
+CRACKLE_INLINE void outline_stage(const World& world, const BodyPair* points, PointParts* parts, const PairLanes& pair,
                                   OutlineStage& stage) {
     static_assert(offsetof(Edge, cone) == offsetof(Edge, length) + sizeof(double));
     const double *elements[lane_count], *element_reaches[lane_count], *edges[lane_count], *edge_directions[lane_count],
         *edge_lengths[lane_count], *edge_ends[lane_count];
+    [[maybe_unused]] Element circles[lane_count];
     Lanes element_x, element_y, target_reach, unused;
     EdgeNumbers<Lanes> edge;
     for (int l = 0; l < lane_count; ++l) {
-        const Element& element = world.bodies.elements[points[l].element_i];
-        const Edge& faced = world.bodies.edges[points[l].feature_j];
-        elements[l] = &element.x;
-        element_reaches[l] = &element.radius;
+        const Element* element = nullptr;
+        if constexpr (Fours) {
+            element = &world.bodies.elements[parts[l].element_i];
+        } else {
+            circles[l] = element_of(world, points[l].body_i, parts[l].element_i);
+            element = &circles[l];
+        }
+        const Edge& faced = world.bodies.edges[parts[l].feature_j];
+        elements[l] = &element->x;
+        element_reaches[l] = &element->radius;
         edges[l] = &faced.x;
         edge_directions[l] = &faced.tx;
         edge_lengths[l] = &faced.length;
@@ -214,15 +223,14 @@ CRACKLE_INLINE void outline_stage(const World& world, ContactPoint* points, cons
     // Whether the edge faced last is of an outline whose edges are all there is to face.
     if (!world.bodies.convex_outlines) {
         for (int l = 0; l < lane_count; ++l)
-            if (world.bodies.edges[points[l].feature_j].outline_of != points[l].body_j) settled[l] = 0;
+            if (world.bodies.edges[parts[l].feature_j].outline_of != points[l].body_j) settled[l] = 0;
     }
     if (const unsigned search = mask_of(~settled); search != 0) {
         for (int l = 0; l < lane_count; ++l) {
             if ((search >> l & 1) == 0) continue;
-            ContactPoint& point = points[l];
             const OutlineFacing facing =
-                face_outline(world, world.bodies.info[point.body_j], point.feature_j, px[l], py[l]);
-            point.feature_j = facing.edge;
+                face_outline(world, world.bodies.info(points[l].body_j), parts[l].feature_j, px[l], py[l]);
+            parts[l].feature_j = facing.edge;
             stage.across[l] = facing.distance;
             stage.over[l] = 0.0;
             stage.tx[l] = -facing.gy;
@@ -247,8 +255,8 @@ CRACKLE_INLINE void geometry_batches(World& world, PointIndex k, PointIndex batc
     static_assert(K == PointKind::circle_circle || K == PointKind::element_outline);
     if constexpr (K == PointKind::circle_circle) {
         const BodyState* const bodies = world.bodies.state.data();
-        for (std::size_t n = 0; n < batches; ++n) {
-            const ContactPoint* const points = world.points.contact.data() + k + n * lane_count;
+        const BodyPair* points = world.points.contact.pairs.data() + k;
+        for (std::size_t n = 0; n < batches; ++n, points += lane_count) {
             BatchBodies i, j;
             for (int l = 0; l < lane_count; ++l) {
                 i[l] = &bodies[points[l].body_i];
@@ -259,10 +267,12 @@ CRACKLE_INLINE void geometry_batches(World& world, PointIndex k, PointIndex batc
     } else {
         OutlineStage stages[Most];
         const bool in_memory = world.points.size() > points_in_cache;
-        for (std::size_t n = 0; n < batches; ++n) {
-            ContactPoint* const points = world.points.contact.data() + k + n * lane_count;
-            if (Fours && in_memory) prefetch_outlines(world, points);
-            outline_stage(world, points, Fours ? load_fours(world, points) : load_any_pairs(world, points), stages[n]);
+        const BodyPair* points = world.points.contact.pairs.data() + k;
+        PointParts* parts = world.points.contact.parts.data() + (k - world.points.kind_begin[1]);
+        for (std::size_t n = 0; n < batches; ++n, points += lane_count, parts += lane_count) {
+            if (Fours && in_memory) prefetch_outlines(world, points, parts);
+            outline_stage<Fours>(world, points, parts,
+                                 Fours ? load_fours(world, points) : load_any_pairs(world, points), stages[n]);
         }
         for (PointIndex n = 0; n < batches; ++n) outline_batch(stages[n], world.stepping.drift, geometry[n]);
     }
@@ -337,7 +347,7 @@ CRACKLE_INLINE Law<Lanes> law_of_batch(const World& world, PointIndex k, const B
 template <ContactFeatures F>
 CRACKLE_INLINE bool none_opens(const World& world, PointIndex k, const Law<Lanes>& law, const Lanes& overlap,
                                const RelativeMotion<Lanes>& motion, const LaneBits& free) {
-    const ContactPoint* const points = world.points.contact.data() + k;
+    const BodyPair* const points = world.points.contact.pairs.data() + k;
     const double *i[lane_count], *j[lane_count];
     for (int l = 0; l < lane_count; ++l) {
         i[l] = &world.bodies.push_bound[points[l].body_i].acceleration;

@@ -108,9 +108,9 @@ template <PointKind K, ContactFeatures F>
 inline void force_point(World& world, PointIndex k, PointIndex place, PointForce& out, BlockLosses& loss) {
     const double dt = world.stepping.drift;
     [[maybe_unused]] const double kick = kick_before(world.stepping) + 0.5 * world.stepping.time_step;
-    ContactPoint& point = world.points.contact[k];
+    const ContactPoint point = point_of<K>(world, k);
     PointState& state = world.points.state[k];
-    const auto g = geometry_of_point<K>(world, point);
+    const auto g = geometry_of_point<K>(world, k);
     const Law<double> law = law_for<F>(world, k);
     bool bonded = false;
     if constexpr (F.bonds) bonded = (state.flags & point_bonded) != 0;
@@ -320,8 +320,7 @@ void geometry_block(World& world, const PointBlock& block) {
         }
     }
     for (; k < block.end; ++k) {
-        ContactPoint& point = world.points.contact[k];
-        const ContactGeometry g = contact_geometry<K>(world, point, point.feature_j);
+        const auto g = geometry_of_point<K>(world, k);
         asm volatile("" : : "m"(g));
     }
 }

@@ -11,13 +11,23 @@
 
 namespace crackle {
 
-/// Geometry of a point: of two single circles as circles, of others with arms.
+/// Points::contact of a kind that is known, quicker: kernels take a point at a time here and there.
 template <PointKind K>
-inline auto geometry_of_point(const World& world, ContactPoint& point) {
+inline ContactPoint point_of(const World& world, PointIndex k) {
+    const BodyPair& pair = world.points.contact.pairs[k];
+    if constexpr (K == PointKind::circle_circle) return {pair.body_i, pair.body_j, own_circle, own_circle};
+    const PointParts& parts = world.points.contact.parts[k - world.points.kind_begin[1]];
+    return {pair.body_i, pair.body_j, parts.element_i, parts.feature_j};
+}
+
+/// Geometry of a point: of two single circles as circles, of others with arms. The edge faced is remembered.
+template <PointKind K>
+inline auto geometry_of_point(World& world, PointIndex k) {
+    const ContactPoint point = point_of<K>(world, k);
     if constexpr (K == PointKind::circle_circle) {
         return single_circles_contact(world.bodies.state[point.body_i], world.bodies.state[point.body_j]);
     } else {
-        return contact_geometry<K>(world, point, point.feature_j);
+        return contact_geometry<K>(world, point, world.points.contact.parts[k - world.points.kind_begin[1]].feature_j);
     }
 }
 inline ContactGeometry with_arms(const ContactGeometry& g) { return g; }

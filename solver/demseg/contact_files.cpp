@@ -40,11 +40,11 @@ int number_of(const BodyInfo& info, std::uint32_t element) {
 /// id, of a circle and a segment the circle's.
 PointName name_of(const World& world, PointIndex k) {
     const PointKind kind = view_point(world, k).kind;
-    const ContactPoint& point = world.points.contact[k];
-    const BodyInfo& owner = world.bodies.info[point.body_i];
+    const ContactPoint point = world.points.contact[k];
+    const BodyInfo owner = world.bodies.info(point.body_i);
     PointName name{owner.id, partner_id(world, kind, point), number_of(owner, point.element_i), 0};
     if (kind != PointKind::element_outline && kind != PointKind::element_wall) {
-        name.partner = number_of(world.bodies.info[point.body_j], point.feature_j);
+        name.partner = number_of(world.bodies.info(point.body_j), point.feature_j);
         if (kind != PointKind::disc_segment && name.other < name.body) name = name.seen_from_other();
     }
     return name;
@@ -115,8 +115,8 @@ std::int64_t read_list_head(DeckReader& reader, const Body& body) {
 
 std::unordered_map<int, BodyIndex> indices_by_id(const World& world) {
     std::unordered_map<int, BodyIndex> indices;
-    for (std::size_t b = 0; b < world.bodies.info.size(); ++b)
-        indices.emplace(world.bodies.info[b].id, static_cast<BodyIndex>(b));
+    for (std::size_t b = 0; b < world.bodies.size(); ++b)
+        indices.emplace(world.bodies.info(b).id, static_cast<BodyIndex>(b));
     return indices;
 }
 
@@ -127,7 +127,7 @@ bool may_have_parted(const World& world, const std::unordered_map<int, BodyIndex
         if (id < 0) continue;  // a wall
         const BodyIndex b = index_of.at(id);
         const BodyState& body = world.bodies.state[b];
-        speed += norm({body.vx, body.vy}) + world.bodies.info[b].reach * std::abs(body.omega);
+        speed += norm({body.vx, body.vy}) + world.bodies.info(b).reach * std::abs(body.omega);
     }
     return speed * world.stepping.time_step >= world.list.skin;
 }
@@ -135,7 +135,7 @@ bool may_have_parted(const World& world, const std::unordered_map<int, BodyIndex
 }  // namespace
 
 int partner_id(const World& world, PointKind kind, const ContactPoint& point) {
-    return kind == PointKind::element_wall ? -static_cast<int>(point.body_j) - 1 : world.bodies.info[point.body_j].id;
+    return kind == PointKind::element_wall ? -static_cast<int>(point.body_j) - 1 : world.bodies.info(point.body_j).id;
 }
 
 void write_contacts(std::ostream& out, const Scene& scene, const World& world) {

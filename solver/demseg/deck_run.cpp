@@ -45,7 +45,10 @@ std::string text_of(Write&& write) {
 /// Whether bodies and conditions are those that a world was built from.
 bool belongs_to(const DeckGeometry& geometry, const BoundaryConditions& boundary, const World& world) {
     std::unordered_map<int, std::uint32_t> elements_of;
-    for (const BodyInfo& info : world.bodies.info) elements_of.emplace(info.id, info.element_count);
+    for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+        const BodyInfo info = world.bodies.info(b);
+        elements_of.emplace(info.id, info.element_count);
+    }
     const auto is_there = [&](int id) { return elements_of.contains(id); };
     return geometry.scene.bodies.size() == world.bodies.size() && elements_of.size() == world.bodies.size() &&
            std::ranges::all_of(geometry.scene.bodies,
@@ -222,8 +225,8 @@ void DeckRun::enter_steps_before() {
 
 void DeckRun::find_bodies() {
     std::unordered_map<int, BodyIndex> index_of;
-    for (std::size_t b = 0; b < world_.bodies.info.size(); ++b)
-        index_of[world_.bodies.info[b].id] = static_cast<BodyIndex>(b);
+    for (std::size_t b = 0; b < world_.bodies.size(); ++b)
+        index_of[world_.bodies.info(b).id] = static_cast<BodyIndex>(b);
     for (const Body& body : base_.scene.bodies) order_.push_back(index_of.at(body.id));
     for (const int id : boundary_.watched) watched_.push_back(index_of.at(id));
     velocity_ = watched_;

@@ -137,7 +137,7 @@ void DeckOutputs::write(Which which, const World& world, const std::string& text
                 return std::abs(a.fx) + std::abs(a.fy) < std::abs(b.fx) + std::abs(b.fy);
             });
         const auto body = static_cast<std::size_t>(largest - world.bodies.force.begin());
-        throw UnstableRun(world.stepping.steps, world.bodies.info[body].id,
+        throw UnstableRun(world.stepping.steps, world.bodies.info(body).id,
                           fmt::format("a number of {} would be infinite or none (this body bears the largest force); "
                                       "look for a force, mass or stiffness that is no size of anything",
                                       deck_output_names[which]));
@@ -158,13 +158,13 @@ void DeckOutputs::write_frame(const World& world, std::span<const BodyIndex> ord
     std::string circles, segments;
     std::size_t circle_count = 0, segment_count = 0;
     for (const BodyIndex b : order) {
-        const BodyInfo& info = world.bodies.info[b];
+        const BodyInfo info = world.bodies.info(b);
         const std::vector<Vec2> points = element_positions(world, b);
         if (info.piece_count == 0) {
-            for (std::size_t k = 0; k < points.size(); ++k, ++circle_count) {
-                fmt::format_to(std::back_inserter(circles), "{} {} {} {} {}\n", info.id,
-                               world.bodies.elements[info.first_element + k].radius, points[k].x, points[k].y,
-                               world.bodies.state[b].angle);
+            for (std::uint32_t k = 0; k < points.size(); ++k, ++circle_count) {
+                const double radius = element_of(world, b, info.first_element + k).radius;
+                fmt::format_to(std::back_inserter(circles), "{} {} {} {} {}\n", info.id, radius, points[k].x,
+                               points[k].y, world.bodies.state[b].angle);
             }
             continue;
         }
@@ -185,8 +185,8 @@ void DeckOutputs::write_frame(const World& world, std::span<const BodyIndex> ord
         if (!touching(world, k)) continue;
         ++contacts;
         const PointView view = view_point(world, k);
-        const ContactPoint& point = world.points.contact[k];
-        const int id = world.bodies.info[point.body_i].id, other = partner_id(world, view.kind, point);
+        const ContactPoint point = world.points.contact[k];
+        const int id = world.bodies.info(point.body_i).id, other = partner_id(world, view.kind, point);
         fmt::format_to(std::back_inserter(forces), "{} {} {} {} {} {}\n", id, other, view.position.x, view.position.y,
                        world.points.force[k].fx, world.points.force[k].fy);
         fmt::format_to(std::back_inserter(details), "{} {} {} {} {} {} {} {}\n", id, other, view.normal.x,
@@ -206,7 +206,7 @@ void DeckOutputs::write_energy_row(const World& world, std::span<const BodyIndex
                       e.fracture_loss));
     for (const BodyIndex b : bodies)
         write(velocities, world,
-              fmt::format("{} {} {}\n", world.stepping.steps, world.bodies.info[b].id, world.bodies.state[b].vy));
+              fmt::format("{} {} {}\n", world.stepping.steps, world.bodies.info(b).id, world.bodies.state[b].vy));
 }
 
 void DeckOutputs::write_force_rows(const World& world, std::span<const BodyIndex> bodies) {
@@ -214,7 +214,7 @@ void DeckOutputs::write_force_rows(const World& world, std::span<const BodyIndex
         const BodyForce& f = world.bodies.force[b];
         const BodyState& s = world.bodies.state[b];
         write(force_displacement, world,
-              fmt::format("{} {} {} {} {} {} {} {}\n", world.stepping.steps, world.bodies.info[b].id, f.fx, s.x, f.fy,
+              fmt::format("{} {} {} {} {} {} {} {}\n", world.stepping.steps, world.bodies.info(b).id, f.fx, s.x, f.fy,
                           s.y, f.torque, s.angle));
     }
 }

@@ -22,7 +22,7 @@ bool held(const World& world, BodyIndex b) {
 /// Radius of the disc of the same area, m; of a body that is held nothing, of an open chain half its length.
 double equivalent_radius(const World& world, BodyIndex b) {
     if (held(world, b)) return 0.0;
-    const BodyInfo& info = world.bodies.info[b];
+    const BodyInfo info = world.bodies.info(b);
     if (info.single_circle) return world.bodies.state[b].shape[0];
     if (info.piece_count > 0 && !info.closed) return info.reach;
     const double area = world.bodies.inertia[b].mass / world.settings.materials[info.material].density;
@@ -32,11 +32,11 @@ double equivalent_radius(const World& world, BodyIndex b) {
 Vec2 centre_of(const World& world, BodyIndex b) { return {world.bodies.state[b].x, world.bodies.state[b].y}; }
 
 std::vector<Vec2> corners_of(const World& world, BodyIndex b) {
-    const BodyInfo& info = world.bodies.info[b];
+    const BodyInfo info = world.bodies.info(b);
     std::vector<Vec2> corners;
     corners.reserve(info.element_count);
     for (std::uint32_t e = info.first_element; e < info.first_element + info.element_count; ++e)
-        corners.push_back(centre_of(world, b) + turned(world.bodies.state[b], world.bodies.elements[e]));
+        corners.push_back(centre_of(world, b) + turned(world.bodies.state[b], element_of(world, b, e)));
     return corners;
 }
 
@@ -83,7 +83,7 @@ double facing_length(const OutsetEdge& a, const OutsetEdge& b, double reach) {
 
 /// Half the sum of the edges that meet in a corner, m.
 double length_of_corner(const World& world, BodyIndex b, std::uint32_t element) {
-    const BodyInfo& info = world.bodies.info[b];
+    const BodyInfo info = world.bodies.info(b);
     const std::uint32_t n = info.element_count, k = element - info.first_element;
     const auto place = [&](std::uint32_t e) {
         const Element& corner = world.bodies.elements[info.first_element + e % n];
@@ -97,8 +97,8 @@ double length_of_corner(const World& world, BodyIndex b, std::uint32_t element) 
 
 /// Diameter of an element that is a circle, or length of one that is a corner, m.
 double length_of(const World& world, BodyIndex b, std::uint32_t element) {
-    return world.bodies.info[b].piece_count > 0 ? length_of_corner(world, b, element)
-                                                : 2.0 * world.bodies.elements[element].radius;
+    return world.bodies.info(b).piece_count > 0 ? length_of_corner(world, b, element)
+                                                : 2.0 * element_of(world, b, element).radius;
 }
 
 }  // namespace
@@ -115,7 +115,7 @@ ContactShare share_of_contact(const World& world, PointKind kind, const ContactP
 }
 
 std::optional<ContactShare> share_of_face(const World& world, BodyIndex i, BodyIndex j, double gap) {
-    if (world.bodies.info[i].id > world.bodies.info[j].id) std::swap(i, j);
+    if (world.bodies.info(i).id > world.bodies.info(j).id) std::swap(i, j);
     const std::vector<OutsetEdge> edges_i = outset_edges(corners_of(world, i), 0.5 * gap),
                                   edges_j = outset_edges(corners_of(world, j), 0.5 * gap);
     ContactShare share;

@@ -41,7 +41,7 @@ inline void visit_discs(const World& world, const ContactPoint& point, const Bod
                         Visit&& visit) {
     const Bar b = bar_of(world, j, point.feature_j, {j.x - i.x, j.y - i.y});
     if constexpr (K == PointKind::disc_segment) {
-        const Element& circle = world.bodies.elements[point.element_i];
+        const Element circle = element_of(world, point.body_i, point.element_i);
         visit(b, turned(i, circle), circle.radius + world.settings.thick, 1.0);
     } else {
         const Bar a = bar_of(world, i, point.element_i, {});
@@ -64,8 +64,8 @@ inline ContactGeometry contact_geometry(const World& world, const ContactPoint& 
     if constexpr (K == PointKind::circle_circle) {
         return with_arms(single_circles_contact(i, j));
     } else if constexpr (K == PointKind::element_element) {
-        const Element& a = world.bodies.elements[point.element_i];
-        const Element& b = world.bodies.elements[point.feature_j];
+        const Element a = element_of(world, point.body_i, point.element_i);
+        const Element b = element_of(world, point.body_j, point.feature_j);
         const Vec2 oi = turned(i, a), oj = turned(j, b);
         ContactGeometry g =
             with_arms(circle_contact((j.x - i.x) + (oj.x - oi.x), (j.y - i.y) + (oj.y - oi.y), a.radius, b.radius));
@@ -75,11 +75,11 @@ inline ContactGeometry contact_geometry(const World& world, const ContactPoint& 
         g.ajy += oj.y;
         return g;
     } else if constexpr (K == PointKind::element_outline) {
-        const Element& a = world.bodies.elements[point.element_i];
+        const Element a = element_of(world, point.body_i, point.element_i);
         const Vec2 oi = turned(i, a);
         const double wx = (i.x - j.x) + oi.x, wy = (i.y - j.y) + oi.y;
         const double cosine = j.shape[0], sine = j.shape[1];
-        const OutlineFacing facing = face_outline(world, world.bodies.info[point.body_j], point.feature_j,
+        const OutlineFacing facing = face_outline(world, world.bodies.info(point.body_j), point.feature_j,
                                                   cosine * wx + sine * wy, cosine * wy - sine * wx);
         feature = facing.edge;
         return outline_contact<double>({oi.x, oi.y, wx, wy, a.radius, a.radius + a.target_reach, cosine, sine}, facing);
@@ -94,7 +94,7 @@ inline ContactGeometry contact_geometry(const World& world, const ContactPoint& 
         return {contact.overlap, contact.normal.x,           contact.normal.y,          contact.at.x,
                 contact.at.y,    contact.at.x - (j.x - i.x), contact.at.y - (j.y - i.y)};
     } else {
-        const Element& a = world.bodies.elements[point.element_i];
+        const Element a = element_of(world, point.body_i, point.element_i);
         const Vec2 oi = turned(i, a);
         const double radius = point.feature_j == 1 ? 0.0 : a.radius;
         const Domain& domain = world.settings.domain;

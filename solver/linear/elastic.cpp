@@ -50,7 +50,7 @@ class ScaledSystem {
             if (held[b] || stiffness[b] == 0.0) continue;
             const double root = std::sqrt(stiffness[b]);
             scale_[number(b, 0)] = scale_[number(b, 1)] = 1.0 / root;
-            scale_[number(b, 2)] = 1.0 / (root * world.bodies.info[b].reach);
+            scale_[number(b, 2)] = 1.0 / (root * world.bodies.info(b).reach);
         }
         assemble(springs, rows);
     }

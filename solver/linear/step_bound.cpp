@@ -33,6 +33,7 @@
 #include <numbers>
 
 #include "solver/contact/dashpot.hpp"
+#include "solver/contact/point_motion.hpp"
 #include "solver/geometry/geometry.hpp"
 #include "solver/linear/springs.hpp"
 #include "solver/measure/point_view.hpp"
@@ -196,7 +197,7 @@ void add_row(Block& block, const Roots& roots, const Spring& row, bool second, d
 /// Adds a point's share to body b, one of its two.
 void add_point(BodyBlocks& blocks, const World& world, const std::vector<double>& weights, PointIndex k, BodyIndex b,
                const Roots& roots, const PointArms& arms) {
-    const ContactPoint& point = world.points.contact[k];
+    const BodyPair& point = world.points.contact.pairs[k];
     const bool first = b == point.body_i;
     const double partner = first && with_wall(world, k) ? 0.0 : weights[first ? point.body_j : point.body_i];
     add_side(blocks, side_of(roots, arms.normal, first ? arms.arm_i : arms.arm_j), law_of(world, k),
@@ -206,7 +207,7 @@ void add_point(BodyBlocks& blocks, const World& world, const std::vector<double>
 /// What a body without points is stable with: the first thing it meets, a circle head-on or a corner at the longest
 /// lever it has.
 void lower_to_first_meeting(Least& least, const World& world, BodyIndex b) {
-    const BodyInfo& info = world.bodies.info[b];
+    const BodyInfo info = world.bodies.info(b);
     const Roots roots = roots_of(world.bodies.inertia[b]);
     ContactLaw law = world.settings.laws[law_with_wall(world, b)];
     const Vec2 along{info.reach, 0.0};
@@ -237,8 +238,8 @@ struct Surroundings {
 Surroundings surroundings_of(const World& world) {
     Surroundings all{guide_rows(world), std::vector<bool>(world.bodies.size())};
     for (PointIndex k = 0; k < world.points.size(); ++k) {
-        all.met[world.points.contact[k].body_i] = true;
-        if (!with_wall(world, k)) all.met[world.points.contact[k].body_j] = true;
+        all.met[world.points.contact.pairs[k].body_i] = true;
+        if (!with_wall(world, k)) all.met[world.points.contact.pairs[k].body_j] = true;
     }
     return all;
 }
@@ -251,7 +252,7 @@ std::vector<BodyBlocks> blocks_of(const World& world, const std::vector<double>&
     std::vector<BodyBlocks> blocks(world.bodies.size());
     visit_kinds(world.points.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
         for (PointIndex k = begin; k < end; ++k) {
-            const ContactPoint& point = world.points.contact[k];
+            const ContactPoint point = point_of<K>(world, k);
             std::uint32_t feature = point.feature_j;
             const ContactGeometry g = contact_geometry<K>(world, point, feature);
             if (!counts(k, g.overlap)) continue;

@@ -24,7 +24,7 @@ bool finite(const BodyState& b) {
 void check_bodies(const World& world) {
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
         const BodyState& body = world.bodies.state[b];
-        const int id = world.bodies.info[b].id;
+        const int id = world.bodies.info(b).id;
         if (!finite(body)) {
             throw UnstableRun(
                 world.stepping.steps, id,
@@ -55,7 +55,7 @@ double rounding_energy(const World& world, const Ledger& ledger) {
     double farthest = 0.0, stiffness = 0.0;
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
         farthest = std::max(farthest, std::max(std::abs(world.bodies.state[b].x), std::abs(world.bodies.state[b].y)) +
-                                          world.bodies.info[b].reach);
+                                          world.bodies.info(b).reach);
     }
     for (PointIndex k = 0; k < world.points.size(); ++k) {
         const ContactLaw law = law_of(world, k);
@@ -85,7 +85,7 @@ void check_energy(World& world) {
     const double supply =
         world.account.initial_energy - ledger.potential + ledger.displacement_work + ledger.force_work;
     if (!std::isfinite(mechanical) || !std::isfinite(supply)) {
-        throw UnstableRun(world.stepping.steps, world.bodies.info[liveliest_body(world)].id,
+        throw UnstableRun(world.stepping.steps, world.bodies.info(liveliest_body(world)).id,
                           fmt::format("{:.4g} J kinetic and stored where {:.4g} J were put in, beyond the largest "
                                       "number (this body carries most of the kinetic energy); look for a force, mass "
                                       "or stiffness that is no size of anything",
@@ -93,7 +93,7 @@ void check_energy(World& world) {
     }
     world.account.largest_supply = std::max({world.account.largest_supply, std::abs(supply), mechanical * 1e-3});
     if (mechanical <= supply + world.account.largest_supply + rounding_energy(world, ledger)) return;
-    throw UnstableRun(world.stepping.steps, world.bodies.info[liveliest_body(world)].id,
+    throw UnstableRun(world.stepping.steps, world.bodies.info(liveliest_body(world)).id,
                       fmt::format("runaway energy, {:.4g} J kinetic and stored where {:.4g} J were put in (this body "
                                   "carries most); the time step "
                                   "({:.4g} s, bound {:.4g} s) is likely too large",

@@ -32,7 +32,7 @@ double kinetic_energy(const World& world) {
         const double vy =
             body.vy + share * (force.fy + inertia.mass * world.settings.gravity.y) * inertia.inverse_mass_y;
         const double omega = body.omega + share * force.torque * inertia.inverse_moment;
-        sum += 0.5 * (inertia.mass * (vx * vx + vy * vy) + world.bodies.info[b].moment * omega * omega);
+        sum += 0.5 * (inertia.mass * (vx * vx + vy * vy) + world.bodies.info(b).moment * omega * omega);
     }
     // Driving forces accelerate too.
     for (const ControlState& control : world.bodies.controls) {
@@ -43,7 +43,7 @@ double kinetic_energy(const World& world) {
                                 force.fy + inertia.mass * world.settings.gravity.y, force.torque};
         const double inverse[3] = {inertia.inverse_mass_x, inertia.inverse_mass_y, inertia.inverse_moment};
         const double velocity[3] = {body.vx, body.vy, body.omega};
-        const double weight[3] = {inertia.mass, inertia.mass, world.bodies.info[control.body].moment};
+        const double weight[3] = {inertia.mass, inertia.mass, world.bodies.info(control.body).moment};
         for (int d = 0; d < 3; ++d) {
             if (control.dof[d].drive != Drive::force) continue;
             const double without = velocity[d] + share * load[d] * inverse[d];

@@ -59,7 +59,7 @@ std::pair<PointIndex, PointIndex> points_between(const World& world, PointIndex 
 double overlap_of(const World& world, PointIndex k) { return geometry_at(world, k).overlap; }
 
 PointView view_point(const World& world, PointIndex k) {
-    const ContactPoint& point = world.points.contact[k];
+    const ContactPoint point = world.points.contact[k];
     const ContactLaw law = law_of(world, k);
     PointView view{};
     view.kind = kind_of(world, k);
@@ -89,11 +89,11 @@ PointView view_point(const World& world, PointIndex k) {
 }
 
 BodyIndex body_of_id(const World& world, int id) {
-    for (std::size_t b = 0; b < world.bodies.info.size(); ++b) {
-        if (world.bodies.info[b].id == id) return static_cast<BodyIndex>(b);
+    for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+        if (world.bodies.info(b).id == id) return static_cast<BodyIndex>(b);
     }
     throw InputError(
-        fmt::format("body {}: found no such body, expected one of the {} of this scene", id, world.bodies.info.size()));
+        fmt::format("body {}: found no such body, expected one of the {} of this scene", id, world.bodies.size()));
 }
 
 void forget_point_forces(World& world) {
@@ -113,12 +113,12 @@ std::array<Vec2, 4> measure_wall_forces(const World& world) {
 }
 
 std::vector<Vec2> element_positions(const World& world, BodyIndex body) {
-    const BodyInfo& info = world.bodies.info[body];
+    const BodyInfo info = world.bodies.info(body);
     const BodyState& state = world.bodies.state[body];
     std::vector<Vec2> positions;
     positions.reserve(info.element_count);
     for (std::uint32_t e = info.first_element; e < info.first_element + info.element_count; ++e) {
-        positions.push_back(Vec2{state.x, state.y} + turned(state, world.bodies.elements[e]));
+        positions.push_back(Vec2{state.x, state.y} + turned(state, element_of(world, body, e)));
     }
     return positions;
 }

@@ -27,21 +27,38 @@ class OldPoints {
         first_ = world.points.kind_begin[number];
         second_end_ = world.points.kind_begin[number + 1];
         first_end_ = second_ = kind == PointKind::element_outline ? world.points.fours_end : second_end_;
+        look();
     }
     bool done() const { return first_ == first_end_ && second_ == second_end_; }
-    PointIndex at() const { return from_first() ? first_ : second_; }
-    PointKey key() const { return key_of(kind_, world_.points.contact[at()]); }
-    void next() { ++(from_first() ? first_ : second_); }
+    PointIndex at() const { return of_first_ ? first_ : second_; }
+    const PointKey& key() const { return key_; }
+    void next() {
+        ++(of_first_ ? first_ : second_);
+        look();
+    }
 
   private:
+    void look() {
+        if (done()) return;
+        of_first_ = from_first();
+        key_ = key_of(at());
+    }
     bool from_first() const {
         if (first_ == first_end_ || second_ == second_end_) return second_ == second_end_;
-        return key_of(kind_, world_.points.contact[first_]) < key_of(kind_, world_.points.contact[second_]);
+        return key_of(first_) < key_of(second_);
+    }
+    PointKey key_of(PointIndex k) const {
+        const auto [i, j] = world_.points.contact.pairs[k];
+        PointParts parts{own_circle, own_circle};
+        if (kind_ != PointKind::circle_circle) parts = world_.points.contact.parts[k - world_.points.kind_begin[1]];
+        return crackle::key_of(kind_, {i, j, parts.element_i, parts.feature_j});
     }
 
     const World& world_;
     PointKind kind_;
     PointIndex first_, first_end_, second_, second_end_;
+    bool of_first_ = false;
+    PointKey key_{};  // of the point at hand
 };
 
 /// Points of a new list and which points of the old one they are.
@@ -152,6 +169,17 @@ void append(Numbers& all, Numbers more) {
     }
 }
 
+/// @param circles  so many are of circle_circle
+ContactList compact(Array<ContactPoint> points, PointIndex circles) {
+    ContactList list;
+    list.pairs.resize(points.size());
+    list.parts.resize(points.size() - circles);
+    for (std::size_t k = 0; k < points.size(); ++k) list.pairs[k] = {points[k].body_i, points[k].body_j};
+    for (std::size_t k = circles; k < points.size(); ++k)
+        list.parts[k - circles] = {points[k].element_i, points[k].feature_j};
+    return list;
+}
+
 /// One remembered quantity in the new order; nothing in a world that does not keep it.
 template <class T>
 void carry_over(Array<T>& values, const std::vector<PointIndex>& old, bool kept = true) {
@@ -195,7 +223,7 @@ void find_pairs(World& world) {
     const PointIndex walls = world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
     world.points.root_mass.resize(world.points.size());
     for (PointIndex k = 0; k < world.points.size(); ++k) {
-        const BodyIndex i = world.points.contact[k].body_i, j = world.points.contact[k].body_j;
+        const auto [i, j] = world.points.contact.pairs[k];
         const bool held = (world.points.state[k].flags & point_held) != 0;
         const std::size_t law = k >= walls ? law_with_wall(world, i)
                                 : held     ? held_law_between(world, i, j)
@@ -249,10 +277,11 @@ void exchange_points(World& world, PointLists& lists) {
         kind_begin[number + 1] = static_cast<PointIndex>(next.points.size());
     }
     const bool consistent = world.settings.integrator == Integrator::consistent;
+    world.points.contact = {};  // its room is needed
+    world.points.contact = compact(std::move(next.points), kind_begin[1]);
     visit_remembered(world.points, [&](auto& values, Remembered remembered) {
         carry_over(values, next.old, keeps(world, remembered));
     });
-    world.points.contact = std::move(next.points);
     world.points.kind_begin = kind_begin;
     world.points.fours_end = fours_end;
     find_point_properties(world);

@@ -21,10 +21,10 @@ struct Box {
 
 Box bounding_box(const World& world, std::size_t b) {
     const BodyState& body = world.bodies.state[b];
-    const BodyInfo& info = world.bodies.info[b];
+    const BodyInfo info = world.bodies.info(b);
     Box box;
     for (std::uint32_t e = 0; e < info.element_count; ++e) {
-        const Element& element = world.bodies.elements[info.first_element + e];
+        const Element element = element_of(world, b, info.first_element + e);
         box.add(centre_of(body) + turned(body, element), info.piece_count > 0 ? 0.0 : element.radius);
     }
     return box;
@@ -36,7 +36,7 @@ CellLayout layout_for(const World& world) {
     double mean_reach = 0.0;
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
         box.add(centre_of(world.bodies.state[b]), 0.0);
-        mean_reach += world.bodies.info[b].reach;
+        mean_reach += world.bodies.info(b).reach;
     }
     const auto n = static_cast<double>(world.bodies.size());
     const double width = box.high.x - box.low.x, height = box.high.y - box.low.y;
@@ -46,34 +46,46 @@ CellLayout layout_for(const World& world) {
             static_cast<std::size_t>(height / size) + 1};
 }
 
+/// Bounding radii, m, from the largest body to the smallest, and 0 behind it. A pair is found by its larger body, which
+/// looks no further than the next smaller one reaches.
+std::vector<double> reaches_by_rank(const World& world) {
+    std::vector<double> reaches(world.bodies.size() + 1, 0.0);
+    for (std::size_t b = 0; b < world.bodies.size(); ++b) reaches[world.list.size_rank[b]] = world.bodies.info(b).reach;
+    return reaches;
+}
+
 }  // namespace
 
 std::vector<std::uint64_t> near_pairs(const World& world) {
     const PhaseTimer timer(world.workers.profile, Phase::broad_phase);
     const CellGrid grid(layout_for(world), world.bodies.size(),
                         [&](std::size_t b) { return centre_of(world.bodies.state[b]); });
-    const double widest = world.list.half_skins.empty() ? 0.0 : *std::ranges::max_element(world.list.half_skins);
+    const auto& own = world.list.own_half_skins;
+    const double widest = own.empty() ? world.list.half_skin : *std::ranges::max_element(own);
+    const std::vector<double> reaches = reaches_by_rank(world);
     std::vector<std::uint64_t> pairs;
     pairs.reserve(4 * world.bodies.size());
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
-        const Box own = bounding_box(world, b);
-        const double margin = world.list.largest_smaller[b] + world.settings.thick + world.list.half_skins[b] + widest;
+        const Box box = bounding_box(world, b);
+        const std::uint32_t rank = world.list.size_rank[b];
+        const double margin = reaches[rank + 1] + world.settings.thick + world.list.half_skin_of(b) + widest;
         Box search;
-        search.add(own.low, margin);
-        search.add(own.high, margin);
+        search.add(box.low, margin);
+        search.add(box.high, margin);
         const BodyState& body = world.bodies.state[b];
         const std::size_t left = grid.column(search.low.x), right = grid.column(search.high.x);
         const std::size_t low = grid.row(search.low.y), high = grid.row(search.high.y);
         grid.visit(left, right, low, high, [&](BodyIndex other) {
-            if (world.list.size_rank[other] <= world.list.size_rank[b]) return;
+            const std::uint32_t rank_of_other = world.list.size_rank[other];
+            if (rank_of_other <= rank) return;
             const BodyState& partner = world.bodies.state[other];
-            const double reach = world.bodies.info[other].reach + world.settings.thick +
-                                 skin_between(world, static_cast<BodyIndex>(b), other);
+            const double reach =
+                reaches[rank_of_other] + world.settings.thick + skin_between(world, static_cast<BodyIndex>(b), other);
             const double dx = partner.x - body.x, dy = partner.y - body.y;
-            const double limit = world.bodies.info[b].reach + reach;
+            const double limit = reaches[rank] + reach;
             if (dx * dx + dy * dy > limit * limit) return;
-            const double bx = std::max({own.low.x - partner.x, partner.x - own.high.x, 0.0});
-            const double by = std::max({own.low.y - partner.y, partner.y - own.high.y, 0.0});
+            const double bx = std::max({box.low.x - partner.x, partner.x - box.high.x, 0.0});
+            const double by = std::max({box.low.y - partner.y, partner.y - box.high.y, 0.0});
             if (bx * bx + by * by > reach * reach) return;
             const auto self = static_cast<std::uint64_t>(b);
             pairs.push_back(self < other ? (self << 32) | other : (static_cast<std::uint64_t>(other) << 32) | self);

@@ -18,7 +18,7 @@ inline Vec2 centre_of(const BodyState& body) { return {body.x, body.y}; }
 
 /// How far the surfaces of a listed pair may be apart beyond what they touch at, m.
 inline double skin_between(const World& world, BodyIndex i, BodyIndex j) {
-    return world.list.half_skins[i] + world.list.half_skins[j];
+    return world.list.half_skin_of(i) + world.list.half_skin_of(j);
 }
 
 /// Pairs of bodies whose bounding boxes and circles come within thick + skin, as i << 32 | j with i < j, sorted.

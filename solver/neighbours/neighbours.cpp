@@ -39,9 +39,10 @@ Ways ways_since_list(const World& world) {
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
         const BodyState& body = world.bodies.state[b];
         const ListReference& then = world.list.reference[b];
-        const double way = norm({body.x - then.x, body.y - then.y}) +
-                           world.bodies.turning_reach[b] * std::abs(body.angle - then.angle);
-        const double half = world.list.half_skins[b];
+        double way = norm({body.x - then.x, body.y - then.y});
+        if (const std::uint32_t shape = world.bodies.names[b].shape; shape != no_shape)
+            way += world.bodies.shapes[shape].reach * std::abs(body.angle - world.list.reference_angles[shape]);
+        const double half = world.list.half_skin_of(b);
         ways.longest = std::max(ways.longest, way);
         ways.left = std::min(ways.left, half - way);
         ways.used_up = ways.used_up || way > 0.8 * half;
@@ -62,7 +63,8 @@ double skin_for(const World& world, double way) {
 /// guide's law every listed disc bounds the step, so that none is listed early.
 void choose_half_skins(World& world) {
     const double half = 0.5 * world.list.skin;
-    world.list.half_skins.assign(world.bodies.size(), half);
+    world.list.half_skin = half;
+    world.list.own_half_skins = {};
     // Before there is a step, ramps have no velocity yet.
     const bool own =
         world.stepping.time_step > 0.0 && world.list.widest_skin > 0.0 && world.list.skin == world.list.widest_skin;
@@ -70,9 +72,22 @@ void choose_half_skins(World& world) {
     const double reach = world.list.widest_skin / skin_share;
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
         const BodyState& body = world.bodies.state[b];
-        const double speed = norm({body.vx, body.vy}) + world.bodies.turning_reach[b] * std::abs(body.omega);
+        const double speed = norm({body.vx, body.vy}) + world.bodies.turning_reach(b) * std::abs(body.omega);
         const double lasting = std::sqrt(rebuild_steps * speed * world.stepping.time_step * reach);
-        world.list.half_skins[b] = std::clamp(lasting, half, std::max(half, widest_own * reach));
+        if (!(lasting > half)) continue;
+        if (world.list.own_half_skins.empty()) world.list.own_half_skins.assign(world.bodies.size(), half);
+        world.list.own_half_skins[b] = std::min(lasting, std::max(half, widest_own * reach));
+    }
+}
+
+void note_places(World& world) {
+    world.list.reference.resize(world.bodies.size());
+    world.list.reference_angles.resize(world.bodies.shapes.size());
+    for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+        const BodyState& body = world.bodies.state[b];
+        world.list.reference[b] = {body.x, body.y};
+        if (const std::uint32_t shape = world.bodies.names[b].shape; shape != no_shape)
+            world.list.reference_angles[shape] = body.angle;
     }
 }
 
@@ -87,12 +102,10 @@ void rebuild(World& world) {
         world.workers.plan.valid = false;
         world.workers.marks.resize(world.bodies.size());
     }
-    world.list.reference.resize(world.bodies.size());
-    for (std::size_t b = 0; b < world.bodies.size(); ++b) {
-        world.list.reference[b] = {world.bodies.state[b].x, world.bodies.state[b].y, world.bodies.state[b].angle};
-    }
+    note_places(world);
     world.list.travelled = 0.0;
-    world.list.free_way = world.list.half_skins.empty() ? 0.0 : *std::ranges::min_element(world.list.half_skins);
+    const auto& own = world.list.own_half_skins;
+    world.list.free_way = own.empty() ? world.list.half_skin : *std::ranges::min_element(own);
     world.list.valid = true;
     world.list.built_at = world.stepping.steps;
     world.list.builds += 1;

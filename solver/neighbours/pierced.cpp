@@ -26,16 +26,18 @@ struct Place {
 
 Place place_now(const World& world, BodyIndex b) {
     const BodyState& body = world.bodies.state[b];
-    if (world.bodies.info[b].single_circle) return {{body.x, body.y}, 1.0, 0.0};
+    if (world.bodies.names[b].shape == no_shape) return {{body.x, body.y}, 1.0, 0.0};
     return {{body.x, body.y}, body.shape[0], body.shape[1]};
 }
 
 /// Where it was when the list was built.
 Place place_then(const World& world, BodyIndex b) {
     const ListReference& then = world.list.reference[b];
+    const std::uint32_t shape = world.bodies.names[b].shape;
+    if (shape == no_shape) return {{then.x, then.y}, 1.0, 0.0};
     const Place now = place_now(world, b);
-    const double back = then.angle - world.bodies.state[b].angle, c = correctly_rounded::cos(back),
-                 s = correctly_rounded::sin(back);
+    const double back = world.list.reference_angles[shape] - world.bodies.state[b].angle,
+                 c = correctly_rounded::cos(back), s = correctly_rounded::sin(back);
     return {{then.x, then.y}, c * now.c - s * now.s, s * now.c + c * now.s};
 }
 
@@ -78,26 +80,27 @@ void refuse_piercing(const World& world) {
     constexpr const char* cause = "; the impact is too fast or the load too high for its stiffness and thickness";
     const auto outlines = static_cast<std::size_t>(PointKind::element_outline);
     for (PointIndex k = world.points.kind_begin[outlines]; k < world.points.kind_begin[outlines + 1]; ++k) {
-        const ContactPoint& point = world.points.contact[k];
-        const BodyIndex i = point.body_i, j = point.body_j;
-        const BodyInfo& target = world.bodies.info[j];
-        const bool first_of_pair = k == world.points.kind_begin[outlines] || world.points.contact[k - 1].body_i != i ||
-                                   world.points.contact[k - 1].body_j != j;
-        if (target.closed && !(first_of_pair && convex(world.bodies.info[i]))) continue;
+        const auto [i, j] = world.points.contact.pairs[k];
+        const bool closed = world.bodies.names[j].closed;
+        const bool first_of_pair = k == world.points.kind_begin[outlines] ||
+                                   world.points.contact.pairs[k - 1].body_i != i ||
+                                   world.points.contact.pairs[k - 1].body_j != j;
+        if (closed && !(first_of_pair && convex(world.bodies.info(i)))) continue;
+        const BodyInfo target = world.bodies.info(j);
         const Place i_now = place_now(world, i), j_now = place_now(world, j);
         if (target.closed) {
             if (!inside(world, target, j_now.inwards(i_now.centre))) continue;
             if (inside(world, target, place_then(world, j).inwards(place_then(world, i).centre))) continue;
-            throw UnstableRun(world.stepping.steps, world.bodies.info[i].id,
+            throw UnstableRun(world.stepping.steps, world.bodies.info(i).id,
                               fmt::format("its centroid has got inside body {}{}", target.id, cause));
         }
-        const Element& element = world.bodies.elements[point.element_i];
+        const Element element = element_of(world, i, world.points.contact[k].element_i);
         const Vec2 at{element.x, element.y};
         const std::uint32_t segment =
             segment_between(world, target, place_then(world, j).inwards(place_then(world, i).outwards(at)),
                             j_now.inwards(i_now.outwards(at)));
         if (segment == 0) continue;
-        throw UnstableRun(world.stepping.steps, world.bodies.info[i].id,
+        throw UnstableRun(world.stepping.steps, world.bodies.info(i).id,
                           fmt::format("it went through segment {} of body {}{}", segment, target.id, cause));
     }
 }

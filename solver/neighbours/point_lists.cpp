@@ -18,31 +18,37 @@ ContactPoint new_point(BodyIndex i, BodyIndex j, std::uint32_t element, std::uin
     return point;
 }
 
+void add_single_circles(const World& world, BodyIndex i, BodyIndex j, PointLists& lists) {
+    const BodyState &a = world.bodies.state[i], &b = world.bodies.state[j];
+    if (norm(centre_of(b) - centre_of(a)) > a.shape[0] + b.shape[0] + skin_between(world, i, j)) return;
+    lists[static_cast<std::size_t>(PointKind::circle_circle)].push_back(new_point(i, j, own_circle, own_circle));
+}
+
+/// Circles of two bodies of which one is a clump.
 void add_circle_pairs(const World& world, BodyIndex i, BodyIndex j, PointLists& lists) {
-    const BodyInfo &a = world.bodies.info[i], &b = world.bodies.info[j];
-    const bool single = a.single_circle && b.single_circle;
+    const BodyInfo a = world.bodies.info(i), b = world.bodies.info(j);
     const double skin = skin_between(world, i, j);
     for (std::uint32_t p = a.first_element; p < a.first_element + a.element_count; ++p) {
-        const Vec2 centre = centre_of(world.bodies.state[i]) + turned(world.bodies.state[i], world.bodies.elements[p]);
+        const Element own = element_of(world, i, p);
+        const Vec2 centre = centre_of(world.bodies.state[i]) + turned(world.bodies.state[i], own);
         for (std::uint32_t q = b.first_element; q < b.first_element + b.element_count; ++q) {
-            const Vec2 other =
-                centre_of(world.bodies.state[j]) + turned(world.bodies.state[j], world.bodies.elements[q]);
-            if (norm(other - centre) > world.bodies.elements[p].radius + world.bodies.elements[q].radius + skin)
-                continue;
-            lists[static_cast<std::size_t>(single ? PointKind::circle_circle : PointKind::element_element)].push_back(
-                new_point(i, j, p, q));
+            const Element partner = element_of(world, j, q);
+            const Vec2 other = centre_of(world.bodies.state[j]) + turned(world.bodies.state[j], partner);
+            if (norm(other - centre) > own.radius + partner.radius + skin) continue;
+            lists[static_cast<std::size_t>(PointKind::element_element)].push_back(new_point(i, j, p, q));
         }
     }
 }
 
 /// Elements of i against the outline of j.
 void add_outline_points(const World& world, BodyIndex i, BodyIndex j, PointLists& lists) {
-    const BodyInfo &a = world.bodies.info[i], &b = world.bodies.info[j];
-    const BodyState& target = world.bodies.state[j];
+    const BodyInfo a = world.bodies.info(i), b = world.bodies.info(j);
+    const BodyState &own = world.bodies.state[i], &target = world.bodies.state[j];
+    const double skin = skin_between(world, i, j);
     for (std::uint32_t p = a.first_element; p < a.first_element + a.element_count; ++p) {
-        const Element& element = world.bodies.elements[p];
-        const Vec2 w = centre_of(world.bodies.state[i]) + turned(world.bodies.state[i], element) - centre_of(target);
-        const double limit = element.radius + element.target_reach + skin_between(world, i, j);
+        const Element element = element_of(world, i, p);
+        const Vec2 w = centre_of(own) + turned(own, element) - centre_of(target);
+        const double limit = element.radius + element.target_reach + skin;
         if (dot(w, w) > (b.reach + limit) * (b.reach + limit)) continue;
         const double c = target.shape[0], s = target.shape[1];
         const OutlineFacing facing = face_outline(world, b, b.first_piece, c * w.x + s * w.y, c * w.y - s * w.x);
@@ -53,12 +59,13 @@ void add_outline_points(const World& world, BodyIndex i, BodyIndex j, PointLists
 
 /// Circles of i against the segments of j, by the guide's law.
 void add_circle_segment_points(const World& world, BodyIndex i, BodyIndex j, PointLists& lists) {
-    const BodyInfo &a = world.bodies.info[i], &b = world.bodies.info[j];
+    const BodyInfo a = world.bodies.info(i), b = world.bodies.info(j);
     const BodyState& own = world.bodies.state[i];
     const Vec2 to_j = centre_of(world.bodies.state[j]) - centre_of(own);
     for (std::uint32_t p = a.first_element; p < a.first_element + a.element_count; ++p) {
-        const Vec2 centre = turned(own, world.bodies.elements[p]);
-        const double limit = world.bodies.elements[p].radius + world.settings.thick + skin_between(world, i, j);
+        const Element circle = element_of(world, i, p);
+        const Vec2 centre = turned(own, circle);
+        const double limit = circle.radius + world.settings.thick + skin_between(world, i, j);
         if (norm(centre - to_j) > b.reach + limit) continue;
         for (std::uint32_t q = b.first_element; q < b.first_element + b.element_count; ++q) {
             if (world.bodies.segments[q].length == 0.0) continue;
@@ -71,7 +78,7 @@ void add_circle_segment_points(const World& world, BodyIndex i, BodyIndex j, Poi
 
 /// Segments of i against those of j, by the guide's law: where an end of one comes near the other.
 void add_segment_pairs(const World& world, BodyIndex i, BodyIndex j, PointLists& lists) {
-    const BodyInfo &a = world.bodies.info[i], &b = world.bodies.info[j];
+    const BodyInfo a = world.bodies.info(i), b = world.bodies.info(j);
     const Vec2 to_j = centre_of(world.bodies.state[j]) - centre_of(world.bodies.state[i]);
     const double limit = world.settings.thick + skin_between(world, i, j);
     for (std::uint32_t p = a.first_element; p < a.first_element + a.element_count; ++p) {
@@ -93,7 +100,7 @@ void add_segment_pairs(const World& world, BodyIndex i, BodyIndex j, PointLists&
 
 /// @param i, j two bodies at least one of which is a chain
 void add_guide_points(const World& world, BodyIndex i, BodyIndex j, PointLists& lists) {
-    const bool chain_i = world.bodies.info[i].piece_count > 0, chain_j = world.bodies.info[j].piece_count > 0;
+    const bool chain_i = world.bodies.info(i).piece_count > 0, chain_j = world.bodies.info(j).piece_count > 0;
     if (chain_i && chain_j) {
         add_segment_pairs(world, i, j, lists);
     } else if (chain_j) {
@@ -104,7 +111,7 @@ void add_guide_points(const World& world, BodyIndex i, BodyIndex j, PointLists& 
 }
 
 void add_wall_points(const World& world, BodyIndex i, PointLists& lists) {
-    const BodyInfo& info = world.bodies.info[i];
+    const BodyInfo info = world.bodies.info(i);
     const BodyState& body = world.bodies.state[i];
     const Domain& d = world.settings.domain;
     const bool chain = info.piece_count > 0;
@@ -117,9 +124,10 @@ void add_wall_points(const World& world, BodyIndex i, PointLists& lists) {
                                          : d.y2 - body.y;
         if (whole > info.reach + skin) continue;
         for (std::uint32_t p = info.first_element; p < info.first_element + info.element_count; ++p) {
-            const Vec2 o = turned(body, world.bodies.elements[p]);
+            const Element element = element_of(world, i, p);
+            const Vec2 o = turned(body, element);
             const double distance = whole + (wall == 0 ? o.x : wall == 1 ? -o.x : wall == 2 ? o.y : -o.y);
-            if (distance > (chain ? 0.0 : world.bodies.elements[p].radius) + skin) continue;
+            if (distance > (chain ? 0.0 : element.radius) + skin) continue;
             ContactPoint point{};
             point.body_i = i;
             point.body_j = wall;
@@ -150,7 +158,11 @@ PointLists list_points(const World& world, const std::vector<std::uint64_t>& pai
     for (const std::uint64_t pair : pairs) {
         const auto i = static_cast<BodyIndex>(pair >> 32), j = static_cast<BodyIndex>(pair & 0xffffffffu);
         if (both_held(world, i, j)) continue;
-        const bool chain_i = world.bodies.info[i].piece_count > 0, chain_j = world.bodies.info[j].piece_count > 0;
+        if (world.bodies.names[i].shape == no_shape && world.bodies.names[j].shape == no_shape) {
+            add_single_circles(world, i, j, lists);
+            continue;
+        }
+        const bool chain_i = world.bodies.info(i).piece_count > 0, chain_j = world.bodies.info(j).piece_count > 0;
         if (!chain_i && !chain_j) add_circle_pairs(world, i, j, lists);
         if (world.settings.segment_law != SegmentLaw::rounded) {
             if (chain_i || chain_j) add_guide_points(world, i, j, lists);

@@ -29,7 +29,7 @@ std::int64_t count_interfaces(const World& world) {
     std::vector<std::uint64_t> pairs;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
         if ((world.points.state[k].flags & point_bonded) == 0) continue;
-        const ContactPoint& point = world.points.contact[k];
+        const ContactPoint point = world.points.contact[k];
         const std::uint64_t low = std::min(point.body_i, point.body_j), high = std::max(point.body_i, point.body_j);
         pairs.push_back((low << 32) | high);
     }
@@ -48,8 +48,9 @@ double largest_gap(const World& world, const PointView& view, const Bonding& bon
 void widen_skin(World& world, const Bonding& bonding) {
     double reach = bonding.gap;
     if (bonding.range > 0.0)
-        for (const BodyInfo& info : world.bodies.info)
-            if (info.single_circle) reach = std::max(reach, bonding.range * info.reach);
+        for (std::size_t b = 0; b < world.bodies.size(); ++b)
+            if (const BodyInfo info = world.bodies.info(b); info.single_circle)
+                reach = std::max(reach, bonding.range * info.reach);
     if (reach == 0.0 || world.list.skin > 1.01 * reach) return;
     world.list.skin = 1.01 * reach;  // lists leave out what is just beyond
     world.list.valid = false;
@@ -76,7 +77,7 @@ PointShare share_of_point(const World& world, PointIndex k, const std::optional<
 /// Shares of bonded points; that of strength with the random factor of the pair.
 void share_faces(World& world, const Bonding& bonding) {
     const PointIndex walls = world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
-    const auto is_chain = [&](BodyIndex b) { return world.bodies.info[b].piece_count > 0; };
+    const auto is_chain = [&](BodyIndex b) { return world.bodies.info(b).piece_count > 0; };
     for (PointIndex begin = 0; begin < walls;) {
         const PointIndex end = points_between(world, begin).second;
         std::int64_t count = 0;
@@ -86,12 +87,12 @@ void share_faces(World& world, const Bonding& bonding) {
             ++count;
             gap = std::min(gap, world.settings.thick - world.points.bond_overlap[k]);
         }
-        const ContactPoint& pair = world.points.contact[begin];
+        const ContactPoint pair = world.points.contact[begin];
         std::optional<ContactShare> face;
         if (count > 0 && world.settings.units == StiffnessUnits::area && is_chain(pair.body_i) && is_chain(pair.body_j))
             face = share_of_face(world, pair.body_i, pair.body_j, gap);
         const double factor =
-            bonding.factors.between(world.bodies.info[pair.body_i].id, world.bodies.info[pair.body_j].id);
+            bonding.factors.between(world.bodies.info(pair.body_i).id, world.bodies.info(pair.body_j).id);
         for (PointIndex k = begin; k < end; ++k) {
             if (!bonded(world, k)) continue;
             const PointShare share = share_of_point(world, k, face, count);
@@ -141,11 +142,11 @@ void set_strengths(World& world, const Bonding& bonding) {
 
 void set_thickness(World& world, double thick) {
     world.settings.thick = thick;
-    for (const BodyInfo& info : world.bodies.info) {
-        for (std::uint32_t e = info.first_element; e < info.first_element + info.element_count; ++e) {
+    for (const BodyShape& shape : world.bodies.shapes) {
+        for (std::uint32_t e = shape.first_element; e < shape.first_element + shape.element_count; ++e) {
             Element& element = world.bodies.elements[e];
-            if (info.piece_count > 0) element.radius = 0.5 * thick;
-            element.target_reach = info.piece_count > 0 ? 0.5 * thick : thick;
+            if (shape.piece_count > 0) element.radius = 0.5 * thick;
+            element.target_reach = shape.piece_count > 0 ? 0.5 * thick : thick;
         }
     }
     bodies_moved(world);

@@ -83,11 +83,11 @@ void set_cones(std::span<Edge> ring) {
     }
 }
 
-void add_pieces(World& world, BodyInfo& info, std::span<const Vec2> frame) {
-    info.first_piece = static_cast<std::uint32_t>(world.bodies.pieces.size());
+void add_pieces(World& world, const BodyName& name, BodyShape& shape, std::span<const Vec2> frame) {
+    shape.first_piece = static_cast<std::uint32_t>(world.bodies.pieces.size());
     const auto next_edge = [&] { return static_cast<std::uint32_t>(world.bodies.edges.size()); };
-    if (info.closed) {
-        for (const std::vector<std::uint32_t>& ring : pieces_of(info.id, frame)) {
+    if (name.closed) {
+        for (const std::vector<std::uint32_t>& ring : pieces_of(name.id, frame)) {
             world.bodies.pieces.push_back({next_edge(), static_cast<std::uint32_t>(ring.size()), true});
             for (std::size_t k = 0; k < ring.size(); ++k) {
                 world.bodies.edges.push_back(edge_between(frame[ring[k]], frame[ring[(k + 1) % ring.size()]]));
@@ -100,13 +100,13 @@ void add_pieces(World& world, BodyInfo& info, std::span<const Vec2> frame) {
             world.bodies.edges.push_back(edge_between(frame[k], frame[k + 1]));
         }
     }
-    info.piece_count = static_cast<std::uint32_t>(world.bodies.pieces.size()) - info.first_piece;
+    shape.piece_count = static_cast<std::uint32_t>(world.bodies.pieces.size()) - shape.first_piece;
 }
 
 /// Kernels look at edges of one-piece outlines without a search where the edge faced last still is the one.
 void mark_outlines(World& world) {
-    for (std::size_t b = 0; b < world.bodies.info.size(); ++b) {
-        const BodyInfo& info = world.bodies.info[b];
+    for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+        const BodyInfo info = world.bodies.info(b);
         if (info.piece_count != 1 || !world.bodies.pieces[info.first_piece].closed) continue;
         const Piece& piece = world.bodies.pieces[info.first_piece];
         for (std::uint32_t e = 0; e < piece.edge_count; ++e)
@@ -117,27 +117,30 @@ void mark_outlines(World& world) {
 }
 
 /// Elements of a chain are its vertices, of a circle body its circles; radii of vertices follow the thickness.
-void add_elements(World& world, const Scene& scene, const Body& body, const MassProperties& properties, BodyInfo& info,
-                  BodyState& state) {
-    info.first_element = static_cast<std::uint32_t>(world.bodies.elements.size());
-    info.element_count = body.circle_count + body.vertex_count;
+void add_elements(World& world, const Scene& scene, const Body& body, const MassProperties& properties,
+                  const BodyName& name, BodyState& state) {
+    BodyShape shape{};
+    shape.moment = properties.moment;
+    shape.first_element = static_cast<std::uint32_t>(world.bodies.elements.size());
+    shape.element_count = body.circle_count + body.vertex_count;
     for (std::uint32_t k = 0; k < body.circle_count; ++k) {
         const CircleElement& circle = scene.circles[body.first_circle + k];
-        const Vec2 offset = info.single_circle ? Vec2{} : circle.centre - properties.centroid;
+        const Vec2 offset = circle.centre - properties.centroid;
         world.bodies.elements.push_back({offset.x, offset.y, circle.radius, scene.thick});
-        info.reach = std::max(info.reach, norm(offset) + circle.radius);
+        shape.reach = std::max(shape.reach, norm(offset) + circle.radius);
     }
-    if (body.circle_count > 0) state.angle = scene.circles[body.first_circle].angle;
-    if (body.vertex_count == 0) return;
     std::vector<Vec2> frame;
     for (std::uint32_t k = 0; k < body.vertex_count; ++k) {
         const Vec2 offset = scene.vertices[body.first_vertex + k] - properties.centroid;
         frame.push_back(offset);
         world.bodies.elements.push_back({offset.x, offset.y, 0.5 * scene.thick, 0.5 * scene.thick});
-        info.reach = std::max(info.reach, norm(offset));
+        shape.reach = std::max(shape.reach, norm(offset));
     }
-    state.angle = correctly_rounded::atan2(frame[1].y - frame[0].y, frame[1].x - frame[0].x);
-    add_pieces(world, info, frame);
+    if (!frame.empty()) {
+        state.angle = correctly_rounded::atan2(frame[1].y - frame[0].y, frame[1].x - frame[0].x);
+        add_pieces(world, name, shape, frame);
+    }
+    world.bodies.shapes.push_back(shape);
 }
 
 /// The guide's law goes by the segments of the outline itself, whatever convex pieces it falls into.
@@ -161,34 +164,32 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 void bound_pushes(Bodies& bodies) {
     for (std::size_t b = 0; b < bodies.size(); ++b) {
         const BodyInertia& inertia = bodies.inertia[b];
-        const double reach = 1.1 * bodies.info[b].reach;
+        const double reach = 1.1 * bodies.info(b).reach;
         const double inverse_mass = std::max(inertia.inverse_mass_x, inertia.inverse_mass_y);
         bodies.push_bound.push_back({infinite, inverse_mass + inertia.inverse_moment * reach * reach, reach});
     }
 }
 
 void add_body(World& world, const Scene& scene, const Body& body, const MassProperties& properties) {
-    BodyInfo info{};
-    info.id = body.id;
-    info.material = static_cast<std::uint16_t>(body.material);
-    info.moment = properties.moment;
-    info.closed = body.closed;
-    info.single_circle = body.circle_count == 1;
+    const bool single_circle = body.circle_count == 1;
+    const BodyName name{body.id, static_cast<std::uint16_t>(body.material), body.closed,
+                        single_circle ? no_shape : static_cast<std::uint32_t>(world.bodies.shapes.size())};
     BodyState state{
         properties.centroid.x, properties.centroid.y, body.velocity.x, body.velocity.y, body.spin, {1.0, 0.0}, 0.0};
-    add_elements(world, scene, body, properties, info, state);
-    if (world.settings.segment_law != SegmentLaw::rounded) add_segments(world, info);
-    if (info.single_circle) {
+    if (body.circle_count > 0) state.angle = scene.circles[body.first_circle].angle;
+    if (single_circle) {
         state.x = scene.circles[body.first_circle].centre.x;
         state.y = scene.circles[body.first_circle].centre.y;
         state.shape[0] = scene.circles[body.first_circle].radius;
+    } else {
+        add_elements(world, scene, body, properties, name, state);
     }
     world.bodies.state.push_back(state);
     world.bodies.inertia.push_back(
         {1.0 / properties.mass, 1.0 / properties.mass, 1.0 / properties.moment, properties.mass});
-    world.bodies.info.push_back(info);
-    world.bodies.turning_reach.push_back(info.single_circle ? 0.0 : info.reach);
-    world.bodies.some_turn = world.bodies.some_turn || !info.single_circle;
+    world.bodies.names.push_back(name);
+    if (!single_circle && world.settings.segment_law != SegmentLaw::rounded)
+        add_segments(world, world.bodies.info(world.bodies.size() - 1));
 }
 
 /// Springs in series, k = 2k₁k₂/(k₁+k₂). Equal ones give their own, which the formula may miss in the last bit.
@@ -258,23 +259,18 @@ void build_laws(World& world, const Scene& scene) {
     }
 }
 
-/// Every pair is found by its larger body, which looks no further than the next smaller one reaches.
 void rank_by_size(World& world) {
     const std::size_t n = world.bodies.size();
     std::vector<std::uint32_t> order(n);
     std::iota(order.begin(), order.end(), 0u);
     std::stable_sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-        return world.bodies.info[a].reach > world.bodies.info[b].reach;
+        return world.bodies.info(a).reach > world.bodies.info(b).reach;
     });
     world.list.size_rank.resize(n);
-    world.list.largest_smaller.resize(n);
-    for (std::size_t r = 0; r < n; ++r) {
-        world.list.size_rank[order[r]] = static_cast<std::uint32_t>(r);
-        world.list.largest_smaller[order[r]] = r + 1 < n ? world.bodies.info[order[r + 1]].reach : 0.0;
-    }
+    for (std::size_t r = 0; r < n; ++r) world.list.size_rank[order[r]] = static_cast<std::uint32_t>(r);
     if (world.list.skin == 0.0)
-        world.list.skin = world.list.widest_skin = skin_share * world.bodies.info[order[n / 2]].reach;
-    world.list.fastest_allowed_move = 0.5 * world.bodies.info[order[n - 1]].reach;
+        world.list.skin = world.list.widest_skin = skin_share * world.bodies.info(order[n / 2]).reach;
+    world.list.fastest_allowed_move = 0.5 * world.bodies.info(order[n - 1]).reach;
 }
 
 void refuse_bodies_outside(const World& world) {
@@ -283,7 +279,7 @@ void refuse_bodies_outside(const World& world) {
         throw InputError(
             fmt::format("body {}: found its centroid at ({:.6g}, {:.6g}), beyond a wall of the domain, expected it "
                         "inside; move it, widen the domain, or hold the body",
-                        world.bodies.info[b].id, world.bodies.state[b].x, world.bodies.state[b].y));
+                        world.bodies.info(b).id, world.bodies.state[b].x, world.bodies.state[b].y));
     }
 }
 
@@ -340,7 +336,8 @@ World build_world(Scene scene) {
     mark_outlines(world);
     world.bodies.state.shrink_to_fit();
     world.bodies.inertia.shrink_to_fit();
-    world.bodies.info.shrink_to_fit();
+    world.bodies.names.shrink_to_fit();
+    world.bodies.shapes.shrink_to_fit();
     world.bodies.elements.shrink_to_fit();
     world.bodies.pieces.shrink_to_fit();
     world.bodies.edges.shrink_to_fit();

@@ -30,7 +30,7 @@ double ramp_position(const ControlState& control, int dof, std::int64_t step) {
 /// infinitely large for no time and shows in no reaction.
 void set_velocity(World& world, BodyIndex b, int dof, double velocity) {
     double& now = velocity_of(world.bodies.state[b], dof);
-    const double weight = dof < 2 ? world.bodies.inertia[b].mass : world.bodies.info[b].moment;
+    const double weight = dof < 2 ? world.bodies.inertia[b].mass : world.bodies.info(b).moment;
     if (world.account.begun) world.account.displacement_work += 0.5 * weight * (velocity * velocity - now * now);
     now = velocity;
 }
@@ -38,7 +38,7 @@ void set_velocity(World& world, BodyIndex b, int dof, double velocity) {
 void enter(World& world, ControlState& control) {
     BodyState& body = world.bodies.state[control.body];
     BodyInertia& inertia = world.bodies.inertia[control.body];
-    const BodyInfo& info = world.bodies.info[control.body];
+    const BodyInfo info = world.bodies.info(control.body);
     for (int d = 0; d < 3; ++d) {
         control.start[d] = position_of(body, d);
         control.last_force[d] = 0.0;

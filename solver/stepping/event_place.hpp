@@ -26,8 +26,8 @@ Event event_at(const World& world, const PointView& view) {
     Event event{};
     event.step = world.stepping.steps;
     event.time = world.stepping.time;
-    event.body_i = world.bodies.info[view.body_i].id;
-    event.body_j = world.bodies.info[view.body_j].id;
+    event.body_i = world.bodies.info(view.body_i).id;
+    event.body_j = world.bodies.info(view.body_j).id;
     event.position = view.position;
     event.orientation = orientation_of(view.normal);
     return event;

@@ -4,8 +4,9 @@
 namespace crackle {
 
 MoveRange move_range_for(const World& world) {
-    return of_chosen_set(
-        [&]<InstructionSet S>() { return move_range_of<S>(world.settings.gravity != Vec2{}, world.bodies.some_turn); });
+    return of_chosen_set([&]<InstructionSet S>() {
+        return move_range_of<S>(world.settings.gravity != Vec2{}, world.bodies.some_turn());
+    });
 }
 
 MoveListed move_listed_for(const World& world, bool turning, bool clear) {

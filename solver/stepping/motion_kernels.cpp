@@ -47,7 +47,8 @@ Speeds move_each(World& world, double kick, std::int64_t count, Number number) {
     BodyState* const bodies = world.bodies.state.data();
     const BodyInertia* const inertias = world.bodies.inertia.data();
     BodyForce* const forces = world.bodies.force.data();
-    [[maybe_unused]] const double* const reaches = world.bodies.turning_reach.data();
+    [[maybe_unused]] const BodyName* const names = world.bodies.names.data();
+    [[maybe_unused]] const BodyShape* const shapes = world.bodies.shapes.data();
     [[maybe_unused]] PushBound* const bounds =
         world.bodies.push_bound.empty() ? nullptr : world.bodies.push_bound.data();
     clear_upper_halves();
@@ -77,7 +78,8 @@ Speeds move_each(World& world, double kick, std::int64_t count, Number number) {
         const Pair squares = v * v;
         double speed = squares[0] + squares[1];
         if constexpr (Turning) {
-            if (const double reach = reaches[n]; reach > 0.0) {
+            if (const std::uint32_t shape = names[n].shape; shape != no_shape) {
+                const double reach = shapes[shape].reach;
                 turn_frame(body, turn);
                 speed = 2.0 * (speed + reach * reach * body.omega * body.omega);  // (a+b)² <= 2(a²+b²)
             }

@@ -28,9 +28,9 @@ double half_product(double before, double now) { return before * now > 0.0 ? 0.5
 /// Energy that a break takes, J (see above). Under the guide's law the normal spring's work has been added up just so.
 template <PointKind K>
 double fracture_energy(World& world, PointIndex k, const PointView& view) {
-    ContactPoint& point = world.points.contact[k];
+    const ContactPoint point = world.points.contact[k];
     const ContactLaw law = law_of(world, k);
-    const RelativeMotion<double> motion = motion_of_point<K>(world, point, geometry_of_point<K>(world, point));
+    const RelativeMotion<double> motion = motion_of_point<K>(world, point, geometry_of_point<K>(world, k));
     const double opening = view.overlap - world.points.bond_overlap[k];
     const double before = opening - world.stepping.drift * motion.closing;
     const double normal = by_guide(view.kind) && !world.points.spring_work.empty()
@@ -73,7 +73,7 @@ void part_back_tension(World& world, PointIndex k, const PointView& view, BreakE
 template <PointKind K>
 void part_coulomb(World& world, PointIndex k, BreakEvent& event) {
     const Law<double> law = law_of_point(world, k);
-    const auto g = geometry_of_point<K>(world, world.points.contact[k]);
+    const auto g = geometry_of_point<K>(world, k);
     const RelativeMotion<double> moves = motion_of_point<K>(world, world.points.contact[k], g);
     const PointMotion motion{g.overlap - world.points.bond_overlap[k], moves.closing, moves.slipping};
     const BondForces now = forces_now(world, k, law, motion);

@@ -110,7 +110,7 @@ Speeds move_remaining(World& world, const SweepMotion& motion) {
     Speeds speeds = move_the_rest(world, motion.move, motion.kick);
     kick_controls(world, motion.kick);
     for (const ControlState& control : world.bodies.controls)
-        speeds.add(move_listed_for(world, world.bodies.some_turn, false)(world, motion.kick, &control.body, 1));
+        speeds.add(move_listed_for(world, world.bodies.some_turn(), false)(world, motion.kick, &control.body, 1));
     return speeds;
 }
 

@@ -119,7 +119,7 @@ void plan_sweep(World& world) {
     for (std::size_t b = 0; b < spans.size(); ++b) plan.order[next[finishing[b]]++] = static_cast<BodyIndex>(b);
 
     plan.free_ones_turn = std::any_of(plan.order.begin(), plan.order.begin() + plan.driven_begin,
-                                      [&](BodyIndex b) { return world.bodies.turning_reach[b] > 0.0; });
+                                      [&](BodyIndex b) { return world.bodies.names[b].shape != no_shape; });
 
     plan.chunks.clear();
     plan.thread_chunks.assign(1, 0);

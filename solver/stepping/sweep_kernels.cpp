@@ -27,7 +27,7 @@ CRACKLE_INLINE void add(BodyForce& sum, const Quad& force) { store_as(&sum, load
 template <bool Partner, class Visit>
 CRACKLE_INLINE void visit_contributions(const World& world, PointIndex begin, PointIndex fours_end, PointIndex end,
                                         const PointForce* forces, Visit visit) {
-    const ContactPoint* const points = world.points.contact.data();
+    const BodyPair* const points = world.points.contact.pairs.data();
     PointIndex k = begin;
     if constexpr (Partner) {
         for (; k < fours_end; k += 4, forces += 4) {

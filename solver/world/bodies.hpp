@@ -68,7 +68,8 @@ struct alignas(32) BodyForce {
     }
 };
 
-/// What cannot change during a run, or is read only by observers.
+/// What cannot change during a run, or is read only by observers. Of a single circle most of it follows from its radius
+/// and mass: Bodies::info() puts it together.
 struct BodyInfo {
     int id;
     std::uint16_t material;
@@ -76,15 +77,39 @@ struct BodyInfo {
     bool closed;
     double moment;  // kg m2
     double reach;   // m, bounding radius of the elements about the centroid (circle radius included, thick not)
-    std::uint32_t first_element, element_count;  // into Bodies::elements (vertices or circles)
+    std::uint32_t first_element, element_count;  // vertices or circles, for element_of() (world.hpp)
     std::uint32_t first_piece, piece_count;      // into Bodies::pieces; 0 pieces: circles
+};
+
+inline constexpr std::uint32_t no_shape = 0xffffffff;
+/// The element of a single circle, of whichever body; less than the largest number, so that loops over elements end.
+inline constexpr std::uint32_t own_circle = 0xfffffffe;
+
+/// What every body keeps of its info.
+struct BodyName {
+    int id;
+    std::uint16_t material;
+    bool closed;
+    std::uint32_t shape;  // into Bodies::shapes; no_shape: a single circle
 
     template <class Self, class Visit>
     static constexpr void fields(Self& s, Visit&& visit) {
         visit("id", s.id);
         visit("material", s.material);
-        visit("single_circle", s.single_circle);
         visit("closed", s.closed);
+        visit("shape", s.shape);
+    }
+};
+static_assert(sizeof(BodyName) == 12);
+
+/// What a clump or chain keeps besides, as in BodyInfo.
+struct BodyShape {
+    double moment, reach;
+    std::uint32_t first_element, element_count;  // into Bodies::elements
+    std::uint32_t first_piece, piece_count;
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
         visit("moment", s.moment);
         visit("reach", s.reach);
         visit("first_element", s.first_element);
@@ -93,9 +118,9 @@ struct BodyInfo {
         visit("piece_count", s.piece_count);
     }
 };
-static_assert(sizeof(BodyInfo) == 40);
+static_assert(sizeof(BodyShape) == 32);
 
-/// A circle or a vertex of a clump or chain, or the one circle of a single-circle body, in the body frame.
+/// A circle or a vertex in the body frame.
 struct Element {
     double x, y;          // m, from the centroid
     double radius;        // surface radius towards an outline or circle: circle r; vertex thick/2
@@ -191,10 +216,9 @@ struct Bodies {
     bool forces_clear = false;    // those of all but driven bodies are 0
     Array<BodyForce> last_force;  // of the pass before; consistent integrator only
     Array<PushBound> push_bound;  // consistent integrator only
-    Array<BodyInfo> info;
-    Array<double> turning_reach;  // m per body: how far turning moves its surface (0: single circles)
-    bool some_turn = false;       // any of these is not 0
-    Array<Element> elements;
+    Array<BodyName> names;
+    Array<BodyShape> shapes;  // of clumps and chains, in the order of the bodies
+    Array<Element> elements;  // of clumps and chains
     Array<Piece> pieces;
     Array<Edge> edges;
     bool convex_outlines = true;  // every outline is one convex piece
@@ -202,6 +226,32 @@ struct Bodies {
     std::vector<ControlState> controls;
 
     std::size_t size() const { return state.size(); }
+
+    BodyInfo info(std::size_t b) const {
+        const BodyName& name = names[b];
+        if (name.shape == no_shape) {
+            const double radius = state[b].shape[0];
+            return {name.id, name.material, true, name.closed, inertia[b].mass * (0.5 * radius * radius),
+                    radius,  own_circle,    1,    0,           0};
+        }
+        const BodyShape& shape = shapes[name.shape];
+        return {name.id,
+                name.material,
+                false,
+                name.closed,
+                shape.moment,
+                shape.reach,
+                shape.first_element,
+                shape.element_count,
+                shape.first_piece,
+                shape.piece_count};
+    }
+    /// How far turning moves its surface, m: 0 of single circles, which have no frame.
+    double turning_reach(std::size_t b) const {
+        const std::uint32_t shape = names[b].shape;
+        return shape == no_shape ? 0.0 : shapes[shape].reach;
+    }
+    bool some_turn() const { return !shapes.empty(); }
 
     template <class Self, class Visit>
     static constexpr void fields(Self& s, Visit&& visit) {
@@ -211,9 +261,8 @@ struct Bodies {
         visit("forces_clear", s.forces_clear);
         visit("last_force", s.last_force);
         visit("push_bound", s.push_bound);
-        visit("info", s.info);
-        visit("turning_reach", s.turning_reach);
-        visit("some_turn", s.some_turn);
+        visit("names", s.names);
+        visit("shapes", s.shapes);
         visit("elements", s.elements);
         visit("pieces", s.pieces);
         visit("edges", s.edges);

@@ -29,7 +29,7 @@
 namespace crackle {
 
 // Raise when a field of a group is added, removed or moved.
-constexpr std::uint32_t checkpoint_version = 18;
+constexpr std::uint32_t checkpoint_version = 19;
 constexpr std::uint64_t checkpoint_magic = 0x454c4b4341524321ULL;  // "!CRACKLE"
 
 template <class Archive>
@@ -101,21 +101,24 @@ bool bodies_are_whole(const World& world) {
     const std::size_t n = b.size();
     const auto may_be_absent = [n](const auto& values) { return values.empty() || values.size() == n; };
     const NeighbourList& list = world.list;
-    if (b.inertia.size() != n || b.force.size() != n || b.info.size() != n || b.turning_reach.size() != n ||
-        list.size_rank.size() != n || list.largest_smaller.size() != n || !may_be_absent(b.last_force) ||
-        !may_be_absent(b.push_bound) || !may_be_absent(list.half_skins) || !may_be_absent(list.reference) ||
-        !may_be_absent(world.account.opening_defects) ||
+    if (b.inertia.size() != n || b.force.size() != n || b.names.size() != n || list.size_rank.size() != n ||
+        !may_be_absent(b.last_force) || !may_be_absent(b.push_bound) || !may_be_absent(list.own_half_skins) ||
+        !may_be_absent(list.reference) || !may_be_absent(world.account.opening_defects) ||
         !(b.segments.empty() || b.segments.size() == b.elements.size()))
         return false;
-    if (list.valid && (list.half_skins.size() != n || list.reference.size() != n)) return false;
+    if (list.valid && (list.reference.size() != n || list.reference_angles.size() != b.shapes.size())) return false;
     if (world.settings.integrator == Integrator::consistent &&
         (b.last_force.size() != n || b.push_bound.size() != n || world.account.opening_defects.size() != n))
         return false;
-    return std::ranges::all_of(b.info,
-                               [&](const BodyInfo& info) {
-                                   return info.material < world.settings.materials.size() &&
-                                          within(info.first_element, info.element_count, b.elements.size()) &&
-                                          within(info.first_piece, info.piece_count, b.pieces.size());
+    return std::ranges::all_of(b.names,
+                               [&](const BodyName& name) {
+                                   return name.material < world.settings.materials.size() &&
+                                          (name.shape == no_shape || name.shape < b.shapes.size());
+                               }) &&
+           std::ranges::all_of(b.shapes,
+                               [&](const BodyShape& shape) {
+                                   return within(shape.first_element, shape.element_count, b.elements.size()) &&
+                                          within(shape.first_piece, shape.piece_count, b.pieces.size());
                                }) &&
            std::ranges::all_of(
                b.pieces,
@@ -133,19 +136,28 @@ bool points_are_whole(const World& world) {
         !std::ranges::is_sorted(points.kind_begin) || points.fours_end > count || points.root_mass.size() != count ||
         !(points.force.empty() || points.force.size() == count))
         return false;
-    bool whole = true;
+    bool whole = points.contact.parts.size() == count - points.kind_begin[1];
     visit_remembered(points, [&](const auto& values, Remembered remembered) {
         whole = whole && values.size() == (keeps(world, remembered) ? count : 0);
     });
     if (!whole) return false;
-    const std::size_t walls = points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
-    for (std::size_t k = 0; k < count; ++k) {
-        const ContactPoint& point = points.contact[k];
-        if (point.body_i >= n || point.body_j >= (k < walls ? n : world.settings.domain.wall_present.size()) ||
-            point.element_i >= world.bodies.elements.size() ||
-            point.feature_j >= std::max(world.bodies.elements.size(), world.bodies.edges.size()) + 2 ||
-            points.state[k].law >= world.settings.laws.size())
-            return false;
+    const auto is_element = [&](BodyIndex body, std::uint32_t element) {
+        return world.bodies.names[body].shape == no_shape ? element == own_circle
+                                                          : element < world.bodies.elements.size();
+    };
+    const auto point_is_whole = [&](PointKind kind, const ContactPoint& point) {
+        if (point.body_i >= n || !is_element(point.body_i, point.element_i)) return false;
+        if (kind == PointKind::element_wall) return point.body_j < world.settings.domain.wall_present.size();
+        if (point.body_j >= n) return false;
+        if (kind == PointKind::element_outline) return point.feature_j < world.bodies.edges.size();
+        return is_element(point.body_j, point.feature_j);
+    };
+    for (std::size_t kind = 0; kind < point_kinds; ++kind) {
+        for (PointIndex k = points.kind_begin[kind]; k < points.kind_begin[kind + 1]; ++k) {
+            if (!point_is_whole(static_cast<PointKind>(kind), points.contact[k]) ||
+                points.state[k].law >= world.settings.laws.size())
+                return false;
+        }
     }
     return true;
 }

@@ -15,26 +15,27 @@ namespace crackle {
 /// are listed.
 inline constexpr double skin_share = 0.1;
 
-/// Where a body was when the neighbour list was built.
+/// Where a body's centroid was when the neighbour list was built, m.
 struct ListReference {
-    double x, y, angle;
+    double x, y;
 
     template <class Self, class Visit>
     static constexpr void fields(Self& s, Visit&& visit) {
         visit("x", s.x);
         visit("y", s.y);
-        visit("angle", s.angle);
     }
 };
 
 struct NeighbourList {
     double skin = 0.0;         // m
     double widest_skin = 0.0;  // m; in a bonded world the skin follows the motion up to this; 0: it stays as given
-    // m per body: how far its surface may move until the list is rebuilt; half the skin, or more for a fast body.
-    Array<double> half_skins;
+    /// How far a body's surface may move until the list is rebuilt, m: half the skin that it was built with, or more
+    /// for a fast body. By body; empty where there is no fast one.
+    double half_skin = 0.0;
+    Array<double> own_half_skins;
     Array<ListReference> reference;
+    Array<double> reference_angles;        // rad, by Bodies::shapes
     std::vector<std::uint32_t> size_rank;  // bodies by bounding radius, largest 0; a pair is found by its larger body
-    std::vector<double> largest_smaller;   // m per body: bounding radius of the next in that order
     double travelled = 0.0;                // m, bound on any surface point's way since ways were last looked at
     double free_way = 0.0;                 // m, that every surface point can go from there within its half skin
     double fastest = 0.0;                  // m/s, largest surface speed in the last step
@@ -43,14 +44,17 @@ struct NeighbourList {
     std::int64_t built_at = 0;  // step
     std::int64_t builds = 0;
 
+    double half_skin_of(std::size_t body) const { return own_half_skins.empty() ? half_skin : own_half_skins[body]; }
+
     template <class Self, class Visit>
     static constexpr void fields(Self& s, Visit&& visit) {
         visit("skin", s.skin);
         visit("widest_skin", s.widest_skin);
-        visit("half_skins", s.half_skins);
+        visit("half_skin", s.half_skin);
+        visit("own_half_skins", s.own_half_skins);
         visit("reference", s.reference);
+        visit("reference_angles", s.reference_angles);
         visit("size_rank", s.size_rank);
-        visit("largest_smaller", s.largest_smaller);
         visit("travelled", s.travelled);
         visit("free_way", s.free_way);
         visit("fastest", s.fastest);

@@ -50,7 +50,7 @@ enum PointFlag : std::uint16_t {
 struct ContactPoint {
     BodyIndex body_i;
     BodyIndex body_j;         // Wall number for element_wall
-    std::uint32_t element_i;  // into Bodies::elements
+    std::uint32_t element_i;  // for element_of()
     std::uint32_t
         feature_j;  // circle and segment kinds: element of j; outline: edge last faced (a hint, never physics)
 
@@ -63,6 +63,67 @@ struct ContactPoint {
     }
 };
 static_assert(sizeof(ContactPoint) == 16);
+
+/// The bodies of a point, as in ContactPoint.
+struct BodyPair {
+    BodyIndex body_i, body_j;
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("body_i", s.body_i);
+        visit("body_j", s.body_j);
+    }
+};
+
+/// The parts of its bodies that meet, as in ContactPoint.
+struct PointParts {
+    std::uint32_t element_i, feature_j;
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("element_i", s.element_i);
+        visit("feature_j", s.feature_j);
+    }
+};
+
+/// Points by kind. Those of circle_circle come first and have no parts to name, which spares half of their room.
+struct ContactList {
+    Array<BodyPair> pairs;
+    Array<PointParts> parts;  // of the other kinds
+
+    std::size_t size() const { return pairs.size(); }
+    bool empty() const { return pairs.empty(); }
+    ContactPoint operator[](std::size_t k) const {
+        const std::size_t circles = pairs.size() - parts.size();
+        return k < circles ? of_circles(k) : of_parts(k, parts[k - circles]);
+    }
+    /// The same of a kind that is known.
+    template <PointKind K>
+    ContactPoint at(std::size_t k) const {
+        if constexpr (K == PointKind::circle_circle)
+            return of_circles(k);
+        else
+            return of_parts(k, parts_of(k));
+    }
+    const PointParts& parts_of(std::size_t k) const { return parts[k - (pairs.size() - parts.size())]; }
+    /// Kinds in their order.
+    void push_back(PointKind kind, const ContactPoint& point) {
+        pairs.push_back({point.body_i, point.body_j});
+        if (kind != PointKind::circle_circle) parts.push_back({point.element_i, point.feature_j});
+    }
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("pairs", s.pairs);
+        visit("parts", s.parts);
+    }
+
+  private:
+    ContactPoint of_circles(std::size_t k) const { return {pairs[k].body_i, pairs[k].body_j, own_circle, own_circle}; }
+    ContactPoint of_parts(std::size_t k, const PointParts& part) const {
+        return {pairs[k].body_i, pairs[k].body_j, part.element_i, part.feature_j};
+    }
+};
 
 /// Whether two points that are not with walls are between the same bodies.
 inline bool same_pair(const ContactPoint& p, const ContactPoint& q) {
@@ -144,7 +205,7 @@ enum class Remembered : std::uint8_t {
 };
 
 struct Points {
-    Array<ContactPoint> contact;  // grouped by kind, ordered by (i, j, element) within (but for fours_end)
+    ContactList contact;  // grouped by kind, ordered by (i, j, element) within (but for fours_end)
     std::array<PointIndex, point_kinds + 1> kind_begin{};
     /// Points of element_outline up to here lie in fours, each four between the same two bodies: the interfaces of a
     /// mesh. The others of that kind follow.

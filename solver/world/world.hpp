@@ -42,9 +42,15 @@ struct World {
     }
 };
 
+/// A circle or vertex of a body, by BodyInfo::first_element or by ContactPoint.
+inline Element element_of(const World& world, std::size_t body, std::uint32_t element) {
+    if (element == own_circle) return {0.0, 0.0, world.bodies.state[body].shape[0], world.settings.thick};
+    return world.bodies.elements[element];
+}
+
 /// Of two bodies, into Settings::laws.
 inline std::size_t law_between(const World& world, BodyIndex i, BodyIndex j) {
-    return pair_number(world.bodies.info[i].material, world.bodies.info[j].material);
+    return pair_number(world.bodies.names[i].material, world.bodies.names[j].material);
 }
 
 /// The same where their bond cannot break.
@@ -54,7 +60,7 @@ inline std::size_t held_law_between(const World& world, BodyIndex i, BodyIndex j
 
 /// Of a body against the domain's walls, into Settings::laws.
 inline std::size_t law_with_wall(const World& world, BodyIndex i) {
-    return 2 * world.settings.pair_count() + world.bodies.info[i].material;
+    return 2 * world.settings.pair_count() + world.bodies.names[i].material;
 }
 
 /// Law of a point with its own share of stiffness and strength.

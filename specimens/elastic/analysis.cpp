@@ -44,8 +44,8 @@ void fail_by_envelope(LinearBond& bond, const BondStrength<double>& strength, do
 LinearBond linear_bond(const World& world, PointIndex k, const PointRates& rate, double strain) {
     const PointView view = view_point(world, k);
     LinearBond bond;
-    bond.body_i = world.bodies.info[view.body_i].id;
-    bond.body_j = world.bodies.info[view.body_j].id;
+    bond.body_i = world.bodies.info(view.body_i).id;
+    bond.body_j = world.bodies.info(view.body_j).id;
     bond.position = view.position;
     bond.overlap = view.bond_overlap;
     bond.closing = rate.closing * strain;
@@ -118,7 +118,7 @@ ElasticAnalysis analyse_elastic(const World& world, const TestSetup& setup, cons
     result.time_step_bound = setup.time_step_bound;
     result.time_step = world.stepping.time_step;
     result.free = find_free_motions(world, {setup.bottom, setup.top});
-    for (const BodyIndex b : result.free.bodies) result.free_ids.push_back(world.bodies.info[b].id);
+    for (const BodyIndex b : result.free.bodies) result.free_ids.push_back(world.bodies.info(b).id);
     if (modes > 0) {
         for (const VibrationMode& mode : lowest_modes(world, modes, result.free.count))
             result.frequencies.push_back(mode.frequency);

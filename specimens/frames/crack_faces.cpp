@@ -15,11 +15,11 @@ struct Stretch {
 };
 
 double smaller_radius(const World& world, PointKind kind, const ContactPoint& point) {
-    const double radius = world.bodies.elements[point.element_i].radius;
+    const double radius = element_of(world, point.body_i, point.element_i).radius;
     if (!is_circles(world, point.body_j)) return radius;
     const bool named = kind == PointKind::element_element;
-    return std::min(
-        radius, world.bodies.elements[named ? point.feature_j : world.bodies.info[point.body_j].first_element].radius);
+    const std::uint32_t partner = named ? point.feature_j : world.bodies.info(point.body_j).first_element;
+    return std::min(radius, element_of(world, point.body_j, partner).radius);
 }
 
 Vec2 middle_of(const Facing& facing) { return 0.5 * (facing.on_i + facing.on_j); }
@@ -34,14 +34,14 @@ Vec2 farthest(const std::vector<Vec2>& places, Vec2 from) {
 template <PointKind K>
 Stretch interface_share(const PlacedFrame& placed, PointIndex bond, const Facing& held) {
     const TestSetup& setup = placed.setup();
-    const auto belongs = [&](PointIndex k) { return same_pair(setup.bonds[k].point, setup.bonds[bond].point); };
+    const auto belongs = [&](PointIndex k) { return same_pair(setup.bonds[k], setup.bonds[bond]); };
     const auto number = static_cast<std::size_t>(K);
     PointIndex first = bond, last = bond + 1;
     while (first > setup.bond_kind_begin[number] && belongs(first - 1)) --first;
     while (last < setup.bond_kind_begin[number + 1] && belongs(last)) ++last;
     std::vector<Vec2> places;
     for (PointIndex k = first; k < last; ++k)
-        places.push_back(middle_of(facing_at_start<K>(placed.world(), setup, setup.bonds[k].point)));
+        places.push_back(middle_of(facing_at_start<K>(placed.world(), setup, setup.bonds.at<K>(k))));
     const Vec2 from = middle_of(held), one = farthest(places, from), other = farthest(places, one);
     // A corner before a corner has a normal of its own, which is not that of the face.
     const double length = norm(other - one), least = setup.bond_thick;
@@ -63,7 +63,7 @@ Stretch interface_share(const PlacedFrame& placed, PointIndex bond, const Facing
 template <PointKind K>
 CrackFace face_of(const PlacedFrame& placed, PointIndex bond) {
     const TestSetup& setup = placed.setup();
-    const ContactPoint& point = setup.bonds[bond].point;
+    const ContactPoint point = setup.bonds.at<K>(bond);
     const Facing held = facing_at_start<K>(placed.world(), setup, point);
     Stretch part{};
     if (is_circles(placed.world(), point.body_i)) {
@@ -81,7 +81,7 @@ CrackFace face_of(const PlacedFrame& placed, PointIndex bond) {
     const Vec2 apart = placed.carried(point.body_j, held.on_j) - placed.carried(point.body_i, held.on_i);
     const double length = norm(normal);
     const double now = length > 0.0 ? dot(apart, normal) / length : norm(apart);
-    const double touching = setup.polygons ? setup.bond_thick : setup.bonds[bond].overlap;  // as far as that apart
+    const double touching = setup.polygons ? setup.bond_thick : setup.bond_overlaps[bond];  // as far as that apart
     return {carried(part.begin), carried(part.end), now - touching};
 }
 

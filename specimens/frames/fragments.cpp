@@ -16,7 +16,7 @@ std::vector<std::int32_t> find_fragments(const World& world, const TestSetup& se
     boost::disjoint_sets sets(rank.data(), parent.data());
     for (BodyIndex b = 0; b < bodies; ++b) sets.make_set(b);
     for (std::size_t k = 0; k < setup.bonds.size(); ++k) {
-        const auto [i, j] = std::pair(setup.bonds[k].point.body_i, setup.bonds[k].point.body_j);
+        const auto [i, j] = setup.bonds.pairs[k];
         if (holds(frame.states[k]) && !setup.is_platen(i) && !setup.is_platen(j)) sets.union_set(i, j);
     }
     struct Fragment {
@@ -35,7 +35,7 @@ std::vector<std::int32_t> find_fragments(const World& world, const TestSetup& se
         }
         Fragment& fragment = fragments[static_cast<std::size_t>(number[set])];
         fragment.area += area_of(world, b);
-        fragment.lowest_id = std::min(fragment.lowest_id, world.bodies.info[b].id);
+        fragment.lowest_id = std::min(fragment.lowest_id, world.bodies.info(b).id);
         fragment.set = set;
     }
     std::sort(fragments.begin(), fragments.end(), [](const Fragment& a, const Fragment& b) {

@@ -50,7 +50,7 @@ void take_frame(const World& world, const TestSetup& setup, const ContactHistory
         world.bodies.state.begin(), world.bodies.state.end(), frame.bodies.begin(),
         [](const BodyState& body) { return Frame::Body{body.x, body.y, body.angle, body.vx, body.vy, body.omega}; });
     // Bonds are never made again: what the walk along the list does not meet is broken.
-    const std::vector<Bond>& bonds = setup.bonds;
+    const ContactList& bonds = setup.bonds;
     frame.shear_force.assign(bonds.size(), 0.0);
     frame.states.assign(bonds.size(), ContactState::broken);
     visit_kinds(world.points.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
@@ -59,10 +59,10 @@ void take_frame(const World& world, const TestSetup& setup, const ContactHistory
         PointIndex next = first;
         for (PointIndex k = begin; k < end; ++k) {
             if (k == world.points.fours_end) next = first;  // here the order of a kind begins again
-            const ContactPoint& point = world.points.contact[k];
+            const ContactPoint point = world.points.contact[k];
             const auto flags = world.points.state[k].flags;
             if ((flags & point_bonded) == 0) continue;
-            while (next < last && !same_point(K, bonds[next].point, point)) ++next;
+            while (next < last && !same_point(K, bonds.at<K>(next), point)) ++next;
             if (next == last) throw std::logic_error("a bonded point is not where the start of loading listed it");
             frame.shear_force[next] = world.points.shear_force[k];
             frame.states[next] = (flags & point_slid) != 0 ? ContactState::bonded_slid : ContactState::bonded;

@@ -22,7 +22,7 @@ void add_contact(std::vector<ParticleStress>& sums, const ContactPoint& point, c
 }  // namespace
 
 double area_of(const World& world, BodyIndex b) {
-    return world.bodies.inertia[b].mass / world.settings.materials[world.bodies.info[b].material].density;
+    return world.bodies.inertia[b].mass / world.settings.materials[world.bodies.info(b).material].density;
 }
 
 FrameForces find_forces(const PlacedFrame& placed) {
@@ -47,8 +47,8 @@ FrameForces find_forces(const PlacedFrame& placed) {
                 forces.normal.push_back(0.0);
                 continue;
             }
-            const Bond& bond = setup.bonds[k];
-            add.template operator()<K>(bond.point, holds(frame.states[k]) ? bond.overlap : setup.rest_overlap(bond),
+            add.template operator()<K>(setup.bonds.at<K>(k),
+                                       holds(frame.states[k]) ? setup.bond_overlaps[k] : setup.rest_overlap(k),
                                        setup.bond_shares.empty() ? 1.0 : setup.bond_shares[k], frame.shear_force[k]);
         }
     });

@@ -69,7 +69,7 @@ constexpr Quantity arrays_of_cracks[]{
 std::vector<BodyIndex> drawing_order(const World& world, const TestSetup& setup) {
     std::vector<BodyIndex> order(world.bodies.size());
     std::iota(order.begin(), order.end(), BodyIndex{0});
-    const auto rank = [&](BodyIndex b) { return std::pair(!setup.is_platen(b), world.bodies.info[b].id); };
+    const auto rank = [&](BodyIndex b) { return std::pair(!setup.is_platen(b), world.bodies.info(b).id); };
     std::sort(order.begin(), order.end(), [&](BodyIndex a, BodyIndex b) { return rank(a) < rank(b); });
     return order;
 }
@@ -174,13 +174,13 @@ FramePainter::FramePainter(const World& world, const TestSetup& setup, PointPrec
 template <class Visit>
 void FramePainter::visit_cells(const Visit& visit) const {
     for (const BodyIndex b : order_) {
-        const BodyInfo& info = world_.bodies.info[b];
+        const BodyInfo info = world_.bodies.info(b);
         if (!is_circles(world_, b)) {
             visit(b, info.first_element, setup_.is_platen(b) ? std::size_t{2} : std::size_t{info.element_count}, 0.0);
             continue;
         }
         for (std::uint32_t e = info.first_element; e < info.first_element + info.element_count; ++e)
-            visit(b, e, outline_.size(), world_.bodies.elements[e].radius);
+            visit(b, e, outline_.size(), element_of(world_, b, e).radius);
     }
 }
 
@@ -211,14 +211,14 @@ void FramePainter::write_particle_cells(std::ostream& out) const {
     write_cells("Polys", false);
     begin_element(out, "CellData");
     write_array<std::int32_t>(out, of_particles("id"), cells, [&](const auto& add) {
-        visit_cells([&](BodyIndex b, std::uint32_t, std::size_t, double) { add(world_.bodies.info[b].id); });
+        visit_cells([&](BodyIndex b, std::uint32_t, std::size_t, double) { add(world_.bodies.info(b).id); });
     });
     write_array<double>(out, of_particles("radius"), cells, [&](const auto& add) {
         visit_cells([&](BodyIndex, std::uint32_t, std::size_t, double radius) { add(radius); });
     });
     write_array<std::int32_t>(out, of_particles("material"), cells, [&](const auto& add) {
         visit_cells([&](BodyIndex b, std::uint32_t, std::size_t, double) {
-            add(world_.bodies.info[b].material + 1);  // as decks number them
+            add(world_.bodies.info(b).material + 1);  // as decks number them
         });
     });
 }
@@ -231,7 +231,8 @@ void FramePainter::write_particles(std::ostream& out, const PlacedFrame& placed,
             const Frame::Body& body = frame.bodies[b];
             const Vec2 centroid{body.x, body.y}, turn = placed.turn(b);
             const auto place_of = [&](std::uint32_t e) {
-                return centroid + rotated(turn, {world_.bodies.elements[e].x, world_.bodies.elements[e].y});
+                const Element at = element_of(world_, b, e);
+                return centroid + rotated(turn, {at.x, at.y});
             };
             if (radius == 0.0) {
                 for (std::uint32_t e = element; e < element + corners; ++e) add(place_of(e));
@@ -274,11 +275,11 @@ void FramePainter::write_particles(std::ostream& out, const PlacedFrame& placed,
     write_vtp_end(out);
 }
 
-/// Each contact to visit(its point): bonds, then loose ones.
+/// Each contact to visit(its bodies): bonds, then loose ones.
 template <class Visit>
 void FramePainter::visit_contacts(const LooseContacts& loose, const Visit& visit) const {
-    for (const Bond& bond : setup_.bonds) visit(bond.point);
-    for (const LooseContact& contact : loose.contacts) visit(contact.point);
+    for (const BodyPair& bond : setup_.bonds.pairs) visit(bond);
+    for (const LooseContact& contact : loose.contacts) visit(BodyPair{contact.point.body_i, contact.point.body_j});
 }
 
 /// As write_particle_cells(); without loose contacts it never changes.
@@ -288,17 +289,17 @@ void FramePainter::write_contact_cells(std::ostream& out, const LooseContacts& l
     for (BodyIndex b = 0; b < centre.size(); ++b) {
         if (is_circles(world_, b)) centre[b] = static_cast<std::uint32_t>(centres++);
     }
-    const auto corners = [&](const ContactPoint& point) {
+    const auto corners = [&](const BodyPair& point) {
         if (setup_.polygons) return std::size_t{2};
         return std::size_t{1} + is_circles(world_, point.body_i) + is_circles(world_, point.body_j);
     };
     std::size_t all_corners = 0;
-    visit_contacts(loose, [&](const ContactPoint& point) { all_corners += corners(point); });
+    visit_contacts(loose, [&](const BodyPair& point) { all_corners += corners(point); });
     const std::size_t contacts = setup_.bonds.size() + loose.contacts.size();
     begin_element(out, "Lines");
     write_indices(out, "connectivity", all_corners, all_corners, [&](const auto& add) {
         std::size_t next = centres;
-        visit_contacts(loose, [&](const ContactPoint& point) {
+        visit_contacts(loose, [&](const BodyPair& point) {
             if (!setup_.polygons && is_circles(world_, point.body_i)) add(centre[point.body_i]);
             add(next++);
             if (setup_.polygons) add(next++);
@@ -307,15 +308,15 @@ void FramePainter::write_contact_cells(std::ostream& out, const LooseContacts& l
     });
     write_indices(out, "offsets", contacts, all_corners, [&](const auto& add) {
         std::size_t offset = 0;
-        visit_contacts(loose, [&](const ContactPoint& point) { add(offset += corners(point)); });
+        visit_contacts(loose, [&](const BodyPair& point) { add(offset += corners(point)); });
     });
     end_element(out, "Lines");
     begin_element(out, "CellData");
     write_array<std::int32_t>(out, of_contacts("body_i"), contacts, [&](const auto& add) {
-        visit_contacts(loose, [&](const ContactPoint& point) { add(world_.bodies.info[point.body_i].id); });
+        visit_contacts(loose, [&](const BodyPair& point) { add(world_.bodies.info(point.body_i).id); });
     });
     write_array<std::int32_t>(out, of_contacts("body_j"), contacts, [&](const auto& add) {
-        visit_contacts(loose, [&](const ContactPoint& point) { add(world_.bodies.info[point.body_j].id); });
+        visit_contacts(loose, [&](const BodyPair& point) { add(world_.bodies.info(point.body_j).id); });
     });
 }
 
@@ -341,7 +342,7 @@ void FramePainter::write_contacts(std::ostream& out, const PlacedFrame& placed, 
         };
         visit_kinds(setup_.bond_kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
             for (PointIndex k = begin; k < end; ++k) {
-                const ContactPoint& point = setup_.bonds[k].point;
+                const ContactPoint point = setup_.bonds.at<K>(k);
                 const Facing held = facing_at_start<K>(world_, setup_, point);
                 add_places(placed.carried(point.body_i, held.on_i), placed.carried(point.body_j, held.on_j));
             }
@@ -410,11 +411,11 @@ void FramePainter::write_cracks(std::ostream& out, const PlacedFrame& placed, st
             for (const Crack& crack : cracks) add(value_of(crack));
         });
     };
-    const auto point_of = [&](const Crack& crack) { return setup_.bonds[crack.bond].point; };
+    const auto point_of = [&](const Crack& crack) { return setup_.bonds[crack.bond]; };
     write_values("body_i", std::int32_t{},
-                 [&](const Crack& crack) { return world_.bodies.info[point_of(crack).body_i].id; });
+                 [&](const Crack& crack) { return world_.bodies.info(point_of(crack).body_i).id; });
     write_values("body_j", std::int32_t{},
-                 [&](const Crack& crack) { return world_.bodies.info[point_of(crack).body_j].id; });
+                 [&](const Crack& crack) { return world_.bodies.info(point_of(crack).body_j).id; });
     write_values("time", double{}, [](const Crack& crack) { return crack.time; });
     write_values("mode", std::uint8_t{}, [](const Crack& crack) { return crack.shear_mode ? 1 : 0; });
     write_values("energy", double{}, [](const Crack& crack) { return crack.energy; });

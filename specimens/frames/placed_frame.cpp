@@ -18,7 +18,7 @@ PlacedFrame::PlacedFrame(const World& world, const TestSetup& setup, const Frame
 BodyState PlacedFrame::body(BodyIndex b) const {
     const Frame::Body& place = frame_.bodies[b];
     BodyState body{place.x, place.y, 0.0, 0.0, 0.0, {0.0, 0.0}, place.angle};
-    if (world_.bodies.info[b].single_circle) {
+    if (world_.bodies.info(b).single_circle) {
         body.shape[0] = world_.bodies.state[b].shape[0];  // its radius, which never changes
         return body;
     }

@@ -66,6 +66,6 @@ Facing facing_at_start(const World& world, const TestSetup& setup, const Contact
 }
 
 /// Whether a body is a circle or a clump of circles.
-inline bool is_circles(const World& world, BodyIndex b) { return world.bodies.info[b].piece_count == 0; }
+inline bool is_circles(const World& world, BodyIndex b) { return world.bodies.info(b).piece_count == 0; }
 
 }  // namespace crackle

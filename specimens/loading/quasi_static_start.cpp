@@ -100,7 +100,7 @@ void start_by_tolerance(VirtualTest& test) {
     for (std::size_t b = 0; b < motion.size(); ++b) {
         const BodyMotion& way = motion[b];
         rule.kinetic_per_rate += 0.5 * (world.bodies.inertia[b].mass * (way.x * way.x + way.y * way.y) +
-                                        world.bodies.info[b].moment * way.rotation * way.rotation);
+                                        world.bodies.info(b).moment * way.rotation * way.rotation);
     }
     RateState& rate = test.state.rate;
     rate.rate = rate.slowest = rate.fastest = largest_rate(rule);

@@ -2,6 +2,7 @@
 #include "specimens/observers/contact_history.hpp"
 
 #include <algorithm>
+#include <ranges>
 #include <stdexcept>
 #include <utility>
 
@@ -12,13 +13,11 @@ namespace crackle {
 
 PointIndex bond_of(const TestSetup& setup, PointKind kind, const ContactPoint& point) {
     const auto number = static_cast<std::size_t>(kind);
-    const auto first = setup.bonds.begin() + setup.bond_kind_begin[number];
-    const auto last = setup.bonds.begin() + setup.bond_kind_begin[number + 1];
-    const auto found = std::lower_bound(first, last, key_of(kind, point), [&](const Bond& bond, const PointKey& key) {
-        return key_of(kind, bond.point) < key;
-    });
-    const bool is_bond = found != last && same_point(kind, found->point, point);
-    return static_cast<PointIndex>(is_bond ? found - setup.bonds.begin() : setup.bonds.end() - setup.bonds.begin());
+    const auto of_kind = std::views::iota(setup.bond_kind_begin[number], setup.bond_kind_begin[number + 1]);
+    const auto key = [&](PointIndex bond) { return key_of(kind, setup.bonds[bond]); };
+    const auto found = std::ranges::lower_bound(of_kind, key_of(kind, point), {}, key);
+    const bool is_bond = found != of_kind.end() && same_point(kind, setup.bonds[*found], point);
+    return is_bond ? *found : static_cast<PointIndex>(setup.bonds.size());
 }
 
 void note_break(const TestSetup& setup, const BreakEvent& event, ContactHistory& history) {

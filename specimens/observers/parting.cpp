@@ -17,11 +17,11 @@ struct CrackSum {
 std::optional<Parting> find_parting(const TestSetup& setup, const ContactHistory& history) {
     if (history.cracks.empty()) return std::nullopt;
     boost::disjoint_sets_with_storage<> cracked(setup.start.size());
-    const auto point_of = [&](const Crack& crack) -> const ContactPoint& { return setup.bonds[crack.bond].point; };
+    const auto point_of = [&](const Crack& crack) { return setup.bonds[crack.bond]; };
     for (const Crack& crack : history.cracks) cracked.union_set(point_of(crack).body_i, point_of(crack).body_j);
     std::map<std::size_t, CrackSum> sums;  // ordered, so that of two alike the choice is always the same
     for (const Crack& crack : history.cracks) {
-        const ContactPoint& point = point_of(crack);
+        const ContactPoint point = point_of(crack);
         CrackSum& sum = sums[cracked.find_set(point.body_i)];
         ++sum.bonds;
         const bool platen_i = setup.is_platen(point.body_i), platen_j = setup.is_platen(point.body_j);

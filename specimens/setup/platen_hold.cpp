@@ -22,15 +22,14 @@ struct BondedFace {
 
 BondedFace hold_of(const World& world, const TestSetup& setup, BodyIndex platen) {
     BondedFace hold;
-    for (const Bond& one : setup.bonds) {
-        const ContactPoint& bond = one.point;
+    for (const BodyPair& bond : setup.bonds.pairs) {
         if (bond.body_i != platen && bond.body_j != platen) continue;
         ++hold.bonds;
         const BodyIndex particle = bond.body_i == platen ? bond.body_j : bond.body_i;
         const std::vector<Vec2> places = element_positions(world, particle);
-        for (std::size_t e = 0; e < places.size(); ++e) {
-            const double radius =
-                setup.polygons ? 0.0 : world.bodies.elements[world.bodies.info[particle].first_element + e].radius;
+        const std::uint32_t first = world.bodies.info(particle).first_element;
+        for (std::uint32_t e = 0; e < places.size(); ++e) {
+            const double radius = setup.polygons ? 0.0 : element_of(world, particle, first + e).radius;
             hold.from = std::min(hold.from, places[e].x - radius);
             hold.to = std::max(hold.to, places[e].x + radius);
         }
@@ -40,7 +39,7 @@ BondedFace hold_of(const World& world, const TestSetup& setup, BodyIndex platen)
 
 bool connected(const TestSetup& setup, std::size_t bodies) {
     boost::disjoint_sets_with_storage<> pieces(bodies);
-    for (const Bond& bond : setup.bonds) pieces.union_set(bond.point.body_i, bond.point.body_j);
+    for (const BodyPair& bond : setup.bonds.pairs) pieces.union_set(bond.body_i, bond.body_j);
     return pieces.find_set(setup.bottom) == pieces.find_set(setup.top);
 }
 

@@ -24,8 +24,7 @@ double mean_x(const World& world, const std::vector<BodyIndex>& bodies) {
 /// Side particles with centres in the middle half of the height, away from what the platens hold.
 std::vector<BodyIndex> gauge(const World& world, const std::vector<int>& ids, const Domain& domain) {
     std::unordered_map<int, BodyIndex> index;
-    for (std::size_t b = 0; b < world.bodies.info.size(); ++b)
-        index[world.bodies.info[b].id] = static_cast<BodyIndex>(b);
+    for (std::size_t b = 0; b < world.bodies.size(); ++b) index[world.bodies.info(b).id] = static_cast<BodyIndex>(b);
     const double middle = 0.5 * (domain.y1 + domain.y2);
     const double quarter = 0.25 * (domain.y2 - domain.y1);
     std::vector<BodyIndex> bodies;
@@ -49,7 +48,7 @@ void find_axial_gauge(TestSetup& setup, const World& world, double outer) {
     const double size = std::sqrt(setup.width * setup.height / static_cast<double>(setup.particles));
     const double bottom = setup.low_end + outer * setup.height, top = setup.low_end + (1.0 - outer) * setup.height;
     std::vector<bool> carries(world.bodies.size(), false);  // floating ones go their own ways
-    for (const Bond& bond : setup.bonds) carries[bond.point.body_i] = carries[bond.point.body_j] = true;
+    for (const BodyPair& bond : setup.bonds.pairs) carries[bond.body_i] = carries[bond.body_j] = true;
     for (BodyIndex b = 0; b < world.bodies.size(); ++b) {
         if (setup.is_platen(b) || !carries[b]) continue;
         if (std::abs(world.bodies.state[b].y - bottom) <= 0.5 * size) setup.gauge_bottom.push_back(b);
@@ -61,23 +60,25 @@ void find_axial_gauge(TestSetup& setup, const World& world, double outer) {
 
 void record_bonds(TestSetup& setup, const World& world) {
     double overlap = 0.0, tension = 0.0, tensile = 0.0, cohesion = 0.0;
-    setup.bonds.reserve(static_cast<std::size_t>(world.bonds.initial));
+    setup.bonds.pairs.reserve(static_cast<std::size_t>(world.bonds.initial));
+    setup.bond_overlaps.reserve(static_cast<std::size_t>(world.bonds.initial));
     const bool own_shares = !world.points.stiffness_share.empty();
     struct BondOfKind {
-        Bond bond;
+        ContactPoint point;
+        double overlap;
         float share;
     };
     std::vector<BondOfKind> of_kind;
     visit_kinds(world.points.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
         of_kind.clear();
         for (PointIndex k = begin; k < end; ++k) {
-            const ContactPoint& point = world.points.contact[k];
+            const ContactPoint point = world.points.contact[k];
             const PointState& state = world.points.state[k];
             if ((state.flags & point_touching) != 0) ++setup.contacts_initial;
             if ((state.flags & point_bonded) == 0) continue;
             const ContactLaw law = law_of(world, k);
             const double bond_overlap = world.points.bond_overlap[k];
-            of_kind.push_back({{point, bond_overlap}, own_shares ? world.points.stiffness_share[k] : 1.0F});
+            of_kind.push_back({point, bond_overlap, own_shares ? world.points.stiffness_share[k] : 1.0F});
             if (setup.coulomb_bonds && (state.flags & point_held) == 0) {
                 tensile += law.tensile_strength;
                 cohesion += law.cohesion;
@@ -86,9 +87,10 @@ void record_bonds(TestSetup& setup, const World& world) {
             overlap += world.points.bond_overlap[k];
             tension += back_tension;
         }
-        std::ranges::sort(of_kind, {}, [](const BondOfKind& one) { return key_of(K, one.bond.point); });
+        std::ranges::sort(of_kind, {}, [](const BondOfKind& one) { return key_of(K, one.point); });
         for (const BondOfKind& one : of_kind) {
-            setup.bonds.push_back(one.bond);
+            setup.bonds.push_back(K, one.point);
+            setup.bond_overlaps.push_back(one.overlap);
             if (own_shares) setup.bond_shares.push_back(one.share);
         }
         setup.bond_kind_begin[static_cast<std::size_t>(K) + 1] = static_cast<PointIndex>(setup.bonds.size());
@@ -108,7 +110,7 @@ void record_bonds(TestSetup& setup, const World& world) {
 
 BodyState placed_body(const World& world, const TestSetup& setup, BodyIndex b, double x, double y, double angle) {
     BodyState body{x, y, 0.0, 0.0, 0.0, {0.0, 0.0}, angle};
-    if (world.bodies.info[b].single_circle) {
+    if (world.bodies.info(b).single_circle) {
         body.shape[0] = world.bodies.state[b].shape[0];  // its radius, which never changes
         return body;
     }
@@ -162,6 +164,7 @@ TestSetup record_setup(const World& world, const Specimen& specimen, const Plate
     setup.notices = specimen.notices;
     setup.packing = specimen.packing;
     setup.minerals = specimen.minerals;
+    setup.start.reserve(world.bodies.size());
     for (const BodyState& body : world.bodies.state) setup.start.push_back({body.x, body.y, body.angle});
     setup.left = gauge(world, specimen.left_ids, world.settings.domain);
     setup.right = gauge(world, specimen.right_ids, world.settings.domain);

@@ -27,18 +27,6 @@ struct StartPlace {
     }
 };
 
-/// A point bonded when loading began.
-struct Bond {
-    ContactPoint point;
-    double overlap = 0.0;  ///< δ0, m
-
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("point", s.point);
-        visit("overlap", s.overlap);
-    }
-};
-
 struct TestSetup {
     bool compression = true;
     std::string specimen;  ///< circles, delaunay, voronoi
@@ -72,7 +60,9 @@ struct TestSetup {
     RateRule rate_rule;
 
     std::vector<StartPlace> start;  ///< by body
-    std::vector<Bond> bonds;        ///< by kind and in the order in which a world lists its points (point_order.hpp)
+    /// Points bonded when loading began, by kind and in the order in which a world lists its points (point_order.hpp).
+    ContactList bonds;
+    std::vector<double> bond_overlaps;                          ///< δ0 of each, m
     std::array<PointIndex, point_kinds + 1> bond_kind_begin{};  ///< into bonds
     std::vector<float> bond_shares;  ///< of each bond, as Points::stiffness_share; empty where all are 1
     std::vector<std::string> notices;
@@ -81,7 +71,7 @@ struct TestSetup {
     std::vector<MineralShare> minerals;  ///< empty of a rock of one material
 
     /// m, of a bond: the overlap without force once it has broken.
-    double rest_overlap(const Bond& bond) const { return coulomb_bonds ? std::max(bond.overlap, 0.0) : 0.0; }
+    double rest_overlap(PointIndex bond) const { return coulomb_bonds ? std::max(bond_overlaps[bond], 0.0) : 0.0; }
 
     bool is_platen(BodyIndex body) const { return body == bottom || body == top; }
     double axial_strain(const World& world) const;
@@ -128,6 +118,7 @@ struct TestSetup {
         visit("rate_rule", s.rate_rule);
         visit("start", s.start);
         visit("bonds", s.bonds);
+        visit("bond_overlaps", s.bond_overlaps);
         visit("bond_kind_begin", s.bond_kind_begin);
         visit("bond_shares", s.bond_shares);
         visit("notices", s.notices);

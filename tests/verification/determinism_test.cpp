@@ -60,8 +60,8 @@ TEST(Events, AreTheDifferenceOfTheBondSets) {
             std::map<std::pair<int, int>, int> count;
             for (PointIndex k = 0; k < w.points.size(); ++k) {
                 if ((w.points.state[k].flags & point_bonded) == 0) continue;
-                const ContactPoint& p = w.points.contact[k];
-                const int a = w.bodies.info[p.body_i].id, b = w.bodies.info[p.body_j].id;
+                const ContactPoint p = w.points.contact[k];
+                const int a = w.bodies.info(p.body_i).id, b = w.bodies.info(p.body_j).id;
                 ++count[{std::min(a, b), std::max(a, b)}];
             }
             return count;

@@ -100,7 +100,7 @@ Hashes hashes_of(const std::string& name, const Scene& scene, int threads) {
                 if (field.name == pinned) hashes[at + field.name] = field.hash;
         }
         for (std::size_t b = 0; b < world.bodies.size(); ++b)
-            hashes[at + "body " + std::to_string(world.bodies.info[b].id)] = hash_of_body(world.bodies.state[b]);
+            hashes[at + "body " + std::to_string(world.bodies.info(b).id)] = hash_of_body(world.bodies.state[b]);
     }
     return hashes;
 }

@@ -538,11 +538,11 @@ TEST_F(DeckFolder, AStateOfOtherBodiesThanItsGeometryIsRefusedWithARemedy) {
     std::optional<DeckState> state =
         load_deck_state(folder_ / "new_state.bin", texts, {true, true, true, true}, edited);
     ASSERT_TRUE(state.has_value());
-    state->world.bodies.info[0].id = 4711;
+    state->world.bodies.names[0].id = 4711;
     std::ofstream(folder_ / "new_state.bin", std::ios::binary) << save_deck_state(*state, texts);
     EXPECT_NE(refusal([&] { DeckRun{options(true)}; }).find("found a state of other bodies than its geometry's"),
               std::string::npos);
-    state->world.points.contact[0].body_i = 4711;  // there are twenty
+    state->world.points.contact.pairs[0].body_i = 4711;  // there are twenty
     std::ofstream(folder_ / "new_state.bin", std::ios::binary) << save_deck_state(*state, texts);
     EXPECT_NE(refusal([&] { DeckRun{options(true)}; }).find("found parts that do not belong together"),
               std::string::npos);

@@ -37,8 +37,8 @@ struct FaceSum {
 FaceSum face_between(const World& world, int id_a, int id_b) {
     FaceSum sum;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
-        const ContactPoint& point = world.points.contact[k];
-        const int i = world.bodies.info[point.body_i].id, j = world.bodies.info[point.body_j].id;
+        const ContactPoint point = world.points.contact[k];
+        const int i = world.bodies.info(point.body_i).id, j = world.bodies.info(point.body_j).id;
         if ((world.points.state[k].flags & point_bonded) == 0 || std::minmax(i, j) != std::minmax(id_a, id_b)) continue;
         const ContactLaw law = law_of(world, k);
         sum.stiffness += law.normal_stiffness;

@@ -339,7 +339,7 @@ TEST(StableStep, OfGroupsApartIsTheLeastForAnyThreadsAndNamesItsBody) {
     EXPECT_EQ(one.stepping.step_bound, three.stepping.step_bound);
     BodyIndex limiting = 0;
     EXPECT_EQ(stable_step_bound(three, &limiting), one.stepping.step_bound);
-    EXPECT_TRUE(testing::within("body of the second group", one.bodies.info[limiting].id, 54.5, 18.0));
+    EXPECT_TRUE(testing::within("body of the second group", one.bodies.info(limiting).id, 54.5, 18.0));
     EXPECT_TRUE(testing::agrees("bound", one.stepping.step_bound, least,
                                 1e-8));  // an eigenvalue loses half its digits at worst
 }

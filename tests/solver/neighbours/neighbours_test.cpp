@@ -31,16 +31,16 @@ using Touch = std::tuple<int, std::uint32_t, int, std::int64_t>;
 std::set<Touch> listed(const World& world) {
     std::set<Touch> touches;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
-        const ContactPoint& p = world.points.contact[k];
+        const ContactPoint p = world.points.contact[k];
         const PointView view = view_point(world, k);
         if (view.overlap <= 0.0) continue;
-        const BodyInfo& i = world.bodies.info[p.body_i];
+        const BodyInfo i = world.bodies.info(p.body_i);
         const std::uint32_t element = p.element_i - i.first_element;
         if (view.kind == PointKind::element_wall) {
             touches.insert({i.id, element, -1 - static_cast<int>(p.body_j), -1});
             continue;
         }
-        const BodyInfo& j = world.bodies.info[p.body_j];
+        const BodyInfo j = world.bodies.info(p.body_j);
         if (view.kind == PointKind::element_outline) {
             touches.insert({i.id, element, j.id, -1});
         } else {
@@ -59,27 +59,27 @@ std::set<Touch> searched(const World& world) {
         places.push_back(element_positions(world, static_cast<BodyIndex>(b)));
     const Domain& d = world.settings.domain;
     for (std::size_t i = 0; i < places.size(); ++i) {
-        const bool chain_i = world.bodies.info[i].piece_count > 0;
+        const bool chain_i = world.bodies.info(i).piece_count > 0;
         for (std::uint32_t e = 0; e < places[i].size(); ++e) {
             const Vec2 p = places[i][e];
-            const double radius = world.bodies.elements[world.bodies.info[i].first_element + e].radius;
+            const double radius = element_of(world, i, world.bodies.info(i).first_element + e).radius;
             const double bare = chain_i ? 0.0 : radius;
             const double to_wall[4] = {p.x - d.x1, d.x2 - p.x, p.y - d.y1, d.y2 - p.y};
             for (int wall = 0; wall < 4; ++wall) {
                 if (d.wall_present[static_cast<std::size_t>(wall)] && to_wall[wall] < bare)
-                    touches.insert({world.bodies.info[i].id, e, -1 - wall, -1});
+                    touches.insert({world.bodies.info(i).id, e, -1 - wall, -1});
             }
             for (std::size_t j = 0; j < places.size(); ++j) {
                 if (j == i) continue;
-                if (world.bodies.info[j].piece_count > 0) {
+                if (world.bodies.info(j).piece_count > 0) {
                     const double reach = chain_i ? world.settings.thick : radius + world.settings.thick;
-                    if (distance_to_outline(p, places[j], world.bodies.info[j].closed) < reach)
-                        touches.insert({world.bodies.info[i].id, e, world.bodies.info[j].id, -1});
-                } else if (!chain_i && world.bodies.info[i].id < world.bodies.info[j].id) {
+                    if (distance_to_outline(p, places[j], world.bodies.info(j).closed) < reach)
+                        touches.insert({world.bodies.info(i).id, e, world.bodies.info(j).id, -1});
+                } else if (!chain_i && world.bodies.info(i).id < world.bodies.info(j).id) {
                     for (std::uint32_t f = 0; f < places[j].size(); ++f) {
-                        const double other = world.bodies.elements[world.bodies.info[j].first_element + f].radius;
+                        const double other = element_of(world, j, world.bodies.info(j).first_element + f).radius;
                         if (norm(places[j][f] - p) < radius + other)
-                            touches.insert({world.bodies.info[i].id, e, world.bodies.info[j].id, f});
+                            touches.insert({world.bodies.info(i).id, e, world.bodies.info(j).id, f});
                     }
                 }
             }
@@ -271,7 +271,8 @@ SkinTrace trace_of_skin(Scene scene, double thick, double share) {
     EXPECT_GT(follows.bonds.broken, 50);
     EXPECT_GT(widest_again, 0.2 * widest);
     EXPECT_EQ(stays.list.skin, widest);
-    const double own = follows.list.half_skins.empty() ? 0.0 : *std::ranges::max_element(follows.list.half_skins);
+    const double own =
+        follows.list.own_half_skins.empty() ? 0.0 : *std::ranges::max_element(follows.list.own_half_skins);
     EXPECT_GT(own, 0.6 * widest) << "no fast body has a wider skin of its own";
     EXPECT_LT(follows.list.builds, stays.list.builds);
     fmt::print("  flying apart: skin {:.3g} m, {} bonds broken, {} rebuilds against {}\n", widest_again,
@@ -280,9 +281,9 @@ SkinTrace trace_of_skin(Scene scene, double thick, double share) {
     double worst = 0.0, reach = 0.0;
     for (std::size_t b = 0; b < follows.bodies.size(); ++b) {
         const BodyState &one = follows.bodies.state[b], &other = stays.bodies.state[b];
-        reach += follows.bodies.info[b].reach / static_cast<double>(follows.bodies.size());
+        reach += follows.bodies.info(b).reach / static_cast<double>(follows.bodies.size());
         worst = std::max(worst, std::hypot(one.x - other.x, one.y - other.y) +
-                                    follows.bodies.info[b].reach * std::abs(one.angle - other.angle));
+                                    follows.bodies.info(b).reach * std::abs(one.angle - other.angle));
     }
     fmt::print("  largest distance between the two runs: {:.2g} of a mean reach\n", worst / reach);
     return {worst / reach, spared};
@@ -320,11 +321,11 @@ TEST(NeighbourList, RebuildKeepsSpringsBondsAndFlags) {
     const auto memory = [](const World& w) {
         std::map<std::pair<int, int>, Memory> result;
         for (PointIndex k = 0; k < w.points.size(); ++k) {
-            const ContactPoint& p = w.points.contact[k];
+            const ContactPoint p = w.points.contact[k];
             const auto flags =
                 static_cast<std::uint16_t>(w.points.state[k].flags & ~point_counted);  // a rebuild counts again
             if (w.points.shear_force[k] == 0.0 && flags == 0) continue;
-            result[{w.bodies.info[p.body_i].id, w.bodies.info[p.body_j].id}] = {w.points.shear_force[k],
+            result[{w.bodies.info(p.body_i).id, w.bodies.info(p.body_j).id}] = {w.points.shear_force[k],
                                                                                 w.points.bond_overlap[k], flags};
         }
         return result;
@@ -392,7 +393,7 @@ TEST(NeighbourList, IntactBondsOfAWholeSpecimenKeepTheirOrderWhenItIsBlownUp) {
         std::vector<std::pair<std::uint64_t, double>> all;
         for (PointIndex k = 0; k < world.points.size(); ++k) {
             if ((world.points.state[k].flags & point_bonded) == 0) continue;
-            const ContactPoint& p = world.points.contact[k];
+            const ContactPoint p = world.points.contact[k];
             all.emplace_back((static_cast<std::uint64_t>(p.body_i) << 32) | p.body_j, world.points.bond_overlap[k]);
         }
         return all;

@@ -122,7 +122,9 @@ TEST(Records, HaveTheSizesTheyAreLaidOutFor) {
     EXPECT_EQ(sizeof(BodyState), 64u);
     EXPECT_EQ(alignof(BodyState), 64u);
     EXPECT_EQ(sizeof(BodyInertia), 32u);
-    EXPECT_EQ(sizeof(ContactPoint), 16u);
+    EXPECT_EQ(sizeof(BodyName), 12u);
+    EXPECT_EQ(sizeof(BodyPair), 8u);
+    EXPECT_EQ(sizeof(PointParts), 8u);
     EXPECT_EQ(sizeof(PointState), 4u);
     EXPECT_EQ(sizeof(PointForce), 32u);
     EXPECT_EQ(sizeof(BodyForce), 32u);

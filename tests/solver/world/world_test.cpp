@@ -147,9 +147,9 @@ void expect_all_carried(World world, int fewest) {
     const World before = world;
 
     // The lone one comes to touch another: new points, before or among those that there were.
-    const auto id_is = [](int id) { return [id](const BodyInfo& info) { return info.id == id; }; };
-    const auto lone = std::ranges::find_if(world.bodies.info, id_is(100)) - world.bodies.info.begin();
-    const auto first = std::ranges::find_if(world.bodies.info, id_is(1)) - world.bodies.info.begin();
+    const auto id_is = [](int id) { return [id](const BodyName& name) { return name.id == id; }; };
+    const auto lone = std::ranges::find_if(world.bodies.names, id_is(100)) - world.bodies.names.begin();
+    const auto first = std::ranges::find_if(world.bodies.names, id_is(1)) - world.bodies.names.begin();
     BodyState& moved = world.bodies.state[static_cast<std::size_t>(lone)];
     moved.x = world.bodies.state[static_cast<std::size_t>(first)].x - 0.0399;
     moved.y = world.bodies.state[static_cast<std::size_t>(first)].y;

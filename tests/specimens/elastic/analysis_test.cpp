@@ -90,9 +90,9 @@ TEST_F(ElasticAnalysisOf, FirstSlipAndBreakAreWhereARunHasThem) {
     ASSERT_LT(found, test.world.points.size());
     // The run's own rate error: the wave still rings by rate·height/c over the strain, below a per cent here.
     EXPECT_TRUE(agrees("strain at the first slip", test.setup.axial_strain(test.world), a.first_slip->strain, 0.02));
-    const ContactPoint& point = test.world.points.contact[found];
+    const ContactPoint point = test.world.points.contact[found];
     const auto [low, high] =
-        std::minmax(test.world.bodies.info[point.body_i].id, test.world.bodies.info[point.body_j].id);
+        std::minmax(test.world.bodies.info(point.body_i).id, test.world.bodies.info(point.body_j).id);
     EXPECT_EQ(low, std::min(bond.body_i, bond.body_j));
     EXPECT_EQ(high, std::max(bond.body_i, bond.body_j));
 }
@@ -124,7 +124,7 @@ TEST(FreeMotions, AreCountedAndNamedAndDoNotSpoilTheSolution) {
     // The pendant disc rolls about its contact: 1. The floating one: 3. The pair: 3 as a whole, and it hinges: 1.
     EXPECT_EQ(free.count, 8);
     std::vector<int> ids;
-    for (const BodyIndex b : free.bodies) ids.push_back(world.bodies.info[b].id);
+    for (const BodyIndex b : free.bodies) ids.push_back(world.bodies.info(b).id);
     std::sort(ids.begin(), ids.end());
     EXPECT_EQ(ids, (std::vector<int>{4, 10, 11, 12}));
     const ElasticSolution solution = solve_elastic(world, {{low, {}}, {high, {1e-6, 0.0, 0.0}}});

@@ -70,13 +70,12 @@ TEST_F(FrameForcesOfRock, OfADiscInATriangularLatticeUnderUniaxialStrainAreTheCl
     const Material& material = test.world.settings.materials[0];
     std::vector<int> partners(frame.bodies.size());
     for (std::size_t k = 0; k < test.setup.bonds.size(); ++k) {
-        Bond& bond = test.setup.bonds[k];
-        const auto [i, j] = std::pair(bond.point.body_i, bond.point.body_j);
+        const auto [i, j] = test.setup.bonds.pairs[k];
         if (test.setup.is_platen(i) || test.setup.is_platen(j)) continue;
         ++partners[i];
         ++partners[j];
         const Vec2 normal = (1.0 / norm(place(j) - place(i))) * (place(j) - place(i));
-        bond.overlap = 2.0 * testing::rock_radius - norm(place(j) - place(i));
+        test.setup.bond_overlaps[k] = 2.0 * testing::rock_radius - norm(place(j) - place(i));
         frame.shear_force[k] = material.shear_stiffness * strain * spacing * normal.x * normal.y;
     }
     const FrameForces forces = find_forces(PlacedFrame(test.world, test.setup, frame));
@@ -151,14 +150,14 @@ TEST_F(FrameForcesOfRock, FragmentsOfASpecimenSplitAcrossAreItsTwoParts) {
         const auto above = [&](BodyIndex b) { return frame.bodies[b].y > cut; };
         std::size_t last = 0;
         for (std::size_t k = 0; k < test.setup.bonds.size(); ++k) {
-            const ContactPoint& point = test.setup.bonds[k].point;
+            const ContactPoint point = test.setup.bonds[k];
             if (above(point.body_i) == above(point.body_j)) continue;
             frame.states[k] = ContactState::broken_touching;
             last = k;
         }
         const std::vector<std::int32_t> parts = find_fragments(test.world, test.setup, frame);
         for (BodyIndex b = 0; b < parts.size(); ++b)
-            EXPECT_EQ(parts[b], test.setup.is_platen(b) ? -1 : above(b) ? 1 : 0) << test.world.bodies.info[b].id;
+            EXPECT_EQ(parts[b], test.setup.is_platen(b) ? -1 : above(b) ? 1 : 0) << test.world.bodies.info(b).id;
         const FragmentFigures figures = measure_fragments(test.world, test.setup, frame);
         EXPECT_EQ(figures.count, 2);
         double all = 0.0, below = 0.0;
@@ -179,7 +178,7 @@ TEST_F(FrameForcesOfRock, FragmentsAreNumberedByAreaThenById) {
     const std::vector<std::int32_t> dust = find_fragments(test.world, test.setup, frame);
     std::vector<std::pair<int, std::int32_t>> by_id;
     for (BodyIndex b = 0; b < dust.size(); ++b)
-        if (!test.setup.is_platen(b)) by_id.emplace_back(test.world.bodies.info[b].id, dust[b]);
+        if (!test.setup.is_platen(b)) by_id.emplace_back(test.world.bodies.info(b).id, dust[b]);
     std::sort(by_id.begin(), by_id.end());
     for (std::size_t k = 0; k < by_id.size(); ++k)
         EXPECT_EQ(by_id[k].second, static_cast<std::int32_t>(k)) << "equal discs, all alone, go by their ids";

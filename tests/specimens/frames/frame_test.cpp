@@ -118,23 +118,23 @@ TEST_F(Frames, ContactsHaveTheForcesAndStatesOfTheirPoints) {
         for (std::size_t k = 0; k < bonds.size(); ++k) {
             int kind = 0;
             while (k >= test.setup.bond_kind_begin[static_cast<std::size_t>(kind) + 1]) ++kind;
-            const ContactPoint& point = bonds[k].point;
+            const ContactPoint point = bonds[k];
             const auto held = touching.find({PointKind(kind), key_of(PointKind(kind), point)});
             const bool touches = held != touching.end();
             const PointView view = touches ? held->second : PointView{};
             const double state = view.bonded ? (view.slid ? 1.0 : 0.0) : touches ? 3.0 : 2.0;
             EXPECT_EQ(data.cell_data.at("state")[k], state);
             expect_forces(k, view);
-            EXPECT_EQ(data.cell_data.at("body_i")[k], test.world.bodies.info[point.body_i].id);
-            EXPECT_EQ(data.cell_data.at("body_j")[k], test.world.bodies.info[point.body_j].id);
+            EXPECT_EQ(data.cell_data.at("body_i")[k], test.world.bodies.info(point.body_i).id);
+            EXPECT_EQ(data.cell_data.at("body_j")[k], test.world.bodies.info(point.body_j).id);
             if (touches) touching.erase(held);
         }
         ASSERT_EQ(data.cells.size(), bonds.size() + touching.size()) << "what is left was never bonded";
         std::size_t cell = bonds.size();
         for (const auto& [name, view] : touching) {  // by kind and key, as they are written
             EXPECT_EQ(data.cell_data.at("state")[cell], 4.0);
-            EXPECT_EQ(data.cell_data.at("body_i")[cell], test.world.bodies.info[view.body_i].id);
-            EXPECT_EQ(data.cell_data.at("body_j")[cell], test.world.bodies.info[view.body_j].id);
+            EXPECT_EQ(data.cell_data.at("body_i")[cell], test.world.bodies.info(view.body_i).id);
+            EXPECT_EQ(data.cell_data.at("body_j")[cell], test.world.bodies.info(view.body_j).id);
             Vec2 middle;  // of the line's inner or only points
             const auto& line = data.cells[cell].points;
             for (const std::size_t point : line)
@@ -164,7 +164,7 @@ TEST_F(Frames, OutlinesAndBondsLieWhereTheBodiesAre) {
             const BodyIndex b = body_of_id(test.world, static_cast<int>(particles.cell_data.at("id")[c]));
             std::vector<Vec2> places = element_positions(test.world, b);
             if (test.setup.is_platen(b)) places.resize(2);
-            const bool circle = test.world.bodies.info[b].piece_count == 0;
+            const bool circle = test.world.bodies.info(b).piece_count == 0;
             ASSERT_EQ(particles.cells[c].points.size(), circle ? 24U : places.size());
             Vec2 mean;
             for (std::size_t k = 0; k < particles.cells[c].points.size(); ++k) {

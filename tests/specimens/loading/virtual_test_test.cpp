@@ -47,12 +47,12 @@ TEST_F(VirtualRock, CirclesOverlapTheirPlatensByWhatTheyOverlappedTheWalls) {
     int platen_bonds = 0;
     double worst = 0.0;
     for (PointIndex k = 0; k < test.world.points.size(); ++k) {
-        const ContactPoint& point = test.world.points.contact[k];
+        const ContactPoint point = test.world.points.contact[k];
         if ((test.world.points.state[k].flags & point_bonded) == 0) continue;
         const bool top = point.body_j == test.setup.top;
         if (!top && point.body_j != test.setup.bottom) continue;
         ++platen_bonds;
-        const int id = test.world.bodies.info[point.body_i].id;
+        const int id = test.world.bodies.info(point.body_i).id;
         const auto body =
             std::find_if(packed.bodies.begin(), packed.bodies.end(), [&](const Body& b) { return b.id == id; });
         ASSERT_NE(body, packed.bodies.end()) << id;
@@ -72,7 +72,7 @@ TEST_F(VirtualRock, PolygonsStandAsFarFromTheirPlatensAsFromEachOther) {
         double low = 1.0, high = 0.0;
         int platen_bonds = 0;
         for (PointIndex k = 0; k < test.world.points.size(); ++k) {
-            const ContactPoint& point = test.world.points.contact[k];
+            const ContactPoint point = test.world.points.contact[k];
             if ((test.world.points.state[k].flags & point_bonded) == 0 ||
                 (point.body_j != test.setup.top && point.body_j != test.setup.bottom))
                 continue;
@@ -142,9 +142,9 @@ TEST_F(VirtualRock, FrictionalPlatensStartWithoutForceAndHoldNoBond) {
     wanted.kind = "compression";
     wanted.loading = "platens = \"frictional\"\nplaten_friction_angle = 5";
     VirtualTest test = prepare(wanted);
-    for (const Bond& bond : test.setup.bonds) {
-        EXPECT_NE(bond.point.body_j, test.setup.top);
-        EXPECT_NE(bond.point.body_j, test.setup.bottom);
+    for (const BodyPair& bond : test.setup.bonds.pairs) {
+        EXPECT_NE(bond.body_j, test.setup.top);
+        EXPECT_NE(bond.body_j, test.setup.bottom);
     }
     load_specimen(test);
     EXPECT_LT(std::abs(test.state.rows.front().axial_stress), 1e-3 * test.state.failure.peak_stress);

@@ -127,8 +127,8 @@ TEST_F(MineralRock, HasWhatItsTableGivesAndTheRestOfMaterial) {
 
 TEST_F(MineralRock, PlatensAreOfMaterialWhateverGrainsLieAtThem) {
     const VirtualTest test = prepare_test(read_case(write(three_minerals)));
-    EXPECT_EQ(test.world.bodies.info[test.setup.top].material, 3);
-    EXPECT_EQ(test.world.bodies.info[test.setup.bottom].material, 3);
+    EXPECT_EQ(test.world.bodies.info(test.setup.top).material, 3);
+    EXPECT_EQ(test.world.bodies.info(test.setup.bottom).material, 3);
 }
 
 TEST_F(MineralRock, EveryNumberOfMaterialIsAKeyOfAMineral) {
@@ -480,7 +480,7 @@ TEST(MaterialPair, OverridesStiffnessFrictionAndTheDashpotsThatHangOnIt) {
     const auto law = [&](int a, int b) {
         const auto of_id = [&](int id) {
             std::size_t body = 0;
-            while (world.bodies.info[body].id != id) ++body;
+            while (world.bodies.info(body).id != id) ++body;
             return static_cast<BodyIndex>(body);
         };
         return world.settings.laws[law_between(world, of_id(a), of_id(b))];

@@ -109,7 +109,7 @@ TEST_F(PastOfRock, AContactHasStateAndAgeThroughBreakAndTouchingAgain) {
     WanderingDisc disc(test);
     std::vector<std::size_t> own;  // bonds of the disc
     for (std::size_t k = 0; k < test.setup.bonds.size(); ++k) {
-        const ContactPoint& point = test.setup.bonds[k].point;
+        const ContactPoint point = test.setup.bonds[k];
         if (point.body_i == disc.disc() || point.body_j == disc.disc()) own.push_back(k);
     }
     ASSERT_GE(own.size(), 2U);
@@ -137,7 +137,7 @@ TEST_F(PastOfRock, AContactHasStateAndAgeThroughBreakAndTouchingAgain) {
     EXPECT_EQ(again.at("state").size(), test.setup.bonds.size()) << "not listed again as a contact";
     for (const std::size_t k : own) {
         EXPECT_TRUE(agrees("its force, of the whole overlap, N", again.at("normal_force")[k],
-                           1e7 * test.setup.bonds[k].overlap, 1e-6));
+                           1e7 * test.setup.bond_overlaps[k], 1e-6));
     }
     disc.put(away, 2.5);
     expect("and off", look(), 2.0, 1.5);
@@ -167,7 +167,7 @@ TEST_F(PastOfRock, AContactWithoutABondIsAsOldAsTheLookThatSawItFirst) {
         EXPECT_EQ(data.cell_data.at("age")[bonds], age);
         const std::pair ids(data.cell_data.at("body_i")[bonds], data.cell_data.at("body_j")[bonds]);
         EXPECT_EQ(std::minmax(ids.first, ids.second),
-                  std::minmax<double>(test.world.bodies.info[other].id, test.world.bodies.info[disc.disc()].id));
+                  std::minmax<double>(test.world.bodies.info(other).id, test.world.bodies.info(disc.disc()).id));
         EXPECT_TRUE(agrees("its force, N", data.cell_data.at("normal_force")[bonds], 1e7 * overlap, 1e-6));
     };
     disc.put(beside, 1.0);
@@ -221,7 +221,7 @@ TEST_F(PastOfRock, CracksAreTheEvents) {
 /// Of a bond whose points have not moved yet, from i to j.
 Vec2 normal_at_start(const VirtualTest& test, PointIndex bond) {
     for (PointIndex k = 0; k < test.world.points.size(); ++k) {
-        const ContactPoint &point = test.world.points.contact[k], &wanted = test.setup.bonds[bond].point;
+        const ContactPoint point = test.world.points.contact[k], wanted = test.setup.bonds[bond];
         if (point.body_i == wanted.body_i && point.body_j == wanted.body_j && point.element_i == wanted.element_i)
             return view_point(test.world, k).normal;
     }
@@ -237,9 +237,9 @@ TEST_F(PastOfRock, OpeningIsTheMotionApartLessTheOverlapThatBonded) {
         const Frame start = taken(test);
         double worst = 0.0, turned_off = 0.0;
         for (PointIndex bond = 0; bond < test.setup.bonds.size(); ++bond) {
-            const ContactPoint& point = test.setup.bonds[bond].point;
+            const ContactPoint point = test.setup.bonds[bond];
             const CrackFace closed = find_crack_face(PlacedFrame(test.world, test.setup, start), bond);
-            worst = std::max(worst, std::abs(closed.opening + test.setup.bonds[bond].overlap));
+            worst = std::max(worst, std::abs(closed.opening + test.setup.bond_overlaps[bond]));
             const Vec2 normal = normal_at_start(test, bond);
             Frame frame = start;
             const double way = 1e-3;
@@ -280,7 +280,7 @@ TEST_F(PastOfRock, SharesOfAFaceMakeUpTheFaceAndCirclesHaveTheirDiameter) {
         const PlacedFrame placed(test.world, test.setup, frame);
         std::map<std::pair<BodyIndex, BodyIndex>, double> faces;  // m, of all shares
         for (PointIndex bond = 0; bond < test.setup.bonds.size(); ++bond) {
-            const ContactPoint& point = test.setup.bonds[bond].point;
+            const ContactPoint point = test.setup.bonds[bond];
             const CrackFace face = find_crack_face(placed, bond);
             faces[std::minmax(point.body_i, point.body_j)] += norm(face.end - face.begin);
         }

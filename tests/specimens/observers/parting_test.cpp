@@ -21,7 +21,9 @@ TestSetup chain(double grip) {
     for (int k = 0; k < 10; ++k) setup.start.push_back({0.0, 2.05 + 0.1 * k, 0.0});
     setup.start.push_back({0.0, 1.9, 0.0});
     setup.start.push_back({0.0, 3.1, 0.0});
-    const auto bond = [&](BodyIndex i, BodyIndex j) { setup.bonds.push_back({{i, j, 0, 0}}); };
+    const auto bond = [&](BodyIndex i, BodyIndex j) {
+        setup.bonds.push_back(PointKind::circle_circle, {i, j, own_circle, own_circle});
+    };
     for (BodyIndex k = 0; k < 9; ++k) bond(k, k + 1);
     bond(0, 10);
     bond(1, 10);

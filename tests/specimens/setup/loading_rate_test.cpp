@@ -183,7 +183,7 @@ TEST_F(ByTolerance, RuleHoldsTheSpecimensOwnScales) {
             const double own = test.world.bodies.inertia[b].mass;
             if (!test.setup.is_platen(b)) mass += own;
             kinetic += 0.5 * (own * (body.vx * body.vx + body.vy * body.vy) +
-                              test.world.bodies.info[b].moment * body.omega * body.omega);
+                              test.world.bodies.info(b).moment * body.omega * body.omega);
         }
         EXPECT_EQ(rule.tolerance, 0.01);
         EXPECT_EQ(rule.first_strain, strain);

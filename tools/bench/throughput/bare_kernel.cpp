@@ -13,7 +13,7 @@ BareKernel::BareKernel(const World& world) : time_step_(world.stepping.time_step
     const std::size_t end = world.points.kind_begin[static_cast<std::size_t>(PointKind::circle_circle) + 1];
     std::vector<std::uint32_t> own(world.bodies.size(), no_body);
     for (BodyIndex b = 0; b < world.bodies.size(); ++b) {
-        if (!world.bodies.info[b].single_circle) continue;
+        if (!world.bodies.info(b).single_circle) continue;
         const BodyState& state = world.bodies.state[b];
         own[b] = static_cast<std::uint32_t>(bodies_.size());
         world_body_.push_back(b);
@@ -21,7 +21,7 @@ BareKernel::BareKernel(const World& world) : time_step_(world.stepping.time_step
         inertia_.push_back({world.bodies.inertia[b].inverse_mass_x, world.bodies.inertia[b].inverse_moment});
     }
     for (std::size_t k = begin; k < end; ++k) {
-        const ContactPoint& point = world.points.contact[k];
+        const ContactPoint point = world.points.contact[k];
         if (overlap_of(world, static_cast<PointIndex>(k)) > 0.0)
             points_.push_back({own[point.body_i], own[point.body_j], world.points.shear_force[k]});
     }

@@ -142,7 +142,7 @@ void compare_with_dense(Rows& rows, const std::string& name, Scene scene, double
     double worst_u = 0.0, largest_u = 0.0, worst_f = 0.0, largest_f = 0.0;
     for (Eigen::Index b = 0; b < n; ++b) {
         const BodyMotion& s = sparse.displacement[static_cast<std::size_t>(b)];
-        const double reach = world.bodies.info[static_cast<std::size_t>(b)].reach;
+        const double reach = world.bodies.info(static_cast<std::size_t>(b)).reach;
         const Eigen::Vector3d off{s.x - u[3 * b], s.y - u[3 * b + 1], reach * (s.rotation - u[3 * b + 2])};
         worst_u = std::max(worst_u, off.cwiseAbs().maxCoeff());
         largest_u = std::max({largest_u, std::abs(s.x), std::abs(s.y)});

@@ -47,7 +47,7 @@ Section strained(int columns, int rows, double shear_share, const Strain& e) {
         return BodyMotion{e.xx * body.x + e.xy * body.y, e.xy * body.x + e.yy * body.y, 0.0};
     };
     std::vector<int> bonds(world.bodies.size());
-    for (const ContactPoint& point : world.points.contact) ++bonds[point.body_i], ++bonds[point.body_j];
+    for (const BodyPair& pair : world.points.contact.pairs) ++bonds[pair.body_i], ++bonds[pair.body_j];
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
         if (bonds[b] < 6) held.push_back({static_cast<BodyIndex>(b), affine(b)});
     }

@@ -80,7 +80,7 @@ double force_after_turn(Kind kind, int steps, std::int64_t& broken) {
             body.x = x;
             body.y = y;
             body.angle = start[b].angle + by * n;
-            if (!world.bodies.info[b].single_circle) {
+            if (!world.bodies.info(b).single_circle) {
                 body.shape[0] = c;
                 body.shape[1] = s;
             }

@@ -79,7 +79,7 @@ Story story_of(Scene scene, double time_step, double bond_thick) {
     Story story;
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
         const BodyState& body = world.bodies.state[b];
-        story.bodies[world.bodies.info[b].id] = {
+        story.bodies[world.bodies.info(b).id] = {
             {body.x, body.y}, {body.vx, body.vy}, body.angle - angles[b], body.omega};
     }
     const Ledger ledger = measure_ledger(world);
@@ -179,9 +179,9 @@ std::set<std::pair<int, int>> roles_of(Scene scene) {
     bond_all(world, bond_thick);
     std::set<std::pair<int, int>> roles;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
-        const ContactPoint& point = world.points.contact[k];
+        const ContactPoint point = world.points.contact[k];
         if ((world.points.state[k].flags & point_bonded) != 0)
-            roles.emplace(world.bodies.info[point.body_i].id, world.bodies.info[point.body_j].id);
+            roles.emplace(world.bodies.info(point.body_i).id, world.bodies.info(point.body_j).id);
     }
     return roles;
 }

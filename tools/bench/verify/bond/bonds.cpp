@@ -97,8 +97,8 @@ std::vector<Pair> bonded_pairs(const World& world) {
     std::vector<Pair> pairs;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
         if ((world.points.state[k].flags & point_bonded) == 0) continue;
-        const ContactPoint& point = world.points.contact[k];
-        pairs.emplace_back(std::minmax(world.bodies.info[point.body_i].id, world.bodies.info[point.body_j].id));
+        const ContactPoint point = world.points.contact[k];
+        pairs.emplace_back(std::minmax(world.bodies.info(point.body_i).id, world.bodies.info(point.body_j).id));
     }
     std::sort(pairs.begin(), pairs.end());
     return pairs;

@@ -152,7 +152,7 @@ std::vector<ClaimRow> bonded_chain_hangs_as_a_catenary() {
     double horizontal = 0.0, vertical = 0.0, off = 0.0;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
         const PointView view = view_point(world, k);
-        const int left = std::min(world.bodies.info[view.body_i].id, world.bodies.info[view.body_j].id);
+        const int left = std::min(world.bodies.info(view.body_i).id, world.bodies.info(view.body_j).id);
         const Vec2 pull = -view.normal_force * view.normal;
         const double sense = pull.x < 0.0 ? -1.0 : 1.0;
         horizontal = std::max(horizontal, std::abs(sense * pull.x - shape.horizontal));

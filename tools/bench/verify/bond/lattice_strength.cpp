@@ -53,7 +53,7 @@ DiscStress stress_of(const World& world, BodyIndex disc) {
     const double area = 0.5 * std::sqrt(3.0) * spacing * spacing;
     // There are no walls.
     for (PointIndex k = 0; k < world.points.size(); ++k) {
-        const ContactPoint& point = world.points.contact[k];
+        const ContactPoint point = world.points.contact[k];
         if (point.body_i != disc && point.body_j != disc) continue;
         const PointForce& force = world.points.force[k];
         const double sign = point.body_i == disc ? 1.0 : -1.0;

@@ -49,7 +49,7 @@ inline Eigen::MatrixXd dense_stiffness(const World& world, double move) {
     Eigen::MatrixXd stiffness(rows, rows);
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
         for (int dof = 0; dof < 3; ++dof) {
-            const double h = dof < 2 ? move : move / world.bodies.info[b].reach;
+            const double h = dof < 2 ? move : move / world.bodies.info(b).reach;
             const auto slope = [&](double by) -> Eigen::VectorXd {
                 return (forces_after(world, b, dof, -by) - forces_after(world, b, dof, by)) / (2.0 * by);
             };

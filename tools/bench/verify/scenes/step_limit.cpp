@@ -57,7 +57,7 @@ class Projection {
         for (std::size_t b = 0; b < rest_.size(); ++b) {
             const BodyState &now = world.bodies.state[b], &then = rest_[b];
             sum += world.bodies.inertia[b].mass * (mode_[b].x * (now.x - then.x) + mode_[b].y * (now.y - then.y)) +
-                   world.bodies.info[b].moment * mode_[b].rotation * (now.angle - then.angle);
+                   world.bodies.info(b).moment * mode_[b].rotation * (now.angle - then.angle);
         }
         return sum;
     }
@@ -84,7 +84,7 @@ Growth measured_growth(World world, const std::vector<BodyMotion>& mode, double 
     for (std::size_t b = 0; b < mode.size(); ++b) {
         const BodyMotion v{speed * mode[b].x, speed * mode[b].y, speed * mode[b].rotation};
         energy += 0.5 * world.bodies.inertia[b].mass * (v.x * v.x + v.y * v.y) +
-                  0.5 * world.bodies.info[b].moment * v.rotation * v.rotation;
+                  0.5 * world.bodies.info(b).moment * v.rotation * v.rotation;
     }
     shake_free(world, 1e-6 * energy, 7);
     for (std::size_t b = 0; b < mode.size(); ++b) {

@@ -31,7 +31,7 @@ inline Momentum momentum_of(const World& world) {
     Momentum sum;
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
         const BodyState& body = world.bodies.state[b];
-        const double mass = world.bodies.inertia[b].mass, spin = world.bodies.info[b].moment * body.omega;
+        const double mass = world.bodies.inertia[b].mass, spin = world.bodies.info(b).moment * body.omega;
         sum.x += mass * body.vx;
         sum.y += mass * body.vy;
         sum.angular += mass * (body.x * body.vy - body.y * body.vx) + spin;
@@ -65,12 +65,12 @@ inline void shake(World& world, double energy, std::uint64_t seed) {
     double sum = 0.0;
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
         BodyState& body = world.bodies.state[b];
-        const double gyration = std::sqrt(world.bodies.info[b].moment / world.bodies.inertia[b].mass);
+        const double gyration = std::sqrt(world.bodies.info(b).moment / world.bodies.inertia[b].mass);
         body.vx = 2.0 * uniform_number(generator) - 1.0;
         body.vy = 2.0 * uniform_number(generator) - 1.0;
         body.omega = (2.0 * uniform_number(generator) - 1.0) / gyration;
         sum += 0.5 * world.bodies.inertia[b].mass * (body.vx * body.vx + body.vy * body.vy) +
-               0.5 * world.bodies.info[b].moment * body.omega * body.omega;
+               0.5 * world.bodies.info(b).moment * body.omega * body.omega;
     }
     const double scale = std::sqrt(energy / sum);
     for (BodyState& body : world.bodies.state) {
@@ -83,7 +83,7 @@ inline void shake(World& world, double energy, std::uint64_t seed) {
 /// Sets the turn of a body, keeping the body frame of clumps and chains in step with it.
 inline void turn_body(World& world, std::size_t b, double angle) {
     BodyState& body = world.bodies.state[b];
-    if (!world.bodies.info[b].single_circle) {
+    if (!world.bodies.info(b).single_circle) {
         const double c = std::cos(angle), s = std::sin(angle);
         const double cosine = body.shape[0] * c - body.shape[1] * s;
         body.shape[1] = body.shape[1] * c + body.shape[0] * s;
