@@ -14,8 +14,21 @@
 namespace crackle {
 namespace {
 
+/// A frame, and its arrays wherever they lie.
+template <class Bodies, class Forces, class States>
+struct Target {
+    Target(Frame& to, Bodies& its_bodies, Forces& its_forces, States& its_states)
+        : frame(to), bodies(its_bodies), shear_force(its_forces), states(its_states) {}
+
+    Frame& frame;
+    Bodies& bodies;
+    Forces& shear_force;
+    States& states;
+};
+
 /// Points that touch without a bond: those that lost one to it, the others to the frame's own.
-void take_loose(const TestSetup& setup, const LooseContacts& loose, Frame& frame) {
+void take_loose(const TestSetup& setup, const LooseContacts& loose, const auto& target) {
+    Frame& frame = target.frame;
     frame.loose.contacts.clear();
     for (std::size_t kind = 0; kind < point_kinds; ++kind) {
         for (PointIndex k = loose.kind_begin[kind]; k < loose.kind_begin[kind + 1]; ++k) {
@@ -24,8 +37,8 @@ void take_loose(const TestSetup& setup, const LooseContacts& loose, Frame& frame
             if (bond == setup.bonds.size()) {
                 frame.loose.contacts.push_back(contact);
             } else {
-                frame.shear_force[bond] = contact.shear_force;
-                frame.states[bond] = ContactState::broken_touching;
+                target.shear_force[bond] = contact.shear_force;
+                target.states[bond] = ContactState::broken_touching;
             }
         }
         frame.loose.kind_begin[kind + 1] = static_cast<PointIndex>(frame.loose.contacts.size());
@@ -36,39 +49,70 @@ constexpr std::array<const char*, 3> pictures{"particles_", "contacts_", "cracks
 
 std::string picture(std::size_t which, std::int64_t row) { return fmt::format("{}{:05}.vtp", pictures[which], row); }
 
-}  // namespace
-
-void take_frame(const World& world, const TestSetup& setup, const ContactHistory& history, const CurveRow& row,
-                std::int64_t row_index, Frame& frame) {
+void take(const World& world, const TestSetup& setup, const ContactHistory& history, const CurveRow& row,
+          std::int64_t row_index, const auto& target) {
+    Frame& frame = target.frame;
     frame.row = row_index;
     frame.axial_strain = row.axial_strain;
     frame.axial_stress = row.axial_stress;
     frame.time = row.time;
     frame.cracks = history.cracks.size();
-    frame.bodies.resize(world.bodies.size());
-    std::transform(
-        world.bodies.state.begin(), world.bodies.state.end(), frame.bodies.begin(),
-        [](const BodyState& body) { return Frame::Body{body.x, body.y, body.angle, body.vx, body.vy, body.omega}; });
+    target.bodies.resize(world.bodies.size());
+    for (BodyIndex b = 0; b < world.bodies.size(); ++b) {
+        const BodyState& body = world.bodies.state[b];
+        target.bodies[b] = {body.x, body.y, body.angle, body.vx, body.vy, body.omega};
+    }
     // Bonds are never made again: what the walk along the list does not meet is broken.
     const ContactList& bonds = setup.bonds;
-    frame.shear_force.assign(bonds.size(), 0.0);
-    frame.states.assign(bonds.size(), ContactState::broken);
+    target.shear_force.assign(bonds.size(), 0.0);
+    target.states.assign(bonds.size(), ContactState::broken);
     visit_kinds(world.points.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
         const PointIndex first = setup.bond_kind_begin[static_cast<std::size_t>(K)];
         const PointIndex last = setup.bond_kind_begin[static_cast<std::size_t>(K) + 1];
         PointIndex next = first;
         for (PointIndex k = begin; k < end; ++k) {
             if (k == world.points.fours_end) next = first;  // here the order of a kind begins again
-            const ContactPoint point = world.points.contact[k];
+            const ContactPoint point = world.points.contact.at<K>(k);
             const auto flags = world.points.state[k].flags;
             if ((flags & point_bonded) == 0) continue;
             while (next < last && !same_point(K, bonds.at<K>(next), point)) ++next;
             if (next == last) throw std::logic_error("a bonded point is not where the start of loading listed it");
-            frame.shear_force[next] = world.points.shear_force[k];
-            frame.states[next] = (flags & point_slid) != 0 ? ContactState::bonded_slid : ContactState::bonded;
+            target.shear_force[next] = world.points.shear_force[k];
+            target.states[next] = (flags & point_slid) != 0 ? ContactState::bonded_slid : ContactState::bonded;
         }
     });
-    take_loose(setup, history.loose, frame);
+    take_loose(setup, history.loose, target);
+}
+
+}  // namespace
+
+void take_frame(const World& world, const TestSetup& setup, const ContactHistory& history, const CurveRow& row,
+                std::int64_t row_index, Frame& frame) {
+    take(world, setup, history, row, row_index, Target{frame, frame.bodies, frame.shear_force, frame.states});
+}
+
+void take_frame(const World& world, const TestSetup& setup, const ContactHistory& history, const CurveRow& row,
+                std::int64_t row_index, FrameOnDisc& frame) {
+    take(world, setup, history, row, row_index, Target{frame.rest_, frame.bodies_, frame.shear_force_, frame.states_});
+}
+
+void FrameOnDisc::put(const Frame& frame) {
+    rest_ = {frame.row, frame.axial_strain, frame.axial_stress, frame.time, {}, {}, {}, frame.loose, frame.cracks};
+    const auto copy = [](const auto& values, auto& to) {
+        to.resize(values.size());
+        for (std::size_t k = 0; k < values.size(); ++k) to[k] = values[k];
+    };
+    copy(frame.bodies, bodies_);
+    copy(frame.shear_force, shear_force_);
+    copy(frame.states, states_);
+}
+
+Frame FrameOnDisc::whole() {
+    Frame frame = rest_;
+    frame.bodies = bodies_.values();
+    frame.shear_force = shear_force_.values();
+    frame.states = states_.values();
+    return frame;
 }
 
 std::int64_t default_frames(std::int64_t bodies, std::int64_t curve_rows) {

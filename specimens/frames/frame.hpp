@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/files/scratch_file.hpp"
 #include "solver/world/world.hpp"
 #include "specimens/observers/contact_history.hpp"
 #include "specimens/setup/setup.hpp"
@@ -25,8 +26,7 @@ enum class ContactState : std::uint8_t {
 
 inline bool holds(ContactState state) { return state <= ContactState::bonded_slid; }
 
-/// A moment of a test. The one at the peak waits here until it is known to be the peak: 48 bytes a body, 9 a bond, 32 a
-/// contact without one.
+/// A moment of a test: 48 bytes a body, 9 a bond, 32 a contact without one.
 struct Frame {
     struct Body {
         double x, y, angle;    // m, rad
@@ -64,16 +64,38 @@ struct Frame {
     }
 };
 
+/// A moment whose largest arrays lie on the disc.
+class FrameOnDisc {
+  public:
+    explicit FrameOnDisc(const std::filesystem::path& folder)
+        : bodies_(folder), shear_force_(folder), states_(folder) {}
+
+    void put(const Frame& frame);
+    Frame whole();
+
+  private:
+    friend void take_frame(const World& world, const TestSetup& setup, const ContactHistory& history,
+                           const CurveRow& row, std::int64_t row_index, FrameOnDisc& frame);
+
+    Frame rest_;  // without the arrays below
+    ScratchArray<Frame::Body> bodies_;
+    ScratchArray<double> shear_force_;
+    ScratchArray<ContactState> states_;
+};
+
 /// The present moment. Needs compute_forces() and look_at_contacts() to have been called. Linear in bodies and listed
 /// points. While the stress rises every row is a new peak: what takes longer, the forces normal to contacts, is left to
 /// who draws.
 /// @param frame  receives the moment; its room is used again
 void take_frame(const World& world, const TestSetup& setup, const ContactHistory& history, const CurveRow& row,
                 std::int64_t row_index, Frame& frame);
+/// The same, with no more of it in memory than a stretch.
+void take_frame(const World& world, const TestSetup& setup, const ContactHistory& history, const CurveRow& row,
+                std::int64_t row_index, FrameOnDisc& frame);
 
 /// Frames over max_axial_strain where the case states none: 100 up to 2,000 bodies, beyond that 200,000 over their
 /// number, but at least 20, and never more than rows of the curve. A frame costs what some thirty steps cost, and
-/// 340 bytes a circle.
+/// 170 bytes a circle while it is drawn.
 std::int64_t default_frames(std::int64_t bodies, std::int64_t curve_rows);
 
 std::string particles_file(std::int64_t row);  ///< "particles_00042.vtp"

@@ -167,11 +167,8 @@ class LoadingLoop {
         const auto passed = static_cast<std::int64_t>(row.axial_strain / frame_spacing_);
         state_.next_frame = std::max(state_.next_frame, passed - 1);
         while (row.axial_strain >= frame_spacing_ * static_cast<double>(state_.next_frame)) ++state_.next_frame;
-        const bool frame_wanted = frame_due || !state_.ended_by.empty();
-        if (!frame_wanted && !new_peak) return;
-        Frame& frame = new_peak ? state_.peak_frame : frame_;
-        take_frame(world_, setup_, state_.history, row, index, frame);
-        if (frame_wanted) files_->add_frame(frame, setup_, state_, world_);
+        if (new_peak) files_->keep_peak(row, index, setup_, state_, world_);
+        if (frame_due || !state_.ended_by.empty()) files_->add_frame(row, index, setup_, state_, world_);
     }
 
     /// Between steps: progress, checkpoint, interrupt. @return whether to stop
@@ -221,7 +218,6 @@ class LoadingLoop {
     double step_seconds_before_;
     double strain_ = 0.0;  // axial, of the last force pass
     std::size_t events_counted_ = 0;
-    Frame frame_;
 };
 
 }  // namespace

@@ -103,9 +103,7 @@ TestOutcome run_with_files(VirtualTest& test, const TestOptions& options, const 
                                        errors ? &*errors : nullptr);
         files.write_summary(outcome.summary, test.state);
     };
-    const auto write_peak = [&] {
-        if (test.state.peak_frame.row >= 0) files.add_frame(test.state.peak_frame, test.setup, test.state, test.world);
-    };
+    const auto write_peak = [&] { files.add_peak(test.setup, test.state, test.world); };
     try {
         load_specimen(test, hooks, &files);
     } catch (const UnstableRun& error) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <set>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "solver/files/read_file.hpp"
@@ -36,19 +37,24 @@ void remove_unlisted_frames(const fs::path& frames, const TestState& state) {
 
 }  // namespace
 
-TestFiles::TestFiles(const OutputFolder& folder, std::string case_hash, const TestState& state,
-                     PointPrecision precision, bool slips)
+TestFiles::TestFiles(const OutputFolder& folder, std::string case_hash, TestState& state, PointPrecision precision,
+                     bool slips, std::size_t large_frame)
     : folder_(folder),
       case_hash_(std::move(case_hash)),
       curve_(folder.path() / "curve.csv", state.curve),
       events_(folder.path() / "events.csv", state.events),
       precision_(precision),
+      large_frame_(large_frame),
       collection_due_(!state.frames.empty()) {
     if (state.curve.bytes == 0) curve_.write(curve_header());
     if (state.events.bytes == 0) events_.write(events_header());
     if (slips) slips_.emplace(folder.path() / "slips.csv", state.slips);
     if (slips && state.slips.bytes == 0) slips_->write(slips_header());
     remove_unlisted_frames(folder.path() / "frames", state);
+    if (state.peak_frame.bodies.size() < large_frame_) return;
+    peak_on_disc_.emplace(folder.path());
+    peak_on_disc_->put(state.peak_frame);
+    state.peak_frame = {};
 }
 
 void TestFiles::add_row(const CurveRow& row) { curve_.write(curve_line(row)); }
@@ -61,27 +67,56 @@ void TestFiles::add_slip(const SlipEvent& event, double axial_strain) {
     if (slips_) slips_->write(slip_line(event, axial_strain));
 }
 
-void TestFiles::add_frame(const Frame& frame, const TestSetup& setup, TestState& state, const World& world) {
-    const auto later = std::lower_bound(state.frames.begin(), state.frames.end(), frame.row,
-                                        [](const FrameEntry& entry, std::int64_t row) { return entry.row < row; });
-    if (later != state.frames.end() && later->row == frame.row) return;
-    state.frames.insert(later, {frame.row, frame.axial_strain, frame.time});
+void TestFiles::add_frame(const CurveRow& row, std::int64_t row_index, const TestSetup& setup, TestState& state,
+                          const World& world) {
+    if (!list_frame({row_index, row.axial_strain, row.time}, setup, state, world)) return;
+    Frame frame;
+    take_frame(world, setup, state.history, row, row_index, frame);
+    draw(std::move(frame), setup, state, world);
+}
+
+void TestFiles::keep_peak(const CurveRow& row, std::int64_t row_index, const TestSetup& setup, TestState& state,
+                          const World& world) {
+    if (world.bodies.size() < large_frame_) {
+        take_frame(world, setup, state.history, row, row_index, state.peak_frame);
+        return;
+    }
+    if (!peak_on_disc_) peak_on_disc_.emplace(folder_.path());
+    take_frame(world, setup, state.history, row, row_index, *peak_on_disc_);
+}
+
+void TestFiles::add_peak(const TestSetup& setup, TestState& state, const World& world) {
+    Frame frame = peak_on_disc_ ? peak_on_disc_->whole() : state.peak_frame;
+    if (frame.row < 0 || !list_frame({frame.row, frame.axial_strain, frame.time}, setup, state, world)) return;
+    draw(std::move(frame), setup, state, world);
+}
+
+bool TestFiles::list_frame(const FrameEntry& entry, const TestSetup& setup, TestState& state, const World& world) {
+    const auto later = std::lower_bound(state.frames.begin(), state.frames.end(), entry.row,
+                                        [](const FrameEntry& one, std::int64_t row) { return one.row < row; });
+    if (later != state.frames.end() && later->row == entry.row) return false;
+    state.frames.insert(later, entry);
     if (!painter_ || !painter_->paints(world, setup)) {
         background_.wait();
         painter_.emplace(world, setup, precision_);
     }
     collection_due_ = true;
-    const bool collects = std::chrono::steady_clock::now() - collected_ >= collection_interval;
     background_.make_room(world.bodies.size() <= most_bodies_of_several ? most_waiting : 0);
+    return true;
+}
+
+void TestFiles::draw(Frame frame, const TestSetup& setup, const TestState& state, const World& world) {
+    const bool collects = std::chrono::steady_clock::now() - collected_ >= collection_interval;
+    const auto first = state.history.cracks.begin();
+    const auto cracks = static_cast<std::ptrdiff_t>(frame.cracks);
     // What changes while it is drawn is copied; of the world only what a test leaves as it was made is looked at.
     struct Job {
         Frame frame;
         std::vector<Crack> cracks;
         std::string collection;  // frames.pvd once the frame is there; empty: later
     };
-    const auto first = state.history.cracks.begin();
     const auto job = std::make_shared<const Job>(
-        Job{frame, {first, first + static_cast<std::ptrdiff_t>(frame.cracks)}, collects ? due_collection(state) : ""});
+        Job{std::move(frame), {first, first + cracks}, collects ? due_collection(state) : ""});
     background_.add([this, job, &world, &setup] {
         const PlacedFrame placed(world, setup, job->frame);
         const FrameForces forces = find_forces(placed);
@@ -118,8 +153,10 @@ void TestFiles::write_checkpoint(const TestSetup& setup, TestState& state, const
     state.curve = curve_.mark();
     state.events = events_.mark();
     if (slips_) state.slips = slips_->mark();
+    if (peak_on_disc_) state.peak_frame = peak_on_disc_->whole();
     folder_.write(
         "checkpoint", [&](std::ostream& out) { save_test(out, case_hash_, setup, state, world); }, Durable::yes);
+    if (peak_on_disc_) state.peak_frame = {};
 }
 
 void TestFiles::flush() {

@@ -22,16 +22,25 @@ class TestFiles {
   public:
     /// Begins from the start (state without rows) or goes on from the state, removing what came after it.
     /// @param slips whether slips.csv is written
-    TestFiles(const OutputFolder& folder, std::string case_hash, const TestState& state, PointPrecision precision,
-              bool slips = false);
+    /// @param large_frame bodies from which on the frame at the peak waits on the disc
+    TestFiles(const OutputFolder& folder, std::string case_hash, TestState& state, PointPrecision precision,
+              bool slips = false, std::size_t large_frame = 200'000);
 
     void add_row(const CurveRow& row);
     void add_event(const BreakEvent& event, double axial_strain);
     void add_slip(const SlipEvent& event, double axial_strain);
-    /// Lists a frame in state.frames, in the order of rows, and has its pictures written beside the stepping: they are
-    /// there, all of them, before a checkpoint or a summary is. frames.pvd follows within a second, or then: replacing
-    /// a file costs more than a small specimen's frame. World and setup must outlive these files.
-    void add_frame(const Frame& frame, const TestSetup& setup, TestState& state, const World& world);
+    /// Takes the present moment for a frame, as take_frame(). Lists it in state.frames, in the order of rows, and has
+    /// its pictures written beside the stepping: they are there, all of them, before a checkpoint or a summary is.
+    /// frames.pvd follows within a second, or then: replacing a file costs more than a small specimen's frame. World
+    /// and setup must outlive these files.
+    void add_frame(const CurveRow& row, std::int64_t row_index, const TestSetup& setup, TestState& state,
+                   const World& world);
+    /// Keeps the present moment: the peak so far. While the stress rises every row is one. In state.peak_frame, of a
+    /// large specimen on the disc.
+    void keep_peak(const CurveRow& row, std::int64_t row_index, const TestSetup& setup, TestState& state,
+                   const World& world);
+    /// The frame kept last, if there is one, as add_frame().
+    void add_peak(const TestSetup& setup, TestState& state, const World& world);
     /// Flushes the growing files, notes how far they go in the state, and writes the checkpoint when all is on the
     /// disc.
     void write_checkpoint(const TestSetup& setup, TestState& state, const World& world);
@@ -40,6 +49,9 @@ class TestFiles {
     void write_summary(nlohmann::ordered_json& summary, const TestState& state);
 
   private:
+    /// Whether it is to be drawn: it was not before.
+    bool list_frame(const FrameEntry& entry, const TestSetup& setup, TestState& state, const World& world);
+    void draw(Frame frame, const TestSetup& setup, const TestState& state, const World& world);
     std::string due_collection(const TestState& state);
     void write_collection(const TestState& state);
 
@@ -48,8 +60,10 @@ class TestFiles {
     GrowingFile curve_, events_;
     std::optional<GrowingFile> slips_;
     PointPrecision precision_;
-    std::optional<FramePainter> painter_;  // once there is a frame
-    bool collection_due_;                  // frames.pvd is not of the state
+    std::size_t large_frame_;
+    std::optional<FrameOnDisc> peak_on_disc_;  // in place of TestState::peak_frame
+    std::optional<FramePainter> painter_;      // once there is a frame
+    bool collection_due_;                      // frames.pvd is not of the state
     std::chrono::steady_clock::time_point collected_;
     Background background_;  // last: what it still has to do needs the others
 };

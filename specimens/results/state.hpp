@@ -42,7 +42,7 @@ struct TestState {
     std::vector<CurveRow> rows;
     FailureTracker failure;
     ContactHistory history;
-    Frame peak_frame;                ///< waits in memory until the peak is known
+    Frame peak_frame;                ///< waits until the peak is known; of large specimens TestFiles has it
     std::vector<FrameEntry> frames;  ///< written so far
     std::int64_t next_frame = 0;     ///< due at this multiple of the strain between frames
     RateState rate;                  ///< loading by tolerance
