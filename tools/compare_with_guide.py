@@ -5,13 +5,16 @@
   tools/compare_with_guide.py FOLDER
 
 FOLDER holds circles_tension, circles_compression, delaunay_..., voronoi_..., each as `crackle test -o` left it; only their
-summary.json is read. The guide's words are about one packing, and ratios vary with the packing: they are shown, not judged.
-Judged is whether every test ended in failure of its specimen.
+summary.json is read. Where it holds the same tests on several packings, FOLDER/campaign (specimens/guide_rock/campaign.toml), their
+means and standard deviations stand beside. The guide's words are about one packing, and ratios vary with the packing: they are
+shown, not judged. Judged is whether every test ended in failure of its specimen.
 
 Exit codes: 0 all six have failed, 1 some have not (named), 2 a summary is missing or lacks a key.
 """
 import json
 import math
+import sqlite3
+import statistics
 import sys
 from pathlib import Path
 
@@ -28,20 +31,11 @@ class BadInput(Exception):
     """What was found, what was expected, what to do."""
 
 
-class Summary:
-    """summary.json of one test. Units: N, m; stresses and moduli N/m."""
+class Figures:
+    """Of one test, by the names of summary.json. Units: N, m; stresses and moduli N/m."""
 
-    def __init__(self, file):
-        self.file = file
-        try:
-            self.keys = json.loads(file.read_text(encoding="utf-8"))
-        except FileNotFoundError:
-            raise BadInput(f"{file}: file not found, expected the results of a test; make them with tools/quickstart") from None
-        except (json.JSONDecodeError, UnicodeDecodeError) as error:
-            raise BadInput(f"{file}: found broken JSON ({error}); run tools/quickstart again") from None
-        if not isinstance(self.keys, dict) or not isinstance(self.keys.get("failed"), bool):
-            raise BadInput(f"{file}: failed: found {self.keys.get('failed') if isinstance(self.keys, dict) else 'no object'}, "
-                           "expected true or false")
+    def __init__(self, place, keys):
+        self.place, self.keys = place, keys
 
     @property
     def failed(self):
@@ -50,12 +44,39 @@ class Summary:
     def number(self, key):
         value = self.keys.get(key)
         if isinstance(value, bool) or not isinstance(value, (int, float)) or not math.isfinite(value):
-            raise BadInput(f"{self.file}: {key}: found {json.dumps(value)}, expected a number")
+            raise BadInput(f"{self.place}: {key}: found {json.dumps(value)}, expected a number")
         return value
 
 
+def read_summary(file):
+    try:
+        keys = json.loads(file.read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise BadInput(f"{file}: file not found, expected the results of a test; make them with tools/quickstart") from None
+    except (json.JSONDecodeError, UnicodeDecodeError) as error:
+        raise BadInput(f"{file}: found broken JSON ({error}); run tools/quickstart again") from None
+    if not isinstance(keys, dict) or not isinstance(keys.get("failed"), bool):
+        raise BadInput(f"{file}: failed: found {keys.get('failed') if isinstance(keys, dict) else 'no object'}, "
+                       "expected true or false")
+    return Figures(file, keys)
+
+
+def read_packings(file):
+    """The tests of each packing of a campaign that has all six of it done; none where there is no campaign."""
+    if not file.is_file():
+        return []
+    with sqlite3.connect(f"file:{file}?mode=ro", uri=True) as ledger:
+        ledger.row_factory = sqlite3.Row
+        rows = [dict(row) for row in ledger.execute("SELECT * FROM results WHERE state = 'done' AND variant = 'as_asked'")]
+    packings = {}
+    for row in rows:
+        specimen, _, loading = row["test"].partition("_")
+        packings.setdefault(row["seed"], {})[specimen, loading] = Figures(file, row)
+    return [tests for tests in packings.values() if len(tests) == len(SPECIMENS) * len(LOADINGS)]
+
+
 def rows_of(tests):
-    """Rows (what, the guide's word, measured) for the tests of read_tests()."""
+    """Rows (what, the guide's word, value, digits behind the point, unit, what it is made of) of six tests."""
     def strength(specimen, loading):
         """The guide's is the largest stress, whatever came before."""
         return tests[specimen, loading].number("largest_stress")
@@ -66,54 +87,71 @@ def rows_of(tests):
     def pulled(specimen, key):
         return tests[specimen, "tension"].number(key)
 
+    def points(specimen, other, key):
+        return f"{pulled(specimen, key):.0f} over {pulled(other, key):.0f}"
+
     tangent, young = "initial_tangent_modulus", "youngs_modulus"
     contacts, interfaces = "contacts_initial", "interfaces_initial"
     rows = [
-        ("circles", None, None),
-        ("  number", "304", f"{pulled('circles', 'particles'):.0f}"),
-        ("  mean back-tension of a bond", "0.774 kN", f"{pulled('circles', 'mean_back_tension') / 1e3:.3f} kN"),
+        ("circles",),
+        ("  number", "304", pulled("circles", "particles"), 0, "", ""),
+        ("  mean back-tension of a bond", "0.774 kN", pulled("circles", "mean_back_tension") / 1e3, 3, " kN", ""),
     ]
     for loading, name in (("tension", "pulled"), ("compression", "squeezed")):
         stiffness = tests["circles", loading].number(tangent)
-        rows.append((f"  initial stiffness, {name}, over 19.4/0.0019 kN/m", "about 1/2",
-                     f"{stiffness / LIMIT_STIFFNESS:.2f}   ({stiffness / 1e6:.2f} MN/m)"))
+        rows.append((f"  initial stiffness, {name}, over 19.4/0.0019 kN/m", "about 1/2", stiffness / LIMIT_STIFFNESS, 2, "",
+                     f"{stiffness / 1e6:.2f} MN/m"))
     rows += [
-        ("  the same with every bond intact (sparse solve)", "",
-         f"{pulled('circles', young) / LIMIT_STIFFNESS:.2f}   ({pulled('circles', young) / 1e6:.2f} MN/m)"),
-        ("  tensile strength over 19.4 kN/m", "about 1/4",
-         f"{strength('circles', 'tension') / LIMIT_STRESS:.2f}   ({strength('circles', 'tension') / 1e3:.2f} kN/m)"),
-        ("  compressive strength over 19.4 kN/m", "about 1/2",
-         f"{strength('circles', 'compression') / LIMIT_STRESS:.2f}   ({strength('circles', 'compression') / 1e3:.2f} kN/m)"),
-        ("  compressive over tensile strength", "about 2", f"{over_tension('circles'):.1f}"),
-        ("triangles", None, None),
-        ("  number", "537 between centres alone", f"{pulled('delaunay', 'particles'):.0f}"),
+        ("  the same with every bond intact (sparse solve)", "", pulled("circles", young) / LIMIT_STIFFNESS, 2, "",
+         f"{pulled('circles', young) / 1e6:.2f} MN/m"),
+        ("  tensile strength over 19.4 kN/m", "about 1/4", strength("circles", "tension") / LIMIT_STRESS, 2, "",
+         f"{strength('circles', 'tension') / 1e3:.2f} kN/m"),
+        ("  compressive strength over 19.4 kN/m", "about 1/2", strength("circles", "compression") / LIMIT_STRESS, 2, "",
+         f"{strength('circles', 'compression') / 1e3:.2f} kN/m"),
+        ("  compressive over tensile strength", "about 2", over_tension("circles"), 1, "", ""),
+        ("triangles",),
+        ("  number", "537 between centres alone", pulled("delaunay", "particles"), 0, "", ""),
         ("  contact points over the circles'", "about 10 (element pairs)",
-         f"{pulled('delaunay', contacts) / pulled('circles', contacts):.1f}   "
-         f"({pulled('delaunay', contacts):.0f} over {pulled('circles', contacts):.0f})"),
-        ("  interfaces over the circles'", "",
-         f"{pulled('delaunay', interfaces) / pulled('circles', interfaces):.1f}   "
-         f"({pulled('delaunay', interfaces):.0f} over {pulled('circles', interfaces):.0f})"),
+         pulled("delaunay", contacts) / pulled("circles", contacts), 1, "", points("delaunay", "circles", contacts)),
+        ("  interfaces over the circles'", "", pulled("delaunay", interfaces) / pulled("circles", interfaces), 1, "",
+         points("delaunay", "circles", interfaces)),
         ("  initial stiffness over the circles', pulled", "about sqrt(10) = 3.2",
-         f"{pulled('delaunay', tangent) / pulled('circles', tangent):.2f}"),
-        ("  the same with every bond intact (sparse solve)", "",
-         f"{pulled('delaunay', young) / pulled('circles', young):.2f}"),
-        ("  strain at tensile strength", "about 0.002", f"{tests['delaunay', 'tension'].number('strain_at_largest_stress'):.5f}"),
-        ("  compressive over tensile strength", "about 10", f"{over_tension('delaunay'):.1f}"),
-        ("Voronoi polygons", None, None),
+         pulled("delaunay", tangent) / pulled("circles", tangent), 2, "", ""),
+        ("  the same with every bond intact (sparse solve)", "", pulled("delaunay", young) / pulled("circles", young), 2, "", ""),
+        ("  strain at tensile strength", "about 0.002", pulled("delaunay", "strain_at_largest_stress"), 5, "", ""),
+        ("  compressive over tensile strength", "about 10", over_tension("delaunay"), 1, "", ""),
+        ("Voronoi polygons",),
         ("  contact points over the triangles'", "1.2 (element pairs)",
-         f"{pulled('voronoi', contacts) / pulled('delaunay', contacts):.2f}   "
-         f"({pulled('voronoi', contacts):.0f} over {pulled('delaunay', contacts):.0f})"),
+         pulled("voronoi", contacts) / pulled("delaunay", contacts), 2, "", points("voronoi", "delaunay", contacts)),
         ("  compressive strength over the triangles'", "larger",
-         f"{strength('voronoi', 'compression') / strength('delaunay', 'compression'):.2f}   "
-         f"({strength('voronoi', 'compression') / 1e3:.1f} over {strength('delaunay', 'compression') / 1e3:.1f} kN/m)"),
-        ("  compressive over tensile strength", "more than the triangles'", f"{over_tension('voronoi'):.1f}"),
+         strength("voronoi", "compression") / strength("delaunay", "compression"), 2, "",
+         f"{strength('voronoi', 'compression') / 1e3:.1f} over {strength('delaunay', 'compression') / 1e3:.1f} kN/m"),
+        ("  compressive over tensile strength", "more than the triangles'", over_tension("voronoi"), 1, "", ""),
     ]
     return rows
 
 
 def read_tests(folder):
-    return {(specimen, loading): Summary(folder / f"{specimen}_{loading}" / "summary.json")
+    return {(specimen, loading): read_summary(folder / f"{specimen}_{loading}" / "summary.json")
             for specimen in SPECIMENS for loading in LOADINGS}
+
+
+def table_of(rows, of_packings):
+    """Lines of the table. of_packings: the rows of each packing."""
+    lines = [["", "the guide", "measured"] + ([f"{len(of_packings)} packings"] if of_packings else [])]
+    for k, row in enumerate(rows):
+        if len(row) == 1:
+            lines.append([row[0]])
+            continue
+        what, guide, value, digits, unit, made_of = row
+        line = [what, guide, f"{value:.{digits}f}{unit}" + (f"   ({made_of})" if made_of else "")]
+        if of_packings:
+            values = [other[k][2] for other in of_packings]
+            scatter = statistics.stdev(values) if len(values) > 1 else math.nan
+            line.append(f"{statistics.mean(values):.{digits}f} ± {scatter:.{digits}f}{unit}")
+        lines.append(line)
+    widths = [max(len(line[k]) for line in lines if len(line) > k) for k in range(len(lines[0]))]
+    return ["  ".join(f"{word:{width}}" for word, width in zip(line, widths)).rstrip() for line in lines]
 
 
 def main(arguments):
@@ -122,18 +160,21 @@ def main(arguments):
         print(__doc__, file=sys.stdout if asked else sys.stderr)
         return 0 if asked else 2
     try:
-        tests = read_tests(Path(arguments[0]))
-        rows = rows_of(tests)
-    except BadInput as error:
+        folder = Path(arguments[0])
+        tests = read_tests(folder)
+        packings = read_packings(folder / "campaign" / "campaign.sqlite")
+        lines = table_of(rows_of(tests), [rows_of(packing) for packing in packings])
+    except (BadInput, sqlite3.Error) as error:
         print(f"compare_with_guide: {error}", file=sys.stderr)
         return 2
-    first = max(len(row[0]) for row in rows)
-    second = max(len(row[1] or "") for row in rows)
-    print(f"{'':{first}}  {'the guide':{second}}  measured")
-    for what, guide, measured in rows:
-        print(what if guide is None else f"{what:{first}}  {guide:{second}}  {measured}")
+    print("\n".join(lines))
+    if packings:
+        print("Measured: the shipped packing; packings: mean ± standard deviation.")
     print("Contact points are those of the rounded law, the guide counts element pairs (numerics.contact_law = \"demseg\"); ratios vary with the packing.")
 
+    whole = [name for packing in packings for name, test in packing.items() if not test.failed]
+    if whole:
+        print(f"Of the packings {len(whole)} tests did not fail: of these the values are the largest so far.")
     intact = [f"{specimen}_{loading}" for (specimen, loading), test in tests.items() if not test.failed]
     if intact:
         print(f"Not failed: {', '.join(intact)} (of these the values above are the largest so far)")

@@ -8,13 +8,16 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <chrono>
 #include <cstring>
 #include <limits>
+#include <thread>
 #include <utility>
 
 #include "solver/base/errors.hpp"
 #include "solver/demseg/deck_folder.hpp"
 #include "solver/demseg/deck_reader.hpp"
+#include "solver/files/file_set.hpp"
 #include "solver/files/read_file.hpp"
 
 namespace crackle {
@@ -110,7 +113,17 @@ DeckFrames::Identities DeckFrames::identities(const std::filesystem::path& folde
 }
 
 DeckFrames::Identities DeckFrames::whole_set(const std::filesystem::path& folder) {
-    complete_deck_replacement(folder);
+    // Of a run that was stopped, or is saving just now and will be done in a moment. Others leave outputs alone.
+    constexpr int most_tries = 50;
+    constexpr std::chrono::milliseconds between_tries{100};
+    for (int tries = 1; renames_files(deck_journal(folder)); ++tries) {
+        try {
+            complete_deck_replacement(folder);
+        } catch (const OutputError&) {
+            if (tries == most_tries) throw;
+            std::this_thread::sleep_for(between_tries);
+        }
+    }
     return identities(folder);
 }
 

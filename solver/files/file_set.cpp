@@ -73,7 +73,7 @@ void rename_files(const fs::path& folder, const Renames& renames) {
         std::error_code error;
         fs::rename(folder / from, folder / to, error);
         if (error)
-            throw InputError(fmt::format("{}: cannot be replaced ({})", (folder / to).string(), error.message()));
+            throw OutputError(fmt::format("{}: cannot be replaced ({})", (folder / to).string(), error.message()));
     }
     if (!renames.empty()) bring_names_to_disc(folder);
 }
@@ -89,6 +89,8 @@ void write_journal(const fs::path& journal, const FileSet& files, const Renames&
     text.append(reinterpret_cast<const char*>(&hash), sizeof hash);
     replace_file(journal, text + packed);
 }
+
+bool renames_files(const fs::path& journal) { return is_there(journal) && !read_journal(journal).renames.empty(); }
 
 bool complete_replacement(const fs::path& journal) {
     if (!is_there(journal)) return false;

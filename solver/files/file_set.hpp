@@ -28,6 +28,9 @@ void replace_files(const std::filesystem::path& journal, const FileSet& files, c
 /// The first half of that: the journal alone.
 void write_journal(const std::filesystem::path& journal, const FileSet& files, const Renames& renames = {});
 
+/// Whether a journal is there that renames files. @throws InputError if it is damaged
+bool renames_files(const std::filesystem::path& journal);
+
 /// The other half, or what is left of it. @return whether there was a journal
 /// @throws InputError if it is damaged, or something cannot be written
 bool complete_replacement(const std::filesystem::path& journal);

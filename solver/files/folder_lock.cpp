@@ -45,7 +45,7 @@ FolderLock::FolderLock(const std::filesystem::path& folder, Hold hold)
     ::close(descriptor_);
     errno = reason;
     if (reason != EWOULDBLOCK) refuse_output(folder);
-    throw InputError(fmt::format(
+    throw OutputError(fmt::format(
         "{}: another crackle{} is writing here, expected a folder of one's own; wait for it, or choose another -o",
         folder.string(), holder));
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "specimens/campaign/axis.hpp"
 
+#include <algorithm>
 #include <array>
 #include <boost/random/sobol.hpp>
 #include <cmath>
@@ -33,6 +34,7 @@ std::vector<CaseValue> spaced_values(const Axis& axis, std::int64_t count) {
     std::vector<CaseValue> values;
     for (std::int64_t k = 0; k < count; ++k)
         values.push_back(axis.at(static_cast<double>(k) / static_cast<double>(count - 1)));
+    values.erase(std::unique(values.begin(), values.end()), values.end());  // whole numbers may come twice
     return values;
 }
 

@@ -13,6 +13,7 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -61,9 +62,10 @@ RowResult unpacked(const Json& json) {
 
 /// Tests of a plan by what they are, and which of them start from the same packing.
 struct Task {
-    std::size_t row;  // the first of the plan that it answers
+    std::size_t row;  // of the plan that it answers: one that is as asked, where there is one
     std::string identity;
     std::size_t group;
+    bool reads_files = false;  // beside its case
 };
 
 struct Tasks {
@@ -75,21 +77,29 @@ struct Tasks {
 Tasks tasks_of(const Plan& plan, const Shard& shard, const std::function<bool()>& interrupted) {
     Tasks all;
     FileHashes files;
-    std::map<std::string, std::size_t> groups;
-    std::set<std::string> seen;
+    std::map<std::string, std::size_t> groups, seen;
+    std::vector<Task> tasks;
     for (std::size_t k = 0; k < plan.rows.size(); ++k) {
         if (interrupted && k % 100 == 0 && interrupted()) throw TestInterrupted();
         const TestCase test = plan.test_of(plan.rows[k]);
         all.identities.push_back(identity_of(test, files));
-        if (!seen.insert(all.identities.back()).second) continue;
+        const auto [known, is_new] = seen.emplace(all.identities.back(), tasks.size());
+        if (!is_new) {
+            if (plan.rows[k].variant == Variant::as_asked) tasks[known->second].row = k;
+            continue;
+        }
         const bool packs = test.has_table("packing");
         // One without a packing is a group by itself.
         const std::string group = packs ? packing_identity(test, files) : all.identities.back();
         const auto [at, added] = groups.emplace(group, groups.size());
         if (added) all.groups.push_back(packs ? group : "");
-        if (at->second % static_cast<std::size_t>(shard.of) == static_cast<std::size_t>(shard.number - 1))
-            all.tasks.push_back({k, all.identities.back(), at->second});
+        tasks.push_back({k, all.identities.back(), at->second, files_read(test).size() > test.inputs.size()});
     }
+    // Whole packings are dealt out where there are enough of them, else single tests.
+    const auto shares = static_cast<std::size_t>(shard.of), own = static_cast<std::size_t>(shard.number - 1);
+    const bool by_group = all.groups.size() >= shares;
+    for (std::size_t k = 0; k < tasks.size(); ++k)
+        if ((by_group ? tasks[k].group : k) % shares == own) all.tasks.push_back(tasks[k]);
     return all;
 }
 
@@ -134,7 +144,10 @@ class Queue {
         groups_[group_of(piece)].made = true;
         groups_[group_of(piece)].making = false;
     }
-    void again(std::size_t task) { groups_[group_of(task)].left.push_back(task); }
+    void again(std::size_t task) {
+        groups_[group_of(task)].left.push_back(task);
+        first_ = 0;  // its group may lie before those that are begun
+    }
 
   private:
     struct Group {
@@ -178,7 +191,15 @@ class RowWorker {
         return answer([&] {
             const PlanRow& row = plan_.rows[task.row];
             const Keep keep = row.variant == Variant::as_asked ? plan_.keep : Keep::figures;
-            return packed(run_row(plan_.test_of(row), task.identity, keep, place_, packings_));
+            const TestCase test = plan_.test_of(row);
+            const RowResult result = run_row(test, task.identity, keep, place_, packings_);
+            FileHashes now;
+            if (task.reads_files && identity_of(test, now) != task.identity)
+                throw OutputError(
+                    fmt::format("{}: a file that its tests read was changed while the campaign ran, "
+                                "expected it left alone; what was run of it before is kept",
+                                plan_.kind_of(row).file.string()));
+            return packed(result);
         });
     }
     std::string packing(const Task& task) {
@@ -235,8 +256,15 @@ RowResult result_of(const std::string& identity, const PieceEnd& end, double tim
     return result;
 }
 
-/// A folder is taken that is new, empty, or a campaign's.
-void check_folder(const fs::path& folder) {
+/// Whether what the plan keeps of a test is there.
+bool is_kept(const fs::path& folder, Keep keep, const std::string& identity) {
+    if (keep == Keep::curves && is_file(folder / "curves" / (identity + ".csv"))) return true;
+    return keep == Keep::figures || is_file(folder / "tests" / identity / "summary.json");
+}
+
+}  // namespace
+
+void check_campaign_folder(const fs::path& folder) {
     if (!is_there(folder)) return;
     if (!is_folder(folder))
         throw InputError(
@@ -247,8 +275,6 @@ void check_folder(const fs::path& folder) {
                     folder.string()));
 }
 
-}  // namespace
-
 fs::path ledger_file(const fs::path& folder, const Shard& shard) {
     if (shard.whole()) return folder / "campaign.sqlite";
     return folder / "shards" / fmt::format("{}.sqlite", shard.number);
@@ -256,7 +282,7 @@ fs::path ledger_file(const fs::path& folder, const Shard& shard) {
 
 CampaignOutcome run_campaign(const Plan& plan, const CampaignOptions& options, const CampaignHooks& hooks) {
     const Clock::time_point begun = Clock::now();
-    check_folder(options.folder);
+    check_campaign_folder(options.folder);
     const fs::path file = ledger_file(options.folder, options.shard);
     // A share has a folder of its own to be held by.
     const fs::path held =
@@ -270,12 +296,19 @@ CampaignOutcome run_campaign(const Plan& plan, const CampaignOptions& options, c
     CampaignOutcome outcome;
     outcome.ledger = file;
     CampaignProgress& progress = outcome.progress;
-    const std::map<std::string, std::string> ended = ledger.ended();
+    std::map<std::string, std::string> ended = ledger.ended();
+    if (!options.shard.whole() && is_file(ledger_file(options.folder))) {
+        // What was gathered, or run here before, need not be run again.
+        for (const auto& [identity, state] : Ledger::read(ledger_file(options.folder)).ended())
+            if (state == row_done) ended[identity] = state;
+    }
     std::vector<std::size_t> open;
     for (std::size_t k = 0; k < tasks.tasks.size(); ++k) {
         const auto at = ended.find(tasks.tasks[k].identity);
-        const bool done = at != ended.end() && at->second == row_done;
-        const bool wrong = at != ended.end() && !done && !options.retry;
+        const bool ran = at != ended.end() && at->second == row_done;
+        const bool asked = plan.rows[tasks.tasks[k].row].variant == Variant::as_asked;
+        const bool done = ran && (!asked || is_kept(options.folder, plan.keep, tasks.tasks[k].identity));
+        const bool wrong = at != ended.end() && !ran && !options.retry;
         progress.done += done ? 1 : 0;
         progress.gone_wrong += wrong ? 1 : 0;
         if (!done && !wrong) open.push_back(k);
@@ -306,8 +339,7 @@ CampaignOutcome run_campaign(const Plan& plan, const CampaignOptions& options, c
         const double seconds = std::chrono::duration<double>(Clock::now() - loading).count();
         progress.tests_per_second = static_cast<double>(outcome.run) / seconds;
         progress.seconds_left = static_cast<double>(progress.left) / progress.tests_per_second;
-        if (result.state != row_done && hooks.told)
-            hooks.told(told(task, result));
+        if (result.state != row_done && hooks.told) hooks.told(told(task, result));
         if (hooks.progress) hooks.progress(progress);
     };
     CrewWork crew;
@@ -339,6 +371,8 @@ CampaignOutcome run_campaign(const Plan& plan, const CampaignOptions& options, c
     if (hooks.progress) hooks.progress(progress);
     const int workers = static_cast<int>(std::clamp<std::int64_t>(progress.left, 1, options.workers));
     if (!open.empty()) outcome.interrupted = !run_crew(workers, crew);
+    if (stop.empty() && !outcome.interrupted && progress.left > 0)
+        throw std::logic_error(fmt::format("campaign: {} tests were never given to a worker", progress.left));
     if (!stop.empty()) throw OutputError(stop + "; the same command goes on");
     outcome.wall_seconds = std::chrono::duration<double>(Clock::now() - begun).count();
     return outcome;
@@ -356,19 +390,28 @@ Gathered gather_shards(const fs::path& folder) {
     std::sort(files.begin(), files.end());
     Gathered gathered;
     const FolderLock lock(folder);
-    const std::string text = Ledger::read(files.front().second).meta("plan");
+    // The folder may lie on a network file system.
+    Ledger ledger = Ledger::open(ledger_file(folder), Journal::within);
+    fs::path planned;
+    std::string rows, others;
     for (const auto& [number, file] : files) {
-        if (Ledger::read(file).meta("plan") != text) {
-            throw InputError(
-                fmt::format("{}: found a share of another plan than {}, expected shares of one; run the others again, "
-                            "or remove those of the earlier plan",
-                            file.string(), files.front().second.string()));
+        // Opened to be written: a share that was killed in the midst of a change takes it back by that.
+        const std::string own = Ledger::open(file, Journal::within).meta("rows");
+        const bool first = planned.empty() && !own.empty();
+        if (first) {
+            planned = file;
+            rows = own;
         }
-    }
-    Ledger ledger = Ledger::open(ledger_file(folder));
-    for (const auto& [number, file] : files) {
-        gathered.tests += ledger.gather(file);
+        if (!own.empty() && own != rows) others += (others.empty() ? "" : ", ") + file.string();
+        gathered.tests += ledger.gather(file, first);
         ++gathered.shards;
+    }
+    if (!others.empty()) {
+        throw InputError(
+            fmt::format("{}: found a share of another plan than {}, expected shares of one; all tests are "
+                        "gathered, run these shares again with that plan, or `crackle campaign` without "
+                        "--shard",
+                        others, planned.string()));
     }
     gathered.counts = ledger.counts();
     return gathered;

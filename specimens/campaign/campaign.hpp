@@ -20,7 +20,7 @@
 
 namespace crackle {
 
-/// One of so many shares of a plan's tests: packings are dealt out in turn.
+/// One of so many shares of a plan's tests: packings are dealt out in turn, single tests where they are too few.
 struct Shard {
     int number = 1, of = 1;
     bool whole() const { return of == 1; }
@@ -57,6 +57,9 @@ struct CampaignOutcome {
 
 /// The ledger of a campaign's folder, or of a share of it.
 std::filesystem::path ledger_file(const std::filesystem::path& folder, const Shard& shard = {});
+
+/// A folder is taken that is new, empty, or a campaign's. @throws InputError for another
+void check_campaign_folder(const std::filesystem::path& folder);
 
 /// @throws InputError if the folder holds something else or is in use; OutputError if it cannot be written
 CampaignOutcome run_campaign(const Plan& plan, const CampaignOptions& options, const CampaignHooks& hooks = {});

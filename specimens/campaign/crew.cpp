@@ -59,18 +59,23 @@ void keep_only(int line) {
     ::close_range(own + 1, ~0U, 0);
 }
 
+constexpr int failed_worker = 70;  // as sysexits.h's internal software error
+
 /// The life of a worker: piece after piece until the other end is closed.
 [[noreturn]] void serve(int line, const CrewWork& crew) {
     ::prctl(PR_SET_PDEATHSIG, SIGKILL);
-    // The crew's end is the parent's decision: a Ctrl-C reaches the whole group.
-    std::signal(SIGINT, SIG_IGN);
-    std::signal(SIGHUP, SIG_IGN);
-    std::signal(SIGTERM, SIG_DFL);
-    std::uint64_t piece = 0;
-    while (receive_all(line, &piece, sizeof piece)) {
-        const std::string answer = crew.work(static_cast<std::size_t>(piece));
-        const std::uint64_t size = answer.size();
-        if (!send_all(line, &size, sizeof size) || !send_all(line, answer.data(), answer.size())) break;
+    // The crew's end is the parent's decision: what ends the whole group (Ctrl-C, scancel) is heard there, and a test
+    // that is only at work has not gone wrong.
+    for (const int signal : {SIGINT, SIGHUP, SIGTERM}) std::signal(signal, SIG_IGN);
+    try {
+        std::uint64_t piece = 0;
+        while (receive_all(line, &piece, sizeof piece)) {
+            const std::string answer = crew.work(static_cast<std::size_t>(piece));
+            const std::uint64_t size = answer.size();
+            if (!send_all(line, &size, sizeof size) || !send_all(line, answer.data(), answer.size())) break;
+        }
+    } catch (...) {  // nothing of the parent's may be unwound here: the piece is told of as one whose process ended
+        std::_Exit(failed_worker);
     }
     std::_Exit(0);
 }

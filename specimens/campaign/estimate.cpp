@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <map>
 
@@ -19,6 +21,23 @@ std::map<std::string, double> measured_seconds(const Ledger& ledger) {
         "USING(identity) WHERE test.state = 'done' GROUP BY point.test");
     for (const auto& row : table.rows) seconds.emplace(std::get<std::string>(row[0]), std::get<double>(row[1]));
     return seconds;
+}
+
+/// Of one test, by what --check says of it.
+double checked_seconds(TestCase description, const TestHooks& hooks, std::vector<std::string>& warnings) {
+    description.numerics.threads = 1;
+    const TestCheck check = check_test(description, hooks);
+    for (const std::string& warning : check.warnings)
+        if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(warning);
+    return check.test.specimen_seconds + (check.to_strength ? *check.to_strength : check.to_end).seconds;
+}
+
+/// Letters that Slurm takes in a name.
+std::string job_name(const std::string& text) {
+    std::string name = "crackle-";
+    for (const char letter : text)
+        name += std::isalnum(static_cast<unsigned char>(letter)) != 0 || letter == '-' ? letter : '_';
+    return name;
 }
 
 /// In single quotes, as a shell reads it.
@@ -47,36 +66,44 @@ PlanEstimate estimate_plan(const Plan& plan, const Ledger* ledger, const TestHoo
     for (std::size_t test = 0; test < plan.tests.size(); ++test) {
         KindEstimate kind;
         kind.test = plan.tests[test].name;
-        const PlanRow* first = nullptr;
+        const PlanRow *first = nullptr, *last = nullptr;
+        double weight = 0.0;  // companions at half the step or half the rate take twice as long
         for (const PlanRow& row : plan.rows) {
             if (plan.points[row.point].test != test) continue;
             ++kind.rows;
+            weight += row.variant == Variant::as_asked ? 1.0 : 2.0;
+            if (row.variant != Variant::as_asked) continue;
             if (first == nullptr) first = &row;
+            if (row.seed == first->seed) last = &row;
         }
         if (const auto known = measured.find(kind.test); known != measured.end()) {
             kind.seconds = known->second;
             kind.measured = true;
+            weight = static_cast<double>(kind.rows);  // the mean has them
         } else if (first != nullptr) {
-            TestCase description = plan.test_of(*first);
-            description.numerics.threads = 1;
-            const TestCheck check = check_test(description, hooks);
+            const double of_first = checked_seconds(plan.test_of(*first), hooks, kind.warnings);
+            const bool alike = first->point == last->point;
             kind.seconds =
-                check.test.specimen_seconds + (check.to_strength ? *check.to_strength : check.to_end).seconds;
-            kind.warnings = check.warnings;
+                alike ? of_first : 0.5 * (of_first + checked_seconds(plan.test_of(*last), hooks, kind.warnings));
         }
-        estimate.seconds += kind.seconds * static_cast<double>(kind.rows);
+        estimate.seconds += kind.seconds * weight;
         estimate.kinds.push_back(std::move(kind));
     }
     return estimate;
 }
 
+double largest_share(const Plan& plan, int shards) {
+    const auto of = [&](double pieces) { return std::ceil(pieces / shards) / pieces; };
+    const auto packings = static_cast<double>(plan.packings), rows = static_cast<double>(plan.rows.size());
+    return of(packings >= shards ? packings : rows);
+}
+
 double wall_limit(const BatchRequest& request) {
     constexpr double margin = 3.0, beginning = 300.0;
-    return beginning + margin * request.seconds / request.shards / request.workers;
+    return beginning + margin * request.seconds * request.largest_share / request.workers;
 }
 
 std::string batch_script(const BatchRequest& request) {
-    const std::string shards = (request.folder / "shards").string();
     return fmt::format(
         "#!/bin/bash\n"
         "# Made by `crackle campaign submit`: each task runs one share; submitted again, all go on where they were.\n"
@@ -86,11 +113,13 @@ std::string batch_script(const BatchRequest& request) {
         "#SBATCH --cpus-per-task={}\n"
         "#SBATCH --time={}\n"
         "#SBATCH --requeue\n"
-        "#SBATCH --output={}/%a.log\n"
+        "#SBATCH --output=/dev/null\n"
+        "exec >{}/\"$SLURM_ARRAY_TASK_ID.log\" 2>&1\n"
         "exec {} campaign {} -o {} --shard \"$SLURM_ARRAY_TASK_ID/{}\" --workers {}{} -q\n",
-        "crackle-" + request.plan.stem().string(), request.shards, request.workers, clock_text(wall_limit(request)),
-        shards, shell_word(request.program.string()), shell_word(request.plan.string()),
-        shell_word(request.folder.string()), request.shards, request.workers, request.options);
+        job_name(request.plan.stem().string()), request.shards, request.workers, clock_text(wall_limit(request)),
+        shell_word((request.folder / "shards").string()), shell_word(request.program.string()),
+        shell_word(request.plan.string()), shell_word(request.folder.string()), request.shards, request.workers,
+        request.options);
 }
 
 }  // namespace crackle

@@ -15,9 +15,9 @@ namespace crackle {
 
 struct KindEstimate {
     std::string test;
-    std::int64_t rows = 0;              ///< of the plan
-    double seconds = 0.0;               ///< of a processor, one test
-    bool measured = false;              ///< mean of those that have been run; else by `crackle test --check` of one
+    std::int64_t rows = 0;  ///< of the plan
+    double seconds = 0.0;   ///< of a processor, one test
+    bool measured = false;  ///< mean of those that have been run; else by --check of the first and last point
     std::vector<std::string> warnings;  ///< of that check
 };
 
@@ -32,8 +32,9 @@ PlanEstimate estimate_plan(const Plan& plan, const Ledger* ledger, const TestHoo
 struct BatchRequest {
     std::filesystem::path program, plan, folder;  ///< absolute
     int shards = 1, workers = 1;
-    double seconds = 0.0;  ///< of a processor, all rows
-    std::string options;   ///< further words for `crackle campaign`
+    double seconds = 0.0;        ///< of a processor, all rows
+    double largest_share = 1.0;  ///< of the work, of one share
+    std::string options;         ///< further words for `crackle campaign`
 };
 
 /// Shares of at least this work each: what a cluster needs to start one is little beside it, s.
@@ -41,6 +42,9 @@ inline constexpr double least_work_a_shard = 300.0;
 
 /// Wall clock asked for a share, s: three times its part of the work, and five minutes.
 double wall_limit(const BatchRequest& request);
+
+/// What the largest of so many shares has of a plan's tests: packings are dealt out whole where there are enough.
+double largest_share(const Plan& plan, int shards);
 
 /// A script for Slurm's sbatch: an array with one task a share. Submitted again it goes on.
 std::string batch_script(const BatchRequest& request);

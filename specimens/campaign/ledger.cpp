@@ -5,8 +5,10 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <sqlite3.h>
+#include <xxhash.h>
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "solver/base/errors.hpp"
@@ -53,6 +55,16 @@ Cell cell_of(const SQLite::Column& column) {
     if (column.isNull()) return {};
     if (column.isText() || column.isBlob()) return column.getString();
     return column.getDouble();
+}
+
+/// By what two plans are known to ask for the same rows, however they are written.
+std::string rows_mark(const Plan& plan, const std::vector<std::string>& identities) {
+    std::string text;
+    for (std::size_t k = 0; k < identities.size(); ++k)
+        text += fmt::format("{} {} {} {}\n", plan.rows[k].point, plan.rows[k].seed, name_of(plan.rows[k].variant),
+                            identities[k]);
+    const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
+    return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
 }
 
 void run(SQLite::Statement& statement) {
@@ -172,21 +184,26 @@ void Ledger::make_views() {
     db.exec("DROP VIEW IF EXISTS results");
     db.exec("DROP VIEW IF EXISTS long");
     std::vector<std::string> of_point, of_figures, parts;
+    std::set<std::string> axes;
     SQLite::Statement points(db, "SELECT name FROM pragma_table_info('point')");
     while (points.executeStep()) {
         const std::string name = points.getColumn(0).getString();
         if (name != "number") of_point.push_back("point." + quoted(name));
+        axes.insert(name);
     }
     SQLite::Statement figures(db, "SELECT name FROM pragma_table_info('figures')");
     while (figures.executeStep()) {
         const std::string name = figures.getColumn(0).getString();
         if (name == "identity") continue;
-        of_figures.push_back(", figures." + quoted(name));
+        // What was asked for has the name; what came of it another.
+        const std::string shown = axes.contains(name) ? name + " (reached)" : name;
+        of_figures.push_back(fmt::format(", figures.{} AS {}", quoted(name), quoted(shown)));
         if (parts.size() < most_columns_of_long)
             parts.push_back(
-                fmt::format("SELECT plan.row AS row, {} AS figure, figures.{} AS value FROM plan JOIN "
-                            "figures USING(identity) WHERE figures.{} IS NOT NULL",
-                            literal(name), quoted(name), quoted(name)));
+                fmt::format("SELECT plan.row AS row, point.test AS test, plan.variant AS variant, {} AS figure, "
+                            "figures.{} AS value FROM plan JOIN point ON point.number = plan.point JOIN figures "
+                            "USING(identity) WHERE typeof(figures.{}) IN ('real', 'integer')",
+                            literal(shown), quoted(name), quoted(name)));
     }
     db.exec(
         fmt::format("CREATE VIEW results AS SELECT plan.row AS row, {}, plan.seed AS seed, plan.variant AS variant, "
@@ -194,8 +211,10 @@ void Ledger::make_views() {
                     "FROM plan JOIN point ON point.number = plan.point LEFT JOIN test USING(identity) LEFT JOIN "
                     "figures USING(identity) ORDER BY plan.row",
                     fmt::join(of_point, ", "), fmt::join(of_figures, "")));
-    db.exec("CREATE VIEW long AS " + (parts.empty() ? std::string("SELECT 0 AS row, '' AS figure, 0.0 AS value WHERE 0")
-                                                    : fmt::format("{}", fmt::join(parts, " UNION ALL "))));
+    db.exec("CREATE VIEW long AS " +
+            (parts.empty()
+                 ? std::string("SELECT 0 AS row, '' AS test, '' AS variant, '' AS figure, 0.0 AS value WHERE 0")
+                 : fmt::format("{}", fmt::join(parts, " UNION ALL "))));
 }
 
 void Ledger::set_plan(const Plan& plan, const std::vector<std::string>& identities) {
@@ -245,6 +264,7 @@ void Ledger::set_plan(const Plan& plan, const std::vector<std::string>& identiti
         note("plan", plan.text);
         note("plan_file", plan.file.filename().string());
         note("results_version", fmt::format("{}", results_version));
+        note("rows", rows_mark(plan, identities));
         make_views();
         change.commit();
     });
@@ -306,20 +326,22 @@ void Ledger::put_figures(const std::string& identity, const nlohmann::ordered_js
     run(figures);
 }
 
-std::int64_t Ledger::gather(const std::filesystem::path& other) {
+std::int64_t Ledger::gather(const std::filesystem::path& other, bool its_plan) {
     return guarded([&] {
         SQLite::Database& db = *database_;
         db.exec("ATTACH DATABASE " + literal(other.string()) + " AS other");
         SQLite::Transaction change(db);
         for (const char* view : {"results", "long"}) db.exec(fmt::format("DROP VIEW IF EXISTS {}", view));
-        for (const char* table : {"plan", "point"}) db.exec(fmt::format("DROP TABLE main.{}", table));
-        for (const char* table : {"point", "plan"}) {
-            db.exec(
-                db.execAndGet(fmt::format("SELECT sql FROM other.sqlite_schema WHERE name = '{}'", table)).getString());
-            db.exec(fmt::format("INSERT INTO main.{0} SELECT * FROM other.{0}", table));
+        if (its_plan) {
+            for (const char* table : {"plan", "point"}) db.exec(fmt::format("DROP TABLE main.{}", table));
+            for (const char* table : {"point", "plan"}) {
+                db.exec(db.execAndGet(fmt::format("SELECT sql FROM other.sqlite_schema WHERE name = '{}'", table))
+                            .getString());
+                db.exec(fmt::format("INSERT INTO main.{0} SELECT * FROM other.{0}", table));
+            }
+            db.exec("CREATE INDEX plan_identity ON plan(identity)");
+            db.exec("INSERT OR REPLACE INTO main.meta SELECT * FROM other.meta");
         }
-        db.exec("CREATE INDEX plan_identity ON plan(identity)");
-        db.exec("INSERT OR REPLACE INTO main.meta SELECT * FROM other.meta");
         std::vector<std::string> names;
         SQLite::Statement columns(db, "SELECT name FROM pragma_table_info('figures', 'other')");
         while (columns.executeStep()) {

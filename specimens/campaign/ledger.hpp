@@ -9,7 +9,7 @@
 //            of this plan or an earlier one; a test that has no row has not ended
 //   figures  identity, and a column for each figure of summary.json, named as there
 //   results  (view) all of these beside each other, a row of the plan each
-//   long     (view) row, figure, value
+//   long     (view) row, test, variant, figure, value: of figures that are numbers, the first 480
 //
 // Tested by tests/specimens/campaign/campaign_test.cpp.
 #pragma once
@@ -70,9 +70,9 @@ class Ledger {
     void set_plan(const Plan& plan, const std::vector<std::string>& identities);
     /// Adds what a test gave; one that is there already gets another try.
     void record(const RowResult& result, const std::string& host);
-    /// Adds all tests of another ledger that this one has not, or has not as done, and takes over its plan.
+    /// Adds all tests of another ledger that this one has not, or has not as done, and takes over its plan where asked.
     /// @return how many
-    std::int64_t gather(const std::filesystem::path& other);
+    std::int64_t gather(const std::filesystem::path& other, bool its_plan);
 
     /// Identities of tests that have ended, by state.
     std::map<std::string, std::string> ended() const;

@@ -72,7 +72,16 @@ void judge_points(Plan& plan) {
         const PlannedTest& kind = plan.tests[point.test];
         try {
             const TestCase test = kind.files.with(settings_of(plan, point));
+            point.own_seed = test.packing.seed;
+            if (plan.own_seeds) continue;
             point.seeds = seeds_of(test);
+            for (const CaseSetting& setting : point.settings) {
+                if (std::find(point.seeds.begin(), point.seeds.end(), setting.key) == point.seeds.end()) continue;
+                throw InputError(
+                    fmt::format("{}: {}: found a value for it beside [packings], which gives every packing its seeds; "
+                                "leave one out",
+                                setting.where, setting.key));
+            }
             if (plan.packings > 1 && point.seeds.empty()) {
                 throw InputError(
                     fmt::format("{}: packings.count: found {}, expected 1: nothing in the test {} is random; give it "
@@ -141,7 +150,8 @@ void expand(Plan& plan, const DesignRequest& design, bool with_companions) {
     for (std::int64_t k = 0; k < plan.packings; ++k) {
         for (std::size_t point = 0; point < plan.points.size(); ++point) {
             for (int variant = 0; variant < (with_companions ? variants : 1); ++variant)
-                plan.rows.push_back({point, plan.first_seed + k, static_cast<Variant>(variant)});
+                plan.rows.push_back({point, plan.own_seeds ? plan.points[point].own_seed : plan.first_seed + k,
+                                     static_cast<Variant>(variant)});
         }
     }
 }

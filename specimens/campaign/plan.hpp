@@ -5,7 +5,7 @@
 //   [[test]]     name, case, set      kinds of test, each a case file with keys set over it
 //   [[axis]]     key, values | from, to, count, spacing; tests
 //   [design]     points, sequence     of the axes that have from and to and no count
-//   [packings]   count, first_seed    each a seed of everything that is random in a case
+//   [packings]   count, first_seed    each a seed of everything that is random in a case; without it a case has its own
 //   [run]        keep, time_limit
 //
 // A point is one of these tests at one combination of the axes; its rows are the same point with the packings. The
@@ -47,6 +47,7 @@ struct PlanPoint {
     std::vector<CaseSetting> settings;  ///< of the axes that are for it, in their order
     std::vector<std::size_t> axes;      ///< into Plan::axes, of these
     std::vector<std::string> seeds;     ///< keys of its case that a packing's number goes to
+    std::int64_t own_seed = 1;          ///< of its case's packing
 };
 
 struct PlanRow {
@@ -61,6 +62,7 @@ struct Plan {
     std::string title;
     std::vector<PlannedTest> tests;
     std::vector<Axis> axes;
+    bool own_seeds = true;  ///< without [packings]: each case has the seeds that it states
     std::int64_t packings = 1, first_seed = 1;
     Keep keep = Keep::figures;
     double time_limit = 0.0;  ///< s of the wall clock a test; 0: none

@@ -35,7 +35,8 @@ constexpr PlanKey plan_keys[]{
     {"[[axis]]", "values", "a list", "The values themselves; or:"},
     {"[[axis]]", "from", "a number", "First value, with `to`."},
     {"[[axis]]", "to", "a number", "Last value."},
-    {"[[axis]]", "count", "a whole number, 2 to ten million", "So many from first to last; without it the axis is the design's."},
+    {"[[axis]]", "count", "a whole number, 2 to ten million",
+     "So many from first to last; without it the axis is the design's."},
     {"[[axis]]", "spacing", "\"linear\" or \"logarithmic\"", "Of these; linear by default."},
     {"[[axis]]", "tests", "a list of names", "Tests that it is for; all by default."},
     {"[design]", "points", "a whole number, 1 to ten million", "How many fill the box of its axes."},
@@ -97,7 +98,8 @@ class Table {
         if (!node->is_number() || !std::isfinite(*node->value<double>())) refuse(key, shown(*node));
         return *node->value<double>();
     }
-    std::optional<std::int64_t> whole(const char* key, std::int64_t least, std::int64_t most = 1'000'000'000'000) const {
+    std::optional<std::int64_t> whole(const char* key, std::int64_t least,
+                                      std::int64_t most = 1'000'000'000'000) const {
         const toml::node* node = get(key);
         if (node == nullptr) return std::nullopt;
         const auto* found = node->as_integer();
@@ -280,6 +282,7 @@ Plan read_plan(const fs::path& path, bool with_companions) {
     if (design.points > 0 && of_design == 0)
         design_table.refuse("points", "no axis for it", "an [[axis]] with from and to, without count");
     const Table packings = table_of(path, content, "packings", absent);
+    plan.own_seeds = content.get("packings") == nullptr;
     plan.packings = packings.whole("count", 1).value_or(1);
     plan.first_seed = packings.whole("first_seed", 0).value_or(1);
     const Table run = table_of(path, content, "run", absent);

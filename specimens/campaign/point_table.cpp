@@ -54,6 +54,32 @@ const std::string& text_of(const Cell& cell) {
     return text != nullptr ? *text : none;
 }
 
+/// Of a column; the number of columns where there is none.
+std::size_t place_in(const LedgerTable& results, std::string_view column) {
+    return static_cast<std::size_t>(std::find(results.columns.begin(), results.columns.end(), column) -
+                                    results.columns.begin());
+}
+
+/// Not a number where there is none.
+double number_at(const std::vector<Cell>& row, std::size_t column) {
+    const auto* number = column < row.size() ? std::get_if<double>(&row[column]) : nullptr;
+    return number != nullptr ? *number : std::nan("");
+}
+
+/// Figures that refer to the peak: of a test that has not failed they refer to the largest stress so far, and belong to
+/// no mean.
+bool of_the_peak(std::string_view figure) {
+    if (figure.ends_with(converted_suffix)) figure.remove_suffix(std::string_view(converted_suffix).size());
+    constexpr std::array<std::string_view, 7> all{"tangent_modulus_50",
+                                                  "tangent_50_poissons_ratio",
+                                                  "initial_tangent_modulus",
+                                                  "initial_poissons_ratio",
+                                                  "area_strain_peak",
+                                                  "bonds_broken_in_shear_to_peak",
+                                                  "bonds_broken_in_tension_to_peak"};
+    return std::find(all.begin(), all.end(), figure) != all.end();
+}
+
 /// Place of a figure in summary.json by its name, or that of the table it is in.
 std::size_t rank_of(const std::string& figure) {
     const auto& keys = summary_keys();
@@ -107,18 +133,17 @@ std::vector<PointSummary> summarise(const LedgerTable& results, const std::vecto
             throw InputError(
                 fmt::format("found no figure '{:.60}', expected one of {}", figure, fmt::join(known, ", ")));
         }
-        places.push_back(static_cast<std::size_t>(std::find(results.columns.begin(), results.columns.end(), figure) -
-                                                  results.columns.begin()));
+        places.push_back(place_in(results, figure));
     }
-    const auto units = std::find(results.columns.begin(), results.columns.end(), "material_units");
-    const auto failed = std::find(results.columns.begin(), results.columns.end(), "failed");
+    const std::size_t units = place_in(results, "material_units"), failed = place_in(results, "failed");
 
-    /// By figure, the packing's number and the variant.
+    /// By figure, variant and the packing's number.
     using Values = std::map<std::pair<std::size_t, std::string>, std::map<double, double>>;
     std::vector<PointSummary> points;
     std::vector<Values> values;
     std::map<std::string, std::size_t> place_of;
-    for (const std::vector<Cell>& row : results.rows) {
+    for (std::size_t number = 0; number < results.rows.size(); ++number) {
+        const std::vector<Cell>& row = results.rows[number];
         PointSummary point;
         point.test = text_of(row[1]);
         for (std::size_t k = axes_begin; k < columns.seed; ++k)
@@ -131,40 +156,37 @@ std::vector<PointSummary> summarise(const LedgerTable& results, const std::vecto
         PointSummary& own = points[at->second];
         const std::string &variant = text_of(row[columns.variant()]), &state = text_of(row[columns.state()]);
         const bool done = state == row_done, asked = variant == name_of(Variant::as_asked);
+        const bool held = done && number_at(row, failed) == 0.0;
         if (asked) {
+            own.rows.push_back(number);
             ++own.planned;
             own.done += done ? 1 : 0;
             own.gone_wrong += !done && !state.empty() ? 1 : 0;
-            if (units != results.columns.end())
-                own.area_units =
-                    own.area_units || text_of(row[static_cast<std::size_t>(units - results.columns.begin())]) == "area";
-            if (done && failed != results.columns.end()) {
-                const auto* flag =
-                    std::get_if<double>(&row[static_cast<std::size_t>(failed - results.columns.begin())]);
-                own.unfailed += flag != nullptr && *flag == 0.0 ? 1 : 0;
-            }
+            own.area_units = own.area_units || (units < row.size() && text_of(row[units]) == "area");
+            own.unfailed += held ? 1 : 0;
         }
         const auto* seed = std::get_if<double>(&row[columns.seed]);
         for (std::size_t f = 0; f < places.size(); ++f) {
             const auto* value = std::get_if<double>(&row[places[f]]);
-            if (value != nullptr && seed != nullptr) values[at->second][{f, variant}][*seed] = *value;
+            if (value == nullptr || seed == nullptr || (held && of_the_peak(figures[f]))) continue;
+            values[at->second][{f, variant}][*seed] = *value;
         }
     }
-    const auto differences = [](const std::map<double, double>& asked, const std::map<double, double>& other) {
-        std::vector<double> all;
-        for (const auto& [seed, value] : asked)
-            if (const auto pair = other.find(seed); pair != other.end()) all.push_back(value - pair->second);
-        return all;
-    };
     for (std::size_t p = 0; p < points.size(); ++p) {
         for (std::size_t f = 0; f < figures.size(); ++f) {
-            const std::map<double, double>& asked = values[p][{f, name_of(Variant::as_asked)}];
-            std::vector<double> all;
-            for (const auto& [seed, value] : asked) all.push_back(value);
+            std::vector<double> all, asked, half_step, half_rate;
+            const auto &steps = values[p][{f, name_of(Variant::half_step)}],
+                       &rates = values[p][{f, name_of(Variant::half_rate)}];
+            for (const auto& [seed, value] : values[p][{f, name_of(Variant::as_asked)}]) {
+                all.push_back(value);
+                const auto step = steps.find(seed), rate = rates.find(seed);
+                if (step == steps.end() || rate == rates.end()) continue;
+                asked.push_back(value);
+                half_step.push_back(step->second);
+                half_rate.push_back(rate->second);
+            }
             points[p].figures[figures[f]] = mean_of(all);
-            const auto step = differences(asked, values[p][{f, name_of(Variant::half_step)}]);
-            const auto rate = differences(asked, values[p][{f, name_of(Variant::half_rate)}]);
-            if (!step.empty() && !rate.empty()) points[p].biases[figures[f]] = bias_of(step, rate);
+            if (!asked.empty()) points[p].biases[figures[f]] = bias_of(asked, half_step, half_rate);
         }
     }
     return points;
@@ -182,28 +204,31 @@ std::string unit_of_figure(const std::string& figure, bool area_units) {
 }
 
 std::string verdict_on(const MeanFigure& mean, const MeanBias& bias) {
-    const double size = std::abs(mean.mean), chance = mean.standard_error, wrong = std::abs(bias.value());
-    if (!std::isfinite(chance) || !std::isfinite(bias.standard_error()) || size == 0.0)
+    const double size = std::abs(mean.mean), chance = mean.standard_error, wrong = std::abs(bias.value);
+    if (!std::isfinite(chance) || !std::isfinite(bias.standard_error) || size == 0.0)
         return "too few packings to tell its bias";
-    const double share = wrong / size, sure = bias.standard_error() / size;
-    const double root = std::sqrt(static_cast<double>(bias.pairs));
+    const auto percent = [&](double value, double error) {
+        return fmt::format("{:+.2g} ± {:.2g} %", 100.0 * value / size, 100.0 * error / size);
+    };
+    const std::string parts =
+        fmt::format("bias {} (step {}, rate {}; {} packings)", percent(bias.value, bias.standard_error),
+                    percent(bias.step, bias.step_error), percent(bias.rate, bias.rate_error), bias.packings);
     if (!bias.known()) {
         constexpr double goal = 0.01;
-        return fmt::format("step and rate: none seen, {:+.2g} ± {:.2g} %; {}", 100.0 * bias.value() / size,
-                           100.0 * sure,
-                           sure > goal ? fmt::format("{:.0f} packings in pairs would show 1 %",
-                                                     packings_for(bias.standard_error() * root, goal * size))
-                                       : std::string("the scatter of packings is the error that counts"));
+        const double deviation = bias.standard_error * std::sqrt(static_cast<double>(bias.packings));
+        const bool unsure = bias.standard_error > goal * size;
+        return parts + (unsure ? fmt::format(": none seen, {:.0f} packings would show 1 %",
+                                             packings_for(deviation, goal * size))
+                               : std::string(": none seen, the scatter of packings is the error that counts"));
     }
-    if (wrong > chance)
+    if (wrong > chance) {
         return fmt::format(
-            "step and rate dominate: {:+.2g} ± {:.2g} % against ± {:.2g} % of the packings; halve the rate "
-            "or its tolerance, more packings change nothing",
-            100.0 * bias.value() / size, 100.0 * sure, 100.0 * chance / size);
-    return fmt::format(
-        "the packings dominate: ± {:.2g} % against {:.2g} % of step and rate; {:.0f} packings would bring "
-        "them level",
-        100.0 * chance / size, 100.0 * share, packings_for(mean.deviation, wrong));
+            "{}: it dominates, ± {:.2g} % of the packings; {} changes that, more packings do not", parts,
+            100.0 * chance / size,
+            std::abs(bias.step) > std::abs(bias.rate) ? "a smaller safety_factor" : "a lower rate or rate_tolerance");
+    }
+    return fmt::format("{}: the packings dominate, ± {:.2g} %; {:.0f} would bring them level", parts,
+                       100.0 * chance / size, packings_for(mean.deviation, wrong));
 }
 
 std::string points_csv(const std::vector<PointSummary>& points, const std::vector<std::string>& figures) {
@@ -213,7 +238,10 @@ std::string points_csv(const std::vector<PointSummary>& points, const std::vecto
             if (std::find(keys.begin(), keys.end(), key) == keys.end()) keys.push_back(key);
     std::string text = "test";
     for (const std::string& key : keys) (text += ',') += csv_field(key);
-    text += ",figure,unit,packings,mean,standard_deviation,standard_error,low_95,high_95,bias,bias_standard_error\n";
+    text +=
+        ",planned,done,gone_wrong,not_failed,figure,unit,packings,mean,standard_deviation,standard_error,low_95,high_"
+        "95,"
+        "bias,bias_standard_error,bias_step,bias_rate,bias_packings\n";
     for (const PointSummary& point : points) {
         std::string head = csv_field(point.test);
         for (const std::string& key : keys) {
@@ -225,11 +253,13 @@ std::string points_csv(const std::vector<PointSummary>& points, const std::vecto
             const MeanFigure& mean = point.figures.at(figure);
             const auto bias = point.biases.find(figure);
             const auto shown = [](double value) { return std::isfinite(value) ? fmt::format("{}", value) : ""; };
-            text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", head, csv_field(figure),
+            const MeanBias none, &own = bias == point.biases.end() ? none : bias->second;
+            text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", head, point.planned,
+                                point.done, point.gone_wrong, point.unfailed, csv_field(figure),
                                 unit_of_figure(figure, point.area_units), mean.count, shown(mean.mean),
                                 shown(mean.deviation), shown(mean.standard_error), shown(mean.low), shown(mean.high),
-                                bias == point.biases.end() ? "" : shown(bias->second.value()),
-                                bias == point.biases.end() ? "" : shown(bias->second.standard_error()));
+                                shown(own.value), shown(own.standard_error), shown(own.step), shown(own.rate),
+                                bias == point.biases.end() ? "" : fmt::format("{}", own.packings));
         }
     }
     return text;

@@ -19,7 +19,8 @@ struct PointSummary {
     std::string test;
     std::vector<std::pair<std::string, Cell>> axes;  ///< those that are for it
     std::int64_t planned = 0, done = 0, gone_wrong = 0;
-    std::int64_t unfailed = 0;  ///< done, and not failed by max_axial_strain: they have no strength
+    std::int64_t unfailed = 0;      ///< done, and not failed by max_axial_strain: they have no strength
+    std::vector<std::size_t> rows;  ///< of the results, as asked
     bool area_units = false;
     std::map<std::string, MeanFigure> figures;
     std::map<std::string, MeanBias> biases;  ///< where the plan has companions

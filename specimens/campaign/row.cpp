@@ -33,11 +33,11 @@ double processor_seconds() {
 }
 
 // Keys of a summary that tell of the run, or of files.
-constexpr std::array<std::string_view, 17> no_figures{
+constexpr std::array<std::string_view, 18> no_figures{
     "title",       "note",       "version",      "compiler",     "command",
     "threads",     "profile",    "wall_seconds", "step_seconds", "particle_steps_per_second",
-    "frame_start", "frame_peak", "columns",      "frame_end",    "units", "files",
-    "notices"};
+    "frame_start", "frame_peak", "columns",      "frame_end",    "units",
+    "files",       "seed",       "notices"};
 
 void add_figures(Json& figures, const std::string& prefix, const Json& table) {
     for (const auto& [key, value] : table.items()) {

@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t bootstrap_means = 10'000;
 constexpr std::uint64_t bootstrap_seed = 1;
+constexpr std::size_t fewest_of_bootstrap = 8, most_of_bootstrap = 200;
 constexpr double outside = 0.05;
 
 /// Between sorted values, linear (type 7 of Hyndman and Fan, Am. Stat. 50, 1996).
@@ -25,9 +26,8 @@ double percentile(const std::vector<double>& sorted, double share) {
     return sorted[below] + (at - static_cast<double>(below)) * (sorted[below + 1] - sorted[below]);
 }
 
-}  // namespace
-
-MeanFigure mean_of(std::span<const double> values) {
+/// Mean, deviation and standard error.
+MeanFigure moments_of(std::span<const double> values) {
     MeanFigure figure;
     figure.count = values.size();
     if (values.empty()) return figure;
@@ -40,6 +40,24 @@ MeanFigure mean_of(std::span<const double> values) {
     for (const double value : values) squares += (value - figure.mean) * (value - figure.mean);
     figure.deviation = std::sqrt(squares / (count - 1.0));
     figure.standard_error = figure.deviation / std::sqrt(count);
+    return figure;
+}
+
+/// Student's t of the 95 % interval.
+double student(std::size_t count) {
+    return boost::math::quantile(boost::math::students_t(static_cast<double>(count) - 1.0), 1.0 - 0.5 * outside);
+}
+
+}  // namespace
+
+MeanFigure mean_of(std::span<const double> values) {
+    MeanFigure figure = moments_of(values);
+    if (values.size() < 2) return figure;
+    const auto count = static_cast<double>(values.size());
+    const double t = student(values.size());
+    figure.low = figure.mean - t * figure.standard_error;
+    figure.high = figure.mean + t * figure.standard_error;
+    if (values.size() < fewest_of_bootstrap || values.size() > most_of_bootstrap) return figure;
 
     std::mt19937_64 generator(bootstrap_seed);
     std::vector<double> means(bootstrap_means);
@@ -49,28 +67,28 @@ MeanFigure mean_of(std::span<const double> values) {
         mean = drawn / count;
     }
     std::sort(means.begin(), means.end());
-    const boost::math::students_t student(count - 1.0);
-    const double t = boost::math::quantile(student, 1.0 - 0.5 * outside);
     const double tail = boost::math::cdf(boost::math::normal(), -std::sqrt(count / (count - 1.0)) * t);
     figure.low = percentile(means, tail);
     figure.high = percentile(means, 1.0 - tail);
     return figure;
 }
 
-double MeanBias::standard_error() const { return std::sqrt(step_error * step_error + rate_error * rate_error); }
+bool MeanBias::known() const {
+    if (packings < 2) return false;
+    const double t = student(packings);
+    return std::abs(value) > t * standard_error || std::abs(step) > t * step_error || std::abs(rate) > t * rate_error;
+}
 
-bool MeanBias::known() const { return std::abs(value()) > 2.0 * standard_error(); }
-
-MeanBias bias_of(std::span<const double> step_differences, std::span<const double> rate_differences) {
-    constexpr double second_order = 4.0 / 3.0, first_order = 2.0;
-    const MeanFigure step = mean_of(step_differences), rate = mean_of(rate_differences);
-    MeanBias bias;
-    bias.pairs = std::min(step.count, rate.count);
-    bias.step = second_order * step.mean;
-    bias.step_error = second_order * step.standard_error;
-    bias.rate = first_order * rate.mean;
-    bias.rate_error = first_order * rate.standard_error;
-    return bias;
+MeanBias bias_of(std::span<const double> asked, std::span<const double> half_step, std::span<const double> half_rate) {
+    constexpr double first_order = 2.0;
+    std::vector<double> by_step, by_rate, by_both;
+    for (std::size_t k = 0; k < asked.size(); ++k) {
+        by_step.push_back(first_order * (asked[k] - half_step[k]));
+        by_rate.push_back(first_order * (asked[k] - half_rate[k]));
+        by_both.push_back(by_step.back() + by_rate.back());
+    }
+    const MeanFigure step = moments_of(by_step), rate = moments_of(by_rate), both = moments_of(by_both);
+    return {both.count, step.mean, step.standard_error, rate.mean, rate.standard_error, both.mean, both.standard_error};
 }
 
 double packings_for(double deviation, double goal) {

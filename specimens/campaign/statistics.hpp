@@ -15,9 +15,9 @@ struct MeanFigure {
     double mean = std::numeric_limits<double>::quiet_NaN();
     double deviation = std::numeric_limits<double>::quiet_NaN();       ///< sample standard deviation, n - 1
     double standard_error = std::numeric_limits<double>::quiet_NaN();  ///< of the mean
-    /// 95 % interval of the mean: percentiles of 10,000 bootstrap means, at the levels that are as wide for few values
-    /// as Student's t (expanded percentile interval, Hesterberg, Am. Stat. 69, 2015). The same values give the same
-    /// interval.
+    /// 95 % interval of the mean. Of 8 to 200 values: percentiles of 10,000 bootstrap means, at the levels that are as
+    /// wide as Student's t (expanded percentile interval, Hesterberg, Am. Stat. 69, 2015). Of fewer, whose bootstrap
+    /// cannot leave their range, and of more, where both agree: Student's t. The same values give the same interval.
     double low = std::numeric_limits<double>::quiet_NaN(), high = std::numeric_limits<double>::quiet_NaN();
 
     double variation() const { return deviation / mean; }  ///< coefficient of variation
@@ -25,21 +25,22 @@ struct MeanFigure {
 MeanFigure mean_of(std::span<const double> values);
 
 /// What a mean is wrong by because time goes in steps and the platens move at a rate, from companions of the same
-/// packings at half the step and half the rate, in pairs: of two grids at an order p the coarse one errs by
-/// 2^p/(2^p - 1) times their difference (Richardson): 4/3 for the step (leapfrog, second order), 2 for the rate
-/// (inertia and dashpots, first order). In units of the figure, positive: the mean is too large.
+/// packings at half the step and half the rate. A first-order error is twice the change at half of it (Richardson);
+/// that is taken for both: of the step it is an upper bound where leapfrog's second order prevails (4/3 of the change).
+/// The three runs of a packing belong together, and the errors are those of their sum. In units of the figure,
+/// positive: the mean is too large.
 struct MeanBias {
-    std::size_t pairs = 0;  ///< the smaller number of the two kinds
+    std::size_t packings = 0;  ///< that have all three
     double step = std::numeric_limits<double>::quiet_NaN(), step_error = std::numeric_limits<double>::quiet_NaN();
     double rate = std::numeric_limits<double>::quiet_NaN(), rate_error = std::numeric_limits<double>::quiet_NaN();
+    double value = std::numeric_limits<double>::quiet_NaN();  ///< of both
+    double standard_error = std::numeric_limits<double>::quiet_NaN();
 
-    double value() const { return step + rate; }
-    double standard_error() const;
-    /// Whether it is more than two standard errors from none.
+    /// Whether one of the three lies beyond the 95 % interval of nothing, by Student's t.
     bool known() const;
 };
-/// @param step_pairs, rate_pairs  as asked less half, of each packing that has both
-MeanBias bias_of(std::span<const double> step_differences, std::span<const double> rate_differences);
+/// @param asked, half_step, half_rate  of the same packings in the same order
+MeanBias bias_of(std::span<const double> asked, std::span<const double> half_step, std::span<const double> half_rate);
 
 /// Packings that bring a standard error down to a goal: (deviation/goal)², at least 2.
 double packings_for(double deviation, double goal);

@@ -161,7 +161,8 @@ std::optional<NumericalErrors> run_companions(const VirtualTest& test, const Tes
     if (hooks.stage) hooks.stage(fmt::format("verifying: {} companions of the test", plans.size()));
     std::vector<std::optional<Companion>> done(plans.size());
     const int threads = std::max(1, test.world.workers.threads);
-    const int had = threads_to_be_had(std::max(1, static_cast<int>(std::thread::hardware_concurrency())));
+    // This thread only waits for those that are begun.
+    const int had = threads_to_be_had(1 + std::max(1, static_cast<int>(std::thread::hardware_concurrency()))) - 1;
     const auto at_once = static_cast<std::size_t>(std::max(1, had / threads));
     // One at a time needs no thread of its own.
     const auto policy = at_once > 1 ? std::launch::async : std::launch::deferred;

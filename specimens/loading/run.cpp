@@ -218,6 +218,9 @@ TestOutcome run_test(const TestCase& description, const TestOptions& options, co
         specimen->write(folder);
         specimen.reset();  // not kept while the test runs
         return run_with_files(test, options, hooks, folder, files);
+    } catch (const OutputError& error) {
+        if (!folder.staged()) throw;
+        throw OutputError(fmt::format("{}; {}", error.what(), folder.fate_of_earlier_results()));
     } catch (const InputError& error) {
         if (!folder.staged()) throw;
         throw InputError(fmt::format("{}; {}", error.what(), folder.fate_of_earlier_results()));

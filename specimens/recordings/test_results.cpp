@@ -104,8 +104,8 @@ nlohmann::ordered_json read_summary(const std::filesystem::path& file) {
     return summary;
 }
 
-/// Comma-separated numbers under a line of names. The words of column `word_column`, if given, are read as their place
-/// in `words`. @throws InputError naming file, line and column
+}  // namespace
+
 NumberTable number_table(const std::filesystem::path& file, std::string_view text, std::string_view word_column,
                          const std::vector<std::string>& words) {
     NumberTable table;
@@ -148,7 +148,7 @@ NumberTable number_table(const std::filesystem::path& file, std::string_view tex
     return table;
 }
 
-}  // namespace
+namespace {}  // namespace
 
 bool is_report_page(const std::filesystem::path& file) {
     if (!is_file(file)) return false;

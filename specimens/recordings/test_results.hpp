@@ -34,6 +34,11 @@ struct TestResults {
     std::optional<NumberTable> slips;  ///< columns of slips.csv; none where the test did not record slips
 };
 
+/// Comma-separated numbers under a line of names. The words of column `word_column`, if given, are read as their place
+/// in `words`. @param file for messages @throws InputError naming file, line and column
+NumberTable number_table(const std::filesystem::path& file, std::string_view text, std::string_view word_column = {},
+                         const std::vector<std::string>& words = {});
+
 /// @param folder  what `crackle test -o` made
 /// @throws InputError naming the file that is missing, wrong or not what the test wrote (stated_files.hpp), and how to
 /// make it

@@ -54,7 +54,7 @@ constexpr const char* report_name =
 constexpr const char* temporary_suffix = ".tmp";
 
 [[noreturn]] void cannot_write(const fs::path& path, const std::string& why) {
-    throw InputError(
+    throw OutputError(
         fmt::format("{}: cannot be written ({}), expected a writable folder with free space", path.string(), why));
 }
 

@@ -104,7 +104,7 @@ def main():
     parser.add_argument("--shards", type=int, default=4)
     given = parser.parse_args()
     crackle = os.path.abspath(given.crackle)
-    if "SLURM_CONF" in os.environ:
+    if "CRACKLE_TEST_CLUSTER" in os.environ:
         on_the_cluster(crackle, given.tests, given.shards)
         return 0
     cluster = pathlib.Path(__file__).resolve().parent / "slurm"

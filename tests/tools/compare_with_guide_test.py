@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """tools/compare_with_guide.py on made-up summaries: its ratios, its exit codes, its words about what is wrong."""
 import json
+import sqlite3
 import subprocess
 import sys
 import tempfile
@@ -55,6 +56,29 @@ class Comparison(unittest.TestCase):
         done = self.compare()
         self.assertEqual(done.returncode, 0)
         self.assertIn("All six specimens have failed.", done.stdout)
+
+    def test_means_of_packings_stand_beside(self):
+        (self.folder / "campaign").mkdir()
+        with sqlite3.connect(self.folder / "campaign" / "campaign.sqlite") as ledger:
+            keys = [key for key in summary("circles", "tension") if key not in ("kind", "specimen")]
+            ledger.execute(f"CREATE TABLE results(test, seed, variant, state, {', '.join(keys)})")
+            for seed, factor in ((1, 1.0), (2, 2.0), (3, 3.0), (4, 100.0)):
+                for specimen in STRENGTH:
+                    for loading in ("tension", "compression"):
+                        figures = summary(specimen, loading)
+                        figures["largest_stress"] *= factor if loading == "compression" else 1.0
+                        # Of the fourth packing one test has not ended: it is in no mean. Companions are none of their own.
+                        state = "crashed" if (seed, specimen, loading) == (4, "voronoi", "tension") else "done"
+                        for variant, scale in (("as_asked", 1.0), ("half_step", 7.0)):
+                            figures["largest_stress"] *= scale
+                            ledger.execute(f"INSERT INTO results VALUES({', '.join('?' * (len(keys) + 4))})",
+                                           [f"{specimen}_{loading}", seed, variant, state, *(figures[key] for key in keys)])
+        done = self.compare()
+        self.assertEqual(done.returncode, 0, done.stderr)
+        lines = done.stdout.splitlines()
+        self.assertTrue(lines[0].endswith("3 packings"), lines[0])
+        line = self.line_of(lines, "circles", "compressive over tensile strength")
+        self.assertTrue(line.endswith("4.0 ± 2.0"), line)
 
     def test_ratios_stand_beside_the_guides_words(self):
         expected = [

@@ -44,7 +44,7 @@ void print_estimate(const Plan& plan, const PlanEstimate& estimate, int workers)
                plan.packings, plan.packings == 1 ? "" : "s");
     for (const KindEstimate& kind : estimate.kinds) {
         fmt::print("  {:<24}{} tests of {:.2g} s{}\n", kind.test, kind.rows, kind.seconds,
-                   kind.measured ? ", as measured" : " by its first point");
+                   kind.measured ? ", as measured" : " by its first and last point");
         for (const std::string& warning : kind.warnings) fmt::print("  warning: {}: {}\n", kind.test, warning);
     }
     fmt::print("  about {} of a processor, {} with {} worker{}\n", hours(estimate.seconds),
@@ -62,11 +62,11 @@ void print_outcome(const CampaignOutcome& outcome, const std::string& folder) {
 
 CommandLine describe_campaign() {
     po::options_description options;
-    options.add_options()("output,o", po::value<std::string>()->value_name("DIR"), "folder of the campaign")  //
+    options.add_options()("output,o", po::value<std::string>()->value_name("DIR"), "folder of the campaign")   //
         ("workers", po::value<int>()->value_name("N"), "processes that run tests (default: one a processor)")  //
         ("verify",
          "run each test at half the step and half the rate, too: the bias of every mean, with its standard error")  //
-        ("retry", "run those again that have gone wrong")                                                         //
+        ("retry", "run those again that have gone wrong")                                                           //
         ("shard", po::value<std::string>()->value_name("I/N"),
          "run share I of N into DIR/shards/I.sqlite; `crackle campaign gather` puts shares together")  //
         ("dry-run", "judge the plan and estimate its hours; run nothing, write nothing")               //
@@ -102,15 +102,16 @@ int campaign(const Invocation& given) {
     const int workers = values.contains("workers") ? values["workers"].as<int>() : processors();
     constexpr int most_workers = 1024;
     if (workers < 1 || workers > most_workers)
-        throw InputError(
-            fmt::format("crackle campaign: --workers: found {}, expected 1 to {}", workers, most_workers));
+        throw InputError(fmt::format("crackle campaign: --workers: found {}, expected 1 to {}", workers, most_workers));
     watch_interrupts();
     const Plan plan = read_plan(given_or_shipped(given.operands.front()), values.contains("verify"));
     const std::string folder = values.contains("output") ? values["output"].as<std::string>() : "";
     TestHooks checking;
     checking.interrupted = interrupted;
     if (messages.progress().shown())
-        checking.working = [&](const std::string& what) { messages.progress().draw({.detail = "estimating: " + what}); };
+        checking.working = [&](const std::string& what) {
+            messages.progress().draw({.detail = "estimating: " + what});
+        };
     try {
         if (dry) {
             const std::filesystem::path file = ledger_file(folder);
@@ -132,13 +133,13 @@ int campaign(const Invocation& given) {
         hooks.told = [&](const std::string& text) { messages.notice(text); };
         if (messages.progress().shown()) {
             hooks.progress = [&](const CampaignProgress& p) {
-                messages.progress().draw({.share = static_cast<double>(p.tests - p.left) /
-                                                   static_cast<double>(std::max<std::int64_t>(1, p.tests)),
-                                          .rate = p.tests_per_second,
-                                          .unit = "tests",
-                                          .seconds_left = p.seconds_left,
-                                          .detail = fmt::format("{} of {} done, {} gone wrong", p.done, p.tests,
-                                                                p.gone_wrong)});
+                messages.progress().draw(
+                    {.share = static_cast<double>(p.tests - p.left) /
+                              static_cast<double>(std::max<std::int64_t>(1, p.tests)),
+                     .rate = p.tests_per_second,
+                     .unit = "tests",
+                     .seconds_left = p.seconds_left,
+                     .detail = fmt::format("{} of {} done, {} gone wrong", p.done, p.tests, p.gone_wrong)});
             };
         }
         messages.stage(fmt::format("{} tests of {} points with {} packings, {} workers", plan.rows.size(),

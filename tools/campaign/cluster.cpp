@@ -48,11 +48,11 @@ void call_sbatch(const fs::path& script) {
 
 CommandLine describe_campaign_submit() {
     po::options_description options;
-    options.add_options()("output,o", po::value<std::string>()->value_name("DIR"), "folder of the campaign")           //
-        ("shards", po::value<int>()->value_name("N"), "shares (default: five minutes of work each)")                   //
-        ("workers", po::value<int>()->value_name("N")->default_value(1), "processes of a share, on one node")          //
-        ("verify", "as of crackle campaign")                                                                           //
-        ("retry", "as of crackle campaign")                                                                            //
+    options.add_options()("output,o", po::value<std::string>()->value_name("DIR"), "folder of the campaign")   //
+        ("shards", po::value<int>()->value_name("N"), "shares (default: five minutes of work each)")           //
+        ("workers", po::value<int>()->value_name("N")->default_value(1), "processes of a share, on one node")  //
+        ("verify", "as of crackle campaign")                                                                   //
+        ("retry", "as of crackle campaign")                                                                    //
         ("dry-run", "print the script; write and submit nothing");
     return {.synopses = {"crackle campaign submit PLAN.toml -o DIR [--shards N] [OPTIONS]"},
             .description =
@@ -81,16 +81,20 @@ int campaign_submit(const Invocation& given) {
     request.workers = values["workers"].as<int>();
     if (request.workers < 1)
         throw InputError(fmt::format("crackle campaign submit: --workers: found {}, expected >= 1", request.workers));
+    check_campaign_folder(request.folder);
     const fs::path file = ledger_file(request.folder);
     const std::optional<Ledger> ledger = is_file(file) ? std::optional(Ledger::read(file)) : std::nullopt;
     request.seconds = estimate_plan(plan, ledger ? &*ledger : nullptr).seconds;
     const double worth = std::ceil(request.seconds / least_work_a_shard);
-    constexpr int most_shards = 100'000;
-    request.shards = values.contains("shards") ? values["shards"].as<int>()
-                                               : static_cast<int>(std::clamp(worth, 1.0, double{most_shards}));
+    constexpr int most_shards = 1000;  // of an array, as Slurm is shipped
+    request.shards = values.contains("shards")
+                         ? values["shards"].as<int>()
+                         : static_cast<int>(std::clamp(
+                               worth, 1.0, std::min<double>(most_shards, static_cast<double>(plan.rows.size()))));
     if (request.shards < 1 || request.shards > most_shards)
         throw InputError(
             fmt::format("crackle campaign submit: --shards: found {}, expected 1 to {}", request.shards, most_shards));
+    request.largest_share = largest_share(plan, request.shards);
     if (values.contains("verify")) request.options += " --verify";
     if (values.contains("retry")) request.options += " --retry";
     const std::string script = batch_script(request);
@@ -109,12 +113,13 @@ int campaign_submit(const Invocation& given) {
 }
 
 CommandLine describe_campaign_gather() {
-    return {.synopses = {"crackle campaign gather DIR"},
-            .description =
-                "Adds what the shares in DIR/shards have run to DIR/campaign.sqlite. May be called any number of times; "
-                "on a network file system when the shares have ended.",
-            .operand = "DIR",
-            .examples = {{"crackle campaign gather out/plan"}}};
+    return {
+        .synopses = {"crackle campaign gather DIR"},
+        .description =
+            "Adds what the shares in DIR/shards have run to DIR/campaign.sqlite. May be called any number of times; "
+            "on a network file system when the shares have ended.",
+        .operand = "DIR",
+        .examples = {{"crackle campaign gather out/plan"}}};
 }
 
 int campaign_gather(const Invocation& given) {

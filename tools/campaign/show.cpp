@@ -22,13 +22,15 @@ const std::vector<std::string> usual_figures{"youngs_modulus", "poissons_ratio",
 std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : "-"; }
 
 void print_point(const PointSummary& point, const std::vector<std::string>& figures) {
-    fmt::print("\n{}{}{}: {} of {} packings done{}\n", point.test, point.axes.empty() ? "" : ", ", point.at(), point.done,
-               point.planned, point.gone_wrong > 0 ? fmt::format(", {} gone wrong", point.gone_wrong) : "");
+    fmt::print("\n{}{}{}: {} of {} packings done{}\n", point.test, point.axes.empty() ? "" : ", ", point.at(),
+               point.done, point.planned, point.gone_wrong > 0 ? fmt::format(", {} gone wrong", point.gone_wrong) : "");
     if (point.unfailed > 0)
-        fmt::print("  notice: {} did not fail by loading.max_axial_strain: they have no strength and are in no mean of "
-                   "it\n",
-                   point.unfailed);
-    fmt::print("  {:<26}{:>4}{:>12}{:>12}{:>8}{:>26}\n", "figure", "n", "mean", "deviation", "cv %", "95 % of the mean");
+        fmt::print(
+            "  notice: {} did not fail by loading.max_axial_strain: they have no strength and are in no mean of "
+            "it\n",
+            point.unfailed);
+    fmt::print("  {:<26}{:>4}{:>12}{:>12}{:>8}{:>26}\n", "figure", "n", "mean", "deviation", "cv %",
+               "95 % of the mean");
     for (const std::string& figure : figures) {
         const MeanFigure& mean = point.figures.at(figure);
         const std::string unit = unit_of_figure(figure, point.area_units);
@@ -45,29 +47,30 @@ void print_point(const PointSummary& point, const std::vector<std::string>& figu
 
 CommandLine describe_campaign_show() {
     po::options_description options;
-    options.add_options()("figure", po::value<std::vector<std::string>>()->multitoken()->value_name("NAME..."),
-                          "figures of summary.json (default: youngs_modulus poissons_ratio peak_stress peak_strain)")  //
-        ("all", "all figures")                                                                                         //
-        ("csv", "the same as CSV")                                                                                     //
-        ("tests", "as CSV, a row a test: axes, seed, variant, state and all figures")                                  //
+    options.add_options()(
+        "figure", po::value<std::vector<std::string>>()->multitoken()->value_name("NAME..."),
+        "figures of summary.json (default: youngs_modulus poissons_ratio peak_stress peak_strain)")  //
+        ("all", "all figures")                                                                       //
+        ("csv", "the same as CSV")                                                                   //
+        ("tests", "as CSV, a row a test: axes, seed, variant, state and all figures")                //
         ("wrong", "tests that have gone wrong, and why");
-    return {.synopses = {"crackle campaign show DIR [OPTIONS]"},
-            .description =
-                "Prints what the packings of each point of a campaign's plan say: mean, standard deviation, coefficient "
-                "of variation and the 95 % interval of the mean (bootstrap over packings); with companions "
-                "(`crackle campaign --verify`) also by how much step and rate shift it. May be called while the "
-                "campaign runs.",
-            .options = {{"options", options}},
-            .operand = "DIR",
-            .examples = {{"crackle campaign show out/granite"},
-                         {"crackle campaign show out/granite --figure peak_stress failed_at"},
-                         {"crackle campaign show out/granite --tests > tests.csv"}}};
+    return {
+        .synopses = {"crackle campaign show DIR [OPTIONS]"},
+        .description =
+            "Prints what the packings of each point of a campaign's plan say: mean, standard deviation, coefficient "
+            "of variation and the 95 % interval of the mean (bootstrap over packings); with companions "
+            "(`crackle campaign --verify`) also by how much step and rate shift it. May be called while the "
+            "campaign runs.",
+        .options = {{"options", options}},
+        .operand = "DIR",
+        .examples = {{"crackle campaign show out/granite"},
+                     {"crackle campaign show out/granite --figure peak_stress failed_at"},
+                     {"crackle campaign show out/granite --tests > tests.csv"}}};
 }
 
 int campaign_show(const Invocation& given) {
     const po::variables_map& values = given.values;
-    if (given.operands.empty())
-        throw InputError("crackle campaign show: found no DIR, expected a campaign's folder");
+    if (given.operands.empty()) throw InputError("crackle campaign show: found no DIR, expected a campaign's folder");
     const Ledger ledger = Ledger::read(ledger_file(given.operands.front()));
     if (values.contains("wrong")) {
         const LedgerTable wrong = ledger.query(

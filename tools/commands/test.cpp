@@ -368,20 +368,26 @@ int test(const Invocation& given) {
     options.verify = values.contains("verify");
     options.profile = values.contains("profile");
     options.threads = values.contains("threads") ? values["threads"].as<int>() : 0;
-    const ThreadRoom room = room_for_threads(options.most_threads);
-    options.most_threads = room.threads;
-    options.most_threads_why = room.why;
     options.fewest_bodies_a_thread = bodies_worth_a_thread;
     options.endless = values.contains("long");
     options.command = "crackle test";
     for (const std::string& word : given.words) options.command += ' ' + word;
     watch_interrupts();
     const TestHooks hooks = hooks_for(given.messages);
+    // No more are tried than are asked for: many tests may run side by side.
+    const auto find_room = [&](std::int64_t asked) {
+        const ThreadRoom room =
+            room_for_threads(static_cast<int>(std::clamp<std::int64_t>(asked, 1, options.most_threads)));
+        options.most_threads = room.threads;
+        options.most_threads_why = room.why;
+    };
     TestOutcome outcome;
     if (resume) {
+        find_room(options.threads > 0 ? options.threads : options.most_threads);
         outcome = resume_test(options, hooks);
     } else {
         TestCase description = read_case(given_or_shipped(given.operands.front()));
+        find_room(options.threads > 0 ? options.threads : description.numerics.threads);
         if (values.contains("allow-unstable")) description.numerics.allow_unstable = true;
         try {
             outcome = run_test(description, options, hooks);

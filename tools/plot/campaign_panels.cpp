@@ -215,9 +215,8 @@ Panel over_axis(const std::string& x_title, const std::string& y_title, const st
         }
         if (!std::isfinite(smallest)) smallest = largest = left_x = right_x = 0.0;
         const Unit unit = y_unit.empty() ? Unit{1.0, ""} : unit_for(largest, y_unit);
-        const double power = right_x > 0.0 && (right_x >= 1e4 || right_x < 1e-2)
-                                 ? std::pow(10.0, std::floor(std::log10(right_x)))
-                                 : 1.0;
+        const double power =
+            right_x > 0.0 && (right_x >= 1e4 || right_x < 1e-2) ? std::pow(10.0, std::floor(std::log10(right_x))) : 1.0;
         Axes axes;
         axes.x = figure_scale(left_x / power, right_x / power, place.width < 300.0 ? 5 : 8);
         axes.y = figure_scale(smallest / unit.factor, largest / unit.factor, 5);
@@ -235,7 +234,8 @@ Panel over_axis(const std::string& x_title, const std::string& y_title, const st
                 for (const double value : sample.values) canvas.circle(at(value), 1.0, &faint, nullptr, 0.0);
                 if (std::isfinite(sample.mean)) means.push_back(at(sample.mean));
             }
-            canvas.line(means, colour, curve_width);
+            std::sort(means.begin(), means.end(), [](const Point& a, const Point& b) { return a.x < b.x; });
+            if (all[s].joined) canvas.line(means, colour, curve_width);
             for (std::size_t k = 0; k < all[s].x.size(); ++k) {
                 const Sample& sample = all[s].samples[k];
                 const auto at = [&](double value) { return axes.at(all[s].x[k] / power, value / unit.factor); };
@@ -243,10 +243,10 @@ Panel over_axis(const std::string& x_title, const std::string& y_title, const st
                     draw_mean(canvas, at(sample.mean), at(sample.low), at(sample.high), colour, false);
             }
         }
-        axes.draw(canvas,
-                  power == 1.0 ? x_title
-                               : fmt::format("{}, 10<sup>{}</sup>", x_title, static_cast<int>(std::log10(power))),
-                  titled(y_title, unit.name));
+        axes.draw(
+            canvas,
+            power == 1.0 ? x_title : fmt::format("{}, 10<sup>{}</sup>", x_title, static_cast<int>(std::log10(power))),
+            titled(y_title, unit.name));
     };
     return panel;
 }

@@ -18,14 +18,14 @@ struct CurveBundle {
     std::vector<std::vector<std::pair<double, double>>> curves;  ///< strain, stress; strain grows
 };
 
-/// At equal strains from 0 to the largest that at least half of the curves reach: the median of those that reach it, and
-/// the smallest and largest (the range that `share` of them leaves out at each side).
+/// At equal strains from 0 to the largest that at least half of the curves reach: the median of those that reach it,
+/// and the smallest and largest (the range that `share` of them leaves out at each side).
 struct Band {
     std::vector<double> strain, low, median, high;
 };
 Band band_of(const CurveBundle& bundle, double share = 0.1, std::size_t strains = 200);
 
-/// Bands with their medians, and each curve as a thin line where they are few.
+/// Bands with their medians.
 Panel curve_bands(const std::vector<CurveBundle>& bundles);
 
 /// Values of one figure at some points of a plan.
@@ -41,8 +41,9 @@ Panel distributions(const std::string& title, const std::string& unit, const std
 /// Means with intervals over the values of an axis, one line a series, and the values as small points.
 struct Series {
     std::string label;
-    std::vector<double> x;
+    std::vector<double> x;        ///< in any order
     std::vector<Sample> samples;  ///< one an x
+    bool joined = true;           ///< by a line
 };
 Panel over_axis(const std::string& x_title, const std::string& y_title, const std::string& y_unit,
                 const std::vector<Series>& all);

@@ -23,14 +23,6 @@ void put(std::string_view text) {
     [[maybe_unused]] const auto written = ::write(STDERR_FILENO, text.data(), text.size());
 }
 
-extern "C" void take_down_interrupt(int signal) {
-    const int reason = errno;
-    asked = true;
-    std::signal(signal, SIG_DFL);
-    ::alarm(patience);
-    errno = reason;
-}
-
 extern "C" void report_still_here(int /*signal*/) {
     const int reason = errno;
     if (on_terminal) put("\r\x1b[K");  // in place of the progress line
@@ -38,11 +30,19 @@ extern "C" void report_still_here(int /*signal*/) {
     errno = reason;
 }
 
+extern "C" void take_down_interrupt(int /*signal*/) {
+    const int reason = errno;
+    asked = true;
+    for (const int next : {SIGINT, SIGTERM, SIGHUP}) std::signal(next, SIG_DFL);  // whichever comes then
+    std::signal(SIGALRM, report_still_here);
+    ::alarm(patience);
+    errno = reason;
+}
+
 }  // namespace
 
 void watch_interrupts() {
     on_terminal = is_terminal(Stream::err);
-    std::signal(SIGALRM, report_still_here);
     std::signal(SIGINT, take_down_interrupt);
     std::signal(SIGTERM, take_down_interrupt);
     std::signal(SIGHUP, take_down_interrupt);

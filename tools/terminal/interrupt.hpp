@@ -6,8 +6,8 @@
 namespace crackle::tools {
 
 /// From now on SIGINT, SIGTERM and SIGHUP (a closed terminal) are taken down instead of ending the program; a second
-/// one of the same kind ends it. Where the program is still there two seconds later, in a library's call that it cannot
-/// leave, say, a line on standard error tells of the second one.
+/// one, of whichever kind, ends it. Where the program is still there two seconds later, in a library's call that it
+/// cannot leave, say, a line on standard error tells of the second one.
 void watch_interrupts();
 
 /// From now on a pipe without a reader and a file beyond the limit on its size are errors of writing, as a full disc

@@ -130,6 +130,51 @@ TEST_F(CampaignTest, RefusesSharesOfDifferentPlans) {
     write_small_plan(folder_, 3);
     run("shared", 1, {2, 2});
     EXPECT_THROW(gather_shards(folder_ / "shared"), InputError);
+    EXPECT_EQ(run("shared").run, 4)
+        << "the tests of both are gathered: those of the third packing's first share are left";
+}
+
+TEST_F(CampaignTest, MoreSharesThanPackingsShareOutSingleTests) {
+    write_small_plan(folder_, 1);
+    run("whole");
+    for (const int k : {1, 2, 3}) EXPECT_GE(run("shared", 1, {k, 3}).run, 1) << "share " << k;
+    gather_shards(folder_ / "shared");
+    EXPECT_EQ(table("shared"), table("whole"));
+}
+
+TEST_F(CampaignTest, WithoutPackingsACaseHasItsOwnSeedAndAnAxisMayHaveIt) {
+    testing::write_packed_case(folder_ / "tension.toml");
+    write_text(folder_ / "plan.toml",
+               "[[test]]\ncase = \"tension.toml\"\n[[axis]]\nkey = \"packing.seed\"\nvalues = [7, 8]\n");
+    const Plan plan = read_plan(folder_ / "plan.toml");
+    ASSERT_EQ(plan.rows.size(), 2U);
+    EXPECT_EQ(plan.test_of(plan.rows[0]).packing.seed, 7);
+    EXPECT_EQ(plan.test_of(plan.rows[1]).packing.seed, 8);
+    EXPECT_EQ(run("out").run, 2) << "two specimens";
+    write_text(folder_ / "plan.toml",
+               "[[test]]\ncase = \"tension.toml\"\n[[axis]]\nkey = \"packing.seed\"\n"
+               "values = [7, 8]\n[packings]\ncount = 2\n");
+    EXPECT_THROW(read_plan(folder_ / "plan.toml"), InputError) << "which of the two is it?";
+}
+
+TEST_F(CampaignTest, CurvesAskedForLaterAreMade) {
+    write_small_plan(folder_, 1);
+    run("out");
+    write_small_plan(folder_, 1, "[run]\nkeep = \"curves\"\n");
+    EXPECT_EQ(run("out").run, 4);
+    EXPECT_EQ(std::distance(fs::directory_iterator(folder_ / "out/curves"), fs::directory_iterator()), 4);
+    EXPECT_EQ(run("out").run, 0);
+}
+
+TEST_F(CampaignTest, AnAxisOfAKeyThatIsAFigureTooKeepsBothApart) {
+    testing::write_packed_case(folder_ / "tension.toml");
+    write_text(folder_ / "plan.toml",
+               "[[test]]\ncase = \"tension.toml\"\n[[axis]]\nkey = \"packing.mean_overlap\"\n"
+               "values = [7e-5, 8e-5]\n");
+    run("out");
+    const LedgerTable results = Ledger::read(ledger_file(folder_ / "out")).results();
+    for (const char* column : {"packing.mean_overlap", "packing.mean_overlap (reached)"})
+        EXPECT_EQ(std::count(results.columns.begin(), results.columns.end(), column), 1) << column;
 }
 
 TEST_F(CampaignTest, ATestThatGoesWrongIsARowAndIsRunAgainWhereAskedFor) {
@@ -205,6 +250,53 @@ TEST_F(CampaignTest, KilledAtAnyMomentItGoesOnToTheSameTable) {
     EXPECT_EQ(std::get<double>(tries.rows[0][1]), 12.0);
 }
 
+// Whatever is asked for next would fail alike: no test has gone wrong.
+TEST_F(CampaignTest, AFolderThatCannotBeWrittenStopsItAndMarksNoTest) {
+    for (const auto& [keep, place] :
+         {std::pair("curves", "curves"), std::pair("all", "tests"), std::pair("figures", "packings")}) {
+        const std::string name = fmt::format("out-{}", keep);
+        write_small_plan(folder_, 1, fmt::format("[run]\nkeep = \"{}\"\n", keep));
+        fs::create_directories(folder_ / name / "shards");
+        write_text(folder_ / name / place, "a file where a folder should be");
+        try {
+            run(name);
+            ADD_FAILURE() << keep << ": it went on";
+        } catch (const OutputError& error) {
+            fmt::print("  {}\n", error.what());
+            EXPECT_NE(std::string(error.what()).find("; the same command goes on"), std::string::npos);
+        }
+        const LedgerTable wrong =
+            Ledger::read(ledger_file(folder_ / name)).query("SELECT count(*) FROM test WHERE state <> 'done'");
+        EXPECT_EQ(std::get<double>(wrong.rows[0][0]), 0.0) << keep;
+        fs::remove(folder_ / name / place);
+        EXPECT_EQ(run(name).progress.done, 4) << keep;
+    }
+}
+
+// Others may end a worker: its test is run again, by whichever worker, and counted once.
+TEST_F(CampaignTest, AKilledWorkersTestIsRunAgain) {
+    write_small_plan(folder_, 6);
+    run("undisturbed");
+    const pid_t process = ::fork();
+    if (process == 0) {
+        run("out", 2);
+        std::_Exit(0);
+    }
+    int killed = 0, status = 0;
+    while (::waitpid(process, &status, WNOHANG) == 0) {
+        const std::string children = read_file(fmt::format("/proc/{0}/task/{0}/children", process));
+        if (killed < 5 && !children.empty()) {
+            ::kill(std::atoi(children.c_str()), SIGKILL);
+            ++killed;
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(90));
+    }
+    fmt::print("  {} workers killed\n", killed);
+    EXPECT_GE(killed, 3);
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+    EXPECT_EQ(table("out"), table("undisturbed"));
+}
+
 TEST_F(CampaignTest, ASecondOneIsRefusedWithTheProcessThatHoldsTheFolder) {
     write_small_plan(folder_, 1);
     fs::create_directory(folder_ / "out");
@@ -274,12 +366,12 @@ TEST_F(CampaignTest, CompanionsGiveEveryMeanItsBias) {
     EXPECT_EQ(points[0].planned, 3) << "companions are no packings of their own";
     EXPECT_EQ(points[0].figures.at("peak_stress").count, 3U);
     const MeanBias& solved = points[0].biases.at("youngs_modulus");
-    EXPECT_EQ(solved.pairs, 3U);
-    EXPECT_EQ(solved.value(), 0.0) << "a solve knows neither step nor rate";
+    EXPECT_EQ(solved.packings, 3U);
+    EXPECT_EQ(solved.value, 0.0) << "a solve knows neither step nor rate";
     const MeanBias& strength = points[0].biases.at("peak_stress");
-    fmt::print("  strength: bias {:.3g} +- {:.3g} of {:.4g}: {}\n", strength.value(), strength.standard_error(),
+    fmt::print("  strength: bias {:.3g} +- {:.3g} of {:.4g}: {}\n", strength.value, strength.standard_error,
                points[0].figures.at("peak_stress").mean, verdict_on(points[0].figures.at("peak_stress"), strength));
-    EXPECT_TRUE(std::isfinite(strength.standard_error()));
+    EXPECT_TRUE(std::isfinite(strength.standard_error));
     EXPECT_NE(strength.step, 0.0);
 }
 

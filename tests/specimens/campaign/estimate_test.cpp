@@ -35,13 +35,24 @@ TEST(Estimate, IsOfTheRightSizeBeforeAndOfTheMeasuredTestsAfterwards) {
     EXPECT_LT(before.seconds, outcome.processor_seconds * 20.0);
 }
 
+TEST(BatchScript, LargestShareHasWholePackingsOrSingleTests) {
+    Plan plan;
+    plan.packings = 10;
+    plan.rows.resize(200);
+    EXPECT_EQ(largest_share(plan, 4), 0.3) << "three packings of ten";
+    EXPECT_EQ(largest_share(plan, 40), 0.025) << "five tests of 200";
+    EXPECT_EQ(largest_share(plan, 1), 1.0);
+}
+
 TEST(BatchScript, AsksForThreeTimesTheWorkOfAShareAndQuotesPaths) {
-    BatchRequest request{"/opt/crackle", "/home/o'brien/my plan.toml", "/scratch/out", 20, 2, 7200.0, " --verify"};
+    const BatchRequest request{"/opt/crackle", "/home/o'brien/my plan.toml", "/scratch/out 50%", 20, 2, 7200.0, 0.05,
+                               " --verify"};
     EXPECT_TRUE(testing::agrees("wall clock of a share, s", wall_limit(request), 300.0 + 3.0 * 7200.0 / 40.0, 1e-12));
     const std::string script = batch_script(request);
-    for (const char* part : {"#SBATCH --array=1-20\n", "#SBATCH --cpus-per-task=2\n", "#SBATCH --time=0:14:00\n",
-                             "#SBATCH --output=/scratch/out/shards/%a.log\n", "'/home/o'\\''brien/my plan.toml'",
-                             "--shard \"$SLURM_ARRAY_TASK_ID/20\" --workers 2 --verify -q\n"})
+    for (const char* part :
+         {"#SBATCH --array=1-20\n", "#SBATCH --cpus-per-task=2\n", "#SBATCH --time=0:14:00\n",
+          "#SBATCH --job-name=crackle-my_plan\n", "exec >'/scratch/out 50%/shards'/\"$SLURM_ARRAY_TASK_ID.log\" 2>&1\n",
+          "'/home/o'\\''brien/my plan.toml'", "--shard \"$SLURM_ARRAY_TASK_ID/20\" --workers 2 --verify -q\n"})
         EXPECT_NE(script.find(part), std::string::npos) << part << " in\n" << script;
     const testing::ScratchFolder scratch;
     testing::write_text(scratch / "script", script);

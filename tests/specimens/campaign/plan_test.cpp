@@ -178,8 +178,9 @@ TEST_F(PlanTest, RefusesWhatCannotBe) {
     expect_refused(test_ + "[[axis]]\nkey = \"mineral[2].cohesion\"\nvalues = [1]\n", "no such table");
     expect_refused(test_ + "[[axis]]\nkey = \"packing.seed\"\nfrom = 1\nto = 10000000\ncount = 100000000\n",
                    "found 100000000");
-    const std::string many = "[[axis]]\nkey = \"material.density\"\nfrom = 1\nto = 2\ncount = 10000\n"
-                             "[[axis]]\nkey = \"material.friction_angle\"\nfrom = 1\nto = 2\ncount = 10000\n";
+    const std::string many =
+        "[[axis]]\nkey = \"material.density\"\nfrom = 1\nto = 2\ncount = 10000\n"
+        "[[axis]]\nkey = \"material.friction_angle\"\nfrom = 1\nto = 2\ncount = 10000\n";
     expect_refused(test_ + many, "at most 10000000");
 }
 

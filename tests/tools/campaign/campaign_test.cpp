@@ -38,7 +38,10 @@ TEST_F(CampaignCommand, RunsAndShowsMeansAndIntervals) {
         EXPECT_NE(show.out.find(part), std::string::npos) << part << " in\n" << show.out;
     const Answer csv = call("show out --csv --figure peak_stress");
     EXPECT_EQ(std::count(csv.out.begin(), csv.out.end(), '\n'), 5) << csv.out;
-    EXPECT_EQ(csv.out.rfind("test,material.friction_angle,figure,unit,packings,mean,", 0), 0U) << csv.out;
+    EXPECT_EQ(
+        csv.out.rfind("test,material.friction_angle,planned,done,gone_wrong,not_failed,figure,unit,packings,mean,", 0),
+        0U)
+        << csv.out;
     const Answer tests = call("show out --tests");
     EXPECT_EQ(std::count(tests.out.begin(), tests.out.end(), '\n'), 9);
     const Answer quiet = call("plan.toml -o out -q");

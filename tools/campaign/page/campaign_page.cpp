@@ -16,7 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double figure_width = 130.0;  // mm
+constexpr double figure_width = 130.0;   // mm
+constexpr std::size_t most_rows = 2000;  // of the table of tests
 
 constexpr const char* style = R"(
 :root{color-scheme:light}
@@ -124,14 +125,20 @@ std::string tests_table(const CampaignRecord& record, const fs::path& from) {
         if (const auto* word = std::get_if<std::string>(&row[k])) return html(*word);
         return std::string("–");
     };
-    for (const std::vector<Cell>& row : results.rows) {
+    for (std::size_t number = 0; number < std::min(results.rows.size(), most_rows); ++number) {
+        const std::vector<Cell>& row = results.rows[number];
         text += fmt::format("<tr><td>{}</td><td>{}</td><td class=\"word\">{}</td><td class=\"word\">{}</td>",
                             cell(row, test), cell(row, seed), cell(row, variant), cell(row, state));
         for (const std::size_t k : shown) text += fmt::format("<td>{}</td>", cell(row, k));
         text += fmt::format("<td class=\"word\">{}</td></tr>\n",
                             link_to(record, std::get<std::string>(row[identity]), from));
     }
-    return text + "</tbody></table></div>\n";
+    text += "</tbody></table></div>\n";
+    if (results.rows.size() > most_rows)
+        text += fmt::format(
+            "<p class=\"sub\">The first {} of {}; <code>crackle campaign show DIR --tests</code> has all.</p>\n",
+            most_rows, results.rows.size());
+    return text;
 }
 
 }  // namespace

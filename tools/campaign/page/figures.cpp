@@ -11,6 +11,7 @@
 #include "solver/base/errors.hpp"
 #include "solver/files/read_file.hpp"
 #include "specimens/campaign/campaign.hpp"
+#include "specimens/case/parameters.hpp"
 #include "specimens/recordings/test_results.hpp"
 #include "tools/plot/campaign_panels.hpp"
 
@@ -34,26 +35,14 @@ std::string text_of(const std::vector<Cell>& row, std::size_t column) {
     return text != nullptr ? *text : "";
 }
 
-/// Rows of a point that are as asked, not companions.
-std::vector<const std::vector<Cell>*> rows_of(const CampaignRecord& record, const PointSummary& point) {
-    const std::size_t test = place_of(record.results, "test"), variant = place_of(record.results, "variant");
-    std::vector<const std::vector<Cell>*> rows;
-    for (const std::vector<Cell>& row : record.results.rows) {
-        if (text_of(row, test) != point.test || text_of(row, variant) != name_of(Variant::as_asked)) continue;
-        const bool same = std::all_of(point.axes.begin(), point.axes.end(), [&](const auto& axis) {
-            return row[place_of(record.results, axis.first)] == axis.second;
-        });
-        if (same) rows.push_back(&row);
-    }
-    return rows;
-}
-
 std::vector<double> values_of(const CampaignRecord& record, const PointSummary& point, const std::string& figure) {
     const std::size_t column = place_of(record.results, figure);
     std::vector<double> values;
-    for (const auto* row : rows_of(record, point))
-        if (const auto* value = column < row->size() ? std::get_if<double>(&(*row)[column]) : nullptr)
+    for (const std::size_t number : point.rows) {
+        const std::vector<Cell>& row = record.results.rows[number];
+        if (const auto* value = column < row.size() ? std::get_if<double>(&row[column]) : nullptr)
             values.push_back(*value);
+    }
     return values;
 }
 
@@ -66,7 +55,7 @@ Sample sample_of(const CampaignRecord& record, const PointSummary& point, const 
 /// The curves that were kept, of `crackle test` or beside the ledger.
 std::optional<NumberTable> curve_of(const fs::path& folder, const std::string& identity) {
     for (const fs::path& file : {folder / "curves" / (identity + ".csv"), folder / "tests" / identity / "curve.csv"})
-        if (is_file(file)) return read_number_table(file);
+        if (is_file(file)) return number_table(file, read_file(file));
     return std::nullopt;
 }
 
@@ -75,8 +64,9 @@ std::optional<CurveBundle> bundle_of(const CampaignRecord& record, const PointSu
     bundle.label = point.axes.empty() ? point.test : point.at();
     bundle.stress_unit = point.area_units ? "Pa" : "N/m";
     const std::size_t identity = place_of(record.results, "identity");
-    for (const auto* row : rows_of(record, point)) {
-        const std::optional<NumberTable> table = curve_of(record.folder, text_of(*row, identity));
+    for (const std::size_t number : point.rows) {
+        const std::optional<NumberTable> table =
+            curve_of(record.folder, text_of(record.results.rows[number], identity));
         if (!table) continue;
         const std::vector<double>*strain = table->find("axial_strain"), *stress = table->find("axial_stress");
         if (strain == nullptr || stress == nullptr) continue;
@@ -108,11 +98,25 @@ std::optional<Panel> panel_over(const CampaignRecord& record, const std::vector<
         series.x.push_back(*x);
         series.samples.push_back(sample_of(record, *point, figure, ""));
     }
+    // Of a design no two points are alike but for one axis: they are shown without lines, as one cloud.
+    const bool cloud = all.size() > most_bundles ||
+                       std::all_of(all.begin(), all.end(), [](const auto& one) { return one.second.x.size() < 2; });
     std::vector<Series> listed;
-    for (auto& [label, series] : all)
-        if (series.x.size() > 1) listed.push_back(std::move(series));
-    if (listed.empty() || listed.size() > most_bundles) return std::nullopt;
-    return over_axis(axis, spoken_figure(figure), unit_of_figure(figure, points.front()->area_units), listed);
+    if (cloud) listed.push_back({"", {}, {}, false});
+    for (auto& [label, series] : all) {
+        if (!cloud) {
+            if (series.x.size() > 1) listed.push_back(std::move(series));
+            continue;
+        }
+        listed[0].x.insert(listed[0].x.end(), series.x.begin(), series.x.end());
+        for (Sample& sample : series.samples) listed[0].samples.push_back(std::move(sample));
+    }
+    if (listed.empty() || listed[0].x.size() < 2) return std::nullopt;
+    const std::size_t dot = axis.find('.');
+    const Parameter* p = find_parameter(axis.substr(0, std::min(dot, axis.find('['))),
+                                        dot == std::string::npos ? axis : axis.substr(dot + 1));
+    return over_axis(p == nullptr || p->unit.empty() ? axis : axis + ", " + p->unit, spoken_figure(figure),
+                     unit_of_figure(figure, points.front()->area_units), listed);
 }
 
 }  // namespace
@@ -152,19 +156,26 @@ std::vector<CampaignFigure> campaign_figures(const CampaignRecord& record) {
     for (const PointSummary& point : record.points)
         if (std::find(kinds.begin(), kinds.end(), point.test) == kinds.end()) kinds.push_back(point.test);
     std::vector<CampaignFigure> all;
+    const bool curves_kept = is_folder(record.folder / "curves") || is_folder(record.folder / "tests");
     for (const std::string& kind : kinds) {
         std::vector<const PointSummary*> points;
         for (const PointSummary& point : record.points)
             if (point.test == kind) points.push_back(&point);
         std::vector<CurveBundle> bundles;
-        for (std::size_t k = 0; k < points.size() && bundles.size() < most_bundles; ++k)
+        for (std::size_t k = 0; curves_kept && k < points.size() && bundles.size() < most_bundles; ++k)
             if (std::optional<CurveBundle> bundle = bundle_of(record, *points[k]))
                 bundles.push_back(*std::move(bundle));
         if (!bundles.empty()) {
-            const bool some = points.size() > bundles.size();
+            const auto counts = std::minmax_element(bundles.begin(), bundles.end(), [](const auto& a, const auto& b) {
+                return a.curves.size() < b.curves.size();
+            });
+            const std::size_t fewest = counts.first->curves.size(), most = counts.second->curves.size();
+            const std::string some = points.size() > bundles.size()
+                                         ? fmt::format("; the first {} of {} points", bundles.size(), points.size())
+                                         : "";
             all.push_back(
-                {fmt::format("{}: the median of the packings, and the range of the middle 80 %{}", kind,
-                             some ? fmt::format("; the first {} of {} points", bundles.size(), points.size()) : ""),
+                {fmt::format("{}: the median of {} packings, and the range of the middle 80 %{}", kind,
+                             fewest == most ? fmt::format("{}", most) : fmt::format("{} to {}", fewest, most), some),
                  {curve_bands(bundles)}});
         }
         std::vector<std::string> axes;
