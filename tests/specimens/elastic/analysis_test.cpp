@@ -91,10 +91,10 @@ TEST_F(ElasticAnalysisOf, FirstSlipAndBreakAreWhereARunHasThem) {
     // The run's own rate error: the wave still rings by rate·height/c over the strain, below a per cent here.
     EXPECT_TRUE(agrees("strain at the first slip", test.setup.axial_strain(test.world), a.first_slip->strain, 0.02));
     const ContactPoint point = test.world.points.contact[found];
-    const auto [low, high] =
+    const std::pair<int, int> ids =
         std::minmax(test.world.bodies.info(point.body_i).id, test.world.bodies.info(point.body_j).id);
-    EXPECT_EQ(low, std::min(bond.body_i, bond.body_j));
-    EXPECT_EQ(high, std::max(bond.body_i, bond.body_j));
+    EXPECT_EQ(ids.first, std::min(bond.body_i, bond.body_j));
+    EXPECT_EQ(ids.second, std::max(bond.body_i, bond.body_j));
 }
 
 TEST_F(ElasticAnalysisOf, FirstBreakIsTheLeastOfAllBondsAndNoneBreaksBeforeItSlips) {

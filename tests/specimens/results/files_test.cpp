@@ -3,6 +3,7 @@
 // at the expense of earlier results.
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cmath>
@@ -413,7 +414,8 @@ TEST_F(TestFolder, IsRefusedWhileAnotherTestWritesIntoIt) {
     TestHooks hooks;
     hooks.interrupted = [&] {
         if (asked++ != 3) return false;
-        EXPECT_NE(refusal([&] { resume_test(options("out")); }).find("another crackle is writing here"),
+        EXPECT_NE(refusal([&] { resume_test(options("out")); })
+                      .find(fmt::format("another crackle (process {}) is writing here", ::getpid())),
                   std::string::npos);
         return false;
     };
