@@ -194,7 +194,8 @@ void plot_campaign(const po::variables_map& given, const fs::path& folder, const
         format_named(fmt::format("--output {}", output.string()), extension.empty() ? "" : extension.substr(1));
     refuse_replacing(output, given.contains("force"));
     const CampaignRecord record =
-        read_campaign(folder, given.contains("figure") ? given["figure"].as<Words>() : Words{});
+        read_campaign(folder, given.contains("figure") ? given["figure"].as<Words>() : Words{},
+                      given.contains("test") ? given["test"].as<Words>() : Words{});
     std::vector<Panel> panels;
     for (CampaignFigure& part : campaign_figures(record))
         panels.insert(panels.end(), part.panels.begin(), part.panels.end());
@@ -291,6 +292,8 @@ CommandLine describe_plot() {
          "of the guide's figures: svg, pdf or png")  //
         ("figure", po::value<Words>()->multitoken()->value_name("NAME"),
          "of a campaign: figures of summary.json that are drawn (default: moduli and strength)")  //
+        ("test", po::value<Words>()->multitoken()->value_name("NAME"),
+         "of a campaign: tests that are drawn (default: all)")  //
         ("force", "replace figures that are there");
     return {
         .synopses = {"crackle plot OUT... -o FIGURE [OPTIONS]", "crackle plot --guide FOLDER -o FOLDER [OPTIONS]"},
@@ -308,7 +311,7 @@ CommandLine describe_plot() {
         .examples = {{"crackle plot out/pulled out/squeezed -o curves.pdf --what curve"},
                      {"crackle plot out/squeezed -o squeezed.svg --at start 0.001 peak end"},
                      {"crackle plot out/squeezed -o specimen.png --what specimen --at peak end --dpi 600 --width 120"},
-                     {"crackle plot out/granite -o granite.pdf", "a campaign"},
+                     {"crackle plot out/granite -o granite.pdf --test tension", "a campaign"},
                      {"crackle plot --guide out/guide_rock -o out/figures",
                       "figures 26 to 29 of DEMseg's guide, from the tests of tools/quickstart"}}};
 }

@@ -162,7 +162,8 @@ Panel distributions(const std::string& title, const std::string& unit_name, cons
         const Unit unit = unit_name.empty() ? Unit{1.0, ""} : unit_for(largest, unit_name);
         Axes axes;
         axes.x = figure_scale(smallest / unit.factor, largest / unit.factor, place.width < 300.0 ? 5 : 8);
-        axes.y = {0.0, static_cast<double>(std::max<std::size_t>(1, samples.size())), 1e9};
+        // Rows have names in place of ticks.
+        axes.y = {1e-9, static_cast<double>(std::max<std::size_t>(1, samples.size())), 1e9};
         const double top = place.y + 1.6 * canvas.style().font_size;
         widest = std::min(widest, 0.4 * place.width);
         axes.frame = {place.x + widest + 8.0, top, place.width - widest - 14.0,
@@ -179,10 +180,9 @@ Panel distributions(const std::string& title, const std::string& unit_name, cons
                         Down::middle, 0.85, ink);
         }
         for (const double tick : axes.x.ticks()) {
-            const Point mark = axes.at(tick, 0.0);
+            const Point mark = axes.at(tick, axes.y.low);
             canvas.line({mark, {mark.x, axes.frame.y}}, plot::colour("#e3e6e9"), 0.3);
         }
-        axes.y.step = 1e9;  // rows have names in place of ticks
         axes.draw(canvas, titled(title, unit.name), "");
     };
     return panel;

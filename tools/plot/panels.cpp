@@ -19,6 +19,13 @@ void refuse_without_threads() {
         "fonts; end other programs of this user, or raise its limit (ulimit -u)");
 }
 
+/// a, b, ..., z, aa, ab, ...
+std::string letters_of(std::size_t number) {
+    constexpr std::size_t letters = 26;
+    const std::string last(1, static_cast<char>('a' + number % letters));
+    return number < letters ? last : letters_of(number / letters - 1) + last;
+}
+
 }  // namespace
 
 std::string figure(const std::vector<Panel>& panels, const std::string& title, double width, Format format,
@@ -38,12 +45,12 @@ std::string figure(const std::vector<Panel>& panels, const std::string& title, d
     Canvas canvas(width, height, format, style);
     if (!title.empty()) canvas.text({0.5 * width, margin}, escaped(title), Across::centre, Down::top, 1.1);
     double y = margin + title_height;
-    char letter = 'a';
+    std::size_t number = 0;
     for (const Panel& panel : panels) {
         const Rect place{margin, y + letter_height(panel), inside, panel.height(measure, inside)};
         panel.draw(canvas, place);
         if (panels.size() > 1)
-            canvas.text({place.x, y}, fmt::format("<b>({})</b>", letter++), Across::left, Down::top, 1.1);
+            canvas.text({place.x, y}, fmt::format("<b>({})</b>", letters_of(number++)), Across::left, Down::top, 1.1);
         y = place.bottom() + between;
     }
     return canvas.finish();

@@ -60,6 +60,10 @@ TEST_F(CampaignCommand, IsDrawnAndReported) {
     EXPECT_NE(crackle("plot out -o figure.svg"), 0) << "nothing is replaced without --force";
     ASSERT_EQ(crackle("plot out -o one.svg --figure peak_stress"), 0) << read("err.txt");
     EXPECT_LT(read("one.svg").size(), read("figure.svg").size());
+    ASSERT_EQ(crackle("plot out -o half.svg --test tension"), 0) << read("err.txt");
+    EXPECT_LT(read("half.svg").size(), read("figure.svg").size());
+    EXPECT_NE(crackle("plot out -o two.svg --test tense"), 0);
+    EXPECT_NE(read("err.txt").find("found no test 'tense', expected one of compression, tension"), std::string::npos);
     EXPECT_NE(crackle("plot out -o two.svg --figure beauty"), 0);
     EXPECT_NE(read("err.txt").find("found no figure 'beauty', expected one of"), std::string::npos);
     ASSERT_EQ(crackle("report out"), 0) << read("err.txt");

@@ -2,11 +2,13 @@
 #include "tools/campaign/page/figures.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <map>
 #include <optional>
+#include <set>
 
 #include "solver/base/errors.hpp"
 #include "solver/files/read_file.hpp"
@@ -131,7 +133,8 @@ std::string spoken_figure(const std::string& figure) {
 
 bool is_campaign(const fs::path& folder) { return is_folder(folder) && is_file(ledger_file(folder)); }
 
-CampaignRecord read_campaign(const fs::path& folder, const std::vector<std::string>& figures) {
+CampaignRecord read_campaign(const fs::path& folder, const std::vector<std::string>& figures,
+                             const std::vector<std::string>& tests) {
     const Ledger ledger = Ledger::read(ledger_file(folder));
     CampaignRecord record;
     record.folder = folder;
@@ -145,6 +148,17 @@ CampaignRecord read_campaign(const fs::path& folder, const std::vector<std::stri
             if (std::find(known.begin(), known.end(), figure) != known.end()) record.figures.emplace_back(figure);
     }
     record.points = summarise(record.results, record.figures);
+    std::set<std::string> names;
+    for (const PointSummary& point : record.points) names.insert(point.test);
+    for (const std::string& test : tests)
+        if (!names.contains(test))
+            throw InputError(fmt::format("{}: found no test '{:.60}', expected one of {}", folder.string(), test,
+                                         fmt::join(names, ", ")));
+    if (!tests.empty()) {
+        std::erase_if(record.points, [&](const PointSummary& point) {
+            return std::find(tests.begin(), tests.end(), point.test) == tests.end();
+        });
+    }
     if (record.counts.done == 0)
         throw InputError(fmt::format("{}: found no test that is done, expected some; `crackle campaign` runs them",
                                      folder.string()));

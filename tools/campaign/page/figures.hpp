@@ -27,7 +27,9 @@ struct CampaignRecord {
 bool is_campaign(const std::filesystem::path& folder);
 
 /// @param figures of summary.json; empty: the usual ones that there are
-CampaignRecord read_campaign(const std::filesystem::path& folder, const std::vector<std::string>& figures = {});
+/// @param tests of the plan; empty: all
+CampaignRecord read_campaign(const std::filesystem::path& folder, const std::vector<std::string>& figures = {},
+                             const std::vector<std::string>& tests = {});
 
 /// "peak stress" of peak_stress, as titles have it.
 std::string spoken_figure(const std::string& figure);
