@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Layout of a journal: magic, XXH3 (64 bits) of what follows, files and renames as cereal writes them. Journals of the
-// first layout have no renames.
+// Layout of a journal: journal_mark, XXH3 (64 bits) of what follows, files and renames as cereal writes them. Journals
+// of the first layout have no renames.
 #include "solver/files/file_set.hpp"
 
 #include <fmt/format.h>
@@ -25,8 +25,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view magic = "CRKLSET2", magic_without_renames = "CRKLSET1";
-static_assert(magic.size() == magic_without_renames.size());
+constexpr std::string_view journal_mark = "CRKLSET2", journal_mark_without_renames = "CRKLSET1";
+static_assert(journal_mark.size() == journal_mark_without_renames.size());
 
 struct Replacement {
     FileSet files;
@@ -40,7 +40,7 @@ std::string damage(const fs::path& journal) {
         journal.string());
 }
 
-std::uint64_t hash_of(std::string_view bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }
+std::uint64_t hash_of_set(std::string_view bytes) { return XXH3_64bits(bytes.data(), bytes.size()); }
 
 bool is_name(const std::string& name) {
     return !name.empty() && name != "." && name != ".." && fs::path(name).filename() == name;
@@ -49,12 +49,13 @@ bool is_name(const std::string& name) {
 Replacement read_journal(const fs::path& journal) {
     const std::string text = read_file(journal);
     std::uint64_t hash = 0;
-    const bool with_renames = text.starts_with(magic);
-    if (text.size() < magic.size() + sizeof hash || !(with_renames || text.starts_with(magic_without_renames)))
+    const bool with_renames = text.starts_with(journal_mark);
+    if (text.size() < journal_mark.size() + sizeof hash ||
+        !(with_renames || text.starts_with(journal_mark_without_renames)))
         throw InputError(damage(journal));
-    std::memcpy(&hash, text.data() + magic.size(), sizeof hash);
-    const std::string packed = text.substr(magic.size() + sizeof hash);
-    if (hash != hash_of(packed)) throw InputError(damage(journal));
+    std::memcpy(&hash, text.data() + journal_mark.size(), sizeof hash);
+    const std::string packed = text.substr(journal_mark.size() + sizeof hash);
+    if (hash != hash_of_set(packed)) throw InputError(damage(journal));
     std::istringstream in(packed);
     Replacement all;
     CheckedInput input(in, static_cast<std::streamoff>(packed.size()), damage(journal));
@@ -84,8 +85,8 @@ void write_journal(const fs::path& journal, const FileSet& files, const Renames&
     std::ostringstream out;
     cereal::BinaryOutputArchive{out}(files, renames);
     const std::string packed = std::move(out).str();
-    const std::uint64_t hash = hash_of(packed);
-    std::string text(magic);
+    const std::uint64_t hash = hash_of_set(packed);
+    std::string text(journal_mark);
     text.append(reinterpret_cast<const char*>(&hash), sizeof hash);
     replace_file(journal, text + packed);
 }

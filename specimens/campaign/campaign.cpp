@@ -181,11 +181,8 @@ class Queue {
 /// What a worker does with a piece. Its answer is a result in CBOR, or why the whole campaign has to stop.
 class RowWorker {
   public:
-    RowWorker(const Plan& plan, const Tasks& tasks, const CampaignOptions& options)
-        : plan_(plan),
-          tasks_(tasks),
-          place_{options.folder, options.endless},
-          packings_(options.folder / "packings", files_) {}
+    RowWorker(const Plan& plan, const CampaignOptions& options)
+        : plan_(plan), place_{options.folder, options.endless}, packings_(options.folder / "packings", files_) {}
 
     std::string test(const Task& task) {
         return answer([&] {
@@ -231,7 +228,6 @@ class RowWorker {
     }
 
     const Plan& plan_;
-    const Tasks& tasks_;
     RowPlace place_;
     FileHashes files_;
     PackingStore packings_;
@@ -318,7 +314,7 @@ CampaignOutcome run_campaign(const Plan& plan, const CampaignOptions& options, c
     progress.tests_per_second = progress.seconds_left = std::numeric_limits<double>::quiet_NaN();
 
     Queue queue(tasks, open, options.folder / "packings");
-    RowWorker worker(plan, tasks, options);
+    RowWorker worker(plan, options);
     const std::string host = host_name();
     std::map<std::size_t, int> killed;
     std::string stop;

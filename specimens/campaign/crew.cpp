@@ -172,6 +172,7 @@ class Crew {
 
     void wait() {
         std::vector<pollfd> lines;
+        lines.reserve(workers_.size());
         for (const auto& worker : workers_) lines.push_back({worker->at_work() ? worker->line() : -1, POLLIN, 0});
         if (::poll(lines.data(), lines.size(), patience()) < 0) {
             if (errno == EINTR) return;

@@ -51,7 +51,7 @@ void bind_value(SQLite::Statement& statement, int place, const CaseValue& value)
         statement.bind(place, *text);
 }
 
-Cell cell_of(const SQLite::Column& column) {
+LedgerCell cell_of(const SQLite::Column& column) {
     if (column.isNull()) return {};
     if (column.isText() || column.isBlob()) return column.getString();
     return column.getDouble();
@@ -400,7 +400,7 @@ LedgerTable Ledger::query(const std::string& sql) const {
         SQLite::Statement statement(*database_, sql);
         for (int k = 0; k < statement.getColumnCount(); ++k) table.columns.emplace_back(statement.getColumnName(k));
         while (statement.executeStep()) {
-            std::vector<Cell>& row = table.rows.emplace_back();
+            std::vector<LedgerCell>& row = table.rows.emplace_back();
             for (int k = 0; k < statement.getColumnCount(); ++k) row.push_back(cell_of(statement.getColumn(k)));
         }
         return table;

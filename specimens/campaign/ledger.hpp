@@ -33,11 +33,11 @@ class Database;
 namespace crackle {
 
 /// A value of a ledger: nothing, a number, or a word.
-using Cell = std::variant<std::monostate, double, std::string>;
+using LedgerCell = std::variant<std::monostate, double, std::string>;
 
 struct LedgerTable {
     std::vector<std::string> columns;
-    std::vector<std::vector<Cell>> rows;
+    std::vector<std::vector<LedgerCell>> rows;
 };
 
 /// Of the rows of the present plan.

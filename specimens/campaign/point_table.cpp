@@ -20,7 +20,7 @@ namespace {
 constexpr std::size_t axes_begin = 2;  // row, test
 constexpr std::array<std::string_view, 5> behind_axes{"seed", "variant", "identity", "state", "processor_seconds"};
 
-std::string cell_text(const Cell& cell) {
+std::string cell_text(const LedgerCell& cell) {
     if (const auto* number = std::get_if<double>(&cell)) return fmt::format("{}", *number);
     if (const auto* text = std::get_if<std::string>(&cell)) return *text;
     return "";
@@ -48,7 +48,7 @@ struct Columns {
     std::size_t processor_seconds() const { return seed + 4; }
 };
 
-const std::string& text_of(const Cell& cell) {
+const std::string& text_of(const LedgerCell& cell) {
     static const std::string none;
     const auto* text = std::get_if<std::string>(&cell);
     return text != nullptr ? *text : none;
@@ -61,7 +61,7 @@ std::size_t place_in(const LedgerTable& results, std::string_view column) {
 }
 
 /// Not a number where there is none.
-double number_at(const std::vector<Cell>& row, std::size_t column) {
+double number_at(const std::vector<LedgerCell>& row, std::size_t column) {
     const auto* number = column < row.size() ? std::get_if<double>(&row[column]) : nullptr;
     return number != nullptr ? *number : std::nan("");
 }
@@ -124,6 +124,14 @@ std::vector<std::string> numeric_figures(const LedgerTable& results) {
     return names;
 }
 
+std::vector<std::string> usual_figures(const LedgerTable& results) {
+    const std::vector<std::string> known = numeric_figures(results);
+    std::vector<std::string> usual;
+    for (const char* figure : {"youngs_modulus", "poissons_ratio", "peak_stress", "peak_strain"})
+        if (std::find(known.begin(), known.end(), figure) != known.end()) usual.emplace_back(figure);
+    return usual;
+}
+
 std::vector<PointSummary> summarise(const LedgerTable& results, const std::vector<std::string>& figures) {
     const Columns columns(results);
     const std::vector<std::string> known = numeric_figures(results);
@@ -143,7 +151,7 @@ std::vector<PointSummary> summarise(const LedgerTable& results, const std::vecto
     std::vector<Values> values;
     std::map<std::string, std::size_t> place_of;
     for (std::size_t number = 0; number < results.rows.size(); ++number) {
-        const std::vector<Cell>& row = results.rows[number];
+        const std::vector<LedgerCell>& row = results.rows[number];
         PointSummary point;
         point.test = text_of(row[1]);
         for (std::size_t k = axes_begin; k < columns.seed; ++k)
@@ -277,7 +285,7 @@ std::string tests_csv(const LedgerTable& results) {
         text += '\n';
     };
     line([&](std::size_t k) { return results.columns[k]; });
-    for (const std::vector<Cell>& row : results.rows) line([&](std::size_t k) { return cell_text(row[k]); });
+    for (const std::vector<LedgerCell>& row : results.rows) line([&](std::size_t k) { return cell_text(row[k]); });
     return text;
 }
 

@@ -17,7 +17,7 @@ namespace crackle {
 
 struct PointSummary {
     std::string test;
-    std::vector<std::pair<std::string, Cell>> axes;  ///< those that are for it
+    std::vector<std::pair<std::string, LedgerCell>> axes;  ///< those that are for it
     std::int64_t planned = 0, done = 0, gone_wrong = 0;
     std::int64_t unfailed = 0;      ///< done, and not failed by max_axial_strain: they have no strength
     std::vector<std::size_t> rows;  ///< of the results, as asked
@@ -30,6 +30,9 @@ struct PointSummary {
 
 /// Names of figures that are numbers, in the order of summary.json.
 std::vector<std::string> numeric_figures(const LedgerTable& results);
+
+/// Of these, what is looked at first: moduli and strength.
+std::vector<std::string> usual_figures(const LedgerTable& results);
 
 /// @param figures that are asked for @throws InputError for one that no test has, naming those there are
 std::vector<PointSummary> summarise(const LedgerTable& results, const std::vector<std::string>& figures);

@@ -17,9 +17,7 @@
 namespace crackle::tools {
 namespace {
 
-const std::vector<std::string> usual_figures{"youngs_modulus", "poissons_ratio", "peak_stress", "peak_strain"};
-
-std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : "-"; }
+std::string printed(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : "-"; }
 
 void print_point(const PointSummary& point, const std::vector<std::string>& figures) {
     fmt::print("\n{}{}{}: {} of {} packings done{}\n", point.test, point.axes.empty() ? "" : ", ", point.at(),
@@ -34,8 +32,9 @@ void print_point(const PointSummary& point, const std::vector<std::string>& figu
     for (const std::string& figure : figures) {
         const MeanFigure& mean = point.figures.at(figure);
         const std::string unit = unit_of_figure(figure, point.area_units);
-        fmt::print("  {:<26}{:>4}{:>12}{:>12}{:>8}{:>26}\n", figure + (unit.empty() ? "" : " " + unit), mean.count,
-                   number(mean.mean), number(mean.deviation),
+        fmt::print("  {:<26}{:>4}{:>12}{:>12}{:>8}{:>26}\n",
+                   fmt::format("{}{}{}", figure, unit.empty() ? "" : " ", unit), mean.count, printed(mean.mean),
+                   printed(mean.deviation),
                    std::isfinite(mean.variation()) ? fmt::format("{:.1f}", 100.0 * std::abs(mean.variation())) : "-",
                    std::isfinite(mean.low) ? fmt::format("{:.4g} to {:.4g}", mean.low, mean.high) : "-");
         const auto bias = point.biases.find(figure);
@@ -95,8 +94,7 @@ int campaign_show(const Invocation& given) {
     } else if (values.contains("figure")) {
         figures = values["figure"].as<std::vector<std::string>>();
     } else {
-        for (const std::string& figure : usual_figures)
-            if (std::find(known.begin(), known.end(), figure) != known.end()) figures.push_back(figure);
+        figures = usual_figures(results);
     }
     const std::vector<PointSummary> points = summarise(results, figures);
     if (values.contains("csv")) {

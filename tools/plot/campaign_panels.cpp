@@ -5,12 +5,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "tools/plot/axes.hpp"
 #include "tools/plot/legend.hpp"
 
 namespace crackle::plot {
 namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A colour mixed with white.
 Colour tinted(const Colour& colour, double share) {
@@ -150,7 +153,7 @@ Panel distributions(const std::string& title, const std::string& unit_name, cons
                1.6 * measure.style().font_size;
     };
     panel.draw = [title, unit_name, samples](Canvas& canvas, const Rect& place) {
-        double smallest = INFINITY, largest = -INFINITY, widest = 0.0;
+        double smallest = infinity, largest = -infinity, widest = 0.0;
         for (const Sample& sample : samples) {
             for (const double value : sample.values) {
                 smallest = std::min(smallest, value);
@@ -200,7 +203,7 @@ Panel over_axis(const std::string& x_title, const std::string& y_title, const st
         return 0.55 * proportional(width) + legend_of(measure, entries(), width).more_rows();
     };
     panel.draw = [=](Canvas& canvas, const Rect& place) {
-        double left_x = INFINITY, right_x = -INFINITY, smallest = INFINITY, largest = -INFINITY;
+        double left_x = infinity, right_x = -infinity, smallest = infinity, largest = -infinity;
         for (const Series& series : all) {
             for (const double x : series.x) {
                 left_x = std::min(left_x, x);

@@ -63,7 +63,7 @@ TEST_F(CampaignTest, GivesTheFiguresOfTheSameTestsRunAlone) {
         for (const auto& [name, value] : alone.items()) {
             const auto column = std::find(results.columns.begin(), results.columns.end(), name);
             ASSERT_NE(column, results.columns.end()) << name;
-            const Cell& cell = results.rows[k][static_cast<std::size_t>(column - results.columns.begin())];
+            const LedgerCell& cell = results.rows[k][static_cast<std::size_t>(column - results.columns.begin())];
             if (value.is_string())
                 EXPECT_EQ(std::get<std::string>(cell), value.get<std::string>()) << name;
             else

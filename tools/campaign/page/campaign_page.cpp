@@ -51,7 +51,7 @@ std::string html(const std::string& text) {
     return out;
 }
 
-std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : "–"; }
+std::string in_cell(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : "–"; }
 
 std::string points_table(const CampaignRecord& record) {
     std::string text =
@@ -67,10 +67,10 @@ std::string points_table(const CampaignRecord& record) {
                 "<tr><td>{}</td><td "
                 "class=\"word\">{}{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>\n",
                 first ? html(point.axes.empty() ? point.test : fmt::format("{}, {}", point.test, point.at())) : "",
-                html(spoken_figure(figure)), unit.empty() ? "" : ", " + unit, mean.count, number(mean.mean),
-                number(mean.deviation),
+                html(spoken_figure(figure)), unit.empty() ? "" : ", " + unit, mean.count, in_cell(mean.mean),
+                in_cell(mean.deviation),
                 std::isfinite(mean.variation()) ? fmt::format("{:.1f}", 100.0 * std::abs(mean.variation())) : "–",
-                std::isfinite(mean.low) ? fmt::format("{} to {}", number(mean.low), number(mean.high)) : "–");
+                std::isfinite(mean.low) ? fmt::format("{} to {}", in_cell(mean.low), in_cell(mean.high)) : "–");
             first = false;
             if (const auto bias = point.biases.find(figure); bias != point.biases.end())
                 text += fmt::format("<tr><td></td><td class=\"note\" colspan=\"6\">{}</td></tr>\n",
@@ -120,13 +120,13 @@ std::string tests_table(const CampaignRecord& record, const fs::path& from) {
         "<th class=\"word\">state</th>";
     for (const std::size_t k : shown) text += fmt::format("<th>{}</th>", html(spoken_figure(results.columns[k])));
     text += "<th class=\"word\">kept</th></tr></thead><tbody>\n";
-    const auto cell = [&](const std::vector<Cell>& row, std::size_t k) {
-        if (const auto* value = std::get_if<double>(&row[k])) return number(*value);
+    const auto cell = [&](const std::vector<LedgerCell>& row, std::size_t k) {
+        if (const auto* value = std::get_if<double>(&row[k])) return in_cell(*value);
         if (const auto* word = std::get_if<std::string>(&row[k])) return html(*word);
         return std::string("–");
     };
     for (std::size_t number = 0; number < std::min(results.rows.size(), most_rows); ++number) {
-        const std::vector<Cell>& row = results.rows[number];
+        const std::vector<LedgerCell>& row = results.rows[number];
         text += fmt::format("<tr><td>{}</td><td>{}</td><td class=\"word\">{}</td><td class=\"word\">{}</td>",
                             cell(row, test), cell(row, seed), cell(row, variant), cell(row, state));
         for (const std::size_t k : shown) text += fmt::format("<td>{}</td>", cell(row, k));

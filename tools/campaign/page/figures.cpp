@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <optional>
 #include <set>
@@ -24,14 +23,13 @@ namespace fs = std::filesystem;
 using namespace plot;
 
 constexpr std::size_t most_bundles = 6;  // in one diagram
-constexpr std::array<const char*, 4> usual_figures{"youngs_modulus", "poissons_ratio", "peak_stress", "peak_strain"};
 
 std::size_t place_of(const LedgerTable& table, const std::string& column) {
     const auto at = std::find(table.columns.begin(), table.columns.end(), column);
     return static_cast<std::size_t>(at - table.columns.begin());
 }
 
-std::string text_of(const std::vector<Cell>& row, std::size_t column) {
+std::string text_of(const std::vector<LedgerCell>& row, std::size_t column) {
     if (column >= row.size()) return "";
     const auto* text = std::get_if<std::string>(&row[column]);
     return text != nullptr ? *text : "";
@@ -41,7 +39,7 @@ std::vector<double> values_of(const CampaignRecord& record, const PointSummary& 
     const std::size_t column = place_of(record.results, figure);
     std::vector<double> values;
     for (const std::size_t number : point.rows) {
-        const std::vector<Cell>& row = record.results.rows[number];
+        const std::vector<LedgerCell>& row = record.results.rows[number];
         if (const auto* value = column < row.size() ? std::get_if<double>(&row[column]) : nullptr)
             values.push_back(*value);
     }
@@ -141,12 +139,7 @@ CampaignRecord read_campaign(const fs::path& folder, const std::vector<std::stri
     record.title = ledger.meta("title");
     record.results = ledger.results();
     record.counts = ledger.counts();
-    record.figures = figures;
-    if (figures.empty()) {
-        const std::vector<std::string> known = numeric_figures(record.results);
-        for (const char* figure : usual_figures)
-            if (std::find(known.begin(), known.end(), figure) != known.end()) record.figures.emplace_back(figure);
-    }
+    record.figures = figures.empty() ? usual_figures(record.results) : figures;
     record.points = summarise(record.results, record.figures);
     std::set<std::string> names;
     for (const PointSummary& point : record.points) names.insert(point.test);
