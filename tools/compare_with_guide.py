@@ -5,7 +5,7 @@
   tools/compare_with_guide.py FOLDER
 
 FOLDER holds circles_tension, circles_compression, delaunay_..., voronoi_..., each as `crackle test -o` left it; only their
-summary.json is read. Where it holds the same tests on several packings, FOLDER/campaign (specimens/guide_rock/campaign.toml), their
+summary.json is read. Where it holds the same tests on several packings, FOLDER/campaign (specimens/plans/guide_rock.toml), their
 means and standard deviations stand beside. The guide's words are about one packing, and ratios vary with the packing: they are
 shown, not judged. Judged is whether every test ended in failure of its specimen.
 

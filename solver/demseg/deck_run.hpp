@@ -4,7 +4,7 @@
 //
 // The row of step n shows positions x_n and the forces there: n full steps, then the force pass, then the row. What
 // goes into new_* is the state before that last force pass, for the next run does it again.
-// Tested by tests/solver/demseg/files_test.cpp.
+// Tested by tests/solver/demseg/deck_folder_test.cpp.
 #pragma once
 
 #include <cstdint>

@@ -22,23 +22,17 @@ constexpr int layout_version = 1;
 constexpr int busy_milliseconds = 10'000;
 constexpr std::size_t most_columns_of_long = 480;  // SQLite joins at most 500 queries
 
-std::string quoted(const std::string& name) {
-    std::string text = "\"";
-    for (const char letter : name) {
-        text += letter;
-        if (letter == '"') text += letter;
-    }
-    return text + '"';
-}
-
-std::string literal(const std::string& text) {
-    std::string result = "'";
+/// As SQL reads it, between marks that are doubled within.
+std::string between(char mark, const std::string& text) {
+    std::string result(1, mark);
     for (const char letter : text) {
         result += letter;
-        if (letter == '\'') result += letter;
+        if (letter == mark) result += letter;
     }
-    return result + '\'';
+    return result += mark;
 }
+std::string quoted(const std::string& name) { return between('"', name); }
+std::string literal(const std::string& text) { return between('\'', text); }
 
 void bind_value(SQLite::Statement& statement, int place, const CaseValue& value) {
     if (const auto* number = std::get_if<double>(&value))
@@ -175,8 +169,7 @@ void Ledger::make_tables(Journal journal) {
         change.commit();
     }
     SQLite::Statement columns(db, "SELECT name FROM pragma_table_info('figures')");
-    while (columns.executeStep())
-        figure_columns_.emplace(columns.getColumn(0).getString(), static_cast<int>(figure_columns_.size()));
+    while (columns.executeStep()) figure_columns_.insert(columns.getColumn(0).getString());
 }
 
 void Ledger::make_views() {
@@ -273,9 +266,8 @@ void Ledger::set_plan(const Plan& plan, const std::vector<std::string>& identiti
 void Ledger::add_columns(const nlohmann::ordered_json& figures) {
     bool added = false;
     for (const auto& [name, value] : figures.items()) {
-        if (figure_columns_.contains(name)) continue;
+        if (!figure_columns_.insert(name).second) continue;
         database_->exec(fmt::format("ALTER TABLE figures ADD COLUMN {} ANY", quoted(name)));
-        figure_columns_.emplace(name, static_cast<int>(figure_columns_.size()));
         added = true;
     }
     if (added) make_views();
@@ -347,7 +339,7 @@ std::int64_t Ledger::gather(const std::filesystem::path& other, bool its_plan) {
         while (columns.executeStep()) {
             const std::string name = columns.getColumn(0).getString();
             names.push_back(quoted(name));
-            if (figure_columns_.emplace(name, static_cast<int>(figure_columns_.size())).second)
+            if (figure_columns_.insert(name).second)
                 db.exec(fmt::format("ALTER TABLE main.figures ADD COLUMN {} ANY", quoted(name)));
         }
         // A test that is done is done, whoever did it.

@@ -19,7 +19,7 @@
 #include <functional>
 #include <map>
 #include <memory>
-#include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -96,7 +96,7 @@ class Ledger {
 
     std::filesystem::path file_;
     std::unique_ptr<SQLite::Database> database_;
-    std::map<std::string, int> figure_columns_;  // name → place
+    std::set<std::string> figure_columns_;
 };
 
 }  // namespace crackle

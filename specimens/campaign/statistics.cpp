@@ -18,14 +18,6 @@ constexpr std::uint64_t bootstrap_seed = 1;
 constexpr std::size_t fewest_of_bootstrap = 8, most_of_bootstrap = 200;
 constexpr double outside = 0.05;
 
-/// Between sorted values, linear (type 7 of Hyndman and Fan, Am. Stat. 50, 1996).
-double percentile(const std::vector<double>& sorted, double share) {
-    const double at = share * static_cast<double>(sorted.size() - 1);
-    const auto below = static_cast<std::size_t>(at);
-    if (below + 1 >= sorted.size()) return sorted.back();
-    return sorted[below] + (at - static_cast<double>(below)) * (sorted[below + 1] - sorted[below]);
-}
-
 /// Mean, deviation and standard error.
 MeanFigure moments_of(std::span<const double> values) {
     MeanFigure figure;
@@ -89,6 +81,13 @@ MeanBias bias_of(std::span<const double> asked, std::span<const double> half_ste
     }
     const MeanFigure step = moments_of(by_step), rate = moments_of(by_rate), both = moments_of(by_both);
     return {both.count, step.mean, step.standard_error, rate.mean, rate.standard_error, both.mean, both.standard_error};
+}
+
+double percentile(std::span<const double> sorted, double share) {
+    const double at = share * static_cast<double>(sorted.size() - 1);
+    const auto below = static_cast<std::size_t>(at);
+    if (below + 1 >= sorted.size()) return sorted.back();
+    return std::lerp(sorted[below], sorted[below + 1], at - static_cast<double>(below));
 }
 
 double packings_for(double deviation, double goal) {

@@ -42,6 +42,10 @@ struct MeanBias {
 /// @param asked, half_step, half_rate  of the same packings in the same order
 MeanBias bias_of(std::span<const double> asked, std::span<const double> half_step, std::span<const double> half_rate);
 
+/// Between sorted values, linear (type 7 of Hyndman and Fan, Am. Stat. 50, 1996). @param sorted at least one value
+/// @param share 0 to 1
+double percentile(std::span<const double> sorted, double share);
+
 /// Packings that bring a standard error down to a goal: (deviation/goal)², at least 2.
 double packings_for(double deviation, double goal);
 

@@ -15,30 +15,16 @@ import sys
 import tempfile
 import time
 
-CASE = """[packing]
-count = 40
-radius_min = 1.333e-2
-radius_max = 2.667e-2
-mean_overlap = 7.74e-5
-[material]
-density = 2500.0
-normal_stiffness = 1.0e7
-shear_stiffness = 2.5e6
-friction_angle = 27.0
-damping_ratio = 0.2
-[loading]
-kind = "tension"
-axial_strain_rate = 0.002
-max_axial_strain = 0.004
-"""
 PLAN = """[[test]]
-case = "case.toml"
+case = "{case}"
+set = {{"packing.count" = 60}}
 [[axis]]
 key = "material.friction_angle"
 values = [20.0, 35.0]
 [packings]
-count = {}
+count = {packings}
 """
+CASE = pathlib.Path(__file__).resolve().parents[2] / "specimens" / "guide_rock" / "circles_tension.toml"
 
 
 def called(*words):
@@ -65,9 +51,8 @@ def wait_for_jobs():
 def on_the_cluster(crackle, tests, shards):
     with tempfile.TemporaryDirectory() as scratch:
         here = pathlib.Path(scratch)
-        (here / "case.toml").write_text(CASE)
         plan, shared, whole = here / "plan.toml", here / "shared", here / "whole"
-        plan.write_text(PLAN.format(tests // 2))
+        plan.write_text(PLAN.format(case=CASE, packings=tests // 2))
         begun = time.time()
         called(crackle, "campaign", str(plan), "-o", str(whole), "-q")
         alone = time.time() - begun

@@ -44,7 +44,7 @@ void print_estimate(const Plan& plan, const PlanEstimate& estimate, int workers)
                plan.packings, plan.packings == 1 ? "" : "s");
     for (const KindEstimate& kind : estimate.kinds) {
         fmt::print("  {:<24}{} tests of {:.2g} s{}\n", kind.test, kind.rows, kind.seconds,
-                   kind.measured ? ", as measured" : " by its first and last point");
+                   kind.measured ? ", as measured" : ", by `crackle test --check`");
         for (const std::string& warning : kind.warnings) fmt::print("  warning: {}: {}\n", kind.test, warning);
     }
     fmt::print("  about {} of a processor, {} with {} worker{}\n", hours(estimate.seconds),
@@ -80,8 +80,8 @@ CommandLine describe_campaign() {
             .options = {{"options", options}},
             .operand = "PLAN.toml",
             .verbose = "seconds of a test by its kind, as estimated",
-            .examples = {{"crackle campaign specimens/rocks/granite_campaign.toml -o out/granite --dry-run"},
-                         {"crackle campaign specimens/rocks/granite_campaign.toml -o out/granite"},
+            .examples = {{"crackle campaign specimens/plans/granite.toml -o out/granite --dry-run"},
+                         {"crackle campaign specimens/plans/granite.toml -o out/granite"},
                          {"crackle campaign show out/granite"},
                          {"crackle campaign plan.toml -o out/plan --verify"}},
             .notes = {"Python: pandas.read_sql('SELECT * FROM results', sqlite3.connect('DIR/campaign.sqlite'))"}};

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "specimens/campaign/statistics.hpp"
 #include "tools/plot/axes.hpp"
 #include "tools/plot/legend.hpp"
 
@@ -28,16 +29,7 @@ double stress_at(const std::vector<std::pair<double, double>>& curve, double str
     if (after == curve.end()) return std::nan("");
     if (after == curve.begin()) return after->second;
     const auto before = after - 1;
-    const double share = (strain - before->first) / (after->first - before->first);
-    return before->second + share * (after->second - before->second);
-}
-
-/// Between sorted values.
-double quantile(const std::vector<double>& sorted, double share) {
-    const double at = share * static_cast<double>(sorted.size() - 1);
-    const auto below = static_cast<std::size_t>(at);
-    if (below + 1 >= sorted.size()) return sorted.back();
-    return sorted[below] + (at - static_cast<double>(below)) * (sorted[below + 1] - sorted[below]);
+    return std::lerp(before->second, after->second, (strain - before->first) / (after->first - before->first));
 }
 
 /// A scale that begins near the smallest value where that is far from 0: figures, unlike curves, need no 0.
@@ -49,6 +41,13 @@ Scale figure_scale(double smallest, double largest, int ticks) {
     scale.low = smallest - 0.08 * range;
     scale.high = largest + 0.08 * range;
     return scale;
+}
+
+/// What a legend above and the axes' numbers leave of a panel.
+Rect frame_below(const Canvas& canvas, const Rect& place, const Legend& legend, const Scale& y) {
+    const double left = Axes::room_left(canvas, y);
+    const double top = place.y + std::max(legend.height(), 1.6 * canvas.style().font_size);
+    return {place.x + left, top, place.width - left - 4.0, place.bottom() - Axes::room_below(canvas) - top};
 }
 
 std::string titled(const std::string& title, const std::string& unit) {
@@ -89,9 +88,9 @@ Band band_of(const CurveBundle& bundle, double share, std::size_t strains) {
         }
         std::sort(values.begin(), values.end());
         band.strain.push_back(strain);
-        band.low.push_back(quantile(values, share));
-        band.median.push_back(quantile(values, 0.5));
-        band.high.push_back(quantile(values, 1.0 - share));
+        band.low.push_back(percentile(values, share));
+        band.median.push_back(percentile(values, 0.5));
+        band.high.push_back(percentile(values, 1.0 - share));
     }
     return band;
 }
@@ -121,9 +120,7 @@ Panel curve_bands(const std::vector<CurveBundle>& bundles) {
         axes.x = scale_for(0.0, strain / strain_unit, place.width < 300.0 ? 6 : 10);
         axes.y = scale_for(smallest / unit.factor, largest / unit.factor, 6);
         const Legend legend = legend_of(canvas, entries(), place.width);
-        const double left = Axes::room_left(canvas, axes.y);
-        const double top = place.y + std::max(legend.height(), 1.6 * canvas.style().font_size);
-        axes.frame = {place.x + left, top, place.width - left - 4.0, place.bottom() - Axes::room_below(canvas) - top};
+        axes.frame = frame_below(canvas, place, legend, axes.y);
         legend.draw(canvas, {place.x + beside_letter, place.y});
         const auto line = [&](const Band& band, const std::vector<double>& values) {
             std::vector<Point> points;
@@ -224,9 +221,7 @@ Panel over_axis(const std::string& x_title, const std::string& y_title, const st
         axes.x = figure_scale(left_x / power, right_x / power, place.width < 300.0 ? 5 : 8);
         axes.y = figure_scale(smallest / unit.factor, largest / unit.factor, 5);
         const Legend legend = legend_of(canvas, entries(), place.width);
-        const double left = Axes::room_left(canvas, axes.y);
-        const double top = place.y + std::max(legend.height(), 1.6 * canvas.style().font_size);
-        axes.frame = {place.x + left, top, place.width - left - 4.0, place.bottom() - Axes::room_below(canvas) - top};
+        axes.frame = frame_below(canvas, place, legend, axes.y);
         legend.draw(canvas, {place.x + beside_letter, place.y});
         for (std::size_t s = 0; s < all.size(); ++s) {
             const Colour &colour = series_colour(s), faint = tinted(colour, 0.45);

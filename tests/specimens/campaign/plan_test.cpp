@@ -151,6 +151,17 @@ TEST_F(PlanTest, APackingsNumberIsTheSeedOfAllThatIsRandom) {
     EXPECT_EQ(second.bond.strength_seed, 6);
 }
 
+TEST_F(PlanTest, ThoseThatAreShippedArePossible) {
+    std::size_t count = 0;
+    for (const auto& entry :
+         std::filesystem::directory_iterator(std::filesystem::path(CRACKLE_SOURCE_DIR) / "specimens/plans")) {
+        const Plan plan = read_plan(entry.path());
+        EXPECT_GE(plan.rows.size(), 20U) << entry.path();
+        ++count;
+    }
+    EXPECT_GE(count, 3U);
+}
+
 TEST_F(PlanTest, RefusesWhatCannotBe) {
     expect_refused("", "found no [[test]]");
     expect_refused("[[test]]\n", "case: found nothing");

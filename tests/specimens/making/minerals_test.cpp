@@ -31,6 +31,7 @@
 #include "specimens/recordings/recording.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/deck_files.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/support/small_rock.hpp"
 
 namespace crackle {
@@ -49,16 +50,6 @@ constexpr const char* three_minerals =
 
 constexpr double odd_stiffness = 16572823.625;  // N/m; springs in series, 2kk/(k + k), miss it in the last bit
 
-std::string error_of(const std::function<void()>& act) {
-    try {
-        act();
-    } catch (const InputError& error) {
-        fmt::print("  {}\n", error.what());
-        return error.what();
-    }
-    return "accepted";
-}
-
 class MineralRock : public ::testing::Test {
   protected:
     /// A case of discs (or cells of them) with more text at its end. @return its path
@@ -74,7 +65,7 @@ class MineralRock : public ::testing::Test {
     }
     std::string refusal(const std::string& minerals) const {
         const auto path = write(minerals);
-        return error_of([&] { make_specimen(read_case(path), {}); });
+        return testing::refusal([&] { make_specimen(read_case(path), {}); });
     }
 
     ScratchFolder scratch_;
@@ -364,8 +355,9 @@ TEST_F(MineralRock, FileWithMaterialsOfItsOwnIsRefused) {
     std::ofstream out(scratch_ / "rock.dat");
     write_geometry(out, scene);
     out.close();
-    EXPECT_NE(error_of([&] { make_specimen(read_case(path), {}); }).find("found a particle file with 2 materials"),
-              std::string::npos);
+    EXPECT_NE(
+        testing::refusal([&] { make_specimen(read_case(path), {}); }).find("found a particle file with 2 materials"),
+        std::string::npos);
 }
 
 TEST_F(MineralRock, TwoMineralsOfEqualPropertiesGiveTheBytesOfOne) {
@@ -518,18 +510,19 @@ TEST(MaterialPair, OverridesTheStrengthsOfCoulombBonds) {
     EXPECT_EQ(law().friction, tangent(28.0));
     EXPECT_EQ(law().bond_friction, tangent(30.0));
     scene.material_pairs[0].residual_friction_angle = 31.0;
-    EXPECT_NE(error_of([&] { validate(scene); }).find("material pair 1: residual friction angle: found 31"),
+    EXPECT_NE(testing::refusal([&] { validate(scene); }).find("material pair 1: residual friction angle: found 31"),
               std::string::npos);
     scene.material_pairs[0] = {1, 0, {}, {}, {}, {}, -1.0};
-    EXPECT_NE(error_of([&] { validate(scene); }).find("material pair 1: cohesion: found -1"), std::string::npos);
+    EXPECT_NE(testing::refusal([&] { validate(scene); }).find("material pair 1: cohesion: found -1"),
+              std::string::npos);
     scene.material_pairs[0] = {1, 0, {}, 0.0};
-    EXPECT_NE(error_of([&] { validate(scene); }).find("shear stiffness: found 0 with coulomb bonds"),
+    EXPECT_NE(testing::refusal([&] { validate(scene); }).find("shear stiffness: found 0 with coulomb bonds"),
               std::string::npos);
     scene.material_pairs[0] = {1, 0, {}, {}, {}, 1.0};
     scene.bond_law = BondLaw::back_tension;
     scene.materials[0].tensile_strength = scene.materials[0].cohesion = 0.0;
     scene.materials[1] = scene.materials[0];
-    EXPECT_NE(error_of([&] { validate(scene); }).find("expected the bond law coulomb"), std::string::npos);
+    EXPECT_NE(testing::refusal([&] { validate(scene); }).find("expected the bond law coulomb"), std::string::npos);
 }
 
 TEST(MaterialPair, OfEqualStiffnessHasItToTheBit) {
@@ -547,7 +540,7 @@ TEST(MaterialPair, IsRefusedWhereItMakesNoSense) {
         Scene scene = disc_chain(2, 0.02, 0.0399, undamped_rock(1e7, 30.0));
         scene.material_pairs = {second, pair};
         scene.materials.push_back(scene.materials[0]);
-        return error_of([&] { validate(scene); });
+        return testing::refusal([&] { validate(scene); });
     };
     EXPECT_EQ(complaint({0, 1, 1e6, {}, {}}), "accepted");
     EXPECT_NE(complaint({0, 2, 1e6, {}, {}}).find("material pair 2: material: found 3"), std::string::npos);

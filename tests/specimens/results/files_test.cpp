@@ -23,6 +23,7 @@
 #include "tests/support/claim.hpp"
 #include "tests/support/deck_files.hpp"
 #include "tests/support/folder_contents.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/support/small_rock.hpp"
 
 namespace crackle {
@@ -31,19 +32,10 @@ namespace {
 namespace fs = std::filesystem;
 using testing::contents;
 using testing::expect_same;
+using testing::refusal;
 using testing::ScratchFolder;
 using testing::SmallCase;
 using testing::write_small_case;
-
-std::string refusal(const std::function<void()>& act) {
-    try {
-        act();
-    } catch (const InputError& error) {
-        fmt::print("  {}\n", error.what());
-        return error.what();
-    }
-    return "went through";
-}
 
 class TestFolder : public ::testing::Test {
   protected:
@@ -414,8 +406,9 @@ TEST_F(TestFolder, IsRefusedWhileAnotherTestWritesIntoIt) {
     TestHooks hooks;
     hooks.interrupted = [&] {
         if (asked++ != 3) return false;
-        EXPECT_NE(refusal([&] { resume_test(options("out")); })
-                      .find(fmt::format("another crackle (process {}) is writing here", ::getpid())),
+        EXPECT_NE(refusal([&] {
+                      resume_test(options("out"));
+                  }).find(fmt::format("another crackle (process {}) is writing here", ::getpid())),
                   std::string::npos);
         return false;
     };

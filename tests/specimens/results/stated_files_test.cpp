@@ -13,23 +13,15 @@
 #include "specimens/loading/run.hpp"
 #include "specimens/recordings/test_results.hpp"
 #include "tests/support/deck_files.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/support/small_rock.hpp"
 
 namespace crackle {
 namespace {
 
 namespace fs = std::filesystem;
+using testing::refusal;
 using Json = nlohmann::ordered_json;
-
-std::string words_of_refusal(const std::function<void()>& act) {
-    try {
-        act();
-    } catch (const InputError& error) {
-        fmt::print("  {}\n", error.what());
-        return error.what();
-    }
-    return "went through";
-}
 
 void expect_says(const std::string& got, const std::string& expected) {
     EXPECT_NE(got.find(expected), std::string::npos) << got;
@@ -58,11 +50,11 @@ class FinishedTest : public ::testing::Test {
         for (const std::string name : {"curve.csv", "events.csv", "slips.csv"}) {
             const std::string text = read_file(folder_ / name);
             write(name, change(text));
-            const std::string reading = words_of_refusal([&] { read_results(folder_); });
+            const std::string reading = refusal([&] { read_results(folder_); });
             expect_says(reading, (folder_ / name).string() + ": found ");
             expect_says(reading, says);
             expect_says(reading, fmt::format("expected the {} that the test wrote", text.size()));
-            EXPECT_EQ(words_of_refusal([&] { resume_test(options()); }), reading);
+            EXPECT_EQ(refusal([&] { resume_test(options()); }), reading);
             write(name, text);
         }
         EXPECT_NO_THROW(read_results(folder_));
@@ -107,12 +99,12 @@ TEST_F(FinishedTest, ReadsNoFileWithRowsPutToIt) {
 TEST_F(FinishedTest, ReadsNoFileThatIsGoneOrThatItDidNotWrite) {
     const std::string text = read_file(folder_ / "slips.csv");
     fs::remove(folder_ / "slips.csv");
-    expect_says(words_of_refusal([&] { read_results(folder_); }), "slips.csv: file not found");
+    expect_says(refusal([&] { read_results(folder_); }), "slips.csv: file not found");
     write("slips.csv", text);
     Json without = summary_;
     without["files"].erase("slips.csv");
     write("summary.json", without.dump());
-    expect_says(words_of_refusal([&] { read_results(folder_); }),
+    expect_says(refusal([&] { read_results(folder_); }),
                 "slips.csv: found a file that the test did not write (summary.json has no files.slips.csv), expected "
                 "none; remove it");
 }
@@ -121,7 +113,7 @@ TEST_F(FinishedTest, TakesNoOtherCheckpointForItsOwn) {
     Json other = summary_;
     other["files"]["checkpoint"]["xxh3"] = "0123456789abcdef";
     write("summary.json", other.dump());
-    expect_says(words_of_refusal([&] { resume_test(options()); }), "checkpoint: found ");
+    expect_says(refusal([&] { resume_test(options()); }), "checkpoint: found ");
     EXPECT_NO_THROW(read_results(folder_)) << "which needs none";
 }
 
@@ -130,7 +122,7 @@ TEST_F(FinishedTest, OfAnEarlierVersionIsReadAsItIs) {
     silent.erase("files");
     write("summary.json", silent.dump());
     write("curve.csv", read_file(folder_ / "curve.csv") + "\n");
-    expect_says(words_of_refusal([&] { read_results(folder_); }), "found 1 values");  // by the reader of numbers
+    expect_says(refusal([&] { read_results(folder_); }), "found 1 values");  // by the reader of numbers
     write("curve.csv", read_file(folder_ / "curve.csv").substr(0, read_file(folder_ / "curve.csv").size() - 1));
     EXPECT_NO_THROW(read_results(folder_));
 }
@@ -141,7 +133,7 @@ TEST_F(FinishedTest, WhoseSummaryStatesItsFilesWronglyIsRefused) {
         Json wrong = summary_;
         wrong["files"] = files;
         write("summary.json", wrong.dump());
-        expect_says(words_of_refusal([&] { read_results(folder_); }), "found no bytes and xxh3 of files");
+        expect_says(refusal([&] { read_results(folder_); }), "found no bytes and xxh3 of files");
     };
     for (const Json& files : {Json(nullptr), Json(3), Json::object(), Json::array({1})}) refused(files);
     for (const Json& bytes : {Json(-1), Json("1"), Json(1.5), Json(nullptr)})

@@ -12,7 +12,9 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <thread>
+#include <vector>
 
 #include "solver/files/read_file.hpp"
 #include "tests/support/claim.hpp"
@@ -30,6 +32,32 @@ using testing::write_small_case;
 class CrackleTest : public testing::ProgramCall {
   protected:
     CrackleTest() : ProgramCall("test") { write_small_case(folder_, {}); }
+
+    /// Ctrl-C as soon as standard error holds a text. @return code -1: it was ended by a signal, or never began
+    Answer interrupted_at(const std::string& text, std::vector<std::string> words) const {
+        int errors[2];
+        if (pipe(errors) != 0) return {};
+        const pid_t child = fork();
+        if (child == 0) {
+            words.insert(words.begin(), {CRACKLE_PROGRAM, "test"});
+            std::vector<char*> arguments;
+            for (std::string& word : words) arguments.push_back(word.data());
+            arguments.push_back(nullptr);
+            if (chdir(folder_.c_str()) != 0 || dup2(errors[1], STDERR_FILENO) < 0) _exit(127);
+            execv(CRACKLE_PROGRAM, arguments.data());
+            _exit(127);
+        }
+        close(errors[1]);
+        Answer answer;
+        char letter = 0;
+        while (answer.err.find(text) == std::string::npos && ::read(errors[0], &letter, 1) == 1) answer.err += letter;
+        if (child > 0) kill(child, SIGINT);
+        while (::read(errors[0], &letter, 1) == 1) answer.err += letter;
+        close(errors[0]);
+        int status = 0;
+        if (waitpid(child, &status, 0) == child && WIFEXITED(status)) answer.code = WEXITSTATUS(status);
+        return answer;
+    }
 };
 
 TEST_F(CrackleTest, RunsQuietlyInAPipeAndPrintsItsFigures) {
@@ -350,29 +378,9 @@ TEST_F(CrackleTest, VerifyOfAFinishedTestAddsTheErrorsAndTouchesNothingElse) {
 
 TEST_F(CrackleTest, CtrlCAmongTheCompanionsKeepsTheFinishedTest) {
     write_small_case(folder_, {.rate = 1e-3, .max_strain = 0.005});
-    int errors[2];
-    ASSERT_EQ(pipe(errors), 0);
-    const pid_t child = fork();
-    ASSERT_GE(child, 0);
-    if (child == 0) {
-        ASSERT_EQ(chdir(folder_.c_str()), 0);
-        dup2(errors[1], STDERR_FILENO);
-        execl(CRACKLE_PROGRAM, CRACKLE_PROGRAM, "test", "case.toml", "-o", "out", "--verify",
-              static_cast<char*>(nullptr));
-        _exit(127);
-    }
-    close(errors[1]);
-    std::string printed;
-    char letter = 0;
-    while (printed.find("verifying") == std::string::npos && ::read(errors[0], &letter, 1) == 1) printed += letter;
-    kill(child, SIGINT);
-    while (::read(errors[0], &letter, 1) == 1) printed += letter;
-    close(errors[0]);
-    int status = 0;
-    ASSERT_EQ(waitpid(child, &status, 0), child);
-    ASSERT_TRUE(WIFEXITED(status)) << printed;
-    EXPECT_EQ(WEXITSTATUS(status), 130);
-    EXPECT_NE(printed.find("the test is complete"), std::string::npos) << printed;
+    const Answer answer = interrupted_at("verifying", {"case.toml", "-o", "out", "--verify"});
+    EXPECT_EQ(answer.code, 130);
+    EXPECT_NE(answer.err.find("the test is complete"), std::string::npos) << answer.err;
     const auto summary = read_json(folder_ / "out/summary.json");
     EXPECT_TRUE(summary["failed"].get<bool>());
     EXPECT_FALSE(summary["interrupted"].get<bool>());
@@ -382,29 +390,10 @@ TEST_F(CrackleTest, CtrlCAmongTheCompanionsKeepsTheFinishedTest) {
 TEST_F(CrackleTest, CtrlCWhileTheStepOfALargeSpecimenIsSoughtIsHeardBeforeItIsFound) {
     write_small_case(folder_, {.rate = 1e-3, .max_strain = 0.005});
     testing::write_small_rock(folder_ / "rock.dat", 50, 100);
-    int errors[2];
-    ASSERT_EQ(pipe(errors), 0);
-    const pid_t child = fork();
-    ASSERT_GE(child, 0);
-    if (child == 0) {
-        ASSERT_EQ(chdir(folder_.c_str()), 0);
-        dup2(errors[1], STDERR_FILENO);
-        execl(CRACKLE_PROGRAM, CRACKLE_PROGRAM, "test", "case.toml", "-o", "out", static_cast<char*>(nullptr));
-        _exit(127);
-    }
-    close(errors[1]);
-    std::string printed;
-    char letter = 0;
-    while (printed.find("read ") == std::string::npos && ::read(errors[0], &letter, 1) == 1) printed += letter;
-    kill(child, SIGINT);
-    while (::read(errors[0], &letter, 1) == 1) printed += letter;
-    close(errors[0]);
-    int status = 0;
-    ASSERT_EQ(waitpid(child, &status, 0), child);
-    ASSERT_TRUE(WIFEXITED(status)) << printed;
-    EXPECT_EQ(WEXITSTATUS(status), 130);
-    EXPECT_NE(printed.find("interrupted before loading began, nothing is written"), std::string::npos) << printed;
-    EXPECT_EQ(printed.find("bonded "), std::string::npos) << printed;
+    const Answer answer = interrupted_at("read ", {"case.toml", "-o", "out"});
+    EXPECT_EQ(answer.code, 130);
+    EXPECT_NE(answer.err.find("interrupted before loading began, nothing is written"), std::string::npos) << answer.err;
+    EXPECT_EQ(answer.err.find("bonded "), std::string::npos) << answer.err;
     EXPECT_FALSE(fs::exists(folder_ / "out"));
 }
 

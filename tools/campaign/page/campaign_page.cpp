@@ -34,22 +34,8 @@ details{margin-top:1rem}summary{cursor:pointer}
 .wide{overflow-x:auto}.wrong{color:#b3261e}
 )";
 
-std::string html(const std::string& text) {
-    std::string out;
-    for (const char letter : text) {
-        if (letter == '&')
-            out += "&amp;";
-        else if (letter == '<')
-            out += "&lt;";
-        else if (letter == '>')
-            out += "&gt;";
-        else if (letter == '"')
-            out += "&quot;";
-        else
-            out += letter;
-    }
-    return out;
-}
+/// Pango's markup takes the letters that HTML does.
+std::string html(const std::string& text) { return plot::escaped(text); }
 
 std::string in_cell(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : "–"; }
 
