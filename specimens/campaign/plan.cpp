@@ -125,11 +125,9 @@ TestCase Plan::test_of(const PlanRow& row) const {
     return test;
 }
 
-void expand(Plan& plan, const DesignRequest& design, bool with_companions) {
+void expand(Plan& plan, const DesignRequest& design, bool with_companions, std::int64_t most_rows) {
     std::size_t design_axes = 0;
     for (const Axis& axis : plan.axes) design_axes += axis.of_design() ? 1 : 0;
-    const auto shares = design_axes > 0 ? design_points(design.sequence, design.points, design_axes)
-                                        : std::vector<std::vector<double>>{};
     double rows = 0.0;
     for (const PlannedTest& test : plan.tests) {
         double of_test = static_cast<double>(plan.packings) * (with_companions ? variants : 1);
@@ -141,10 +139,12 @@ void expand(Plan& plan, const DesignRequest& design, bool with_companions) {
         }
         rows += designed ? of_test * static_cast<double>(design.points) : of_test;
     }
-    if (rows > static_cast<double>(most_plan_rows)) {
+    if (rows > static_cast<double>(most_rows)) {
         throw InputError(fmt::format("{}: found {:.3g} tests, expected at most {}; fewer values, or fewer packings",
-                                     plan.file.string(), rows, most_plan_rows));
+                                     plan.file.string(), rows, most_rows));
     }
+    const auto shares = design_axes > 0 ? design_points(design.sequence, design.points, design_axes)
+                                        : std::vector<std::vector<double>>{};
     for (std::size_t test = 0; test < plan.tests.size(); ++test) add_points(plan, test, shares);
     judge_points(plan);
     for (std::int64_t k = 0; k < plan.packings; ++k) {

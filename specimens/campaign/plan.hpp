@@ -84,8 +84,9 @@ struct DesignRequest {
 };
 
 /// Fills in points and rows, and judges every point's keys and values.
-/// @param with_companions rows of half the step and half the rate, too @throws InputError
-void expand(Plan& plan, const DesignRequest& design, bool with_companions);
+/// @param with_companions rows of half the step and half the rate, too
+/// @throws InputError, also where there would be more than most_rows
+void expand(Plan& plan, const DesignRequest& design, bool with_companions, std::int64_t most_rows = most_plan_rows);
 
 /// As it stands in a plan: 30, 1.5e7, "voronoi".
 std::string value_text(const CaseValue& value);

@@ -192,7 +192,7 @@ const Parameter& parameter_of(const Table& table, const std::string& key) {
     return *p;
 }
 
-Axis read_axis(const Table& table) {
+Axis read_axis(const Table& table, std::int64_t most_values) {
     Axis axis;
     const std::optional<std::string> key = table.text("key");
     if (!key) table.refuse("key", "nothing");
@@ -210,7 +210,7 @@ Axis read_axis(const Table& table) {
     }
     const toml::node* values = table.get("values");
     const std::optional<double> from = table.number("from"), to = table.number("to");
-    const std::optional<std::int64_t> count = table.whole("count", 2, most_plan_rows);
+    const std::optional<std::int64_t> count = table.whole("count", 2, most_values);
     axis.spacing = table.choice<Spacing>("spacing", {"linear", "logarithmic"});
     if (values != nullptr) {
         if (from || to || count) table.refuse(from ? "from" : to ? "to" : "count", "it beside values", "one of both");
@@ -255,7 +255,7 @@ void check_names(const Plan& plan) {
 
 }  // namespace
 
-Plan read_plan(const fs::path& path, bool with_companions) {
+Plan read_plan(const fs::path& path, bool with_companions, std::int64_t most_rows) {
     const toml::table content = parse_toml(path, "a plan of a campaign");
     const toml::table absent;
     const Table top(path, "", content);
@@ -268,11 +268,11 @@ Plan read_plan(const fs::path& path, bool with_companions) {
     DesignRequest design;
     const Table design_table = table_of(path, content, "design", absent);
     design.sequence = design_table.choice<Sequence>("sequence", {"sobol", "halton"});
-    const auto points = design_table.whole("points", 1, most_plan_rows);
+    const auto points = design_table.whole("points", 1, most_rows);
     design.points = static_cast<std::size_t>(points.value_or(0));
     std::size_t of_design = 0;
     for (const Table& table : tables_of(path, content, "axis", "[[axis]]")) {
-        plan.axes.push_back(read_axis(table));
+        plan.axes.push_back(read_axis(table, most_rows));
         if (!plan.axes.back().of_design()) continue;
         if (design.points == 0) table.refuse("from", "from and to without count", "count, or points in [design]");
         if (++of_design > most_design_axes)
@@ -291,7 +291,7 @@ Plan read_plan(const fs::path& path, bool with_companions) {
     if (run.get("time_limit") != nullptr && !(plan.time_limit > 0.0))
         run.refuse("time_limit", fmt::format("{}", plan.time_limit));
     check_names(plan);
-    expand(plan, design, with_companions);
+    expand(plan, design, with_companions, most_rows);
     return plan;
 }
 

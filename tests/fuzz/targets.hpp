@@ -15,6 +15,7 @@ namespace crackle::fuzz {
     USE(deck_state)               \
     USE(deck_outputs)             \
     USE(case_file)                \
+    USE(plan)                     \
     USE(checkpoint)               \
     USE(frame)                    \
     USE(recording)                \

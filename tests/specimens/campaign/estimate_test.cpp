@@ -45,14 +45,14 @@ TEST(BatchScript, LargestShareHasWholePackingsOrSingleTests) {
 }
 
 TEST(BatchScript, AsksForThreeTimesTheWorkOfAShareAndQuotesPaths) {
-    const BatchRequest request{"/opt/crackle", "/home/o'brien/my plan.toml", "/scratch/out 50%", 20, 2, 7200.0, 0.05,
+    const BatchRequest request{"/opt/crackle", "/data/o'brien/my plan.toml", "/scratch/out 50%", 20, 2, 7200.0, 0.05,
                                " --verify"};
     EXPECT_TRUE(testing::agrees("wall clock of a share, s", wall_limit(request), 300.0 + 3.0 * 7200.0 / 40.0, 1e-12));
     const std::string script = batch_script(request);
     for (const char* part :
          {"#SBATCH --array=1-20\n", "#SBATCH --cpus-per-task=2\n", "#SBATCH --time=0:14:00\n",
           "#SBATCH --job-name=crackle-my_plan\n", "exec >'/scratch/out 50%/shards'/\"$SLURM_ARRAY_TASK_ID.log\" 2>&1\n",
-          "'/home/o'\\''brien/my plan.toml'", "--shard \"$SLURM_ARRAY_TASK_ID/20\" --workers 2 --verify -q\n"})
+          "'/data/o'\\''brien/my plan.toml'", "--shard \"$SLURM_ARRAY_TASK_ID/20\" --workers 2 --verify -q\n"})
         EXPECT_NE(script.find(part), std::string::npos) << part << " in\n" << script;
     const testing::ScratchFolder scratch;
     testing::write_text(scratch / "script", script);

@@ -5,15 +5,13 @@
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <sys/wait.h>
-#include <unistd.h>
 
-#include <chrono>
 #include <cstdlib>
 #include <fstream>
-#include <thread>
 
 #include "solver/files/read_file.hpp"
 #include "tests/support/deck_files.hpp"
+#include "tests/support/interrupted_call.hpp"
 
 namespace crackle {
 namespace {
@@ -160,23 +158,10 @@ TEST_F(RunCommand, AnInterruptedRunGoesOnAsIfNothingHadHappened) {
     const std::string deck = shipped_deck("chain_hanging").string(), out = (scratch_ / "out").string(),
                       whole = (scratch_ / "whole").string();
     ASSERT_EQ(crackle(fmt::format("run -q '{}' -o '{}'", deck, whole)), 0) << printed();
-    const pid_t child = ::fork();
-    ASSERT_GE(child, 0);
-    if (child == 0) {
-        ::execl(CRACKLE_PROGRAM, CRACKLE_PROGRAM, "run", "-q", deck.c_str(), "-o", out.c_str(),
-                static_cast<char*>(nullptr));
-        ::_exit(127);
-    }
     const auto begun = std::filesystem::path(out) / "velocity_y.dat";  // the last one that is opened
-    while (!std::filesystem::exists(begun)) {
-        ASSERT_EQ(::waitpid(child, nullptr, WNOHANG), 0) << "ended before it began";
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    ::kill(child, SIGINT);
-    int status = 0;
-    ::waitpid(child, &status, 0);
-    ASSERT_TRUE(WIFEXITED(status));
-    ASSERT_EQ(WEXITSTATUS(status), 130);
+    ASSERT_EQ(testing::interrupted_call(scratch_ / "", {"run", "-q", deck, "-o", out}, SIGINT,
+                                        [&] { return std::filesystem::exists(begun); }),
+              130);
     ASSERT_EQ(crackle(fmt::format("run -q '{}' --continue", out)), 0) << printed();
     for (const char* name :
          {"output.dat", "cont.dat", "energy.dat", "f-d_curve.dat", "new_in_gm.dat", "new_in_bc.dat", "new_state.bin"}) {

@@ -7,17 +7,16 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "solver/files/read_file.hpp"
 #include "tests/support/claim.hpp"
+#include "tests/support/interrupted_call.hpp"
 #include "tests/support/program_call.hpp"
 #include "tests/support/small_rock.hpp"
 
@@ -26,6 +25,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::Answer;
+using testing::interrupted_call;
 using testing::SmallCase;
 using testing::write_small_case;
 
@@ -419,23 +419,8 @@ TEST_F(CrackleTest, SignalsToEndEndCleanlyAndResumeEndsWithTheSameCurve) {
     EXPECT_EQ(call("case.toml -o whole -q").code, 0);
     for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
         fs::remove_all(folder_ / "out");
-        const pid_t child = fork();
-        ASSERT_GE(child, 0);
-        if (child == 0) {
-            ASSERT_EQ(chdir(folder_.c_str()), 0);
-            execl(CRACKLE_PROGRAM, CRACKLE_PROGRAM, "test", "case.toml", "-o", "out", "-q",
-                  static_cast<char*>(nullptr));
-            _exit(127);
-        }
-        for (int wait = 0; wait < 3000 && !fs::exists(folder_ / "out/checkpoint"); ++wait) {
-            std::this_thread::sleep_for(std::chrono::milliseconds(10));
-        }
-        ASSERT_TRUE(fs::exists(folder_ / "out/checkpoint")) << "loading has begun";
-        kill(child, signal);
-        int status = 0;
-        ASSERT_EQ(waitpid(child, &status, 0), child);
-        ASSERT_TRUE(WIFEXITED(status)) << "signal " << signal;
-        EXPECT_EQ(WEXITSTATUS(status), 130);
+        const auto loading_has_begun = [&] { return exists("out/checkpoint"); };
+        ASSERT_EQ(interrupted_call(folder_, {"test", "case.toml", "-o", "out", "-q"}, signal, loading_has_begun), 130);
         const auto summary = nlohmann::json::parse(read_file(folder_ / "out/summary.json"));
         EXPECT_TRUE(summary["interrupted"].get<bool>());
         EXPECT_FALSE(summary["failed"].get<bool>());

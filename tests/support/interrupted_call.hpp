@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The program as a user calls it and ends it by a signal once it has come to some point: no time is waited, for
+// machines and sanitizers differ by a factor of twenty.
+#pragma once
+
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace crackle::testing {
+
+/// Runs the program in a folder, standard output and error in out.txt and err.txt there, and sends the signal once
+/// `ready` says so.
+/// @return its exit code; -1 if a signal ended it, it ended before it was ready, or was not ready in two minutes
+template <class Ready>
+int interrupted_call(const std::filesystem::path& folder, std::vector<std::string> words, int signal,
+                     const Ready& ready) {
+    const pid_t child = ::fork();
+    if (child == 0) {
+        words.insert(words.begin(), CRACKLE_PROGRAM);
+        std::vector<char*> arguments;
+        for (std::string& word : words) arguments.push_back(word.data());
+        arguments.push_back(nullptr);
+        if (::chdir(folder.c_str()) != 0 || ::freopen("out.txt", "w", stdout) == nullptr ||
+            ::freopen("err.txt", "w", stderr) == nullptr)
+            ::_exit(127);
+        ::execv(CRACKLE_PROGRAM, arguments.data());
+        ::_exit(127);
+    }
+    const auto last = std::chrono::steady_clock::now() + std::chrono::minutes(2);
+    int status = 0;
+    bool is_ready = false;
+    while (!(is_ready = ready()) && std::chrono::steady_clock::now() < last) {
+        if (::waitpid(child, &status, WNOHANG) == child) {
+            ADD_FAILURE() << "it ended before the signal";
+            return -1;
+        }
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+    EXPECT_TRUE(is_ready) << "two minutes have passed";
+    ::kill(child, is_ready ? signal : SIGKILL);
+    ::waitpid(child, &status, 0);
+    EXPECT_TRUE(WIFEXITED(status)) << "signal " << signal << " ended it";
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+}  // namespace crackle::testing
