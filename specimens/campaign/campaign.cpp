@@ -265,7 +265,9 @@ void check_campaign_folder(const fs::path& folder) {
     if (!is_folder(folder))
         throw InputError(
             fmt::format("{}: found a file, expected a folder or none; choose another -o", folder.string()));
-    if (is_there(ledger_file(folder)) || is_there(folder / "shards") || fs::is_empty(folder)) return;
+    for (const char* made : {"campaign.sqlite", "shards", "packings"})
+        if (is_there(folder / made)) return;
+    if (fs::is_empty(folder)) return;
     throw InputError(
         fmt::format("{}: found files that no campaign made, expected a new folder or a campaign's; choose another -o",
                     folder.string()));

@@ -29,7 +29,7 @@ struct Shard {
 struct CampaignOptions {
     std::filesystem::path folder;
     int workers = 1;
-    Shard shard;
+    Shard shard = {};
     bool retry = false;    ///< those that have gone wrong are run again
     bool endless = false;  ///< as TestOptions::endless
 };

@@ -66,7 +66,34 @@ std::vector<CaseSetting> settings_of(const Plan& plan, const PlanPoint& point) {
     return settings;
 }
 
-/// Each point is made once, so that no test is begun before all of them are known to be possible.
+}  // namespace
+
+const char* name_of(Variant variant) {
+    constexpr std::array<const char*, variants> names{"as_asked", "half_step", "half_rate"};
+    return names[static_cast<std::size_t>(variant)];
+}
+
+std::string value_text(const CaseValue& value) {
+    if (const auto* text = std::get_if<std::string>(&value)) return *text;
+    if (const auto* pair = std::get_if<std::array<std::string, 2>>(&value))
+        return fmt::format("{}-{}", (*pair)[0], (*pair)[1]);
+    if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
+    if (const auto* whole = std::get_if<std::int64_t>(&value)) return fmt::format("{}", *whole);
+    return fmt::format("{}", std::get<double>(value));
+}
+
+TestCase Plan::test_of(const PlanRow& row) const {
+    const PlanPoint& point = points[row.point];
+    std::vector<CaseSetting> settings = settings_of(*this, point);
+    const PlannedTest& kind = tests[point.test];
+    for (const std::string& key : point.seeds) settings.push_back({key, row.seed, file.string() + ":1"});
+    TestCase test = kind.files.with(settings);
+    if (row.variant == Variant::half_step) test.halve_step();
+    if (row.variant == Variant::half_rate) test.loading.scale_rate(0.5);
+    return test;
+}
+
+// Each is made once, so that no test is begun before all of them are known to be possible.
 void judge_points(Plan& plan) {
     for (PlanPoint& point : plan.points) {
         const PlannedTest& kind = plan.tests[point.test];
@@ -96,33 +123,6 @@ void judge_points(Plan& plan) {
                                         : fmt::format("{} (test {} at {})", error.what(), kind.name, at));
         }
     }
-}
-
-}  // namespace
-
-const char* name_of(Variant variant) {
-    constexpr std::array<const char*, variants> names{"as_asked", "half_step", "half_rate"};
-    return names[static_cast<std::size_t>(variant)];
-}
-
-std::string value_text(const CaseValue& value) {
-    if (const auto* text = std::get_if<std::string>(&value)) return *text;
-    if (const auto* pair = std::get_if<std::array<std::string, 2>>(&value))
-        return fmt::format("{}-{}", (*pair)[0], (*pair)[1]);
-    if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
-    if (const auto* whole = std::get_if<std::int64_t>(&value)) return fmt::format("{}", *whole);
-    return fmt::format("{}", std::get<double>(value));
-}
-
-TestCase Plan::test_of(const PlanRow& row) const {
-    const PlanPoint& point = points[row.point];
-    std::vector<CaseSetting> settings = settings_of(*this, point);
-    const PlannedTest& kind = tests[point.test];
-    for (const std::string& key : point.seeds) settings.push_back({key, row.seed, file.string() + ":1"});
-    TestCase test = kind.files.with(settings);
-    if (row.variant == Variant::half_step) test.halve_step();
-    if (row.variant == Variant::half_rate) test.loading.scale_rate(0.5);
-    return test;
 }
 
 void expand(Plan& plan, const DesignRequest& design, bool with_companions, std::int64_t most_rows) {

@@ -88,6 +88,9 @@ struct DesignRequest {
 /// @throws InputError, also where there would be more than most_rows
 void expand(Plan& plan, const DesignRequest& design, bool with_companions, std::int64_t most_rows = most_plan_rows);
 
+/// Of points that somebody has put in: their seeds, and whether they are possible. @throws InputError
+void judge_points(Plan& plan);
+
 /// As it stands in a plan: 30, 1.5e7, "voronoi".
 std::string value_text(const CaseValue& value);
 

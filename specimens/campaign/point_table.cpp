@@ -66,20 +66,6 @@ double number_at(const std::vector<LedgerCell>& row, std::size_t column) {
     return number != nullptr ? *number : std::nan("");
 }
 
-/// Figures that refer to the peak: of a test that has not failed they refer to the largest stress so far, and belong to
-/// no mean.
-bool of_the_peak(std::string_view figure) {
-    if (figure.ends_with(converted_suffix)) figure.remove_suffix(std::string_view(converted_suffix).size());
-    constexpr std::array<std::string_view, 7> all{"tangent_modulus_50",
-                                                  "tangent_50_poissons_ratio",
-                                                  "initial_tangent_modulus",
-                                                  "initial_poissons_ratio",
-                                                  "area_strain_peak",
-                                                  "bonds_broken_in_shear_to_peak",
-                                                  "bonds_broken_in_tension_to_peak"};
-    return std::find(all.begin(), all.end(), figure) != all.end();
-}
-
 /// Place of a figure in summary.json by its name, or that of the table it is in.
 std::size_t rank_of(const std::string& figure) {
     const auto& keys = summary_keys();
@@ -106,6 +92,18 @@ std::vector<std::size_t> ordered_figures(const LedgerTable& results) {
 }
 
 }  // namespace
+
+bool refers_to_peak(std::string_view figure) {
+    if (figure.ends_with(converted_suffix)) figure.remove_suffix(std::string_view(converted_suffix).size());
+    constexpr std::array<std::string_view, 7> all{"tangent_modulus_50",
+                                                  "tangent_50_poissons_ratio",
+                                                  "initial_tangent_modulus",
+                                                  "initial_poissons_ratio",
+                                                  "area_strain_peak",
+                                                  "bonds_broken_in_shear_to_peak",
+                                                  "bonds_broken_in_tension_to_peak"};
+    return std::find(all.begin(), all.end(), figure) != all.end();
+}
 
 std::string PointSummary::at() const {
     std::string text;
@@ -176,7 +174,7 @@ std::vector<PointSummary> summarise(const LedgerTable& results, const std::vecto
         const auto* seed = std::get_if<double>(&row[columns.seed]);
         for (std::size_t f = 0; f < places.size(); ++f) {
             const auto* value = std::get_if<double>(&row[places[f]]);
-            if (value == nullptr || seed == nullptr || (held && of_the_peak(figures[f]))) continue;
+            if (value == nullptr || seed == nullptr || (held && refers_to_peak(figures[f]))) continue;
             values[at->second][{f, variant}][*seed] = *value;
         }
     }

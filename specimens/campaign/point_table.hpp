@@ -7,6 +7,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -27,6 +28,10 @@ struct PointSummary {
 
     std::string at() const;  ///< "material.cohesion = 2e7, …"; empty without axes
 };
+
+/// Figures that refer to the peak: of a test that has not failed they refer to the largest stress so far, and belong to
+/// no mean.
+bool refers_to_peak(std::string_view figure);
 
 /// Names of figures that are numbers, in the order of summary.json.
 std::vector<std::string> numeric_figures(const LedgerTable& results);

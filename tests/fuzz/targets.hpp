@@ -16,6 +16,7 @@ namespace crackle::fuzz {
     USE(deck_outputs)             \
     USE(case_file)                \
     USE(plan)                     \
+    USE(rock)                     \
     USE(checkpoint)               \
     USE(frame)                    \
     USE(recording)                \

@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <iostream>
+#include <optional>
 #include <string>
 
 #include "solver/base/errors.hpp"
@@ -99,10 +100,8 @@ int campaign(const Invocation& given) {
     const bool dry = values.contains("dry-run");
     if (!dry && !values.contains("output"))
         throw InputError("crackle campaign: found no -o, expected -o DIR, a folder for the campaign");
-    const int workers = values.contains("workers") ? values["workers"].as<int>() : processors();
-    constexpr int most_workers = 1024;
-    if (workers < 1 || workers > most_workers)
-        throw InputError(fmt::format("crackle campaign: --workers: found {}, expected 1 to {}", workers, most_workers));
+    const auto asked = values.contains("workers") ? std::optional(values["workers"].as<int>()) : std::nullopt;
+    const int workers = workers_of_machine(asked, "crackle campaign");
     watch_interrupts();
     const Plan plan = read_plan(given_or_shipped(given.operands.front()), values.contains("verify"));
     const std::string folder = values.contains("output") ? values["output"].as<std::string>() : "";

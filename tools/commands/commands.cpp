@@ -89,6 +89,8 @@ const std::vector<Command>& commands() {
          describe_elastic, elastic},
         {"campaign", "a table of tests on all processors or a cluster: means, scatter, bias", describe_campaign,
          campaign, campaign_studies},
+        {"calibrate", "a rock's keys from its laboratory values: cases, intervals, what is out of reach",
+         describe_calibrate, calibrate_rock},
         {"report", "one self-contained HTML page from the results of tests", describe_report, report},
         {"view", "a page to look at a particle file, a deck's run or tests, in motion", describe_view, view},
         {"plot", "figures for papers: curves, breaks, specimens, as SVG, PDF or PNG", describe_plot, plot},
@@ -105,7 +107,7 @@ const std::vector<Command>& commands() {
 const std::vector<ExitCode>& exit_codes() {
     static const std::vector<ExitCode> all{
         {exit_done, "done"},
-        {exit_claim_fails, "a row of crackle bench fails"},
+        {exit_claim_fails, "a row of crackle bench fails, a target of crackle calibrate is not reached"},
         {exit_bad_input, "bad input"},
         {exit_unstable, "the run became unstable (its output so far is kept)"},
         {exit_system_fails, "the system or a library failed (likewise)"},

@@ -193,9 +193,9 @@ void plot_campaign(const po::variables_map& given, const fs::path& folder, const
     const Format format =
         format_named(fmt::format("--output {}", output.string()), extension.empty() ? "" : extension.substr(1));
     refuse_replacing(output, given.contains("force"));
-    const CampaignRecord record =
-        read_campaign(folder, given.contains("figure") ? given["figure"].as<Words>() : Words{},
-                      given.contains("test") ? given["test"].as<Words>() : Words{});
+    CampaignRecord record = read_campaign(folder, given.contains("figure") ? given["figure"].as<Words>() : Words{},
+                                          given.contains("test") ? given["test"].as<Words>() : Words{});
+    if (given.contains("measured")) add_measured_curve(record, given["measured"].as<std::string>());
     std::vector<Panel> panels;
     for (CampaignFigure& part : campaign_figures(record))
         panels.insert(panels.end(), part.panels.begin(), part.panels.end());
@@ -294,6 +294,8 @@ CommandLine describe_plot() {
          "of a campaign: figures of summary.json that are drawn (default: moduli and strength)")  //
         ("test", po::value<Words>()->multitoken()->value_name("NAME"),
          "of a campaign: tests that are drawn (default: all)")  //
+        ("measured", po::value<std::string>()->value_name("FILE"),
+         "of a campaign: CSV with axial_strain and axial_stress, drawn over the curves of its test")  //
         ("force", "replace figures that are there");
     return {
         .synopses = {"crackle plot OUT... -o FIGURE [OPTIONS]", "crackle plot --guide FOLDER -o FOLDER [OPTIONS]"},

@@ -31,7 +31,11 @@ int report_campaign(const Invocation& given) {
     if (is_there(output) && !is_report_page(output))
         throw InputError(fmt::format("{}: found a file that is no report, expected a page to write; choose another -o",
                                      output.string()));
-    const CampaignRecord record = read_campaign(folder);
+    const po::variables_map& values = given.values;
+    CampaignRecord record = read_campaign(
+        folder, {},
+        values.contains("test") ? values["test"].as<std::vector<std::string>>() : std::vector<std::string>());
+    if (values.contains("measured")) add_measured_curve(record, values["measured"].as<std::string>());
     replace_file(output, campaign_page(record, given.values["title"].as<std::string>(), output.parent_path()));
     if (!given.messages.quiet()) std::cout << output.string() << '\n';
     return exit_done;
@@ -46,7 +50,11 @@ CommandLine describe_report() {
         ("title", po::value<std::string>()->value_name("TEXT")->default_value("", ""),
          "heading; default: the test's title")  //
         ("frames", po::value<std::size_t>()->value_name("N")->default_value(default_page_frames),
-         "show at most so many frames of a test, evenly chosen; start, peak and end always");
+         "show at most so many frames of a test, evenly chosen; start, peak and end always")  //
+        ("test", po::value<std::vector<std::string>>()->multitoken()->value_name("NAME"),
+         "of a campaign: tests that are shown (default: all)")  //
+        ("measured", po::value<std::string>()->value_name("FILE"),
+         "of a campaign: CSV with axial_strain and axial_stress, drawn over the curves of its test");
     return {.synopses = {"crackle report OUT... [-o report.html]"},
             .description =
                 "One self-contained page from the folders that `crackle test` wrote: stress-strain curves with bond "

@@ -7,7 +7,10 @@
 #include <cmath>
 #include <limits>
 
+#include "solver/base/errors.hpp"
+#include "solver/files/read_file.hpp"
 #include "specimens/campaign/statistics.hpp"
+#include "specimens/recordings/test_results.hpp"
 #include "tools/plot/axes.hpp"
 #include "tools/plot/legend.hpp"
 
@@ -95,20 +98,42 @@ Band band_of(const CurveBundle& bundle, double share, std::size_t strains) {
     return band;
 }
 
-Panel curve_bands(const std::vector<CurveBundle>& bundles) {
-    const auto entries = [bundles] {
+LabelledCurve read_measured_curve(const std::filesystem::path& file) {
+    const NumberTable table = number_table(file, read_text(file));
+    const std::vector<double>*strain = table.find("axial_strain"), *stress = table.find("axial_stress");
+    if (strain == nullptr || stress == nullptr || strain->size() < 2)
+        throw InputError(
+            fmt::format("{}: found no curve, expected columns axial_strain and axial_stress with two rows "
+                        "or more, the first line their names",
+                        file.string()));
+    LabelledCurve curve{"measured (" + file.filename().string() + ")", {}};
+    for (std::size_t k = 0; k < strain->size(); ++k)
+        if (std::isfinite((*strain)[k]) && std::isfinite((*stress)[k]))
+            curve.points.emplace_back((*strain)[k], (*stress)[k]);
+    return curve;
+}
+
+Panel curve_bands(const std::vector<CurveBundle>& bundles, const std::vector<LabelledCurve>& measured) {
+    const auto entries = [bundles, measured] {
         std::vector<Legend::Entry> all;
         for (std::size_t k = 0; k < bundles.size(); ++k)
             all.push_back({bundles[k].label, series_colour(k), false, false});
+        for (const LabelledCurve& curve : measured) all.push_back({curve.label, ink, true, false});
         return all;
     };
     Panel panel;
     panel.height = [entries](const Canvas& measure, double width) {
         return 0.62 * proportional(width) + legend_of(measure, entries(), width).more_rows();
     };
-    panel.draw = [bundles, entries](Canvas& canvas, const Rect& place) {
+    panel.draw = [bundles, measured, entries](Canvas& canvas, const Rect& place) {
         std::vector<Band> bands;
         double strain = 0.0, smallest = 0.0, largest = 0.0;
+        for (const LabelledCurve& curve : measured) {
+            for (const auto& [at, stress] : curve.points) {
+                strain = std::max(strain, at);
+                largest = std::max(largest, stress);
+            }
+        }
         for (const CurveBundle& bundle : bundles) {
             bands.push_back(band_of(bundle));
             for (const double value : bands.back().strain) strain = std::max(strain, value);
@@ -137,6 +162,12 @@ Panel curve_bands(const std::vector<CurveBundle>& bundles) {
         }
         for (std::size_t b = 0; b < bands.size(); ++b)
             canvas.line(line(bands[b], bands[b].median), series_colour(b), 1.3 * curve_width);
+        for (const LabelledCurve& curve : measured) {
+            std::vector<Point> points;
+            for (const auto& [at, stress] : curve.points)
+                points.push_back(axes.at(at / strain_unit, stress / unit.factor));
+            canvas.line(points, ink, 1.3 * curve_width, true);
+        }
         axes.draw(canvas, strain_title, fmt::format("axial stress, {}", unit.name));
     };
     return panel;

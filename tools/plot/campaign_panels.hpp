@@ -3,6 +3,7 @@
 // Tested by tests/tools/plot/campaign_panels_test.cpp.
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,8 +26,17 @@ struct Band {
 };
 Band band_of(const CurveBundle& bundle, double share = 0.1, std::size_t strains = 200);
 
-/// Bands with their medians.
-Panel curve_bands(const std::vector<CurveBundle>& bundles);
+/// One curve that no test of a plan gave: a laboratory's.
+struct LabelledCurve {
+    std::string label;
+    std::vector<std::pair<double, double>> points;  ///< strain, stress in the units of the bundles
+};
+
+/// Of a CSV file with columns axial_strain and axial_stress (others are left alone). @throws InputError
+LabelledCurve read_measured_curve(const std::filesystem::path& file);
+
+/// Bands with their medians, measured curves dashed over them.
+Panel curve_bands(const std::vector<CurveBundle>& bundles, const std::vector<LabelledCurve>& measured = {});
 
 /// Values of one figure at some points of a plan.
 struct Sample {

@@ -6,11 +6,20 @@
 #include <algorithm>
 #include <thread>
 
+#include "solver/base/errors.hpp"
 #include "solver/base/threads_to_be_had.hpp"
 
 namespace crackle::tools {
 
 int processors() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+
+int workers_of_machine(std::optional<int> asked, const std::string& command) {
+    constexpr int most_workers = 1024;
+    const int workers = asked.value_or(processors());
+    if (workers < 1 || workers > most_workers)
+        throw InputError(fmt::format("{}: --workers: found {}, expected 1 to {}", command, workers, most_workers));
+    return workers;
+}
 
 ThreadRoom room_for_threads(int asked) {
     const int most = std::min(asked, processors());

@@ -2,6 +2,7 @@
 // Tested by tests/tools/commands/test_test.cpp and tests/faults/threads_test.py.
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "tools/terminal/messages.hpp"
@@ -10,6 +11,9 @@ namespace crackle::tools {
 
 /// Processors that this process may use, at least 1.
 int processors();
+
+/// Processes that run tests: as asked for, else one a processor. @throws InputError if that is none, or above 1024
+int workers_of_machine(std::optional<int> asked, const std::string& command);
 
 struct ThreadRoom {
     int threads = 1;

@@ -5,39 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 #include "solver/files/read_file.hpp"
-#include "specimens/frames/base64.hpp"
-#include "specimens/recordings/test_results.hpp"
+#include "tools/campaign/page/html_page.hpp"
 
 namespace crackle::tools {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double figure_width = 130.0;   // mm
 constexpr std::size_t most_rows = 2000;  // of the table of tests
-
-constexpr const char* style = R"(
-:root{color-scheme:light}
-body{font:15px/1.5 system-ui,"DejaVu Sans",sans-serif;color:#1d2125;background:#fff;max-width:1000px;margin:2rem auto;padding:0 1rem}
-h1{font-size:1.6rem;margin:0 0 .3rem}h2{font-size:1.15rem;margin:2.2rem 0 .6rem}
-p.sub{color:#5b636b;margin:.2rem 0 1rem}
-table{border-collapse:collapse;font-size:.9rem;width:100%}
-th,td{padding:.25rem .6rem;border-bottom:1px solid #e3e6e9;text-align:right;white-space:nowrap}
-th{color:#5b636b;font-weight:600}th:first-child,td:first-child,td.word,th.word{text-align:left}
-td.note{color:#5b636b;font-size:.85rem;text-align:left;white-space:normal}
-figure{margin:1rem 0 2rem}figcaption{color:#5b636b;font-size:.9rem;margin-top:.3rem}
-figure img{width:100%;max-width:760px;height:auto}
-details{margin-top:1rem}summary{cursor:pointer}
-.wide{overflow-x:auto}.wrong{color:#b3261e}
-)";
-
-/// Pango's markup takes the letters that HTML does.
-std::string html(const std::string& text) { return plot::escaped(text); }
-
-std::string in_cell(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : "–"; }
 
 std::string points_table(const CampaignRecord& record) {
     std::string text =
@@ -130,26 +107,14 @@ std::string tests_table(const CampaignRecord& record, const fs::path& from) {
 }  // namespace
 
 std::string campaign_page(const CampaignRecord& record, const std::string& title, const fs::path& from) {
-    const std::string heading = html(title.empty() ? record.title : title);
-    std::string text = fmt::format(
-        "<!DOCTYPE html>\n{}\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{}</title>"
-        "<meta name=\"viewport\" content=\"width=device-width\"><style>{}</style></head><body>\n<h1>{}</h1>\n"
-        "<p class=\"sub\">{} of {} tests done{}, {:.3g} s of a processor</p>\n",
-        report_mark, heading, style, heading, record.counts.done, record.counts.tests,
-        record.counts.gone_wrong > 0 ? fmt::format(", {} gone wrong", record.counts.gone_wrong) : "",
-        record.counts.processor_seconds);
+    std::string text = page_head(
+        title.empty() ? record.title : title,
+        fmt::format("{} of {} tests done{}, {:.3g} s of a processor", record.counts.done, record.counts.tests,
+                    record.counts.gone_wrong > 0 ? fmt::format(", {} gone wrong", record.counts.gone_wrong) : "",
+                    record.counts.processor_seconds));
     text += "<h2>What the packings say</h2>\n" + points_table(record);
     text += "<h2>Figures</h2>\n";
-    for (const CampaignFigure& figure : campaign_figures(record)) {
-        text += "<figure>";
-        // An image each: names within one drawing are those of the next, too.
-        const std::string svg =
-            plot::figure(figure.panels, "", figure_width * plot::points_of_mm, plot::Format::svg, {});
-        text += fmt::format(
-            "<img alt=\"{0}\" src=\"data:image/svg+xml;base64,{1}\"><figcaption>{0}</figcaption></figure>\n",
-            html(figure.caption),
-            encode_base64(std::span(reinterpret_cast<const unsigned char*>(svg.data()), svg.size())));
-    }
+    for (const CampaignFigure& figure : campaign_figures(record)) text += figure_html(figure);
     text += "<details><summary>All tests</summary>\n" + tests_table(record, from) + "</details>\n";
     return text + "</body></html>\n";
 }

@@ -14,7 +14,6 @@
 #include "specimens/campaign/campaign.hpp"
 #include "specimens/case/parameters.hpp"
 #include "specimens/recordings/test_results.hpp"
-#include "tools/plot/campaign_panels.hpp"
 
 namespace crackle::tools {
 namespace {
@@ -158,6 +157,16 @@ CampaignRecord read_campaign(const fs::path& folder, const std::vector<std::stri
     return record;
 }
 
+void add_measured_curve(CampaignRecord& record, const fs::path& file) {
+    const plot::LabelledCurve curve = read_measured_curve(file);
+    std::set<std::string> kinds;
+    for (const PointSummary& point : record.points) kinds.insert(point.test);
+    if (kinds.size() > 1)
+        throw InputError(fmt::format("{}: found tests {}, expected one for the measured curve; choose it with --test",
+                                     file.string(), fmt::join(kinds, ", ")));
+    record.measured[*kinds.begin()].push_back(curve);
+}
+
 std::vector<CampaignFigure> campaign_figures(const CampaignRecord& record) {
     std::vector<std::string> kinds;
     for (const PointSummary& point : record.points)
@@ -172,6 +181,7 @@ std::vector<CampaignFigure> campaign_figures(const CampaignRecord& record) {
         for (std::size_t k = 0; curves_kept && k < points.size() && bundles.size() < most_bundles; ++k)
             if (std::optional<CurveBundle> bundle = bundle_of(record, *points[k]))
                 bundles.push_back(*std::move(bundle));
+        const auto measured = record.measured.find(kind);
         if (!bundles.empty()) {
             const auto counts = std::minmax_element(bundles.begin(), bundles.end(), [](const auto& a, const auto& b) {
                 return a.curves.size() < b.curves.size();
@@ -183,7 +193,8 @@ std::vector<CampaignFigure> campaign_figures(const CampaignRecord& record) {
             all.push_back(
                 {fmt::format("{}: the median of {} packings, and the range of the middle 80 %{}", kind,
                              fewest == most ? fmt::format("{}", most) : fmt::format("{} to {}", fewest, most), some),
-                 {curve_bands(bundles)}});
+                 {curve_bands(bundles,
+                              measured == record.measured.end() ? std::vector<LabelledCurve>() : measured->second)}});
         }
         std::vector<std::string> axes;
         for (const auto& [key, value] : points.front()->axes)

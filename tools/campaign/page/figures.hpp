@@ -4,11 +4,13 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "specimens/campaign/ledger.hpp"
 #include "specimens/campaign/point_table.hpp"
+#include "tools/plot/campaign_panels.hpp"
 #include "tools/plot/panels.hpp"
 
 namespace crackle::tools {
@@ -19,8 +21,9 @@ struct CampaignRecord {
     std::string title;
     LedgerTable results;
     LedgerCounts counts;
-    std::vector<std::string> figures;  ///< those that are drawn
-    std::vector<PointSummary> points;  ///< with these
+    std::vector<std::string> figures;                                  ///< those that are drawn
+    std::vector<PointSummary> points;                                  ///< with these
+    std::map<std::string, std::vector<plot::LabelledCurve>> measured;  ///< drawn over the curves of a test, by its name
 };
 
 /// Whether a folder is a campaign's.
@@ -30,6 +33,9 @@ bool is_campaign(const std::filesystem::path& folder);
 /// @param tests of the plan; empty: all
 CampaignRecord read_campaign(const std::filesystem::path& folder, const std::vector<std::string>& figures = {},
                              const std::vector<std::string>& tests = {});
+
+/// Lays a measured curve over those of the record's tests, which must be of one kind. @throws InputError
+void add_measured_curve(CampaignRecord& record, const std::filesystem::path& file);
 
 /// "peak stress" of peak_stress, as titles have it.
 std::string spoken_figure(const std::string& figure);

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/calibration/measurements.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/base/errors.hpp"
+#include "specimens/campaign/point_table.hpp"
+#include "specimens/making/hooks.hpp"
+
+namespace crackle {
+namespace {
+
+double number_in(const std::vector<LedgerCell>& row, std::size_t column) {
+    const auto* number = column < row.size() ? std::get_if<double>(&row[column]) : nullptr;
+    return number != nullptr ? *number : std::nan("");
+}
+
+}  // namespace
+
+Measurements::Measurements(const Rock& rock, Keep keep, CampaignOptions options, CampaignHooks hooks)
+    : rock_(rock), keep_(keep), options_(std::move(options)), hooks_(std::move(hooks)) {}
+
+void Measurements::measure(const std::vector<std::vector<double>>& points, PackingRange packings) {
+    bool all_known = true;
+    for (const std::vector<double>& point : points) {
+        auto at = std::find(points_.begin(), points_.end(), point);
+        if (at == points_.end()) at = points_.insert(points_.end(), point);
+        const auto place = static_cast<std::size_t>(at - points_.begin());
+        for (std::int64_t k = packings.first; k < packings.first + packings.count; ++k)
+            all_known = !known_.emplace(std::pair(place, k), std::vector<double>()).second && all_known;
+    }
+    if (all_known) return;
+    // The plan of all that was ever asked for: what has been run is not run again.
+    Plan plan;
+    plan.file = rock_.file;
+    plan.text = rock_.text;
+    plan.title = rock_.title;
+    plan.tests = rock_.tests;
+    plan.own_seeds = false;
+    plan.keep = keep_;
+    plan.time_limit = rock_.time_limit;
+    std::vector<std::size_t> axes;
+    for (const FreeKey& free : rock_.free) {
+        axes.push_back(axes.size());
+        Axis axis;
+        axis.key = free.key;
+        axis.where = free.where;
+        plan.axes.push_back(axis);
+    }
+    for (const std::vector<double>& point : points_)
+        for (std::size_t test = 0; test < rock_.tests.size(); ++test)
+            plan.points.push_back({test, rock_.settings(point), axes, {}, 1});
+    judge_points(plan);
+    for (const auto& [place, ignored] : known_)
+        for (std::size_t test = 0; test < rock_.tests.size(); ++test)
+            plan.rows.push_back(
+                {place.first * rock_.tests.size() + test, rock_.first_seed + place.second, Variant::as_asked});
+    std::stable_sort(plan.rows.begin(), plan.rows.end(), [](const auto& a, const auto& b) { return a.seed < b.seed; });
+    std::int64_t last = rock_.first_seed;
+    for (const PlanRow& row : plan.rows) last = std::max(last, row.seed);
+    plan.packings = last - rock_.first_seed + 1;
+    plan.first_seed = rock_.first_seed;
+    const CampaignOutcome outcome = run_campaign(plan, options_, hooks_);
+    if (outcome.interrupted) throw TestInterrupted();
+    read(plan);
+}
+
+void Measurements::read(const Plan& plan) {
+    const Ledger ledger = Ledger::read(ledger_file(options_.folder));
+    const LedgerTable results = ledger.results();
+    const auto column = [&](const std::string& name) {
+        return static_cast<std::size_t>(std::find(results.columns.begin(), results.columns.end(), name) -
+                                        results.columns.begin());
+    };
+    const std::size_t failed = column("failed"), state = column("state");
+    std::vector<std::size_t> columns;
+    for (const Target& target : rock_.targets) columns.push_back(column(target.figure));
+    for (auto& [place, figures] : known_) figures.assign(rock_.targets.size(), std::nan(""));
+    std::vector<bool> any(rock_.targets.size(), false), done(rock_.tests.size(), false);
+    for (std::size_t r = 0; r < results.rows.size(); ++r) {
+        const auto& row = results.rows[r];
+        const auto* word = std::get_if<std::string>(&row[state]);
+        if (word == nullptr || *word != row_done) continue;
+        const PlanRow& asked = plan.rows[r];
+        const std::size_t test = plan.points[asked.point].test;
+        done[test] = true;
+        std::vector<double>& figures = known_.at({asked.point / rock_.tests.size(), asked.seed - rock_.first_seed});
+        for (std::size_t t = 0; t < rock_.targets.size(); ++t) {
+            const Target& target = rock_.targets[t];
+            if (target.test != test) continue;
+            const double value = number_in(row, columns[t]);
+            any[t] = any[t] || std::isfinite(value);
+            if (number_in(row, failed) == 0.0 && refers_to_peak(target.figure)) continue;
+            figures[t] = value;
+        }
+    }
+    for (std::size_t t = 0; t < rock_.targets.size(); ++t) {
+        const Target& target = rock_.targets[t];
+        if (any[t]) continue;
+        throw InputError(fmt::format(
+            "{}: found no {} in any test of {}{}, expected a number; see `crackle campaign show {} --wrong`",
+            target.where, target.figure, rock_.tests[target.test].name,
+            done[target.test] ? " (did one fail by loading.max_axial_strain?)" : ", of which none was done",
+            options_.folder.string()));
+    }
+    const LedgerCounts counts = ledger.counts();
+    tests_ = counts.tests;
+    processor_seconds_ = counts.processor_seconds;
+}
+
+Eigen::MatrixXd Measurements::figures(const std::vector<double>& point, PackingRange packings) const {
+    const auto at = std::find(points_.begin(), points_.end(), point);
+    const auto place = static_cast<std::size_t>(at - points_.begin());
+    Eigen::MatrixXd all(packings.count, static_cast<Eigen::Index>(rock_.targets.size()));
+    for (std::int64_t k = 0; k < packings.count; ++k) {
+        const std::vector<double>& row = known_.at({place, packings.first + k});
+        for (std::size_t t = 0; t < row.size(); ++t) all(k, static_cast<Eigen::Index>(t)) = row[t];
+    }
+    return all;
+}
+
+}  // namespace crackle

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/calibration/rock.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "solver/base/errors.hpp"
+#include "solver/files/read_file.hpp"
+#include "specimens/campaign/plan_file.hpp"
+#include "specimens/case/keyed_table.hpp"
+#include "specimens/case/parameters.hpp"
+#include "specimens/results/summary.hpp"
+
+namespace crackle {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr DeclaredKey rock_keys[]{
+    {"", "title", "a text", "Name of the rock."},
+    {"[[test]]", "case", "a file", "Case of `crackle test`, relative to this file; required."},
+    {"[[test]]", "name", "a text", "What targets call it; the case's file name without one."},
+    {"[[test]]", "set", "a table", "Keys of the case with other values, as in a plan."},
+    {"[[target]]", "test", "the name of a test", "Which one the figure is of; required where there are several."},
+    {"[[target]]", "figure", "a figure of summary.json", "\"youngs_modulus\", \"peak_stress\"; required."},
+    {"[[target]]", "value", "a number > 0", "What the mean over packings is to be, in the figure's units; required."},
+    {"[[target]]", "tolerance", "a number > 0 and < 1", "Share of it that the mean may be off by; 0.05 by default."},
+    {"[[target]]", "error", "a number >= 0 and < 1", "Standard error of the measured value, as a share of it; 0."},
+    {"[[free]]", "key", "a key of a case", "A number of the cases that is to be found; required."},
+    {"[[free]]", "of", "another free key",
+     "What is found is the ratio to that one, cohesion over tensile strength say."},
+    {"[[free]]", "from", "a number", "Lower bound; required. Above 0 it is searched in ratios, else in differences."},
+    {"[[free]]", "to", "a number > from", "Upper bound; required."},
+    {"[[free]]", "start", "a number between", "Where the search begins; the middle of the bounds without it."},
+    {"[[curve]]", "test", "the name of a test", "Which one was measured; required where there are several."},
+    {"[[curve]]", "file", "a file", "CSV with columns axial_strain and axial_stress; required."},
+    {"[packings]", "fit", "a whole number, 4 to 10000", "Specimens that every point of a design is run on; 8."},
+    {"[packings]", "polish", "a whole number, fit to 10000", "That the last correction is made on; 40."},
+    {"[packings]", "fresh", "a whole number, 4 to 10000", "Others, that the result is judged by; 20."},
+    {"[packings]", "first_seed", "a whole number >= 0", "Of the first; 1."},
+    {"[run]", "time_limit", "a number > 0 in s", "Of the wall clock a test: one that takes longer is ended, and told."},
+};
+constexpr std::size_t most_free_keys = 8;
+
+std::size_t test_of(const Rock& rock, const KeyedTable& table) {
+    const std::optional<std::string> name = table.text("test");
+    if (!name && rock.tests.size() == 1) return 0;
+    if (!name) table.refuse("test", "nothing");
+    const auto at =
+        std::find_if(rock.tests.begin(), rock.tests.end(), [&](const auto& one) { return one.name == *name; });
+    if (at == rock.tests.end()) {
+        std::vector<std::string> names;
+        for (const PlannedTest& test : rock.tests) names.push_back(test.name);
+        table.refuse("test", fmt::format("\"{:.40}\"", *name), fmt::format("one of {}", fmt::join(names, ", ")));
+    }
+    return static_cast<std::size_t>(at - rock.tests.begin());
+}
+
+double share(const KeyedTable& table, const char* key, double otherwise, bool zero) {
+    const std::optional<double> found = table.number(key);
+    if (found && (*found < 0.0 || *found >= 1.0 || (!zero && *found == 0.0))) table.refuse(key, shown(*table.get(key)));
+    return found.value_or(otherwise);
+}
+
+Target read_target(const Rock& rock, const KeyedTable& table) {
+    Target target;
+    target.test = test_of(rock, table);
+    target.where = table.where("figure");
+    const std::optional<std::string> figure = table.text("figure");
+    if (!figure) table.refuse("figure", "nothing");
+    target.figure = *figure;
+    std::string name = target.figure.substr(0, target.figure.find('.'));
+    if (name.ends_with(converted_suffix)) name.resize(name.size() - std::string_view(converted_suffix).size());
+    const auto& known = summary_keys();
+    if (std::none_of(known.begin(), known.end(), [&](const SummaryKey& key) { return key.what.name == name; }))
+        table.refuse("figure", fmt::format("\"{:.60}\"", *figure), "a figure of summary.json, peak_stress say");
+    const std::optional<double> value = table.positive("value");
+    if (!value) table.refuse("value", "nothing");
+    target.value = *value;
+    target.tolerance = share(table, "tolerance", target.tolerance, false);
+    target.error = share(table, "error", 0.0, true);
+    return target;
+}
+
+FreeKey read_free(const Rock& rock, const KeyedTable& table) {
+    const auto [key, parameter] = read_case_key(table);
+    if (parameter->kind != ValueKind::real)
+        table.refuse("key", fmt::format("\"{:.40}\"", key), "one that has a number");
+    FreeKey free;
+    free.key = key;
+    free.where = table.where("key");
+    for (const FreeKey& other : rock.free)
+        if (other.key == free.key) table.refuse("key", fmt::format("{} twice", key), "one [[free]] a key");
+    free.of = table.text("of").value_or("");
+    if (!free.of.empty() && std::none_of(rock.free.begin(), rock.free.end(), [&](const FreeKey& other) {
+            return other.key == free.of && other.of.empty();
+        }))
+        table.refuse("of", fmt::format("\"{:.40}\"", free.of), "the key of a [[free]] above this one");
+    const std::optional<double> from = table.number("from"), to = table.number("to"), start = table.number("start");
+    if (!from || !to) table.refuse(from ? "to" : "from", "nothing");
+    if (!(*to > *from)) table.refuse("to", shown(*table.get("to")));
+    free.from = *from;
+    free.to = *to;
+    const double middle = 0.5 * (free.to_variable(*from) + free.to_variable(*to));
+    free.start = start.value_or(free.to_value(middle));
+    if (free.start < *from || free.start > *to) table.refuse("start", shown(*table.get("start")));
+    return free;
+}
+
+/// All corners of the bounds, in every test: what lies between is then possible, too, by the rules that cases have.
+void judge_bounds(const Rock& rock) {
+    for (std::size_t corner = 0; corner < std::size_t{1} << rock.free.size(); ++corner) {
+        std::vector<double> values;
+        std::string at;
+        for (std::size_t k = 0; k < rock.free.size(); ++k) {
+            values.push_back((corner >> k & 1U) == 0 ? rock.free[k].from : rock.free[k].to);
+            at += fmt::format("{}{} = {:g}", k == 0 ? "" : ", ", rock.free[k].name(), values.back());
+        }
+        for (std::size_t test = 0; test < rock.tests.size(); ++test) {
+            try {
+                (void)rock.case_of(test, values);
+            } catch (const InputError& error) {
+                throw InputError(
+                    fmt::format("{} (test {} at {}, a corner of the bounds)", error.what(), rock.tests[test].name, at));
+            }
+        }
+    }
+}
+
+}  // namespace
+
+double FreeKey::to_variable(double value) const { return logarithmic() ? std::log(value) : value / scale(); }
+double FreeKey::to_value(double variable) const {
+    return std::clamp(logarithmic() ? std::exp(variable) : variable * scale(), from, to);
+}
+
+std::vector<CaseSetting> Rock::settings(std::span<const double> values) const {
+    std::vector<CaseSetting> all;
+    for (std::size_t k = 0; k < free.size(); ++k) {
+        double value = values[k];
+        if (!free[k].of.empty()) {
+            const auto base =
+                std::find_if(free.begin(), free.end(), [&](const auto& one) { return one.key == free[k].of; });
+            value *= values[static_cast<std::size_t>(base - free.begin())];
+        }
+        all.push_back({free[k].key, value, free[k].where});
+    }
+    return all;
+}
+
+TestCase Rock::case_of(std::size_t test, std::span<const double> values) const {
+    std::vector<CaseSetting> all = tests[test].settings;
+    for (CaseSetting& setting : settings(values)) all.push_back(std::move(setting));
+    return tests[test].files.with(all);
+}
+
+Rock read_rock(const fs::path& path) {
+    const KeyedFile file(path, "a rock to be calibrated", rock_keys);
+    Rock rock;
+    rock.file = path;
+    rock.text = read_text(path);
+    rock.title = file.top().text("title").value_or(path.stem().string());
+    rock.tests = read_planned_tests(file);
+    for (const KeyedTable& table : file.tables("target")) rock.targets.push_back(read_target(rock, table));
+    if (rock.targets.empty())
+        throw InputError(fmt::format("{}: found no [[target]], expected one or more", path.string()));
+    for (const KeyedTable& table : file.tables("free")) {
+        if (rock.free.size() == most_free_keys)
+            table.refuse("key", "one more", fmt::format("at most {} free keys", most_free_keys));
+        rock.free.push_back(read_free(rock, table));
+    }
+    if (rock.free.empty()) throw InputError(fmt::format("{}: found no [[free]], expected one or more", path.string()));
+    for (const KeyedTable& table : file.tables("curve")) {
+        MeasuredCurve curve;
+        curve.test = test_of(rock, table);
+        const std::optional<std::string> name = table.text("file");
+        if (!name) table.refuse("file", "nothing");
+        curve.file = (path.parent_path() / *name).lexically_normal();
+        if (!is_file(curve.file)) table.refuse("file", fmt::format("no file {:.200}", curve.file.string()));
+        rock.curves.push_back(curve);
+    }
+    const KeyedTable packings = file.table("packings");
+    constexpr std::int64_t fewest = 4, most = 10'000;
+    rock.fit = packings.whole("fit", fewest, most).value_or(rock.fit);
+    rock.polish = packings.whole("polish", rock.fit, most).value_or(std::max(rock.fit, rock.polish));
+    rock.fresh = packings.whole("fresh", fewest, most).value_or(rock.fresh);
+    rock.first_seed = packings.whole("first_seed", 0).value_or(rock.first_seed);
+    rock.time_limit = file.table("run").positive("time_limit").value_or(0.0);
+    judge_bounds(rock);
+    return rock;
+}
+
+std::string describe_rock_keys() { return describe_declared_keys(rock_keys); }
+
+}  // namespace crackle

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Calibrations of rocks whose keys are known. recovered_rock_test.cpp recovers all of a rock,
+// tests/benchmarks/calibrations ten rocks.
+
+#include "specimens/calibration/calibrate.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "solver/base/errors.hpp"
+#include "specimens/calibration/measurements.hpp"
+#include "specimens/calibration/outcome_files.hpp"
+#include "specimens/making/hooks.hpp"
+#include "tests/specimens/calibration/known_rock.hpp"
+#include "tests/support/claim.hpp"
+
+namespace crackle {
+namespace {
+
+using testing::agrees;
+using testing::target_text;
+
+using CalibrationTest = testing::KnownRock;
+using testing::true_cohesion;
+using testing::true_modulus;
+using testing::true_ratio;
+using testing::true_tensile;
+
+TEST_F(CalibrationTest, ElasticKeysComeFromTheLinearSolveOfTheSamePackings) {
+    const std::vector<double> truth{true_modulus, true_ratio};
+    const Rock any = rock_of(target_text("compression", "youngs_modulus", 1.0) + testing::elastic_keys);
+    const std::vector<double> moduli = linear(any, truth);
+    const Rock rock =
+        rock_of(target_text("compression", "youngs_modulus", moduli[0], "tolerance = 0.01") +
+                target_text("compression", "poissons_ratio", moduli[1], "tolerance = 0.01") + testing::elastic_keys);
+    const CalibrationOutcome outcome = calibrated(rock);
+    // Tests measure moduli beside the linear ones by their loading rate, 1e-3 at most here; a Poisson's ratio follows
+    // the stiffness ratio by half.
+    EXPECT_TRUE(agrees("contact modulus", outcome.keys[0].value, true_modulus, 5e-3));
+    EXPECT_TRUE(agrees("stiffness ratio", outcome.keys[1].value, true_ratio, 1e-2));
+    EXPECT_TRUE(outcome.undetermined.empty());
+    EXPECT_TRUE(outcome.out_of_reach.empty());
+    EXPECT_EQ(outcome.tests, 2 * 2 * 4) << "of both tests, one point on fit and on fresh packings: "
+                                        << calibration_text(rock, outcome);
+}
+
+TEST_F(CalibrationTest, AllStressesAndModuliTimesALambdaAreTheSameTests) {
+    constexpr double lambda = 4.0;  // a power of two: speeds times sqrt(λ) exactly
+    const Rock rock =
+        rock_of(target_text("compression", "peak_stress", 1e7) + target_text("tension", "peak_stress", 1e6) +
+                testing::elastic_keys + testing::strength_keys);
+    Measurements tests(rock, Keep::figures, {.folder = folder_ / "out", .workers = 2}, {});
+    const std::vector<double> here{true_modulus, true_ratio, true_tensile, true_cohesion};
+    const std::vector<double> there{lambda * true_modulus, true_ratio, lambda * true_tensile, true_cohesion};
+    tests.measure({here, there}, {0, 4});
+    const Eigen::MatrixXd a = tests.figures(here, {0, 4}), b = tests.figures(there, {0, 4});
+    for (Eigen::Index k = 0; k < a.rows(); ++k)
+        for (Eigen::Index t = 0; t < a.cols(); ++t)
+            EXPECT_TRUE(agrees("strength over lambda", b(k, t) / lambda, a(k, t), 1e-6)) << k << ' ' << t;
+}
+
+TEST_F(CalibrationTest, StoppedAtAnyTestItGoesOnToTheSameBytes) {
+    const Rock rock = rock_of(target_text("compression", "peak_stress", 3e7) +
+                              target_text("tension", "peak_stress", 6e6) + testing::strength_keys);
+    const std::string undisturbed = calibration_json(rock, calibrated(rock, "undisturbed")).dump();
+    int stops = 0;
+    for (int more = 3;; more += 14) {
+        int ended = 0;
+        CalibrationHooks hooks;
+        hooks.progress = [&](const std::string&, const CampaignProgress&) { ++ended; };
+        hooks.interrupted = [&] { return ended > more; };
+        try {
+            CalibrationOutcome outcome = calibrate(rock, {.folder = folder_ / "out", .workers = 2}, hooks);
+            auto json = calibration_json(rock, outcome), whole = nlohmann::ordered_json::parse(undisturbed);
+            json.erase("processor_seconds");
+            whole.erase("processor_seconds");
+            EXPECT_EQ(json.dump(), whole.dump());
+            break;
+        } catch (const TestInterrupted&) {
+            ++stops;
+        }
+    }
+    fmt::print("  stopped {} times\n", stops);
+    EXPECT_GE(stops, 2);
+}
+
+TEST_F(CalibrationTest, WhatIsOutOfReachIsToldWithItsFrontier) {
+    // Circles under these bounds have nothing like a strength of 60 in compression over that in tension.
+    const Rock rock = rock_of(target_text("compression", "peak_stress", 3e8) +
+                              target_text("tension", "peak_stress", 5e6) + testing::strength_keys);
+    const CalibrationOutcome outcome = calibrated(rock);
+    const std::string text = calibration_text(rock, outcome);
+    fmt::print("{}", text);
+    EXPECT_FALSE(outcome.all_reached());
+    ASSERT_FALSE(outcome.out_of_reach.empty());
+    EXPECT_TRUE(outcome.keys[1].at_bound) << "as much cohesion as may be";
+    EXPECT_NE(text.find("is out of reach together with the other targets: nearest"), std::string::npos);
+    ASSERT_GE(outcome.frontier.size(), 3U);
+    const auto& first = outcome.frontier.front();
+    const auto& last = outcome.frontier.back();
+    // The more the missed one weighs, the nearer it comes and the further off the other is.
+    const std::size_t missed = outcome.out_of_reach.front(), other = 1 - missed;
+    const auto off = [&](const FrontierPoint& point, std::size_t t) {
+        return std::abs(std::log(point.figures[t].mean / rock.targets[t].value));
+    };
+    EXPECT_LT(off(last, missed), off(first, missed));
+    EXPECT_GT(off(last, other), off(first, other));
+}
+
+TEST_F(CalibrationTest, WhatTargetsDoNotDetermineIsNamed) {
+    const Rock rock = rock_of(target_text("tension", "peak_stress", 6e6) + testing::strength_keys);
+    const CalibrationOutcome outcome = calibrated(rock);
+    const std::string text = calibration_text(rock, outcome);
+    fmt::print("{}", text);
+    ASSERT_EQ(outcome.undetermined.size(), 1U) << "a tensile strength says nothing of the cohesion";
+    EXPECT_FALSE(outcome.keys[1].determined);
+    EXPECT_EQ(outcome.keys[1].high, 6.0) << "its interval is that of its bounds";
+    EXPECT_NE(text.find("not determined by the targets: "), std::string::npos);
+}
+
+TEST_F(CalibrationTest, TestsThatNeverFailAreToldOf) {
+    Rock rock = rock_of(target_text("compression", "peak_stress", 3e7) + testing::strength_keys);
+    for (PlannedTest& test : rock.tests) test.settings.push_back({"loading.max_axial_strain", 1e-5, "here:1"});
+    try {
+        calibrated(rock);
+        ADD_FAILURE() << "it found something";
+    } catch (const InputError& error) {
+        fmt::print("  {}\n", error.what());
+        EXPECT_NE(std::string(error.what()).find("max_axial_strain"), std::string::npos);
+    }
+}
+
+}  // namespace
+}  // namespace crackle

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Files of rocks: what is read, and what is refused before anything is run.
+
+#include "specimens/calibration/rock.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "solver/base/errors.hpp"
+#include "tests/support/claim.hpp"
+#include "tests/support/deck_files.hpp"
+#include "tests/support/small_circles_rock.hpp"
+
+namespace crackle {
+namespace {
+
+using testing::agrees;
+using testing::target_text;
+
+class RockFile : public ::testing::Test {
+  protected:
+    RockFile() { testing::write_circles_rock(folder_); }
+    Rock rock_of(const std::string& text) const {
+        testing::write_text(folder_ / "rock.toml", text);
+        return read_rock(folder_ / "rock.toml");
+    }
+    void expect_refused(const std::string& text, const std::string& says) const {
+        try {
+            rock_of(text);
+            ADD_FAILURE() << "accepted: " << text;
+        } catch (const InputError& error) {
+            fmt::print("  {}\n", error.what());
+            EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
+        }
+    }
+
+    testing::ScratchFolder scratch_;
+    std::filesystem::path folder_ = scratch_ / "";
+    const std::string tests_ = testing::circles_tests, strengths_ = testing::strength_keys,
+                      target_ = target_text("compression", "peak_stress", 5e7);
+};
+
+TEST_F(RockFile, IsReadWithItsDefaults) {
+    const Rock rock = rock_of(tests_ + target_ + strengths_);
+    ASSERT_EQ(rock.targets.size(), 1U);
+    EXPECT_EQ(rock.targets[0].test, 0U);
+    EXPECT_EQ(rock.targets[0].tolerance, 0.05);
+    EXPECT_EQ(rock.title, "rock");
+    EXPECT_TRUE(agrees("start between bounds above 0: their geometric mean", rock.free[0].start, 1e7, 1e-12));
+    const TestCase test = rock.case_of(1, std::vector<double>{4e6, 2.5});
+    EXPECT_EQ(test.loading.kind, "tension");
+    EXPECT_EQ(test.material.tensile_strength, 4e6);
+    EXPECT_EQ(test.material.cohesion, 2.5 * 4e6) << "found is the ratio";
+}
+
+TEST_F(RockFile, VariablesGoBothWaysAndStayWithinTheBounds) {
+    FreeKey ratio{.key = "a", .from = 2.0, .to = 50.0};
+    EXPECT_TRUE(agrees("there and back", ratio.to_value(ratio.to_variable(7.0)), 7.0, 1e-14));
+    EXPECT_EQ(ratio.to_value(99.0), 50.0);
+    FreeKey linear{.key = "a", .from = 0.0, .to = 50.0};
+    EXPECT_FALSE(linear.logarithmic());
+    EXPECT_TRUE(agrees("there and back", linear.to_value(linear.to_variable(7.0)), 7.0, 1e-14));
+}
+
+TEST_F(RockFile, RefusesWithFileLineAndKey) {
+    const std::string free = "[[free]]\nkey = \"material.cohesion\"\nfrom = 6e6\nto = 9e7\n";
+    expect_refused(tests_ + strengths_, "found no [[target]]");
+    expect_refused(tests_ + target_, "found no [[free]]");
+    expect_refused(target_ + strengths_, "found no [[test]]");
+    expect_refused(tests_ + target_text("shear", "peak_stress", 1) + free,
+                   "rock.toml:6: [[target]] test: found \"shear\"");
+    expect_refused(tests_ + target_text("tension", "beauty", 1) + free, "a figure of summary.json");
+    expect_refused(tests_ + target_text("tension", "peak_stress", -1) + free, "found -1");
+    expect_refused(tests_ + target_text("tension", "peak_stress", 1, "tolerance = 1.5") + free, "found 1.5");
+    expect_refused(tests_ + "[[target]]\nfigure = \"peak_stress\"\nvalue = 1\n" + free,
+                   "[[target]] test: found nothing");
+    expect_refused(tests_ + target_ + "[[free]]\nkey = \"material.beauty\"\nfrom = 1\nto = 2\n", "a key of a case");
+    expect_refused(tests_ + target_ + "[[free]]\nkey = \"bond.law\"\nfrom = 1\nto = 2\n", "one that has a number");
+    expect_refused(tests_ + target_ + "[[free]]\nkey = \"material.cohesion\"\nfrom = 2\nto = 1\n", "a number > from");
+    expect_refused(tests_ + target_ + free + free, "one [[free]] a key");
+    expect_refused(tests_ + target_ + free + "start = 1\n", "a number between");
+    expect_refused(
+        tests_ + target_ + "[[free]]\nkey = \"material.cohesion\"\nof = \"material.density\"\nfrom = 1\nto = 2\n",
+        "the key of a [[free]] above this one");
+    expect_refused(tests_ + target_ + free + "[packings]\nfit = 2\n", "a whole number, 4 to 10000");
+    expect_refused(tests_ + target_ + free + "[[curve]]\ntest = \"tension\"\nfile = \"none.csv\"\n", "found no file");
+    expect_refused(tests_ + target_ + free + "[speed]\n", "found an unknown key");
+}
+
+TEST_F(RockFile, CornersOfTheBoundsAreJudgedBeforeAnyTest) {
+    // At the lower corner cohesion is less than friction times tensile strength.
+    expect_refused(
+        tests_ + target_ +
+            "[[free]]\nkey = \"material.tensile_strength\"\nfrom = 1e6\nto = 1e8\n"
+            "[[free]]\nkey = \"material.cohesion\"\nof = \"material.tensile_strength\"\nfrom = 0.3\nto = 6\n",
+        "material.tensile_strength = 1e+06, material.cohesion over material.tensile_strength = 0.3, a corner");
+}
+
+}  // namespace
+}  // namespace crackle

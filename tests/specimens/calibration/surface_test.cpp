@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Surfaces through points of known functions, and smallest squares within bounds.
+
+#include "specimens/calibration/surface.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <random>
+#include <stdexcept>
+
+#include "specimens/calibration/box_minimum.hpp"
+#include "tests/support/claim.hpp"
+
+namespace crackle {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using Eigen::VectorXd;
+using testing::agrees;
+
+const double unknown = std::numeric_limits<double>::quiet_NaN();
+
+MatrixXd points_of(Eigen::Index count, double width = 0.3) {
+    std::mt19937_64 random(5);
+    std::uniform_real_distribution<double> draw(-width, width);
+    MatrixXd points(2, count);
+    for (Eigen::Index k = 0; k < count; ++k) points.col(k) = Vector2d(1.0 + draw(random), -2.0 + draw(random));
+    return points;
+}
+
+template <class Function>
+VectorXd values_of(const MatrixXd& points, const Function& function) {
+    VectorXd values(points.cols());
+    for (Eigen::Index k = 0; k < points.cols(); ++k) values[k] = function(points(0, k), points(1, k));
+    return values;
+}
+
+TEST(Surface, GivesBackALinearFunction) {
+    const MatrixXd points = points_of(5);
+    const Surface surface(Vector2d(1.0, -2.0), points,
+                          values_of(points, [](double x, double y) { return 3.0 + 0.5 * x - 2.0 * y; }),
+                          VectorXd::Constant(2, unknown));
+    EXPECT_FALSE(surface.quadratic()) << "five points do not pay for six terms";
+    const Vector2d far(1.7, -1.0);
+    EXPECT_TRUE(agrees("value", surface.value(far), 3.0 + 0.85 + 2.0, 1e-12));
+    EXPECT_TRUE(agrees("slope", surface.gradient(far)[1], -2.0, 1e-12));
+    EXPECT_LT(surface.standard_error(far), 1e-12) << "no scatter";
+}
+
+TEST(Surface, TakesSquaresWhereThePointsPayForThem) {
+    const auto square = [](double x, double y) { return 1.0 + x * x - 0.7 * x * y + y; };
+    const MatrixXd points = points_of(12);
+    const Surface surface(Vector2d(1.0, -2.0), points, values_of(points, square), VectorXd::Constant(2, unknown));
+    EXPECT_TRUE(surface.quadratic());
+    const Vector2d at(1.2, -2.2);
+    EXPECT_TRUE(agrees("value", surface.value(at), square(1.2, -2.2), 1e-11));
+    EXPECT_TRUE(agrees("slope in x", surface.gradient(at)[0], 2.0 * 1.2 - 0.7 * -2.2, 1e-10));
+    EXPECT_TRUE(agrees("slope in y", surface.gradient(at)[1], -0.7 * 1.2 + 1.0, 1e-10));
+}
+
+TEST(Surface, StaysLinearWhereSquaresWouldFitNoise) {
+    std::mt19937_64 random(11);
+    std::normal_distribution<double> noise(0.0, 0.1);
+    const MatrixXd points = points_of(9);
+    const VectorXd values = values_of(points, [&](double x, double y) { return x + y + noise(random); });
+    const Surface surface(Vector2d(1.0, -2.0), points, values, VectorXd::Constant(2, unknown));
+    EXPECT_FALSE(surface.quadratic()) << "left-out error " << surface.left_out_error();
+}
+
+TEST(Surface, KnownSlopesAreTakenAsTheyAre) {
+    const MatrixXd points = points_of(4);
+    VectorXd slopes(2);
+    slopes << 1.0, unknown;
+    const Surface surface(Vector2d(1.0, -2.0), points,
+                          values_of(points, [](double x, double y) { return x + 4.0 * y; }), slopes);
+    EXPECT_EQ(surface.gradient(Vector2d(0.0, 0.0))[0], 1.0);
+    EXPECT_TRUE(agrees("other slope", surface.gradient(Vector2d(0.0, 0.0))[1], 4.0, 1e-12));
+    EXPECT_TRUE(agrees("far along the known one", surface.value(Vector2d(9.0, -2.0)), 9.0 - 8.0, 1e-11));
+}
+
+/// The stated error is what 2,000 surfaces through scattered points are off by.
+TEST(Surface, StandardErrorIsThatOfRepeatedDesigns) {
+    const MatrixXd points = points_of(10);
+    const Vector2d at(1.25, -1.8);
+    std::mt19937_64 random(3);
+    std::normal_distribution<double> noise(0.0, 0.05);
+    double squares = 0.0, stated = 0.0;
+    constexpr int repeats = 2000;
+    VectorXd slopes(2);
+    slopes << unknown, 1.0;  // one term less than the linear surface: no squares in one variable are tried for long
+    for (int k = 0; k < repeats; ++k) {
+        const VectorXd values = values_of(points, [&](double x, double y) { return 0.4 * x + y + noise(random); });
+        const Surface surface(Vector2d(1.0, -2.0), points, values, slopes);
+        if (surface.quadratic()) continue;
+        squares += std::pow(surface.value(at) - (0.4 * 1.25 - 1.8), 2.0);
+        stated += std::pow(surface.standard_error(at), 2.0);
+    }
+    // Of 2,000 squares a mean is known to 1/sqrt(1000), at four deviations.
+    EXPECT_TRUE(agrees("mean square of the error", stated / squares, 1.0, 0.13));
+}
+
+TEST(Surface, TooFewPointsAreRefused) {
+    const MatrixXd points = points_of(2);
+    EXPECT_THROW(Surface(Vector2d::Zero(), points, VectorXd::Zero(2), VectorXd::Constant(2, unknown)),
+                 std::invalid_argument);
+    MatrixXd line(2, 4);
+    line << 0, 1, 2, 3, 0, 1, 2, 3;
+    EXPECT_THROW(Surface(Vector2d::Zero(), line, VectorXd::Zero(4), VectorXd::Constant(2, unknown)),
+                 std::invalid_argument)
+        << "they lie on a line";
+}
+
+/// r = (x + 2y − 4, x − y), its minimum at (4/3, 4/3).
+const Residuals two_lines = [](const VectorXd& x, VectorXd& r, MatrixXd& jacobian) {
+    r = Vector2d(x[0] + 2.0 * x[1] - 4.0, x[0] - x[1]);
+    jacobian.resize(2, 2);
+    jacobian << 1.0, 2.0, 1.0, -1.0;
+};
+
+TEST(BoxMinimum, IsWhereTheResidualsVanishOrOnTheBound) {
+    const VectorXd inside = box_minimum(two_lines, Vector2d(0.1, 0.2), Vector2d(-9, -9), Vector2d(9, 9));
+    EXPECT_TRUE(agrees("x inside", inside[0], 4.0 / 3.0, 1e-7));
+    EXPECT_TRUE(agrees("y inside", inside[1], 4.0 / 3.0, 1e-7));
+    // With y ≤ 1 the least squares in x are at (2 + 1)/2.
+    const VectorXd bound = box_minimum(two_lines, Vector2d(0.1, 0.2), Vector2d(-9, -9), Vector2d(9, 1));
+    EXPECT_TRUE(agrees("x on the bound", bound[0], 1.5, 1e-7));
+    EXPECT_TRUE(agrees("y on the bound", bound[1], 1.0, 1e-7));
+}
+
+}  // namespace
+}  // namespace crackle
