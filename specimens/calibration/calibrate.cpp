@@ -587,6 +587,8 @@ class Calibration {
             reached.within_reach = std::abs(logs[place] + factors_[t] - logs_[t]) <= widths_[t];
             if (!reached.within_reach) outcome_.out_of_reach.push_back(static_cast<std::size_t>(t));
         }
+        // Few packings that scatter widely allow everything: what is known to be out of reach is not reached by that.
+        for (ReachedTarget& reached : outcome_.targets) reached.reached = reached.reached && reached.within_reach;
     }
 
     /// From «the others first» to «this one first», for the target that is missed by most.

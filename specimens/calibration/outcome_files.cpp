@@ -62,6 +62,22 @@ std::string frontier_text(const Rock& rock, const CalibrationOutcome& outcome) {
     return text;
 }
 
+/// Where the scatter decides and not the tolerance.
+std::string scatter_text(const Rock& rock, const CalibrationOutcome& outcome) {
+    std::string text;
+    for (std::size_t k = 0; k < rock.targets.size(); ++k) {
+        const Target& target = rock.targets[k];
+        const ReachedTarget& reached = outcome.targets[k];
+        if (reached.limit <= target.tolerance) continue;
+        text += fmt::format(
+            "\n{}: two standard errors of {} packings are {:.1f} %, more than the tolerance; {:.0f} fresh "
+            "packings bring them down to it\n",
+            target_name(rock, k), reached.fresh.count, 100.0 * reached.limit,
+            packings_for(reached.fresh.deviation, 0.5 * target.tolerance * target.value));
+    }
+    return text;
+}
+
 std::string directions_text(const Rock& rock, const CalibrationOutcome& outcome) {
     std::string text;
     for (const FreeDirection& direction : outcome.undetermined) {
@@ -166,7 +182,7 @@ std::string calibration_text(const Rock& rock, const CalibrationOutcome& outcome
 }
 
 std::string calibration_remarks(const Rock& rock, const CalibrationOutcome& outcome) {
-    return frontier_text(rock, outcome) + directions_text(rock, outcome);
+    return frontier_text(rock, outcome) + directions_text(rock, outcome) + scatter_text(rock, outcome);
 }
 
 std::string found_keys_toml(const Rock& rock, const CalibrationOutcome& outcome) {

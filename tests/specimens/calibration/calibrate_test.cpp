@@ -61,54 +61,6 @@ TEST_F(CalibrationTest, AllStressesAndModuliTimesALambdaAreTheSameTests) {
             EXPECT_TRUE(agrees("strength over lambda", b(k, t) / lambda, a(k, t), 1e-6)) << k << ' ' << t;
 }
 
-TEST_F(CalibrationTest, StoppedAtAnyTestItGoesOnToTheSameBytes) {
-    const Rock rock = rock_of(target_text("compression", "peak_stress", 3e7) +
-                              target_text("tension", "peak_stress", 6e6) + testing::strength_keys);
-    const std::string undisturbed = calibration_json(rock, calibrated(rock, "undisturbed")).dump();
-    int stops = 0;
-    for (int more = 3;; more += 14) {
-        int ended = 0;
-        CalibrationHooks hooks;
-        hooks.progress = [&](const std::string&, const CampaignProgress&) { ++ended; };
-        hooks.interrupted = [&] { return ended > more; };
-        try {
-            CalibrationOutcome outcome = calibrate(rock, {.folder = folder_ / "out", .workers = 2}, hooks);
-            auto json = calibration_json(rock, outcome), whole = nlohmann::ordered_json::parse(undisturbed);
-            json.erase("processor_seconds");
-            whole.erase("processor_seconds");
-            EXPECT_EQ(json.dump(), whole.dump());
-            break;
-        } catch (const TestInterrupted&) {
-            ++stops;
-        }
-    }
-    fmt::print("  stopped {} times\n", stops);
-    EXPECT_GE(stops, 2);
-}
-
-TEST_F(CalibrationTest, WhatIsOutOfReachIsToldWithItsFrontier) {
-    // Circles under these bounds have nothing like a strength of 60 in compression over that in tension.
-    const Rock rock = rock_of(target_text("compression", "peak_stress", 3e8) +
-                              target_text("tension", "peak_stress", 5e6) + testing::strength_keys);
-    const CalibrationOutcome outcome = calibrated(rock);
-    const std::string text = calibration_text(rock, outcome);
-    fmt::print("{}", text);
-    EXPECT_FALSE(outcome.all_reached());
-    ASSERT_FALSE(outcome.out_of_reach.empty());
-    EXPECT_TRUE(outcome.keys[1].at_bound) << "as much cohesion as may be";
-    EXPECT_NE(text.find("is out of reach together with the other targets: nearest"), std::string::npos);
-    ASSERT_GE(outcome.frontier.size(), 3U);
-    const auto& first = outcome.frontier.front();
-    const auto& last = outcome.frontier.back();
-    // The more the missed one weighs, the nearer it comes and the further off the other is.
-    const std::size_t missed = outcome.out_of_reach.front(), other = 1 - missed;
-    const auto off = [&](const FrontierPoint& point, std::size_t t) {
-        return std::abs(std::log(point.figures[t].mean / rock.targets[t].value));
-    };
-    EXPECT_LT(off(last, missed), off(first, missed));
-    EXPECT_GT(off(last, other), off(first, other));
-}
-
 TEST_F(CalibrationTest, WhatTargetsDoNotDetermineIsNamed) {
     const Rock rock = rock_of(target_text("tension", "peak_stress", 6e6) + testing::strength_keys);
     const CalibrationOutcome outcome = calibrated(rock);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A rock with known keys, measured on packings of its own and calibrated from these numbers alone.
+// A rock with known keys, measured on packings of its own and calibrated from these numbers alone; what is out of
+// reach; calibrations that are stopped. Some hundred tests each.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -10,6 +11,7 @@
 #include "solver/files/read_file.hpp"
 #include "specimens/calibration/outcome_files.hpp"
 #include "specimens/case/case_file.hpp"
+#include "specimens/making/hooks.hpp"
 #include "tests/specimens/calibration/known_rock.hpp"
 #include "tests/support/claim.hpp"
 
@@ -18,12 +20,15 @@ namespace {
 
 using RecoveredRock = testing::KnownRock;
 using testing::agrees;
+using testing::target_text;
 using testing::true_cohesion;
 using testing::true_modulus;
 using testing::true_ratio;
 using testing::true_tensile;
+using testing::write_circles_rock;
 
 TEST_F(RecoveredRock, HasItsKeysWithinTheStatedIntervals) {
+    write_circles_rock(folder_, true_modulus, true_ratio, true_tensile, true_cohesion, 150);
     const Rock rock = rock_of(measured_targets(16) + testing::elastic_keys + testing::strength_keys, 8, 24, 12);
     const CalibrationOutcome outcome = calibrated(rock);
     fmt::print("{}", calibration_text(rock, outcome));
@@ -47,6 +52,54 @@ TEST_F(RecoveredRock, HasItsKeysWithinTheStatedIntervals) {
     const auto json = nlohmann::json::parse(read_file(folder_ / "out" / "calibration.json"));
     EXPECT_EQ(json["targets"].size(), 4U);
     EXPECT_EQ(json["keys"][2]["value"].get<double>(), outcome.keys[2].value);
+}
+
+TEST_F(RecoveredRock, StoppedAtAnyTestItGoesOnToTheSameBytes) {
+    const Rock rock = rock_of(target_text("compression", "peak_stress", 3e7) +
+                              target_text("tension", "peak_stress", 6e6) + testing::strength_keys);
+    const std::string undisturbed = calibration_json(rock, calibrated(rock, "undisturbed")).dump();
+    int stops = 0;
+    for (int more = 3;; more += 14) {
+        int ended = 0;
+        CalibrationHooks hooks;
+        hooks.progress = [&](const std::string&, const CampaignProgress&) { ++ended; };
+        hooks.interrupted = [&] { return ended > more; };
+        try {
+            CalibrationOutcome outcome = calibrate(rock, {.folder = folder_ / "out", .workers = 2}, hooks);
+            auto json = calibration_json(rock, outcome), whole = nlohmann::ordered_json::parse(undisturbed);
+            json.erase("processor_seconds");
+            whole.erase("processor_seconds");
+            EXPECT_EQ(json.dump(), whole.dump());
+            break;
+        } catch (const TestInterrupted&) {
+            ++stops;
+        }
+    }
+    fmt::print("  stopped {} times\n", stops);
+    EXPECT_GE(stops, 2);
+}
+
+TEST_F(RecoveredRock, WhatIsOutOfReachIsToldWithItsFrontier) {
+    // Circles under these bounds have nothing like a strength of 60 in compression over that in tension.
+    const Rock rock = rock_of(target_text("compression", "peak_stress", 3e8) +
+                              target_text("tension", "peak_stress", 5e6) + testing::strength_keys);
+    const CalibrationOutcome outcome = calibrated(rock);
+    const std::string text = calibration_text(rock, outcome);
+    fmt::print("{}", text);
+    EXPECT_FALSE(outcome.all_reached());
+    ASSERT_FALSE(outcome.out_of_reach.empty());
+    EXPECT_TRUE(outcome.keys[1].at_bound) << "as much cohesion as may be";
+    EXPECT_NE(text.find("is out of reach together with the other targets: nearest"), std::string::npos);
+    ASSERT_GE(outcome.frontier.size(), 3U);
+    const auto& first = outcome.frontier.front();
+    const auto& last = outcome.frontier.back();
+    // The more the missed one weighs, the nearer it comes and the further off the other is.
+    const std::size_t missed = outcome.out_of_reach.front(), other = 1 - missed;
+    const auto off = [&](const FrontierPoint& point, std::size_t t) {
+        return std::abs(std::log(point.figures[t].mean / rock.targets[t].value));
+    };
+    EXPECT_LT(off(last, missed), off(first, missed));
+    EXPECT_GT(off(last, other), off(first, other));
 }
 
 }  // namespace
