@@ -43,19 +43,19 @@ struct CalibrationHooks {
 
 struct FoundKey {
     double value = 0.0;
-    /// 95 % interval, from the scatter of the figures over packings, of the surface, and the targets' own errors; the
-    /// bounds where the targets do not determine it.
+    /// 95 % interval, from the scatter of the figures over packings and the targets' own errors; the bounds where the
+    /// targets do not determine it.
     double low = 0.0, high = 0.0;
     bool determined = true;
     bool at_bound = false;
 };
 
 struct ReachedTarget {
-    MeanFigure fresh;        ///< on packings that nothing was fitted to
-    MeanFigure polish;       ///< on those of the last correction, before it
-    double deviation = 0.0;  ///< mean over target, less 1
-    double limit = 0.0;      ///< tolerance, or two standard errors of the mean where these are more
-    bool reached = false;
+    MeanFigure fresh;          ///< on packings that nothing was fitted to
+    MeanFigure polish;         ///< on those of the last correction, before it
+    double deviation = 0.0;    ///< mean over target, less 1
+    double limit = 0.0;        ///< tolerance, or two standard errors of the mean where these are more
+    bool reached = false;      ///< within the limit, and within reach
     bool within_reach = true;  ///< the surfaces know of a point where it is met together with the others
 };
 

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/calibration/determination.hpp"
+
+#include <Eigen/SVD>
+#include <cmath>
+
+namespace crackle {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+Determination determine(const MatrixXd& slopes, const MatrixXd& covariance, double step) {
+    constexpr double least_change = 0.5;  // tolerances
+    constexpr double small_part = 0.1;    // of an open direction
+    const Index variables = slopes.cols();
+    const Eigen::JacobiSVD<MatrixXd> svd(slopes * step, Eigen::ComputeThinU | Eigen::ComputeFullV);
+    Determination found;
+    found.determined.assign(static_cast<std::size_t>(variables), true);
+    MatrixXd inverse = MatrixXd::Zero(variables, slopes.rows());  // without what is open
+    for (Index k = 0; k < variables; ++k) {
+        const double change = k < svd.singularValues().size() ? svd.singularValues()[k] : 0.0;
+        const VectorXd direction = svd.matrixV().col(k);
+        if (change >= least_change) {
+            inverse += direction * svd.matrixU().col(k).transpose() * (step / change);
+            continue;
+        }
+        const VectorXd way = step / direction.cwiseAbs().maxCoeff() * direction;
+        found.open.push_back({way, change});
+        for (Index d = 0; d < variables; ++d)
+            if (std::abs(way[d]) > small_part * step) found.determined[static_cast<std::size_t>(d)] = false;
+    }
+    found.standard_errors = (inverse * covariance * inverse.transpose()).diagonal().cwiseMax(0.0).cwiseSqrt();
+    return found;
+}
+
+}  // namespace crackle

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What targets say of keys near a solution: which combinations they leave open, and how sure the others are.
+// Tested by tests/specimens/calibration/determination_test.cpp.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+namespace crackle {
+
+struct OpenDirection {
+    Eigen::VectorXd way;  ///< of the variables, the largest by `step`
+    double change = 0.0;  ///< of all targets together along it, in tolerances
+};
+
+struct Determination {
+    std::vector<OpenDirection> open;
+    Eigen::VectorXd standard_errors;  ///< of the variables, of what is determined
+    std::vector<bool> determined;     ///< a variable each: no open direction has more than a tenth of it
+};
+
+/// By the singular values of the slopes: a direction along which a step changes the targets by less than half a
+/// tolerance is open.
+/// @param slopes of the targets in tolerances, a row each, over the variables
+/// @param covariance of the targets' errors, in tolerances squared
+Determination determine(const Eigen::MatrixXd& slopes, const Eigen::MatrixXd& covariance, double step);
+
+}  // namespace crackle

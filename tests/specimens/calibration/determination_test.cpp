@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which combinations of keys targets leave open, and how sure the others are.
+
+#include "specimens/calibration/determination.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/LU>
+#include <cmath>
+#include <random>
+
+#include "tests/support/claim.hpp"
+
+namespace crackle {
+namespace {
+
+using Eigen::Matrix2d;
+using Eigen::MatrixXd;
+using Eigen::Vector2d;
+using testing::agrees;
+
+TEST(Determination, OfAsManyTargetsAsKeysHasTheCovarianceOfTheInverse) {
+    Matrix2d slopes, covariance;
+    slopes << 20.0, 5.0, -3.0, 12.0;
+    covariance << 0.3, 0.1, 0.1, 0.2;
+    const Determination found = determine(slopes, covariance, 0.3);
+    EXPECT_TRUE(found.open.empty());
+    const Matrix2d of_keys = slopes.inverse() * covariance * slopes.inverse().transpose();
+    for (int k = 0; k < 2; ++k)
+        EXPECT_TRUE(agrees("standard error", found.standard_errors[k], std::sqrt(of_keys(k, k)), 1e-12));
+}
+
+/// Solutions of 4,000 noisy targets scatter as is stated.
+TEST(Determination, StandardErrorsAreTheScatterOfSolutions) {
+    MatrixXd slopes(3, 2);
+    slopes << 20.0, 5.0, -3.0, 12.0, 6.0, 6.0;
+    const MatrixXd covariance = Eigen::Vector3d(0.4, 0.1, 0.2).asDiagonal();
+    const Determination found = determine(slopes, covariance, 0.3);
+    std::mt19937_64 random(9);
+    std::normal_distribution<double> draw;
+    Vector2d squares = Vector2d::Zero();
+    constexpr int repeats = 4000;
+    const Matrix2d normal = (slopes.transpose() * slopes).inverse();
+    for (int k = 0; k < repeats; ++k) {
+        Eigen::Vector3d noise;
+        for (int t = 0; t < 3; ++t) noise[t] = std::sqrt(covariance(t, t)) * draw(random);
+        squares += (normal * slopes.transpose() * noise).cwiseAbs2();
+    }
+    // A mean of 4,000 squares is known to 1/sqrt(2000), at four deviations.
+    for (int k = 0; k < 2; ++k)
+        EXPECT_TRUE(agrees("variance", squares[k] / repeats, std::pow(found.standard_errors[k], 2.0), 0.09));
+}
+
+TEST(Determination, NamesTheCombinationThatNoTargetFeels) {
+    // Both targets feel the sum of the first two keys; the third is felt by itself.
+    MatrixXd slopes(2, 3);
+    slopes << 10.0, 10.0, 0.0, 0.0, 0.0, 8.0;
+    const Determination found = determine(slopes, Matrix2d::Identity(), 0.3);
+    ASSERT_EQ(found.open.size(), 1U);
+    EXPECT_TRUE(agrees("one against the other", found.open[0].way[0], -found.open[0].way[1], 1e-12));
+    EXPECT_TRUE(agrees("its length", std::abs(found.open[0].way[0]), 0.3, 1e-12));
+    EXPECT_LT(found.open[0].change, 1e-12);
+    EXPECT_FALSE(found.determined[0]);
+    EXPECT_FALSE(found.determined[1]);
+    EXPECT_TRUE(found.determined[2]);
+}
+
+TEST(Determination, ASlopeThatIsTooFlatLeavesItsKeyOpen) {
+    Matrix2d slopes = Matrix2d::Identity() * 10.0;
+    slopes(1, 1) = 1.0;  // 0.3 of a tolerance along a step
+    const Determination found = determine(slopes, Matrix2d::Identity(), 0.3);
+    ASSERT_EQ(found.open.size(), 1U);
+    EXPECT_TRUE(agrees("change", found.open[0].change, 0.3, 1e-12));
+    EXPECT_TRUE(found.determined[0]);
+    EXPECT_FALSE(found.determined[1]);
+}
+
+}  // namespace
+}  // namespace crackle
