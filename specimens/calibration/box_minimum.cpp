@@ -1,42 +1,84 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "specimens/calibration/box_minimum.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <nlopt.hpp>
+#include <stdexcept>
 #include <vector>
 
 namespace crackle {
 namespace {
 
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+// Of the gradient that the bounds leave, over what the largest residual and derivative could make of it.
+constexpr double close = 1e-7;
+constexpr int most_restarts = 30;
+
+struct Objective {
+    const Residuals& residuals;
+    double scale = 1.0;
+
+    /// Sum of squares and its gradient, times the scale.
+    double operator()(const VectorXd& x, VectorXd& gradient) const {
+        VectorXd r;
+        MatrixXd jacobian;
+        residuals(x, r, jacobian);
+        gradient = 2.0 * scale * jacobian.transpose() * r;
+        return scale * r.squaredNorm();
+    }
+};
+
 double objective(const std::vector<double>& x, std::vector<double>& gradient, void* data) {
-    const auto& residuals = *static_cast<const Residuals*>(data);
-    Eigen::VectorXd r;
-    Eigen::MatrixXd jacobian;
-    residuals(Eigen::Map<const Eigen::VectorXd>(x.data(), static_cast<Eigen::Index>(x.size())), r, jacobian);
-    if (!gradient.empty())
-        Eigen::Map<Eigen::VectorXd>(gradient.data(), static_cast<Eigen::Index>(gradient.size())) =
-            2.0 * jacobian.transpose() * r;
-    return r.squaredNorm();
+    VectorXd slope;
+    const double value = (*static_cast<const Objective*>(data))(
+        Eigen::Map<const VectorXd>(x.data(), static_cast<Index>(x.size())), slope);
+    if (!gradient.empty()) std::copy(slope.begin(), slope.end(), gradient.begin());
+    return value;
+}
+
+/// Way that a step of steepest descent could go within the bounds, where derivatives are scaled to one.
+double way_left(const VectorXd& x, const VectorXd& gradient, const VectorXd& low, const VectorXd& high) {
+    return ((x - 0.5 * gradient).cwiseMax(low).cwiseMin(high) - x).cwiseAbs().maxCoeff();
 }
 
 }  // namespace
 
-Eigen::VectorXd box_minimum(const Residuals& residuals, const Eigen::VectorXd& start, const Eigen::VectorXd& low,
-                            const Eigen::VectorXd& high) {
+VectorXd box_minimum(const Residuals& residuals, const VectorXd& start, const VectorXd& low, const VectorXd& high) {
     if (start.size() == 0) return start;
-    nlopt::opt search(nlopt::LD_SLSQP, static_cast<unsigned>(start.size()));
-    search.set_min_objective(objective, const_cast<Residuals*>(&residuals));
-    search.set_lower_bounds({low.data(), low.data() + low.size()});
-    search.set_upper_bounds({high.data(), high.data() + high.size()});
-    search.set_xtol_rel(1e-10);
-    search.set_ftol_abs(1e-16);
-    search.set_maxeval(500);
-    std::vector<double> x(start.data(), start.data() + start.size());
+    VectorXd best = start.cwiseMax(low).cwiseMin(high), gradient;
+    Objective sum{residuals};
     double least = 0.0;
-    try {
-        search.optimize(x, least);
-    } catch (const nlopt::roundoff_limited&) {  // x is the best so far
+    for (int k = 0; k < most_restarts; ++k) {
+        // SLSQP begins with a unit matrix for the second derivatives: they are scaled to that.
+        VectorXd r;
+        MatrixXd jacobian;
+        residuals(best, r, jacobian);
+        const double curvature = jacobian.squaredNorm();
+        if (!(curvature > 0.0)) return best;
+        sum.scale = 1.0 / curvature;
+        least = sum(best, gradient);
+        if (way_left(best, gradient, low, high) < close) return best;
+        // Every second time by another way: what ends one of them early does not end the other.
+        nlopt::opt search(k % 2 == 0 ? nlopt::LD_SLSQP : nlopt::LN_BOBYQA, static_cast<unsigned>(start.size()));
+        search.set_min_objective(objective, &sum);
+        search.set_lower_bounds({low.data(), low.data() + low.size()});
+        search.set_upper_bounds({high.data(), high.data() + high.size()});
+        search.set_xtol_rel(1e-12);
+        search.set_maxeval(400);
+        std::vector<double> x(best.data(), best.data() + best.size());
+        double value = 0.0;
+        try {
+            search.optimize(x, value);
+        } catch (const std::runtime_error&) {  // it gave up: x is its best so far
+        }
+        const VectorXd there = Eigen::Map<const VectorXd>(x.data(), start.size()).cwiseMax(low).cwiseMin(high);
+        if (sum(there, gradient) < least) best = there;
     }
-    return Eigen::Map<const Eigen::VectorXd>(x.data(), start.size());
+    return best;
 }
 
 }  // namespace crackle

@@ -11,7 +11,10 @@ namespace crackle {
 /// Residuals at x, and their derivatives, a row a residual.
 using Residuals = std::function<void(const Eigen::VectorXd& x, Eigen::VectorXd& residuals, Eigen::MatrixXd& jacobian)>;
 
-/// Sequential quadratic programming (Kraft, TOMS 20, 1994; NLopt's SLSQP). @param start within the bounds
+/// Sequential quadratic programming (Kraft, TOMS 20, 1994; NLopt's SLSQP) with the second derivatives scaled to one,
+/// and from where that gives up by quadratic models (Powell, BOBYQA, 2009), until the gradient leads nowhere within the
+/// bounds.
+/// @param start within the bounds
 Eigen::VectorXd box_minimum(const Residuals& residuals, const Eigen::VectorXd& start, const Eigen::VectorXd& low,
                             const Eigen::VectorXd& high);
 

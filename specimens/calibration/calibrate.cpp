@@ -5,6 +5,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
@@ -24,12 +25,15 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr int most_rounds = 8;
+constexpr int most_rounds = 10;
 // The middle of a round is right within this share of a tolerance, or one standard error.
 constexpr double met_share = 0.5;
 // A solution nearer than this many half-widths to the last one, or one that has not lessened what is worst to this
 // share, leads nowhere.
 constexpr double no_way = 0.15, no_gain = 0.9;
+constexpr double widest_design = 0.8;
+// The best point by the surfaces is where it is measured, up to this many half-widths.
+constexpr double reach_at_rest = 1.0;
 // A correction that moves a key by more than this, in logarithms, is measured again.
 constexpr double large_correction = 0.1;
 constexpr int most_corrections = 3;
@@ -86,9 +90,10 @@ class Calibration {
         search();
         polish();
         judge();
-        if (!outcome_.out_of_reach.empty()) draw_frontier();
+        draw_frontier();
         state_keys();
         list_tried();
+        outcome_.surfaces = surfaces_.quality();
         outcome_.linear_solves = linear_.solves();
         outcome_.tests = search_.tests() + fresh_.tests();
         outcome_.processor_seconds = search_.processor_seconds() + fresh_.processor_seconds();
@@ -131,16 +136,7 @@ class Calibration {
         measure({x}, packings);
         Measured point;
         point.rows = complete_rows(search_.figures(space_.values_at(x), packings));
-        if (!are_enough(point.rows.rows(), packings.count)) {
-            std::string at;
-            const std::vector<double> values = space_.values_at(x);
-            for (std::size_t k = 0; k < values.size(); ++k)
-                at += fmt::format("{}{} = {:.4g}", k == 0 ? "" : ", ", rock_.free[k].name(), values[k]);
-            throw InputError(fmt::format(
-                "{}: found all targets' figures of {} of {} packings at {}, expected at least half; see `crackle "
-                "campaign show {}`: tests that do not fail want a larger loading.max_axial_strain",
-                rock_.file.string(), point.rows.rows(), packings.count, at, search_.options().folder.string()));
-        }
+        if (!are_enough(point.rows.rows(), packings.count)) refuse_point(x, packings);
         const VectorXd mean = point.rows.colwise().mean();
         const auto n = static_cast<double>(point.rows.rows());
         point.means = mean.array().log();
@@ -150,14 +146,42 @@ class Calibration {
         return point;
     }
 
+    /// Names the target that most packings lack.
+    [[noreturn]] void refuse_point(const VectorXd& x, PackingRange packings) const {
+        const std::vector<double> values = space_.values_at(x);
+        std::string at;
+        for (std::size_t k = 0; k < values.size(); ++k)
+            at += fmt::format("{}{} = {:.4g}", k == 0 ? "" : ", ", rock_.free[k].name(), values[k]);
+        const MatrixXd figures = search_.figures(values, packings);
+        Index worst = 0, fewest = figures.rows(), negative = 0;
+        for (Index t = 0; t < space_.targets; ++t) {
+            const auto above = static_cast<Index>((figures.col(t).array() > 0.0).count());
+            if (above >= fewest) continue;
+            fewest = above;
+            worst = t;
+            negative = static_cast<Index>((figures.col(t).array() <= 0.0).count());
+        }
+        throw InputError(fmt::format(
+            "{}: found {} of {} of only {} of {} packings to be a number above 0 at {} ({} are 0 or less, {} have gone "
+            "wrong "
+            "or not failed), expected all targets' of at least half; {}; see `crackle campaign show {}`",
+            space_.target(worst).where, space_.target(worst).figure, rock_.tests[space_.target(worst).test].name,
+            fewest, packings.count, at, negative, packings.count - fewest - negative,
+            negative > 0 ? "take another target"
+                         : "tests that do not fail want a larger loading.max_axial_strain, or a "
+                           "weaker start",
+            search_.options().folder.string()));
+    }
+
     void search() {
         double width = wide_design, worst_before = std::numeric_limits<double>::infinity();
         bool levelled = false;
         int stalls = 0;
-        for (outcome_.rounds = 1; outcome_.rounds < most_rounds; ++outcome_.rounds) {
+        for (int round = 1; round <= most_rounds; ++round) {
+            outcome_.rounds = round;
             if (!linear_.empty()) begin("moduli by the linear solve");
             x_ = linear_.solve(x_);
-            begin(fmt::format("round {}: its middle on {} packings", outcome_.rounds, rock_.fit));
+            begin(fmt::format("round {}: its middle on {} packings", round, rock_.fit));
             const Measured middle = measured_at(x_, fit_packings());
             surfaces_.remember(x_);
             linear_.learn(x_, middle.means);
@@ -165,12 +189,11 @@ class Calibration {
             say_where(off);
             const VectorXd limits = space_.widths.cwiseMax(middle.errors);
             const double worst = off.cwiseAbs().cwiseQuotient(limits).maxCoeff();
-            const bool met =
-                (off.cwiseAbs().array() <= (met_share * space_.widths).cwiseMax(middle.errors).array()).all();
+            const bool met = is_met(middle);
             const bool alone = space_.other_targets.empty();  // without surfaces
-            if (met && (alone || !surfaces_.empty())) break;
+            if (met && (alone || !surfaces_.empty())) return;
             if (alone) {
-                if (worst > no_gain * worst_before && ++stalls == 2) break;
+                if (worst > no_gain * worst_before && ++stalls == 2) return;
                 worst_before = worst;
                 continue;
             }
@@ -180,15 +203,25 @@ class Calibration {
             }
             design(width);
             const VectorXd next = surfaces_.solve(x_, width, VectorXd::Ones(space_.targets));
-            if (met) break;
+            if (met) return;
             // What cannot be reached is known once the surfaces have led nowhere twice.
             const double moved = surfaces_.distance(next, x_, width);
-            const bool solvable = ((surfaces_.foretell(next) - space_.logs).cwiseAbs().array() <= limits.array()).all();
-            if ((moved < no_way || (!solvable && worst > no_gain * worst_before)) && ++stalls == 2) break;
+            const bool solvable = ((surfaces_.predict(next) - space_.logs).cwiseAbs().array() <= limits.array()).all();
+            if ((moved < no_way || (!solvable && worst > no_gain * worst_before)) && ++stalls == 2) return;
             worst_before = worst;
             x_ = next;
-            if (moved < 1.0) width = narrow_design;
+            // Steps that end where the surfaces do grow; where a solution lies within the design the next is narrower.
+            if (moved > 0.95 * reach_of_surface)
+                width = std::min(1.5 * width, widest_design);
+            else if (moved < 1.0)
+                width = narrow_design;
         }
+    }
+
+    /// Whether each mean is within half a tolerance, or a standard error, of its target.
+    bool is_met(const Measured& point) const {
+        const VectorXd limits = (met_share * space_.widths).cwiseMax(point.errors);
+        return ((point.means - space_.logs).cwiseAbs().array() <= limits.array()).all();
     }
 
     /// All strengths at once. @return whether that was far
@@ -230,8 +263,9 @@ class Calibration {
             for (Index t = 0; t < space_.targets; ++t)
                 outcome_.targets[static_cast<std::size_t>(t)].polish = mean_of_column(polished_.rows, t);
             surfaces_.shift(middle, polished_.means);
-            if (!surfaces_.empty()) x_ = surfaces_.solve(middle, narrow_design, VectorXd::Ones(space_.targets));
             linear_.learn(middle, polished_.means);
+            if (is_met(polished_)) break;  // what is left is chance
+            if (!surfaces_.empty()) x_ = surfaces_.solve(middle, narrow_design, VectorXd::Ones(space_.targets));
             x_ = linear_.solve(x_);
             if ((x_ - middle).cwiseAbs().maxCoeff() < large_correction) break;
         }
@@ -241,48 +275,76 @@ class Calibration {
     void judge() {
         begin(fmt::format("{} fresh packings", rock_.fresh));
         fresh_.measure({space_.values_at(x_)}, fresh_packings());
-        const MatrixXd figures = fresh_.figures(space_.values_at(x_), fresh_packings());
-        const VectorXd missed = expected_off();
+        const MatrixXd figures = complete_rows(fresh_.figures(space_.values_at(x_), fresh_packings()));
+        const VectorXd expected = expected_off();
+        const bool at_rest = is_at_rest();
         for (Index t = 0; t < space_.targets; ++t) {
             ReachedTarget& reached = outcome_.targets[static_cast<std::size_t>(t)];
             const Target& target = space_.target(t);
             reached.fresh = mean_of_column(figures, t);
-            reached.deviation = reached.fresh.mean / target.value - 1.0;
+            reached.off = reached.fresh.mean / target.value - 1.0;
             reached.limit = std::max(target.tolerance, 2.0 * reached.fresh.standard_error / target.value);
-            reached.within_reach = std::abs(missed[t]) <= std::max(space_.widths[t], 2.0 * polished_.errors[t]);
-            // Few packings that scatter widely allow everything: what is known to be out of reach is not reached by
-            // that.
-            reached.reached = reached.within_reach && std::abs(reached.deviation) <= reached.limit;
-            if (!reached.within_reach) outcome_.out_of_reach.push_back(static_cast<std::size_t>(t));
+            const bool within_reach = std::abs(expected[t]) <= std::max(space_.widths[t], 2.0 * polished_.errors[t]);
+            if (!are_enough(figures.rows(), rock_.fresh))
+                reached.verdict = Verdict::unresolved;
+            else if (std::abs(reached.off) <= target.tolerance)
+                reached.verdict = Verdict::reached;
+            else if (!within_reach)  // whatever few packings that scatter widely allow
+                reached.verdict = at_rest ? Verdict::out_of_reach : Verdict::not_found;
+            else
+                reached.verdict =
+                    std::abs(reached.off) <= reached.limit ? Verdict::reached_within_error : Verdict::missed;
         }
+    }
+
+    /// Whether the surfaces' best point lies here: no step leads on from it, within their reach or along the bounds.
+    bool is_at_rest() const {
+        if (surfaces_.empty()) return true;
+        const VectorXd next = surfaces_.solve(x_, narrow_design, VectorXd::Ones(space_.targets));
+        return surfaces_.distance(next, x_, narrow_design) < reach_at_rest;
     }
 
     /// Logarithms of what is expected of all targets' figures at x_, less the targets'.
     VectorXd expected_off() {
-        VectorXd off = surfaces_.foretell(x_) - space_.logs;
+        VectorXd off = surfaces_.predict(x_) - space_.logs;
         if (!linear_.empty())
             off(space_.linear_targets) = linear_.off(x_).cwiseProduct(space_.widths(space_.linear_targets));
         return off;
     }
 
-    /// From «the others first» to «this one first», for the target that is missed by most.
+    /// From «the others first» to «this one first», for the target that is missed by most. Moduli depend on their keys
+    /// alone: what is nearest to them is all there is.
     void draw_frontier() {
-        if (surfaces_.empty()) return;
-        Index worst = 0;
-        (surfaces_.foretell(x_) - space_.logs).cwiseAbs().cwiseQuotient(space_.widths).maxCoeff(&worst);
+        Index worst = -1;
+        double most = 0.0;
+        const VectorXd expected = expected_off();
+        for (const Index t : space_.other_targets) {
+            if (outcome_.targets[static_cast<std::size_t>(t)].verdict != Verdict::out_of_reach) continue;
+            if (std::abs(expected[t]) / space_.widths[t] <= most) continue;
+            most = std::abs(expected[t]) / space_.widths[t];
+            worst = t;
+        }
+        if (worst < 0 || surfaces_.empty()) return;
         std::vector<VectorXd> points;
+        std::vector<double> of_points;
         for (const double weight : frontier_weights) {
             VectorXd weights = VectorXd::Ones(space_.targets);
             weights[worst] = weight;
-            points.push_back(surfaces_.solve(x_, wide_design, weights));
+            const VectorXd x = surfaces_.solve(x_, wide_design, weights);
+            // Compromises that are as good as one need be measured once.
+            if (!points.empty() && surfaces_.distance(x, points.back(), wide_design) < 0.03) continue;
+            points.push_back(x);
+            of_points.push_back(weight);
         }
+        if (points.size() < 2) return;  // nothing is had for anything
         begin(fmt::format("frontier: {} compromises on {} packings", points.size(), rock_.fit));
         measure(points, fit_packings());
+        outcome_.frontier_of = static_cast<std::size_t>(worst);
         for (std::size_t k = 0; k < points.size(); ++k) {
             FrontierPoint point;
-            point.weight = frontier_weights[k];
+            point.weight = of_points[k];
             point.values = space_.values_at(points[k]);
-            const MatrixXd figures = search_.figures(point.values, fit_packings());
+            const MatrixXd figures = complete_rows(search_.figures(point.values, fit_packings()));
             for (Index t = 0; t < space_.targets; ++t) point.figures.push_back(mean_of_column(figures, t));
             outcome_.frontier.push_back(point);
         }
@@ -347,8 +409,14 @@ class Calibration {
 
 }  // namespace
 
+const char* name_of(Verdict verdict) {
+    constexpr std::array<const char*, 6> names{
+        "reached", "reached within its error", "missed", "out of reach", "not found", "unresolved"};
+    return names[static_cast<std::size_t>(verdict)];
+}
+
 bool CalibrationOutcome::all_reached() const {
-    return std::all_of(targets.begin(), targets.end(), [](const ReachedTarget& one) { return one.reached; });
+    return std::all_of(targets.begin(), targets.end(), [](const ReachedTarget& one) { return one.reached(); });
 }
 
 std::vector<double> CalibrationOutcome::values() const {

@@ -17,12 +17,14 @@
 // tests/benchmarks/calibrations.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
 #include "specimens/calibration/rock.hpp"
+#include "specimens/calibration/surface_quality.hpp"
 #include "specimens/campaign/campaign.hpp"
 #include "specimens/campaign/statistics.hpp"
 
@@ -50,34 +52,46 @@ struct FoundKey {
     bool at_bound = false;
 };
 
+enum class Verdict : std::uint8_t {
+    reached,               ///< the mean of fresh packings is within the tolerance
+    reached_within_error,  ///< beyond it, within two standard errors
+    missed,
+    out_of_reach,  ///< by all that is known around the best point none within the bounds has it with the others
+    not_found,     ///< the search ended on its way: another start may find it
+    unresolved,    ///< too few fresh packings have the figures
+};
+const char* name_of(Verdict verdict);  ///< "reached", "out of reach", …
+
 struct ReachedTarget {
-    MeanFigure fresh;          ///< on packings that nothing was fitted to
-    MeanFigure polish;         ///< on those of the last correction, before it
-    double deviation = 0.0;    ///< mean over target, less 1
-    double limit = 0.0;        ///< tolerance, or two standard errors of the mean where these are more
-    bool reached = false;      ///< within the limit, and within reach
-    bool within_reach = true;  ///< the surfaces know of a point where it is met together with the others
+    MeanFigure fresh;    ///< on packings that nothing was fitted to, of those that have all targets' figures
+    MeanFigure polish;   ///< on those of the last correction, before it
+    double off = 0.0;    ///< mean over target, less 1
+    double limit = 0.0;  ///< tolerance, or two standard errors of the mean where these are more
+    Verdict verdict = Verdict::missed;
+
+    bool reached() const { return verdict == Verdict::reached || verdict == Verdict::reached_within_error; }
 };
 
 /// One compromise between targets that cannot be reached together, measured on the fit packings.
 struct FrontierPoint {
-    double weight = 1.0;  ///< of the target that is out of reach, over the others'
+    double weight = 1.0;  ///< of the target that is missed by most, over the others'
     std::vector<double> values;
     std::vector<MeanFigure> figures;
 };
 
-/// A combination of keys along which no target changes by more than half its tolerance.
+/// A combination of keys along which no target changes by half its tolerance.
 struct FreeDirection {
-    std::vector<double>
-        factors;          ///< of each key, along a step whose largest is 1.3 (of a linear key: 0.3 of its scale)
-    double change = 0.0;  ///< of the targets, in tolerances
+    std::vector<double> factors;  ///< of each key, along a step whose largest is 1.35 (of a linear key: a difference,
+                                  ///< of 0.3 of its range)
+    double change = 0.0;          ///< of the targets, in tolerances
 };
 
 struct CalibrationOutcome {
     std::vector<FoundKey> keys;
     std::vector<ReachedTarget> targets;
-    std::vector<std::size_t> out_of_reach;  ///< into targets
-    std::vector<FrontierPoint> frontier;
+    std::size_t frontier_of = 0;          ///< into targets: the one that the frontier is about
+    std::vector<FrontierPoint> frontier;  ///< empty: none was drawn
+    std::vector<SurfaceQuality> surfaces;
     std::vector<FreeDirection> undetermined;
     std::vector<std::vector<double>> tried;        ///< values of the free keys, every point of the search
     std::vector<std::vector<double>> tried_means;  ///< and the targets' means there, fit packings

@@ -19,13 +19,13 @@ Determination determine(const MatrixXd& slopes, const MatrixXd& covariance, doub
     found.determined.assign(static_cast<std::size_t>(variables), true);
     MatrixXd inverse = MatrixXd::Zero(variables, slopes.rows());  // without what is open
     for (Index k = 0; k < variables; ++k) {
-        const double change = k < svd.singularValues().size() ? svd.singularValues()[k] : 0.0;
         const VectorXd direction = svd.matrixV().col(k);
+        const VectorXd way = step / direction.cwiseAbs().maxCoeff() * direction;
+        const double change = slopes.rows() == 0 ? 0.0 : (slopes * way).cwiseAbs().maxCoeff();
         if (change >= least_change) {
-            inverse += direction * svd.matrixU().col(k).transpose() * (step / change);
+            inverse += direction * svd.matrixU().col(k).transpose() * (step / svd.singularValues()[k]);
             continue;
         }
-        const VectorXd way = step / direction.cwiseAbs().maxCoeff() * direction;
         found.open.push_back({way, change});
         for (Index d = 0; d < variables; ++d)
             if (std::abs(way[d]) > small_part * step) found.determined[static_cast<std::size_t>(d)] = false;

@@ -10,7 +10,7 @@ namespace crackle {
 
 struct OpenDirection {
     Eigen::VectorXd way;  ///< of the variables, the largest by `step`
-    double change = 0.0;  ///< of all targets together along it, in tolerances
+    double change = 0.0;  ///< of the target that changes most along it, in tolerances
 };
 
 struct Determination {
@@ -19,8 +19,7 @@ struct Determination {
     std::vector<bool> determined;     ///< a variable each: no open direction has more than a tenth of it
 };
 
-/// By the singular values of the slopes: a direction along which a step changes the targets by less than half a
-/// tolerance is open.
+/// By the singular directions of the slopes: one along which a step changes no target by half a tolerance is open.
 /// @param slopes of the targets in tolerances, a row each, over the variables
 /// @param covariance of the targets' errors, in tolerances squared
 Determination determine(const Eigen::MatrixXd& slopes, const Eigen::MatrixXd& covariance, double step);

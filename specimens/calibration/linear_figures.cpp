@@ -62,11 +62,13 @@ std::vector<std::vector<double>> mean_linear_figures(const LinearRequest& reques
     for (const std::size_t test : request.tests) plan.points.push_back({test, rock.settings(values), {}, {}, 1});
     judge_points(plan);
     const std::size_t count = static_cast<std::size_t>(rock.fit) * request.tests.size();
-    std::vector<std::array<double, linear_figures>> found(count);
+    std::array<double, linear_figures> none{};
+    none.fill(std::nan(""));
+    std::vector<std::array<double, linear_figures>> found(count, none);
     FileHashes files;
     PackingStore packings(request.packings, files);
     std::size_t next = 0;
-    std::string wrong;
+    std::string wrong, refused;
     CrewWork crew;
     crew.work = [&](std::size_t piece) {
         const PlanRow row{piece % request.tests.size(),
@@ -86,7 +88,7 @@ std::vector<std::vector<double>> mean_linear_figures(const LinearRequest& reques
         }
         const Json answer = Json::parse(end.answer);
         if (answer.is_object()) {
-            wrong = answer["wrong"];
+            if (refused.empty()) refused = answer["wrong"];
             return;
         }
         for (std::size_t k = 0; k < linear_figures; ++k)
@@ -96,10 +98,23 @@ std::vector<std::vector<double>> mean_linear_figures(const LinearRequest& reques
     const bool complete = run_crew(std::min(request.workers, static_cast<int>(count)), crew);
     if (!wrong.empty()) throw InputError(fmt::format("{}: {}", rock.file.string(), wrong));
     if (!complete) throw TestInterrupted();
-    std::vector<std::vector<double>> means(request.tests.size(), std::vector<double>(linear_figures, 0.0));
-    for (std::size_t piece = 0; piece < count; ++piece)
-        for (std::size_t k = 0; k < linear_figures; ++k)
-            means[piece % request.tests.size()][k] += found[piece][k] / static_cast<double>(rock.fit);
+    // As for tests: of the packings that have it, where these are at least half.
+    std::vector<std::vector<double>> means(request.tests.size(), std::vector<double>(linear_figures, std::nan("")));
+    for (std::size_t test = 0; test < request.tests.size(); ++test) {
+        for (std::size_t k = 0; k < linear_figures; ++k) {
+            double sum = 0.0;
+            std::int64_t counted = 0;
+            for (std::size_t piece = test; piece < count; piece += request.tests.size()) {
+                if (!std::isfinite(found[piece][k])) continue;
+                sum += found[piece][k];
+                ++counted;
+            }
+            if (2 * counted >= rock.fit) means[test][k] = sum / static_cast<double>(counted);
+        }
+        if (std::isnan(means[test][0]) && !refused.empty())
+            throw InputError(
+                fmt::format("{}: more than half of the packings are refused: {}", rock.file.string(), refused));
+    }
     return means;
 }
 

@@ -19,7 +19,7 @@ inline constexpr std::size_t linear_figures = 3;
 
 /// Which of them a figure of summary.json is near, before anything breaks; nothing: none.
 std::optional<LinearFigure> linear_figure_of(std::string_view figure);
-/// Of a key of a case: whether moduli depend on it.
+/// Of a key of a case: whether the linear search moves it.
 bool is_elastic_key(std::string_view key);
 
 struct LinearRequest {

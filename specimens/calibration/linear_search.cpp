@@ -50,10 +50,13 @@ VectorXd LinearSearch::solve(VectorXd x) {
         slopes_.resize(residuals.size(), count);
         for (Index k = 0; k < count; ++k) {
             VectorXd other = own;
-            other[k] += own[k] + difference <= high[k] ? difference : -difference;
+            const double step = std::min(difference, 0.5 * (high[k] - low[k]));
+            other[k] += high[k] - own[k] > own[k] - low[k] ? step : -step;
             slopes_.col(k) = (off(at(other)) - residuals) / (other[k] - own[k]);
         }
     }
+    VectorXd best = own;
+    double least = residuals.squaredNorm();
     for (int k = 0; k < most_steps && residuals.cwiseAbs().maxCoeff() > close; ++k) {
         const Residuals linear = [&](const VectorXd& some, VectorXd& r, MatrixXd& jacobian) {
             r = residuals + slopes_ * (some - own);
@@ -66,8 +69,12 @@ VectorXd LinearSearch::solve(VectorXd x) {
         slopes_ += (there - residuals - slopes_ * way) * way.transpose() / way.squaredNorm();
         own = next;
         residuals = there;
+        if (residuals.squaredNorm() < least) {
+            least = residuals.squaredNorm();
+            best = own;
+        }
     }
-    return at(own);
+    return at(best);
 }
 
 void LinearSearch::learn(const VectorXd& x, const VectorXd& means) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <sstream>
 
 #include "solver/files/replace_file.hpp"
@@ -30,31 +31,41 @@ std::string target_name(const Rock& rock, std::size_t k) {
 
 std::string percent(double share) { return fmt::format("{:+.1f} %", 100.0 * share); }
 
-/// «peak_stress of compression = 2e8 is out of reach together with the others: …».
-std::string frontier_text(const Rock& rock, const CalibrationOutcome& outcome) {
+std::string keys_at_bounds(const Rock& rock, const CalibrationOutcome& outcome) {
     std::string text;
-    for (const std::size_t k : outcome.out_of_reach) {
+    for (std::size_t f = 0; f < rock.free.size(); ++f)
+        if (outcome.keys[f].at_bound)
+            text += fmt::format("{}{} = {:.4g}", text.empty() ? "" : ", ", rock.free[f].name(), outcome.keys[f].value);
+    return text;
+}
+
+/// Targets that no point has, and what can be had for what.
+std::string frontier_text(const Rock& rock, const CalibrationOutcome& outcome) {
+    std::string text, names;
+    for (std::size_t k = 0; k < rock.targets.size(); ++k) {
         const ReachedTarget& reached = outcome.targets[k];
-        std::string bounds;
-        for (std::size_t f = 0; f < rock.free.size(); ++f)
-            if (outcome.keys[f].at_bound)
-                bounds += fmt::format("{}{} = {:.4g}", bounds.empty() ? "" : ", ", rock.free[f].name(),
-                                      outcome.keys[f].value);
+        if (reached.verdict == Verdict::not_found)
+            text += fmt::format(
+                "\n{} = {:.4g} was not found: the search ended on its way, at {:.4g} ± {:.2g}; give "
+                "[[free]] another start\n",
+                target_name(rock, k), rock.targets[k].value, reached.fresh.mean, reached.fresh.standard_error);
+        if (reached.verdict != Verdict::out_of_reach) continue;
+        const std::string bounds = keys_at_bounds(rock, outcome);
         text +=
             fmt::format("\n{} = {:.4g} is out of reach together with the other targets: nearest {:.4g} ± {:.2g}{}\n",
                         target_name(rock, k), rock.targets[k].value, reached.fresh.mean, reached.fresh.standard_error,
-                        bounds.empty() ? "" : fmt::format(" ({} at the bounds)", bounds));
+                        bounds.empty() ? "" : fmt::format(", with {} at the bounds", bounds));
     }
     if (outcome.frontier.empty()) return text;
-    text += "  what can be had for what (means of the fit packings ± standard error):\n";
+    text += fmt::format("\nwhat can be had for {} (means of the fit packings ± standard error):\n",
+                        target_name(rock, outcome.frontier_of));
     for (const FrontierPoint& point : outcome.frontier) {
-        std::string line;
+        std::string line, keys;
         for (std::size_t t = 0; t < rock.targets.size(); ++t) {
             const MeanFigure& mean = point.figures[t];
             line += fmt::format("{}{} {:.4g} ± {:.1g} ({})", t == 0 ? "" : ", ", target_name(rock, t), mean.mean,
                                 mean.standard_error, percent(mean.mean / rock.targets[t].value - 1.0));
         }
-        std::string keys;
         for (std::size_t f = 0; f < rock.free.size(); ++f)
             keys += fmt::format("{}{} = {:.4g}", f == 0 ? "" : ", ", rock.free[f].name(), point.values[f]);
         text += fmt::format("  - {}\n    at {}\n", line, keys);
@@ -62,18 +73,26 @@ std::string frontier_text(const Rock& rock, const CalibrationOutcome& outcome) {
     return text;
 }
 
-/// Where the scatter decides and not the tolerance.
-std::string scatter_text(const Rock& rock, const CalibrationOutcome& outcome) {
+/// Packings that are in no mean, and where the scatter decides and not the tolerance.
+std::string packings_text(const Rock& rock, const CalibrationOutcome& outcome) {
     std::string text;
+    const auto counted = static_cast<std::int64_t>(outcome.targets.front().fresh.count);
+    if (counted < rock.fresh)
+        text += fmt::format(
+            "\n{} of {} fresh packings have all targets' figures: the others have gone wrong, or not failed "
+            "by loading.max_axial_strain, and the means are of the weaker ones; `crackle campaign show "
+            "DIR/fresh` says which\n",
+            counted, rock.fresh);
     for (std::size_t k = 0; k < rock.targets.size(); ++k) {
         const Target& target = rock.targets[k];
         const ReachedTarget& reached = outcome.targets[k];
-        if (reached.limit <= target.tolerance) continue;
+        if (reached.limit <= target.tolerance || std::abs(reached.off) > reached.limit) continue;
+        const double wanted = packings_for(reached.fresh.deviation, 0.5 * target.tolerance * target.value);
         text += fmt::format(
-            "\n{}: two standard errors of {} packings are {:.1f} %, more than the tolerance; {:.0f} fresh "
-            "packings bring them down to it\n",
-            target_name(rock, k), reached.fresh.count, 100.0 * reached.limit,
-            packings_for(reached.fresh.deviation, 0.5 * target.tolerance * target.value));
+            "\n{}: two standard errors of {} packings are {:.2f} %, more than the tolerance of {:.2f} %; {} "
+            "fresh packings bring them down to it\n",
+            target_name(rock, k), reached.fresh.count, 100.0 * reached.limit, 100.0 * target.tolerance,
+            wanted > 1e4 ? "more than 10,000" : fmt::format("{:.0f}", wanted));
     }
     return text;
 }
@@ -91,8 +110,8 @@ std::string directions_text(const Rock& rock, const CalibrationOutcome& outcome)
                 ratio ? fmt::format("times {:.2f}", factor) : fmt::format("{:+.3g}", factor * rock.free[f].scale()));
         }
         text += fmt::format(
-            "\nnot determined by the targets: {}: together they change no target by more than {:.2g} of "
-            "its tolerance; they lie where the search began, or give another target\n",
+            "\nnot determined by the targets: {}: together that changes no target by more than {:.2g} of "
+            "its tolerance; other values along it do as well, another target decides\n",
             keys, direction.change);
     }
     return text;
@@ -114,10 +133,9 @@ Json calibration_json(const Rock& rock, const CalibrationOutcome& outcome) {
                                   {"error", target.error},
                                   {"fresh", json_of(reached.fresh)},
                                   {"polish", json_of(reached.polish)},
-                                  {"deviation", reached.deviation},
+                                  {"off", reached.off},
                                   {"limit", reached.limit},
-                                  {"reached", reached.reached},
-                                  {"within_reach", reached.within_reach}});
+                                  {"verdict", name_of(reached.verdict)}});
     }
     for (std::size_t k = 0; k < rock.free.size(); ++k) {
         const FoundKey& key = outcome.keys[k];
@@ -132,8 +150,20 @@ Json calibration_json(const Rock& rock, const CalibrationOutcome& outcome) {
     }
     all["undetermined"] = Json::array();
     for (const FreeDirection& direction : outcome.undetermined) {
-        all["undetermined"].push_back({{"factors", direction.factors}, {"change", direction.change}});
+        Json step;
+        for (std::size_t f = 0; f < rock.free.size(); ++f) {
+            if (rock.free[f].logarithmic())
+                step[rock.free[f].name()]["times"] = direction.factors[f];
+            else
+                step[rock.free[f].name()]["plus"] = direction.factors[f] * rock.free[f].scale();
+        }
+        all["undetermined"].push_back({{"step", step}, {"change", direction.change}});
     }
+    all["surfaces"] = Json::array();
+    for (const SurfaceQuality& surface : outcome.surfaces)
+        all["surfaces"].push_back(
+            {{"target", surface.target}, {"quadratic", surface.quadratic}, {"left_out_error", surface.left_out_error}});
+    all["frontier_of"] = outcome.frontier.empty() ? Json() : Json(outcome.frontier_of);
     all["frontier"] = Json::array();
     for (const FrontierPoint& point : outcome.frontier) {
         Json figures;
@@ -152,68 +182,88 @@ Json calibration_json(const Rock& rock, const CalibrationOutcome& outcome) {
 std::string calibration_text(const Rock& rock, const CalibrationOutcome& outcome) {
     std::string text = fmt::format("{}: {} of {} targets reached on {} fresh packings\n", rock.title,
                                    std::count_if(outcome.targets.begin(), outcome.targets.end(),
-                                                 [](const ReachedTarget& one) { return one.reached; }),
-                                   outcome.targets.size(), rock.fresh);
+                                                 [](const ReachedTarget& one) { return one.reached(); }),
+                                   outcome.targets.size(), outcome.targets.front().fresh.count);
     text += fmt::format("  {:<34}{:>11}{:>11}{:>11}{:>11}{:>10}{:>9}  {}\n", "target", "value", "mean", "± error",
-                        "deviation", "off", "allowed", "");
+                        "scatter", "off", "allowed", "");
     for (std::size_t k = 0; k < rock.targets.size(); ++k) {
         const ReachedTarget& reached = outcome.targets[k];
         const bool area = rock.case_of(rock.targets[k].test, outcome.values()).area_units();
         const std::string unit = unit_of_figure(rock.targets[k].figure, area);
-        text += fmt::format("  {:<34}{:>11.4g}{:>11.4g}{:>11.2g}{:>11.2g}{:>10}{:>7.1f} %  {}\n",
-                            fmt::format("{}{}{}", target_name(rock, k), unit.empty() ? "" : ", ", unit),
-                            rock.targets[k].value, reached.fresh.mean, reached.fresh.standard_error,
-                            reached.fresh.deviation, percent(reached.deviation), 100.0 * reached.limit,
-                            reached.reached        ? "reached"
-                            : reached.within_reach ? "missed"
-                                                   : "out of reach");
+        text +=
+            fmt::format("  {:<34}{:>11.4g}{:>11.4g}{:>11.2g}{:>11.2g}{:>10}{:>7.1f} %  {}\n",
+                        fmt::format("{}{}{}", target_name(rock, k), unit.empty() ? "" : ", ", unit),
+                        rock.targets[k].value, reached.fresh.mean, reached.fresh.standard_error,
+                        reached.fresh.deviation, percent(reached.off), 100.0 * reached.limit, name_of(reached.verdict));
     }
     text += fmt::format("  {:<54}{:>12}{:>26}\n", "key", "value", "95 % interval");
     for (std::size_t k = 0; k < rock.free.size(); ++k) {
         const FoundKey& key = outcome.keys[k];
-        text += fmt::format("  {:<54}{:>12.5g}{:>26}{}\n", rock.free[k].name(), key.value,
-                            key.determined ? fmt::format("{:.4g} to {:.4g}", key.low, key.high) : "not determined",
-                            key.at_bound ? "  at its bound" : "");
+        text += fmt::format(
+            "  {:<54}{:>12.5g}{:>26}{}\n", rock.free[k].name(), key.value,
+            key.determined ? fmt::format("{:.4g} to {:.4g}{}", key.low, key.high,
+                                         key.low <= rock.free[k].from || key.high >= rock.free[k].to ? " (cut)" : "")
+                           : "not determined",
+            key.at_bound ? "  at its bound" : "");
     }
     text += calibration_remarks(rock, outcome);
-    text += fmt::format("\n{} rounds, {} tests ({:.0f} s of a processor), {} linear solves\n", outcome.rounds,
-                        outcome.tests, outcome.processor_seconds, outcome.linear_solves);
+    text +=
+        fmt::format("\n{} round{}, {} tests ({:.0f} s of a processor), {} linear solves\n", outcome.rounds,
+                    outcome.rounds == 1 ? "" : "s", outcome.tests, outcome.processor_seconds, outcome.linear_solves);
     return text;
 }
 
 std::string calibration_remarks(const Rock& rock, const CalibrationOutcome& outcome) {
-    return frontier_text(rock, outcome) + directions_text(rock, outcome) + scatter_text(rock, outcome);
+    return frontier_text(rock, outcome) + directions_text(rock, outcome) + packings_text(rock, outcome);
 }
 
 std::string found_keys_toml(const Rock& rock, const CalibrationOutcome& outcome) {
-    // By tables, in the order in which they come first; a mineral of several keeps its place in the name.
+    // By tables, in the order in which they come first. A list of tables, [[mineral]], holds as a whole in a case: its
+    // keys cannot stand by themselves, and are comments.
     std::vector<std::pair<std::string, std::string>> tables;
+    std::string listed;
     const std::vector<CaseSetting> settings = rock.settings(outcome.values());
     for (std::size_t k = 0; k < settings.size(); ++k) {
         const std::size_t dot = settings[k].key.rfind('.');
         const std::string table = settings[k].key.substr(0, dot), key = settings[k].key.substr(dot + 1);
+        const FoundKey& found = outcome.keys[k];
+        std::string remark = rock.free[k].of.empty() ? ""
+                                                     : fmt::format("{:.5g} times {}{}", found.value, rock.free[k].of,
+                                                                   found.determined ? ", ratio " : "");
+        if (!found.determined)
+            remark += remark.empty() ? "not determined by the targets" : ", not determined by the targets";
+        else
+            remark += fmt::format("95 %: {:.4g} to {:.4g}", found.low, found.high);
+        if (found.at_bound) remark += ", at its bound";
+        const double value = std::get<double>(settings[k].value);
+        if (table.find('[') != std::string::npos) {
+            listed += fmt::format("# {} = {}  # {}\n", settings[k].key, value, remark);
+            continue;
+        }
         auto at = std::find_if(tables.begin(), tables.end(), [&](const auto& one) { return one.first == table; });
         if (at == tables.end()) at = tables.insert(tables.end(), {table, ""});
-        const FoundKey& found = outcome.keys[k];
-        at->second +=
-            fmt::format("{} = {:.6g}  # {}\n", key, std::get<double>(settings[k].value),
-                        !found.determined         ? "not determined by the targets"
-                        : rock.free[k].of.empty() ? fmt::format("95 %: {:.4g} to {:.4g}", found.low, found.high)
-                                                  : fmt::format("{:.4g} of {}, 95 %: {:.4g} to {:.4g}", found.value,
-                                                                rock.free[k].of, found.low, found.high));
+        at->second += fmt::format("{} = {}  # {}\n", key, value, remark);
     }
     std::string text;
     for (const auto& [table, lines] : tables) text += fmt::format("[{}]\n{}", table, lines);
-    return text;
+    return text + listed;
 }
 
 void write_calibration(const Rock& rock, const CalibrationOutcome& outcome, const std::filesystem::path& folder) {
     const std::vector<double> values = outcome.values();
+    const std::filesystem::path cases = folder / "cases";
+    make_folder(cases);
+    std::set<std::filesystem::path> written;
     for (std::size_t test = 0; test < rock.tests.size(); ++test) {
         std::ostringstream out;
-        write_resolved_case(out, rock.case_of(test, values), folder);
-        replace_file(folder / (rock.tests[test].name + ".toml"), out.str());
+        write_resolved_case(out, rock.case_of(test, values), cases);
+        written.insert(cases / (rock.tests[test].name + ".toml"));
+        replace_file(cases / (rock.tests[test].name + ".toml"), out.str());
     }
+    // Of tests that the rock had before.
+    for (const auto& entry : std::filesystem::directory_iterator(cases))
+        if (entry.path().extension() == ".toml" && !written.contains(entry.path()))
+            std::filesystem::remove(entry.path());
     replace_file(folder / "rock.toml", fmt::format("# {}: keys as `crackle calibrate` has found them; calibration.txt "
                                                    "says what they reach.\n{}",
                                                    rock.title, found_keys_toml(rock, outcome)));

@@ -17,14 +17,14 @@ nlohmann::ordered_json calibration_json(const Rock& rock, const CalibrationOutco
 /// The same as a text, for a terminal or a file.
 std::string calibration_text(const Rock& rock, const CalibrationOutcome& outcome);
 
-/// Of these, what is out of reach and what is not determined; empty where all is well.
+/// Of these, what is out of reach, what is not determined, and packings that are in no mean; empty where all is well.
 std::string calibration_remarks(const Rock& rock, const CalibrationOutcome& outcome);
 
 /// TOML lines of the found keys with their intervals: what a case has to say to be this rock.
 std::string found_keys_toml(const Rock& rock, const CalibrationOutcome& outcome);
 
-/// Writes DIR/TEST.toml for each test (everything in the open), rock.toml (found_keys_toml()), calibration.json and
-/// calibration.txt. @throws OutputError
+/// Writes DIR/cases/TEST.toml for each test (everything in the open), rock.toml (found_keys_toml()), calibration.json
+/// and calibration.txt. @throws OutputError
 void write_calibration(const Rock& rock, const CalibrationOutcome& outcome, const std::filesystem::path& folder);
 
 }  // namespace crackle

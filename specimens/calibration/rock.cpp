@@ -12,6 +12,7 @@
 #include "specimens/campaign/plan_file.hpp"
 #include "specimens/case/keyed_table.hpp"
 #include "specimens/case/parameters.hpp"
+#include "specimens/recordings/measured_curve.hpp"
 #include "specimens/results/summary.hpp"
 
 namespace crackle {
@@ -72,11 +73,14 @@ Target read_target(const Rock& rock, const KeyedTable& table) {
     const std::optional<std::string> figure = table.text("figure");
     if (!figure) table.refuse("figure", "nothing");
     target.figure = *figure;
-    std::string name = target.figure.substr(0, target.figure.find('.'));
+    std::string name = target.figure;
     if (name.ends_with(converted_suffix)) name.resize(name.size() - std::string_view(converted_suffix).size());
     const auto& known = summary_keys();
     if (std::none_of(known.begin(), known.end(), [&](const SummaryKey& key) { return key.what.name == name; }))
         table.refuse("figure", fmt::format("\"{:.60}\"", *figure), "a figure of summary.json, peak_stress say");
+    for (const Target& other : rock.targets)
+        if (other.test == target.test && other.figure == target.figure)
+            table.refuse("figure", fmt::format("{} twice", *figure), "one [[target]] a figure of a test");
     const std::optional<double> value = table.positive("value");
     if (!value) table.refuse("value", "nothing");
     target.value = *value;
@@ -89,8 +93,17 @@ FreeKey read_free(const Rock& rock, const KeyedTable& table) {
     const auto [key, parameter] = read_case_key(table);
     if (parameter->kind != ValueKind::real)
         table.refuse("key", fmt::format("\"{:.40}\"", key), "one that has a number");
+    for (const char* other : {"numerics.", "output.", "loading."})
+        if (key.starts_with(other))
+            table.refuse("key", fmt::format("\"{}\"", key),
+                         "a key of the rock; what tests are run with is no property of it");
     FreeKey free;
     free.key = key;
+    for (const PlannedTest& test : rock.tests)
+        for (const CaseSetting& setting : test.settings)
+            if (setting.key == key)
+                table.refuse("key", fmt::format("{}, which `set` of test {} gives a value", key, test.name),
+                             "it in one of them");
     free.where = table.where("key");
     for (const FreeKey& other : rock.free)
         if (other.key == free.key) table.refuse("key", fmt::format("{} twice", key), "one [[free]] a key");
@@ -180,6 +193,11 @@ Rock read_rock(const fs::path& path) {
         if (!name) table.refuse("file", "nothing");
         curve.file = (path.parent_path() / *name).lexically_normal();
         if (!is_file(curve.file)) table.refuse("file", fmt::format("no file {:.200}", curve.file.string()));
+        try {
+            curve.points = read_measured_curve(curve.file);
+        } catch (const InputError& error) {
+            throw InputError(fmt::format("{}: [[curve]] file: {}", table.where("file"), error.what()));
+        }
         rock.curves.push_back(curve);
     }
     const KeyedTable packings = file.table("packings");

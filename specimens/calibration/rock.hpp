@@ -17,6 +17,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "specimens/campaign/plan.hpp"
@@ -42,7 +43,7 @@ struct FreeKey {
     std::string where = {};
 
     bool logarithmic() const { return from > 0.0; }
-    double scale() const { return 0.5 * (from + to); }
+    double scale() const { return to - from; }  ///< of a linear one
     double to_variable(double value) const;
     double to_value(double variable) const;
     std::string name() const { return of.empty() ? key : key + " over " + of; }
@@ -51,6 +52,7 @@ struct FreeKey {
 struct MeasuredCurve {
     std::size_t test = 0;
     std::filesystem::path file;
+    std::vector<std::pair<double, double>> points;  ///< strain, stress
 };
 
 struct Rock {

@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "specimens/calibration/linear_figures.hpp"
-#include "specimens/campaign/point_table.hpp"
 
 namespace crackle {
 namespace {
@@ -24,7 +23,7 @@ Index level_key_of(const SearchSpace& space) {
     if (tensile < 0 || !cohesion) return -1;
     for (std::size_t test = 0; test < space.rock.tests.size(); ++test) {
         const TestCase at = space.rock.case_of(test, space.values_at(space.start));
-        if (at.bond.law != "coulomb" || !at.mineral.empty()) return -1;
+        if (at.bond.law != "coulomb" || !at.area_units() || !at.mineral.empty()) return -1;
     }
     return tensile;
 }
@@ -68,7 +67,8 @@ std::vector<double> SearchSpace::values_at(const Eigen::VectorXd& x) const {
 }
 
 bool SearchSpace::goes_with_level(Index t) const {
-    return level_key >= 0 && !unit_of_figure(target(t).figure, true).empty();
+    const std::string& figure = target(t).figure;
+    return level_key >= 0 && (figure.starts_with("peak_stress") || figure.starts_with("largest_stress"));
 }
 
 }  // namespace crackle

@@ -12,7 +12,6 @@ namespace {
 
 struct Fit {
     Eigen::VectorXd coefficients;
-    Eigen::MatrixXd covariance;
     double left_out_error = std::numeric_limits<double>::infinity();
 };
 
@@ -24,9 +23,6 @@ Fit fit(const Eigen::MatrixXd& rows, const Eigen::VectorXd& values) {
     fit.coefficients = qr.solve(values);
     const Eigen::VectorXd residuals = values - rows * fit.coefficients;
     const Eigen::MatrixXd inverse = (rows.transpose() * rows).inverse();
-    const auto freedom = static_cast<double>(rows.rows() - rows.cols());
-    const double variance = freedom > 0.0 ? residuals.squaredNorm() / freedom : 0.0;
-    fit.covariance = variance * inverse;
     // Leaving a point out changes its residual by 1/(1 − leverage).
     const Eigen::VectorXd leverage = (rows * inverse).cwiseProduct(rows).rowwise().sum();
     fit.left_out_error = std::sqrt((residuals.array() / (1.0 - leverage.array()).max(1e-12)).square().mean());
@@ -67,7 +63,6 @@ Surface::Surface(Eigen::VectorXd centre, const Eigen::MatrixXd& points, const Ei
             quadratic_ = false;
     }
     coefficients_ = std::move(best.coefficients);
-    covariance_ = std::move(best.covariance);
     left_out_error_ = best.left_out_error;
 }
 
@@ -100,11 +95,6 @@ Eigen::VectorXd Surface::gradient(const Eigen::VectorXd& x) const {
         }
     }
     return slope;
-}
-
-double Surface::standard_error(const Eigen::VectorXd& x) const {
-    const Eigen::VectorXd t = terms(x);
-    return std::sqrt(std::max(0.0, t.dot(covariance_ * t)));
 }
 
 }  // namespace crackle

@@ -13,7 +13,7 @@ namespace crackle {
 /// y = c0 + Σ c_i z_i (+ Σ_{i<=j} c_ij z_i z_j), z = x − centre.
 class Surface {
   public:
-    /// Linear, or quadratic where there are at least two points more than its terms and it foretells points left out
+    /// Linear, or quadratic where there are at least two points more than its terms and it predicts points left out
     /// better (leave-one-out).
     /// @param points a column each  @param slopes known ones; not a number: to be found. A known one has no square.
     /// @throws std::invalid_argument if there are fewer points than a linear surface has terms
@@ -22,13 +22,10 @@ class Surface {
 
     double value(const Eigen::VectorXd& x) const;
     Eigen::VectorXd gradient(const Eigen::VectorXd& x) const;
-    /// Of the value at x, from the scatter of the points about the surface; of few points more than terms it is itself
-    /// known badly.
-    double standard_error(const Eigen::VectorXd& x) const;
 
     void shift(double by) { coefficients_[0] += by; }
     bool quadratic() const { return quadratic_; }
-    /// Root of the mean square by which points were foretold by the others.
+    /// Root of the mean square by which points were predicted by the others.
     double left_out_error() const { return left_out_error_; }
 
   private:
@@ -38,7 +35,6 @@ class Surface {
     std::vector<Eigen::Index> found_;  // variables whose slopes are
     bool quadratic_ = false;
     Eigen::VectorXd coefficients_;
-    Eigen::MatrixXd covariance_;
     double left_out_error_ = 0.0;
 };
 

@@ -16,11 +16,11 @@ using Eigen::VectorXd;
 
 // Points of earlier designs this many half-widths away count, too.
 constexpr double reach_of_points = 2.5;
-// A solution may lie this many half-widths from the middle of the design; along the level, which is known to go with
-// the first power, this far in logarithms.
-constexpr double reach_of_surface = 1.6, reach_of_level = 3.0;
-// Pull of the start values where targets say nothing, in tolerances a unit of logarithm.
-constexpr double pull_of_start = 0.02;
+// Along the level, which is known to go with the first power, a solution may lie this far, in logarithms.
+constexpr double reach_of_level = 3.0;
+// Pull of the start values where targets say nothing, in tolerances a unit of logarithm: more than noise, little beside
+// a target that says something.
+constexpr double pull_of_start = 0.1;
 // Share of the packings that must have given all figures.
 constexpr double least_share_done = 0.5;
 constexpr double fewest_done = 3.0;
@@ -101,7 +101,7 @@ std::size_t SurfaceSearch::fit(const VectorXd& middle, double width) {
     return near.size();
 }
 
-VectorXd SurfaceSearch::foretell(const VectorXd& x) const {
+VectorXd SurfaceSearch::predict(const VectorXd& x) const {
     VectorXd all = space_.logs;
     for (std::size_t k = 0; k < surfaces_.size(); ++k) all[space_.other_targets[k]] = surfaces_[k].value(x);
     return all;
@@ -148,6 +148,14 @@ MatrixXd SurfaceSearch::slopes(const VectorXd& x) const {
         const Index t = space_.other_targets[k];
         all.row(t) = surfaces_[k].gradient(x).transpose() / space_.widths[t];
     }
+    return all;
+}
+
+std::vector<SurfaceQuality> SurfaceSearch::quality() const {
+    std::vector<SurfaceQuality> all;
+    for (std::size_t k = 0; k < surfaces_.size(); ++k)
+        all.push_back({static_cast<std::size_t>(space_.other_targets[k]), surfaces_[k].quadratic(),
+                       surfaces_[k].left_out_error()});
     return all;
 }
 

@@ -9,11 +9,14 @@
 
 #include "specimens/calibration/search_space.hpp"
 #include "specimens/calibration/surface.hpp"
+#include "specimens/calibration/surface_quality.hpp"
 
 namespace crackle {
 
 /// Half-widths of a design, in logarithms: 0.3 is from 0.74 to 1.35 of its middle.
 inline constexpr double wide_design = 0.3, narrow_design = 0.18;
+/// A solution may lie this many half-widths from the middle of the design.
+inline constexpr double reach_of_surface = 1.6;
 
 class SurfaceSearch {
   public:
@@ -33,13 +36,16 @@ class SurfaceSearch {
 
     bool empty() const { return surfaces_.empty(); }
     /// Logarithms of all targets' figures; those of linear targets are taken to be met.
-    Eigen::VectorXd foretell(const Eigen::VectorXd& x) const;
+    Eigen::VectorXd predict(const Eigen::VectorXd& x) const;
     /// Best point near a middle. @param weights of the targets
     Eigen::VectorXd solve(const Eigen::VectorXd& middle, double width, const Eigen::VectorXd& weights) const;
     /// Moves the surfaces to means that were measured at x.
     void shift(const Eigen::VectorXd& x, const Eigen::VectorXd& means);
     /// Of the other targets' figures in tolerances, over all variables; rows of linear targets are zero.
     Eigen::MatrixXd slopes(const Eigen::VectorXd& x) const;
+
+    /// Of each surface.
+    std::vector<SurfaceQuality> quality() const;
 
     /// In half-widths, over the keys that are searched here.
     double distance(const Eigen::VectorXd& a, const Eigen::VectorXd& b, double width) const;

@@ -129,6 +129,9 @@ std::vector<PlannedTest> read_planned_tests(const KeyedFile& file) {
     std::set<std::string> names;
     for (const KeyedTable& table : file.tables("test")) {
         tests.push_back(read_test(file.path(), table));
+        const std::string& name = tests.back().name;
+        if (name.find('/') != std::string::npos || name.front() == '.')
+            table.refuse("name", fmt::format("\"{:.40}\"", name), "a name without / that does not begin with a dot");
         if (!names.insert(tests.back().name).second)
             throw InputError(fmt::format("{}: found two tests called {:.40}, expected a name for each",
                                          file.path().string(), tests.back().name));

@@ -28,7 +28,9 @@ namespace fs = std::filesystem;
 /// A folder is taken that is new, empty, or a calibration's.
 void check_folder(const fs::path& folder) {
     if (!is_there(folder)) return;
-    if (is_folder(folder) && (fs::is_empty(folder) || is_there(folder / "search"))) return;
+    if (is_folder(folder) && (fs::is_empty(folder) || is_there(folder / "search" / "campaign.sqlite") ||
+                              is_there(folder / "search" / "packings")))
+        return;
     throw InputError(
         fmt::format("{}: found files that no calibration made, expected a new folder or a calibration's; "
                     "choose another -o",
@@ -42,11 +44,10 @@ void print_plan(const Rock& rock) {
         fmt::print("  {:<40}{:.6g} within {:.3g} %\n", target.name(rock.tests), target.value, 100.0 * target.tolerance);
     for (const FreeKey& free : rock.free)
         fmt::print("  {:<54}{:.4g} to {:.4g}, from {:.4g}\n", free.name(), free.from, free.to, free.start);
-    const std::size_t design = 2 * rock.free.size() + 3;
-    fmt::print("  a round is up to {} tests, of which there are three to eight; then {} and {}\n",
-               static_cast<std::int64_t>(design * rock.tests.size()) * rock.fit,
-               rock.polish * static_cast<std::int64_t>(rock.tests.size()),
-               rock.fresh * static_cast<std::int64_t>(rock.tests.size()));
+    const auto tests = static_cast<std::int64_t>(rock.tests.size());
+    fmt::print("  a round is up to {} tests, two to ten of them; then {} tests up to three times, and {}\n",
+               static_cast<std::int64_t>(2 * rock.free.size() + 3) * tests * rock.fit, rock.polish * tests,
+               rock.fresh * tests);
 }
 
 }  // namespace
@@ -58,19 +59,20 @@ CommandLine describe_calibrate() {
         ("dry-run", "judge the file and all corners of its bounds; run nothing, write nothing")                  //
         ("long", "run tests although they take more than a day, or 1e10 steps")                                  //
         ("keys", "list all keys of a rock's file");
-    return {.synopses = {"crackle calibrate ROCK.toml -o DIR [OPTIONS]"},
-            .description =
-                "Finds the free keys of a rock's cases so that the means of its tests over packings are the targets "
-                "that a laboratory has measured: moduli by sparse linear solves, strengths by a response surface over "
-                "wide designs on the same packings. Ends with cases (DIR/TEST.toml), the keys with their intervals "
-                "(DIR/rock.toml), and a table of what fresh packings reach; says which targets are out of reach, with "
-                "their frontier, and which keys the targets do not determine. Stopped at any moment, the same command "
-                "goes on. Exit code 1: a target was not reached.",
-            .options = {{"options", options}},
-            .operand = "ROCK.toml",
-            .examples = {{"crackle calibrate specimens/rocks/sandstone_targets.toml --dry-run"},
-                         {"crackle calibrate specimens/rocks/sandstone_targets.toml -o out/sandstone"},
-                         {"crackle campaign show out/sandstone/search"}}};
+    return {
+        .synopses = {"crackle calibrate ROCK.toml -o DIR [OPTIONS]"},
+        .description =
+            "Finds the free keys of a rock's cases so that the means of its tests over packings are the targets "
+            "that a laboratory has measured: moduli by sparse linear solves, strengths by a response surface over "
+            "wide designs on the same packings. Ends with cases (DIR/cases/TEST.toml), the keys with their intervals "
+            "(DIR/rock.toml), and a table of what fresh packings reach; says which targets are out of reach, with "
+            "their frontier, and which keys the targets do not determine. Stopped at any moment, the same command "
+            "goes on. Exit code 1: a target was not reached.",
+        .options = {{"options", options}},
+        .operand = "ROCK.toml",
+        .examples = {{"crackle calibrate specimens/targets/sandstone.toml --dry-run"},
+                     {"crackle calibrate specimens/targets/sandstone.toml -o out/sandstone"},
+                     {"crackle campaign show out/sandstone/search"}}};
 }
 
 int calibrate_rock(const Invocation& given) {
@@ -115,11 +117,11 @@ int calibrate_rock(const Invocation& given) {
     try {
         const CalibrationOutcome outcome = calibrate(rock, options, hooks);
         write_calibration(rock, outcome, options.folder);
-        replace_file(options.folder / "calibration.html", calibration_page(rock, outcome, options.folder));
         messages.make_room();
+        if (!messages.quiet()) fmt::print("{}", calibration_text(rock, outcome));
+        replace_file(options.folder / "calibration.html", calibration_page(rock, outcome, options.folder));
         if (!messages.quiet())
-            fmt::print("{}  cases, rock.toml, calibration.json and .html in {}\n", calibration_text(rock, outcome),
-                       options.folder.string());
+            fmt::print("  cases, rock.toml, calibration.json and .html in {}\n", options.folder.string());
         return outcome.all_reached() ? exit_done : exit_claim_fails;
     } catch (const TestInterrupted&) {
         messages.make_room();

@@ -22,7 +22,7 @@ bool in_area_units(const Rock& rock, const CalibrationOutcome& outcome, std::siz
 std::string targets_table(const Rock& rock, const CalibrationOutcome& outcome) {
     std::string text =
         "<div class=\"wide\"><table><thead><tr><th>target</th><th>value</th><th>mean ± its error</th>"
-        "<th>deviation</th><th>off, %</th><th>allowed</th><th class=\"word\"></th></tr></thead><tbody>\n";
+        "<th>scatter</th><th>off, %</th><th>allowed</th><th class=\"word\"></th></tr></thead><tbody>\n";
     for (std::size_t k = 0; k < rock.targets.size(); ++k) {
         const Target& target = rock.targets[k];
         const ReachedTarget& reached = outcome.targets[k];
@@ -32,10 +32,7 @@ std::string targets_table(const Rock& rock, const CalibrationOutcome& outcome) {
             "<td class=\"word{}\">{}</td></tr>\n",
             html(spoken_figure(target.figure)), html(rock.tests[target.test].name), unit.empty() ? "" : ", " + unit,
             in_cell(target.value), in_cell(reached.fresh.mean), reached.fresh.standard_error, reached.fresh.deviation,
-            100.0 * reached.deviation, 100.0 * reached.limit, reached.reached ? "" : " wrong",
-            reached.reached        ? "reached"
-            : reached.within_reach ? "missed"
-                                   : "out of reach");
+            100.0 * reached.off, 100.0 * reached.limit, reached.reached() ? "" : " wrong", name_of(reached.verdict));
     }
     return text + "</tbody></table></div>\n";
 }
@@ -105,23 +102,23 @@ std::optional<CampaignFigure> targets_plane(const Rock& rock, const CalibrationO
 
 std::string calibration_page(const Rock& rock, const CalibrationOutcome& outcome, const std::filesystem::path& folder) {
     const auto reached = std::count_if(outcome.targets.begin(), outcome.targets.end(),
-                                       [](const ReachedTarget& one) { return one.reached; });
+                                       [](const ReachedTarget& one) { return one.reached(); });
     std::string text = page_head(
         rock.title, fmt::format("{} of {} targets reached on {} fresh packings; {} tests, {:.3g} s of a processor, {} "
                                 "linear solves",
-                                reached, outcome.targets.size(), rock.fresh, outcome.tests, outcome.processor_seconds,
-                                outcome.linear_solves));
+                                reached, outcome.targets.size(), outcome.targets.front().fresh.count, outcome.tests,
+                                outcome.processor_seconds, outcome.linear_solves));
     text += "<h2>Targets</h2>\n" + targets_table(rock, outcome);
     text += "<h2>Keys</h2>\n" + keys_table(rock, outcome);
     const std::string remarks = calibration_remarks(rock, outcome);
-    if (!remarks.empty()) text += "<pre>" + html(remarks) + "</pre>\n";
+    if (!remarks.empty()) text += "<pre style=\"white-space:pre-wrap\">" + html(remarks) + "</pre>\n";
     text += "<h2>Figures</h2>\n";
     if (const auto plane = targets_plane(rock, outcome)) text += figure_html(*plane);
     CampaignRecord record = read_campaign(folder / "fresh");
     // Axes that have one value, the found one, say nothing in a figure.
     for (PointSummary& point : record.points) point.axes.clear();
     for (const MeasuredCurve& curve : rock.curves)
-        record.measured[rock.tests[curve.test].name].push_back(plot::read_measured_curve(curve.file));
+        record.measured[rock.tests[curve.test].name].push_back({"measured", curve.points});
     for (const CampaignFigure& figure : campaign_figures(record)) text += figure_html(figure);
     return text + "</body></html>\n";
 }

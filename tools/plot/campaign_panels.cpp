@@ -7,10 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "solver/base/errors.hpp"
-#include "solver/files/read_file.hpp"
 #include "specimens/campaign/statistics.hpp"
-#include "specimens/recordings/test_results.hpp"
+#include "specimens/recordings/measured_curve.hpp"
 #include "tools/plot/axes.hpp"
 #include "tools/plot/legend.hpp"
 
@@ -98,19 +96,8 @@ Band band_of(const CurveBundle& bundle, double share, std::size_t strains) {
     return band;
 }
 
-LabelledCurve read_measured_curve(const std::filesystem::path& file) {
-    const NumberTable table = number_table(file, read_text(file));
-    const std::vector<double>*strain = table.find("axial_strain"), *stress = table.find("axial_stress");
-    if (strain == nullptr || stress == nullptr || strain->size() < 2)
-        throw InputError(
-            fmt::format("{}: found no curve, expected columns axial_strain and axial_stress with two rows "
-                        "or more, the first line their names",
-                        file.string()));
-    LabelledCurve curve{"measured (" + file.filename().string() + ")", {}};
-    for (std::size_t k = 0; k < strain->size(); ++k)
-        if (std::isfinite((*strain)[k]) && std::isfinite((*stress)[k]))
-            curve.points.emplace_back((*strain)[k], (*stress)[k]);
-    return curve;
+LabelledCurve labelled_curve(const std::filesystem::path& file) {
+    return {"measured (" + file.filename().string() + ")", read_measured_curve(file)};
 }
 
 Panel curve_bands(const std::vector<CurveBundle>& bundles, const std::vector<LabelledCurve>& measured) {

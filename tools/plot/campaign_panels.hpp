@@ -32,8 +32,8 @@ struct LabelledCurve {
     std::vector<std::pair<double, double>> points;  ///< strain, stress in the units of the bundles
 };
 
-/// Of a CSV file with columns axial_strain and axial_stress (others are left alone). @throws InputError
-LabelledCurve read_measured_curve(const std::filesystem::path& file);
+/// Of a file, named after it. @throws as read_measured_curve()
+LabelledCurve labelled_curve(const std::filesystem::path& file);
 
 /// Bands with their medians, measured curves dashed over them.
 Panel curve_bands(const std::vector<CurveBundle>& bundles, const std::vector<LabelledCurve>& measured = {});

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -63,6 +64,17 @@ TEST(Determination, NamesTheCombinationThatNoTargetFeels) {
     EXPECT_FALSE(found.determined[0]);
     EXPECT_FALSE(found.determined[1]);
     EXPECT_TRUE(found.determined[2]);
+}
+
+TEST(Determination, StatesTheLargestChangeOfATargetAlongTheStep) {
+    // Along (1, 1) the step of both is 0.3: the target changes by 0.3 times 0.8 and as much again.
+    MatrixXd slopes(1, 2);
+    slopes << 0.8, 0.8;
+    const Determination found = determine(slopes, MatrixXd::Identity(1, 1), 0.3);
+    ASSERT_EQ(found.open.size(), 2U);
+    EXPECT_TRUE(agrees("change along the sum", std::max(found.open[0].change, found.open[1].change), 0.48, 1e-12));
+    // A little steeper and it is determined.
+    EXPECT_EQ(determine(1.1 * slopes, MatrixXd::Identity(1, 1), 0.3).open.size(), 1U);
 }
 
 TEST(Determination, ASlopeThatIsTooFlatLeavesItsKeyOpen) {

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "solver/base/errors.hpp"
+#include "specimens/calibration/search_space.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/deck_files.hpp"
 #include "tests/support/small_circles_rock.hpp"
@@ -87,6 +88,48 @@ TEST_F(RockFile, RefusesWithFileLineAndKey) {
     expect_refused(tests_ + target_ + free + "[packings]\nfit = 2\n", "a whole number, 4 to 10000");
     expect_refused(tests_ + target_ + free + "[[curve]]\ntest = \"tension\"\nfile = \"none.csv\"\n", "found no file");
     expect_refused(tests_ + target_ + free + "[speed]\n", "found an unknown key");
+    expect_refused(tests_ + target_ + target_ + free, "peak_stress twice");
+    expect_refused(tests_ + target_text("tension", "peak_stress.foo", 1) + free, "a figure of summary.json");
+    expect_refused(tests_ + target_ + "[[free]]\nkey = \"loading.max_axial_strain\"\nfrom = 1e-3\nto = 1e-2\n",
+                   "what tests are run with is no property of it");
+    expect_refused("[[test]]\nname = \"../evil\"\ncase = \"tension.toml\"\n" + free, "a name without /");
+    expect_refused("[[test]]\ncase = \"compression.toml\"\nset = {\"material.cohesion\" = 1e7}\n" + target_ + free,
+                   "which `set` of test compression gives a value");
+    testing::write_text(folder_ / "curve.csv", "strain,stress\n0,0\n1,1\n");
+    expect_refused(tests_ + target_ + free + "[[curve]]\ntest = \"tension\"\nfile = \"curve.csv\"\n",
+                   "expected columns axial_strain and axial_stress");
+    testing::write_text(folder_ / "curve.csv", "axial_strain,axial_stress\n0,0\n1,one\n");
+    expect_refused(tests_ + target_ + free + "[[curve]]\ntest = \"tension\"\nfile = \"curve.csv\"\n", "curve.csv:3");
+}
+
+TEST_F(RockFile, AMeasuredCurveIsReadWithIt) {
+    testing::write_text(folder_ / "curve.csv", "time,axial_strain,axial_stress\n0,0,0\n1,0.001,nan\n2,0.002,3e6\n");
+    const Rock rock = rock_of(tests_ + target_ + strengths_ + "[[curve]]\ntest = \"tension\"\nfile = \"curve.csv\"\n");
+    ASSERT_EQ(rock.curves.size(), 1U);
+    EXPECT_EQ(rock.curves[0].test, 1U);
+    EXPECT_EQ(rock.curves[0].points, (std::vector<std::pair<double, double>>{{0.0, 0.0}, {0.002, 3e6}}));
+}
+
+TEST_F(RockFile, KeysAndTargetsGoToTheSearchThatFindsThem) {
+    const std::string modulus = target_text("compression", "youngs_modulus", 1e10);
+    const Rock both = rock_of(tests_ + modulus + target_ + testing::elastic_keys + strengths_);
+    const SearchSpace space(both);
+    EXPECT_EQ(space.linear_keys, (std::vector<Eigen::Index>{0, 1}));
+    EXPECT_EQ(space.linear_targets, (std::vector<Eigen::Index>{0}));
+    EXPECT_EQ(space.other_keys, (std::vector<Eigen::Index>{2, 3}));
+    EXPECT_EQ(space.level_key, 2);
+    EXPECT_TRUE(space.goes_with_level(1));
+    // Without an elastic key a modulus is a target like others, that no strength moves in proportion.
+    const Rock strengths = rock_of(tests_ + modulus + target_ + strengths_);
+    const SearchSpace other(strengths);
+    EXPECT_TRUE(other.linear_targets.empty());
+    EXPECT_FALSE(other.goes_with_level(0));
+    EXPECT_TRUE(other.goes_with_level(1));
+    // Cohesion by itself does not go with the tensile strength.
+    const Rock apart = rock_of(tests_ + target_ +
+                               "[[free]]\nkey = \"material.tensile_strength\"\nfrom = 1e6\nto = 1e7\n"
+                               "[[free]]\nkey = \"material.cohesion\"\nfrom = 6e6\nto = 9e7\n");
+    EXPECT_EQ(SearchSpace(apart).level_key, -1);
 }
 
 TEST_F(RockFile, CornersOfTheBoundsAreJudgedBeforeAnyTest) {

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -47,7 +48,7 @@ TEST(Surface, GivesBackALinearFunction) {
     const Vector2d far(1.7, -1.0);
     EXPECT_TRUE(agrees("value", surface.value(far), 3.0 + 0.85 + 2.0, 1e-12));
     EXPECT_TRUE(agrees("slope", surface.gradient(far)[1], -2.0, 1e-12));
-    EXPECT_LT(surface.standard_error(far), 1e-12) << "no scatter";
+    EXPECT_LT(surface.left_out_error(), 1e-12) << "no scatter";
 }
 
 TEST(Surface, TakesSquaresWhereThePointsPayForThem) {
@@ -81,27 +82,6 @@ TEST(Surface, KnownSlopesAreTakenAsTheyAre) {
     EXPECT_TRUE(agrees("far along the known one", surface.value(Vector2d(9.0, -2.0)), 9.0 - 8.0, 1e-11));
 }
 
-/// The stated error is what 2,000 surfaces through scattered points are off by.
-TEST(Surface, StandardErrorIsThatOfRepeatedDesigns) {
-    const MatrixXd points = points_of(10);
-    const Vector2d at(1.25, -1.8);
-    std::mt19937_64 random(3);
-    std::normal_distribution<double> noise(0.0, 0.05);
-    double squares = 0.0, stated = 0.0;
-    constexpr int repeats = 2000;
-    VectorXd slopes(2);
-    slopes << unknown, 1.0;  // one term less than the linear surface: no squares in one variable are tried for long
-    for (int k = 0; k < repeats; ++k) {
-        const VectorXd values = values_of(points, [&](double x, double y) { return 0.4 * x + y + noise(random); });
-        const Surface surface(Vector2d(1.0, -2.0), points, values, slopes);
-        if (surface.quadratic()) continue;
-        squares += std::pow(surface.value(at) - (0.4 * 1.25 - 1.8), 2.0);
-        stated += std::pow(surface.standard_error(at), 2.0);
-    }
-    // Of 2,000 squares a mean is known to 1/sqrt(1000), at four deviations.
-    EXPECT_TRUE(agrees("mean square of the error", stated / squares, 1.0, 0.13));
-}
-
 TEST(Surface, TooFewPointsAreRefused) {
     const MatrixXd points = points_of(2);
     EXPECT_THROW(Surface(Vector2d::Zero(), points, VectorXd::Zero(2), VectorXd::Constant(2, unknown)),
@@ -128,6 +108,24 @@ TEST(BoxMinimum, IsWhereTheResidualsVanishOrOnTheBound) {
     const VectorXd bound = box_minimum(two_lines, Vector2d(0.1, 0.2), Vector2d(-9, -9), Vector2d(9, 1));
     EXPECT_TRUE(agrees("x on the bound", bound[0], 1.5, 1e-7));
     EXPECT_TRUE(agrees("y on the bound", bound[1], 1.0, 1e-7));
+}
+
+/// Targets of any tolerance, far off: residuals of up to 1e5.
+TEST(BoxMinimum, DoesNotDependOnTheScaleOfTheResiduals) {
+    for (const double weight : {1e-3, 0.03, 1.0, 25.0, 30.0, 100.0, 1e3, 1e5}) {
+        const Residuals scaled = [&](const VectorXd& x, VectorXd& r, MatrixXd& jacobian) {
+            r.resize(4);
+            r << weight * (x[0] + 0.3 * x[1] - 2.0), 5.0 * (x[0] - 0.5 * x[1] + 1.0), 0.1 * x[0], 0.1 * x[1];
+            jacobian.resize(4, 2);
+            jacobian << weight, 0.3 * weight, 5.0, -2.5, 0.1, 0.0, 0.0, 0.1;
+        };
+        VectorXd r;
+        MatrixXd jacobian;
+        scaled(VectorXd::Zero(2), r, jacobian);
+        const VectorXd exact = -(jacobian.transpose() * jacobian).ldlt().solve(jacobian.transpose() * r);
+        const VectorXd found = box_minimum(scaled, Vector2d(-3.0, -3.0), Vector2d(-9, -9), Vector2d(9, 9));
+        EXPECT_LT((found - exact).cwiseAbs().maxCoeff(), 1e-4) << "weight " << weight << ": " << found.transpose();
+    }
 }
 
 }  // namespace

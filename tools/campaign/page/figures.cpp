@@ -158,7 +158,7 @@ CampaignRecord read_campaign(const fs::path& folder, const std::vector<std::stri
 }
 
 void add_measured_curve(CampaignRecord& record, const fs::path& file) {
-    const plot::LabelledCurve curve = read_measured_curve(file);
+    const plot::LabelledCurve curve = labelled_curve(file);
     std::set<std::string> kinds;
     for (const PointSummary& point : record.points) kinds.insert(point.test);
     if (kinds.size() > 1)

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Tested by tests/specimens/calibration/calibrate_test.cpp.
+#pragma once
+
+#include <cstddef>
+
+namespace crackle {
+
+/// How well a target's surface predicts points left out of it.
+struct SurfaceQuality {
+    std::size_t target = 0;
+    bool quadratic = false;
+    double left_out_error = 0.0;  ///< in logarithms
+};
+
+}  // namespace crackle
