@@ -181,7 +181,7 @@ Panel distributions(const std::string& title, const std::string& unit_name, cons
         Axes axes;
         axes.x = figure_scale(smallest / unit.factor, largest / unit.factor, place.width < 300.0 ? 5 : 8);
         // Rows have names in place of ticks.
-        axes.y = {1e-9, static_cast<double>(std::max<std::size_t>(1, samples.size())), 1e9};
+        axes.y = {1e-3, static_cast<double>(std::max<std::size_t>(1, samples.size())), 1e4};
         const double top = place.y + 1.6 * canvas.style().font_size;
         widest = std::min(widest, 0.4 * place.width);
         axes.frame = {place.x + widest + 8.0, top, place.width - widest - 14.0,
