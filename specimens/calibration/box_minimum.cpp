@@ -15,7 +15,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // Of the gradient that the bounds leave, over what the largest residual and derivative could make of it.
-constexpr double close = 1e-7;
+constexpr double close_to_bottom = 1e-7;
 constexpr int most_restarts = 30;
 
 struct Objective {
@@ -61,7 +61,7 @@ VectorXd box_minimum(const Residuals& residuals, const VectorXd& start, const Ve
         if (!(curvature > 0.0)) return best;
         sum.scale = 1.0 / curvature;
         least = sum(best, gradient);
-        if (way_left(best, gradient, low, high) < close) return best;
+        if (way_left(best, gradient, low, high) < close_to_bottom) return best;
         // Every second time by another way: what ends one of them early does not end the other.
         nlopt::opt search(k % 2 == 0 ? nlopt::LD_SLSQP : nlopt::LN_BOBYQA, static_cast<unsigned>(start.size()));
         search.set_min_objective(objective, &sum);

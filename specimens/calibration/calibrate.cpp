@@ -264,10 +264,10 @@ class Calibration {
                 outcome_.targets[static_cast<std::size_t>(t)].polish = mean_of_column(polished_.rows, t);
             surfaces_.shift(middle, polished_.means);
             linear_.learn(middle, polished_.means);
-            if (is_met(polished_)) break;  // what is left is chance
             if (!surfaces_.empty()) x_ = surfaces_.solve(middle, narrow_design, VectorXd::Ones(space_.targets));
             x_ = linear_.solve(x_);
-            if ((x_ - middle).cwiseAbs().maxCoeff() < large_correction) break;
+            // Means that are right within their chance are corrected by what they say, and not measured again.
+            if (is_met(polished_) || (x_ - middle).cwiseAbs().maxCoeff() < large_correction) break;
         }
     }
 

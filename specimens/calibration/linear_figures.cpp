@@ -16,9 +16,9 @@
 namespace crackle {
 namespace {
 
-using Json = nlohmann::json;
+using PlainJson = nlohmann::json;
 
-Json moduli_of_case(const TestCase& test, PackingStore& packings) {
+PlainJson moduli_of_case(const TestCase& test, PackingStore& packings) {
     std::array<double, linear_figures> found{};
     found.fill(std::nan(""));
     TestHooks hooks;
@@ -29,7 +29,7 @@ Json moduli_of_case(const TestCase& test, PackingStore& packings) {
         found = {moduli.youngs_modulus, moduli.poissons_ratio, moduli.gauge_modulus};
     };
     bond_test(test, hooks, look);
-    return Json(found);
+    return PlainJson(found);
 }
 
 }  // namespace
@@ -76,7 +76,7 @@ std::vector<std::vector<double>> mean_linear_figures(const LinearRequest& reques
         try {
             return moduli_of_case(plan.test_of(row), packings).dump();
         } catch (const std::exception& error) {
-            return Json{{"wrong", fmt::format("seed {}: {}", row.seed, error.what())}}.dump();
+            return PlainJson{{"wrong", fmt::format("seed {}: {}", row.seed, error.what())}}.dump();
         }
     };
     crew.next = [&](std::optional<std::size_t>) { return next < count ? std::optional(next++) : std::nullopt; };
@@ -86,7 +86,7 @@ std::vector<std::vector<double>> mean_linear_figures(const LinearRequest& reques
                                 rock.first_seed + static_cast<std::int64_t>(piece / request.tests.size()));
             return;
         }
-        const Json answer = Json::parse(end.answer);
+        const PlainJson answer = PlainJson::parse(end.answer);
         if (answer.is_object()) {
             if (refused.empty()) refused = answer["wrong"];
             return;

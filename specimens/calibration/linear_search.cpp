@@ -17,7 +17,7 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 // Moduli are solved for to this share of a tolerance.
-constexpr double close = 0.02;
+constexpr double close_to_targets = 0.02;
 // Of the first slopes: the moduli are smooth, and solved to nine digits.
 constexpr double difference = 0.1;
 constexpr int most_steps = 12;
@@ -57,7 +57,7 @@ VectorXd LinearSearch::solve(VectorXd x) {
     }
     VectorXd best = own;
     double least = residuals.squaredNorm();
-    for (int k = 0; k < most_steps && residuals.cwiseAbs().maxCoeff() > close; ++k) {
+    for (int k = 0; k < most_steps && residuals.cwiseAbs().maxCoeff() > close_to_targets; ++k) {
         const Residuals linear = [&](const VectorXd& some, VectorXd& r, MatrixXd& jacobian) {
             r = residuals + slopes_ * (some - own);
             jacobian = slopes_;

@@ -312,7 +312,7 @@ TestCase read_case(const fs::path& path) { return CaseFiles(path).with({}); }
 
 namespace {
 
-std::string quoted(const std::string& text) {
+std::string quoted_text(const std::string& text) {
     std::ostringstream out;
     out << toml::value<std::string>(text);
     return out.str();
@@ -327,11 +327,11 @@ std::string written_value(const TestCase& test, const Parameter& p, const CaseVa
         return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
     }
     if (const auto* texts = std::get_if<std::array<std::string, 2>>(&value))
-        return fmt::format("[{}, {}]", quoted((*texts)[0]), quoted((*texts)[1]));
+        return fmt::format("[{}, {}]", quoted_text((*texts)[0]), quoted_text((*texts)[1]));
     const std::string& text = std::get<std::string>(value);
-    if (!p.is_path) return quoted(text);
+    if (!p.is_path) return quoted_text(text);
     const fs::path target = test.resolve_path(p.full_key(), text);
-    return quoted(fs::absolute(target)
+    return quoted_text(fs::absolute(target)
                       .lexically_normal()
                       .lexically_proximate(fs::absolute(folder).lexically_normal())
                       .generic_string());
