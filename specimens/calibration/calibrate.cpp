@@ -127,6 +127,7 @@ class Calibration {
 
     void measure(const std::vector<VectorXd>& points, PackingRange packings) {
         std::vector<std::vector<double>> values;
+        values.reserve(points.size());
         for (const VectorXd& x : points) values.push_back(space_.values_at(x));
         search_.measure(values, packings);
     }
@@ -421,6 +422,7 @@ bool CalibrationOutcome::all_reached() const {
 
 std::vector<double> CalibrationOutcome::values() const {
     std::vector<double> all;
+    all.reserve(keys.size());
     for (const FoundKey& key : keys) all.push_back(key.value);
     return all;
 }

@@ -77,6 +77,7 @@ void Measurements::read(const Plan& plan) {
     };
     const std::size_t failed = column("failed"), state = column("state");
     std::vector<std::size_t> columns;
+    columns.reserve(rock_.targets.size());
     for (const Target& target : rock_.targets) columns.push_back(column(target.figure));
     for (auto& [place, figures] : known_) figures.assign(rock_.targets.size(), std::nan(""));
     std::vector<bool> any(rock_.targets.size(), false), done(rock_.tests.size(), false);

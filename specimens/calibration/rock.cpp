@@ -54,6 +54,7 @@ std::size_t test_of(const Rock& rock, const KeyedTable& table) {
         std::find_if(rock.tests.begin(), rock.tests.end(), [&](const auto& one) { return one.name == *name; });
     if (at == rock.tests.end()) {
         std::vector<std::string> names;
+        names.reserve(rock.tests.size());
         for (const PlannedTest& test : rock.tests) names.push_back(test.name);
         table.refuse("test", fmt::format("\"{:.40}\"", *name), fmt::format("one of {}", fmt::join(names, ", ")));
     }
