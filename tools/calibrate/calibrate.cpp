@@ -70,9 +70,9 @@ CommandLine describe_calibrate() {
             "goes on. Exit code 1: a target was not reached.",
         .options = {{"options", options}},
         .operand = "ROCK.toml",
-        .examples = {{"crackle calibrate specimens/targets/sandstone.toml --dry-run"},
-                     {"crackle calibrate specimens/targets/sandstone.toml -o out/sandstone"},
-                     {"crackle campaign show out/sandstone/search"}}};
+        .examples = {{"crackle calibrate specimens/targets/granite.toml --dry-run"},
+                     {"crackle calibrate specimens/targets/granite.toml -o out/granite"},
+                     {"crackle campaign show out/granite/search"}}};
 }
 
 int calibrate_rock(const Invocation& given) {
