@@ -332,9 +332,9 @@ std::string written_value(const TestCase& test, const Parameter& p, const CaseVa
     if (!p.is_path) return quoted_text(text);
     const fs::path target = test.resolve_path(p.full_key(), text);
     return quoted_text(fs::absolute(target)
-                      .lexically_normal()
-                      .lexically_proximate(fs::absolute(folder).lexically_normal())
-                      .generic_string());
+                           .lexically_normal()
+                           .lexically_proximate(fs::absolute(folder).lexically_normal())
+                           .generic_string());
 }
 
 /// Tables that say nothing where the case has none.

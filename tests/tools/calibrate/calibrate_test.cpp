@@ -34,8 +34,8 @@ TEST_F(CalibrateCommand, EndsWithCasesATableAndItsKeys) {
     EXPECT_EQ(answer.err.find('\r'), std::string::npos) << "no progress line in a pipe";
     EXPECT_NE(answer.out.find("Small circles: "), std::string::npos) << answer.out;
     EXPECT_EQ(answer.code, answer.out.find("2 of 2 targets reached") != std::string::npos ? 0 : 1) << answer.out;
-    for (const char* file :
-         {"cases/compression.toml", "cases/tension.toml", "rock.toml", "calibration.json", "calibration.txt", "calibration.html"})
+    for (const char* file : {"cases/compression.toml", "cases/tension.toml", "rock.toml", "calibration.json",
+                             "calibration.txt", "calibration.html"})
         EXPECT_TRUE(exists(std::string("out/") + file)) << file;
     EXPECT_NE(read("out/rock.toml").find("[material]\ncontact_modulus = "), std::string::npos) << read("out/rock.toml");
     const std::string before = read("out/calibration.json");
