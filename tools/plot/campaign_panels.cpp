@@ -151,6 +151,7 @@ Panel curve_bands(const std::vector<CurveBundle>& bundles, const std::vector<Lab
             canvas.line(line(bands[b], bands[b].median), series_colour(b), 1.3 * curve_width);
         for (const LabelledCurve& curve : measured) {
             std::vector<Point> points;
+            points.reserve(curve.points.size());
             for (const auto& [at, stress] : curve.points)
                 points.push_back(axes.at(at / strain_unit, stress / unit.factor));
             canvas.line(points, ink, 1.3 * curve_width, true);
