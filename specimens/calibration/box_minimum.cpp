@@ -63,7 +63,7 @@ VectorXd box_minimum(const Residuals& residuals, const VectorXd& start, const Ve
         least = sum(best, gradient);
         if (way_left(best, gradient, low, high) < close_to_bottom) return best;
         // Every second time by another way: what ends one of them early does not end the other.
-        nlopt::opt search(k % 2 == 0 ? nlopt::LD_SLSQP : nlopt::LN_BOBYQA, static_cast<unsigned>(start.size()));
+        nlopt::opt search(k % 2 == 0 ? nlopt::LD_SLSQP : nlopt::LD_CCSAQ, static_cast<unsigned>(start.size()));
         search.set_min_objective(objective, &sum);
         search.set_lower_bounds({low.data(), low.data() + low.size()});
         search.set_upper_bounds({high.data(), high.data() + high.size()});

@@ -12,8 +12,8 @@ namespace crackle {
 using Residuals = std::function<void(const Eigen::VectorXd& x, Eigen::VectorXd& residuals, Eigen::MatrixXd& jacobian)>;
 
 /// Sequential quadratic programming (Kraft, TOMS 20, 1994; NLopt's SLSQP) with the second derivatives scaled to one,
-/// and from where that gives up by quadratic models (Powell, BOBYQA, 2009), until the gradient leads nowhere within the
-/// bounds.
+/// and from where that gives up by conservative convex models (Svanberg, SIAM J. Optim. 12, 2002; CCSAQ), until the
+/// gradient leads nowhere within the bounds.
 /// @param start within the bounds
 Eigen::VectorXd box_minimum(const Residuals& residuals, const Eigen::VectorXd& start, const Eigen::VectorXd& low,
                             const Eigen::VectorXd& high);

@@ -8,10 +8,10 @@
 
 #include <cmath>
 
-#include "solver/base/errors.hpp"
 #include "specimens/calibration/search_space.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/deck_files.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/support/small_circles_rock.hpp"
 
 namespace crackle {
@@ -28,13 +28,8 @@ class RockFile : public ::testing::Test {
         return read_rock(folder_ / "rock.toml");
     }
     void expect_refused(const std::string& text, const std::string& says) const {
-        try {
-            rock_of(text);
-            ADD_FAILURE() << "accepted: " << text;
-        } catch (const InputError& error) {
-            fmt::print("  {}\n", error.what());
-            EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
-        }
+        const std::string said = testing::refusal([&] { rock_of(text); });
+        EXPECT_NE(said.find(says), std::string::npos) << said << "\nof: " << text;
     }
 
     testing::ScratchFolder scratch_;

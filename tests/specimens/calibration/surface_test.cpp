@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -108,6 +109,23 @@ TEST(BoxMinimum, IsWhereTheResidualsVanishOrOnTheBound) {
     const VectorXd bound = box_minimum(two_lines, Vector2d(0.1, 0.2), Vector2d(-9, -9), Vector2d(9, 1));
     EXPECT_TRUE(agrees("x on the bound", bound[0], 1.5, 1e-7));
     EXPECT_TRUE(agrees("y on the bound", bound[1], 1.0, 1e-7));
+}
+
+TEST(BoxMinimum, OfOneVariableIsFoundAtAnyScale) {
+    for (const double weight : {1e-3, 1.0, 40.0, 1e3, 1e5}) {
+        const Residuals line = [&](const VectorXd& x, VectorXd& r, MatrixXd& jacobian) {
+            r.resize(2);
+            r << weight * (x[0] - 2.0), 0.1 * x[0];
+            jacobian.resize(2, 1);
+            jacobian << weight, 0.1;
+        };
+        const VectorXd one = VectorXd::Ones(1);
+        const double exact = 2.0 * weight * weight / (weight * weight + 0.01);
+        EXPECT_TRUE(agrees("inside", box_minimum(line, -3.0 * one, -9.0 * one, 9.0 * one)[0], exact, 1e-6)) << weight;
+        EXPECT_TRUE(agrees("at the bound", box_minimum(line, -3.0 * one, -9.0 * one, -1.0 * one)[0],
+                           -1.0 + std::min(0.0, exact + 1.0), 1e-9))
+            << weight;
+    }
 }
 
 /// Targets of any tolerance, far off: residuals of up to 1e5.

@@ -10,8 +10,8 @@
 #include <cmath>
 #include <set>
 
-#include "solver/base/errors.hpp"
 #include "tests/support/deck_files.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/support/small_plan.hpp"
 
 namespace crackle {
@@ -29,13 +29,8 @@ class PlanTest : public ::testing::Test {
         return read_plan(folder_ / "plan.toml", companions);
     }
     void expect_refused(const std::string& text, const std::string& says) const {
-        try {
-            plan_of(text);
-            ADD_FAILURE() << "accepted: " << text;
-        } catch (const InputError& error) {
-            fmt::print("  {}\n", error.what());
-            EXPECT_NE(std::string(error.what()).find(says), std::string::npos) << error.what();
-        }
+        const std::string said = testing::refusal([&] { plan_of(text); });
+        EXPECT_NE(said.find(says), std::string::npos) << said << "\nof: " << text;
     }
 
     testing::ScratchFolder scratch_;
