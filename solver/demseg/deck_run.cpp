@@ -275,6 +275,12 @@ void DeckRun::run(const std::function<bool(const World&)>& go_on) {
         throw UnstableRun(error, fmt::format("earlier outputs in {0} are as they were, those of this run so far in "
                                              "{0}/*.dat{1}",
                                              output_folder().string(), staged_suffix));
+    } catch (const OutputError& error) {
+        // Once the names are in the journal the next run brings the replacement to its end.
+        if (outputs.renames().empty() || is_there(deck_journal(output_folder()))) throw;
+        remove_staged_outputs(output_folder());
+        throw OutputError(
+            fmt::format("{}; earlier outputs in {} are as they were", error.what(), output_folder().string()));
     }
 }
 

@@ -93,7 +93,7 @@ std::optional<DeckState> load_deck_state(const std::filesystem::path& path, cons
     DeckState state;
     state.base_geometry = source.text();
     state.base_boundary = source.text();
-    state.world = load_world(source.text(), name);
+    state.world = load_world(source.text(), name, "remove it to go on from the text files");
     require_whole(state.world, name);
     if (!source.at_end())
         throw InputError(

@@ -25,7 +25,7 @@ namespace {
 
 constexpr std::array<const char*, 3> frame_files{"output.dat", "cont.dat", "cont2.dat"};
 
-constexpr int largest_id = std::numeric_limits<int>::max();
+constexpr int largest_number = std::numeric_limits<int>::max();
 constexpr std::int64_t most_lines = 1'000'000'000;
 
 DeckReader reader_of(const DeckFrameFile& file, const DeckFrameFile::Head& head) {
@@ -38,7 +38,7 @@ Vec2 read_place(DeckReader& reader, const char* x_key, const char* y_key) {
 }
 
 int read_id(DeckReader& reader, const char* key, int lowest) {
-    return static_cast<int>(reader.integer(key, lowest, largest_id));
+    return static_cast<int>(reader.integer(key, lowest, largest_number));
 }
 
 /// The file's frame of a step.

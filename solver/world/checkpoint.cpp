@@ -55,7 +55,7 @@ std::string save_world(const World& world) {
     return std::move(out).str();
 }
 
-World load_world(std::istream& in, std::streamoff end, const std::string& name) {
+World load_world(std::istream& in, std::streamoff end, const std::string& name, const char* remedy) {
     constexpr std::streamoff head = sizeof checkpoint_magic + sizeof checkpoint_version, tail = sizeof(XXH64_hash_t);
     const std::streamoff begin = in.tellg();
     if (!in || end - begin < head + tail)
@@ -69,8 +69,7 @@ World load_world(std::istream& in, std::streamoff end, const std::string& name) 
         throw InputError(fmt::format("{}: found other data, expected a crackle checkpoint", name));
     if (version != checkpoint_version) {
         throw InputError(
-            fmt::format("{}: found checkpoint version {}, expected {}; run the test again with this crackle", name,
-                        version, checkpoint_version));
+            fmt::format("{}: found checkpoint version {}, expected {}; {}", name, version, checkpoint_version, remedy));
     }
     // Checked before a single length in it is used.
     const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> hash(XXH3_createState(), &XXH3_freeState);
@@ -173,9 +172,9 @@ void require_whole(const World& world, const std::string& name) {
         fmt::format("{}: found parts that do not belong together, expected a checkpoint as crackle wrote it", name));
 }
 
-World load_world(std::string bytes, const std::string& name) {
+World load_world(std::string bytes, const std::string& name, const char* remedy) {
     std::istringstream in(std::move(bytes), std::ios::binary);
-    return load_world(in, length_of_stream(in), name);
+    return load_world(in, length_of_stream(in), name, remedy);
 }
 
 }  // namespace crackle

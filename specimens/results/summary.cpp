@@ -19,9 +19,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// JSON has no NaN: what is not defined is null.
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 /// How a key is declared. @param which of several meanings
 const SummaryKey& declared_key(std::string_view name, int which = 0) {
     for (const SummaryKey& key : summary_keys())
@@ -48,9 +45,9 @@ struct Writer {
     }
     /// A stress or modulus, with its conversion beside it.
     void stress(const std::string& key, double value) {
-        put(key, number(value));
+        put(key, finite_or_null(value));
         const std::string converted = key + converted_suffix;
-        json[converted] = number(area_units ? value : value / out_of_plane_thickness);
+        json[converted] = finite_or_null(area_units ? value : value / out_of_plane_thickness);
         units[converted] = area_units ? "Pa, the same number: units are of an area" : converted_unit;
     }
 };
@@ -77,16 +74,16 @@ void strength(Writer& w, const TestSetup& setup, const TestState& state) {
     const FailureTracker& f = state.failure;
     const std::string so_far = f.failed ? "" : "_so_far";
     w.stress("peak_stress" + so_far, f.peak_row < 0 ? NAN : f.peak_stress);
-    w.put("peak_strain" + so_far, number(f.peak_row < 0 ? NAN : f.peak_strain));
+    w.put("peak_strain" + so_far, finite_or_null(f.peak_row < 0 ? NAN : f.peak_strain));
     w.stress("largest_stress", f.largest_row < 0 ? NAN : f.largest_stress);
-    w.put("strain_at_largest_stress", number(f.largest_row < 0 ? NAN : f.strain_at_largest));
+    w.put("strain_at_largest_stress", finite_or_null(f.largest_row < 0 ? NAN : f.strain_at_largest));
     w.stress("youngs_modulus", state.youngs_modulus);
-    w.put("poissons_ratio", number(state.poissons_ratio));
+    w.put("poissons_ratio", finite_or_null(state.poissons_ratio));
     w.stress("gauge_modulus", state.gauge_modulus);
 
     const Tangent initial = initial_tangent(state.rows, f.peak_row, setup.compression);
     w.stress("initial_tangent_modulus", initial.modulus);
-    w.put("initial_poissons_ratio", number(initial.poissons_ratio));
+    w.put("initial_poissons_ratio", finite_or_null(initial.poissons_ratio));
     w.put("initial_tangent_window", {{"rows", initial.rows},
                                      {"strain_to", initial.strain_to},
                                      {"bonds_broken", initial.bonds_broken},
@@ -94,7 +91,7 @@ void strength(Writer& w, const TestSetup& setup, const TestState& state) {
                                      {"contacts_gained", initial.contacts_gained}});
     const Tangent half = tangent_at_half_peak(state.rows, f.peak_row, setup.compression);
     w.stress("tangent_modulus_50", half.modulus);
-    w.put("tangent_50_poissons_ratio", number(half.poissons_ratio));
+    w.put("tangent_50_poissons_ratio", finite_or_null(half.poissons_ratio));
 }
 
 /// What has become of the specimen up to the peak and to the end.
@@ -109,8 +106,8 @@ void damage(Writer& w, const TestSetup& setup, const TestState& state, const Wor
     const std::vector<CurveRow>& rows = state.rows;
     const std::int64_t peak = state.failure.peak_row;
     const auto area_strain_of = [&](const CurveRow& row) { return area_strain(row, setup.compression); };
-    w.put("area_strain_peak", number(peak < 0 ? NAN : area_strain_of(rows[static_cast<std::size_t>(peak)])));
-    w.put("area_strain_end", number(rows.empty() ? NAN : area_strain_of(rows.back())));
+    w.put("area_strain_peak", finite_or_null(peak < 0 ? NAN : area_strain_of(rows[static_cast<std::size_t>(peak)])));
+    w.put("area_strain_end", finite_or_null(rows.empty() ? NAN : area_strain_of(rows.back())));
     Frame now;
     take_frame(world, setup, state.history, rows.empty() ? CurveRow{} : rows.back(), 0, now);
     const FragmentFigures fragments = measure_fragments(world, setup, now);
@@ -164,20 +161,20 @@ void numerics(Writer& w, const TestCase& test, const TestSetup& setup, const Tes
     } else {
         w.put("axial_strain_rate", *test.loading.axial_strain_rate, 1);
     }
-    w.put("viscous_stress_share", number(viscous_share(test, state)));
+    w.put("viscous_stress_share", finite_or_null(viscous_share(test, state)));
     w.put("axial_strain_end", last.axial_strain);
-    w.put("energy_closing_error", number(last.energy_error / last.platen_work));
+    w.put("energy_closing_error", finite_or_null(last.energy_error / last.platen_work));
     if (world.settings.segment_law != SegmentLaw::rounded) {
-        w.put("energy_lost_to_contact_law", number(world.account.law_loss / last.platen_work));
+        w.put("energy_lost_to_contact_law", finite_or_null(world.account.law_loss / last.platen_work));
     }
-    w.put("platen_out_of_balance", number(platen_out_of_balance(state.rows, state.failure.peak_row)));
+    w.put("platen_out_of_balance", finite_or_null(platen_out_of_balance(state.rows, state.failure.peak_row)));
     w.put("time_step", world.stepping.time_step);
-    w.put("time_step_mean", number(world.stepping.time / static_cast<double>(world.stepping.steps)));
-    w.put("stable_time_step", number(setup.stable_time_step),
+    w.put("time_step_mean", finite_or_null(world.stepping.time / static_cast<double>(world.stepping.steps)));
+    w.put("stable_time_step", finite_or_null(setup.stable_time_step),
           world.settings.segment_law != SegmentLaw::rounded ? 1
           : setup.stable_time_step_proved                   ? 0
                                                             : 2);
-    w.put("time_step_over_stable", number(world.stepping.time_step / setup.stable_time_step));
+    w.put("time_step_over_stable", finite_or_null(world.stepping.time_step / setup.stable_time_step));
     w.put("time_step_bound", setup.time_step_bound);
     w.put("steps", world.stepping.steps);
     w.put("simulated_time", world.stepping.time);
@@ -188,7 +185,7 @@ void numerics(Writer& w, const TestCase& test, const TestSetup& setup, const Tes
 void packing(Writer& w, const TestSetup& setup) {
     if (setup.packing.empty()) return;
     Json figures;
-    for (const auto& [name, value] : setup.packing) figures[name] = number(value);
+    for (const auto& [name, value] : setup.packing) figures[name] = finite_or_null(value);
     w.put("packing", figures);
 }
 
@@ -197,8 +194,8 @@ void minerals(Writer& w, const TestSetup& setup) {
     Json all = Json::array();
     for (const MineralShare& m : setup.minerals) {
         all.push_back({{"name", m.name},
-                       {"area_share", m.asked ? number(*m.asked) : Json(nullptr)},
-                       {"area_share_reached", number(m.reached)},
+                       {"area_share", m.asked ? finite_or_null(*m.asked) : Json(nullptr)},
+                       {"area_share_reached", finite_or_null(m.reached)},
                        {"grains", m.grains}});
     }
     w.put("minerals", all);
@@ -206,14 +203,11 @@ void minerals(Writer& w, const TestSetup& setup) {
 
 Json error_of(const NumberError* measured, double closing) {
     const auto value = [&](double NumberError::*part) {
-        return measured != nullptr ? number(measured->*part) : Json(nullptr);
+        return measured != nullptr ? finite_or_null(measured->*part) : Json(nullptr);
     };
-    return {{"time_step", value(&NumberError::time_step)},
-            {"rate", value(&NumberError::rate)},
-            {"energy_closing", number(closing)},
-            {"damping", value(&NumberError::damping)},
-            {"resolution", value(&NumberError::resolution)},
-            {"stated", value(&NumberError::stated)}};
+    return {{"time_step", value(&NumberError::time_step)},   {"rate", value(&NumberError::rate)},
+            {"energy_closing", finite_or_null(closing)},     {"damping", value(&NumberError::damping)},
+            {"resolution", value(&NumberError::resolution)}, {"stated", value(&NumberError::stated)}};
 }
 
 void numerical_errors(Writer& w, const TestState& state, const NumericalErrors* errors) {
@@ -224,17 +218,17 @@ void numerical_errors(Writer& w, const TestState& state, const NumericalErrors* 
     Json all{{"youngs_modulus", error_of(&solved, NAN)},
              {"peak_stress", error_of(errors != nullptr ? &errors->peak_stress : nullptr, closing)},
              {"peak_strain", error_of(errors != nullptr ? &errors->peak_strain : nullptr, closing)}};
-    all["youngs_modulus"]["stated"] = number(state.modulus_residual);
+    all["youngs_modulus"]["stated"] = finite_or_null(state.modulus_residual);
     if (errors != nullptr) {
         for (const Companion& c : errors->companions) {
-            all["companions"][c.name] = {{"peak_stress", number(c.peak_stress)},
-                                         {"peak_strain", number(c.peak_strain)},
+            all["companions"][c.name] = {{"peak_stress", finite_or_null(c.peak_stress)},
+                                         {"peak_strain", finite_or_null(c.peak_strain)},
                                          {"ended_by", c.ended_by},
                                          {"steps", c.steps},
-                                         {"time_step", number(c.time_step)},
-                                         {"axial_strain_rate", number(c.axial_strain_rate)},
-                                         {"damping", number(c.damping)},
-                                         {"post_peak_difference", number(c.post_peak_difference)}};
+                                         {"time_step", finite_or_null(c.time_step)},
+                                         {"axial_strain_rate", finite_or_null(c.axial_strain_rate)},
+                                         {"damping", finite_or_null(c.damping)},
+                                         {"post_peak_difference", finite_or_null(c.post_peak_difference)}};
         }
     }
     w.put("numerical_errors", all);
@@ -357,8 +351,8 @@ nlohmann::ordered_json make_summary(const TestCase& test, const TestSetup& setup
     w.put("threads", timing.threads);
     w.put("wall_seconds", timing.wall_seconds);
     w.put("step_seconds", timing.step_seconds);
-    w.put("particle_steps_per_second", number(static_cast<double>(setup.particles) *
-                                              static_cast<double>(world.stepping.steps) / timing.step_seconds));
+    w.put("particle_steps_per_second", finite_or_null(static_cast<double>(setup.particles) *
+                                                      static_cast<double>(world.stepping.steps) / timing.step_seconds));
     if (world.workers.profile != nullptr)
         w.put("profile",
               profile_report(*world.workers.profile, setup.particles, world.stepping.steps, timing.step_seconds));

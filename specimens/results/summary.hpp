@@ -5,8 +5,8 @@
 // Tested by tests/specimens/results/files_test.cpp.
 #pragma once
 
+#include <cmath>
 #include <nlohmann/json.hpp>
-
 #include <vector>
 
 #include "specimens/case/case_file.hpp"
@@ -38,6 +38,11 @@ struct SummaryKey {
 /// In the order of the file. Keys of a table within stand behind it as `table.key`, `*` for any name and `[]` for each
 /// entry of a list. A key whose meaning depends on the test stands once for each.
 const std::vector<SummaryKey>& summary_keys();
+
+/// JSON has no NaN: what is not defined is null.
+inline nlohmann::ordered_json finite_or_null(double value) {
+    return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
+}
 
 /// @param errors from the test's companions, if they were run
 nlohmann::ordered_json make_summary(const TestCase& test, const TestSetup& setup, const TestState& state,

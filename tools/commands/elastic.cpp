@@ -13,6 +13,7 @@
 #include "solver/files/replace_file.hpp"
 #include "specimens/elastic/analysis.hpp"
 #include "specimens/loading/prepare.hpp"
+#include "specimens/results/summary.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/terminal/shipped.hpp"
 
@@ -21,8 +22,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 using Clock = std::chrono::steady_clock;
-
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
 
 Json event(const ElasticAnalysis& a, const std::optional<FirstEvent>& first) {
     if (!first) return nullptr;
@@ -41,11 +40,11 @@ Json as_json(const VirtualTest& test, const ElasticAnalysis& a, double seconds) 
               {"specimen", test.setup.specimen},
               {"particles", test.setup.particles},
               {"bonds", a.bonds.size()},
-              {"youngs_modulus", number(a.youngs_modulus)},
-              {"poissons_ratio", number(a.poissons_ratio)},
-              {"stable_time_step", number(a.stable_time_step)},
+              {"youngs_modulus", finite_or_null(a.youngs_modulus)},
+              {"poissons_ratio", finite_or_null(a.poissons_ratio)},
+              {"stable_time_step", finite_or_null(a.stable_time_step)},
               {"stable_time_step_proved", a.stable_time_step_proved},
-              {"time_step_bound", number(a.time_step_bound)},
+              {"time_step_bound", finite_or_null(a.time_step_bound)},
               {"time_step", a.time_step},
               {"first_break_stress", stress_of(a.first_break)},
               {"first_break", event(a, a.first_break)},

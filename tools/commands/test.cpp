@@ -144,8 +144,6 @@ int finish(const TestOutcome& outcome, const std::string& wanted, Messages& mess
 
 using Json = nlohmann::ordered_json;
 
-Json number(double value) { return std::isfinite(value) ? Json(value) : Json(nullptr); }
-
 Json loss_as_json(const std::optional<FirstLoss>& loss) {
     if (!loss) return nullptr;
     return {{"strain", loss->strain}, {"stress", loss->stress}, {"body_i", loss->body_i}, {"body_j", loss->body_j}};
@@ -165,9 +163,9 @@ Json as_json(const TestCheck& check) {
               {"particles", test.setup.particles},
               {"grains_across", check.grains_across},
               {"bonds", test.world.bonds.initial},
-              {"youngs_modulus", number(check.youngs_modulus)},
-              {"poissons_ratio", number(check.poissons_ratio)},
-              {"gauge_modulus", number(check.gauge_modulus)},
+              {"youngs_modulus", finite_or_null(check.youngs_modulus)},
+              {"poissons_ratio", finite_or_null(check.poissons_ratio)},
+              {"gauge_modulus", finite_or_null(check.gauge_modulus)},
               {"first_slip", loss_as_json(check.first_slip)},
               {"first_break", loss_as_json(check.first_break)},
               {"strength_estimate", nullptr},

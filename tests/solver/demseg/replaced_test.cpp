@@ -2,7 +2,10 @@
 // A deck run that takes the place of an earlier one: whenever it is stopped the folder holds all that one of the two
 // left, and nothing of the other.
 #include <gtest/gtest.h>
+#include <signal.h>
+#include <sys/resource.h>
 
+#include <algorithm>
 #include <fstream>
 #include <map>
 #include <string>
@@ -15,6 +18,7 @@
 #include "solver/demseg/read_outputs.hpp"
 #include "solver/files/file_set.hpp"
 #include "solver/files/read_file.hpp"
+#include "solver/world/checkpoint.hpp"
 #include "tests/support/deck_files.hpp"
 
 namespace crackle {
@@ -155,6 +159,49 @@ TEST_F(ReplacedDeck, KeepsItsFilesWhereTheNewRunIsUnstable) {
                                                  folder_.string() + "/*.dat.new");
     }
     EXPECT_TRUE(named() == earlier_);
+}
+
+/// As on a full disc, by a limit that the largest output meets on its way.
+TEST_F(ReplacedDeck, KeepsItsFilesAndSaysSoWhereTheNewOutputsCannotBeWritten) {
+    std::size_t largest = 0;
+    for (const auto& [name, text] : new_)
+        if (!name.starts_with("new_")) largest = std::max(largest, text.size());
+    const auto ignored = signal(SIGXFSZ, SIG_IGN);
+    rlimit before{};
+    ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &before), 0);
+    const rlimit half{largest / 2, before.rlim_max};
+    ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &half), 0);
+    std::string message;
+    try {
+        DeckRun(forced()).run();
+    } catch (const OutputError& error) {
+        message = error.what();
+    }
+    setrlimit(RLIMIT_FSIZE, &before);
+    signal(SIGXFSZ, ignored);
+    EXPECT_NE(message.find("cannot be written"), std::string::npos) << message;
+    EXPECT_TRUE(message.ends_with("; earlier outputs in " + folder_.string() + " are as they were")) << message;
+    EXPECT_TRUE(contents(folder_) == earlier_) << "nothing of the new run is left";
+}
+
+TEST_F(ReplacedDeck, WithAStateOfAnotherVersionSaysHowToGoOnWithoutIt) {
+    std::string state = read_file(folder_ / "new_state.bin");
+    // A checkpoint's magic, its version behind it.
+    const std::string whole = save_world(DeckRun(options(scratch_ / "other", 1)).world());
+    const std::size_t at = state.find(whole.substr(0, 8));
+    ASSERT_NE(at, std::string::npos);
+    state[at + 8] = 99;
+    std::ofstream(folder_ / "new_state.bin", std::ios::binary) << state;
+    try {
+        DeckRun(going_on(10)).run();
+        ADD_FAILURE() << "read";
+    } catch (const InputError& error) {
+        const std::string message = error.what();
+        EXPECT_NE(message.find("new_state.bin: found checkpoint version 99, expected "), std::string::npos) << message;
+        EXPECT_TRUE(message.ends_with("; remove it to go on from the text files")) << message;
+    }
+    fs::remove(folder_ / "new_state.bin");
+    EXPECT_NO_THROW(DeckRun(going_on(10)).run());
 }
 
 TEST_F(ReplacedDeck, ApartFromItsFirstPartIsReplacedAlike) {

@@ -29,7 +29,7 @@ using studies::elastic_test;
 using studies::GuideTest;
 using Words = std::vector<std::string>;
 
-struct Plan {
+struct Selection {
     std::int64_t packings = 20;
     Words laws{"rounded", "demseg", "demseg_mean"};
     std::vector<std::int64_t> strength_packings{5, 0, 0};    // by law
@@ -54,18 +54,19 @@ std::vector<std::int64_t> spread_counts(std::vector<std::int64_t> counts, std::s
     return counts;
 }
 
-Plan plan_of(const po::variables_map& given) {
-    Plan plan;
+Selection selection_of(const po::variables_map& given) {
+    Selection selection;
     const bool quick = given.contains("quick");
-    plan.packings = given.contains("packings") ? given["packings"].as<std::int64_t>() : quick ? 2 : 20;
-    if (plan.packings < 1)
-        throw InputError(fmt::format("bench guide: --packings: found {}, expected a whole number >= 1", plan.packings));
-    if (given.contains("laws")) plan.laws = given["laws"].as<Words>();
-    for (const std::string& law : plan.laws) {
+    selection.packings = given.contains("packings") ? given["packings"].as<std::int64_t>() : quick ? 2 : 20;
+    if (selection.packings < 1)
+        throw InputError(
+            fmt::format("bench guide: --packings: found {}, expected a whole number >= 1", selection.packings));
+    if (given.contains("laws")) selection.laws = given["laws"].as<Words>();
+    for (const std::string& law : selection.laws) {
         if (law != "rounded" && law != "demseg" && law != "demseg_mean")
             throw InputError(
                 fmt::format("bench guide: --laws: found '{}', expected rounded, demseg or demseg_mean", law));
-        if (std::count(plan.laws.begin(), plan.laws.end(), law) > 1)
+        if (std::count(selection.laws.begin(), selection.laws.end(), law) > 1)
             throw InputError(fmt::format("bench guide: --laws: found '{}' twice, expected each law once", law));
     }
     const auto counts = [&](const char* option, std::vector<std::int64_t> otherwise, std::size_t places) {
@@ -73,14 +74,14 @@ Plan plan_of(const po::variables_map& given) {
         if (quick) return std::vector<std::int64_t>(places, 0);
         if (given.contains(option)) {
             otherwise = given[option].as<std::vector<std::int64_t>>();
-            check_counts(name.c_str(), otherwise, plan.packings);
+            check_counts(name.c_str(), otherwise, selection.packings);
         }
-        for (std::int64_t& count : otherwise) count = std::min(count, plan.packings);
+        for (std::int64_t& count : otherwise) count = std::min(count, selection.packings);
         if (otherwise.size() > places && !given.contains(option)) otherwise.resize(places);
         return spread_counts(std::move(otherwise), places, name.c_str());
     };
-    if (given.contains("experiments")) plan.experiments = given["experiments"].as<Words>();
-    for (const std::string& name : plan.experiments) {
+    if (given.contains("experiments")) selection.experiments = given["experiments"].as<Words>();
+    for (const std::string& name : selection.experiments) {
         const auto& all = studies::guide_experiments();
         if (std::none_of(all.begin(), all.end(), [&](const auto& one) { return one.name == name; })) {
             Words known;
@@ -89,9 +90,9 @@ Plan plan_of(const po::variables_map& given) {
                                          fmt::join(known, ", ")));
         }
     }
-    plan.strength_packings = counts("strength-packings", plan.strength_packings, plan.laws.size());
-    plan.experiment_packings = counts("experiment-packings", plan.experiment_packings, 3);
-    return plan;
+    selection.strength_packings = counts("strength-packings", selection.strength_packings, selection.laws.size());
+    selection.experiment_packings = counts("experiment-packings", selection.experiment_packings, 3);
+    return selection;
 }
 
 /// Adds a test unless it is planned already: circles serve all laws.
@@ -113,20 +114,20 @@ const std::vector<std::pair<const char*, const char*>> loaded_tests{{"circles", 
                                                                     {"delaunay", "compression"},
                                                                     {"voronoi", "compression"}};
 
-std::vector<studies::GuideExperiment> experiments_of(const Plan& plan) {
+std::vector<studies::GuideExperiment> experiments_of(const Selection& selection) {
     std::vector<studies::GuideExperiment> chosen = studies::guide_experiments();
     std::erase_if(chosen, [&](const studies::GuideExperiment& one) {
-        return !plan.experiments.empty() &&
-               std::find(plan.experiments.begin(), plan.experiments.end(), one.name) == plan.experiments.end();
+        return !selection.experiments.empty() && std::find(selection.experiments.begin(), selection.experiments.end(),
+                                                           one.name) == selection.experiments.end();
     });
     return chosen;
 }
 
-void add_experiments(TestList& list, const Plan& plan) {
-    const std::vector<studies::GuideExperiment> experiments = experiments_of(plan);
-    for (std::int64_t seed = 1; seed <= plan.experiment_packings[0]; ++seed) {
+void add_experiments(TestList& list, const Selection& selection) {
+    const std::vector<studies::GuideExperiment> experiments = experiments_of(selection);
+    for (std::int64_t seed = 1; seed <= selection.experiment_packings[0]; ++seed) {
         for (const auto& experiment : experiments) {
-            for (const std::string& law : plan.laws) {
+            for (const std::string& law : selection.laws) {
                 for (const char* specimen : {"circles", "delaunay", "voronoi"}) {
                     if (experiment.reach.holds(specimen, elastic_test))
                         list.add(studies::guide_test(experiment.name, law, specimen, elastic_test, seed));
@@ -136,11 +137,11 @@ void add_experiments(TestList& list, const Plan& plan) {
     }
     // Voronoi polygons have one loaded row, and take the longest.
     for (const std::string of : {"circles", "delaunay"}) {
-        for (std::int64_t seed = 1; seed <= plan.experiment_packings[of == "circles" ? 1 : 2]; ++seed) {
+        for (std::int64_t seed = 1; seed <= selection.experiment_packings[of == "circles" ? 1 : 2]; ++seed) {
             for (const auto& experiment : experiments) {
                 for (const auto& [specimen, loading] : loaded_tests) {
                     if (of == specimen && experiment.reach.holds(specimen, loading))
-                        list.add(studies::guide_test(experiment.name, plan.laws[0], specimen, loading, seed));
+                        list.add(studies::guide_test(experiment.name, selection.laws[0], specimen, loading, seed));
                 }
             }
         }
@@ -148,38 +149,39 @@ void add_experiments(TestList& list, const Plan& plan) {
 }
 
 /// In the order in which a page grows useful: elastic, strengths a packing after the other, experiments.
-std::vector<GuideTest> tests_of(const Plan& plan) {
+std::vector<GuideTest> tests_of(const Selection& selection) {
     TestList list;
-    for (std::int64_t seed = 1; seed <= plan.packings; ++seed) {
-        for (const std::string& law : plan.laws) {
+    for (std::int64_t seed = 1; seed <= selection.packings; ++seed) {
+        for (const std::string& law : selection.laws) {
             for (const char* specimen : {"circles", "delaunay", "voronoi"})
                 list.add(studies::guide_test(as_shipped, law, specimen, elastic_test, seed));
         }
     }
     // Voronoi polygons take the longest and serve one row.
     for (const bool of_voronoi : {false, true}) {
-        for (std::size_t law = 0; law < plan.laws.size(); ++law) {
-            for (std::int64_t seed = 1; seed <= plan.strength_packings[law]; ++seed) {
+        for (std::size_t law = 0; law < selection.laws.size(); ++law) {
+            for (std::int64_t seed = 1; seed <= selection.strength_packings[law]; ++seed) {
                 for (const auto& [specimen, loading] : loaded_tests) {
                     if ((std::string(specimen) == "voronoi") == of_voronoi)
-                        list.add(studies::guide_test(as_shipped, plan.laws[law], specimen, loading, seed));
+                        list.add(studies::guide_test(as_shipped, selection.laws[law], specimen, loading, seed));
                 }
             }
         }
     }
-    add_experiments(list, plan);
+    add_experiments(list, selection);
     return list.take();
 }
 
 /// The command without what does not change its numbers.
-std::string command_of(const po::variables_map& given, const Plan& plan) {
+std::string command_of(const po::variables_map& given, const Selection& selection) {
     std::string text = "crackle bench guide";
     if (given.contains("quick")) text += " --quick";
-    text += fmt::format(" --packings {} --laws {}", plan.packings, fmt::join(plan.laws, " "));
+    text += fmt::format(" --packings {} --laws {}", selection.packings, fmt::join(selection.laws, " "));
     if (!given.contains("quick")) {
-        text += fmt::format(" --strength-packings {} --experiment-packings {}", fmt::join(plan.strength_packings, " "),
-                            fmt::join(plan.experiment_packings, " "));
-        if (!plan.experiments.empty()) text += fmt::format(" --experiments {}", fmt::join(plan.experiments, " "));
+        text += fmt::format(" --strength-packings {} --experiment-packings {}",
+                            fmt::join(selection.strength_packings, " "), fmt::join(selection.experiment_packings, " "));
+        if (!selection.experiments.empty())
+            text += fmt::format(" --experiments {}", fmt::join(selection.experiments, " "));
     }
     if (const double factor = given["rate-factor"].as<double>(); factor != 1.0)
         text += fmt::format(" --rate-factor {:g}", factor);
@@ -234,7 +236,7 @@ int bench_guide(const Invocation& invocation) {
     const auto begun = std::chrono::steady_clock::now();
     const po::variables_map& given = invocation.values;
     Messages& messages = invocation.messages;
-    const Plan plan = plan_of(given);
+    const Selection selection = selection_of(given);
     const fs::path folder = given["output"].as<std::string>();
     studies::EnsembleOptions ensemble;
     ensemble.cases = given_or_shipped(given["cases"].as<std::string>());
@@ -246,7 +248,7 @@ int bench_guide(const Invocation& invocation) {
                                      ensemble.rate_factor));
     if (ensemble.jobs < 1 || ensemble.jobs > 1024)
         throw InputError(fmt::format("bench guide: --jobs: found {}, expected 1 to 1024", ensemble.jobs));
-    const std::vector<GuideTest> tests = tests_of(plan);
+    const std::vector<GuideTest> tests = tests_of(selection);
     for (const GuideTest& test : tests)
         static_cast<void>(studies::guide_case(test, ensemble));  // refused before minutes are spent
 
@@ -267,8 +269,8 @@ int bench_guide(const Invocation& invocation) {
     const studies::GuideResults results = studies::run_guide_tests(tests, ensemble, hooks);
     messages.make_room();
 
-    const studies::GuidePage page{command_of(given, plan), plan.laws, plan.packings, ensemble.rate_factor,
-                                  tests.size() - results.size()};
+    const studies::GuidePage page{command_of(given, selection), selection.laws, selection.packings,
+                                  ensemble.rate_factor, tests.size() - results.size()};
     const std::string text = studies::guide_page(page, results);
     replace_file(folder / "guide.csv", studies::guide_csv(page, results));
     replace_file(folder / "guide.md", text);
