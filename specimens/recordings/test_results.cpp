@@ -19,6 +19,8 @@
 namespace crackle {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 std::string read_result(const std::filesystem::path& file) {
     if (!is_file(file)) {
         throw InputError(
@@ -66,7 +68,6 @@ void require_whole_numbers(const std::filesystem::path& file, const NumberTable&
 constexpr int deepest_summary = 100;  // levels; it has three, and what walks through them does so by recursion
 
 nlohmann::ordered_json read_summary(const std::filesystem::path& file) {
-    using Json = nlohmann::ordered_json;
     Json summary;
     const auto bound_depth = [&](int depth, Json::parse_event_t /*event*/, Json& /*value*/) {
         if (depth <= deepest_summary) return true;

@@ -104,14 +104,14 @@ void report_details(Messages& messages, const TestOutcome& outcome) {
     const auto& s = outcome.summary;
     messages.detail(fmt::format("{} steps in {} s on {} threads; mean time step {} s", shown(s, "steps"),
                                 shown(s, "step_seconds"), shown(s, "threads"), shown(s, "time_step_mean")));
-    std::uintmax_t files = 0, bytes = 0;
+    std::uintmax_t count = 0, bytes = 0;
     std::error_code vanished;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(outcome.folder, vanished)) {
         if (!entry.is_regular_file(vanished)) continue;
-        ++files;
+        ++count;
         bytes += entry.file_size(vanished);
     }
-    messages.detail(fmt::format("{} files, {} bytes in {}", files, bytes, outcome.folder.string()));
+    messages.detail(fmt::format("{} files, {} bytes in {}", count, bytes, outcome.folder.string()));
 }
 
 int finish(const TestOutcome& outcome, const std::string& wanted, Messages& messages) {

@@ -181,7 +181,7 @@ TEST_F(StoppedDeck, WhileItsFilesWereReplacedGoesOnWithTheBytesOfOneThatWasNot) 
 }
 
 TEST_F(StoppedDeck, ThatWasKilledGoesOnFromWhatItSavedLast) {
-    struct Killed {};
+    struct Stop {};
     const auto whole = scratch_ / "whole", killed = scratch_ / "killed";
     run(whole, false);
     DeckOptions options;
@@ -190,10 +190,10 @@ TEST_F(StoppedDeck, ThatWasKilledGoesOnFromWhatItSavedLast) {
     options.steps = 300;
     options.save_interval = 0.0;  // whenever the clock is looked at, every 64 steps
     const auto die = [](const World& world) {
-        if (world.stepping.steps == 200) throw Killed();
+        if (world.stepping.steps == 200) throw Stop();
         return true;
     };
-    EXPECT_THROW(DeckRun(options).run(die), Killed);
+    EXPECT_THROW(DeckRun(options).run(die), Stop);
     DeckOptions rest;
     rest.folder = killed;
     rest.goes_on = true;
