@@ -313,8 +313,9 @@ void DeckRun::step_to_end(DeckOutputs& outputs, const std::function<bool(const W
 void DeckRun::save(const FileSet& files, DeckOutputs& outputs) const {
     outputs.flush();
     bring_all_to_disc(output_folder());  // whoever goes on from the files takes the rows before them for written
-    replace_files(deck_journal(output_folder()), files, outputs.renames());
-    outputs.have_own_names();
+    write_journal(deck_journal(output_folder()), files, outputs.renames());
+    outputs.have_own_names();  // from here: whoever reads the folder or runs here renames them
+    complete_replacement(deck_journal(output_folder()));
 }
 
 void DeckRun::do_step(DeckOutputs& outputs) {

@@ -50,7 +50,7 @@ class DeckOutputs {
 
     /// From the names that they are written under to their own; none where these are the same.
     Renames renames() const;
-    /// Once the files have been renamed so.
+    /// Once the files have been renamed so, or will be whatever comes.
     void have_own_names() { suffix_ = ""; }
 
   private:

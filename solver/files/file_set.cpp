@@ -104,9 +104,4 @@ bool complete_replacement(const fs::path& journal) {
     return true;
 }
 
-void replace_files(const fs::path& journal, const FileSet& files, const Renames& renames) {
-    write_journal(journal, files, renames);
-    complete_replacement(journal);
-}
-
 }  // namespace crackle

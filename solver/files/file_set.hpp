@@ -20,12 +20,10 @@ using FileSet = std::vector<std::pair<std::string, std::string>>;
 /// Names of complete files in that folder, with the names that they get.
 using Renames = std::vector<std::pair<std::string, std::string>>;
 
+/// The first half of a replacement: from here it comes to its end, whoever is stopped.
 /// @param journal its path; the files lie beside it
 /// @param renames of files that are on the disc, contents and names
 /// @throws InputError if something cannot be written
-void replace_files(const std::filesystem::path& journal, const FileSet& files, const Renames& renames = {});
-
-/// The first half of that: the journal alone.
 void write_journal(const std::filesystem::path& journal, const FileSet& files, const Renames& renames = {});
 
 /// Whether a journal is there that renames files. @throws InputError if it is damaged

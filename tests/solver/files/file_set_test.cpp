@@ -45,9 +45,11 @@ class Files : public ::testing::Test {
 };
 
 TEST_F(Files, AreAllReplacedAndNothingIsLeftBehind) {
-    replace_files(journal(), old_);
+    write_journal(journal(), old_);
+    EXPECT_TRUE(complete_replacement(journal()));
     expect_whole(old_);
-    replace_files(journal(), new_);
+    write_journal(journal(), new_);
+    EXPECT_TRUE(complete_replacement(journal()));
     expect_whole(new_);
     EXPECT_FALSE(complete_replacement(journal()));
 }
