@@ -26,7 +26,7 @@
 #include "specimens/calibration/rock.hpp"
 #include "specimens/calibration/surface_quality.hpp"
 #include "specimens/campaign/campaign.hpp"
-#include "specimens/campaign/statistics.hpp"
+#include "specimens/statistics/mean.hpp"
 
 namespace crackle {
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "specimens/campaign/ledger.hpp"
-#include "specimens/campaign/statistics.hpp"
+#include "specimens/statistics/mean.hpp"
 
 namespace crackle {
 

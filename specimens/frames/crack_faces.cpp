@@ -32,8 +32,7 @@ Vec2 farthest(const std::vector<Vec2>& places, Vec2 from) {
 
 /// The part of a bond in the face of its interface: bonds of two bodies lie together.
 template <PointKind K>
-Stretch interface_share(const PlacedFrame& placed, PointIndex bond, const Facing& held) {
-    const TestSetup& setup = placed.setup();
+Stretch interface_share(const World& world, const TestSetup& setup, PointIndex bond, const Facing& held) {
     const auto belongs = [&](PointIndex k) { return same_pair(setup.bonds[k], setup.bonds[bond]); };
     const auto number = static_cast<std::size_t>(K);
     PointIndex first = bond, last = bond + 1;
@@ -41,7 +40,7 @@ Stretch interface_share(const PlacedFrame& placed, PointIndex bond, const Facing
     while (last < setup.bond_kind_begin[number + 1] && belongs(last)) ++last;
     std::vector<Vec2> places;
     for (PointIndex k = first; k < last; ++k)
-        places.push_back(middle_of(facing_at_start<K>(placed.world(), setup, setup.bonds.at<K>(k))));
+        places.push_back(middle_of(facing_at_start<K>(world, setup, setup.bonds.at<K>(k))));
     const Vec2 from = middle_of(held), one = farthest(places, from), other = farthest(places, one);
     // A corner before a corner has a normal of its own, which is not that of the face.
     const double length = norm(other - one), least = setup.bond_thick;
@@ -60,18 +59,21 @@ Stretch interface_share(const PlacedFrame& placed, PointIndex bond, const Facing
     return {along, begin + before * share, begin + (before + 1) * share};
 }
 
+/// A bond's share of the face. @param held  where it is held when loading begins
+template <PointKind K>
+Stretch share_of(const World& world, const TestSetup& setup, PointIndex bond, const Facing& held) {
+    const ContactPoint point = setup.bonds.at<K>(bond);
+    if (!is_circles(world, point.body_i)) return interface_share<K>(world, setup, bond, held);
+    const double radius = smaller_radius(world, K, point);
+    return {perpendicular(held.normal), -radius, radius};
+}
+
 template <PointKind K>
 CrackFace face_of(const PlacedFrame& placed, PointIndex bond) {
     const TestSetup& setup = placed.setup();
     const ContactPoint point = setup.bonds.at<K>(bond);
     const Facing held = facing_at_start<K>(placed.world(), setup, point);
-    Stretch part{};
-    if (is_circles(placed.world(), point.body_i)) {
-        const double radius = smaller_radius(placed.world(), K, point);
-        part = {perpendicular(held.normal), -radius, radius};
-    } else {
-        part = interface_share<K>(placed, bond, held);
-    }
+    const Stretch part = share_of<K>(placed.world(), setup, bond, held);
     const auto carried = [&](double place) {
         return 0.5 * (placed.carried(point.body_i, held.on_i + place * part.along) +
                       placed.carried(point.body_j, held.on_j + place * part.along));
@@ -85,16 +87,32 @@ CrackFace face_of(const PlacedFrame& placed, PointIndex bond) {
     return {carried(part.begin), carried(part.end), now - touching};
 }
 
+/// Calls `visit<K>()` with the kind of a bond. Walls bond nothing.
+template <class Visit>
+void with_kind_of(const TestSetup& setup, PointIndex bond, Visit&& visit) {
+    visit_kinds(setup.bond_kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
+        if constexpr (K != PointKind::element_wall) {
+            if (bond >= begin && bond < end) visit.template operator()<K>();
+        }
+    });
+}
+
 }  // namespace
 
 CrackFace find_crack_face(const PlacedFrame& placed, PointIndex bond) {
     CrackFace face{};
-    visit_kinds(placed.setup().bond_kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
-        if constexpr (K != PointKind::element_wall) {
-            if (bond >= begin && bond < end) face = face_of<K>(placed, bond);
-        }
-    });
+    with_kind_of(placed.setup(), bond, [&]<PointKind K>() { face = face_of<K>(placed, bond); });
     return face;
+}
+
+double length_of_face(const World& world, const TestSetup& setup, PointIndex bond) {
+    double length = 0.0;
+    with_kind_of(setup, bond, [&]<PointKind K>() {
+        const Facing held = facing_at_start<K>(world, setup, setup.bonds.at<K>(bond));
+        const Stretch part = share_of<K>(world, setup, bond, held);
+        length = part.end - part.begin;
+    });
+    return length;
 }
 
 }  // namespace crackle

@@ -23,4 +23,7 @@ struct CrackFace {
 /// @param bond  into TestSetup::bonds
 CrackFace find_crack_face(const PlacedFrame& placed, PointIndex bond);
 
+/// m, of the same share of the face when loading begins.
+double length_of_face(const World& world, const TestSetup& setup, PointIndex bond);
+
 }  // namespace crackle

@@ -48,19 +48,4 @@ std::vector<std::int32_t> find_fragments(const World& world, const TestSetup& se
     return number;
 }
 
-FragmentFigures measure_fragments(const World& world, const TestSetup& setup, const Frame& frame) {
-    FragmentFigures figures;
-    double all = 0.0, largest = 0.0;  // m²
-    const std::vector<std::int32_t> number = find_fragments(world, setup, frame);
-    for (BodyIndex b = 0; b < number.size(); ++b) {
-        if (number[b] < 0) continue;
-        figures.count = std::max<std::int64_t>(figures.count, number[b] + 1);
-        const double area = area_of(world, b);
-        all += area;
-        if (number[b] == 0) largest += area;
-    }
-    figures.largest_share = largest / all;
-    return figures;
-}
-
 }  // namespace crackle

@@ -15,10 +15,4 @@ namespace crackle {
 /// comes first. Of platens -1.
 std::vector<std::int32_t> find_fragments(const World& world, const TestSetup& setup, const Frame& frame);
 
-struct FragmentFigures {
-    std::int64_t count = 0;      ///< a particle that nothing holds is one
-    double largest_share = 0.0;  ///< of the particles' area
-};
-FragmentFigures measure_fragments(const World& world, const TestSetup& setup, const Frame& frame);
-
 }  // namespace crackle

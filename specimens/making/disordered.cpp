@@ -8,7 +8,7 @@
 
 #include "solver/base/errors.hpp"
 #include "specimens/making/open_scene.hpp"
-#include "specimens/packing/random_numbers.hpp"
+#include "specimens/statistics/random_numbers.hpp"
 
 namespace crackle {
 namespace {

@@ -12,8 +12,8 @@
 
 #include "solver/base/errors.hpp"
 #include "specimens/packing/isotropy.hpp"
-#include "specimens/packing/random_numbers.hpp"
 #include "specimens/packing/relaxation.hpp"
+#include "specimens/statistics/random_numbers.hpp"
 
 namespace crackle {
 namespace {

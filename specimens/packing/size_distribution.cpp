@@ -15,7 +15,7 @@
 #include "solver/base/correctly_rounded.hpp"
 #include "solver/base/errors.hpp"
 #include "solver/files/read_file.hpp"
-#include "specimens/packing/random_numbers.hpp"
+#include "specimens/statistics/random_numbers.hpp"
 
 namespace crackle {
 namespace {

@@ -8,9 +8,11 @@
 #include <stdexcept>
 #include <string_view>
 
-#include "specimens/frames/fragments.hpp"
-#include "specimens/observers/curve_analysis.hpp"
-#include "specimens/observers/parting.hpp"
+#include "specimens/measures/crack_rose.hpp"
+#include "specimens/measures/crack_thresholds.hpp"
+#include "specimens/measures/curve_analysis.hpp"
+#include "specimens/measures/fragment_sizes.hpp"
+#include "specimens/measures/parting.hpp"
 #include "specimens/observers/profile_report.hpp"
 #include "specimens/results/numerical_errors.hpp"
 
@@ -92,6 +94,69 @@ void strength(Writer& w, const TestSetup& setup, const TestState& state) {
     const Tangent half = tangent_at_half_peak(state.rows, f.peak_row, setup.compression);
     w.stress("tangent_modulus_50", half.modulus);
     w.put("tangent_50_poissons_ratio", finite_or_null(half.poissons_ratio));
+    const Tangent average = tangent_of_straightest(state.rows, f.peak_row, setup.compression);
+    w.stress("average_modulus", average.modulus);
+    w.put("average_poissons_ratio", finite_or_null(average.poissons_ratio));
+    const Tangent secant = secant_to_half_peak(state.rows, f.peak_row, setup.compression);
+    w.stress("secant_modulus_50", secant.modulus);
+    w.put("secant_50_poissons_ratio", finite_or_null(secant.poissons_ratio));
+    const double falling = f.failed ? tangent_beyond_peak(state.rows, f.peak_row, setup.compression).modulus : NAN;
+    w.stress("post_peak_modulus", falling);
+    w.put("brittleness_index", finite_or_null(brittleness_index(state.youngs_modulus, falling)));
+}
+
+/// Stresses at which cracks begin and join, of a compression.
+void cracking(Writer& w, const TestSetup& setup, const TestState& state) {
+    if (!setup.compression) return;
+    const FailureTracker& f = state.failure;
+    const CrackThresholds t = find_crack_thresholds(state.rows, f.peak_row, state.youngs_modulus, state.poissons_ratio);
+    w.stress("crack_initiation_stress", t.count_break);
+    w.put("crack_initiation_interval", {finite_or_null(t.low), finite_or_null(t.high)});
+    w.put("crack_initiation_over_peak", finite_or_null(t.count_break / f.peak_stress));
+    w.put("crack_initiation", {{"first_percent", finite_or_null(t.first_percent)},
+                               {"crack_strain", finite_or_null(t.crack_strain)},
+                               {"lateral_strain", finite_or_null(t.lateral_strain)},
+                               {"spread", finite_or_null(t.spread())}});
+    w.stress("crack_damage_stress", t.damage);
+    w.put("crack_damage_strain", finite_or_null(t.damage_strain));
+    w.put("crack_damage_over_peak", finite_or_null(t.damage / f.peak_stress));
+}
+
+/// Where the platens' work has gone up to a row.
+Json energy_of(const CurveRow& first, const CurveRow& row) {
+    const auto share = [&](double energy) { return finite_or_null(energy / row.platen_work); };
+    return {{"work", row.platen_work},
+            {"strain", share(row.strain_energy - first.strain_energy)},
+            {"kinetic", share(row.kinetic_energy - first.kinetic_energy)},
+            {"friction", share(row.friction_loss)},
+            {"fracture", share(row.fracture_loss)},
+            {"dashpot", share(row.dashpot_loss)}};
+}
+
+void energies(Writer& w, const TestState& state) {
+    const std::vector<CurveRow>& rows = state.rows;
+    const std::int64_t peak = state.failure.peak_row;
+    w.put("energy_at_peak", peak < 0 ? Json(nullptr) : energy_of(rows.front(), rows[static_cast<std::size_t>(peak)]));
+    w.put("energy_at_end", rows.empty() ? Json(nullptr) : energy_of(rows.front(), rows.back()));
+}
+
+Json rose_of(const Rose& rose) {
+    return {{"cracks", rose.count},
+            {"length", rose.weight},
+            {"direction", finite_or_null(rose.mean_direction())},
+            {"resultant", finite_or_null(rose.resultant())},
+            {"rayleigh", finite_or_null(rose.rayleigh())},
+            {"lengths", rose.weights}};
+}
+
+void directions(Writer& w, const TestSetup& setup, const TestState& state, const World& world) {
+    const std::int64_t peak = state.failure.peak_row;
+    const double time_of_peak = peak < 0 ? NAN : state.rows[static_cast<std::size_t>(peak)].time;
+    const CrackRoses roses = find_crack_roses(world, setup, state.history, time_of_peak);
+    w.put("crack_rose", {{"tension_to_peak", rose_of(roses.tension_to_peak)},
+                         {"shear_to_peak", rose_of(roses.shear_to_peak)},
+                         {"tension_after", rose_of(roses.tension_after)},
+                         {"shear_after", rose_of(roses.shear_after)}});
 }
 
 /// What has become of the specimen up to the peak and to the end.
@@ -110,9 +175,13 @@ void damage(Writer& w, const TestSetup& setup, const TestState& state, const Wor
     w.put("area_strain_end", finite_or_null(rows.empty() ? NAN : area_strain_of(rows.back())));
     Frame now;
     take_frame(world, setup, state.history, rows.empty() ? CurveRow{} : rows.back(), 0, now);
-    const FragmentFigures fragments = measure_fragments(world, setup, now);
+    const FragmentSizes fragments = measure_fragments(world, setup, now);
     w.put("fragments", fragments.count);
     w.put("largest_fragment_share", fragments.largest_share);
+    w.put("fragment_size_median", finite_or_null(fragments.median_size));
+    w.put("fragment_rosin_rammler", {{"size", finite_or_null(fragments.law.size)},
+                                     {"exponent", finite_or_null(fragments.law.exponent)},
+                                     {"fragments", fragments.law.pieces}});
     const std::optional<Parting> parting = find_parting(setup, state.history);
     w.put("failed_at", parting ? Json(parting->place) : Json(nullptr));
     w.put("largest_crack",
@@ -332,7 +401,10 @@ nlohmann::ordered_json make_summary(const TestCase& test, const TestSetup& setup
     Writer w{json, units, thickness.value_or(1.0), test.area_units()};
     describe(w, test, setup, state);
     strength(w, setup, state);
+    cracking(w, setup, state);
     damage(w, setup, state, world);
+    directions(w, setup, state, world);
+    energies(w, state);
     counts(w, setup, world);
     numerics(w, test, setup, state, world);
     numerical_errors(w, state, errors);

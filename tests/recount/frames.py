@@ -7,6 +7,7 @@ import math
 
 import numpy as np
 
+from measures import recount_fragments
 from model import dot, platen_depth, rounding, turned
 
 
@@ -235,6 +236,7 @@ def recount_frame(r, model, bonds, frame, first, row):
     if frame.time == r.curve["time"][-1]:
         r.key("fragments", len(ranked))
         r.key("largest_fragment_share", model.area[ranked[0]].sum() / model.area[: model.count].sum())
+        recount_fragments(r, model, [model.area[group].sum() for group in ranked])
     broken = int(np.sum((state == 2) | (state == 3)))
     by_events = int(np.sum(r.events["time"] <= frame.time * (1 + 1e-12))) if len(r.events["time"]) else 0
     r.compare(label + "broken bonds of events.csv", broken, by_events, 0)

@@ -16,6 +16,7 @@ from events import recount_events, recount_parting
 from frames import recount_frame, recount_places
 from history import holds_every_step, recount_history
 from loading_by_tolerance import by_tolerance
+from measures import recount_measures, recount_rose
 from model import Model, rounding
 from peaks import find_fall
 from results import Results, Unreadable
@@ -253,6 +254,7 @@ def recount_errors(r):
 def recount(folder):
     r = Recount(Results(folder))
     recount_curve(r)
+    recount_measures(r)
     recount_packing(r)
     recount_cells(r)
     if r.results.key("numerics", "contact_law", "rounded") == "rounded" or r.results.polygons is None:
@@ -265,6 +267,7 @@ def recount(folder):
         recount_events(r, model, bonds)
         recount_slips(r, model, bonds)
         recount_parting(r, model)
+        recount_rose(r, model)
         rows = r.results.frame_rows()
         for what, table in (("events", r.events), ("slips", r.results.slips)):
             if table is not None and len(table["time"]):

@@ -332,6 +332,11 @@ std::string summary_text(const SampleTest& test, std::size_t particles, const Bo
         {"frame_start", "frames/particles_00000.vtp"},
         {"frame_peak", "frames/particles_00400.vtp"},
         {"frame_end", "frames/particles_00600.vtp"}};
+    if (test.kind == "compression") {
+        summary["crack_initiation_stress"] = 0.45 * stress_at(test, peak_at);
+        summary["crack_damage_stress"] = 0.8 * stress_at(test, peak_at);
+        summary["crack_damage_strain"] = 0.78 * peak_at;
+    }
     if (test.thickness > 0.0) {
         summary["out_of_plane_thickness"] = test.thickness;
         for (const char* key : {"peak_stress", "largest_stress", "youngs_modulus"})

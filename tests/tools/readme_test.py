@@ -96,6 +96,7 @@ def flat(value, path=""):
 def declared(name):
     """A key of a summary by the wildcards of FILES.md."""
     name = re.sub(r"^numerical_errors\.companions\.\w+", "numerical_errors.companions.*", name)
+    name = re.sub(r"^crack_rose\.\w+", "crack_rose.*", name)
     name = re.sub(r"^files\.(curve\.csv|events\.csv|slips\.csv|checkpoint)", "files.*", name)
     return re.sub(r"^numerical_errors\.(youngs_modulus|peak_stress|peak_strain)", "numerical_errors.*", name)
 
@@ -118,7 +119,7 @@ normal_stiffness = 2e7
 [[mineral]]
 name = "feldspar"
 """
-CONTAINERS = {"files.*", "numerical_errors.*", "numerical_errors.companions", "numerical_errors.companions.*", "profile.phases", "profile.phases[]", "minerals[]"}
+CONTAINERS = {"files.*", "crack_rose.*", "numerical_errors.*", "numerical_errors.companions", "numerical_errors.companions.*", "profile.phases", "profile.phases[]", "minerals[]"}
 
 
 class Pages(unittest.TestCase):

@@ -145,6 +145,18 @@ Panel drawings_of(const Recording& test, const fs::path& folder, const Words& mo
     return drawings(drawn, std::vector<fs::path>(drawn.size(), folder), style);
 }
 
+/// What there is: a test without frames has no drawing, and how the area changes is looked at in one compression.
+Words everything_of(const std::vector<Recording>& tests) {
+    Words what{"curve"};
+    const TestResults& first = tests.front().results;
+    if (tests.size() == 1 && first.summary.value("kind", std::string()) == "compression" && has_area_strain(first))
+        what.emplace_back("strain");
+    what.emplace_back("ae");
+    if (std::ranges::none_of(tests, [](const Recording& test) { return test.frames.empty(); }))
+        what.emplace_back("specimen");
+    return what;
+}
+
 void plot_tests(const po::variables_map& given, const Words& folders, const Look& look, Messages& messages) {
     const fs::path output = given["output"].as<std::string>();
     const std::string extension = output.extension().string();
@@ -153,19 +165,25 @@ void plot_tests(const po::variables_map& given, const Words& folders, const Look
     refuse_replacing(output, given.contains("force"));
     Words what = given.contains("what") ? given["what"].as<Words>() : Words{"all"};
     for (const std::string& word : what) {
-        if (word != "curve" && word != "ae" && word != "specimen" && word != "all")
-            throw InputError(fmt::format("plot: --what: found '{}', expected curve, ae, specimen or all", word));
+        if (word != "curve" && word != "ae" && word != "strain" && word != "specimen" && word != "all")
+            throw InputError(
+                fmt::format("plot: --what: found '{}', expected curve, ae, strain, specimen or all", word));
     }
     std::vector<Recording> tests;
     for (const std::string& folder : folders) {
         tests.push_back(read_whole(folder));
         report_recording(messages, tests.back());
     }
-    // All of what there is: a test without frames has no drawing.
-    const bool have_frames =
-        std::none_of(tests.begin(), tests.end(), [](const Recording& t) { return t.frames.empty(); });
-    if (std::find(what.begin(), what.end(), "all") != what.end())
-        what = have_frames ? Words{"curve", "ae", "specimen"} : Words{"curve", "ae"};
+    if (std::find(what.begin(), what.end(), "all") != what.end()) what = everything_of(tests);
+    if (std::ranges::find(what, "strain") != what.end()) {
+        for (const Recording& test : tests) {
+            if (has_area_strain(test.results)) continue;
+            throw InputError(
+                fmt::format("plot: {}: found no lateral strain, expected that of a specimen with particles "
+                            "along its sides; leave strain out of --what",
+                            test.name));
+        }
+    }
     Words labels = given.contains("labels") ? given["labels"].as<Words>() : default_labels(tests);
     if (labels.size() != tests.size())
         throw InputError(
@@ -178,6 +196,7 @@ void plot_tests(const po::variables_map& given, const Words& folders, const Look
     for (const std::string& word : what) {
         if (word == "curve") panels.push_back(stress_strain(plotted));
         if (word == "ae") panels.push_back(breaks(plotted));
+        if (word == "strain") panels.push_back(area_strain(plotted));
         if (word != "specimen") continue;
         for (std::size_t k = 0; k < tests.size(); ++k)
             panels.push_back(drawings_of(tests[k], folders[k], moments, look.drawing));
@@ -272,7 +291,8 @@ CommandLine describe_plot() {
     options.add_options()("output,o", po::value<std::string>()->value_name("FIGURE"),
                           "figure to write: .svg, .pdf or .png; with --guide a folder")  //
         ("what", po::value<Words>()->multitoken()->value_name("WORD"),
-         "curve, ae, specimen, or all, one below the other (default: all)")  //
+         "curve, ae, strain (of the area, and what of it is cracks), specimen, or all, one below the other (default: "
+         "all)")  //
         ("at", po::value<Words>()->multitoken()->value_name("STRAIN"),
          "strains of the specimens, or start, peak, end (default: start peak end); the nearest frame is drawn")  //
         ("columns", po::value<int>()->value_name("N")->default_value(1),
@@ -301,12 +321,13 @@ CommandLine describe_plot() {
         .synopses = {"crackle plot OUT... -o FIGURE [OPTIONS]", "crackle plot --guide FOLDER -o FOLDER [OPTIONS]"},
         .description =
             "Figures for a paper from the folders that `crackle test` wrote: axial stress over axial strain with "
-            "the breaks beneath, bonds broken along the loading (what acoustic emission hears), specimens at given "
-            "strains with their cracks. Of a campaign's folder: bands of curves, distributions, figures over its axes.",
+            "the breaks beneath, the strain of the area and of the cracks in it, bonds broken along the loading (what "
+            "acoustic emission hears), specimens at given strains with their cracks. Of a campaign's folder: bands of "
+            "curves, distributions, figures over its axes.",
         .options = {{"options", options}},
         .operand = "OUT",
         .several_operands = true,
-        .choices = {{"what", {"curve", "ae", "specimen", "all"}},
+        .choices = {{"what", {"curve", "ae", "strain", "specimen", "all"}},
                     {"at", {"start", "peak", "end"}},
                     {"format", {"svg", "pdf", "png"}}},
         .verbose = "cells, bonds and frames read",

@@ -7,8 +7,8 @@
 #include <cmath>
 #include <limits>
 
-#include "specimens/campaign/statistics.hpp"
 #include "specimens/recordings/measured_curve.hpp"
+#include "specimens/statistics/mean.hpp"
 #include "tools/plot/axes.hpp"
 #include "tools/plot/legend.hpp"
 

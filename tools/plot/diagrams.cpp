@@ -9,55 +9,15 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "tools/plot/axes.hpp"
 #include "tools/plot/legend.hpp"
 #include "tools/plot/panels.hpp"
+#include "tools/plot/plotted_curves.hpp"
 
 namespace crackle::plot {
 namespace {
-
-const Colour& colour_of(const PlottedTest& test) { return series_colour(test.colour); }
-
-const std::vector<double>& column(const TestResults& results, const char* name) { return *results.curve.find(name); }
-
-double largest_of(const std::vector<PlottedTest>& tests, const char* name) {
-    double largest = 0.0;
-    for (const PlottedTest& test : tests) {
-        for (const double value : column(*test.results, name)) largest = std::max(largest, value);
-    }
-    return largest;
-}
-
-double smallest_of(const std::vector<PlottedTest>& tests, const char* name) {
-    double smallest = 0.0;
-    for (const PlottedTest& test : tests) {
-        for (const double value : column(*test.results, name)) smallest = std::min(smallest, value);
-    }
-    return smallest;
-}
-
-/// A curve's points; those that lie within a hundredth of a point of the line before are left out.
-std::vector<Point> curve_points(const Axes& axes, const std::vector<double>& x, double x_unit,
-                                const std::vector<double>& y, double y_unit) {
-    constexpr double unseen = 0.01;
-    std::vector<Point> points;
-    for (std::size_t k = 0; k < x.size(); ++k) {
-        const Point point = axes.at(x[k] / x_unit, y[k] / y_unit);
-        if (!points.empty() && k + 1 < x.size() &&
-            std::hypot(point.x - points.back().x, point.y - points.back().y) < unseen)
-            continue;
-        points.push_back(point);
-    }
-    return points;
-}
-
-std::vector<Legend::Entry> entries_of(const std::vector<PlottedTest>& tests) {
-    std::vector<Legend::Entry> entries;
-    entries.reserve(tests.size());
-    for (const PlottedTest& test : tests) entries.push_back({test.label, colour_of(test), test.dashed});
-    return entries;
-}
 
 constexpr double small_text = 0.75;  // of the font size
 
@@ -113,10 +73,6 @@ void draw_bars(Canvas& canvas, const Axes& axes, const Histogram& histogram) {
     }
 }
 
-Scale strain_scale(const std::vector<PlottedTest>& tests, double width) {
-    return scale_for(0.0, largest_of(tests, "axial_strain") / strain_unit, width < 300.0 ? 6 : 10);
-}
-
 /// Counts are whole: never a tick between them.
 Scale count_scale(double most, int ticks) {
     Scale scale = scale_for(0.0, std::max(most, 1.0), ticks);
@@ -135,15 +91,27 @@ void draw_so_far(Canvas& canvas, const Axes& axes, const std::vector<PlottedTest
 double total_strain(const std::vector<PlottedTest>& tests) { return largest_of(tests, "axial_strain"); }
 
 void mark_peak(Canvas& canvas, const Axes& axes, const PlottedTest& test, double unit) {
-    const auto& summary = test.results->summary;
-    const auto number = [&](const char* key) {
-        const auto found = summary.find(key);
-        return found != summary.end() && found->is_number() ? found->get<double>() : std::nan("");
-    };
-    const double strain = number("peak_strain"), stress = number("peak_stress");
+    const double strain = number_of(test, "peak_strain"), stress = number_of(test, "peak_stress");
     if (!std::isfinite(strain) || !std::isfinite(stress)) return;
     const Colour white = colour("#ffffff");
     canvas.circle(axes.at(strain / strain_unit, stress / unit), 1.8, &white, &colour_of(test), curve_width);
+}
+
+/// Crack initiation and damage, where the curve first reaches their stresses.
+void mark_cracks(Canvas& canvas, const Axes& axes, const PlottedTest& test, double unit) {
+    const Colour white = colour("#ffffff");
+    const std::vector<double>&strain = column(*test.results, "axial_strain"),
+          &stress = column(*test.results, "axial_stress");
+    for (const auto& [key, name] : {std::pair("crack_initiation_stress", crack_initiation_sign),
+                                    std::pair("crack_damage_stress", crack_damage_sign)}) {
+        const double level = number_of(test, key);
+        const auto reached = std::ranges::find_if(stress, [&](double s) { return s >= level; });
+        if (reached == stress.end()) continue;  // not a number, too
+        const auto row = static_cast<std::size_t>(reached - stress.begin());
+        const Point place = axes.at(strain[row] / strain_unit, *reached / unit);
+        canvas.circle(place, 1.5, &white, &colour_of(test), 0.7 * curve_width);
+        canvas.text({place.x - 4.0, place.y}, name, Across::right, Down::middle, small_text, ink);
+    }
 }
 
 void draw_curves(Canvas& canvas, const Axes& axes, const std::vector<PlottedTest>& tests, double unit) {
@@ -154,6 +122,7 @@ void draw_curves(Canvas& canvas, const Axes& axes, const std::vector<PlottedTest
                     colour_of(test), curve_width, test.dashed);
     }
     for (const PlottedTest& test : tests) mark_peak(canvas, axes, test, unit);
+    if (tests.size() == 1) mark_cracks(canvas, axes, tests.front(), unit);
 }
 
 Scale stress_scale(const std::vector<PlottedTest>& tests, double unit, int ticks) {

@@ -14,7 +14,10 @@ namespace crackle::plot {
 
 inline constexpr double strain_unit = 1e-3;
 inline constexpr const char* strain_title = "axial strain, 10⁻³";
-inline constexpr double curve_width = 0.9;     // pt
+inline constexpr double curve_width = 0.9;  // pt
+/// Crack initiation and damage. Pango's own <sub> takes the default size for that of the text.
+inline constexpr const char* crack_initiation_sign = "<i>σ</i><span size=\"75%\" rise=\"-2pt\">ci</span>";
+inline constexpr const char* crack_damage_sign = "<i>σ</i><span size=\"75%\" rise=\"-2pt\">cd</span>";
 inline constexpr double beside_letter = 20.0;  // pt, from the left of a panel, where its letter stands
 
 /// As in the report (tools/viewer/src/colours/theme.ts): distinguishable with any colour vision.

@@ -33,6 +33,12 @@ Panel stress_strain(const std::vector<PlottedTest>& tests);
 /// Bonds broken in each interval of strain, by mode, and so far (right axis); of several tests so far.
 Panel breaks(const std::vector<PlottedTest>& tests);
 
+/// Area strain over axial strain, axial less lateral, positive where the area shrinks; of one test beside it what
+/// cracks have of it, and crack damage. What falls far below the values at the peak is left out.
+Panel area_strain(const std::vector<PlottedTest>& tests);
+/// Whether the specimen has a lateral strain.
+bool has_area_strain(const TestResults& results);
+
 /// One moment of one specimen.
 struct DrawnMoment {
     const Recording* recording = nullptr;

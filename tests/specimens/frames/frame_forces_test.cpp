@@ -16,6 +16,7 @@
 #include "specimens/loading/load_specimen.hpp"
 #include "specimens/loading/prepare.hpp"
 #include "specimens/loading/virtual_test.hpp"
+#include "specimens/measures/fragment_sizes.hpp"
 #include "specimens/observers/curve.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/deck_files.hpp"
@@ -158,7 +159,7 @@ TEST_F(FrameForcesOfRock, FragmentsOfASpecimenSplitAcrossAreItsTwoParts) {
         const std::vector<std::int32_t> parts = find_fragments(test.world, test.setup, frame);
         for (BodyIndex b = 0; b < parts.size(); ++b)
             EXPECT_EQ(parts[b], test.setup.is_platen(b) ? -1 : above(b) ? 1 : 0) << test.world.bodies.info(b).id;
-        const FragmentFigures figures = measure_fragments(test.world, test.setup, frame);
+        const FragmentSizes figures = measure_fragments(test.world, test.setup, frame);
         EXPECT_EQ(figures.count, 2);
         double all = 0.0, below = 0.0;
         for (BodyIndex b = 0; b < parts.size(); ++b) {

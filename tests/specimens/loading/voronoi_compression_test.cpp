@@ -16,7 +16,7 @@
 #include "specimens/loading/prepare.hpp"
 #include "specimens/loading/run.hpp"
 #include "specimens/loading/virtual_test.hpp"
-#include "specimens/packing/random_numbers.hpp"
+#include "specimens/statistics/random_numbers.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/deck_files.hpp"
 #include "tests/support/folder_contents.hpp"

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "specimens/observers/curve.hpp"
-#include "tests/specimens/observers/straight_curve.hpp"
+#include "tests/specimens/measures/straight_curve.hpp"
 #include "tests/support/claim.hpp"
 
 namespace crackle {

@@ -21,8 +21,8 @@
 #include "solver/stepping/build_world.hpp"
 #include "solver/stepping/step.hpp"
 #include "solver/world/world.hpp"
-#include "specimens/packing/random_numbers.hpp"
 #include "specimens/packing/relaxation.hpp"
+#include "specimens/statistics/random_numbers.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/deck_files.hpp"
 

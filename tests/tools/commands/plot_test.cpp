@@ -2,12 +2,14 @@
 // `crackle plot` as a user calls it: what its figures hold, by reading them back.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 #include <zlib.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <fstream>
 #include <pugixml.hpp>
 #include <sstream>
 
@@ -209,6 +211,44 @@ TEST_F(PlotCommand, BarsOfBreaksAddUpToTheEventsOfEachMode) {
     EXPECT_NEAR(got, expected, 0.01 * expected);
 }
 
+/// Cells of a table's last line.
+std::vector<double> last_line(const std::string& table) {
+    const std::size_t begin = table.rfind('\n', table.size() - 2) + 1;
+    std::istringstream cells(table.substr(begin));
+    std::vector<double> numbers;
+    for (std::string cell; std::getline(cells, cell, ',');) numbers.push_back(std::stod(cell));
+    return numbers;
+}
+
+TEST_F(PlotCommand, AreaStrainIsDrawnWithWhatOfItIsCracks) {
+    std::vector<std::vector<Vec2>> curves;
+    for (const std::vector<Vec2>& line : lines_of(drawn("squeezed --what strain --width 200", "figure.svg")))
+        if (line.size() > 20) curves.push_back(line);
+    ASSERT_EQ(curves.size(), 2U);
+    const std::vector<double> end = last_line(read("squeezed/curve.csv"));
+    // The sample's modulus and Poisson's ratio.
+    const double area = end[0] - end[4], cracks = area - (1.0 - 0.21) * end[1] / 5.0e6;
+    const auto height_of = [](const std::vector<Vec2>& curve) { return curve.front().y - curve.back().y; };
+    const double got = height_of(curves[1]) / height_of(curves[0]), expected = cracks / area;
+    fmt::print("  strain of cracks over that of the area: expected {:.4f}, got {:.4f}\n", expected, got);
+    EXPECT_NEAR(got, expected, 1e-3);
+}
+
+TEST_F(PlotCommand, OfASpecimenWithoutSidesHasNoAreaStrain) {
+    std::istringstream rows(read("squeezed/curve.csv"));
+    std::string table, row;
+    for (bool head = true; std::getline(rows, row); head = false) {
+        std::vector<std::string> cells;
+        std::istringstream line(row);
+        for (std::string cell; std::getline(line, cell, ',');) cells.push_back(cell);
+        if (!head) cells[4] = "nan";
+        table += fmt::format("{}\n", fmt::join(cells, ","));
+    }
+    std::ofstream(folder_ / "squeezed" / "curve.csv") << table;
+    expect_refused("squeezed --force -o figure.pdf --what strain", "found no lateral strain");
+    EXPECT_FALSE(drawn("squeezed", "figure.svg").empty()) << "of all that there is";
+}
+
 TEST_F(PlotCommand, CracksLieOnTheFacesThatTheyParted) {
     write_small_case(folder_, {.mesh = "voronoi", .output = "curve_rows = 2000\nframes = 5"});
     ASSERT_EQ(
@@ -406,7 +446,7 @@ TEST_F(PlotCommand, RefusesWhatItCannotDrawAndLeavesTheFigureThatIsThere) {
     expect_refused("pulled -o figure", "found '', expected svg, pdf or png");
     expect_refused("nowhere --force -o figure.pdf", "nowhere: found no such folder");
     expect_refused("pulled --force -o figure.pdf --what cracks",
-                   "--what: found 'cracks', expected curve, ae, specimen or all");
+                   "--what: found 'cracks', expected curve, ae, strain, specimen or all");
     expect_refused("pulled --force -o figure.pdf --at 0.5",
                    "--at: found 0.5, expected 0 to 0.0015, the last strain of pulled");
     expect_refused("pulled --force -o figure.pdf --at soon",

@@ -23,7 +23,7 @@
 #include "specimens/loading/load_specimen.hpp"
 #include "specimens/loading/prepare.hpp"
 #include "specimens/loading/virtual_test.hpp"
-#include "specimens/observers/curve_analysis.hpp"
+#include "specimens/measures/curve_analysis.hpp"
 #include "specimens/results/sha256.hpp"
 #include "tools/bench/guide/experiments.hpp"
 

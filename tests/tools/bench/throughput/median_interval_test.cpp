@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "solver/base/errors.hpp"
-#include "specimens/packing/random_numbers.hpp"
+#include "specimens/statistics/random_numbers.hpp"
 
 namespace crackle::throughput {
 namespace {

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "mesher/mesher.hpp"
-#include "specimens/packing/random_numbers.hpp"
+#include "specimens/statistics/random_numbers.hpp"
 #include "tools/bench/verify/groups.hpp"
 #include "tools/bench/verify/rows.hpp"
 

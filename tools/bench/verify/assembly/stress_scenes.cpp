@@ -14,7 +14,7 @@
 #include "solver/measure/ledger.hpp"
 #include "solver/stepping/build_world.hpp"
 #include "solver/stepping/step.hpp"
-#include "specimens/packing/random_numbers.hpp"
+#include "specimens/statistics/random_numbers.hpp"
 #include "tools/bench/verify/assembly/stress.hpp"
 #include "tools/bench/verify/scenes/whole_world.hpp"
 

@@ -18,7 +18,7 @@
 #include "solver/stepping/step.hpp"
 #include "solver/world/checkpoint.hpp"
 #include "solver/world/world.hpp"
-#include "specimens/packing/random_numbers.hpp"
+#include "specimens/statistics/random_numbers.hpp"
 #include "tools/bench/verify/groups.hpp"
 #include "tools/bench/verify/rows.hpp"
 #include "tools/bench/verify/scenes/bonded_bodies.hpp"

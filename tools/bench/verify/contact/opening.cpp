@@ -13,7 +13,7 @@
 #include "solver/stepping/build_world.hpp"
 #include "solver/stepping/step.hpp"
 #include "solver/world/world.hpp"
-#include "specimens/packing/random_numbers.hpp"
+#include "specimens/statistics/random_numbers.hpp"
 #include "tools/bench/verify/groups.hpp"
 #include "tools/bench/verify/rows.hpp"
 #include "tools/bench/verify/scenes/whole_world.hpp"

@@ -11,7 +11,7 @@
 
 #include "solver/world/world.hpp"
 #include "specimens/making/materials.hpp"
-#include "specimens/packing/random_numbers.hpp"
+#include "specimens/statistics/random_numbers.hpp"
 
 namespace crackle::verification {
 

@@ -12,7 +12,7 @@ import type {ECharts} from 'echarts/core';
 import {SVGRenderer} from 'echarts/renderers';
 
 import type {Theme} from '../colours/theme';
-import {inArea, largestOf, numberOf, peakOf, stressUnitOf, type TestData} from '../data/report';
+import {inArea, largestOf, numberOf, peakOf, stressUnitOf, type Curve, type TestData} from '../data/report';
 import {unique} from '../data/test_labels';
 import {Cursor} from '../elements/chart_cursor';
 import {element} from '../elements/dom';
@@ -132,6 +132,29 @@ function peakLabel(test: TestData, stress: number): string {
     return quantity(stress, stressUnitOf(test)) + (thickness === undefined || inArea(test) ? '' : `, ${quantity(stress / thickness, 'Pa')}`) + (test.failed ? '' : ', peak so far');
 }
 
+/// Where a curve first reaches a stress.
+function firstReached({strain, stress}: Curve, level: number): [number, number] | undefined {
+    for (let k = 0; k < stress.length; ++k) if (stress[k]! >= level) return [strain[k]!, stress[k]!];
+    return undefined;
+}
+
+/// Crack initiation and damage on the curve.
+function crackMarks(member: Member, scale: Scale, theme: Theme) {
+    const {test} = member, colour = theme.series[member.colour % theme.series.length]!;
+    const marks = [['crack_initiation_stress', 'σci'], ['crack_damage_stress', 'σcd']].flatMap(([key, label]) => {
+        const level = numberOf(test.summary, key!), place = level === undefined ? undefined : firstReached(test.curve, level);
+        return place ? [{value: [place[0] / strainFactor, place[1] / scale.factor], label: {formatter: label}}] : [];
+    });
+    if (marks.length === 0) return [];
+    return [{
+        type: 'scatter', name: member.shortLabel, id: `cracks ${member.label}`, xAxisIndex: 0, yAxisIndex: 0, data: marks,
+        symbol: 'triangle', symbolSize: 8, itemStyle: {color: theme.background, borderColor: colour, borderWidth: 1.5, opacity: 1},
+        label: {show: true, position: 'left', distance: 5, color: colour, fontFamily, fontSize: 11.5, textBorderColor: theme.background, textBorderWidth: 3},
+        labelLayout: {hideOverlap: true},
+        tooltip: {show: false}, emphasis: {disabled: true}, animation: false, z: 4,
+    }];
+}
+
 function stressSeries(member: Member, range: number, scale: Scale, theme: Theme) {
     const colour = theme.series[member.colour % theme.series.length]!;
     const peak = peakOf(member.test);
@@ -142,7 +165,7 @@ function stressSeries(member: Member, range: number, scale: Scale, theme: Theme)
         emphasis: {disabled: true}, animation: false, z: 3,
     };
     if (peak.strain === undefined || peak.stress === undefined) return [curve];
-    return [curve, {
+    return [curve, ...crackMarks(member, scale, theme), {
         type: 'scatter', name: member.shortLabel, id: `peak ${member.label}`, xAxisIndex: 0, yAxisIndex: 0,
         data: [[peak.strain / strainFactor, peak.stress / scale.factor]],
         symbol: member.test.failed ? 'circle' : 'diamond', symbolSize: member.test.failed ? 7 : 10,

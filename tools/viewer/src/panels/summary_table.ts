@@ -77,6 +77,24 @@ function words(name: string, read: (test: TestData) => unknown): Row {
     return {name, cells: (tests) => ({unit: '', values: tests.map(read).map((value) => (value === undefined || value === null ? undefined : String(value)))})};
 }
 
+const ratio = (part?: number, whole?: number): number | undefined => (part === undefined || whole === undefined || whole === 0 ? undefined : part / whole);
+
+/// A number of a table within the summary.
+function numberIn(test: TestData, table: string, name: string): number | undefined {
+    const value = (test.summary[table] as Record<string, unknown> | null | undefined)?.[name];
+    return typeof value === 'number' ? value : undefined;
+}
+
+/// Both ends of an interval over the number that it belongs to.
+function within(name: string, interval: string, of: string): Row {
+    const shares = (test: TestData): string | undefined => {
+        const ends = test.summary[interval], value = numberOf(test.summary, of);
+        if (!Array.isArray(ends) || value === undefined) return undefined;
+        return ends.map((end) => (typeof end === 'number' ? significant(100 * end / value, 3) : missing)).join(' to ');
+    };
+    return {name, cells: (tests) => ({unit: '%', values: tests.map(shares)})};
+}
+
 /** A part of the relative error that the summary gives for one of its numbers; absent where it was not measured. */
 function errorOf(number: string, part: string): Read {
     return (test) => {
@@ -111,12 +129,22 @@ const groups: readonly {title: string; rows: readonly Row[]}[] = [
         plain('Poisson’s ratio ν', key('poissons_ratio')),
         ...stress('Initial tangent modulus', ['initial_tangent_modulus'], 'over the first 5 % of the strain at peak'),
         ...stress('Tangent modulus at half the peak', ['tangent_modulus_50']),
+        ...stress('Average modulus', ['average_modulus'], 'over the 30 % of the peak stress that a line fits best'),
+        ...stress('Secant modulus to half the peak', ['secant_modulus_50']),
+        ...stress('Modulus beyond the peak', ['post_peak_modulus'], 'from 90 % down to 60 % of the peak'),
+        plain('Brittleness index (M − E)/M', key('brittleness_index'), 'M the modulus beyond the peak: 1 where the stress drops at once'),
     ]},
     {title: 'Strength', rows: [
         ...stress('Peak stress', ['peak_stress', 'peak_stress_so_far'], 'the strength, positive in the test’s own sense: the first maximum that a drop follows'),
         strains('Strain at peak', either('peak_strain', 'peak_strain_so_far')),
         ...inPlaneAndSpace('Larger stress after the peak', later('largest_stress'), later('largest_stress_pa'), 'of pieces that carry again after the drop: not the strength'),
         strains('Strain there', later('strain_at_largest_stress')),
+        ...stress('Crack initiation σci', ['crack_initiation_stress'], 'where the number of broken bonds over stress changes its slope'),
+        within('of it first to last of its 95 % interval', 'crack_initiation_interval', 'crack_initiation_stress'),
+        percent('Crack initiation over the peak', key('crack_initiation_over_peak')),
+        percent('Spread of four definitions of σci', (test) => ratio(numberIn(test, 'crack_initiation', 'spread'), numberOf(test.summary, 'crack_initiation_stress')), 'largest less smallest, over σci'),
+        ...stress('Crack damage σcd', ['crack_damage_stress'], 'at the largest area strain'),
+        percent('Crack damage over the peak', key('crack_damage_over_peak')),
         {name: 'Failed', cells: (tests) => ({unit: '', values: tests.map((test) => (test.failed ? 'yes' : 'no: peak so far'))})},
     ]},
     {title: 'Breakage', rows: [
@@ -129,8 +157,14 @@ const groups: readonly {title: string; rows: readonly Row[]}[] = [
         counts('Interfaces lost', key('interfaces_lost')),
         counts('Fragments at the end', key('fragments'), 'groups of particles that intact bonds join'),
         percent('Largest fragment', key('largest_fragment_share'), 'of the particles’ area'),
+        measured('Median size of fragments, D50', 'm', key('fragment_size_median'), 'half of the area lies in smaller ones'),
+        plain('Rosin–Rammler exponent of fragments', (test) => numberIn(test, 'fragment_rosin_rammler', 'exponent')),
         strains('Area strain at peak', key('area_strain_peak'), 'axial less lateral strain, shortening and widening positive: positive where the area shrinks'),
         strains('Area strain at the end', key('area_strain_end')),
+    ]},
+    {title: 'Energy, of the platens’ work', rows: [
+        ...(['peak', 'end'] as const).flatMap((moment) => ([['strain', 'stored'], ['friction', 'lost by sliding'], ['fracture', 'taken by breaks'], ['dashpot', 'lost in dashpots'], ['kinetic', 'of motion']] as const)
+            .map(([part, title]) => percent(`${capitalised(title)}, at the ${moment}`, (test) => numberIn(test, `energy_at_${moment}`, part)))),
     ]},
     {title: 'Numerical errors', rows: [
         ...errorRows('peak_stress', 'Peak stress'),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where a specimen parted, of cracks put into a chain of particles between two platens by hand.
 
-#include "specimens/observers/parting.hpp"
+#include "specimens/measures/parting.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "specimens/campaign/statistics.hpp"
+#include "specimens/statistics/mean.hpp"
 
 #include <algorithm>
 #include <boost/math/distributions/normal.hpp>
@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-#include "specimens/packing/random_numbers.hpp"
+#include "specimens/statistics/random_numbers.hpp"
 
 namespace crackle {
 namespace {
@@ -59,7 +59,7 @@ MeanFigure mean_of(std::span<const double> values) {
         mean = drawn / count;
     }
     std::sort(means.begin(), means.end());
-    const double tail = boost::math::cdf(boost::math::normal(), -std::sqrt(count / (count - 1.0)) * t);
+    const double tail = expanded_tail(values.size());
     figure.low = percentile(means, tail);
     figure.high = percentile(means, 1.0 - tail);
     return figure;
@@ -81,6 +81,11 @@ MeanBias bias_of(std::span<const double> asked, std::span<const double> half_ste
     }
     const MeanFigure step = moments_of(by_step), rate = moments_of(by_rate), both = moments_of(by_both);
     return {both.count, step.mean, step.standard_error, rate.mean, rate.standard_error, both.mean, both.standard_error};
+}
+
+double expanded_tail(std::size_t count) {
+    const auto n = static_cast<double>(count);
+    return boost::math::cdf(boost::math::normal(), -std::sqrt(n / (n - 1.0)) * student(count));
 }
 
 double percentile(std::span<const double> sorted, double share) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Means and their errors against closed forms, and how often intervals hold what they promise.
 
-#include "specimens/campaign/statistics.hpp"
+#include "specimens/statistics/mean.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 #include <random>
 #include <vector>
 
-#include "specimens/packing/random_numbers.hpp"
+#include "specimens/statistics/random_numbers.hpp"
 #include "tests/support/claim.hpp"
 
 namespace crackle {

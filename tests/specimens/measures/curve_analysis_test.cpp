@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Windows, moduli and ratios of curves written by hand and of curves whose moduli are known.
 
-#include "specimens/observers/curve_analysis.hpp"
+#include "specimens/measures/curve_analysis.hpp"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <vector>
 
-#include "tests/specimens/observers/straight_curve.hpp"
+#include "tests/specimens/measures/straight_curve.hpp"
 #include "tests/support/claim.hpp"
 
 namespace crackle {
@@ -44,6 +44,42 @@ TEST(Moduli, OfACurvedCurveDiffer) {
         agrees("initial tangent modulus", initial_tangent(curve, 1000, true).modulus, 5e6 * (1.0 - 0.025), 1e-3));
     EXPECT_TRUE(agrees("modulus at half the peak", tangent_at_half_peak(curve, 1000, true).modulus,
                        5e6 * std::sqrt(0.5), 1e-2));
+}
+
+TEST(Moduli, AverageIsOfTheStraightestPart) {
+    std::vector<CurveRow> curve;  // curved up to 30 % of the peak, straight with E to 70 %, flatter beyond
+    double strain = 0.0;
+    for (int k = 0; k <= 1000; ++k) {
+        CurveRow row;
+        row.axial_stress = 1e3 * k;
+        const double compliance = k < 300 ? 3.0 - 2.0 * k / 300.0 : k < 700 ? 1.0 : 1.0 + (k - 700) / 100.0;
+        if (k > 0) strain += 1e3 * compliance / 5e9;
+        row.axial_strain = strain;
+        row.lateral_strain = 0.2 * strain;
+        curve.push_back(row);
+    }
+    const Tangent average = tangent_of_straightest(curve, 1000, true);
+    EXPECT_TRUE(agrees("average modulus", average.modulus, 5e9, 1e-9));
+    EXPECT_TRUE(agrees("its Poisson's ratio", average.poissons_ratio, 0.2, 1e-9));
+    const Tangent secant = secant_to_half_peak(curve, 1000, true);
+    EXPECT_TRUE(agrees("secant modulus", secant.modulus, 500e3 / curve[500].axial_strain, 1e-12));
+    EXPECT_TRUE(agrees("ratio of the strains there", secant.poissons_ratio, 0.2, 1e-12));
+}
+
+TEST(Moduli, BeyondThePeakAreOfTheFall) {
+    std::vector<CurveRow> curve;
+    for (int k = 0; k <= 400; ++k) {
+        CurveRow row;
+        row.axial_strain = 1e-6 * k;
+        row.axial_stress = k <= 200 ? 5e9 * row.axial_strain : 1e6 - 10e9 * 1e-6 * (k - 200);
+        curve.push_back(row);
+    }
+    EXPECT_TRUE(agrees("modulus beyond the peak", tangent_beyond_peak(curve, 200, true).modulus, -10e9, 1e-9));
+    EXPECT_TRUE(agrees("brittleness index, 1 + E/|M|", brittleness_index(5e9, -10e9), 1.5, 1e-12));
+    curve.resize(230);  // has fallen to 0.71 of the peak
+    EXPECT_TRUE(std::isnan(tangent_beyond_peak(curve, 200, true).modulus));
+    const auto drops_at_once = straight_curve(5e6, 1e-3, 0.2, 0.3, 200);
+    EXPECT_TRUE(std::isnan(tangent_beyond_peak(drops_at_once, 200, true).modulus)) << "one row only";
 }
 
 TEST(AreaStrain, IsShorteningLessWidening) {

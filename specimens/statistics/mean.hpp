@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What several packings say of a figure: mean, scatter, and how sure the mean is.
-// Tested by tests/specimens/campaign/statistics_test.cpp.
+// Tested by tests/specimens/statistics/mean_test.cpp.
 #pragma once
 
 #include <cstddef>
@@ -45,6 +45,9 @@ MeanBias bias_of(std::span<const double> asked, std::span<const double> half_ste
 /// Between sorted values, linear (type 7 of Hyndman and Fan, Am. Stat. 50, 1996). @param sorted at least one value
 /// @param share 0 to 1
 double percentile(std::span<const double> sorted, double share);
+
+/// Share below and above that percentiles of bootstrap means of so many values leave out, to be as wide as Student's t.
+double expanded_tail(std::size_t count);
 
 /// Packings that bring a standard error down to a goal: (deviation/goal)², at least 2.
 double packings_for(double deviation, double goal);

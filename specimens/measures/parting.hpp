@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where a specimen parted: whether its strength is the rock's or that of what holds it.
-// Tested by tests/specimens/observers/parting_test.cpp.
+// Tested by tests/specimens/measures/parting_test.cpp.
 #pragma once
 
 #include <cstdint>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "specimens/observers/parting.hpp"
+#include "specimens/measures/parting.hpp"
 
 #include <boost/pending/disjoint_sets.hpp>
 #include <map>

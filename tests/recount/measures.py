@@ -1,0 +1,196 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Measures of a test that are read off its whole curve, its breaks and its fragments (specimens/METHODS.md 5)."""
+
+import math
+
+import numpy as np
+
+from model import rounding
+
+
+def regression(x, y):
+    """Slope of y over x, and the root of the mean square left."""
+    if len(x) < 3:
+        return math.nan, math.nan
+    line = np.polynomial.Polynomial.fit(x, y, 1)
+    return line.convert().coef[1], math.sqrt(np.mean((line(x) - y) ** 2))
+
+
+def first(holds):
+    found = np.flatnonzero(holds)
+    return int(found[0]) if len(found) else None
+
+
+def recount_moduli(r, strain, stress, lateral, sense):
+    """Of ISRM's windows and beyond the peak. Columns of all rows."""
+    peak, rising = stress[r.peak], stress[: r.peak + 1]
+    windows = []
+    for k in range(71):
+        begin, end = first(rising >= k / 100 * peak), first(rising >= (k / 100 + 0.3) * peak)
+        windows.append(slice(begin, (r.peak if end is None else end) + 1))
+    windows = [w for w in windows if w.stop - w.start >= 3]
+    left = [regression(strain[w], stress[w])[1] for w in windows]
+    # Of windows that a line fits alike but for rounding either may be the best.
+    alike = [w for w, misfit in zip(windows, left) if misfit <= min(left) * (1 + 1e-6)]
+    stated = r.summary["average_modulus"]
+    slopes = [(regression(strain[w], stress[w])[0], sense * regression(strain[w], lateral[w])[0]) for w in alike]
+    modulus, ratio = min(slopes, key=lambda s: abs(s[0] - stated)) if slopes else (math.nan, math.nan)
+    r.key("average_modulus", modulus, 1e-8)
+    r.key("average_poissons_ratio", ratio, 1e-8)
+    half = first(rising >= peak / 2)
+    shortening = strain[half] - strain[0]
+    r.key("secant_modulus_50", (stress[half] - stress[0]) / shortening if shortening > 0 else math.nan)
+    r.key("secant_50_poissons_ratio", sense * (lateral[half] - lateral[0]) / shortening if shortening > 0 else math.nan, floor=1e-15)
+    begin, end = first(stress[r.peak :] <= 0.9 * peak), first(stress[r.peak :] <= 0.6 * peak)
+    fall = math.nan
+    if end is not None and r.summary["failed"]:
+        window = slice(r.peak + begin, r.peak + end + 1)
+        fall = regression(strain[window], stress[window])[0]
+    r.key("post_peak_modulus", fall, 1e-8)
+    modulus = r.summary["youngs_modulus"]
+    r.key("brittleness_index", math.nan if modulus is None else 1 - modulus / fall, 1e-8)
+
+
+def recount_stick(stress, broken, peak):
+    """Where the count changes its slope, by a fit at each of many places. @return the break, and how far apart they lie"""
+    largest = np.maximum.accumulate(stress)
+    more = np.diff(broken, prepend=0) > 0
+    if np.sum(largest[more] <= 0.8 * peak) < 10:
+        return math.nan, 0.0
+    x = np.linspace(0, 0.8 * peak, 201)
+    bursts = np.diff(broken, prepend=0)
+    count = np.array([bursts[largest <= place].sum() for place in x])
+    places = np.linspace(x[1], x[-3], 2001)
+
+    def left(place):
+        columns = np.column_stack([np.ones_like(x), x / peak, np.maximum(0, x - place) / peak])
+        return np.sum((columns @ np.linalg.lstsq(columns, count, rcond=None)[0] - count) ** 2)
+
+    misfit = [left(place) for place in places]
+    return places[int(np.argmin(misfit))], places[1] - places[0]
+
+
+def recount_thresholds(r, strain, stress, lateral, broken):
+    """Crack initiation and damage of a compression. Columns up to the peak."""
+    peak = stress[-1]
+    one = math.nan if broken[-1] == 0 else stress[first(broken >= 0.01 * broken[-1])]
+    r.key("crack_initiation.first_percent", one, 0.0)
+    knee, apart = recount_stick(stress, broken, peak)
+    r.key("crack_initiation_stress", knee, 0.0, apart)
+    stated = r.summary["crack_initiation_stress"]
+    r.key("crack_initiation_over_peak", math.nan if stated is None else stated / peak)
+    low, high = (math.nan if end is None else end for end in r.summary["crack_initiation_interval"])
+    r.true("crack_initiation_interval: within what was loaded", math.isnan(low) or 0 <= low <= high <= 0.8 * peak)
+    shrunk = strain - lateral
+    damage = departed = farthest = where = math.nan
+    if not np.any(np.isnan(lateral)):
+        at = int(np.argmax(shrunk))
+        damage, where = stress[at], strain[at]
+        rows = slice(0, at + 1)
+        chord = lateral[0] + (lateral[at] - lateral[0]) * (stress[rows] - stress[0]) / (stress[at] - stress[0])
+        if at > 0:
+            farthest = stress[int(np.argmax(chord - lateral[rows]))]
+        modulus, ratio = r.summary["youngs_modulus"], r.summary["poissons_ratio"]
+        if modulus is not None and ratio is not None:
+            opened = (shrunk - (1 - ratio) * stress / modulus)[rows]
+            quiet = first(stress[rows] >= 0.25 * peak)
+            quiet = at + 1 if quiet is None else quiet
+            if quiet >= 10:
+                band = opened[:quiet].mean() - 3 * opened[:quiet].std(ddof=1)
+                inside = np.flatnonzero(~(opened[quiet:] < band))
+                after = quiet + (int(inside[-1]) + 1 if len(inside) else 0)
+                departed = stress[after] if after <= at else math.nan
+    r.key("crack_damage_stress", damage, 0.0)
+    r.key("crack_damage_strain", where, 0.0)
+    r.key("crack_damage_over_peak", damage / peak)
+    r.key("crack_initiation.crack_strain", departed, 0.0)
+    r.key("crack_initiation.lateral_strain", farthest, 0.0)
+    known = [x for x in (one, stated, departed, farthest) if x is not None and not math.isnan(x)]
+    r.key("crack_initiation.spread", max(known) - min(known) if len(known) > 1 else math.nan)
+
+
+def recount_energies(r):
+    c = r.curve
+    for name, row in (("energy_at_peak", r.peak), ("energy_at_end", len(c["step"]) - 1)):
+        if row is None:
+            continue
+        work = c["platen_work"][row]
+        r.key(name + ".work", work, 0.0)
+        for part, column in (("strain", "strain_energy"), ("kinetic", "kinetic_energy")):
+            r.key(f"{name}.{part}", (c[column][row] - c[column][0]) / work if work else math.nan)
+        for part in ("friction", "fracture", "dashpot"):
+            r.key(f"{name}.{part}", c[part + "_loss"][row] / work if work else math.nan)
+
+
+def recount_measures(r):
+    recount_energies(r)
+    if r.peak is None:
+        return
+    c, compressed = r.curve, r.summary["kind"] == "compression"
+    columns = [c[name] for name in ("axial_strain", "axial_stress", "lateral_strain")]
+    recount_moduli(r, *columns, 1.0 if compressed else -1.0)
+    if compressed:
+        recount_thresholds(r, *(column[: r.peak + 1] for column in (*columns, c["bonds_broken"])))
+
+
+def recount_rose(r, model):
+    """Directions of the cracks between particles; lengths where all are circles, whose faces are as long as the smaller
+    one is wide."""
+    e, s = r.events, r.summary["crack_rose"]
+    if r.peak is None:
+        return
+    after = e["time"] > r.curve["time"][r.peak]
+    shear = np.array([mode == "shear" for mode in e["mode"]], bool)
+    pairs = [(model.index[int(a)], model.index[int(b)]) for a, b in zip(e["body_i"], e["body_j"])]
+    inside = np.array([max(pair) < model.count for pair in pairs], bool)
+    for name, own in (("tension_to_peak", ~shear & ~after), ("shear_to_peak", shear & ~after),
+                      ("tension_after", ~shear & after), ("shear_after", shear & after)):
+        own = np.flatnonzero(own & inside) if len(pairs) else np.array([], int)
+        label = f"crack_rose.{name}."
+        r.key(label + "cracks", len(own))
+        if model.polygons:
+            continue
+        length = np.array([2 * min(model.circle_radius[list(pairs[k])]) for k in own])
+        angle = np.asarray(e["orientation"])[own] + math.pi / 2
+        r.key(label + "length", float(length.sum()))
+        mean = np.sum(length * np.exp(2j * angle)) if len(own) else complex(math.nan, math.nan)
+        share = abs(mean) / length.sum() if len(own) else math.nan
+        r.key(label + "resultant", share, floor=1e-14)
+        direction = math.degrees(np.angle(mean) / 2) % 180 if len(own) else math.nan
+        stated = s[name]["direction"]
+        if len(own) and stated is not None and abs(stated - direction) > 90:
+            direction += math.copysign(180, stated - direction)  # 0 and 180 are one
+        r.key(label + "direction", direction, floor=1e-9)
+        if len(own):
+            n = length.sum() ** 2 / np.sum(length**2)
+            z = n * share**2
+            r.key(label + "rayleigh", min(1.0, max(0.0, math.exp(-z) * (1 + (2 * z - z * z) / (4 * n)))), floor=1e-12)
+        bins = np.histogram(np.degrees(angle) % 180, bins=np.arange(0, 190, 10), weights=length)[0]
+        r.rows(label + "lengths", s[name]["lengths"], bins, rounding * max(length.sum(), 1e-300))
+
+
+def recount_fragments(r, model, areas):
+    """D50 and the law of sizes. @param areas  of the fragments at the end, m2"""
+    areas = np.sort(np.asarray(areas))
+    sizes = np.sqrt(4 * areas / math.pi)
+    passed = np.concatenate([[0.0], np.cumsum(areas)])
+    k = first(passed[1:] >= areas.sum() / 2)
+    share = (areas.sum() / 2 - passed[k]) / areas[k]
+    r.key("fragment_size_median", sizes[0] if k == 0 else sizes[k - 1] + share * (sizes[k] - sizes[k - 1]))
+    least = math.sqrt(8 * areas.sum() / model.count / math.pi)
+    kept = sizes >= least * (1 - 1e-12)
+    r.key("fragment_rosin_rammler.fragments", int(kept.sum()))
+    size, exponent = (r.summary["fragment_rosin_rammler"][name] for name in ("size", "exponent"))
+    if exponent is None:
+        return
+    # At the maximum the likelihood's derivatives by size and exponent are 0, each within what 1e-6 of it changes.
+    weight, x = areas[kept] / areas[kept].sum(), sizes[kept]
+
+    def likelihood(size, n):
+        return np.sum(weight * (np.log(n / size) + (n - 1) * np.log(x / size) - (x / size) ** n + (least / size) ** n))
+
+    best = likelihood(size, exponent)
+    for a, b in ((1.001, 1), (0.999, 1), (1, 1.001), (1, 0.999), (1.001, 0.999), (0.999, 1.001)):
+        r.true(f"fragment_rosin_rammler: likelier than at {a} of its size, {b} of its exponent",
+               likelihood(a * size, b * exponent) <= best)
+    r.keys.update({"fragment_rosin_rammler.size", "fragment_rosin_rammler.exponent"})

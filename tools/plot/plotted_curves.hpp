@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Columns of curves, and how diagrams over axial strain draw them.
+// Tested by tests/tools/commands/plot_test.cpp.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/plot/axes.hpp"
+#include "tools/plot/legend.hpp"
+#include "tools/plot/panels.hpp"
+
+namespace crackle::plot {
+
+const Colour& colour_of(const PlottedTest& test);
+const std::vector<double>& column(const TestResults& results, const char* name);
+/// Of the summary; not a number where it has none.
+double number_of(const PlottedTest& test, const char* key);
+double largest_of(const std::vector<PlottedTest>& tests, const char* name);   ///< of a column, 0 at least
+double smallest_of(const std::vector<PlottedTest>& tests, const char* name);  ///< likewise, 0 at most
+
+/// A curve's points; those that lie within a hundredth of a point of the line before are left out.
+std::vector<Point> curve_points(const Axes& axes, const std::vector<double>& x, double x_unit,
+                                const std::vector<double>& y, double y_unit);
+
+std::vector<Legend::Entry> entries_of(const std::vector<PlottedTest>& tests);
+Scale strain_scale(const std::vector<PlottedTest>& tests, double width);
+
+}  // namespace crackle::plot
