@@ -10,7 +10,7 @@
 #include "solver/base/errors.hpp"
 #include "solver/measure/health.hpp"
 #include "solver/measure/ledger.hpp"
-#include "solver/world/outside.hpp"
+#include "solver/measure/outside.hpp"
 #include "solver/world/world.hpp"
 
 namespace crackle {

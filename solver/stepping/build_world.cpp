@@ -14,11 +14,11 @@
 #include "solver/base/correctly_rounded.hpp"
 #include "solver/base/errors.hpp"
 #include "solver/linear/step_bound.hpp"
+#include "solver/measure/outside.hpp"
 #include "solver/scene/convex_pieces.hpp"
 #include "solver/stepping/build_world.hpp"
 #include "solver/stepping/controls.hpp"
 #include "solver/stepping/time_step.hpp"
-#include "solver/world/outside.hpp"
 #include "solver/world/world.hpp"
 
 namespace crackle {

@@ -13,6 +13,8 @@
 
 #include "solver/measure/health.hpp"
 #include "solver/measure/ledger.hpp"
+#include "solver/membrane/press.hpp"
+#include "solver/membrane/wrap.hpp"
 #include "solver/stepping/controls.hpp"
 #include "solver/stepping/motion.hpp"
 #include "solver/stepping/record_breaks.hpp"
@@ -78,10 +80,12 @@ void update_neighbours(World& world) {
     refresh_neighbours(world);
 }
 
-/// Who does which points, and sums of forces that can be added to.
+/// Who does which points, and sums of forces that can be added to: what a membrane presses comes first.
 void prepare_forces(World& world) {
     plan_sweep(world);
     clear_forces(world);
+    update_membrane(world);
+    press_membrane(world);
     if (world.workers.profile != nullptr) sample_geometry(world);
 }
 

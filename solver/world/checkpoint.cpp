@@ -29,7 +29,7 @@
 namespace crackle {
 
 // Raise when a field of a group is added, removed or moved.
-constexpr std::uint32_t checkpoint_version = 19;
+constexpr std::uint32_t checkpoint_version = 20;
 constexpr std::uint64_t checkpoint_magic = 0x454c4b4341524321ULL;  // "!CRACKLE"
 
 template <class Archive>
@@ -161,12 +161,22 @@ bool points_are_whole(const World& world) {
     return true;
 }
 
+bool membrane_is_whole(const World& world) {
+    const Membrane& m = world.membrane;
+    const std::size_t n = world.bodies.size(), count = m.points.size();
+    const bool between = m.bottom < n && m.top < n, around = m.bottom == no_body && m.top == no_body;
+    // An end of a chain is a point of its own, and so is what lies between.
+    const bool chains = count == 0 || around || (m.left_end >= 2 && count >= 2 && m.left_end <= count - 2);
+    return (between || around) && chains &&
+           std::ranges::all_of(m.points, [n](const MembranePoint& point) { return point.body < n; });
+}
+
 }  // namespace
 
 void require_whole(const World& world, const std::string& name) {
     const std::size_t materials = world.settings.materials.size(), laws = 2 * world.settings.pair_count() + materials;
     if (world.stepping.steps >= 0 && world.stepping.steps <= most_steps && world.settings.laws.size() == laws &&
-        bodies_are_whole(world) && points_are_whole(world))
+        bodies_are_whole(world) && points_are_whole(world) && membrane_is_whole(world))
         return;
     throw InputError(
         fmt::format("{}: found parts that do not belong together, expected a checkpoint as crackle wrote it", name));

@@ -32,6 +32,8 @@ void restart_account(World& world) {
     account.dashpot_loss = account.friction_loss = account.fracture_loss = account.law_loss = 0.0;
     account.displacement_work = account.force_work = 0.0;
     account.largest_supply = 0.0;
+    world.membrane.work = world.membrane.jumped = 0.0;
+    world.membrane.wrapped = world.membrane.open = 0;
     std::ranges::fill(account.opening_defects, 0.0);
 }
 

@@ -11,6 +11,7 @@
 #include "solver/world/bodies.hpp"
 #include "solver/world/bonds.hpp"
 #include "solver/world/energy_account.hpp"
+#include "solver/world/membrane.hpp"
 #include "solver/world/neighbour_list.hpp"
 #include "solver/world/points.hpp"
 #include "solver/world/settings.hpp"
@@ -27,6 +28,7 @@ struct World {
     StepControl stepping;
     Bonds bonds;
     EnergyAccount account;
+    Membrane membrane;
     Workers workers;  // never saved
 
     /// The groups that make up its state: what a checkpoint saves and a hash covers.
@@ -39,6 +41,7 @@ struct World {
         visit("stepping", s.stepping);
         visit("bonds", s.bonds);
         visit("account", s.account);
+        visit("membrane", s.membrane);
     }
 };
 

@@ -277,6 +277,10 @@ class ConsistencyCheck {
             exclude("loading.platen_friction_angle",
                     "only platens = \"frictional\" has it: bonded and glued platens take the specimen's");
         }
+        if (test_.confined())
+            need("confinement.pressure", "kind = \"biaxial\" needs it");
+        else
+            exclude("confinement.pressure", "only loading.kind = \"biaxial\" confines the specimen");
         if (test_.loading.platens != "glued") exclude("loading.grip", "only platens = \"glued\" has grips");
     }
 

@@ -279,7 +279,8 @@ std::vector<Parameter> all_parameters() {
             .at_most(2),
         CRACKLE_KEY(bond, strength_seed, "", "Its seed.").at_least(0),
 
-        CRACKLE_KEY(loading, kind, "", "What the platens do.").one_of({"compression", "tension"}),
+        CRACKLE_KEY(loading, kind, "", "What the platens do; biaxial: compression under a confining pressure.")
+            .one_of({"compression", "tension", "biaxial"}),
         CRACKLE_KEY(loading, axial_strain_rate, "1/s",
                     "Platen speed over the specimen's height, in place of rate_tolerance.")
             .above(0)
@@ -320,6 +321,11 @@ std::vector<Parameter> all_parameters() {
         CRACKLE_KEY(loading, platen_friction_angle, "deg", "Friction angle of frictional platens.")
             .at_least(0)
             .below(90),
+
+        CRACKLE_KEY(confinement, pressure, "N/m or Pa",
+                    "On the sides, by a membrane, all through the test; the platens press with the same before loading "
+                    "begins. Its unit is that of stresses: Pa with material.units = \"area\".")
+            .above(0),
 
         CRACKLE_KEY(numerics, time_step, "s", "Time step; derived from the stiffness bound if not given.").above(0),
         CRACKLE_KEY(numerics, safety_factor, "",
@@ -467,6 +473,7 @@ const std::vector<TableDescription>& case_tables() {
          [](TestCase& c, std::size_t n) { c.mineral_pair.resize(n); }},
         {"bond", "What holds the particles together, and how it breaks."},
         {"loading", "Platens: the lower one is fixed, the upper one moves."},
+        {"confinement", "Of a biaxial test."},
         {"numerics", "How it is computed."},
         {"output", "What is written."},
     };

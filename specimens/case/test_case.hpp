@@ -105,7 +105,7 @@ struct TestCase {
     } bond;
 
     struct Loading {
-        std::string kind;                         // "compression" or "tension"
+        std::string kind;                         // "compression", "tension" or "biaxial"
         std::optional<double> axial_strain_rate;  // 1/s; or:
         std::optional<double> rate_tolerance;
         double max_axial_strain = 0.0;
@@ -121,6 +121,10 @@ struct TestCase {
             if (rate_tolerance) *rate_tolerance *= by * by;
         }
     } loading;
+
+    struct Confinement {
+        std::optional<double> pressure;  // N/m, or Pa
+    } confinement;
 
     struct Numerics {
         std::optional<double> time_step;  // s
@@ -158,6 +162,7 @@ struct TestCase {
     std::vector<std::filesystem::path> inputs;  ///< files read so far, the case first
 
     bool has_table(const std::string& table) const { return table_present.contains(table); }
+    bool confined() const { return loading.kind == "biaxial"; }
     bool coulomb_bonds() const { return bond.law == "coulomb"; }
     bool area_units() const { return material.units == "area"; }
     /// Of stresses and moduli: force over a length, or over an area.

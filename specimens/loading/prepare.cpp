@@ -10,6 +10,7 @@
 #include "solver/base/errors.hpp"
 #include "specimens/case/parameters.hpp"
 #include "specimens/elastic/analysis.hpp"
+#include "specimens/loading/confine.hpp"
 #include "specimens/loading/quasi_static_start.hpp"
 #include "specimens/setup/bonded_specimen.hpp"
 #include "specimens/setup/platen_hold.hpp"
@@ -146,7 +147,7 @@ VirtualTest bond_test(const TestCase& description, const TestHooks& hooks, const
     test.world = std::move(bonded.world);
     test.world.bonds.watch_slips = description.output.slips;
     const double grip = description.loading.grip.value_or(0.0);
-    test.setup = record_setup(test.world, specimen, bonded.platens, description.loading.kind == "compression", grip);
+    test.setup = record_setup(test.world, specimen, bonded.platens, description.loading.kind != "tension", grip);
     if (!description.output.frames)
         test.description.output.frames = default_frames(test.setup.particles, description.output.curve_rows);
     test.state.failure.strength_drop = description.loading.strength_drop;
@@ -160,6 +161,7 @@ VirtualTest bond_test(const TestCase& description, const TestHooks& hooks, const
     if (bonded.platens.bonded) {
         check_platen_hold(test.world, test.setup, bonded.platens, description);
         solve_small_strain(test, test.world, test.setup, visit);
+        if (description.confined()) confine(test, test.world, test.setup);
     } else {
         TestCase::Loading held = description.loading;
         held.platens = "bonded";
@@ -168,10 +170,14 @@ VirtualTest bond_test(const TestCase& description, const TestHooks& hooks, const
             const TestSetup own = record_setup(twin.world, specimen, twin.platens, test.setup.compression, grip);
             check_platen_hold(twin.world, own, twin.platens, description);
             solve_small_strain(test, twin.world, own, visit);
+            if (description.confined()) confine(test, twin.world, own);
         } catch (const InputError& error) {
             note_no_small_strain(test, error.what());
         }
     }
+    if (description.confined())
+        hooks.report_stage(
+            fmt::format("confined by {:.4g} {}", test.setup.confining_pressure, description.stress_unit()));
     if (std::isfinite(test.state.youngs_modulus)) {
         hooks.report_stage(fmt::format("small strain: E = {:.4g} {}, nu = {:.3g}", test.state.youngs_modulus,
                                        description.stress_unit(), test.state.poissons_ratio));

@@ -11,6 +11,7 @@
 #include "solver/linear/elastic.hpp"
 #include "solver/stepping/controls.hpp"
 #include "solver/stepping/step.hpp"
+#include "specimens/loading/displace.hpp"
 
 namespace crackle {
 namespace {
@@ -32,16 +33,6 @@ std::vector<BodyMotion> elastic_motion(const VirtualTest& test, const std::vecto
     return motion;
 }
 
-void set_velocities(World& world, const std::vector<BodyMotion>& motion, double times) {
-    for (std::size_t b = 0; b < motion.size(); ++b) {
-        BodyState& body = world.bodies.state[b];
-        body.vx = times * motion[b].x;
-        body.vy = times * motion[b].y;
-        body.omega = times * motion[b].rotation;
-    }
-    velocities_changed(world);
-}
-
 /// Moves the bodies by w (see the header), shear springs included, in one drift of the integrator without forces.
 void settle_dashpots(World& world, const TestSetup& setup, const std::vector<bool>& elastic) {
     compute_forces(world);
@@ -49,17 +40,7 @@ void settle_dashpots(World& world, const TestSetup& setup, const std::vector<boo
     for (std::size_t b = 0; b < loads.size(); ++b)
         if (elastic[b]) loads[b] = {world.bodies.force[b].fx, world.bodies.force[b].fy, world.bodies.force[b].torque};
     const ElasticSolution settled = solve_elastic(world, {{setup.bottom, {}}, {setup.top, {}}}, loads);
-    const auto step = world.stepping.steps;
-    const double time = world.stepping.time, kick_share = world.stepping.kick_share;
-    set_velocities(world, settled.displacement, 1.0 / world.stepping.time_step);
-    std::ranges::fill(world.bodies.force, BodyForce{});
-    change_velocity(world, setup.top, 1, 0.0);
-    advance(world);
-    compute_forces(world);
-    world.stepping.steps = step;
-    world.stepping.time = time;
-    world.stepping.kick_share = kick_share;
-    world.stepping.drift = 0.0;
+    displace(world, setup, settled.displacement);
 }
 
 }  // namespace

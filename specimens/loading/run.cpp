@@ -212,7 +212,8 @@ TestOutcome run_test(const TestCase& description, const TestOptions& options, co
     recorded.mesh.thick = test.description.mesh.thick;
     const std::string text = resolved_case(recorded, folder.target());
     // Empty until loading: by that a test that has only begun is known.
-    TestFiles files(folder, sha256(text), test.state, precision_of(description), description.output.slips);
+    TestFiles files(folder, sha256(text), test.state, precision_of(description), description.output.slips,
+                    description.confined());
     try {
         folder.write("case.toml", text, Durable::yes);  // first: by its contents a folder is known to be a test's
         specimen->write(folder);
@@ -259,7 +260,7 @@ TestOutcome resume_test(const TestOptions& options, const TestHooks& hooks) {
     // That of the interrupt: curve and frames go beyond it from here.
     fs::remove(folder.path() / "summary.json", error);
     TestFiles files(folder, checkpoint.case_hash, test.state, precision_of(test.description),
-                    test.description.output.slips);
+                    test.description.output.slips, test.description.confined());
     hooks.report_stage(fmt::format("resumed at step {}, axial strain {:.4g}", test.world.stepping.steps,
                                    test.setup.axial_strain(test.world)));
     return run_with_files(test, options, hooks, folder, files);

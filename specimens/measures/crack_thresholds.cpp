@@ -16,7 +16,7 @@ using Rows = std::span<const CurveRow>;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 constexpr double first_share = 0.01;  // of the bonds broken at the peak
 constexpr double counted_to = 0.8;    // of the peak stress
-constexpr double quiet_to = 0.25;     // of the peak stress: no rock cracks below
+constexpr double quiet_to = 0.25;     // from the confining pressure to the peak: no rock cracks below
 constexpr double deviations_of_noise = 3.0;
 constexpr std::size_t fewest_quiet_rows = 10;
 
@@ -46,11 +46,10 @@ std::vector<Burst> bursts_of(Rows rising) {
 
 /// @param rows up to crack damage  @param strain not elastic, of a row
 template <class Strain>
-double departure(Rows rows, double peak_stress, Strain&& strain) {
+double departure(Rows rows, double quiet_stress, Strain&& strain) {
     double sum = 0.0, squares = 0.0;
     std::size_t quiet = 0;
-    for (; quiet < rows.size() && rows[quiet].axial_stress < quiet_to * peak_stress; ++quiet)
-        sum += strain(rows[quiet]);
+    for (; quiet < rows.size() && rows[quiet].axial_stress < quiet_stress; ++quiet) sum += strain(rows[quiet]);
     if (quiet < fewest_quiet_rows) return none;
     const double mean = sum / static_cast<double>(quiet);
     for (const CurveRow& row : rows.first(quiet)) squares += (strain(row) - mean) * (strain(row) - mean);
@@ -86,7 +85,8 @@ double CrackThresholds::spread() const {
     return known < 2 ? none : high_end - low_end;
 }
 
-CrackThresholds find_crack_thresholds(Rows rows, std::int64_t peak_row, double youngs_modulus, double poissons_ratio) {
+CrackThresholds find_crack_thresholds(Rows rows, std::int64_t peak_row, double youngs_modulus, double poissons_ratio,
+                                      double confining_pressure) {
     CrackThresholds found;
     if (peak_row < 0) return found;
     const Rows rising = rows.first(static_cast<std::size_t>(peak_row + 1));
@@ -105,8 +105,9 @@ CrackThresholds find_crack_thresholds(Rows rows, std::int64_t peak_row, double y
     found.lateral_strain = farthest_from_chord(to_damage);
     const double compliance = (1.0 - poissons_ratio) / youngs_modulus;
     if (!std::isfinite(compliance)) return found;
-    found.crack_strain = departure(to_damage, peak_stress, [&](const CurveRow& row) {
-        return area_strain_of(row) - compliance * row.axial_stress;
+    const double quiet_stress = std::lerp(confining_pressure, peak_stress, quiet_to);
+    found.crack_strain = departure(to_damage, quiet_stress, [&](const CurveRow& row) {
+        return area_strain_of(row) - compliance * (row.axial_stress - confining_pressure);
     });
     return found;
 }

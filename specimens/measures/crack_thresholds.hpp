@@ -7,7 +7,8 @@
 //   first percent   the stress at which 1 % of the bonds broken at the peak are broken (PFC's custom)
 //   break of counts where the cumulative number of broken bonds over stress changes its slope, from 0 to 0.8 of the
 //                   peak (statistics/broken_stick.hpp); the headline, with its interval
-//   crack strain    where ε_A less its elastic part, (1-ν)σ/E with the exact E and ν, leaves the band of three standard
+//   crack strain    where ε_A less its elastic part, (1-ν)(σ-p)/E with the exact E and ν, leaves the band of three
+//   standard
 //                   deviations about what it was below a quarter of the peak, for good up to crack damage
 //   lateral strain  where the lateral strain lies farthest from the chord from the start to crack damage over stress
 //                   (Nicksiar & Martin, Rock Mech. Rock Eng. 45, 2012)
@@ -37,8 +38,9 @@ struct CrackThresholds {
     double spread() const;
 };
 
+/// @param confining_pressure of the sides, from which loading began; stresses found are axial ones
 /// @param rows of a compression  @param youngs_modulus, poissons_ratio  of the solve; not a number: no crack strain
 CrackThresholds find_crack_thresholds(std::span<const CurveRow> rows, std::int64_t peak_row, double youngs_modulus,
-                                      double poissons_ratio);
+                                      double poissons_ratio, double confining_pressure = 0.0);
 
 }  // namespace crackle

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "solver/measure/ledger.hpp"
+#include "solver/membrane/press.hpp"
 #include "specimens/setup/setup.hpp"
 
 namespace crackle {
@@ -21,8 +22,14 @@ CurveRow observe_row(const World& world, const TestSetup& setup) {
     CurveRow row;
     const double sense = setup.compression ? 1.0 : -1.0;
     row.axial_strain = setup.axial_strain(world);
-    row.stress_top = sense * world.bodies.force[setup.top].fy / setup.width;
-    row.stress_bottom = -sense * world.bodies.force[setup.bottom].fy / setup.width;
+    double top = world.bodies.force[setup.top].fy, bottom = world.bodies.force[setup.bottom].fy;
+    if (world.membrane.present()) {
+        top -= membrane_force_on(world, setup.top).y;
+        bottom -= membrane_force_on(world, setup.bottom).y;
+    }
+    row.stress_top = sense * top / setup.width;
+    row.stress_bottom = -sense * bottom / setup.width;
+    row.confinement_work = world.membrane.work;
     row.axial_stress = 0.5 * (row.stress_top + row.stress_bottom);
     row.lateral_strain = setup.lateral_strain(world);
     row.gauge_strain = setup.gauge_strain(world);
@@ -112,22 +119,28 @@ const std::vector<CurveColumn>& curve_columns() {
           "each has its row in slips.csv, where that is asked for"},
          [](Row r) { return static_cast<double>(r.bonds_slid); },
          true},
+        {{"confinement_work", "J", "done by the membrane on the specimen so far", "of a confined test"},
+         [](Row r) { return r.confinement_work; },
+         false,
+         true},
     };
     return columns;
 }
 
-std::string curve_header() {
+std::string curve_header(bool confined) {
     std::string line;
     for (const CurveColumn& column : curve_columns()) {
+        if (column.confined && !confined) continue;
         if (!line.empty()) line += ',';
         line += column.what.name;
     }
     return line + '\n';
 }
 
-std::string curve_line(const CurveRow& row) {
+std::string curve_line(const CurveRow& row, bool confined) {
     std::string line;
     for (const CurveColumn& column : curve_columns()) {
+        if (column.confined && !confined) continue;
         if (!line.empty()) line += ',';
         const double value = column.value(row);
         line += column.whole ? fmt::format("{}", static_cast<std::int64_t>(value)) : fmt::format("{}", value);

@@ -39,6 +39,7 @@ struct CurveRow {
     double energy_error = 0.0;   // J
     double gauge_strain = 0.0;
     std::int64_t bonds_slid = 0;
+    double confinement_work = 0.0;     ///< J, of the membrane; a column of confined tests
     std::int64_t contacts_gained = 0;  ///< points touching without a bond; kept for the summary, not a column
 
     template <class Self, class Visit>
@@ -62,22 +63,25 @@ struct CurveRow {
         visit("energy_error", s.energy_error);
         visit("gauge_strain", s.gauge_strain);
         visit("bonds_slid", s.bonds_slid);
+        visit("confinement_work", s.confinement_work);
         visit("contacts_gained", s.contacts_gained);
     }
 };
 
-/// Needs compute_forces() to have been called.
+/// Needs compute_forces() to have been called. What a membrane presses on a platen is not the specimen's force.
 CurveRow observe_row(const World& world, const TestSetup& setup);
 
 struct CurveColumn {
     Quantity what;
     double (*value)(const CurveRow&);
-    bool whole;  ///< a count
+    bool whole;             ///< a count
+    bool confined = false;  ///< of confined tests only
 };
 /// In the order of the file.
 const std::vector<CurveColumn>& curve_columns();
 
-std::string curve_header();                   ///< with line end
-std::string curve_line(const CurveRow& row);  ///< numbers read back to the same bits; with line end
+std::string curve_header(bool confined);  ///< with line end
+/// Numbers read back to the same bits; with line end.
+std::string curve_line(const CurveRow& row, bool confined);
 
 }  // namespace crackle

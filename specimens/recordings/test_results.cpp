@@ -97,7 +97,9 @@ nlohmann::ordered_json read_summary(const std::filesystem::path& file) {
                    ? summary[key].get<std::string>()
                    : std::string();
     };
-    expect("kind", text("kind") == "compression" || text("kind") == "tension", "\"compression\" or \"tension\"");
+    const std::string kind = text("kind");
+    expect("kind", kind == "compression" || kind == "tension" || kind == "biaxial",
+           "\"compression\", \"tension\" or \"biaxial\"");
     expect("specimen", !text("specimen").empty(), "\"circles\", \"delaunay\" or \"voronoi\"");
     expect("failed", summary.contains("failed") && summary["failed"].is_boolean(), "true or false");
     expect("material_units", !summary.contains("material_units") || summary["material_units"].is_string(),

@@ -105,11 +105,27 @@ void strength(Writer& w, const TestSetup& setup, const TestState& state) {
     w.put("brittleness_index", finite_or_null(brittleness_index(state.youngs_modulus, falling)));
 }
 
+/// Of a confined test: what pressed it, and what its membrane has done.
+void confinement(Writer& w, const TestSetup& setup, const TestState& state, const World& world) {
+    if (!setup.confined()) return;
+    const FailureTracker& f = state.failure;
+    const std::string so_far = f.failed ? "" : "_so_far";
+    w.stress("confining_pressure", setup.confining_pressure);
+    w.stress("deviator_stress" + so_far, f.peak_row < 0 ? NAN : f.peak_stress - setup.confining_pressure);
+    const Membrane& membrane = world.membrane;
+    w.put("membrane", {{"points", membrane.points.size()},
+                       {"wrapped", membrane.wrapped},
+                       {"area_jumps", membrane.jumped},
+                       {"open", membrane.open},
+                       {"work", membrane.work}});
+}
+
 /// Stresses at which cracks begin and join, of a compression.
 void cracking(Writer& w, const TestSetup& setup, const TestState& state) {
     if (!setup.compression) return;
     const FailureTracker& f = state.failure;
-    const CrackThresholds t = find_crack_thresholds(state.rows, f.peak_row, state.youngs_modulus, state.poissons_ratio);
+    const CrackThresholds t = find_crack_thresholds(state.rows, f.peak_row, state.youngs_modulus, state.poissons_ratio,
+                                                    setup.confining_pressure);
     w.stress("crack_initiation_stress", t.count_break);
     w.put("crack_initiation_interval", {finite_or_null(t.low), finite_or_null(t.high)});
     w.put("crack_initiation_over_peak", finite_or_null(t.count_break / f.peak_stress));
@@ -124,8 +140,9 @@ void cracking(Writer& w, const TestSetup& setup, const TestState& state) {
 
 /// Where the platens' work has gone up to a row.
 Json energy_of(const CurveRow& first, const CurveRow& row) {
-    const auto share = [&](double energy) { return finite_or_null(energy / row.platen_work); };
-    return {{"work", row.platen_work},
+    const double work = row.platen_work + row.confinement_work;
+    const auto share = [&](double energy) { return finite_or_null(energy / work); };
+    return {{"work", work},
             {"strain", share(row.strain_energy - first.strain_energy)},
             {"kinetic", share(row.kinetic_energy - first.kinetic_energy)},
             {"friction", share(row.friction_loss)},
@@ -215,7 +232,8 @@ void counts(Writer& w, const TestSetup& setup, const World& world) {
 /// Stress that the dashpots bear when loading by tolerance begins, over the largest one.
 double viscous_share(const TestCase& test, const TestState& state) {
     if (!test.loading.rate_tolerance || state.rows.empty()) return NAN;
-    return state.rows.front().axial_stress / state.failure.largest_stress;
+    const double confined = test.confinement.pressure.value_or(0.0);
+    return (state.rows.front().axial_stress - confined) / (state.failure.largest_stress - confined);
 }
 
 void numerics(Writer& w, const TestCase& test, const TestSetup& setup, const TestState& state, const World& world) {
@@ -340,6 +358,12 @@ std::vector<std::string> notices_of(const TestCase& test, const TestSetup& setup
                         "more slowly, and compare",
                         last.energy_error / last.platen_work));
     }
+    if (world.membrane.open > 0) {
+        notices.emplace_back(
+            "the specimen parted so far that no membrane could be laid about it: from there on the pressure acted "
+            "where "
+            "it had been");
+    }
     const std::optional<Parting> parting = find_parting(setup, state.history);
     if (f.failed && !setup.compression && parting && parting->place != "gauge") {
         notices.push_back(fmt::format(
@@ -401,6 +425,7 @@ nlohmann::ordered_json make_summary(const TestCase& test, const TestSetup& setup
     Writer w{json, units, thickness.value_or(1.0), test.area_units()};
     describe(w, test, setup, state);
     strength(w, setup, state);
+    confinement(w, setup, state, world);
     cracking(w, setup, state);
     damage(w, setup, state, world);
     directions(w, setup, state, world);
@@ -429,7 +454,8 @@ nlohmann::ordered_json make_summary(const TestCase& test, const TestSetup& setup
         w.put("profile",
               profile_report(*world.workers.profile, setup.particles, world.stepping.steps, timing.step_seconds));
     Json columns;
-    for (const CurveColumn& column : curve_columns()) columns[column.what.name] = w.unit_of(column.what);
+    for (const CurveColumn& column : curve_columns())
+        if (!column.confined || setup.confined()) columns[column.what.name] = w.unit_of(column.what);
     w.put("columns", columns);
     w.put("units", units);
     return json;

@@ -13,7 +13,7 @@ std::vector<SummaryKey> all_summary_keys() {
     constexpr bool listed = true, converted = true;
     return {
         {{"title", "", "heading of the report, the case's"}, unlisted},
-        {{"kind", "", "`tension` or `compression`"}, unlisted},
+        {{"kind", "", "`tension`, `compression` or `biaxial`"}, unlisted},
         {{"specimen", "", "`circles`, `delaunay` or `voronoi`"}, unlisted},
         {{"platens", "", "`bonded`, `glued` or `frictional`"}, unlisted},
         {{"bond_law", "", "`back_tension` or `coulomb`"}, unlisted},
@@ -82,6 +82,19 @@ std::vector<SummaryKey> all_summary_keys() {
          converted},
         {{"brittleness_index", "-", "(M - E)/M, M the post-peak modulus: 1 of a sudden drop, more of a slower one",
           "null without either"}},
+
+        {{"confining_pressure", "N/m", "on the sides, by a membrane",
+          "of a biaxial test, as the keys up to `membrane`"},
+         listed,
+         converted},
+        {{"deviator_stress", "N/m", "peak_stress less confining_pressure"}, listed, converted},
+        {{"deviator_stress_so_far", "N/m", "in place of it while the specimen has not failed"}, listed, converted},
+        {{"membrane", "", "chains of particles about the specimen, on whose straight pieces the pressure acts"}},
+        {{"membrane.points", "", "at the end, those of the platens among them"}},
+        {{"membrane.wrapped", "", "times it was laid anew, where a piece parted or the neighbour list was built"}},
+        {{"membrane.area_jumps", "m2", "by which that changed the area within it, the sum: no work is done by it"}},
+        {{"membrane.open", "", "times that it could not be laid: the specimen had parted"}},
+        {{"membrane.work", "J", "done on the specimen: pressure times the area lost between platens"}},
 
         {{"crack_initiation_stress", "N/m",
           "axial stress at which the number of broken bonds over stress changes its slope, by two lines up to 80 % of "
@@ -154,7 +167,7 @@ std::vector<SummaryKey> all_summary_keys() {
         {{"energy_at_peak", "-", "where the platens' work has gone up to the peak: work in J, the rest shares of it",
           "strain and kinetic less those at the start; what is missing to 1 is energy_closing_error, and the contact "
           "law's"}},
-        {{"energy_at_peak.work", "J", "platen_work of curve.csv"}},
+        {{"energy_at_peak.work", "J", "platen_work of curve.csv, and confinement_work"}},
         {{"energy_at_peak.strain", "-", "stored in contacts"}},
         {{"energy_at_peak.kinetic", "-", "of motion"}},
         {{"energy_at_peak.friction", "-", "lost by sliding"}},

@@ -81,7 +81,7 @@ Platens add_platens(Scene& scene, const Specimen& specimen, const TestCase::Load
         platens.top_y = extent.high + thick;
     }
     const double speed = loading.axial_strain_rate.value_or(0.0) * specimen.height;  // by tolerance: set later
-    platens.velocity = loading.kind == "compression" ? -speed : speed;
+    platens.velocity = loading.kind == "tension" ? speed : -speed;
     spread_velocity(scene, platens);
 
     const auto largest = std::max_element(scene.bodies.begin(), scene.bodies.end(),

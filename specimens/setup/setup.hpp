@@ -53,6 +53,7 @@ struct TestSetup {
     /// tenths where there are none), and the distance of their mean y, m; 0 where an end has none.
     std::vector<BodyIndex> gauge_bottom, gauge_top;
     double gauge_height = 0.0;
+    double confining_pressure = 0.0;       // N/m, of the membrane; 0: none
     double stable_time_step = 0.0;         // s, exact, when bonds were made
     bool stable_time_step_proved = false;  ///< by factorisation; else it is a bound
     double time_step_bound = 0.0;          // s, kept up during the run; when loading began
@@ -73,6 +74,7 @@ struct TestSetup {
     /// m, of a bond: the overlap without force once it has broken.
     double rest_overlap(PointIndex bond) const { return coulomb_bonds ? std::max(bond_overlaps[bond], 0.0) : 0.0; }
 
+    bool confined() const { return confining_pressure > 0.0; }
     bool is_platen(BodyIndex body) const { return body == bottom || body == top; }
     double axial_strain(const World& world) const;
     /// Not a number if the specimen has no side particles in the middle half of its height.
@@ -112,6 +114,7 @@ struct TestSetup {
         visit("gauge_bottom", s.gauge_bottom);
         visit("gauge_top", s.gauge_top);
         visit("gauge_height", s.gauge_height);
+        visit("confining_pressure", s.confining_pressure);
         visit("stable_time_step", s.stable_time_step);
         visit("stable_time_step_proved", s.stable_time_step_proved);
         visit("time_step_bound", s.time_step_bound);
@@ -131,6 +134,9 @@ struct TestSetup {
 /// @param grip share of the height at each end whose bonds never break
 TestSetup record_setup(const World& world, const Specimen& specimen, const Platens& platens, bool compression,
                        double grip);
+
+/// Loading begins anew where the bodies are now: places, strains and gauge lengths count from here.
+void begin_at(TestSetup& setup, const World& world);
 
 /// A body where only its place is known. @param angle rad, as BodyState's
 BodyState placed_body(const World& world, const TestSetup& setup, BodyIndex body, double x, double y, double angle);

@@ -92,8 +92,9 @@ def recount_thresholds(r, strain, stress, lateral, broken):
             farthest = stress[int(np.argmax(chord - lateral[rows]))]
         modulus, ratio = r.summary["youngs_modulus"], r.summary["poissons_ratio"]
         if modulus is not None and ratio is not None:
-            opened = (shrunk - (1 - ratio) * stress / modulus)[rows]
-            quiet = first(stress[rows] >= 0.25 * peak)
+            p = r.results.key("confinement", "pressure", 0.0)
+            opened = (shrunk - (1 - ratio) * (stress - p) / modulus)[rows]
+            quiet = first(stress[rows] >= p + 0.25 * (peak - p))
             quiet = at + 1 if quiet is None else quiet
             if quiet >= 10:
                 band = opened[:quiet].mean() - 3 * opened[:quiet].std(ddof=1)
@@ -114,7 +115,7 @@ def recount_energies(r):
     for name, row in (("energy_at_peak", r.peak), ("energy_at_end", len(c["step"]) - 1)):
         if row is None:
             continue
-        work = c["platen_work"][row]
+        work = c["platen_work"][row] + (c["confinement_work"][row] if "confinement_work" in c else 0)
         r.key(name + ".work", work, 0.0)
         for part, column in (("strain", "strain_energy"), ("kinetic", "kinetic_energy")):
             r.key(f"{name}.{part}", (c[column][row] - c[column][0]) / work if work else math.nan)
@@ -126,7 +127,7 @@ def recount_measures(r):
     recount_energies(r)
     if r.peak is None:
         return
-    c, compressed = r.curve, r.summary["kind"] == "compression"
+    c, compressed = r.curve, r.summary["kind"] != "tension"
     columns = [c[name] for name in ("axial_strain", "axial_stress", "lateral_strain")]
     recount_moduli(r, *columns, 1.0 if compressed else -1.0)
     if compressed:

@@ -93,7 +93,8 @@ def recount_curve(r):
     r.rows("curve: axial_stress", c["axial_stress"], (c["stress_top"] + c["stress_bottom"]) / 2,
            1e-14 * np.abs(c["axial_stress"]) + 1e-12)
     closing = (c["kinetic_energy"] - c["kinetic_energy"][0] + c["strain_energy"] - c["strain_energy"][0]
-               + c["dashpot_loss"] + c["friction_loss"] + c["fracture_loss"] - c["platen_work"])
+               + c["dashpot_loss"] + c["friction_loss"] + c["fracture_loss"] - c["platen_work"]
+               - c.get("confinement_work", 0))
     size = np.abs(c["kinetic_energy"]) + c["strain_energy"] + c["dashpot_loss"] + np.abs(c["platen_work"])
     if case("numerics", "contact_law", "rounded") == "rounded":
         r.rows("curve: energy_error", c["energy_error"], closing, 1e-12 * size + 1e-18)
@@ -105,7 +106,7 @@ def recount_curve(r):
     r.key("bonds_broken", c["bonds_broken"][-1])
     r.key("interfaces_lost", c["interfaces_lost"][-1])
     strain, stress, lateral = c["axial_strain"], c["axial_stress"], c["lateral_strain"]
-    sense = 1.0 if case("loading", "kind") == "compression" else -1.0
+    sense = -1.0 if case("loading", "kind") == "tension" else 1.0
     r.key("area_strain_end", sense * strain[-1] - lateral[-1])
     if case("output", "curve_rows", 2000) < 2000:
         return  # peak and windows are those of rows that were not written
@@ -157,7 +158,8 @@ def recount_curve(r):
             r.key(w + "contacts_gained", int(loose[1]) - int(loose[0]))
     if by_tolerance(r):
         r.key("axial_strain_rate", strain[-1] / c["time"][-1])
-        r.key("viscous_stress_share", stress[0] / stress[largest])
+        p = case("confinement", "pressure", 0.0)
+        r.key("viscous_stress_share", (stress[0] - p) / (stress[largest] - p))
     else:
         r.rows("curve: axial_strain of the rate", strain, case("loading", "axial_strain_rate") * c["time"],
                1e-9 * strain + 1e-15)
@@ -255,6 +257,16 @@ def recount(folder):
     r = Recount(Results(folder))
     recount_curve(r)
     recount_measures(r)
+    if r.summary["kind"] == "biaxial":  # frames tell of places since the pressure was put on, and no file before it
+        r.key("confining_pressure", r.results.key("confinement", "pressure"), 0.0)
+        if r.peak is not None:
+            suffix = "" if r.summary["failed"] else "_so_far"
+            r.key("deviator_stress" + suffix, r.curve["axial_stress"][r.peak] - r.results.key("confinement", "pressure"))
+        r.key("membrane.work", r.curve["confinement_work"][-1], 0.0)
+        recount_packing(r)
+        recount_cells(r)
+        recount_errors(r)
+        return r
     recount_packing(r)
     recount_cells(r)
     if r.results.key("numerics", "contact_law", "rounded") == "rounded" or r.results.polygons is None:

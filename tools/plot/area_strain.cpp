@@ -23,12 +23,14 @@ AreaStrains area_strains_of(const PlottedTest& test) {
     const TestResults& results = *test.results;
     const double sense = results.summary.value("kind", std::string()) == "tension" ? -1.0 : 1.0;
     const double compliance = (1.0 - number_of(test, "poissons_ratio")) / number_of(test, "youngs_modulus");
+    const double pressure = number_of(test, "confining_pressure"), confined = std::isnan(pressure) ? 0.0 : pressure;
     const std::vector<double>&axial = column(results, "axial_strain"), &lateral = column(results, "lateral_strain"),
           &stress = column(results, "axial_stress");
     AreaStrains strains;
     for (std::size_t k = 0; k < axial.size(); ++k) {
         strains.all.push_back(sense * axial[k] - lateral[k]);
-        if (std::isfinite(compliance)) strains.cracks.push_back(strains.all[k] - sense * compliance * stress[k]);
+        if (std::isfinite(compliance))
+            strains.cracks.push_back(strains.all[k] - sense * compliance * (stress[k] - confined));
     }
     return strains;
 }

@@ -200,8 +200,9 @@ TEST_F(Report, NamesUnitsThatAreNoWord) {
 
 TEST_F(Report, NamesAnImpossibleKind) {
     replace_in(root / "test" / "summary.json", "\"compression\"", "\"bending\"");
-    expect_refused("test -o page.html",
-                   {"test/summary.json: kind: found \"bending\", expected \"compression\" or \"tension\""});
+    expect_refused(
+        "test -o page.html",
+        {"test/summary.json: kind: found \"bending\", expected \"compression\", \"tension\" or \"biaxial\""});
 }
 
 TEST_F(Report, RefusesResultsThatAreHalfReplaced) {

@@ -10,7 +10,7 @@ import type {CodedEntry} from './coded_arrays';
 import {plainArray, type ArrayEntry, type NumberArray} from './plain_arrays';
 
 /// Loading direction of a test.
-export type Kind = 'compression' | 'tension';
+export type Kind = 'compression' | 'tension' | 'biaxial';
 
 export type Role = 'start' | 'peak' | 'end';
 
@@ -141,7 +141,7 @@ async function unpackTest(entry: TestEntry, index: number): Promise<TestData> {
         name: entry.name,
         source: entry.kind,
         meanVelocities: entry.velocities === 'mean',
-        kind: entry.summary['kind'] === 'tension' ? 'tension' : 'compression',
+        kind: entry.summary['kind'] === 'tension' ? 'tension' : entry.summary['kind'] === 'biaxial' ? 'biaxial' : 'compression',
         specimen: String(entry.summary['specimen'] ?? 'specimen'),
         failed: entry.summary['failed'] === true,
         summary: entry.summary,

@@ -136,6 +136,8 @@ const groups: readonly {title: string; rows: readonly Row[]}[] = [
     ]},
     {title: 'Strength', rows: [
         ...stress('Peak stress', ['peak_stress', 'peak_stress_so_far'], 'the strength, positive in the test’s own sense: the first maximum that a drop follows'),
+        ...stress('Confining pressure', ['confining_pressure']),
+        ...stress('Deviator at the peak', ['deviator_stress', 'deviator_stress_so_far'], 'peak less confining pressure'),
         strains('Strain at peak', either('peak_strain', 'peak_strain_so_far')),
         ...inPlaneAndSpace('Larger stress after the peak', later('largest_stress'), later('largest_stress_pa'), 'of pieces that carry again after the drop: not the strength'),
         strains('Strain there', later('strain_at_largest_stress')),

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/membrane/press.hpp"
+
+#include "solver/geometry/geometry.hpp"
+
+namespace crackle {
+namespace {
+
+Vec2 arm_of(const World& world, const MembranePoint& point) {
+    return turned(world.bodies.state[point.body], {point.x, point.y, 0.0, 0.0});
+}
+
+Vec2 place_of(const World& world, const MembranePoint& point) {
+    const BodyState& body = world.bodies.state[point.body];
+    return Vec2{body.x, body.y} + arm_of(world, point);
+}
+
+/// Calls visit(point, place, force) with every point of a chain.
+/// @return its part of the area, less what its ends sweep where they are platens' @param parted set where a piece has
+template <class Visit>
+double visit_chain(const World& world, std::size_t begin, std::size_t end, bool closed, bool& parted, Visit&& visit) {
+    const Membrane& membrane = world.membrane;
+    const auto at = [&](std::size_t k) { return place_of(world, membrane.points[k]); };
+    const auto half_force = [&](Vec2 a, Vec2 b) { return 0.5 * membrane.pressure * Vec2{b.y - a.y, a.x - b.x}; };
+    const auto look = [&](Vec2 a, Vec2 b, std::size_t k) {
+        const double longest = membrane.points[k].longest;
+        parted = parted || !(dot(b - a, b - a) <= longest * longest);
+    };
+    const Vec2 first = at(begin), last = at(end - 1);
+    double area = closed ? -0.5 * (last.x + first.x) * (first.y - last.y) : last.x * last.y - first.x * first.y;
+    Vec2 before{};  // half force of the piece that leads to the point
+    if (closed) {
+        before = half_force(last, first);
+        look(last, first, begin);
+    }
+    const Vec2 of_closing = before;
+    Vec2 place = first;
+    for (std::size_t k = begin; k + 1 < end; ++k) {
+        const Vec2 next = at(k + 1);
+        const Vec2 half = half_force(place, next);
+        look(place, next, k + 1);
+        visit(membrane.points[k], place, before + half);
+        area -= 0.5 * (place.x + next.x) * (next.y - place.y);
+        before = half;
+        place = next;
+    }
+    visit(membrane.points[end - 1], place, before + of_closing);
+    return area;
+}
+
+/// @return the area
+template <class Visit>
+double visit_points(const World& world, bool& parted, Visit&& visit) {
+    const Membrane& membrane = world.membrane;
+    const std::size_t count = membrane.points.size();
+    if (count == 0) return 0.0;
+    if (membrane.top == no_body) return visit_chain(world, 0, count, true, parted, visit);
+    return visit_chain(world, 0, membrane.left_end, false, parted, visit) +
+           visit_chain(world, membrane.left_end, count, false, parted, visit);
+}
+
+}  // namespace
+
+void press_membrane(World& world) {
+    Membrane& membrane = world.membrane;
+    if (!membrane.present()) return;
+    bool parted = false;
+    const double area = visit_points(world, parted, [&](const MembranePoint& point, Vec2 place, Vec2 force) {
+        const BodyState& body = world.bodies.state[point.body];
+        BodyForce& sum = world.bodies.force[point.body];
+        sum.fx += force.x;
+        sum.fy += force.y;
+        sum.torque += (place.x - body.x) * force.y - (place.y - body.y) * force.x;
+    });
+    membrane.parted = parted;
+    if (membrane.known) {
+        const double work = -membrane.pressure * (area - membrane.area);
+        membrane.work += work;
+        world.account.force_work += work;
+    }
+    membrane.known = true;
+    membrane.area = area;
+}
+
+Vec2 membrane_force_on(const World& world, BodyIndex body) {
+    Vec2 sum{};
+    bool parted = false;
+    visit_points(world, parted, [&](const MembranePoint& point, Vec2, Vec2 force) {
+        if (point.body == body) sum = sum + force;
+    });
+    return sum;
+}
+
+std::vector<MembraneLoad> membrane_loads(const World& world) {
+    std::vector<MembraneLoad> loads(world.bodies.size());
+    bool parted = false;
+    visit_points(world, parted, [&](const MembranePoint& point, Vec2 place, Vec2 force) {
+        const BodyState& body = world.bodies.state[point.body];
+        MembraneLoad& load = loads[point.body];
+        load.x += force.x;
+        load.y += force.y;
+        load.torque += (place.x - body.x) * force.y - (place.y - body.y) * force.x;
+    });
+    return loads;
+}
+
+double membrane_area(const World& world) {
+    bool parted = false;
+    return visit_points(world, parted, [](const MembranePoint&, Vec2, Vec2) {});
+}
+
+}  // namespace crackle

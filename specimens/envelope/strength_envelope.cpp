@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/envelope/strength_envelope.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <random>
+#include <unsupported/Eigen/NonLinearOptimization>
+
+#include "solver/base/correctly_rounded.hpp"
+#include "solver/base/errors.hpp"
+#include "specimens/statistics/mean.hpp"
+#include "specimens/statistics/random_numbers.hpp"
+
+namespace crackle {
+namespace {
+
+constexpr std::size_t redrawn = 10'000;
+constexpr std::uint64_t bootstrap_seed = 1;
+constexpr double degrees = 180.0 / std::numbers::pi;
+
+/// The tests at one confinement: least squares know no more of them than their mean.
+struct WeightedPoint {
+    double confinement, strength;
+    double weight;  // root of their number, over the mean strength there
+};
+using Points = std::vector<WeightedPoint>;
+
+struct Line {
+    double intercept, slope;
+};
+
+/// y = a + b x, each equation times its weight.
+Line weighted_line(const Points& points, auto&& x_of, auto&& y_of, auto&& weight_of) {
+    Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
+    Eigen::Vector2d right = Eigen::Vector2d::Zero();
+    for (const WeightedPoint& p : points) {
+        const double w = weight_of(p) * weight_of(p), x = x_of(p), y = y_of(p);
+        normal += w * (Eigen::Matrix2d() << 1.0, x, x, x * x).finished();
+        right += w * y * Eigen::Vector2d(1.0, x);
+    }
+    const Eigen::Vector2d found = normal.ldlt().solve(right);
+    return {found[0], found[1]};
+}
+
+Line fit_mohr_coulomb(const Points& points) {
+    return weighted_line(
+        points, [](const WeightedPoint& p) { return p.confinement; }, [](const WeightedPoint& p) { return p.strength; },
+        [](const WeightedPoint& p) { return p.weight; });
+}
+
+struct HoekBrown {
+    double strength, m;
+    double at(double confinement) const {
+        return confinement + std::sqrt(std::max(0.0, strength * (m * confinement + strength)));
+    }
+};
+
+/// Residuals for Eigen's Levenberg-Marquardt, by the logarithms of C and m, which stay positive.
+struct HoekBrownResiduals {
+    using Scalar = double;
+    using InputType = Eigen::VectorXd;
+    using ValueType = Eigen::VectorXd;
+    using JacobianType = Eigen::MatrixXd;
+    enum { InputsAtCompileTime = Eigen::Dynamic, ValuesAtCompileTime = Eigen::Dynamic };
+
+    const Points& points;
+
+    int inputs() const { return 2; }
+    int values() const { return static_cast<int>(points.size()); }
+    static HoekBrown law_of(const Eigen::VectorXd& x) {
+        return {correctly_rounded::exp(x[0]), correctly_rounded::exp(x[1])};
+    }
+    int operator()(const Eigen::VectorXd& x, Eigen::VectorXd& left) const {
+        const HoekBrown law = law_of(x);
+        for (std::size_t k = 0; k < points.size(); ++k)
+            left[static_cast<Eigen::Index>(k)] =
+                points[k].weight * (law.at(points[k].confinement) - points[k].strength);
+        return 0;
+    }
+    int df(const Eigen::VectorXd& x, Eigen::MatrixXd& slopes) const {
+        const HoekBrown law = law_of(x);
+        for (std::size_t k = 0; k < points.size(); ++k) {
+            const double s3 = points[k].confinement, root = law.at(s3) - s3, w = points[k].weight;
+            const auto row = static_cast<Eigen::Index>(k);
+            slopes(row, 0) = w * law.strength * (law.m * s3 + 2.0 * law.strength) / (2.0 * root);
+            slopes(row, 1) = w * law.m * law.strength * s3 / (2.0 * root);
+        }
+        return 0;
+    }
+};
+
+HoekBrown fit_hoek_brown(const Points& points) {
+    // (σ1 - σ3)² scatters by twice its size times that of σ1.
+    const auto difference = [](const WeightedPoint& p) { return p.strength - p.confinement; };
+    const Line start = weighted_line(
+        points, [](const WeightedPoint& p) { return p.confinement; },
+        [&](const WeightedPoint& p) { return difference(p) * difference(p); },
+        [&](const WeightedPoint& p) { return p.weight / std::max(difference(p), 1e-3 * p.strength); });
+    const double c = std::sqrt(std::max(start.intercept, 1e-12 * points.front().strength * points.front().strength));
+    Eigen::VectorXd x(2);
+    x << correctly_rounded::log(c), correctly_rounded::log(std::max(start.slope / c, 1e-3));
+    HoekBrownResiduals residuals{points};
+    Eigen::LevenbergMarquardt<HoekBrownResiduals> search(residuals);
+    search.minimize(x);
+    return HoekBrownResiduals::law_of(x);
+}
+
+/// Tests by packing, in the order of names.
+std::map<std::string, std::vector<StrengthPoint>> by_packing(std::span<const StrengthPoint> tests) {
+    std::map<std::string, std::vector<StrengthPoint>> packings;
+    for (const StrengthPoint& test : tests) packings[test.packing].push_back(test);
+    return packings;
+}
+
+std::vector<StrengthAt> by_confinement(std::span<const StrengthPoint> tests) {
+    std::map<double, std::vector<double>> strengths;
+    for (const StrengthPoint& test : tests) strengths[test.confinement].push_back(test.strength);
+    std::vector<StrengthAt> all;
+    for (const auto& [confinement, values] : strengths) {
+        const MeanFigure mean = mean_of(values);
+        all.push_back({confinement, values.size(), mean.mean, mean.deviation});
+    }
+    return all;
+}
+
+double pooled_variation(const std::vector<StrengthAt>& strengths) {
+    double squares = 0.0, freedom = 0.0;
+    for (const StrengthAt& at : strengths) {
+        if (at.tests < 2) continue;
+        const double n = static_cast<double>(at.tests) - 1.0;
+        squares += n * (at.deviation / at.mean) * (at.deviation / at.mean);
+        freedom += n;
+    }
+    return freedom > 0.0 ? std::sqrt(squares / freedom) : std::numeric_limits<double>::quiet_NaN();
+}
+
+double friction_angle(double slope) {
+    return degrees * correctly_rounded::asin(std::clamp((slope - 1.0) / (slope + 1.0), -1.0, 1.0));
+}
+
+double cohesion(const Line& line) { return line.intercept / (2.0 * std::sqrt(line.slope)); }
+
+/// The six numbers, in the order of the envelope's members.
+std::array<double, 6> numbers_of(const Points& points) {
+    const Line line = fit_mohr_coulomb(points);
+    const HoekBrown law = fit_hoek_brown(points);
+    return {line.intercept, line.slope, friction_angle(line.slope), cohesion(line), law.strength, law.m};
+}
+
+}  // namespace
+
+double StrengthEnvelope::hoek_brown(double confinement) const {
+    return HoekBrown{hoek_brown_strength.value, hoek_brown_m.value}.at(confinement);
+}
+
+StrengthEnvelope fit_envelope(std::span<const StrengthPoint> tests) {
+    StrengthEnvelope envelope;
+    envelope.strengths = by_confinement(tests);
+    const auto packings = by_packing(tests);
+    envelope.packings = packings.size();
+    if (envelope.strengths.size() < fewest_confinements || packings.size() < fewest_packings) {
+        throw InputError(fmt::format(
+            "envelope: found {} confinements of {} packings, expected at least {} confinements (0 among them, up to "
+            "half "
+            "of the unconfined strength) of at least {} packings: strengths scatter from packing to packing",
+            envelope.strengths.size(), packings.size(), fewest_confinements, fewest_packings));
+    }
+    envelope.variation = pooled_variation(envelope.strengths);
+    Points points;
+    for (const StrengthAt& at : envelope.strengths)
+        points.push_back({at.confinement, at.mean, std::sqrt(static_cast<double>(at.tests)) / at.mean});
+    const std::array<FittedNumber*, 6> fitted{&envelope.strength,
+                                              &envelope.slope,
+                                              &envelope.friction_angle,
+                                              &envelope.cohesion,
+                                              &envelope.hoek_brown_strength,
+                                              &envelope.hoek_brown_m};
+    const std::array<double, 6> best = numbers_of(points);
+    for (std::size_t k = 0; k < fitted.size(); ++k) fitted[k]->value = best[k];
+
+    // Of each packing the sum and the number of its strengths, by confinement.
+    struct Sums {
+        double strength = 0.0, tests = 0.0;
+    };
+    std::vector<std::vector<Sums>> drawable;
+    for (const auto& [name, own] : packings) {
+        std::vector<Sums>& sums = drawable.emplace_back(points.size());
+        for (const StrengthPoint& test : own) {
+            const auto at = std::ranges::lower_bound(points, test.confinement, {}, &WeightedPoint::confinement);
+            Sums& sum = sums[static_cast<std::size_t>(at - points.begin())];
+            sum.strength += test.strength;
+            sum.tests += 1.0;
+        }
+    }
+    std::mt19937_64 generator(bootstrap_seed);
+    std::array<std::vector<double>, 6> drawn;
+    for (std::size_t n = 0; n < redrawn; ++n) {
+        std::vector<Sums> sums(points.size());
+        for (std::size_t k = 0; k < drawable.size(); ++k) {
+            const std::vector<Sums>& own = drawable[uniform_below(generator, drawable.size())];
+            for (std::size_t at = 0; at < sums.size(); ++at) {
+                sums[at].strength += own[at].strength;
+                sums[at].tests += own[at].tests;
+            }
+        }
+        Points again;
+        for (std::size_t at = 0; at < sums.size(); ++at) {
+            if (sums[at].tests == 0.0) continue;
+            again.push_back({points[at].confinement, sums[at].strength / sums[at].tests,
+                             std::sqrt(sums[at].tests) / envelope.strengths[at].mean});
+        }
+        if (again.size() < 2) continue;  // no line through one
+        const std::array<double, 6> numbers = numbers_of(again);
+        for (std::size_t k = 0; k < numbers.size(); ++k)
+            if (std::isfinite(numbers[k])) drawn[k].push_back(numbers[k]);
+    }
+    const double tail = expanded_tail(packings.size());
+    for (std::size_t k = 0; k < fitted.size(); ++k) {
+        if (drawn[k].empty()) continue;
+        std::ranges::sort(drawn[k]);
+        fitted[k]->low = percentile(drawn[k], tail);
+        fitted[k]->high = percentile(drawn[k], 1.0 - tail);
+    }
+    double line_squares = 0.0, law_squares = 0.0;
+    for (const StrengthAt& at : envelope.strengths) {
+        const double by_line = envelope.mohr_coulomb(at.confinement) / at.mean - 1.0,
+                     by_law = envelope.hoek_brown(at.confinement) / at.mean - 1.0;
+        line_squares += by_line * by_line;
+        law_squares += by_law * by_law;
+    }
+    const auto confinements = static_cast<double>(envelope.strengths.size());
+    envelope.misfit = std::sqrt(line_squares / confinements);
+    envelope.hoek_brown_misfit = std::sqrt(law_squares / confinements);
+    return envelope;
+}
+
+}  // namespace crackle

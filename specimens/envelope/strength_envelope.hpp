@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The strength of a rock over its confinement, by two laws, from tests of several packings.
+//
+//   Mohr-Coulomb       σ1 = C + N σ3,  sin φ = (N - 1)/(N + 1),  c = C/(2 sqrt N)
+//   Hoek-Brown, intact σ1 = σ3 + sqrt(m C σ3 + C²)      (Hoek & Brown, Int. J. Rock Mech. Min. Sci. 116, 2019; a = ½, s
+//   = 1)
+//
+// Both by least squares in σ1. Packings scatter by a share of their strength, the same at every confinement (the pooled
+// coefficient of variation), so a test weighs 1/(mean strength at its confinement)². Hoek-Brown begins at the line of
+// (σ1 - σ3)² over σ3, slope m C and intercept C². Intervals: 10,000 fits to as many packings drawn with replacement, a
+// packing with all its tests; percentiles at the levels that are as wide as Student's t (statistics/mean.hpp).
+// Stresses in one unit, N/m or Pa, compression positive.
+// Tested by tests/specimens/envelope/strength_envelope_test.cpp.
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace crackle {
+
+/// Strength of one test.
+struct StrengthPoint {
+    std::string packing;                       ///< name of the packing; tests of one are drawn together
+    double confinement = 0.0, strength = 0.0;  // σ3, σ1
+};
+
+struct FittedNumber {
+    double value = std::numeric_limits<double>::quiet_NaN();
+    double low = std::numeric_limits<double>::quiet_NaN();  ///< of the 95 % interval
+    double high = std::numeric_limits<double>::quiet_NaN();
+};
+
+struct StrengthAt {
+    double confinement = 0.0;
+    std::size_t tests = 0;
+    double mean = 0.0;
+    double deviation = std::numeric_limits<double>::quiet_NaN();  ///< sample standard deviation; not of one test
+};
+
+struct StrengthEnvelope {
+    std::size_t packings = 0;
+    std::vector<StrengthAt> strengths;                       ///< by confinement
+    double variation = 0.0;                                  ///< pooled coefficient of variation of the packings
+    FittedNumber strength, slope, friction_angle, cohesion;  ///< Mohr-Coulomb: C, N, φ in degrees, c
+    double misfit = 0.0;  ///< root of the mean square of what is left, over the mean strengths
+    FittedNumber hoek_brown_strength, hoek_brown_m;  ///< C, m
+    double hoek_brown_misfit = 0.0;
+
+    double mohr_coulomb(double confinement) const { return strength.value + slope.value * confinement; }
+    double hoek_brown(double confinement) const;
+};
+
+inline constexpr std::size_t fewest_confinements = 3, fewest_packings = 2;
+
+/// @throws InputError of fewer than three confinements or two packings, naming what there is
+StrengthEnvelope fit_envelope(std::span<const StrengthPoint> tests);
+
+}  // namespace crackle

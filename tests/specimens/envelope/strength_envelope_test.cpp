@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Envelopes of strengths made by a known law, with the scatter of packings.
+
+#include "specimens/envelope/strength_envelope.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "solver/base/correctly_rounded.hpp"
+#include "solver/base/errors.hpp"
+#include "specimens/statistics/random_numbers.hpp"
+#include "tests/support/claim.hpp"
+
+namespace crackle {
+namespace {
+
+using testing::agrees;
+using testing::within;
+
+constexpr double unconfined = 150e6, slope = 5.0, m = 18.0;
+
+double line(double s3) { return unconfined + slope * s3; }
+double hoek_brown(double s3) { return s3 + std::sqrt(m * unconfined * s3 + unconfined * unconfined); }
+
+/// Ten packings at six confinements; packings scatter as a whole and each test by itself, by shares of the strength.
+template <class Law>
+std::vector<StrengthPoint> tests_of(Law&& law, double of_packing, double of_test, std::mt19937_64* generator) {
+    const auto normal = [&] {
+        return generator == nullptr
+                   ? 0.0
+                   : correctly_rounded::normal_quantile(1e-12 + (1.0 - 2e-12) * uniform_number(*generator));
+    };
+    std::vector<StrengthPoint> tests;
+    for (int packing = 0; packing < 10; ++packing) {
+        const double whole = 1.0 + of_packing * normal();
+        for (const double share : {0.0, 0.05, 0.1, 0.2, 0.35, 0.5}) {
+            const double s3 = share * unconfined;
+            tests.push_back({fmt::format("{}", packing), s3, law(s3) * (whole + of_test * normal())});
+        }
+    }
+    return tests;
+}
+
+TEST(StrengthEnvelope, OfExactStrengthsIsTheirLaw) {
+    const StrengthEnvelope straight = fit_envelope(tests_of(line, 0.0, 0.0, nullptr));
+    EXPECT_TRUE(agrees("C of the line, Pa", straight.strength.value, unconfined, 1e-12));
+    EXPECT_TRUE(agrees("N", straight.slope.value, slope, 1e-12));
+    EXPECT_TRUE(agrees("friction angle, asin 4/6", straight.friction_angle.value, 41.810314895778596, 1e-12));
+    EXPECT_TRUE(agrees("cohesion, C/(2 sqrt 5)", straight.cohesion.value, 33541019.66249685, 1e-12));
+    EXPECT_TRUE(within("misfit", straight.misfit, 0.0, 1e-12));
+    EXPECT_GT(straight.hoek_brown_misfit, 1e-3) << "a line is not curved";
+    const StrengthEnvelope curved = fit_envelope(tests_of(hoek_brown, 0.0, 0.0, nullptr));
+    EXPECT_TRUE(agrees("C of Hoek and Brown, Pa", curved.hoek_brown_strength.value, unconfined, 1e-9));
+    EXPECT_TRUE(agrees("m", curved.hoek_brown_m.value, m, 1e-9));
+    EXPECT_TRUE(within("misfit", curved.hoek_brown_misfit, 0.0, 1e-9));
+    EXPECT_GT(curved.misfit, 1e-3);
+    EXPECT_TRUE(agrees("at a confinement, Pa", curved.hoek_brown(30e6), hoek_brown(30e6), 1e-9));
+}
+
+TEST(StrengthEnvelope, OfScatteredStrengthsLiesInItsIntervalsAsOftenAsStated) {
+    constexpr int tries = 200;
+    std::mt19937_64 generator(12);
+    int of_strength = 0, of_angle = 0, of_m = 0, of_curved_strength = 0;
+    for (int k = 0; k < tries; ++k) {
+        const StrengthEnvelope straight = fit_envelope(tests_of(line, 0.08, 0.05, &generator));
+        const StrengthEnvelope curved = fit_envelope(tests_of(hoek_brown, 0.08, 0.05, &generator));
+        const auto covers = [](const FittedNumber& number, double truth) {
+            return number.low <= truth && truth <= number.high;
+        };
+        of_strength += covers(straight.strength, unconfined);
+        of_angle += covers(straight.friction_angle, 41.810314895778596);
+        of_curved_strength += covers(curved.hoek_brown_strength, unconfined);
+        of_m += covers(curved.hoek_brown_m, m);
+    }
+    // 95 % of 200 within three standard deviations of such a count, 3 sqrt(200 0.95 0.05) = 9.2.
+    EXPECT_TRUE(within("of 200 lines C in its interval", of_strength, 190.0, 9.2));
+    EXPECT_TRUE(within("of 200 lines the angle in its interval", of_angle, 190.0, 9.2));
+    EXPECT_TRUE(within("of 200 curves C in its interval", of_curved_strength, 190.0, 9.2));
+    EXPECT_TRUE(within("of 200 curves m in its interval", of_m, 190.0, 9.2));
+}
+
+TEST(StrengthEnvelope, OfTooLittleIsRefusedWithWhatThereIs) {
+    std::vector<StrengthPoint> tests = tests_of(line, 0.0, 0.0, nullptr);
+    std::vector<StrengthPoint> one_packing(tests.begin(), tests.begin() + 6);
+    std::vector<StrengthPoint> two_confinements;
+    for (const StrengthPoint& test : tests)
+        if (test.confinement < 0.07 * unconfined) two_confinements.push_back(test);
+    for (const auto& [few, found] : {std::pair(one_packing, "6 confinements of 1 packings"),
+                                     std::pair(two_confinements, "2 confinements of 10 packings")}) {
+        try {
+            fit_envelope(few);
+            ADD_FAILURE() << "fitted";
+        } catch (const InputError& error) {
+            EXPECT_NE(std::string(error.what()).find(found), std::string::npos) << error.what();
+        }
+    }
+}
+
+TEST(StrengthEnvelope, StatesMeansAndScatterOfEachConfinement) {
+    std::mt19937_64 generator(5);
+    const std::vector<StrengthPoint> tests = tests_of(line, 0.1, 0.0, &generator);
+    const StrengthEnvelope envelope = fit_envelope(tests);
+    ASSERT_EQ(envelope.strengths.size(), 6U);
+    EXPECT_EQ(envelope.packings, 10U);
+    EXPECT_EQ(envelope.strengths[2].tests, 10U);
+    EXPECT_TRUE(agrees("a whole packing's scatter is the same share everywhere", envelope.variation,
+                       envelope.strengths[0].deviation / envelope.strengths[0].mean, 1e-9));
+}
+
+}  // namespace
+}  // namespace crackle

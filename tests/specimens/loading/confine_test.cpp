@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A specimen under a membrane between platens: equilibrium before loading, what the pressure does to its area, and a
+// test that goes on from there.
+
+#include "specimens/loading/confine.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "solver/base/errors.hpp"
+#include "solver/measure/ledger.hpp"
+#include "solver/membrane/wrap.hpp"
+#include "solver/stepping/step.hpp"
+#include "specimens/loading/load_specimen.hpp"
+#include "specimens/loading/prepare.hpp"
+#include "tests/support/claim.hpp"
+#include "tests/support/deck_files.hpp"
+#include "tests/support/small_rock.hpp"
+
+namespace crackle {
+namespace {
+
+using testing::agrees;
+using testing::within;
+
+class Confined : public ::testing::Test {
+  protected:
+    TestCase described(const std::string& mesh, double pressure, const std::string& loading = {}) const {
+        testing::SmallCase wanted;
+        wanted.kind = "biaxial";
+        wanted.mesh = mesh;
+        wanted.rate = 0.05;
+        wanted.max_strain = 0.01;
+        wanted.loading = loading;
+        wanted.output = "curve_rows = 2000\nframes = 5\n[confinement]\npressure = " + std::to_string(pressure);
+        return read_case(testing::write_small_case(scratch_ / "", wanted));
+    }
+    testing::ScratchFolder scratch_;
+};
+
+constexpr double pressure = 1e3;  // N/m
+
+TEST_F(Confined, SpecimenIsInEquilibriumBeforeLoadingBegins) {
+    for (const char* mesh : {"", "delaunay", "voronoi"}) {
+        for (const char* loading : {"", "platens = \"frictional\"\nplaten_friction_angle = 10"}) {
+            VirtualTest test = prepare_test(described(mesh, pressure, loading));
+            World& world = test.world;
+            // At rest: without the motion that loading begins with its dashpots carry nothing.
+            for (BodyState& body : world.bodies.state) body.vx = body.vy = body.omega = 0.0;
+            velocities_changed(world);
+            compute_forces(world);
+            const CurveRow row = observe_row(world, test.setup);
+            const std::string what =
+                std::string(*mesh == '\0' ? "circles" : mesh) + (*loading == '\0' ? "" : ", friction");
+            EXPECT_TRUE(
+                within(what + ": stress of the platens over the pressure", row.axial_stress / pressure, 1.0, 1e-4));
+            EXPECT_EQ(row.axial_strain, 0.0);
+            EXPECT_TRUE(within("lateral strain", row.lateral_strain, 0.0, 1e-15));
+            EXPECT_EQ(world.bonds.broken, 0);
+            EXPECT_EQ(test.setup.confining_pressure, pressure);
+        }
+    }
+}
+
+TEST_F(Confined, StressOnThePlatensIsTheirsAloneAndItsEnergyCloses) {
+    for (const char* mesh : {"", "voronoi"}) {
+        VirtualTest test = prepare_test(described(mesh, pressure));
+        load_specimen(test);
+        const std::vector<CurveRow>& rows = test.state.rows;
+        ASSERT_GT(rows.size(), 100U);
+        const auto peak = static_cast<std::size_t>(test.state.failure.peak_row);
+        EXPECT_GT(rows[peak].axial_stress, 2.0 * pressure);
+        const CurveRow& last = rows.back();
+        EXPECT_LT(rows[peak].confinement_work, 0.0) << "a specimen that widens lifts the membrane";
+        const double work = std::abs(last.platen_work) + std::abs(last.confinement_work);
+        EXPECT_TRUE(within("closing error over the works", last.energy_error / work, 0.0, 2e-3));
+    }
+}
+
+TEST_F(Confined, SpecimenThatHoldsHasTheModulusOfTheSolveWhateverThePressure) {
+    for (const char* mesh : {"", "voronoi"}) {
+        TestCase description = described(mesh, pressure);
+        description.numerics.intact = true;
+        description.loading.max_axial_strain = 1e-4;
+        *description.loading.axial_strain_rate = 5e-4;
+        VirtualTest test = prepare_test(description);
+        load_specimen(test);
+        const CurveRow &first = test.state.rows.front(), &last = test.state.rows.back();
+        const double modulus = (last.axial_stress - first.axial_stress) / last.axial_strain;
+        EXPECT_TRUE(agrees("slope, N/m", modulus, test.state.youngs_modulus, 2e-3));
+        const double widening = (last.lateral_strain - first.lateral_strain) / last.axial_strain;
+        EXPECT_TRUE(agrees("widening over shortening", widening, test.state.poissons_ratio, 5e-3));
+    }
+}
+
+TEST_F(Confined, SpecimenIsStrongerUnderMorePressure) {
+    std::vector<double> strengths;
+    for (const double p : {100.0, 2e3, 4e3}) {
+        VirtualTest test = prepare_test(described("voronoi", p));
+        load_specimen(test);
+        strengths.push_back(test.state.failure.peak_stress);
+        fmt::print("  {:.0f} N/m: {:.0f} N/m\n", p, strengths.back());
+    }
+    EXPECT_GT(strengths[1], strengths[0] + 1.9e3);
+    EXPECT_GT(strengths[2], strengths[1] + 2e3);
+}
+
+TEST_F(Confined, PressureBeyondTheRockIsRefusedOrNoticed) {
+    try {
+        const VirtualTest test = prepare_test(described("", 1e7));
+        EXPECT_FALSE(test.setup.notices.empty());
+        const auto told = [](const std::string& n) {
+            return n.find("under the confining pressure") != std::string::npos;
+        };
+        EXPECT_TRUE(std::ranges::any_of(test.setup.notices, told));
+    } catch (const InputError& error) {
+        EXPECT_NE(std::string(error.what()).find("confinement.pressure: "), std::string::npos) << error.what();
+    }
+}
+
+TEST_F(Confined, PressureBelongsToBiaxialTestsAlone) {
+    const auto refusal = [&](const std::string& kind, const std::string& table) {
+        testing::SmallCase wanted;
+        wanted.kind = kind;
+        wanted.output = "curve_rows = 2000\nframes = 5\n" + table;
+        try {
+            read_case(testing::write_small_case(scratch_ / "", wanted));
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string("read");
+    };
+    EXPECT_NE(refusal("tension", "[confinement]\npressure = 1e3").find("only loading.kind = \"biaxial\""),
+              std::string::npos);
+    EXPECT_NE(refusal("compression", "[confinement]\npressure = 1e3").find("only loading.kind = \"biaxial\""),
+              std::string::npos);
+    EXPECT_NE(refusal("biaxial", "").find("confinement.pressure"), std::string::npos);
+    EXPECT_NE(refusal("biaxial", "[confinement]\npressure = -1e3").find("found -1000"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace crackle
