@@ -166,14 +166,14 @@ VirtualTest bond_test(const TestCase& description, const TestHooks& hooks, const
         TestCase::Loading held = description.loading;
         held.platens = "bonded";
         const BondedSpecimen twin = bond_specimen(specimen, description, held, while_solving);
+        const TestSetup own = record_setup(twin.world, specimen, twin.platens, test.setup.compression, grip);
         try {
-            const TestSetup own = record_setup(twin.world, specimen, twin.platens, test.setup.compression, grip);
             check_platen_hold(twin.world, own, twin.platens, description);
             solve_small_strain(test, twin.world, own, visit);
-            if (description.confined()) confine(test, twin.world, own);
         } catch (const InputError& error) {
             note_no_small_strain(test, error.what());
         }
+        if (description.confined()) confine(test, twin.world, own);  // what it refuses, no test goes on without
     }
     if (description.confined())
         hooks.report_stage(

@@ -106,16 +106,15 @@ TEST_F(Confined, SpecimenIsStrongerUnderMorePressure) {
     EXPECT_GT(strengths[2], strengths[1] + 2e3);
 }
 
-TEST_F(Confined, PressureBeyondTheRockIsRefusedOrNoticed) {
-    try {
-        const VirtualTest test = prepare_test(described("", 1e7));
-        EXPECT_FALSE(test.setup.notices.empty());
-        const auto told = [](const std::string& n) {
-            return n.find("under the confining pressure") != std::string::npos;
-        };
-        EXPECT_TRUE(std::ranges::any_of(test.setup.notices, told));
-    } catch (const InputError& error) {
-        EXPECT_NE(std::string(error.what()).find("confinement.pressure: "), std::string::npos) << error.what();
+TEST_F(Confined, PressureBeyondTheRockIsRefusedWhateverThePlatens) {
+    for (const char* loading : {"", "platens = \"frictional\"\nplaten_friction_angle = 10"}) {
+        try {
+            prepare_test(described("", 1e7, loading));
+            ADD_FAILURE() << "goes on without its pressure: " << loading;
+        } catch (const InputError& error) {
+            const std::string message = error.what();
+            EXPECT_NE(message.find("confinement.pressure: found no equilibrium"), std::string::npos) << message;
+        }
     }
 }
 
