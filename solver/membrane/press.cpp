@@ -6,13 +6,9 @@
 namespace crackle {
 namespace {
 
-Vec2 arm_of(const World& world, const MembranePoint& point) {
-    return turned(world.bodies.state[point.body], {point.x, point.y, 0.0, 0.0});
-}
-
 Vec2 place_of(const World& world, const MembranePoint& point) {
     const BodyState& body = world.bodies.state[point.body];
-    return Vec2{body.x, body.y} + arm_of(world, point);
+    return Vec2{body.x, body.y} + turned(body, {point.x, point.y, 0.0, 0.0});
 }
 
 /// Calls visit(point, place, force) with every point of a chain.
@@ -59,18 +55,19 @@ double visit_points(const World& world, bool& parted, Visit&& visit) {
            visit_chain(world, membrane.left_end, count, false, parted, visit);
 }
 
+void add(BodyForce& sum, const BodyState& body, Vec2 place, Vec2 force) {
+    sum.fx += force.x;
+    sum.fy += force.y;
+    sum.torque += (place.x - body.x) * force.y - (place.y - body.y) * force.x;
+}
+
 }  // namespace
 
 void press_membrane(World& world) {
     Membrane& membrane = world.membrane;
-    if (!membrane.present()) return;
     bool parted = false;
     const double area = visit_points(world, parted, [&](const MembranePoint& point, Vec2 place, Vec2 force) {
-        const BodyState& body = world.bodies.state[point.body];
-        BodyForce& sum = world.bodies.force[point.body];
-        sum.fx += force.x;
-        sum.fy += force.y;
-        sum.torque += (place.x - body.x) * force.y - (place.y - body.y) * force.x;
+        add(world.bodies.force[point.body], world.bodies.state[point.body], place, force);
     });
     membrane.parted = parted;
     if (membrane.known) {
@@ -82,26 +79,13 @@ void press_membrane(World& world) {
     membrane.area = area;
 }
 
-Vec2 membrane_force_on(const World& world, BodyIndex body) {
-    Vec2 sum{};
-    bool parted = false;
-    visit_points(world, parted, [&](const MembranePoint& point, Vec2, Vec2 force) {
-        if (point.body == body) sum = sum + force;
-    });
-    return sum;
-}
-
-std::vector<MembraneLoad> membrane_loads(const World& world) {
-    std::vector<MembraneLoad> loads(world.bodies.size());
+BodyForce membrane_force_on(const World& world, BodyIndex body) {
+    BodyForce sum{};
     bool parted = false;
     visit_points(world, parted, [&](const MembranePoint& point, Vec2 place, Vec2 force) {
-        const BodyState& body = world.bodies.state[point.body];
-        MembraneLoad& load = loads[point.body];
-        load.x += force.x;
-        load.y += force.y;
-        load.torque += (place.x - body.x) * force.y - (place.y - body.y) * force.x;
+        if (point.body == body) add(sum, world.bodies.state[body], place, force);
     });
-    return loads;
+    return sum;
 }
 
 double membrane_area(const World& world) {

@@ -9,8 +9,6 @@
 // Tested by tests/solver/membrane/membrane_test.cpp.
 #pragma once
 
-#include <vector>
-
 #include "solver/world/world.hpp"
 
 namespace crackle {
@@ -22,13 +20,7 @@ void press_membrane(World& world);
 /// m², enclosed by the chains as the bodies lie now, less what platens sweep: Membrane::area.
 double membrane_area(const World& world);
 
-/// N, of the membrane on a body now.
-Vec2 membrane_force_on(const World& world, BodyIndex body);
-
-/// N and N m, of the membrane on every body now, for solve_elastic().
-struct MembraneLoad {
-    double x = 0.0, y = 0.0, torque = 0.0;
-};
-std::vector<MembraneLoad> membrane_loads(const World& world);
+/// Of the membrane on a body now; nothing without one.
+BodyForce membrane_force_on(const World& world, BodyIndex body);
 
 }  // namespace crackle

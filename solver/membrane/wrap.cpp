@@ -351,7 +351,7 @@ void wrap_membrane(World& world) {
 
 void update_membrane(World& world) {
     const Membrane& membrane = world.membrane;
-    if (membrane.present() && (membrane.parted || membrane.list_builds != world.list.builds)) wrap_membrane(world);
+    if (membrane.parted || membrane.list_builds != world.list.builds) wrap_membrane(world);
 }
 
 void add_membrane(World& world, double pressure, double probe, BodyIndex bottom, BodyIndex top) {

@@ -84,8 +84,10 @@ void update_neighbours(World& world) {
 void prepare_forces(World& world) {
     plan_sweep(world);
     clear_forces(world);
-    update_membrane(world);
-    press_membrane(world);
+    if (world.membrane.present()) {
+        update_membrane(world);
+        press_membrane(world);
+    }
     if (world.workers.profile != nullptr) sample_geometry(world);
 }
 

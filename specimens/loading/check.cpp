@@ -57,7 +57,7 @@ std::optional<FirstLoss> loss_of(const ElasticAnalysis& analysis, const std::opt
 }
 
 void estimate_strength(TestCheck& check, const ElasticAnalysis& analysis, const TestCase& test, const TestSetup& own) {
-    if (test.numerics.intact) return;
+    if (test.numerics.intact || test.confined()) return;  // the rule is of unconfined specimens
     const BreakShare rule = bond_break_share(own);
     const double strain = strain_of_share(analysis.bonds, rule.share);
     if (!std::isfinite(strain)) return;
@@ -96,6 +96,11 @@ void warn(TestCheck& check) {
     const TestSetup& setup = check.test.setup;
     const TestCase& test = check.test.description;
     check.warnings = setup.notices;
+    if (test.confined()) {
+        check.warnings.emplace_back(
+            "first slip and break are those of the specimen without its confining pressure, and no strength is "
+            "estimated under one");
+    }
     if (setup.polygons && setup.mean_bond_overlap > deep_overlap_share * setup.bond_thick) {
         check.warnings.push_back(
             fmt::format("bonds overlap by {:.3g} m on average, {:.2g} of the thickness {:.3g} m: corners lie close to "

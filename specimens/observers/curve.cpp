@@ -22,13 +22,11 @@ CurveRow observe_row(const World& world, const TestSetup& setup) {
     CurveRow row;
     const double sense = setup.compression ? 1.0 : -1.0;
     row.axial_strain = setup.axial_strain(world);
-    double top = world.bodies.force[setup.top].fy, bottom = world.bodies.force[setup.bottom].fy;
-    if (world.membrane.present()) {
-        top -= membrane_force_on(world, setup.top).y;
-        bottom -= membrane_force_on(world, setup.bottom).y;
-    }
-    row.stress_top = sense * top / setup.width;
-    row.stress_bottom = -sense * bottom / setup.width;
+    const auto of_specimen = [&](BodyIndex platen) {
+        return world.bodies.force[platen].fy - membrane_force_on(world, platen).fy;
+    };
+    row.stress_top = sense * of_specimen(setup.top) / setup.width;
+    row.stress_bottom = -sense * of_specimen(setup.bottom) / setup.width;
     row.confinement_work = world.membrane.work;
     row.axial_stress = 0.5 * (row.stress_top + row.stress_bottom);
     row.lateral_strain = setup.lateral_strain(world);

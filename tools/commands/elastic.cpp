@@ -169,6 +169,11 @@ int elastic(const Invocation& given) {
                         description.loading.platens);
         description.loading.platens = "bonded";
     }
+    if (description.confined()) {
+        messages.notice("the linear solution is of the specimen without confining pressure");
+        description.loading.kind = "compression";
+        description.confinement = {};
+    }
     const Clock::time_point start = Clock::now();
     const VirtualTest test = bond_test(description, hooks);
     messages.progress().begin("solving the linear system", 2.0, "");

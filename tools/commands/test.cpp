@@ -238,7 +238,9 @@ void print_check(const TestCheck& check) {
             "have broken by the linear solution\n",
             strength->stress, unit, strength->strain, strength->factor, 100.0 * strength->share);
     } else {
-        fmt::print("  strength       no estimate: too few bonds ever break by the linear solution\n");
+        fmt::print("  strength       no estimate: {}\n", test.description.confined()
+                                                             ? "the rule is of specimens without confining pressure"
+                                                             : "too few bonds ever break by the linear solution");
     }
     fmt::print("  run            {}{} to strain {:.3g}; time step {:.3g} s, rate {:.3g} 1/s{}, {:.3g} steps/s\n",
                check.to_strength ? run_text(*check.to_strength) + " to that strength, " : "", run_text(check.to_end),

@@ -60,14 +60,20 @@ double mean_radius(const World& world) {
     return sum / static_cast<double>(world.bodies.size());
 }
 
-MembraneLoad resultant(const World& world) {
-    MembraneLoad sum;
-    const std::vector<MembraneLoad> loads = membrane_loads(world);
-    for (std::size_t b = 0; b < loads.size(); ++b) {
+std::vector<BodyForce> membrane_forces(const World& world) {
+    std::vector<BodyForce> forces;
+    for (BodyIndex b = 0; b < world.bodies.size(); ++b) forces.push_back(membrane_force_on(world, b));
+    return forces;
+}
+
+BodyForce resultant(const World& world) {
+    BodyForce sum{};
+    const std::vector<BodyForce> forces = membrane_forces(world);
+    for (std::size_t b = 0; b < forces.size(); ++b) {
         const BodyState& body = world.bodies.state[b];
-        sum.x += loads[b].x;
-        sum.y += loads[b].y;
-        sum.torque += loads[b].torque + body.x * loads[b].y - body.y * loads[b].x;
+        sum.fx += forces[b].fx;
+        sum.fy += forces[b].fy;
+        sum.torque += forces[b].torque + body.x * forces[b].fy - body.y * forces[b].fx;
     }
     return sum;
 }
@@ -89,8 +95,9 @@ TEST(Membrane, AloneLeavesABondedSquareInItsPlaceHoweverItIsTurned) {
         const Vec2 before = centroid(world);
         add_membrane(world, pressure, mean_radius(world));
         const double whole = membrane_area(world), side = std::sqrt(whole);
-        const MembraneLoad sum = resultant(world);
-        EXPECT_TRUE(within("resultant over p times a side", norm(Vec2{sum.x, sum.y}) / (pressure * side), 0.0, 1e-13));
+        const BodyForce sum = resultant(world);
+        EXPECT_TRUE(
+            within("resultant over p times a side", norm(Vec2{sum.fx, sum.fy}) / (pressure * side), 0.0, 1e-13));
         EXPECT_TRUE(within("moment over p times the area", sum.torque / (pressure * whole), 0.0, 1e-12));
         for (int n = 0; n < 20'000; ++n) step(world);
         compute_forces(world);
@@ -113,13 +120,13 @@ TEST(Membrane, WorkIsPressureTimesTheAreaLost) {
     double by_forces = 0.0;  // J, trapezoidal rule over each drift
     for (int n = 0; n < 3000; ++n) {
         compute_forces(world);
-        const std::vector<MembraneLoad> before = membrane_loads(world);
+        const std::vector<BodyForce> before = membrane_forces(world);
         const auto state = world.bodies.state;
         advance(world);
-        const std::vector<MembraneLoad> after = membrane_loads(world);
+        const std::vector<BodyForce> after = membrane_forces(world);
         for (std::size_t b = 0; b < before.size(); ++b) {
-            by_forces += 0.5 * ((before[b].x + after[b].x) * (world.bodies.state[b].x - state[b].x) +
-                                (before[b].y + after[b].y) * (world.bodies.state[b].y - state[b].y));
+            by_forces += 0.5 * ((before[b].fx + after[b].fx) * (world.bodies.state[b].x - state[b].x) +
+                                (before[b].fy + after[b].fy) * (world.bodies.state[b].y - state[b].y));
         }
     }
     compute_forces(world);
@@ -159,11 +166,12 @@ TEST(Membrane, FollowsWhatComesOff) {
     world.membrane.known = false;  // nothing has pushed it there
     compute_forces(world);
     EXPECT_EQ(world.membrane.wrapped, 2);
-    EXPECT_EQ(norm(membrane_force_on(world, off)), 0.0) << "a particle that has left carries no load";
+    EXPECT_EQ(norm(Vec2{membrane_force_on(world, off).fx, membrane_force_on(world, off).fy}), 0.0)
+        << "a particle that has left carries no load";
     for (const MembranePoint& point : world.membrane.points) EXPECT_NE(point.body, off);
     EXPECT_TRUE(agrees("area without one of a hundred discs, m2", membrane_area(world), before, 0.02));
-    const MembraneLoad sum = resultant(world);
-    EXPECT_TRUE(within("resultant over p", norm(Vec2{sum.x, sum.y}) / pressure, 0.0, 1e-12));
+    const BodyForce sum = resultant(world);
+    EXPECT_TRUE(within("resultant over p", norm(Vec2{sum.fx, sum.fy}) / pressure, 0.0, 1e-12));
 }
 
 TEST(Membrane, JumpsOfTheAreaDoNoWork) {
@@ -196,12 +204,13 @@ TEST(Membrane, OfPolygonsLiesOnTheirOutlinesAndTurnsThem) {
         // Gaps of the mesh lie within it, a fortieth of a cell's width, and dents of the shaken sides, a fifth deep.
         EXPECT_GE(membrane_area(world), cells);
         EXPECT_LE(membrane_area(world), 1.1 * cells);
-        const MembraneLoad sum = resultant(world);
+        const BodyForce sum = resultant(world);
         const double side = std::sqrt(cells);
-        EXPECT_TRUE(within("resultant over p times a side", norm(Vec2{sum.x, sum.y}) / (pressure * side), 0.0, 1e-13));
+        EXPECT_TRUE(
+            within("resultant over p times a side", norm(Vec2{sum.fx, sum.fy}) / (pressure * side), 0.0, 1e-13));
         EXPECT_TRUE(within("moment over p times the area", sum.torque / (pressure * cells), 0.0, 1e-12));
         double torques = 0.0;
-        for (const MembraneLoad& load : membrane_loads(world)) torques += std::abs(load.torque);
+        for (const BodyForce& load : membrane_forces(world)) torques += std::abs(load.torque);
         EXPECT_GT(torques, 0.0);
         std::set<BodyIndex> touched;
         for (const MembranePoint& point : world.membrane.points) touched.insert(point.body);

@@ -49,6 +49,18 @@ TEST(TestCheck, CountsGrainsStepsAndSeconds) {
     EXPECT_EQ(check.rate, check.slowest_rate) << "a rate that is given stays";
 }
 
+TEST(TestCheck, EstimatesNoStrengthUnderAPressure) {
+    const testing::ScratchFolder scratch;
+    testing::SmallCase wanted;
+    wanted.kind = "biaxial";
+    wanted.output += "\n[confinement]\npressure = 1e3";
+    const TestCheck check = check_test(read_case(testing::write_small_case(scratch / "", wanted)));
+    EXPECT_FALSE(check.strength || check.to_strength);
+    EXPECT_TRUE(std::isfinite(check.youngs_modulus));
+    ASSERT_FALSE(check.warnings.empty());
+    EXPECT_NE(check.warnings.front().find("without its confining pressure"), std::string::npos);
+}
+
 std::string warnings_of(const std::string& material, double rate = 0.02) {
     const testing::ScratchFolder scratch;
     testing::SmallCase wanted;

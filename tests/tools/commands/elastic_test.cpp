@@ -53,6 +53,21 @@ TEST_F(CrackleElastic, SaysPascalWhereTheUnitsAreOfAnArea) {
     EXPECT_TRUE(nlohmann::json::parse(json.out)["units"]["first_break_stress"].get<std::string>().starts_with("Pa,"));
 }
 
+TEST_F(CrackleElastic, IsOfTheSpecimenWithoutItsConfiningPressureAndSaysSo) {
+    testing::SmallCase wanted;
+    wanted.kind = "compression";
+    testing::write_small_case(scratch_ / "", wanted);
+    const auto free = nlohmann::json::parse(call("case.toml --json -q").out);
+    wanted.kind = "biaxial";
+    wanted.output += "\n[confinement]\npressure = 1e4";
+    testing::write_small_case(scratch_ / "", wanted);
+    const Answer confined = call("case.toml --json");
+    ASSERT_EQ(confined.code, 0) << confined.err;
+    EXPECT_NE(confined.err.find("without confining pressure"), std::string::npos) << confined.err;
+    for (const char* key : {"youngs_modulus", "poissons_ratio", "first_break_stress"})
+        EXPECT_EQ(nlohmann::json::parse(confined.out)[key], free[key]) << key;
+}
+
 TEST_F(CrackleElastic, NeverReplacesItsOwnInput) {
     for (const std::string input : {"case.toml", "rock.dat"})
         expect_refused("case.toml -q --force --bonds " + input, input + ": found an input of the same command");
