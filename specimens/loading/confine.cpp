@@ -95,7 +95,7 @@ class Confinement {
         restart_account(world_);
         velocities_changed(world_);
         compute_forces(world_);
-        begin_at(test_.setup, world_);
+        strains_begin_at(test_.setup, world_);
         test_.setup.confining_pressure = pressure_;
     }
 

@@ -178,11 +178,7 @@ TestSetup record_setup(const World& world, const Specimen& specimen, const Plate
     return setup;
 }
 
-void begin_at(TestSetup& setup, const World& world) {
-    for (std::size_t b = 0; b < setup.start.size(); ++b) {
-        const BodyState& body = world.bodies.state[b];
-        setup.start[b] = {body.x, body.y, body.angle};
-    }
+void strains_begin_at(TestSetup& setup, const World& world) {
     setup.top_start = world.bodies.state[setup.top].y;
     if (setup.gauge_length > 0.0) setup.gauge_length = mean_x(world, setup.right) - mean_x(world, setup.left);
     if (setup.gauge_height > 0.0)

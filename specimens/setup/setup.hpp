@@ -15,7 +15,7 @@
 
 namespace crackle {
 
-/// Where a body was when loading began.
+/// Where a body was when loading began; of a confined specimen, before the pressure was put on.
 struct StartPlace {
     double x = 0.0, y = 0.0, angle = 0.0;
 
@@ -135,8 +135,9 @@ struct TestSetup {
 TestSetup record_setup(const World& world, const Specimen& specimen, const Platens& platens, bool compression,
                        double grip);
 
-/// Loading begins anew where the bodies are now: places, strains and gauge lengths count from here.
-void begin_at(TestSetup& setup, const World& world);
+/// Strains and gauge lengths count from where the bodies are now. Places do not: bonds hold bodies as they lay when they
+/// were made, and from there the turn of a body's frame counts.
+void strains_begin_at(TestSetup& setup, const World& world);
 
 /// A body where only its place is known. @param angle rad, as BodyState's
 BodyState placed_body(const World& world, const TestSetup& setup, BodyIndex body, double x, double y, double angle);

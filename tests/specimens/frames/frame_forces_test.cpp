@@ -140,6 +140,30 @@ TEST_F(FrameForcesOfRock, AreZeroBeforeLoadingAndAddUpToTheViewsOfAllPointsLater
     }
 }
 
+TEST_F(FrameForcesOfRock, OfASpecimenUnderPressureAreThoseOfItsPoints) {
+    for (const char* mesh : {"", "delaunay", "voronoi"}) {
+        SmallCase wanted;
+        wanted.kind = "biaxial";
+        wanted.mesh = mesh;
+        wanted.output += "\n[confinement]\npressure = 1e4";
+        VirtualTest test = prepare_test(read_case(write_small_case(scratch_ / "", wanted)));
+        const Frame frame = taken(test);
+        const FrameForces forces = find_forces(PlacedFrame(test.world, test.setup, frame));
+        double worst = 0.0, largest = 0.0;
+        for (PointIndex k = 0; k < test.world.points.size(); ++k) {
+            const PointView view = view_point(test.world, k);
+            if (!view.bonded) continue;
+            const PointIndex bond = bond_of(test.setup, view.kind, test.world.points.contact[k]);
+            ASSERT_LT(bond, test.setup.bonds.size());
+            worst = std::max(worst, std::abs(forces.normal[bond] - view.normal_force));
+            largest = std::max(largest, std::abs(view.normal_force));
+        }
+        // Overlaps are differences of places: rounding of these by the stiffness, 1e-16 m by 1e7 N/m, of some 100 N.
+        EXPECT_TRUE(
+            within(fmt::format("{}: largest difference over the largest force", mesh), worst / largest, 0.0, 1e-9));
+    }
+}
+
 TEST_F(FrameForcesOfRock, FragmentsOfASpecimenSplitAcrossAreItsTwoParts) {
     for (const char* mesh : {"", "voronoi"}) {
         VirtualTest test = prepared(mesh);
