@@ -54,7 +54,7 @@ class Confinement {
     void run() {
         const std::vector<BodyState> moving = {world_.bodies.state.begin(), world_.bodies.state.end()};
         const std::int64_t broken = world_.bonds.broken, step = world_.stepping.steps;
-        const double time = world_.stepping.time;
+        const double time = world_.stepping.time, kick_share = world_.stepping.kick_share;
         const std::size_t events = world_.bonds.events.size();
         displace(world_, test_.setup, std::vector<BodyMotion>(moving.size()));  // at rest
         add_membrane(world_, pressure_, 0.5 * particle_, test_.setup.bottom, test_.setup.top);
@@ -75,6 +75,7 @@ class Confinement {
         }
         world_.stepping.steps = step;
         world_.stepping.time = time;
+        world_.stepping.kick_share = kick_share;
         for (std::size_t k = events; k < world_.bonds.events.size(); ++k) {
             world_.bonds.events[k].step = step;
             world_.bonds.events[k].time = time;

@@ -86,7 +86,7 @@ class Model:
         self.reach_of_bonds = self._reach_of_bonds()
         self._bonded_shares = {}
         self.frictional = results.key("loading", "platens") == "frictional"
-        self.sense = 1.0 if results.key("loading", "kind") == "compression" else -1.0
+        self.sense = -1.0 if results.key("loading", "kind") == "tension" else 1.0
         largest = max(b.id for b in deck.bodies)
         self.ids = [b.id for b in deck.bodies] + [largest + 1, largest + 2]
         self.index = {name: k for k, name in enumerate(self.ids)}

@@ -257,16 +257,12 @@ def recount(folder):
     r = Recount(Results(folder))
     recount_curve(r)
     recount_measures(r)
-    if r.summary["kind"] == "biaxial":  # frames tell of places since the pressure was put on, and no file before it
+    if r.summary["kind"] == "biaxial":
         r.key("confining_pressure", r.results.key("confinement", "pressure"), 0.0)
         if r.peak is not None:
             suffix = "" if r.summary["failed"] else "_so_far"
             r.key("deviator_stress" + suffix, r.curve["axial_stress"][r.peak] - r.results.key("confinement", "pressure"))
         r.key("membrane.work", r.curve["confinement_work"][-1], 0.0)
-        recount_packing(r)
-        recount_cells(r)
-        recount_errors(r)
-        return r
     recount_packing(r)
     recount_cells(r)
     if r.results.key("numerics", "contact_law", "rounded") == "rounded" or r.results.polygons is None:

@@ -134,6 +134,12 @@ class Recount(unittest.TestCase):
     def test_voronoi_polygons_pulled_at_a_rate(self):
         self.agrees(run("voronoi_pulled", rock + voronoi + pulled + rate + output), 150)
 
+    def test_circles_and_cells_under_a_pressure(self):
+        for name, mesh in (("confined", ""), ("confined_cells", voronoi)):
+            text = rock + mesh + squeezed.replace('"compression"', '"biaxial"') + "[confinement]\npressure = 2e3\n" + output
+            self.assertIn("biaxial", text)
+            self.agrees(run(name, text), 200)
+
     def test_cells_of_a_size_asked_for(self):
         self.agrees(cells_by_their_size(), 100)
         self.assertLessEqual({"packing.cell_diameter", "packing.cell_spread"}, recount(cells_by_their_size()).keys)
