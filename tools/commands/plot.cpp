@@ -149,7 +149,7 @@ Panel drawings_of(const Recording& test, const fs::path& folder, const Words& mo
 Words everything_of(const std::vector<Recording>& tests) {
     Words what{"curve"};
     const TestResults& first = tests.front().results;
-    if (tests.size() == 1 && first.summary.value("kind", std::string()) == "compression" && has_area_strain(first))
+    if (tests.size() == 1 && first.summary.value("kind", std::string()) != "tension" && has_area_strain(first))
         what.emplace_back("strain");
     what.emplace_back("ae");
     if (std::ranges::none_of(tests, [](const Recording& test) { return test.frames.empty(); }))

@@ -110,7 +110,10 @@ void mark_cracks(Canvas& canvas, const Axes& axes, const PlottedTest& test, doub
         const auto row = static_cast<std::size_t>(reached - stress.begin());
         const Point place = axes.at(strain[row] / strain_unit, *reached / unit);
         canvas.circle(place, 1.5, &white, &colour_of(test), 0.7 * curve_width);
-        canvas.text({place.x - 4.0, place.y}, name, Across::right, Down::middle, small_text, ink);
+        // Beside the axis it would stand on its line.
+        const bool by_axis = place.x - axes.frame.x < 4.0 + canvas.size_of(name, small_text).width + 2.0;
+        canvas.text({place.x + (by_axis ? 4.0 : -4.0), place.y}, name, by_axis ? Across::left : Across::right,
+                    Down::middle, small_text, ink);
     }
 }
 
