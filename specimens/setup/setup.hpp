@@ -135,8 +135,8 @@ struct TestSetup {
 TestSetup record_setup(const World& world, const Specimen& specimen, const Platens& platens, bool compression,
                        double grip);
 
-/// Strains and gauge lengths count from where the bodies are now. Places do not: bonds hold bodies as they lay when they
-/// were made, and from there the turn of a body's frame counts.
+/// Strains and gauge lengths count from where the bodies are now. Places do not: bonds hold bodies as they lay when
+/// they were made, and from there the turn of a body's frame counts.
 void strains_begin_at(TestSetup& setup, const World& world);
 
 /// A body where only its place is known. @param angle rad, as BodyState's
