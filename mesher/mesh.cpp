@@ -69,6 +69,59 @@ void check_centres(std::span<const CellCentre> centres, const Rectangle& domain)
     }
 }
 
+double twice_area_of(Point a, Point b, Point p) { return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x); }
+
+/// Distance of a point inside a convex outline from it.
+double depth_within(std::span<const Point> outline, Point p) {
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < outline.size(); ++k) {
+        const Point a = outline[k], b = outline[k + 1 == outline.size() ? 0 : k + 1];
+        least = std::min(least, twice_area_of(a, b, p) / distance(a, b));
+    }
+    return least;
+}
+
+void check_outline(std::span<const CellCentre> centres, const MeshRequest& request) {
+    const std::vector<Point>& outline = request.outline;
+    if (outline.empty()) return;
+    bool convex = outline.size() >= 3;
+    for (std::size_t k = 0; k < outline.size(); ++k)
+        convex = convex &&
+                 twice_area_of(outline[k], outline[(k + 1) % outline.size()], outline[(k + 2) % outline.size()]) > 0.0;
+    if (!convex)
+        throw MeshError(
+            fmt::format("mesh: outline: found {} corners that turn to the right somewhere, expected a convex "
+                        "polygon, counter-clockwise",
+                        outline.size()));
+    for (std::size_t k = 0; k < centres.size(); ++k) {
+        if (depth_within(outline, centres[k]) >= 0.0) continue;
+        throw MeshError(fmt::format("mesh: found centre {} at ({:.9g}, {:.9g}), expected it inside the outline", k,
+                                    centres[k].x, centres[k].y),
+                        {static_cast<int>(k)});
+    }
+}
+
+/// What of a cell lies within the outline.
+class Cutter {
+  public:
+    explicit Cutter(std::span<const Point> outline) : outline_(outline) {}
+
+    std::span<const Point> of(std::span<const Point> cell) {
+        if (outline_.empty()) return cell;
+        cell_.assign(cell.begin(), cell.end());
+        for (std::size_t k = 0; k < outline_.size(); ++k) {
+            const Point a = outline_[k], b = outline_[k + 1 == outline_.size() ? 0 : k + 1];
+            const double length = distance(a, b), nx = -(b.y - a.y) / length, ny = (b.x - a.x) / length;
+            clip(cell_, nx, ny, nx * a.x + ny * a.y, scratch_);
+        }
+        return cell_;
+    }
+
+  private:
+    std::span<const Point> outline_;
+    std::vector<Point> cell_, scratch_;
+};
+
 std::string place(Point p) { return fmt::format("({:.9g}, {:.9g})", p.x, p.y); }
 
 [[noreturn]] void refuse_destroyed(const std::string& cell, std::span<const Point> outline, double depth, double scale,
@@ -126,8 +179,9 @@ Mesh mesh_voronoi(std::span<const CellCentre> centres, const Rectangle& domain, 
         const VoronoiCells voronoi = voronoi_cells(left, domain);
         MeshBuilder builder(domain, voronoi.cells.size(), voronoi.corners.size());
         std::vector<VoronoiCells::Range> destroyed;
+        Cutter cutter(request.outline);
         for (const VoronoiCells::Range& range : voronoi.cells) {
-            const auto before = voronoi.outline(range), after = inset.of(before);
+            const auto before = cutter.of(voronoi.outline(range)), after = inset.of(before);
             if (after.empty()) {
                 destroyed.push_back(range);
                 continue;
@@ -164,10 +218,40 @@ Mesh mesh_voronoi(std::span<const CellCentre> centres, const Rectangle& domain, 
     }
 }
 
+/// Triangles that fill a convex outline. Far walls, so that nothing is mirrored into the neighbourhood.
+Triangles triangles_within(std::span<const CellCentre> centres, const Rectangle& domain,
+                           std::span<const Point> outline) {
+    constexpr double wall_distance = 10.0;        // over the domain's size
+    constexpr double left_out_share = 1.0 / 3.0;  // of the mean spacing
+    const double spacing = std::sqrt(polygon_area(outline) / static_cast<double>(centres.size()));
+    std::vector<CellCentre> points;
+    std::vector<int> number;
+    for (std::size_t k = 0; k < centres.size(); ++k) {
+        if (depth_within(outline, centres[k]) < left_out_share * spacing) continue;
+        points.push_back(centres[k]);
+        number.push_back(static_cast<int>(k));
+    }
+    for (std::size_t k = 0; k < outline.size(); ++k) {
+        const Point a = outline[k], b = outline[k + 1 == outline.size() ? 0 : k + 1];
+        const auto parts = std::max(1, static_cast<int>(std::lround(distance(a, b) / spacing)));
+        for (int part = 0; part < parts; ++part) {
+            const double along = static_cast<double>(part) / parts;
+            points.push_back({a.x + along * (b.x - a.x), a.y + along * (b.y - a.y)});
+            number.push_back(-1);
+        }
+    }
+    const double far = wall_distance * std::max(domain.x2 - domain.x1, domain.y2 - domain.y1);
+    Triangles triangles = delaunay_triangles(
+        points, {domain.x1 - far, domain.x2 + far, domain.y1 - far, domain.y2 + far}, Boundary::centres);
+    for (int& of : triangles.centre_of) of = number[static_cast<std::size_t>(of)];
+    return triangles;
+}
+
 Mesh mesh_delaunay(std::span<const CellCentre> centres, const Rectangle& domain, const MeshRequest& request,
                    double depth) {
     const double scale = coordinate_scale(domain);
-    const Triangles triangles = delaunay_triangles(centres, domain, request.boundary);
+    const Triangles triangles = request.outline.empty() ? delaunay_triangles(centres, domain, request.boundary)
+                                                        : triangles_within(centres, domain, request.outline);
     if (triangles.corners.empty()) {
         throw MeshError(fmt::format(
             "mesh: found {} centre{} that form no triangle with a circumcentre in the domain, expected at least three "
@@ -232,6 +316,7 @@ Mesh mesh_delaunay(std::span<const CellCentre> centres, const Rectangle& domain,
 Mesh make_mesh(std::span<const CellCentre> centres, const Rectangle& domain, const MeshRequest& request) {
     check_request(domain, request);
     check_centres(centres, domain);
+    check_outline(centres, request);
     const double depth = request.inset.value_or(0.5 * request.mesh_gap);
     return request.kind == MeshKind::voronoi ? mesh_voronoi(centres, domain, request, depth)
                                              : mesh_delaunay(centres, domain, request, depth);

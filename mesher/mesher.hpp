@@ -59,6 +59,11 @@ struct MeshRequest {
     /// Cells that the inset destroys: false, an error; true, Voronoi: the centre is left out and its neighbours take
     /// its place; Delaunay: the triangle joins a neighbour with which it is convex (an error where there is none).
     bool merge_destroyed = false;
+    /// Where the cells end in place of the domain, which it lies in: convex, counter-clockwise, all centres inside. A
+    /// Voronoi cell is cut by it. Of triangles its corners are points like the centres, along its sides more of them
+    /// about a mean spacing apart, and centres nearer to it than a third of one are left out, for triangles with them
+    /// would be slivers.
+    std::vector<Point> outline;
 };
 
 /// Sides of the domain, as bits of Cell::sides.

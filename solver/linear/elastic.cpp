@@ -7,6 +7,7 @@
 #include <Eigen/SparseCore>
 #include <Eigen/SparseLU>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -28,16 +29,26 @@ constexpr int refinements = 20;
 constexpr int probes = 3;
 constexpr double taking_part = 1e-6;
 
+/// Which degrees of freedom are held, three a body.
+std::vector<bool> held_freedoms(const World& world, const std::vector<BodyIndex>& bodies) {
+    std::vector<bool> held(3 * world.bodies.size(), false);
+    for (const BodyIndex b : bodies) {
+        const BodyInertia& inertia = world.bodies.inertia[b];
+        const std::array<double, 3> inverse{inertia.inverse_mass_x, inertia.inverse_mass_y, inertia.inverse_moment};
+        const bool driven = std::ranges::any_of(inverse, [](double one) { return one == 0.0; });
+        for (std::size_t d = 0; d < 3; ++d) held[3 * b + d] = !driven || inverse[d] == 0.0;
+    }
+    return held;
+}
+
 /// The free degrees of freedom and the stiffness over them, in units of the bodies' own springs: entries of 1 or less.
 class ScaledSystem {
   public:
     ScaledSystem(const World& world, const std::vector<Spring>& springs, const std::vector<bool>& held) {
-        number_.assign(3 * world.bodies.size(), -1);
+        number_.assign(held.size(), -1);
         int rows = 0;
-        for (std::size_t b = 0; b < held.size(); ++b) {
-            if (held[b]) continue;
-            for (std::size_t d = 0; d < 3; ++d) number_[3 * b + d] = rows++;
-        }
+        for (std::size_t k = 0; k < held.size(); ++k)
+            if (!held[k]) number_[k] = rows++;
         // The diagonal itself would not do: a frictionless disc's own is rounding, and scaled up would pass for
         // stiffness.
         std::vector<double> stiffness(world.bodies.size(), 0.0);
@@ -46,11 +57,12 @@ class ScaledSystem {
             stiffness[s.j] += s.stiffness;
         }
         scale_ = Vector::Ones(rows);
-        for (std::size_t b = 0; b < held.size(); ++b) {
-            if (held[b] || stiffness[b] == 0.0) continue;
+        for (std::size_t b = 0; b < stiffness.size(); ++b) {
+            if (stiffness[b] == 0.0) continue;
             const double root = std::sqrt(stiffness[b]);
-            scale_[number(b, 0)] = scale_[number(b, 1)] = 1.0 / root;
-            scale_[number(b, 2)] = 1.0 / (root * world.bodies.info(b).reach);
+            for (int d = 0; d < 3; ++d)
+                if (number(b, d) >= 0)
+                    scale_[number(b, d)] = d < 2 ? 1.0 / root : 1.0 / (root * world.bodies.info(b).reach);
         }
         assemble(springs, rows);
     }
@@ -144,11 +156,13 @@ ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>&
     if (prescribed.empty()) throw InputError("elastic solve: found no prescribed body, expected at least one platen");
     ElasticSolution solution;
     solution.displacement.assign(world.bodies.size(), BodyMotion{});
-    std::vector<bool> held(world.bodies.size(), false);
-    for (const Prescribed& p : prescribed) {
-        held[p.body] = true;
-        solution.displacement[p.body] = p.motion;
-    }
+    std::vector<BodyIndex> bodies;
+    for (const Prescribed& p : prescribed) bodies.push_back(p.body);
+    const std::vector<bool> held = held_freedoms(world, bodies);
+    for (const Prescribed& p : prescribed)
+        for (int d = 0; d < 3; ++d)
+            if (held[3 * p.body + static_cast<std::size_t>(d)])
+                component(solution.displacement[p.body], d) = component(p.motion, d);
     const std::vector<Spring> springs = springs_of(world, ClosedPoints::bonded);
     const ScaledSystem system(world, springs, held);
     solution.unknowns = system.stiffness().rows();
@@ -169,7 +183,7 @@ ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>&
             }
         }
         const Vector u = solve(world.workers, system, load, solution.residual);
-        for (std::size_t b = 0; b < held.size(); ++b) {
+        for (std::size_t b = 0; b < world.bodies.size(); ++b) {
             for (int d = 0; d < 3; ++d) {
                 const int row = system.number(b, d);
                 if (row >= 0) component(solution.displacement[b], d) = u[row] * system.scale(row);
@@ -191,8 +205,7 @@ ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>&
 }
 
 FreeMotions find_free_motions(const World& world, const std::vector<BodyIndex>& held_bodies) {
-    std::vector<bool> held(world.bodies.size(), false);
-    for (const BodyIndex b : held_bodies) held[b] = true;
+    const std::vector<bool> held = held_freedoms(world, held_bodies);
     const ScaledSystem system(world, symmetric_majorant(world, springs_of(world, ClosedPoints::bonded)), held);
     FreeMotions free;
     if (system.stiffness().rows() == 0) return free;
@@ -212,7 +225,7 @@ FreeMotions find_free_motions(const World& world, const std::vector<BodyIndex>& 
         for (double& value : z) value = 2.0 * static_cast<double>(random()) / std::minstd_rand::max() - 1.0;
         z = shift * factor.solve(z);  // leaves what has no energy, and 1e-12 over its energy of the rest
         z = shift * factor.solve(z);
-        for (std::size_t b = 0; b < held.size(); ++b) {
+        for (std::size_t b = 0; b < world.bodies.size(); ++b) {
             for (int d = 0; d < 3; ++d) {
                 const int row = system.number(b, d);
                 if (row >= 0 && std::abs(z[row]) > taking_part) takes_part[b] = true;

@@ -26,7 +26,8 @@ namespace crackle {
 
 struct Prescribed {
     BodyIndex body;
-    BodyMotion motion;  ///< all three degrees of freedom are held at these values
+    /// Its degrees of freedom are held at these values: all three, or, of a body some of whose are driven, those alone.
+    BodyMotion motion;
 };
 
 struct ElasticSolution {
@@ -43,7 +44,7 @@ struct ElasticSolution {
 ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>& prescribed,
                               const std::vector<BodyMotion>& loads = {});
 
-/// Motions without energy of a world whose `held` bodies stay in place.
+/// Motions without energy of a world whose `held` bodies stay in place, as Prescribed has it.
 struct FreeMotions {
     std::int64_t count = 0;         ///< dimension of the null space, by Sylvester's law of inertia
     std::vector<BodyIndex> bodies;  ///< that take part in one

@@ -57,6 +57,10 @@ void widen_skin(World& world, const Bonding& bonding) {
 }
 
 bool bonded(const World& world, PointIndex k) { return (world.points.state[k].flags & point_bonded) != 0; }
+/// Bonded, or left without a bond where there would have been one.
+bool of_face(const World& world, PointIndex k) {
+    return (world.points.state[k].flags & (point_bonded | point_had_bond)) != 0;
+}
 
 /// Of one bonded point of a pair; of a face divided equally among its points. In StiffnessUnits::point 1.
 struct PointShare {
@@ -83,7 +87,7 @@ void share_faces(World& world, const Bonding& bonding) {
         std::int64_t count = 0;
         double gap = std::numeric_limits<double>::infinity();  // m, of the faces: corners overhang
         for (PointIndex k = begin; k < end; ++k) {
-            if (!bonded(world, k)) continue;
+            if (!of_face(world, k)) continue;
             ++count;
             gap = std::min(gap, world.settings.thick - world.points.bond_overlap[k]);
         }
@@ -94,7 +98,7 @@ void share_faces(World& world, const Bonding& bonding) {
         const double factor =
             bonding.factors.between(world.bodies.info(pair.body_i).id, world.bodies.info(pair.body_j).id);
         for (PointIndex k = begin; k < end; ++k) {
-            if (!bonded(world, k)) continue;
+            if (!of_face(world, k)) continue;
             const PointShare share = share_of_point(world, k, face, count);
             world.points.stiffness_share[k] = static_cast<float>(share.stiffness);
             world.points.strength_share[k] = static_cast<float>(share.length * factor);
@@ -171,6 +175,12 @@ std::int64_t bond_all(World& world, const Bonding& bonding) {
         if (k >= world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)]) continue;
         const PointView view = view_point(world, k);
         if (view.overlap + largest_gap(world, view, bonding) <= 0.0) continue;
+        if (bonding.leaves && bonding.leaves(view.body_i, view.body_j)) {
+            // As where a bond has broken: without force as they lie, and they may push and rub.
+            world.points.bond_overlap[k] = std::max(view.overlap, 0.0);
+            world.points.state[k].flags = point_had_bond;
+            continue;
+        }
         world.points.bond_overlap[k] = view.overlap;
         world.points.state[k].flags = point_bonded | point_touching;
         if (bonding.holds && bonding.holds(view.position, view.body_i, view.body_j))

@@ -23,6 +23,9 @@ struct Bonding {
     std::optional<double> tensile_factor, cohesion_factor;
     /// Whether a bond at a place between two bodies can never break; none where not given.
     std::function<bool(Vec2 position, BodyIndex i, BodyIndex j)> holds;
+    /// Whether two bodies are left without bonds, as if theirs had broken, under BondLaw::coulomb; none where not
+    /// given.
+    std::function<bool(BodyIndex i, BodyIndex j)> leaves;
 };
 
 /// Bonds points between bodies, by back-tension those of overlap δ > 0; each gets δ0 = δ and loses its shear spring.

@@ -53,8 +53,8 @@ void add_figures(Json& figures, const std::string& prefix, const Json& table) {
 }
 
 std::string curve_text(const VirtualTest& test) {
-    std::string text = curve_header(test.setup.confined());
-    for (const CurveRow& row : written_rows(test)) text += curve_line(row, test.setup.confined());
+    std::string text = curve_header(test.setup.pressed());
+    for (const CurveRow& row : written_rows(test)) text += curve_line(row, test.setup.pressed());
     return text;
 }
 

@@ -286,8 +286,9 @@ void fill_defaults(TestCase& test) {
         const std::size_t entries = table.repeated() ? table.count(test) : 1;
         for (std::size_t entry = 0; entry < entries; ++entry) fill_default(test, p, entry);
     }
-    // A real grip is stronger than the rock.
-    if (test.loading.kind == "tension" && !test.position.contains("loading.platens")) test.loading.platens = "glued";
+    // A real grip is stronger than the rock; pads, jaws and boxes are no part of it.
+    const bool held = test.loading.kind == "tension" || !test.uniaxial();
+    if (held && !test.position.contains("loading.platens")) test.loading.platens = "glued";
     if (test.loading.platens == "glued" && !test.loading.grip)
         test.loading.grip = test.loading.kind == "tension" ? default_grip : 0.0;
     if (test.title.empty()) test.title = test.source.stem().string();
@@ -340,6 +341,7 @@ std::string written_value(const TestCase& test, const Parameter& p, const CaseVa
 /// Tables that say nothing where the case has none.
 bool left_out(const TestCase& test, const std::string& table) {
     if (table == "minerals") return !test.has_table("mineral");
+    if (table == "shape" && test.uniaxial()) return true;
     return (table == "packing" || table == "mesh") && !test.has_table(table);
 }
 

@@ -277,11 +277,49 @@ class ConsistencyCheck {
             exclude("loading.platen_friction_angle",
                     "only platens = \"frictional\" has it: bonded and glued platens take the specimen's");
         }
-        if (test_.confined())
-            need("confinement.pressure", "kind = \"biaxial\" needs it");
-        else
-            exclude("confinement.pressure", "only loading.kind = \"biaxial\" confines the specimen");
+        keys_of_kinds();
+        if (test_.confined()) need("confinement.pressure", "kind = \"biaxial\" needs it");
         if (test_.loading.platens != "glued") exclude("loading.grip", "only platens = \"glued\" has grips");
+    }
+
+    /// Keys of some kinds of test, and what a kind asks of the rest.
+    void keys_of_kinds() const {
+        struct KindKey {
+            const char* key;
+            std::vector<std::string> kinds;
+        };
+        static const std::vector<KindKey> keys{
+            {"confinement.pressure", {"biaxial"}},     {"shape.diameter", {"brazilian", "scb"}},
+            {"shape.notch", {"bending", "scb"}},       {"loading.half_angle", {"brazilian"}},
+            {"loading.jaws", {"brazilian"}},           {"loading.span", {"bending", "scb"}},
+            {"loading.pad_width", {"bending", "scb"}}, {"loading.normal_stress", {"direct_shear"}},
+            {"loading.box_gap", {"direct_shear"}},
+        };
+        const std::string& kind = test_.loading.kind;
+        for (const KindKey& one : keys) {
+            if (std::find(one.kinds.begin(), one.kinds.end(), kind) != one.kinds.end()) continue;
+            exclude(one.key, fmt::format("only loading.kind = \"{}\" has it", fmt::join(one.kinds, "\" or \"")));
+        }
+        if (test_.uniaxial()) return;
+        const bool frictional = test_.loading.platens == "frictional";
+        if (frictional && kind != "brazilian")
+            refuse("loading.platens", "\"frictional\"", "\"glued\" or \"bonded\" with kind = \"" + kind + "\"",
+                   "pads and boxes hold what they press");
+        if (!frictional && test_.loading.jaws.value_or("arc") != "arc")
+            refuse("loading.jaws", "\"" + *test_.loading.jaws + "\"", "\"arc\" where jaws are " + test_.loading.platens,
+                   "a bonded face lies against the disc; use platens = \"frictional\"");
+        if (test_.loading.grip.value_or(0.0) > 0.0)
+            refuse("loading.grip", fmt::format("{}", *test_.loading.grip), "none with kind = \"" + kind + "\"",
+                   "it has no ends to be gripped");
+        if (kind == "direct_shear") need("loading.normal_stress", "kind = \"direct_shear\" needs it, 0 for none");
+        if (test_.has_table("mesh") && test_.mesh.boundary == "seeds")
+            refuse("mesh.boundary", "\"seeds\"", "\"domain\" with kind = \"" + kind + "\"",
+                   "pads and jaws need flat faces");
+        if (test_.shape.notch || kind == "scb") {
+            if (test_.has_table("mesh") && !test_.coulomb_bonds())
+                refuse("bond.law", "\"back_tension\"", "\"coulomb\" with a notch in polygons",
+                       "where they are not bonded they would press each other apart by their overlap");
+        }
     }
 
     const TestCase& test_;

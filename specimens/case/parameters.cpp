@@ -279,10 +279,22 @@ std::vector<Parameter> all_parameters() {
             .at_most(2),
         CRACKLE_KEY(bond, strength_seed, "", "Its seed.").at_least(0),
 
-        CRACKLE_KEY(loading, kind, "", "What the platens do; biaxial: compression under a confining pressure.")
-            .one_of({"compression", "tension", "biaxial"}),
+        CRACKLE_KEY(shape, diameter, "m",
+                    "Of the disc, or half disc, that is cut from the packing (brazilian, scb): the largest that there "
+                    "is if not given.")
+            .above(0),
+        CRACKLE_KEY(shape, notch, "m",
+                    "Length of a notch from the lower face at midspan: bonds that it crosses are not made, circles on "
+                    "it are taken away. bending: none if not given; scb: half of the radius.")
+            .above(0),
+
+        CRACKLE_KEY(loading, kind, "",
+                    "biaxial: compression under a confining pressure; brazilian: a disc between jaws; bending: a beam "
+                    "on two supports; scb: half a disc with a notch; direct_shear: in two half boxes.")
+            .one_of({"compression", "tension", "biaxial", "brazilian", "bending", "scb", "direct_shear"}),
         CRACKLE_KEY(loading, axial_strain_rate, "1/s",
-                    "Platen speed over the specimen's height, in place of rate_tolerance.")
+                    "Platen speed over the specimen's height, in place of rate_tolerance; of other kinds the rate of "
+                    "their nominal strain.")
             .above(0)
             .below(1e6),
         CRACKLE_KEY(
@@ -321,6 +333,25 @@ std::vector<Parameter> all_parameters() {
         CRACKLE_KEY(loading, platen_friction_angle, "deg", "Friction angle of frictional platens.")
             .at_least(0)
             .below(90),
+        CRACKLE_KEY(loading, half_angle, "deg",
+                    "brazilian: half of the arc over which a jaw that is bonded, or has jaws = \"arc\", presses; 10 if "
+                    "not given.")
+            .above(0)
+            .at_most(30),
+        CRACKLE_KEY(loading, jaws, "",
+                    "brazilian with frictional platens: of the disc's own radius over the half angle, flat, or of 1.5 "
+                    "times its radius; arc if not given.")
+            .one_of({"arc", "flat", "curved"}),
+        CRACKLE_KEY(loading, span, "m",
+                    "Between the supports. bending: four times the depth if not given; scb: 0.8 of the diameter.")
+            .above(0),
+        CRACKLE_KEY(loading, pad_width, "m",
+                    "bending, scb: of the three pads; a tenth of depth or radius if not given, at least two particles.")
+            .above(0),
+        CRACKLE_KEY(loading, normal_stress, "N/m or Pa", "direct_shear: that the upper box is pressed down with.")
+            .at_least(0),
+        CRACKLE_KEY(loading, box_gap, "m", "direct_shear: between the half boxes; two mean particles if not given.")
+            .above(0),
 
         CRACKLE_KEY(confinement, pressure, "N/m or Pa",
                     "On the sides, by a membrane, all through the test; the platens press with the same before loading "
@@ -472,7 +503,8 @@ const std::vector<TableDescription>& case_tables() {
          [](const TestCase& c) { return c.mineral_pair.size(); },
          [](TestCase& c, std::size_t n) { c.mineral_pair.resize(n); }},
         {"bond", "What holds the particles together, and how it breaks."},
-        {"loading", "Platens: the lower one is fixed, the upper one moves."},
+        {"shape", "What is cut from the packing, of brazilian, bending and scb."},
+        {"loading", "The kind of test, and how it is loaded: the lower platen is fixed, the upper one moves."},
         {"confinement", "Of a biaxial test."},
         {"numerics", "How it is computed."},
         {"output", "What is written."},

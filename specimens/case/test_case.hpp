@@ -104,8 +104,12 @@ struct TestCase {
         std::optional<std::int64_t> strength_seed;
     } bond;
 
+    struct Shape {
+        std::optional<double> diameter, notch;  // m
+    } shape;
+
     struct Loading {
-        std::string kind;                         // "compression", "tension" or "biaxial"
+        std::string kind;                         // test_kinds() of specimens/kinds has them
         std::optional<double> axial_strain_rate;  // 1/s; or:
         std::optional<double> rate_tolerance;
         double max_axial_strain = 0.0;
@@ -114,6 +118,11 @@ struct TestCase {
         std::string platens;                          // "bonded", "glued" or "frictional"
         std::optional<double> grip;                   // -, of the height; glued platens only
         std::optional<double> platen_friction_angle;  // degrees
+        std::optional<double> half_angle;             // degrees, of a jaw's arc
+        std::optional<std::string> jaws;              // "arc" if not given, "flat" or "curved"
+        std::optional<double> span, pad_width;        // m
+        std::optional<double> normal_stress;          // N/m, or Pa
+        std::optional<double> box_gap;                // m
 
         /// So many times as fast: a tolerance goes by the square of the rate it allows.
         void scale_rate(double by) {
@@ -163,6 +172,12 @@ struct TestCase {
 
     bool has_table(const std::string& table) const { return table_present.contains(table); }
     bool confined() const { return loading.kind == "biaxial"; }
+    /// A force beside that of the driving part does work: the curve has a column for it.
+    bool pressed() const { return confined() || loading.kind == "direct_shear"; }
+    /// The whole packing between platens, whose stress and strain are the rock's.
+    bool uniaxial() const {
+        return loading.kind == "compression" || loading.kind == "tension" || loading.kind == "biaxial";
+    }
     bool coulomb_bonds() const { return bond.law == "coulomb"; }
     bool area_units() const { return material.units == "area"; }
     /// Of stresses and moduli: force over a length, or over an area.

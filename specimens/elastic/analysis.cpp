@@ -8,6 +8,7 @@
 #include "solver/contact/point_motion.hpp"
 #include "solver/linear/vibration.hpp"
 #include "solver/measure/point_view.hpp"
+#include "specimens/elastic/held_parts.hpp"
 
 namespace crackle {
 namespace {
@@ -117,7 +118,7 @@ ElasticAnalysis analyse_elastic(const World& world, const TestSetup& setup, cons
     result.stable_time_step_proved = setup.stable_time_step_proved;
     result.time_step_bound = setup.time_step_bound;
     result.time_step = world.stepping.time_step;
-    result.free = find_free_motions(world, {setup.bottom, setup.top});
+    result.free = find_free_motions(world, bodies_of_parts(setup));
     for (const BodyIndex b : result.free.bodies) result.free_ids.push_back(world.bodies.info(b).id);
     if (modes > 0) {
         for (const VibrationMode& mode : lowest_modes(world, modes, result.free.count))

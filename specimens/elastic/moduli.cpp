@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "solver/base/errors.hpp"
+#include "specimens/elastic/held_parts.hpp"
 
 namespace crackle {
 namespace {
@@ -18,7 +19,7 @@ double energy_of_mean_strain(const World& world, const TestSetup& setup) {
     const double low = world.bodies.state[setup.bottom].y, high = world.bodies.state[setup.top].y;
     std::vector<BodyMotion> motion(world.bodies.size());
     for (std::size_t b = 0; b < motion.size(); ++b)
-        motion[b].y = setup.height * (world.bodies.state[b].y - low) / (high - low);
+        (setup.axis == 1 ? motion[b].y : motion[b].x) = setup.length * (world.bodies.state[b].y - low) / (high - low);
     double sum = 0.0;
     for (const Spring& spring : springs_of(world, ClosedPoints::bonded)) {
         const double stretch = times(spring, spring.gradient, motion);
@@ -41,10 +42,13 @@ void refuse_mechanism(const World& world, const TestSetup& setup, double energy)
 
 Moduli solve_moduli(const World& world, const TestSetup& setup) {
     Moduli moduli{};
-    moduli.solution = solve_elastic(world, {{setup.bottom, {}}, {setup.top, {0.0, setup.height, 0.0}}});
+    moduli.solution = solve_elastic(world, prescribed_parts(setup, setup.length));
     refuse_mechanism(world, setup, moduli.solution.energy);
+    const auto along = [&](const BodyMotion& one) { return setup.axis == 1 ? one.y : one.x; };
+    double supports = 0.0;
     const std::vector<BodyMotion>& reaction = moduli.solution.reaction;
-    moduli.youngs_modulus = 0.5 * (reaction[1].y - reaction[0].y) / setup.width;
+    for (std::size_t k = 0; k + 1 < reaction.size(); ++k) supports += along(reaction[k]);
+    moduli.youngs_modulus = 0.5 * (along(reaction.back()) - supports) / setup.section;
     moduli.poissons_ratio = moduli.gauge_modulus = std::numeric_limits<double>::quiet_NaN();
     const auto rise = [&](const std::vector<BodyIndex>& bodies) {
         double sum = 0.0;
@@ -55,7 +59,7 @@ Moduli solve_moduli(const World& world, const TestSetup& setup) {
         const double strain = (rise(setup.gauge_top) - rise(setup.gauge_bottom)) / setup.gauge_height;
         moduli.gauge_modulus = moduli.youngs_modulus / strain;
     }
-    if (setup.gauge_length == 0.0) return moduli;
+    if (setup.gauge_length == 0.0 || !setup.uniaxial) return moduli;
     const auto mean = [&](const std::vector<BodyIndex>& bodies) {
         double sum = 0.0;
         for (const BodyIndex b : bodies) sum += moduli.solution.displacement[b].x;

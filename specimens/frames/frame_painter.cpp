@@ -65,6 +65,13 @@ constexpr Quantity arrays_of_cracks[]{
      "pressed together again"},
 };
 
+/// Corners of its face, of a part that holds or drives the specimen.
+std::optional<std::size_t> face_of_part(const TestSetup& setup, BodyIndex b) {
+    for (const SetupPart& part : setup.parts)
+        if (part.body == b) return part.face;
+    return std::nullopt;
+}
+
 /// Platens first, as VTK counts lines before polygons, then by id.
 std::vector<BodyIndex> drawing_order(const World& world, const TestSetup& setup) {
     std::vector<BodyIndex> order(world.bodies.size());
@@ -176,7 +183,7 @@ void FramePainter::visit_cells(const Visit& visit) const {
     for (const BodyIndex b : order_) {
         const BodyInfo info = world_.bodies.info(b);
         if (!is_circles(world_, b)) {
-            visit(b, info.first_element, setup_.is_platen(b) ? std::size_t{2} : std::size_t{info.element_count}, 0.0);
+            visit(b, info.first_element, face_of_part(setup_, b).value_or(info.element_count), 0.0);
             continue;
         }
         for (std::uint32_t e = info.first_element; e < info.first_element + info.element_count; ++e)

@@ -57,7 +57,7 @@ std::optional<FirstLoss> loss_of(const ElasticAnalysis& analysis, const std::opt
 }
 
 void estimate_strength(TestCheck& check, const ElasticAnalysis& analysis, const TestCase& test, const TestSetup& own) {
-    if (test.numerics.intact || test.confined()) return;  // the rule is of unconfined specimens
+    if (test.numerics.intact || test.confined() || !test.uniaxial()) return;  // the rule is of unconfined specimens
     const BreakShare rule = bond_break_share(own);
     const double strain = strain_of_share(analysis.bonds, rule.share);
     if (!std::isfinite(strain)) return;

@@ -14,6 +14,7 @@
 #include "solver/membrane/wrap.hpp"
 #include "solver/stepping/controls.hpp"
 #include "solver/stepping/step.hpp"
+#include "specimens/elastic/held_parts.hpp"
 #include "specimens/loading/displace.hpp"
 
 namespace crackle {
@@ -48,7 +49,7 @@ class Confinement {
           pressure_(*test.description.confinement.pressure),
           particle_(std::sqrt(test.setup.width * test.setup.height / static_cast<double>(test.setup.particles))),
           held_(bonded.bodies.size(), true) {
-        for (const BodyIndex b : find_free_motions(bonded, {own.bottom, own.top}).bodies) held_[b] = false;
+        for (const BodyIndex b : find_free_motions(bonded, bodies_of_parts(own)).bodies) held_[b] = false;
     }
 
     void run() {
@@ -56,7 +57,7 @@ class Confinement {
         const std::int64_t broken = world_.bonds.broken, step = world_.stepping.steps;
         const double time = world_.stepping.time, kick_share = world_.stepping.kick_share;
         const std::size_t events = world_.bonds.events.size();
-        displace(world_, test_.setup, std::vector<BodyMotion>(moving.size()));  // at rest
+        displace(world_, std::vector<BodyMotion>(moving.size()));  // at rest
         add_membrane(world_, pressure_, 0.5 * particle_, test_.setup.bottom, test_.setup.top);
         compute_forces(world_);
         Imbalance left = imbalance();
@@ -141,7 +142,7 @@ class Confinement {
         }
         way[test_.setup.bottom] = {};
         way[test_.setup.top] = {0.0, -strain * test_.setup.height, 0.0};
-        displace(world_, test_.setup, way);
+        displace(world_, way);
     }
 
     /// Where bonds slide, or particles roll until something holds them, no linear solution helps: some steps of motion,
@@ -164,7 +165,7 @@ class Confinement {
             }
             kinetic = now;
         }
-        displace(world_, test_.setup, std::vector<BodyMotion>(world_.bodies.size()));  // at rest
+        displace(world_, std::vector<BodyMotion>(world_.bodies.size()));  // at rest
     }
 
     [[noreturn]] void refuse(const Imbalance& left, const std::string& cause) const {

@@ -12,16 +12,47 @@ namespace {
 
 constexpr double share_of_a_step = 0.1;
 
+/// Velocities of driven degrees of freedom, so many times the motion; others have been set.
+void drive_parts(World& world, const std::vector<BodyMotion>& motion, double times) {
+    const std::vector<ControlState> controls = world.bodies.controls;
+    for (const ControlState& control : controls) {
+        const BodyMotion& way = motion[control.body];
+        const double along[3] = {way.x, way.y, way.rotation};
+        for (int d = 0; d < 3; ++d)
+            if (control.dof[d].drive == Drive::velocity) change_velocity(world, control.body, d, times * along[d]);
+    }
+}
+
 /// One drift with these velocities and without forces.
-void drift(World& world, const TestSetup& setup, const std::vector<BodyMotion>& way, double share) {
+void drift(World& world, const std::vector<BodyMotion>& way, double share) {
     compute_forces(world);
     set_velocities(world, way, share / world.stepping.time_step);
     std::ranges::fill(world.bodies.force, BodyForce{});
-    for (const BodyIndex platen : {setup.bottom, setup.top})
-        change_velocity(world, platen, 1, share * way[platen].y / world.stepping.time_step);
+    drive_parts(world, way, share / world.stepping.time_step);
     advance(world);
     compute_forces(world);
 }
+
+/// Sets loads on driven bodies aside while it lives.
+class WithoutLoads {
+  public:
+    explicit WithoutLoads(World& world) : world_(world), controls_(world.bodies.controls) {
+        for (ControlState& control : world.bodies.controls)
+            for (DofControl& dof : control.dof)
+                if (dof.drive == Drive::force) dof.value = 0.0;
+    }
+    ~WithoutLoads() {
+        for (std::size_t k = 0; k < controls_.size(); ++k)
+            for (int d = 0; d < 3; ++d)
+                if (controls_[k].dof[d].drive == Drive::force) world_.bodies.controls[k].dof[d] = controls_[k].dof[d];
+    }
+    WithoutLoads(const WithoutLoads&) = delete;
+    WithoutLoads& operator=(const WithoutLoads&) = delete;
+
+  private:
+    World& world_;
+    std::vector<ControlState> controls_;
+};
 
 }  // namespace
 
@@ -35,16 +66,19 @@ void set_velocities(World& world, const std::vector<BodyMotion>& motion, double 
     velocities_changed(world);
 }
 
-void displace(World& world, const TestSetup& setup, const std::vector<BodyMotion>& way) {
+void displace(World& world, const std::vector<BodyMotion>& way) {
+    const WithoutLoads aside(world);
     double farthest = 0.0;
     for (const BodyMotion& one : way) farthest = std::max(farthest, std::hypot(one.x, one.y));
     const auto step = world.stepping.steps;
     const double time = world.stepping.time, kick_share = world.stepping.kick_share;
     const double parts = std::max(1.0, std::ceil(farthest / (share_of_a_step * world.list.fastest_allowed_move)));
-    for (double part = 0.0; part < parts; ++part) drift(world, setup, way, 1.0 / parts);
+    for (double part = 0.0; part < parts; ++part) drift(world, way, 1.0 / parts);
     set_velocities(world, std::vector<BodyMotion>(way.size()), 0.0);
-    for (const BodyIndex platen : {setup.bottom, setup.top}) change_velocity(world, platen, 1, 0.0);
+    drive_parts(world, std::vector<BodyMotion>(way.size()), 0.0);
     compute_forces(world);
+    // No drive has done work by this.
+    for (ControlState& control : world.bodies.controls) std::ranges::fill(control.last_move, 0.0);
     world.stepping.steps = step;
     world.stepping.time = time;
     world.stepping.kick_share = kick_share;

@@ -13,7 +13,7 @@ namespace crackle {
 /// Moves the bodies, platens too, and lets the shear springs follow, in drifts of the integrator without forces: as
 /// many as keep each within a tenth of what a step may move. Velocities are 0 afterwards, time and steps as before.
 /// @param way m and rad, by body
-void displace(World& world, const TestSetup& setup, const std::vector<BodyMotion>& way);
+void displace(World& world, const std::vector<BodyMotion>& way);
 
 /// Sets the velocities of all bodies, platens too. @param motion by body, @param times 1/s, of it
 void set_velocities(World& world, const std::vector<BodyMotion>& motion, double times);

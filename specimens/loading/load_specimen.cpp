@@ -106,8 +106,9 @@ class LoadingLoop {
     /// The inertia error of the last force pass. @param drift s, that led to its positions
     void watch_platens(double drift) {
         const PhaseTimer timer(world_.workers.profile, Phase::set_the_rate);
-        const double top = world_.bodies.force[setup_.top].fy, bottom = world_.bodies.force[setup_.bottom].fy;
-        watch_balance(state_.rate, setup_.rate_rule, top / setup_.width, -bottom / setup_.width, drift);
+        const PartForces forces = forces_on_parts(world_, setup_);
+        watch_balance(state_.rate, setup_.rate_rule, forces.driver / setup_.section, -forces.supports / setup_.section,
+                      drift);
     }
 
     /// The platen's speed by the inertia error.
@@ -115,8 +116,8 @@ class LoadingLoop {
         const PhaseTimer timer(world_.workers.profile, Phase::set_the_rate);
         const Ledger ledger = measure_ledger(world_);
         choose_rate(state_.rate, setup_.rate_rule, ledger.kinetic, ledger.strain, world_.stepping.time);
-        const double speed = state_.rate.rate * setup_.height;
-        change_velocity(world_, setup_.top, 1, setup_.compression ? -speed : speed);
+        const double speed = state_.rate.rate * setup_.length;
+        change_velocity(world_, setup_.top, setup_.axis, setup_.compression ? -speed : speed);
     }
 
     void record_events() {

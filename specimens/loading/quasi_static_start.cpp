@@ -11,6 +11,7 @@
 #include "solver/linear/elastic.hpp"
 #include "solver/stepping/controls.hpp"
 #include "solver/stepping/step.hpp"
+#include "specimens/elastic/held_parts.hpp"
 #include "specimens/loading/displace.hpp"
 
 namespace crackle {
@@ -20,17 +21,30 @@ namespace {
 std::vector<BodyMotion> elastic_motion(const VirtualTest& test, const std::vector<bool>& elastic) {
     const TestSetup& setup = test.setup;
     const World& world = test.world;
-    const double sense = setup.compression ? -1.0 : 1.0;
+    const double sense = -setup.sense();
     const double bottom = world.bodies.state[setup.bottom].y, height = world.bodies.state[setup.top].y - bottom;
     std::vector<BodyMotion> motion(world.bodies.size());
     for (std::size_t b = 0; b < motion.size(); ++b) {
-        BodyMotion way{0.0, setup.height * (world.bodies.state[b].y - bottom) / height, 0.0};
-        if (elastic[b]) way = test.small_strain->moduli.solution.displacement[b];
-        if (b == setup.bottom) way = {};
-        if (b == setup.top) way = {0.0, setup.height, 0.0};
-        motion[b] = {sense * way.x, sense * way.y, sense * way.rotation};
+        const double share = setup.length * (world.bodies.state[b].y - bottom) / height;
+        motion[b] = setup.axis == 1 ? BodyMotion{0.0, share, 0.0} : BodyMotion{share, 0.0, 0.0};
+        if (elastic[b]) motion[b] = test.small_strain->moduli.solution.displacement[b];
     }
+    // Where it is not bonded the driving part is none of the solution's, and the others stay.
+    for (const Prescribed& part : prescribed_parts(setup, setup.length))
+        if (!elastic[part.body] || setup.uniaxial) motion[part.body] = part.motion;
+    for (BodyMotion& way : motion) way = {sense * way.x, sense * way.y, sense * way.rotation};
     return motion;
+}
+
+/// J s2, of a rate of 1.
+double kinetic_of(const World& world, const std::vector<BodyMotion>& motion) {
+    double sum = 0.0;
+    for (std::size_t b = 0; b < motion.size(); ++b) {
+        const BodyMotion& way = motion[b];
+        sum += 0.5 * (world.bodies.inertia[b].mass * (way.x * way.x + way.y * way.y) +
+                      world.bodies.info(b).moment * way.rotation * way.rotation);
+    }
+    return sum;
 }
 
 /// Moves the bodies by w (see the header), shear springs included, in one drift of the integrator without forces.
@@ -39,8 +53,20 @@ void settle_dashpots(World& world, const TestSetup& setup, const std::vector<boo
     std::vector<BodyMotion> loads(world.bodies.size());
     for (std::size_t b = 0; b < loads.size(); ++b)
         if (elastic[b]) loads[b] = {world.bodies.force[b].fx, world.bodies.force[b].fy, world.bodies.force[b].torque};
-    const ElasticSolution settled = solve_elastic(world, {{setup.bottom, {}}, {setup.top, {}}}, loads);
-    displace(world, setup, settled.displacement);
+    // A force from outside balances contacts that are to stay as they are.
+    for (const ControlState& control : world.bodies.controls)
+        for (int d = 0; d < 3; ++d)
+            if (control.dof[d].drive == Drive::force) component(loads[control.body], d) += control.dof[d].value;
+    const ElasticSolution settled = solve_elastic(world, prescribed_parts(setup, 0.0), loads);
+    displace(world, settled.displacement);
+}
+
+/// sqrt(3 K/U), K and U the kinetic and strain energy of unit rate and strain by the linear solution: of a bar between
+/// platens the transit of a wave, of a beam a share of its slowest period.
+double transit_of_motion(const VirtualTest& test) {
+    const ElasticSolution& solved = test.small_strain->moduli.solution;
+    const std::vector<bool> elastic(test.world.bodies.size(), solved.displacement.size() == test.world.bodies.size());
+    return std::sqrt(3.0 * kinetic_of(test.world, elastic_motion(test, elastic)) / solved.energy);
 }
 
 }  // namespace
@@ -56,10 +82,11 @@ RateRule rate_rule_of(const VirtualTest& test, double tolerance) {
     double mass = 0.0;
     for (std::size_t b = 0; b < test.world.bodies.size(); ++b)
         if (!setup.is_platen(static_cast<BodyIndex>(b))) mass += test.world.bodies.inertia[b].mass;
-    const double modulus = test.small_strain->moduli.youngs_modulus, area = setup.width * setup.height;
+    // Work of a stress and a strain of 1.
+    const double modulus = test.small_strain->moduli.youngs_modulus, area = setup.section * setup.length;
     RateRule rule;
     rule.tolerance = tolerance;
-    rule.transit_time = setup.height / std::sqrt(modulus / (mass / area));
+    rule.transit_time = setup.uniaxial ? setup.height / std::sqrt(modulus / (mass / area)) : transit_of_motion(test);
     rule.first_strain = test.small_strain->yield_strain;
     // Nothing ever gives way: the test's own length is all there is to go by.
     if (!std::isfinite(rule.first_strain)) rule.first_strain = test.description.loading.max_axial_strain;
@@ -68,32 +95,50 @@ RateRule rate_rule_of(const VirtualTest& test, double tolerance) {
     return rule;
 }
 
-void start_by_tolerance(VirtualTest& test) {
-    World& world = test.world;
-    TestSetup& setup = test.setup;
-    RateRule& rule = setup.rate_rule;
-    rule = rate_rule_of(test, *test.description.loading.rate_tolerance);
+namespace {
+
+/// Which bodies move by the linear solution: of bonded parts all that they hold.
+std::vector<bool> elastic_bodies(const VirtualTest& test) {
     const bool bonded = test.description.loading.platens != "frictional";
-    std::vector<bool> elastic(world.bodies.size(), bonded);
+    std::vector<bool> elastic(test.world.bodies.size(), bonded);
     if (bonded)
-        for (const BodyIndex b : find_free_motions(world, {setup.bottom, setup.top}).bodies) elastic[b] = false;
+        for (const BodyIndex b : find_free_motions(test.world, bodies_of_parts(test.setup)).bodies) elastic[b] = false;
+    return elastic;
+}
+
+/// At this rate from the start on, without a shock. @return the motion of a rate of 1
+std::vector<BodyMotion> start_moving(VirtualTest& test, double rate) {
+    World& world = test.world;
+    const TestSetup& setup = test.setup;
+    const std::vector<bool> elastic = elastic_bodies(test);
     const std::vector<BodyMotion> motion = elastic_motion(test, elastic);
-    for (std::size_t b = 0; b < motion.size(); ++b) {
-        const BodyMotion& way = motion[b];
-        rule.kinetic_per_rate += 0.5 * (world.bodies.inertia[b].mass * (way.x * way.x + way.y * way.y) +
-                                        world.bodies.info(b).moment * way.rotation * way.rotation);
-    }
-    RateState& rate = test.state.rate;
-    rate.rate = rate.slowest = rate.fastest = largest_rate(rule);
-    set_velocities(world, motion, rate.rate);
-    if (bonded) {
+    set_velocities(world, motion, rate);
+    if (test.description.loading.platens != "frictional") {
         settle_dashpots(world, setup, elastic);
-        set_velocities(world, motion, rate.rate);
+        set_velocities(world, motion, rate);
     }
-    change_velocity(world, setup.top, 1, (setup.compression ? -1.0 : 1.0) * rate.rate * setup.height);
+    change_velocity(world, setup.top, setup.axis, -setup.sense() * rate * setup.length);
     restart_account(world);  // it begins with this motion
     velocities_changed(world);
     compute_forces(world);
+    return motion;
+}
+
+}  // namespace
+
+void start_by_rate(VirtualTest& test) {
+    if (!test.small_strain) return;
+    start_moving(test, *test.description.loading.axial_strain_rate);
+}
+
+void start_by_tolerance(VirtualTest& test) {
+    World& world = test.world;
+    TestSetup& setup = test.setup;
+    setup.rate_rule = rate_rule_of(test, *test.description.loading.rate_tolerance);
+    RateRule& rule = setup.rate_rule;
+    RateState& rate = test.state.rate;
+    rate.rate = rate.slowest = rate.fastest = largest_rate(rule);
+    rule.kinetic_per_rate = kinetic_of(world, start_moving(test, rate.rate));
 }
 
 }  // namespace crackle

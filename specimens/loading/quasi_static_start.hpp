@@ -22,4 +22,8 @@ RateRule rate_rule_of(const VirtualTest& test, double tolerance);
 /// @throws InputError where there is no linear solution to take the rate from
 void start_by_tolerance(VirtualTest& test);
 
+/// Sets a specimen that is not between platens moving at the rate that its case gives, as start_by_tolerance() does;
+/// without a linear solution it starts from rest.
+void start_by_rate(VirtualTest& test);
+
 }  // namespace crackle

@@ -213,7 +213,7 @@ TestOutcome run_test(const TestCase& description, const TestOptions& options, co
     const std::string text = resolved_case(recorded, folder.target());
     // Empty until loading: by that a test that has only begun is known.
     TestFiles files(folder, sha256(text), test.state, precision_of(description), description.output.slips,
-                    description.confined());
+                    description.pressed());
     try {
         folder.write("case.toml", text, Durable::yes);  // first: by its contents a folder is known to be a test's
         specimen->write(folder);
@@ -260,7 +260,7 @@ TestOutcome resume_test(const TestOptions& options, const TestHooks& hooks) {
     // That of the interrupt: curve and frames go beyond it from here.
     fs::remove(folder.path() / "summary.json", error);
     TestFiles files(folder, checkpoint.case_hash, test.state, precision_of(test.description),
-                    test.description.output.slips, test.description.confined());
+                    test.description.output.slips, test.description.pressed());
     hooks.report_stage(fmt::format("resumed at step {}, axial strain {:.4g}", test.world.stepping.steps,
                                    test.setup.axial_strain(test.world)));
     return run_with_files(test, options, hooks, folder, files);

@@ -83,9 +83,16 @@ std::vector<CellCentre> centres_of(const Scene& circles) {
     return centres;
 }
 
+std::vector<Point> outline_of(const Shape& shape) {
+    std::vector<Point> outline;
+    for (const Vec2 corner : shape.outline) outline.push_back({corner.x, corner.y});
+    return outline;
+}
+
 /// The cells of circles, without gaps between them.
-Mesh bare_cells(const TestCase& test, const Scene& circles) {
+Mesh bare_cells(const TestCase& test, const Scene& circles, const Shape& shape = {}) {
     MeshRequest request;
+    request.outline = outline_of(shape);
     request.kind = mesh_kind(test);
     request.boundary = mesh_boundary(test);
     try {
@@ -282,18 +289,27 @@ bool cell_on_side(const Cell& cell, Wall side, bool domain_boundary, const std::
     return std::count_if(cell.centres.begin(), cell.centres.end(), touches) >= 2;
 }
 
+/// m2, of what is tested.
+double area_of(const Shape& shape, const Domain& box) {
+    if (shape.outline.empty()) return (box.x2 - box.x1) * (box.y2 - box.y1);
+    double twice = 0.0;
+    for (std::size_t k = 0; k < shape.outline.size(); ++k) {
+        const Vec2 a = shape.outline[k], b = shape.outline[k + 1 == shape.outline.size() ? 0 : k + 1];
+        twice += a.x * b.y - b.x * a.y;
+    }
+    return 0.5 * twice;
+}
+
 // Of the mean cell size: at 0.02 all but one in a hundred faces have both their points (solver/MODEL.md 5.2), and no
 // cell of a usual packing is destroyed.
 constexpr double derived_gap_share = 0.02;
 
 /// The gap between cells of a case that gives none.
-double derived_mesh_thick(const TestCase& test, const Scene& circles, const TestHooks& hooks) {
+double derived_mesh_thick(const TestCase& test, const Scene& circles, const Shape& shape, const TestHooks& hooks) {
     if (test.mesh.inset) return 2.0 * *test.mesh.inset;
-    const Rectangle box = rectangle(circles.domain);
     const std::size_t cells =
-        mesh_kind(test) == MeshKind::voronoi ? circles.bodies.size() : bare_cells(test, circles).cells.size();
-    const double thick =
-        derived_gap_share * std::sqrt((box.x2 - box.x1) * (box.y2 - box.y1) / static_cast<double>(cells));
+        mesh_kind(test) == MeshKind::voronoi ? circles.bodies.size() : bare_cells(test, circles, shape).cells.size();
+    const double thick = derived_gap_share * std::sqrt(area_of(shape, circles.domain) / static_cast<double>(cells));
     hooks.report_stage(
         fmt::format("mesh.thick = {:.4g} m by default: {} of the mean cell size", thick, derived_gap_share));
     return thick;
@@ -332,8 +348,9 @@ void mesh_specimen(Specimen& specimen, const TestCase& test, const TestHooks& ho
     MeshRequest request;
     request.kind = mesh_kind(test);
     request.boundary = mesh_boundary(test);
-    specimen.mesh_thick = test.mesh.thick ? *test.mesh.thick : derived_mesh_thick(test, circles, hooks);
+    specimen.mesh_thick = test.mesh.thick ? *test.mesh.thick : derived_mesh_thick(test, circles, specimen.shape, hooks);
     request.mesh_gap = specimen.mesh_thick;
+    request.outline = outline_of(specimen.shape);
     request.inset = test.mesh.inset;
     request.merge_destroyed = test.mesh.merge_destroyed;
     Mesh mesh;
@@ -429,12 +446,86 @@ void take_minerals(Specimen& specimen, const TestCase& test, const TestHooks& ho
 
 }  // namespace
 
+namespace {
+
+constexpr std::size_t fewest_bodies = 10;  // in what is cut
+
+/// A scene of some of its bodies, with their circles alone. @param keep  whether to, by body
+template <class Keep>
+Scene part_of(const Scene& scene, const Keep& keep) {
+    Scene part = scene;
+    part.bodies.clear();
+    part.circles.clear();
+    for (const Body& body : scene.bodies) {
+        if (!keep(body)) continue;
+        part.bodies.push_back(body);
+        part.bodies.back().first_circle = static_cast<std::uint32_t>(part.circles.size());
+        const auto circles = std::span(scene.circles).subspan(body.first_circle, body.circle_count);
+        part.circles.insert(part.circles.end(), circles.begin(), circles.end());
+    }
+    return part;
+}
+
+/// m, mean size of the bodies to come.
+double particle_size(const Specimen& specimen, const TestCase& test) {
+    const Domain& box = specimen.scene.domain;
+    const bool meshed = test.has_table("mesh");
+    if (!meshed && !specimen.polygons) return 2.0 * specimen.mean_radius;
+    const double cells = static_cast<double>(specimen.scene.bodies.size()) *
+                         (meshed && mesh_kind(test) == MeshKind::delaunay ? 2.0 : 1.0);
+    return std::sqrt((box.x2 - box.x1) * (box.y2 - box.y1) / cells);
+}
+
+/// Leaves the bodies that lie within the shape of the kind of test; circles that its notch runs through are taken away.
+void cut(Specimen& specimen, const TestCase& test) {
+    const KindRequest request{test, specimen.scene.domain, specimen.particle, specimen.polygons};
+    specimen.shape = test_kind(test.loading.kind).shape(request);
+    const Shape& shape = specimen.shape;
+    if (shape.whole()) return;
+    if (specimen.polygons && !shape.outline.empty()) {
+        throw InputError(
+            fmt::format("{}: found a particle file of polygons, expected circles, or a [packing], with kind = "
+                        "\"{}\": polygons are not cut",
+                        test.at("particles.file"), test.loading.kind));
+    }
+    const bool slot = shape.notch && !test.has_table("mesh") && !specimen.polygons;
+    specimen.scene = specimen.polygons ? specimen.scene : part_of(specimen.scene, [&](const Body& body) {
+        const Vec2 centre = mass_properties(specimen.scene, body).centroid;
+        if (!shape.holds(centre)) return false;
+        return !(slot && shape.notch->distance(centre) < specimen.scene.circles[body.first_circle].radius);
+    });
+    if (specimen.scene.bodies.size() < fewest_bodies) {
+        throw InputError(
+            fmt::format("{}: found {} particles in what is cut from the packing, expected at least {}; make the "
+                        "particles smaller, or the specimen larger",
+                        test.at("loading.kind"), specimen.scene.bodies.size(), fewest_bodies));
+    }
+}
+
+/// The bodies by whose distance the lateral strain counts, where the kind of test says where they are.
+void find_sides(Specimen& specimen, const TestCase& test) {
+    if (test.uniaxial()) return;
+    specimen.left_ids.clear();
+    specimen.right_ids.clear();
+    const Shape& shape = specimen.shape;
+    if (!shape.left || !shape.right) return;
+    for (const Body& body : specimen.scene.bodies) {
+        const Vec2 centre = mass_properties(specimen.scene, body).centroid;
+        if (shape.left->holds(centre)) specimen.left_ids.push_back(body.id);
+        if (shape.right->holds(centre)) specimen.right_ids.push_back(body.id);
+    }
+}
+
+}  // namespace
+
 Specimen make_specimen(const TestCase& test, const TestHooks& hooks) {
     Specimen specimen;
     specimen.scene = test.has_table("packing") ? packed_scene(test, hooks, specimen) : read_particles(test, hooks);
     classify(specimen, test);
     bring_to_rest(specimen.scene, specimen.notices);
     measure_circles(specimen);
+    specimen.particle = particle_size(specimen, test);
+    cut(specimen, test);
     const bool meshed = test.has_table("mesh");
     if (!meshed) take_minerals(specimen, test, hooks);
     if (!specimen.polygons) hooks.report_made(circles_file, specimen.scene);
@@ -450,8 +541,10 @@ Specimen make_specimen(const TestCase& test, const TestHooks& hooks) {
     }
     if (specimen.polygons) hooks.report_made(polygons_file, specimen.scene);
     for (Material& material : specimen.scene.materials) scale_damping(material, test.damping_scale);
-    specimen.width = specimen.scene.domain.x2 - specimen.scene.domain.x1;
-    specimen.height = specimen.scene.domain.y2 - specimen.scene.domain.y1;
+    find_sides(specimen, test);
+    specimen.area = area_of(specimen.shape, specimen.scene.domain);
+    specimen.width = specimen.shape.width;
+    specimen.height = specimen.shape.height;
     return specimen;
 }
 

@@ -20,14 +20,16 @@ constexpr double least_sliding_force = 1e-9;
 
 CurveRow observe_row(const World& world, const TestSetup& setup) {
     CurveRow row;
-    const double sense = setup.compression ? 1.0 : -1.0;
+    const double sense = setup.sense();
     row.axial_strain = setup.axial_strain(world);
-    const auto of_specimen = [&](BodyIndex platen) {
-        return world.bodies.force[platen].fy - membrane_force_on(world, platen).fy;
-    };
-    row.stress_top = sense * of_specimen(setup.top) / setup.width;
-    row.stress_bottom = -sense * of_specimen(setup.bottom) / setup.width;
-    row.confinement_work = world.membrane.work;
+    PartForces forces = forces_on_parts(world, setup);
+    if (setup.confined()) {
+        forces.driver -= membrane_force_on(world, setup.top).fy;
+        forces.supports -= membrane_force_on(world, setup.bottom).fy;
+    }
+    row.stress_top = sense * forces.driver / setup.section;
+    row.stress_bottom = -sense * forces.supports / setup.section;
+    row.confinement_work = setup.confined() ? world.membrane.work : world.account.force_work;
     row.axial_stress = 0.5 * (row.stress_top + row.stress_bottom);
     row.lateral_strain = setup.lateral_strain(world);
     row.gauge_strain = setup.gauge_strain(world);
@@ -117,7 +119,8 @@ const std::vector<CurveColumn>& curve_columns() {
           "each has its row in slips.csv, where that is asked for"},
          [](Row r) { return static_cast<double>(r.bonds_slid); },
          true},
-        {{"confinement_work", "J", "done by the membrane on the specimen so far", "of a confined test"},
+        {{"confinement_work", "J", "done by the membrane, or the normal force of direct shear, on the specimen so far",
+          "of such tests"},
          [](Row r) { return r.confinement_work; },
          false,
          true},
@@ -125,20 +128,20 @@ const std::vector<CurveColumn>& curve_columns() {
     return columns;
 }
 
-std::string curve_header(bool confined) {
+std::string curve_header(bool pressed) {
     std::string line;
     for (const CurveColumn& column : curve_columns()) {
-        if (column.confined && !confined) continue;
+        if (column.pressed && !pressed) continue;
         if (!line.empty()) line += ',';
         line += column.what.name;
     }
     return line + '\n';
 }
 
-std::string curve_line(const CurveRow& row, bool confined) {
+std::string curve_line(const CurveRow& row, bool pressed) {
     std::string line;
     for (const CurveColumn& column : curve_columns()) {
-        if (column.confined && !confined) continue;
+        if (column.pressed && !pressed) continue;
         if (!line.empty()) line += ',';
         const double value = column.value(row);
         line += column.whole ? fmt::format("{}", static_cast<std::int64_t>(value)) : fmt::format("{}", value);

@@ -39,7 +39,7 @@ struct CurveRow {
     double energy_error = 0.0;   // J
     double gauge_strain = 0.0;
     std::int64_t bonds_slid = 0;
-    double confinement_work = 0.0;     ///< J, of the membrane; a column of confined tests
+    double confinement_work = 0.0;     ///< J, of membrane or normal force; a column of such tests
     std::int64_t contacts_gained = 0;  ///< points touching without a bond; kept for the summary, not a column
 
     template <class Self, class Visit>
@@ -74,14 +74,14 @@ CurveRow observe_row(const World& world, const TestSetup& setup);
 struct CurveColumn {
     Quantity what;
     double (*value)(const CurveRow&);
-    bool whole;             ///< a count
-    bool confined = false;  ///< of confined tests only
+    bool whole;            ///< a count
+    bool pressed = false;  ///< of tests with a membrane or a normal force only
 };
 /// In the order of the file.
 const std::vector<CurveColumn>& curve_columns();
 
-std::string curve_header(bool confined);  ///< with line end
+std::string curve_header(bool pressed);  ///< with line end
 /// Numbers read back to the same bits; with line end.
-std::string curve_line(const CurveRow& row, bool confined);
+std::string curve_line(const CurveRow& row, bool pressed);
 
 }  // namespace crackle

@@ -38,16 +38,16 @@ void remove_unlisted_frames(const fs::path& frames, const TestState& state) {
 }  // namespace
 
 TestFiles::TestFiles(const OutputFolder& folder, std::string case_hash, TestState& state, PointPrecision precision,
-                     bool slips, bool confined, std::size_t large_frame)
+                     bool slips, bool pressed, std::size_t large_frame)
     : folder_(folder),
       case_hash_(std::move(case_hash)),
-      confined_(confined),
+      pressed_(pressed),
       curve_(folder.path() / "curve.csv", state.curve),
       events_(folder.path() / "events.csv", state.events),
       precision_(precision),
       large_frame_(large_frame),
       collection_due_(!state.frames.empty()) {
-    if (state.curve.bytes == 0) curve_.write(curve_header(confined_));
+    if (state.curve.bytes == 0) curve_.write(curve_header(pressed_));
     if (state.events.bytes == 0) events_.write(events_header());
     if (slips) slips_.emplace(folder.path() / "slips.csv", state.slips);
     if (slips && state.slips.bytes == 0) slips_->write(slips_header());
@@ -58,7 +58,7 @@ TestFiles::TestFiles(const OutputFolder& folder, std::string case_hash, TestStat
     state.peak_frame = {};
 }
 
-void TestFiles::add_row(const CurveRow& row) { curve_.write(curve_line(row, confined_)); }
+void TestFiles::add_row(const CurveRow& row) { curve_.write(curve_line(row, pressed_)); }
 
 void TestFiles::add_event(const BreakEvent& event, double axial_strain) {
     events_.write(event_line(event, axial_strain));

@@ -21,10 +21,10 @@ void write_summary(const OutputFolder& folder, nlohmann::ordered_json& summary, 
 class TestFiles {
   public:
     /// Begins from the start (state without rows) or goes on from the state, removing what came after it.
-    /// @param slips whether slips.csv is written  @param confined whether the curve has the columns of such a test
+    /// @param slips whether slips.csv is written  @param pressed whether the curve has the columns of such a test
     /// @param large_frame bodies from which on the frame at the peak waits on the disc
     TestFiles(const OutputFolder& folder, std::string case_hash, TestState& state, PointPrecision precision,
-              bool slips = false, bool confined = false, std::size_t large_frame = 200'000);
+              bool slips = false, bool pressed = false, std::size_t large_frame = 200'000);
 
     void add_row(const CurveRow& row);
     void add_event(const BreakEvent& event, double axial_strain);
@@ -57,7 +57,7 @@ class TestFiles {
 
     const OutputFolder& folder_;
     std::string case_hash_;
-    bool confined_;
+    bool pressed_;
     GrowingFile curve_, events_;
     std::optional<GrowingFile> slips_;
     PointPrecision precision_;

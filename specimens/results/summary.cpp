@@ -13,6 +13,8 @@
 #include "specimens/measures/curve_analysis.hpp"
 #include "specimens/measures/fragment_sizes.hpp"
 #include "specimens/measures/parting.hpp"
+#include "specimens/measures/shear_box.hpp"
+#include "specimens/measures/verdicts.hpp"
 #include "specimens/observers/profile_report.hpp"
 #include "specimens/results/numerical_errors.hpp"
 
@@ -79,9 +81,11 @@ void strength(Writer& w, const TestSetup& setup, const TestState& state) {
     w.put("peak_strain" + so_far, finite_or_null(f.peak_row < 0 ? NAN : f.peak_strain));
     w.stress("largest_stress", f.largest_row < 0 ? NAN : f.largest_stress);
     w.put("strain_at_largest_stress", finite_or_null(f.largest_row < 0 ? NAN : f.strain_at_largest));
-    w.stress("youngs_modulus", state.youngs_modulus);
+    // Of other kinds stress over strain is none of the rock's moduli.
+    w.stress("youngs_modulus", setup.uniaxial ? state.youngs_modulus : NAN);
     w.put("poissons_ratio", finite_or_null(state.poissons_ratio));
     w.stress("gauge_modulus", state.gauge_modulus);
+    if (!setup.uniaxial) return;
 
     const Tangent initial = initial_tangent(state.rows, f.peak_row, setup.compression);
     w.stress("initial_tangent_modulus", initial.modulus);
@@ -105,6 +109,47 @@ void strength(Writer& w, const TestSetup& setup, const TestState& state) {
     w.put("brittleness_index", finite_or_null(brittleness_index(state.youngs_modulus, falling)));
 }
 
+/// Of a test that is not between platens: what its stress and strain are, and what follows from the peak.
+void apparatus(Writer& w, const TestSetup& setup, const TestState& state) {
+    if (setup.uniaxial) return;
+    const FailureTracker& f = state.failure;
+    const double peak = f.peak_row < 0 ? NAN : f.peak_stress;
+    const std::string so_far = f.failed ? "" : "_so_far";
+    w.put("stress_section", setup.section);
+    w.put("strain_length", setup.length);
+    w.put("peak_force" + so_far, finite_or_null(peak * setup.section));
+    w.stress("nominal_modulus", state.youngs_modulus);
+    if (setup.span > 0.0) w.put("span", setup.span);
+    if (setup.notch > 0.0) {
+        const double particle = std::sqrt(setup.area / static_cast<double>(setup.particles));
+        w.put("notch", setup.notch);
+        w.put("notch_over_particle", setup.notch / particle);
+        w.put("fracture_toughness" + so_far, finite_or_null(setup.stress_intensity * peak));
+    }
+    if (setup.kind != "direct_shear") return;
+    w.stress("normal_stress", setup.normal_force / setup.width);
+    const ShearBoxFigures shear =
+        measure_shear_box(state.rows, f.peak_row, state.ended_by == ended_by_strain, setup.height, setup.length);
+    w.stress("residual_stress", shear.residual);
+    w.put("dilation_angle_at_peak", finite_or_null(shear.dilation_at_peak));
+    w.put("dilation_end", finite_or_null(state.rows.empty() ? NAN : state.rows.back().lateral_strain * setup.height));
+}
+
+/// Whether the test is one of what it is meant to be.
+void validity(Writer& w, const TestSetup& setup, const TestState& state) {
+    Json all = Json::array();
+    bool every = true, known = true;
+    for (const Verdict& verdict : verdicts_on(setup, state.rows, state.history, state.failure.failed)) {
+        all.push_back({{"claim", verdict.claim},
+                       {"holds", verdict.holds ? Json(*verdict.holds) : Json(nullptr)},
+                       {"found", verdict.found}});
+        every = every && verdict.holds.value_or(true);
+        known = known && verdict.holds.has_value();
+    }
+    w.put("valid", !every ? Json(false) : known ? Json(true) : Json(nullptr));
+    w.put("validity", all);
+}
+
 /// Of a confined test: what pressed it, and what its membrane has done.
 void confinement(Writer& w, const TestSetup& setup, const TestState& state, const World& world) {
     if (!setup.confined()) return;
@@ -122,7 +167,7 @@ void confinement(Writer& w, const TestSetup& setup, const TestState& state, cons
 
 /// Stresses at which cracks begin and join, of a compression.
 void cracking(Writer& w, const TestSetup& setup, const TestState& state) {
-    if (!setup.compression) return;
+    if (!setup.compression || !setup.uniaxial) return;
     const FailureTracker& f = state.failure;
     const CrackThresholds t = find_crack_thresholds(state.rows, f.peak_row, state.youngs_modulus, state.poissons_ratio,
                                                     setup.confining_pressure);
@@ -187,7 +232,9 @@ void damage(Writer& w, const TestSetup& setup, const TestState& state, const Wor
     w.put("interfaces_lost", world.bonds.interfaces_lost);
     const std::vector<CurveRow>& rows = state.rows;
     const std::int64_t peak = state.failure.peak_row;
-    const auto area_strain_of = [&](const CurveRow& row) { return area_strain(row, setup.compression); };
+    const auto area_strain_of = [&](const CurveRow& row) {
+        return setup.uniaxial ? area_strain(row, setup.compression) : NAN;
+    };
     w.put("area_strain_peak", finite_or_null(peak < 0 ? NAN : area_strain_of(rows[static_cast<std::size_t>(peak)])));
     w.put("area_strain_end", finite_or_null(rows.empty() ? NAN : area_strain_of(rows.back())));
     Frame now;
@@ -199,7 +246,7 @@ void damage(Writer& w, const TestSetup& setup, const TestState& state, const Wor
     w.put("fragment_rosin_rammler", {{"size", finite_or_null(fragments.law.size)},
                                      {"exponent", finite_or_null(fragments.law.exponent)},
                                      {"fragments", fragments.law.pieces}});
-    const std::optional<Parting> parting = find_parting(setup, state.history);
+    const std::optional<Parting> parting = setup.uniaxial ? find_parting(setup, state.history) : std::nullopt;
     w.put("failed_at", parting ? Json(parting->place) : Json(nullptr));
     w.put("largest_crack",
           parting ? Json{{"bonds", parting->bonds}, {"of_platen", parting->of_platen}, {"height", parting->height}}
@@ -365,7 +412,7 @@ std::vector<std::string> notices_of(const TestCase& test, const TestSetup& setup
             "it had been");
     }
     const std::optional<Parting> parting = find_parting(setup, state.history);
-    if (f.failed && !setup.compression && parting && parting->place != "gauge") {
+    if (f.failed && setup.uniaxial && !setup.compression && parting && parting->place != "gauge") {
         notices.push_back(fmt::format(
             "the specimen parted at its {}: {} of the {} bonds of the largest crack are a platen's; the strength is "
             "not the rock's{}",
@@ -425,6 +472,8 @@ nlohmann::ordered_json make_summary(const TestCase& test, const TestSetup& setup
     Writer w{json, units, thickness.value_or(1.0), test.area_units()};
     describe(w, test, setup, state);
     strength(w, setup, state);
+    apparatus(w, setup, state);
+    validity(w, setup, state);
     confinement(w, setup, state, world);
     cracking(w, setup, state);
     damage(w, setup, state, world);
@@ -455,7 +504,7 @@ nlohmann::ordered_json make_summary(const TestCase& test, const TestSetup& setup
               profile_report(*world.workers.profile, setup.particles, world.stepping.steps, timing.step_seconds));
     Json columns;
     for (const CurveColumn& column : curve_columns())
-        if (!column.confined || setup.confined()) columns[column.what.name] = w.unit_of(column.what);
+        if (!column.pressed || setup.pressed()) columns[column.what.name] = w.unit_of(column.what);
     w.put("columns", columns);
     w.put("units", units);
     return json;

@@ -52,14 +52,24 @@ Bonding bonding_of(const Specimen& specimen, const TestCase& test, double thick)
     return bonding;
 }
 
+/// Bonds that a notch parts are not made.
+std::function<bool(BodyIndex, BodyIndex)> parted_by(const World& world, const Notch& notch) {
+    return [&world, notch](BodyIndex i, BodyIndex j) {
+        const BodyState &a = world.bodies.state[i], &b = world.bodies.state[j];
+        return notch.parts({a.x, a.y}, {b.x, b.y});
+    };
+}
+
 /// Glued platens and the grips beside them never let go.
 std::function<bool(Vec2, BodyIndex, BodyIndex)> grips_of(const World& world, const Specimen& specimen,
                                                          const Platens& platens, double grip) {
-    const BodyIndex bottom = body_of_id(world, platens.bottom_id), top = body_of_id(world, platens.top_id);
     const Domain& domain = specimen.scene.domain;
     const double depth = grip * specimen.height;
-    return [=](Vec2 position, BodyIndex i, BodyIndex j) {
-        const auto is_platen = [&](BodyIndex b) { return b == bottom || b == top; };
+    return [=, &world](Vec2 position, BodyIndex i, BodyIndex j) {
+        const auto is_platen = [&](BodyIndex b) {
+            const int id = world.bodies.info(b).id;
+            return id >= platens.bottom_id && id <= platens.top_id;
+        };
         return is_platen(i) || is_platen(j) || position.y < domain.y1 + depth || position.y > domain.y2 - depth;
     };
 }
@@ -84,7 +94,9 @@ BondedSpecimen bond_specimen(const Specimen& specimen, const TestCase& test, con
     scene.threads = static_cast<int>(test.numerics.threads);
     scene.intact = {test.numerics.intact, test.numerics.intact, test.numerics.intact};
     BondedSpecimen bonded;
-    bonded.platens = add_platens(scene, specimen, loading, scene.thick);
+    TestCase asked = test;
+    asked.loading = loading;
+    bonded.platens = add_platens(scene, specimen, asked, scene.thick);
     const double thick = scene.thick;
     bonded.world = build_world(std::move(scene));
     bonded.world.workers.while_solving = std::move(while_solving);
@@ -92,6 +104,7 @@ BondedSpecimen bond_specimen(const Specimen& specimen, const TestCase& test, con
     Bonding bonding = bonding_of(specimen, test, thick);
     if (loading.platens == "glued")
         bonding.holds = grips_of(bonded.world, specimen, bonded.platens, loading.grip.value_or(0.0));
+    if (specimen.shape.notch && specimen.polygons) bonding.leaves = parted_by(bonded.world, *specimen.shape.notch);
     try {
         bond_all(bonded.world, bonding);
     } catch (const InputError& error) {

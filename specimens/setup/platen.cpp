@@ -66,13 +66,56 @@ void spread_velocity(Scene& scene, const Platens& platens) {
     }
 }
 
+/// What a bonded face of a part lies away from the specimen's, m.
+double part_offset(const Specimen& specimen, double thick) {
+    return specimen.polygons ? 0.5 * specimen.mesh_gap : thick;
+}
+
+int next_id(const Scene& scene) { return std::ranges::max_element(scene.bodies, {}, &Body::id)->id + 1; }
+
+/// The parts of a kind of test that has no platens.
+void add_parts(Scene& scene, const Specimen& specimen, const TestCase& test, double thick, Platens& platens) {
+    const Extent extent = vertical_extent(scene);
+    KindRequest request{test, scene.domain, specimen.particle, specimen.polygons};
+    request.offset = part_offset(specimen, thick);
+    // Circles that were cut out by their centres reach beyond the outline.
+    request.cut_offset = specimen.polygons ? request.offset : 0.0;
+    request.low = extent.low - thick;
+    request.high = extent.high + thick;
+    platens.apparatus = test_kind(test.loading.kind).apparatus(request, specimen.shape);
+    const int material = platen_material(scene, specimen, test.loading);
+    platens.bottom_id = next_id(scene);
+    platens.top_id = platens.bottom_id - 1;
+    platens.parked = platens.bonded ? 0.0 : platen_parking_distance * specimen.height;
+    for (const LoadingPart& part : platens.apparatus.parts) {
+        std::vector<Vec2> corners = part.corners;
+        const bool last = &part == &platens.apparatus.parts.back();
+        for (Vec2& corner : corners) corner.y += last ? platens.parked : -platens.parked;
+        const std::uint32_t body = scene.add_chain_body(++platens.top_id, material, corners, true);
+        Control control;
+        control.body = static_cast<int>(body);
+        control.x = part.x;
+        control.y = part.y;
+        control.rotation = part.rotation;
+        scene.controls.push_back(control);
+    }
+}
+
 }  // namespace
 
-Platens add_platens(Scene& scene, const Specimen& specimen, const TestCase::Loading& loading, double thick) {
+Platens add_platens(Scene& scene, const Specimen& specimen, const TestCase& test, double thick) {
+    const TestCase::Loading& loading = test.loading;
     const Extent extent = vertical_extent(scene);
     const Domain& domain = scene.domain;
     Platens platens;
     platens.bonded = loading.platens != "frictional";
+    platens.apparatus.section = specimen.width;
+    platens.apparatus.length = specimen.height;
+    scene.domain.wall_present = {false, false, false, false};
+    if (!test.uniaxial()) {
+        add_parts(scene, specimen, test, thick, platens);
+        return platens;
+    }
     if (platens.bonded) {
         platens.bottom_y = domain.y1 - bonded_offset(specimen, extent.low - domain.y1, thick);
         platens.top_y = domain.y2 + bonded_offset(specimen, domain.y2 - extent.high, thick);
@@ -84,10 +127,8 @@ Platens add_platens(Scene& scene, const Specimen& specimen, const TestCase::Load
     platens.velocity = loading.kind == "tension" ? speed : -speed;
     spread_velocity(scene, platens);
 
-    const auto largest = std::max_element(scene.bodies.begin(), scene.bodies.end(),
-                                          [](const Body& a, const Body& b) { return a.id < b.id; });
-    platens.bottom_id = largest->id + 1;
-    platens.top_id = largest->id + 2;
+    platens.bottom_id = next_id(scene);
+    platens.top_id = platens.bottom_id + 1;
     const int material = platen_material(scene, specimen, loading);
     const double middle = 0.5 * (domain.x1 + domain.x2);
     const double half = 0.5 * platen_width_ratio * specimen.width;
@@ -104,7 +145,6 @@ Platens add_platens(Scene& scene, const Specimen& specimen, const TestCase::Load
         platens.top_id, material, {{left, top_y}, {right, top_y}, {right, top_y + depth}, {left, top_y + depth}}, true);
     hold(scene, bottom, 0.0);
     hold(scene, top, platens.velocity);
-    scene.domain.wall_present = {false, false, false, false};
     return platens;
 }
 

@@ -11,6 +11,7 @@
 // A block and not one segment: behind a single segment a corner pressed in by more than t would be through, and pushed
 // on. Before that, both carry the same force.
 // The lower platen is fixed, the upper one moves at constant velocity; both are held laterally and in rotation.
+// Other kinds of test have the parts that specimens/kinds describes: supports first, the one that drives last.
 // Tested by tests/specimens/loading/virtual_test_test.cpp.
 #pragma once
 
@@ -21,7 +22,8 @@
 namespace crackle {
 
 struct Platens {
-    int bottom_id = 0, top_id = 0;       ///< numbers after the input's largest
+    int bottom_id = 0, top_id = 0;       ///< numbers after the input's largest: of the first part and of the last
+    Apparatus apparatus;                 ///< parts of the kinds that have some; what stress and strain refer to
     double bottom_y = 0.0, top_y = 0.0;  ///< m, faces at the start of loading
     double velocity = 0.0;               ///< m/s of the upper one, upwards
     double parked = 0.0;                 ///< m, how far outside its face each waits while the specimen is bonded
@@ -38,9 +40,10 @@ inline constexpr double platen_width_ratio = 2.0;
 inline constexpr double platen_depth_ratio = 0.05;
 
 /// Adds both platens and their controls to the specimen's scene, removes the walls and gives every particle the
-/// velocity that grows linearly from the lower to the upper platen, so that loading sends no shock.
+/// velocity that grows linearly from the lower to the upper platen, so that loading sends no shock; of kinds with other
+/// parts it stays at rest.
 /// @param thick segment thickness at bonding, m
-Platens add_platens(Scene& scene, const Specimen& specimen, const TestCase::Loading& loading, double thick);
+Platens add_platens(Scene& scene, const Specimen& specimen, const TestCase& test, double thick);
 
 /// Brings frictional platens from where they waited to where loading starts; bonded ones are there already.
 void place_platens(World& world, const Platens& platens);

@@ -37,16 +37,41 @@ BondedFace hold_of(const World& world, const TestSetup& setup, BodyIndex platen)
     return hold;
 }
 
+/// m, of a part's face along x.
+double face_width(const World& world, const SetupPart& part) {
+    const std::vector<Vec2> corners = element_positions(world, part.body);
+    const auto [least, most] =
+        std::minmax_element(corners.begin(), corners.begin() + part.face, [](Vec2 a, Vec2 b) { return a.x < b.x; });
+    return most->x - least->x;
+}
+
 bool connected(const TestSetup& setup, std::size_t bodies) {
     boost::disjoint_sets_with_storage<> pieces(bodies);
     for (const BodyPair& bond : setup.bonds.pairs) pieces.union_set(bond.body_i, bond.body_j);
-    return pieces.find_set(setup.bottom) == pieces.find_set(setup.top);
+    return std::ranges::all_of(
+        setup.parts, [&](const SetupPart& part) { return pieces.find_set(part.body) == pieces.find_set(setup.top); });
+}
+
+void check_part_hold(const World& world, const TestSetup& setup, const TestCase& test) {
+    for (const SetupPart& part : setup.parts) {
+        const double width = face_width(world, part);
+        const BondedFace hold = hold_of(world, setup, part.body);
+        if (hold.length() >= min_platen_hold * width) continue;
+        const bool driver = part.body == setup.top;
+        throw InputError(fmt::format(
+            "{}: found {} bonded points over {:.3g} m of the {:.3g} m wide face of {}, expected them to reach over "
+            "half of it; "
+            "make it wider, or the particles smaller, or give the bonds a reach (bond.range, bond.gap)",
+            test.at("loading.kind"), hold.bonds, hold.length(), width, driver ? "the part that drives" : "a support"));
+    }
 }
 
 }  // namespace
 
 void check_platen_hold(const World& world, const TestSetup& setup, const Platens& platens, const TestCase& test) {
+    if (!setup.uniaxial) check_part_hold(world, setup, test);
     for (const BodyIndex platen : {setup.bottom, setup.top}) {
+        if (!setup.uniaxial) break;
         const BondedFace hold = hold_of(world, setup, platen);
         if (hold.length() >= min_platen_hold * setup.width) continue;
         const bool lower = platen == setup.bottom;

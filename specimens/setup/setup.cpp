@@ -21,8 +21,15 @@ double mean_x(const World& world, const std::vector<BodyIndex>& bodies) {
     return sum / static_cast<double>(bodies.size());
 }
 
-/// Side particles with centres in the middle half of the height, away from what the platens hold.
-std::vector<BodyIndex> gauge(const World& world, const std::vector<int>& ids, const Domain& domain) {
+void note_start_of_driver(TestSetup& setup, const World& world) {
+    const BodyState& driver = world.bodies.state[setup.top];
+    setup.top_start = setup.axis == 1 ? driver.y : driver.x;
+    setup.top_height = driver.y;
+}
+
+/// Side particles with centres in the middle half of the height, away from what the platens hold; of kinds that say
+/// where they are, all of them.
+std::vector<BodyIndex> gauge(const World& world, const std::vector<int>& ids, const Domain& domain, bool uniaxial) {
     std::unordered_map<int, BodyIndex> index;
     for (std::size_t b = 0; b < world.bodies.size(); ++b) index[world.bodies.info(b).id] = static_cast<BodyIndex>(b);
     const double middle = 0.5 * (domain.y1 + domain.y2);
@@ -30,7 +37,7 @@ std::vector<BodyIndex> gauge(const World& world, const std::vector<int>& ids, co
     std::vector<BodyIndex> bodies;
     for (const int id : ids) {
         const BodyIndex b = index.at(id);
-        if (std::abs(world.bodies.state[b].y - middle) <= quarter) bodies.push_back(b);
+        if (!uniaxial || std::abs(world.bodies.state[b].y - middle) <= quarter) bodies.push_back(b);
     }
     return bodies;
 }
@@ -121,11 +128,12 @@ BodyState placed_body(const World& world, const TestSetup& setup, BodyIndex b, d
 }
 
 double TestSetup::axial_strain(const World& world) const {
-    const double now = world.bodies.state[top].y;
-    return (compression ? top_start - now : now - top_start) / height;  // not -0 at the start
+    const double now = axis == 1 ? world.bodies.state[top].y : world.bodies.state[top].x;
+    return (compression ? top_start - now : now - top_start) / length;  // not -0 at the start
 }
 
 double TestSetup::lateral_strain(const World& world) const {
+    if (axis == 0) return (world.bodies.state[top].y - top_height) / height;
     if (gauge_length == 0.0) return std::numeric_limits<double>::quiet_NaN();
     return (mean_x(world, right) - mean_x(world, left)) / gauge_length - 1.0;
 }
@@ -136,12 +144,35 @@ double TestSetup::gauge_strain(const World& world) const {
     return compression ? 0.0 - growth : growth;  // not -0 at the start
 }
 
-TestSetup record_setup(const World& world, const Specimen& specimen, const Platens& platens, bool compression,
+PartForces forces_on_parts(const World& world, const TestSetup& setup) {
+    const auto on = [&](BodyIndex part) {
+        const BodyForce& force = world.bodies.force[part];
+        return setup.axis == 1 ? force.fy : force.fx;
+    };
+    PartForces forces;
+    for (const SetupPart& part : setup.parts)
+        (part.body == setup.top ? forces.driver : forces.supports) += on(part.body);
+    return forces;
+}
+
+TestSetup record_setup(const World& world, const Specimen& specimen, const Platens& platens, const TestKind& kind,
                        double grip) {
     TestSetup setup;
+    setup.kind = kind.name;
+    setup.uniaxial = kind.uniaxial;
+    setup.axis = platens.apparatus.axis;
+    setup.section = platens.apparatus.section;
+    setup.length = platens.apparatus.length;
+    setup.stress_intensity = platens.apparatus.stress_intensity;
+    setup.normal_force = platens.apparatus.normal_force;
+    setup.area = specimen.area;
+    setup.middle = 0.5 * (world.settings.domain.x1 + world.settings.domain.x2);
+    setup.middle_height = 0.5 * (world.settings.domain.y1 + world.settings.domain.y2);
+    setup.span = platens.apparatus.supports;
+    if (specimen.shape.notch) setup.notch = specimen.shape.notch->tip.y - world.settings.domain.y1;
     setup.grip = grip * specimen.height;
     setup.low_end = world.settings.domain.y1;
-    setup.compression = compression;
+    setup.compression = kind.compression;
     setup.specimen = specimen.kind;
     setup.polygons = specimen.polygons;
     setup.width = specimen.width;
@@ -152,7 +183,12 @@ TestSetup record_setup(const World& world, const Specimen& specimen, const Plate
     setup.top_id = platens.top_id;
     setup.bottom = body_of_id(world, platens.bottom_id);
     setup.top = body_of_id(world, platens.top_id);
-    setup.top_start = world.bodies.state[setup.top].y;
+    for (int id = platens.bottom_id; id <= platens.top_id; ++id) {
+        const auto number = static_cast<std::size_t>(id - platens.bottom_id);
+        const auto& parts = platens.apparatus.parts;
+        setup.parts.push_back({body_of_id(world, id), parts.empty() ? 2 : parts[number].face});
+    }
+    note_start_of_driver(setup, world);
     setup.particles = static_cast<std::int64_t>(specimen.scene.bodies.size());
     setup.segments = specimen.segments;
     setup.centres = specimen.centres;
@@ -166,20 +202,22 @@ TestSetup record_setup(const World& world, const Specimen& specimen, const Plate
     setup.minerals = specimen.minerals;
     setup.start.reserve(world.bodies.size());
     for (const BodyState& body : world.bodies.state) setup.start.push_back({body.x, body.y, body.angle});
-    setup.left = gauge(world, specimen.left_ids, world.settings.domain);
-    setup.right = gauge(world, specimen.right_ids, world.settings.domain);
-    if (setup.left.empty() || setup.right.empty()) {
+    setup.left = gauge(world, specimen.left_ids, world.settings.domain, setup.uniaxial);
+    setup.right = gauge(world, specimen.right_ids, world.settings.domain, setup.uniaxial);
+    if (!setup.uniaxial && specimen.left_ids.empty() && specimen.right_ids.empty()) {
+        // none is defined
+    } else if (setup.left.empty() || setup.right.empty()) {
         setup.notices.push_back("no particles at both side faces in the middle half of the height: no lateral strain");
     } else {
         setup.gauge_length = mean_x(world, setup.right) - mean_x(world, setup.left);
     }
     record_bonds(setup, world);
-    find_axial_gauge(setup, world, grip > 0.0 ? grip : outer_share);
+    if (setup.uniaxial) find_axial_gauge(setup, world, grip > 0.0 ? grip : outer_share);
     return setup;
 }
 
 void strains_begin_at(TestSetup& setup, const World& world) {
-    setup.top_start = world.bodies.state[setup.top].y;
+    note_start_of_driver(setup, world);
     if (setup.gauge_length > 0.0) setup.gauge_length = mean_x(world, setup.right) - mean_x(world, setup.left);
     if (setup.gauge_height > 0.0)
         setup.gauge_height = mean_y(world, setup.gauge_top) - mean_y(world, setup.gauge_bottom);

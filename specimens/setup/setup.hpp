@@ -27,18 +27,41 @@ struct StartPlace {
     }
 };
 
+/// A rigid body that holds or drives the specimen.
+struct SetupPart {
+    BodyIndex body = 0;
+    std::uint32_t face = 2;  ///< its first corners, which are drawn
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("body", s.body);
+        visit("face", s.face);
+    }
+};
+
 struct TestSetup {
-    bool compression = true;
-    std::string specimen;  ///< circles, delaunay, voronoi
+    std::string kind = "compression";
+    bool uniaxial = true;     ///< stress and strain are those of the rock, TestKind
+    bool compression = true;  ///< the driving part moves against its axis
+    std::string specimen;     ///< circles, delaunay, voronoi
     bool polygons = false;
-    double width = 0.0, height = 0.0;    // m, initial
-    double bond_thick = 0.0;             // m
-    double mesh_gap = 0.0;               // m
-    int bottom_id = 0, top_id = 0;       // as in outputs
-    BodyIndex bottom = 0, top = 0;       // in the world
-    double top_start = 0.0;              // m, y of the upper platen's centroid
-    std::vector<BodyIndex> left, right;  ///< side particles in the middle half of the height
-    double gauge_length = 0.0;           ///< m, initial distance of their mean x; 0 if a side has none
+    double width = 0.0, height = 0.0;          // m, initial
+    int axis = 1;                              ///< of the driving part's way: 0 x, 1 y
+    double section = 0.0, length = 0.0;        // m, of nominal stress and strain, Apparatus
+    double stress_intensity = 0.0;             ///< sqrt(m), K_I over the nominal stress; 0 without a notch
+    double notch = 0.0, span = 0.0;            // m; 0: none
+    double area = 0.0;                         // m2, of what is tested
+    double middle = 0.0, middle_height = 0.0;  // m, of the packing's box, in which the specimen lies symmetrically
+    double normal_force = 0.0;                 // N, on the driving part across its way
+    double bond_thick = 0.0;                   // m
+    double mesh_gap = 0.0;                     // m
+    int bottom_id = 0, top_id = 0;             // as in outputs
+    BodyIndex bottom = 0, top = 0;             // in the world: the first support, and what drives
+    std::vector<SetupPart> parts;              ///< all, the driving one last
+    double top_start = 0.0;                    // m, place of the driving part's centroid along its axis
+    double top_height = 0.0;                   // m, its y
+    std::vector<BodyIndex> left, right;        ///< side particles in the middle half of the height
+    double gauge_length = 0.0;                 ///< m, initial distance of their mean x; 0 if a side has none
 
     std::int64_t particles = 0, segments = 0, centres = 0;
     std::int64_t contacts_initial = 0;         ///< contact points that touch when loading begins
@@ -75,27 +98,47 @@ struct TestSetup {
     double rest_overlap(PointIndex bond) const { return coulomb_bonds ? std::max(bond_overlaps[bond], 0.0) : 0.0; }
 
     bool confined() const { return confining_pressure > 0.0; }
-    bool is_platen(BodyIndex body) const { return body == bottom || body == top; }
+    bool pressed() const { return confined() || kind == "direct_shear"; }
+    bool is_platen(BodyIndex body) const {
+        return std::ranges::any_of(parts, [&](const SetupPart& part) { return part.body == body; });
+    }
+    /// 1 where the driving part moves against its axis, else -1.
+    double sense() const { return compression ? 1.0 : -1.0; }
     double axial_strain(const World& world) const;
-    /// Not a number if the specimen has no side particles in the middle half of its height.
+    /// Not a number if the specimen has no side particles in the middle half of its height. Where the driving part
+    /// moves along x: the rise of the upper one over the height.
     double lateral_strain(const World& world) const;
     /// Axial strain between the ends of the axial gauge length; not a number where one has no particles.
     double gauge_strain(const World& world) const;
 
     template <class Self, class Visit>
     static constexpr void fields(Self& s, Visit&& visit) {
+        visit("kind", s.kind);
+        visit("uniaxial", s.uniaxial);
         visit("compression", s.compression);
         visit("specimen", s.specimen);
         visit("polygons", s.polygons);
         visit("width", s.width);
         visit("height", s.height);
+        visit("axis", s.axis);
+        visit("section", s.section);
+        visit("length", s.length);
+        visit("stress_intensity", s.stress_intensity);
+        visit("notch", s.notch);
+        visit("span", s.span);
+        visit("area", s.area);
+        visit("middle", s.middle);
+        visit("middle_height", s.middle_height);
+        visit("normal_force", s.normal_force);
         visit("bond_thick", s.bond_thick);
         visit("mesh_gap", s.mesh_gap);
         visit("bottom_id", s.bottom_id);
         visit("top_id", s.top_id);
         visit("bottom", s.bottom);
         visit("top", s.top);
+        visit("parts", s.parts);
         visit("top_start", s.top_start);
+        visit("top_height", s.top_height);
         visit("left", s.left);
         visit("right", s.right);
         visit("gauge_length", s.gauge_length);
@@ -132,8 +175,14 @@ struct TestSetup {
 
 /// Records the start of loading. Needs a bonded world with its platens in place and compute_forces() done.
 /// @param grip share of the height at each end whose bonds never break
-TestSetup record_setup(const World& world, const Specimen& specimen, const Platens& platens, bool compression,
+TestSetup record_setup(const World& world, const Specimen& specimen, const Platens& platens, const TestKind& kind,
                        double grip);
+
+/// Forces on the driving part and on all supports along the driving part's axis, N. Needs compute_forces().
+struct PartForces {
+    double driver = 0.0, supports = 0.0;
+};
+PartForces forces_on_parts(const World& world, const TestSetup& setup);
 
 /// Strains and gauge lengths count from where the bodies are now. Places do not: bonds hold bodies as they lay when
 /// they were made, and from there the turn of a body's frame counts.

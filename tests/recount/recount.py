@@ -15,6 +15,7 @@ except ImportError:
 from events import recount_events, recount_parting
 from frames import recount_frame, recount_places
 from history import holds_every_step, recount_history
+from kinds import recount_kind
 from loading_by_tolerance import by_tolerance
 from measures import recount_measures, recount_rose
 from model import Model, rounding
@@ -31,6 +32,7 @@ class Recount:
         self.results, self.lines, self.keys = results, [], set()
         self.peak = None  # row of the peak, where all rows are written
         self.summary, self.curve, self.events = results.summary, results.curve, results.events
+        self.uniaxial = self.summary["kind"] in ("compression", "tension", "biaxial")  # between platens
 
     def compare(self, name, stated, ours, tolerance):
         """@param tolerance  absolute"""
@@ -107,7 +109,8 @@ def recount_curve(r):
     r.key("interfaces_lost", c["interfaces_lost"][-1])
     strain, stress, lateral = c["axial_strain"], c["axial_stress"], c["lateral_strain"]
     sense = -1.0 if case("loading", "kind") == "tension" else 1.0
-    r.key("area_strain_end", sense * strain[-1] - lateral[-1])
+    if r.uniaxial:
+        r.key("area_strain_end", sense * strain[-1] - lateral[-1])
     if case("output", "curve_rows", 2000) < 2000:
         return  # peak and windows are those of rows that were not written
     peak, dropped = find_fall(strain, stress, 1 - case("loading", "strength_drop", 0.1))
@@ -133,9 +136,26 @@ def recount_curve(r):
     for name, frame in (("start", drawn[0]), ("peak", f"frames/particles_{peak:05d}.vtp"), ("end", drawn[-1])):
         r.key("frame_" + name, frame)
         r.true(f"frame_{name}: is there", frame in drawn)
-    r.key("area_strain_peak", sense * strain[peak] - lateral[peak])
+    if r.uniaxial:
+        r.key("area_strain_peak", sense * strain[peak] - lateral[peak])
     r.key("platen_out_of_balance",
           np.max(np.abs(c["stress_top"] - c["stress_bottom"])[: peak + 1]) / stress[peak])
+    if r.uniaxial:
+        recount_tangents(r, peak, sense)
+    if by_tolerance(r):
+        r.key("axial_strain_rate", strain[-1] / c["time"][-1])
+        p = case("confinement", "pressure", 0.0)
+        r.key("viscous_stress_share", (stress[0] - p) / (stress[largest] - p))
+    else:
+        r.rows("curve: axial_strain of the rate", strain, case("loading", "axial_strain_rate") * c["time"],
+               1e-9 * strain + 1e-15)
+        r.key("axial_strain_rate", case("loading", "axial_strain_rate"), 0.0)
+
+
+def recount_tangents(r, peak, sense):
+    """Moduli of the curve before the peak, of a test between platens."""
+    c = r.curve
+    strain, stress, lateral = c["axial_strain"], c["axial_stress"], c["lateral_strain"]
     rising = np.arange(peak + 1)
     early = rising[strain[: peak + 1] <= strain[peak] / 20]
     first = np.argmax(stress[: peak + 1] >= 0.4 * stress[peak])
@@ -156,14 +176,6 @@ def recount_curve(r):
         if {int(early[0]), int(early[-1])} <= set(r.results.frame_rows()):  # states 3 and 4: touching without a bond
             loose = [np.sum(r.results.frame(row).contacts["state"] >= 3) for row in (early[0], early[-1])]
             r.key(w + "contacts_gained", int(loose[1]) - int(loose[0]))
-    if by_tolerance(r):
-        r.key("axial_strain_rate", strain[-1] / c["time"][-1])
-        p = case("confinement", "pressure", 0.0)
-        r.key("viscous_stress_share", (stress[0] - p) / (stress[largest] - p))
-    else:
-        r.rows("curve: axial_strain of the rate", strain, case("loading", "axial_strain_rate") * c["time"],
-               1e-9 * strain + 1e-15)
-        r.key("axial_strain_rate", case("loading", "axial_strain_rate"), 0.0)
 
 
 def recount_given(r, model):
@@ -256,6 +268,10 @@ def recount_errors(r):
 def recount(folder):
     r = Recount(Results(folder))
     recount_curve(r)
+    if not r.uniaxial:
+        recount_kind(r)
+        recount_lengths(r)
+        return r
     recount_measures(r)
     if r.summary["kind"] == "biaxial":
         r.key("confining_pressure", r.results.key("confinement", "pressure"), 0.0)

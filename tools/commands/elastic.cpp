@@ -39,7 +39,7 @@ Json as_json(const VirtualTest& test, const ElasticAnalysis& a, double seconds) 
               {"specimen", test.setup.specimen},
               {"particles", test.setup.particles},
               {"bonds", a.bonds.size()},
-              {"youngs_modulus", finite_or_null(a.youngs_modulus)},
+              {test.setup.uniaxial ? "youngs_modulus" : "nominal_modulus", finite_or_null(a.youngs_modulus)},
               {"poissons_ratio", finite_or_null(a.poissons_ratio)},
               {"stable_time_step", finite_or_null(a.stable_time_step)},
               {"stable_time_step_proved", a.stable_time_step_proved},
@@ -57,7 +57,9 @@ Json as_json(const VirtualTest& test, const ElasticAnalysis& a, double seconds) 
     if (!a.frequencies.empty()) json["angular_frequencies"] = a.frequencies;
     const std::string stress = test.description.stress_unit();
     json["units"] = {
-        {"youngs_modulus", stress + ", small strain, all bonds intact and sticking"},
+        {"youngs_modulus", stress +
+                               ", small strain, all bonds intact and sticking; nominal_modulus in its place where the "
+                               "test is not between platens: stress over strain as its kind defines them"},
         {"poissons_ratio", "-, by the definition of the curve's lateral strain"},
         {"stable_time_step", "s, exact: 4M - 2dt C - dt^2 K positive definite below it, checked by Cholesky if proved"},
         {"time_step_bound", "s, guaranteed stable below, found without an eigenvalue solve"},
@@ -85,8 +87,12 @@ std::string event_text(const VirtualTest& test, const ElasticAnalysis& a, const 
 void print(const VirtualTest& test, const ElasticAnalysis& a, double seconds) {
     fmt::print("{}, {}: {} particles, {} bonds, {} unknowns, {:.0f} ms\n", test.setup.specimen,
                test.description.loading.kind, test.setup.particles, a.bonds.size(), a.unknowns, 1e3 * seconds);
-    fmt::print("  Young's modulus   {:.6g} {}, Poisson's ratio {:.4g} (residual {:.1e})\n", a.youngs_modulus,
-               test.description.stress_unit(), a.poissons_ratio, a.residual);
+    if (test.setup.uniaxial)
+        fmt::print("  Young's modulus   {:.6g} {}, Poisson's ratio {:.4g} (residual {:.1e})\n", a.youngs_modulus,
+                   test.description.stress_unit(), a.poissons_ratio, a.residual);
+    else
+        fmt::print("  nominal modulus   {:.6g} {}, stress over strain as this kind defines them (residual {:.1e})\n",
+                   a.youngs_modulus, test.description.stress_unit(), a.residual);
     fmt::print("  first slip        {}\n", event_text(test, a, a.first_slip));
     fmt::print("  first break       {} (linear, no slip)\n", event_text(test, a, a.first_break));
     fmt::print("  stable time step  {:.6g} s{}; bound {:.3f} of it; a test takes {:.3f} of it\n", a.stable_time_step,

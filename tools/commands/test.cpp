@@ -52,9 +52,16 @@ void print_figures(const TestOutcome& outcome) {
         std::cout << fmt::format("  largest stress {} at strain {}: after the peak, no strength\n",
                                  stress(s, "largest_stress"), shown(s, "strain_at_largest_stress"));
     }
-    std::cout << fmt::format("  modulus: small strain {}, initial tangent {}, at half the peak {}\n",
-                             stress(s, "youngs_modulus"), stress(s, "initial_tangent_modulus"),
-                             stress(s, "tangent_modulus_50"));
+    if (s.contains("initial_tangent_modulus")) {
+        std::cout << fmt::format("  modulus: small strain {}, initial tangent {}, at half the peak {}\n",
+                                 stress(s, "youngs_modulus"), stress(s, "initial_tangent_modulus"),
+                                 stress(s, "tangent_modulus_50"));
+    }
+    for (const auto& verdict : s["validity"]) {
+        if (verdict["holds"] == false)
+            std::cout << fmt::format("  not valid: {} is not so: {}\n", verdict["claim"].get<std::string>(),
+                                     verdict["found"].get<std::string>());
+    }
     std::cout << fmt::format("  bonds broken: {} of {} ({} interfaces of {})\n", shown(s, "bonds_broken"),
                              shown(s, "bonds_initial"), shown(s, "interfaces_lost"), shown(s, "interfaces_initial"));
     std::cout << fmt::format("  errors: energy balance {} of the work, platens out of balance by {} of the peak\n",
@@ -163,7 +170,7 @@ Json as_json(const TestCheck& check) {
               {"particles", test.setup.particles},
               {"grains_across", check.grains_across},
               {"bonds", test.world.bonds.initial},
-              {"youngs_modulus", finite_or_null(check.youngs_modulus)},
+              {test.setup.uniaxial ? "youngs_modulus" : "nominal_modulus", finite_or_null(check.youngs_modulus)},
               {"poissons_ratio", finite_or_null(check.poissons_ratio)},
               {"gauge_modulus", finite_or_null(check.gauge_modulus)},
               {"first_slip", loss_as_json(check.first_slip)},
@@ -185,7 +192,9 @@ Json as_json(const TestCheck& check) {
                                      {"within_factor", strength->factor}};
     json["units"] = {
         {"grains_across", "width over sqrt(width height / particles)"},
-        {"youngs_modulus", stress + ", small strain, all bonds intact and sticking"},
+        {"youngs_modulus", stress +
+                               ", small strain, all bonds intact and sticking; nominal_modulus in its place where the "
+                               "test is not between platens"},
         {"gauge_modulus", stress + ", over the strain of the axial gauge length"},
         {"first_slip", "strain; stress in " + stress + "; null: none by the linear solution"},
         {"first_break", "likewise"},
@@ -224,7 +233,9 @@ void print_check(const TestCheck& check) {
     const double slower = check.rate / check.slowest_rate;
     fmt::print("{}, {}: {} particles, {:.3g} grains wide, {} bonds\n", test.setup.specimen,
                test.description.loading.kind, test.setup.particles, check.grains_across, test.world.bonds.initial);
-    if (std::isfinite(check.youngs_modulus)) {
+    if (std::isfinite(check.youngs_modulus) && !test.setup.uniaxial) {
+        fmt::print("  small strain   nominal stress over nominal strain {:.4g} {}\n", check.youngs_modulus, unit);
+    } else if (std::isfinite(check.youngs_modulus)) {
         fmt::print("  small strain   E {:.4g} {}, nu {:.3g}, over the gauge length {:.4g} {}\n", check.youngs_modulus,
                    unit, check.poissons_ratio, check.gauge_modulus, unit);
     } else {
@@ -238,9 +249,10 @@ void print_check(const TestCheck& check) {
             "have broken by the linear solution\n",
             strength->stress, unit, strength->strain, strength->factor, 100.0 * strength->share);
     } else {
-        fmt::print("  strength       no estimate: {}\n", test.description.confined()
-                                                             ? "the rule is of specimens without confining pressure"
-                                                             : "too few bonds ever break by the linear solution");
+        fmt::print("  strength       no estimate: {}\n",
+                   test.description.confined() ? "the rule is of specimens without confining pressure"
+                   : !test.setup.uniaxial      ? "the rule is of specimens between platens"
+                                               : "too few bonds ever break by the linear solution");
     }
     fmt::print("  run            {}{} to strain {:.3g}; time step {:.3g} s, rate {:.3g} 1/s{}, {:.3g} steps/s\n",
                check.to_strength ? run_text(*check.to_strength) + " to that strength, " : "", run_text(check.to_end),

@@ -55,6 +55,9 @@ constexpr double beyond_peak = 1.5;
 }  // namespace
 
 bool has_area_strain(const TestResults& results) {
+    // Of other kinds the two strains are not of one stretched area.
+    const std::string kind = results.summary.value("kind", std::string());
+    if (kind != "compression" && kind != "tension" && kind != "biaxial") return false;
     const std::vector<double>& lateral = column(results, "lateral_strain");
     return !lateral.empty() && std::ranges::none_of(lateral, [](double strain) { return std::isnan(strain); });
 }

@@ -10,7 +10,9 @@ import type {CodedEntry} from './coded_arrays';
 import {plainArray, type ArrayEntry, type NumberArray} from './plain_arrays';
 
 /// Loading direction of a test.
-export type Kind = 'compression' | 'tension' | 'biaxial';
+/// As the page names it.
+export type Kind = string;
+const kindNames: Record<string, Kind> = {scb: 'semi-circular bend', direct_shear: 'direct shear'};
 
 export type Role = 'start' | 'peak' | 'end';
 
@@ -141,7 +143,7 @@ async function unpackTest(entry: TestEntry, index: number): Promise<TestData> {
         name: entry.name,
         source: entry.kind,
         meanVelocities: entry.velocities === 'mean',
-        kind: entry.summary['kind'] === 'tension' ? 'tension' : entry.summary['kind'] === 'biaxial' ? 'biaxial' : 'compression',
+        kind: kindNames[String(entry.summary['kind'])] ?? String(entry.summary['kind'] ?? 'compression'),
         specimen: String(entry.summary['specimen'] ?? 'specimen'),
         failed: entry.summary['failed'] === true,
         summary: entry.summary,

@@ -11,7 +11,7 @@ export interface LabelledTest<Test extends TestData = TestData> {
 }
 
 export const specimenOrder = ['circles', 'delaunay', 'voronoi'];
-export const kindOrder = ['tension', 'compression', 'biaxial'];
+export const kindOrder = ['tension', 'compression', 'biaxial', 'brazilian', 'bending', 'semi-circular bend', 'direct shear'];
 const specimenNames: Record<string, string> = {circles: 'Circles', delaunay: 'Delaunay', voronoi: 'Voronoi'};
 
 export function capitalised(text: string): string {

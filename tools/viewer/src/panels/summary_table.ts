@@ -85,6 +85,15 @@ function numberIn(test: TestData, table: string, name: string): number | undefin
     return typeof value === 'number' ? value : undefined;
 }
 
+/// Whether the test is one of what it is meant to be, and which claims do not hold.
+function verdictOf(test: TestData): string | undefined {
+    const valid = test.summary['valid'], claims = test.summary['validity'];
+    if (!Array.isArray(claims)) return undefined;
+    const broken = (claims as {claim: string; holds: boolean | null; found: string}[]).filter(({holds}) => holds === false);
+    if (broken.length > 0) return `no: not so that ${broken.map(({claim, found}) => `${claim} (${found})`).join('; ')}`;
+    return valid === true ? 'yes' : 'not known yet';
+}
+
 /// Both ends of an interval over the number that it belongs to.
 function within(name: string, interval: string, of: string): Row {
     const shares = (test: TestData): string | undefined => {
@@ -125,6 +134,7 @@ const groups: readonly {title: string; rows: readonly Row[]}[] = [
         measured('Mean cohesion of a bond', 'N', where(byCoulomb, key('mean_cohesion')), 'likewise'),
     ]},
     {title: 'Stiffness', rows: [
+        ...stress('Nominal stress over strain', ['nominal_modulus'], 'small strain, as this kind of test defines them: sparse solve'),
         ...stress('Young’s modulus E', ['youngs_modulus'], 'small strain, all bonds intact and sticking: sparse solve'),
         plain('Poisson’s ratio ν', key('poissons_ratio')),
         ...stress('Initial tangent modulus', ['initial_tangent_modulus'], 'over the first 5 % of the strain at peak'),
@@ -147,6 +157,13 @@ const groups: readonly {title: string; rows: readonly Row[]}[] = [
         percent('Spread of four definitions of σci', (test) => ratio(numberIn(test, 'crack_initiation', 'spread'), numberOf(test.summary, 'crack_initiation_stress')), 'largest less smallest, over σci'),
         ...stress('Crack damage σcd', ['crack_damage_stress'], 'at the largest area strain'),
         percent('Crack damage over the peak', key('crack_damage_over_peak')),
+        ...stress('Normal stress', ['normal_stress'], 'of the upper half box'),
+        ...stress('Residual shear stress', ['residual_stress'], 'mean over the last tenth of the strain'),
+        plain('Dilation angle at the peak, degrees', key('dilation_angle_at_peak')),
+        measured('Notch', 'm', key('notch')),
+        plain('Notch over a particle', key('notch_over_particle')),
+        measured('Fracture toughness K_I at the peak', '', either('fracture_toughness', 'fracture_toughness_so_far'), 'stress times √m'),
+        {name: 'Valid', cells: (tests) => ({unit: '', values: tests.map((test) => verdictOf(test))})},
         {name: 'Failed', cells: (tests) => ({unit: '', values: tests.map((test) => (test.failed ? 'yes' : 'no: peak so far'))})},
     ]},
     {title: 'Breakage', rows: [

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The parts that hold and drive a specimen, as a linear solution takes them.
+// Tested by tests/specimens/kinds/test_kind_test.cpp.
+#pragma once
+
+#include <vector>
+
+#include "solver/linear/elastic.hpp"
+#include "specimens/setup/setup.hpp"
+
+namespace crackle {
+
+/// Supports in place, the driving part moved by this along its axis, m.
+inline std::vector<Prescribed> prescribed_parts(const TestSetup& setup, double way) {
+    std::vector<Prescribed> prescribed;
+    for (const SetupPart& part : setup.parts) {
+        const double own = part.body == setup.top ? way : 0.0;
+        prescribed.push_back({part.body, setup.axis == 1 ? BodyMotion{0.0, own, 0.0} : BodyMotion{own, 0.0, 0.0}});
+    }
+    return prescribed;
+}
+
+/// The bodies of all parts.
+inline std::vector<BodyIndex> bodies_of_parts(const TestSetup& setup) {
+    std::vector<BodyIndex> bodies;
+    for (const SetupPart& part : setup.parts) bodies.push_back(part.body);
+    return bodies;
+}
+
+}  // namespace crackle

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Three-point bending: the whole packing is a beam of depth W on two supports at a span S, pressed at midspan.
+//
+// Stress is that of the outer fibre by the theory of slender beams (ISRM, ASTM C880): σ = 3PS/(2W²), strain ε = 6Wδ/S²,
+// δ the deflection: section = 2W²/(3S), length = S²/(6W), and σ/ε is Young's modulus of a slender beam; of a short one
+// less, for it shears, too. With a notch of length a from the lower face, S = 4W: K_I = P S/W^1.5 f(a/W) = σ 2/3
+// sqrt(W) f. Pads are bonded and turn with the beam; the supports slide along x, so that the beam may grow in length.
+// Tested by tests/specimens/kinds/test_kind_test.cpp.
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "specimens/kinds/test_kind.hpp"
+
+namespace crackle {
+namespace {
+
+constexpr double default_span = 4.0;         // over the depth
+constexpr double notched_span_share = 0.01;  // by which S may differ from 4W where the formula is of 4W
+constexpr double shortest_notch = 0.05, longest_notch = 0.95;  // over the depth
+
+double span_of(const KindRequest& request) {
+    const Domain& box = request.packing;
+    return request.test.loading.span.value_or(default_span * (box.y2 - box.y1));
+}
+
+}  // namespace
+
+double notched_beam_factor(double ratio) {
+    const double a = ratio, rest = 1.0 - a;
+    return 3.0 * std::sqrt(a) * (1.99 - a * rest * (2.15 - 3.93 * a + 2.7 * a * a)) /
+           (2.0 * (1.0 + 2.0 * a) * rest * std::sqrt(rest));
+}
+
+Shape bending_shape(const KindRequest& request) {
+    Shape shape = whole_packing(request);
+    if (!request.test.shape.notch) return shape;
+    const double depth = shape.height, notch = *request.test.shape.notch;
+    if (notch < shortest_notch * depth || notch > longest_notch * depth) {
+        request.refuse(
+            "shape.notch", fmt::format("{} m", notch),
+            fmt::format("between {} and {} of the beam's depth of {:.6g} m", shortest_notch, longest_notch, depth),
+            "make the notch shorter, or the beam deeper");
+    }
+    const double middle = 0.5 * (request.packing.x1 + request.packing.x2), low = request.packing.y1;
+    const double beyond = request.particle;  // the mouth lies outside, so that no grain bridges it
+    shape.notch = Notch{{middle, low - beyond}, {middle, low + notch}};
+    const double near = 1.5 * request.particle;
+    shape.left = Region{middle - near, middle, low, low + request.particle};
+    shape.right = Region{middle, middle + near, low, low + request.particle};
+    return shape;
+}
+
+Apparatus bending_apparatus(const KindRequest& request, const Shape& shape) {
+    const Domain& box = request.packing;
+    const double depth = shape.height, span = span_of(request), pad = pad_width(request);
+    if (span + pad > shape.width) {
+        request.refuse(
+            "loading.span",
+            fmt::format("{:.6g} m{}", span, request.test.loading.span ? "" : ", four times the beam's depth"),
+            fmt::format("supports within the beam: span and a pad of {:.4g} m at most {:.6g} m", pad, shape.width),
+            "make packing.width larger, or the span smaller");
+    }
+    if (span < 2.0 * pad) {
+        request.refuse("loading.span", fmt::format("{:.6g} m", span), fmt::format("at least two pads of {:.4g} m", pad),
+                       "make the span larger");
+    }
+    if (shape.notch && std::abs(span / (default_span * depth) - 1.0) > notched_span_share) {
+        request.refuse("loading.span", fmt::format("{:.6g} m", span),
+                       fmt::format("four times the depth, {:.6g} m, with a notch", default_span * depth),
+                       "the stress intensity of a notched beam is known for that span alone; leave it out");
+    }
+    const double middle = 0.5 * (box.x1 + box.x2);
+    Apparatus apparatus;
+    for (const double x : {middle - 0.5 * span, middle + 0.5 * span}) {
+        LoadingPart support = flat_pad(x, box.y1 - request.offset, pad, true);
+        support.y = {Drive::velocity, 0.0};
+        apparatus.parts.push_back(support);
+    }
+    LoadingPart driver = flat_pad(middle, box.y2 + request.offset, pad, false);
+    driver.x = driver.y = {Drive::velocity, 0.0};
+    apparatus.parts.push_back(driver);
+    apparatus.section = 2.0 * depth * depth / (3.0 * span);
+    apparatus.length = span * span / (6.0 * depth);
+    apparatus.supports = span;
+    if (shape.notch) {
+        const double ratio = *request.test.shape.notch / depth;
+        apparatus.stress_intensity = 2.0 / 3.0 * std::sqrt(depth) * notched_beam_factor(ratio);
+    }
+    return apparatus;
+}
+
+}  // namespace crackle

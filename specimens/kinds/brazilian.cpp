@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The Brazilian test: a disc of diameter D, pressed along y over an arc of half angle α on either side.
+//
+// Stress at the centre, tension (Hondros, Aust. J. Appl. Sci. 10, 1959; ISRM 1978):
+//     σ_t = k 2P/(πD),   k = (sin 2α - α)/sin α: 0.991, 0.965, 0.920 at α = 5, 10, 15 degrees; flat and curved jaws k =
+//     1
+// so section = πD/(2k); length = D, the strain is the shortening of the diameter over it.
+// The outline is a polygon whose sides are about a particle long, with corners where the arcs end.
+// Tested by tests/specimens/kinds/test_kind_test.cpp.
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "solver/base/correctly_rounded.hpp"
+#include "specimens/kinds/test_kind.hpp"
+
+namespace crackle {
+namespace {
+
+constexpr double quarter = 0.5 * std::numbers::pi;
+// Of a curved jaw its radius over the disc's (ISRM 1978), and the half width of its face over that.
+constexpr double jaw_radius = 1.5, jaw_half_width = 0.5;
+constexpr int jaw_sides = 40;
+constexpr double jaw_depth = 0.2;             // of a jaw behind the end of its face, over the disc's radius
+constexpr double flat_jaw_half_width = 0.75;  // over the disc's radius
+
+Vec2 on_circle(Vec2 centre, double radius, double angle) {
+    return {centre.x + radius * correctly_rounded::cos(angle), centre.y + radius * correctly_rounded::sin(angle)};
+}
+
+Vec2 centre_of(const Domain& box) { return {0.5 * (box.x1 + box.x2), 0.5 * (box.y1 + box.y2)}; }
+
+/// Sides of an arc, of about a particle each.
+int sides_of_arc(double angle, double radius, double particle, int fewest) {
+    return std::max(fewest, static_cast<int>(std::lround(angle * radius / particle)));
+}
+
+/// Places along an arc, both ends among them.
+std::vector<Vec2> arc(Vec2 centre, double radius, double from, double to, int sides) {
+    std::vector<Vec2> places;
+    for (int k = 0; k <= sides; ++k)
+        places.push_back(on_circle(centre, radius, from + (to - from) * static_cast<double>(k) / sides));
+    return places;
+}
+
+/// The upper jaw; its face from left to right.
+LoadingPart upper_jaw(std::vector<Vec2> face, double top) {
+    LoadingPart jaw;
+    jaw.face = static_cast<std::uint32_t>(face.size());
+    const double left = face.front().x, right = face.back().x;
+    jaw.corners = std::move(face);
+    jaw.corners.push_back({right, top});
+    jaw.corners.push_back({left, top});
+    return jaw;
+}
+
+/// The same turned by half a turn about a centre.
+LoadingPart turned(const LoadingPart& part, Vec2 centre) {
+    LoadingPart other = part;
+    for (Vec2& corner : other.corners) corner = {2.0 * centre.x - corner.x, 2.0 * centre.y - corner.y};
+    return other;
+}
+
+std::vector<Vec2> face_of(const KindRequest& request, Vec2 centre, double radius, double alpha) {
+    const double far = request.high - centre.y;
+    if (request.test.loading.platens != "frictional") {
+        return arc(centre, radius + request.cut_offset, quarter + alpha, quarter - alpha,
+                   sides_of_arc(2.0 * alpha, radius, request.particle, 2));
+    }
+    const std::string jaws = request.test.loading.jaws.value_or("arc");
+    if (jaws == "flat")
+        return {{centre.x - flat_jaw_half_width * radius, request.high},
+                {centre.x + flat_jaw_half_width * radius, request.high}};
+    if (jaws == "curved") {
+        const double curve = jaw_radius * radius, half = correctly_rounded::asin(jaw_half_width / jaw_radius);
+        return arc({centre.x, request.high - curve}, curve, quarter + half, quarter - half, jaw_sides);
+    }
+    return arc(centre, far, quarter + alpha, quarter - alpha, jaw_sides);
+}
+
+}  // namespace
+
+double brazilian_factor(double alpha) {
+    return (correctly_rounded::sin(2.0 * alpha) - alpha) / correctly_rounded::sin(alpha);
+}
+
+double disc_diameter(const KindRequest& request) {
+    const double width = request.packing.x2 - request.packing.x1, height = request.packing.y2 - request.packing.y1;
+    const bool half = request.test.loading.kind == "scb";
+    const double room = half ? std::min(width, 2.0 * height) : std::min(width, height);
+    const double diameter = request.test.shape.diameter.value_or(room);
+    if (diameter > room * (1.0 + 1e-12)) {
+        request.refuse(
+            "shape.diameter", fmt::format("{} m", diameter),
+            fmt::format("at most {:.6g} m: the packing is {:.6g} m wide and {:.6g} m high", room, width, height),
+            "make the packing larger, or the disc smaller");
+    }
+    return diameter;
+}
+
+Shape brazilian_shape(const KindRequest& request) {
+    const double diameter = disc_diameter(request), radius = 0.5 * diameter, alpha = half_angle(request);
+    const Vec2 centre = centre_of(request.packing);
+    const int of_jaw = sides_of_arc(2.0 * alpha, radius, request.particle, 2);
+    const int of_side = sides_of_arc(2.0 * (quarter - alpha), radius, request.particle, 4);
+    Shape shape;
+    const auto add = [&](double from, double to, int sides) {
+        std::vector<Vec2> places = arc(centre, radius, from, to, sides);
+        places.pop_back();  // the next arc begins there
+        shape.outline.insert(shape.outline.end(), places.begin(), places.end());
+    };
+    add(-quarter + alpha, quarter - alpha, of_side);
+    add(quarter - alpha, quarter + alpha, of_jaw);
+    add(quarter + alpha, 3.0 * quarter - alpha, of_side);
+    add(3.0 * quarter - alpha, 3.0 * quarter + alpha, of_jaw);
+    shape.width = shape.height = diameter;
+    const double near = 2.0 * request.particle;  // of the horizontal diameter's ends
+    shape.left = Region{centre.x - radius - near, centre.x - radius + near, centre.y - near, centre.y + near};
+    shape.right = Region{centre.x + radius - near, centre.x + radius + near, centre.y - near, centre.y + near};
+    return shape;
+}
+
+Apparatus brazilian_apparatus(const KindRequest& request, const Shape& shape) {
+    const double diameter = shape.width, radius = 0.5 * diameter, alpha = half_angle(request);
+    const Vec2 centre = centre_of(request.packing);
+    const bool bonded = request.test.loading.platens != "frictional";
+    const double top = centre.y + (1.0 + jaw_depth) * radius;
+    LoadingPart upper = upper_jaw(face_of(request, centre, radius, alpha), top);
+    upper.x = upper.y = upper.rotation = {Drive::velocity, 0.0};
+    LoadingPart lower = turned(upper, centre);
+    if (!bonded) {  // it begins where the specimen does
+        const double rise = (2.0 * centre.y - request.high) - request.low;
+        for (Vec2& corner : lower.corners) corner.y -= rise;
+    }
+    Apparatus apparatus;
+    apparatus.parts = {lower, upper};
+    const bool over_an_arc = bonded || request.test.loading.jaws.value_or("arc") == "arc";
+    apparatus.section = 0.5 * std::numbers::pi * diameter / (over_an_arc ? brazilian_factor(alpha) : 1.0);
+    apparatus.length = diameter;
+    apparatus.diameter = diameter;
+    return apparatus;
+}
+
+}  // namespace crackle

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/kinds/test_kind.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+
+#include "solver/base/errors.hpp"
+
+namespace crackle {
+namespace {
+
+constexpr double default_half_angle = 10.0;  // degrees: ISRM's jaws
+// Of a beam's depth or a half disc's radius, and of a particle: narrower pads press single grains in.
+constexpr double pad_share = 0.1, fewest_particles_of_a_pad = 2.0;
+
+double side_of(Vec2 a, Vec2 b, Vec2 p) { return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x); }
+
+}  // namespace
+
+bool Notch::parts(Vec2 a, Vec2 b) const {
+    const bool across = side_of(mouth, tip, a) * side_of(mouth, tip, b) < 0.0;
+    return across && side_of(a, b, mouth) * side_of(a, b, tip) < 0.0;
+}
+
+double Notch::length() const {
+    return std::sqrt((tip.x - mouth.x) * (tip.x - mouth.x) + (tip.y - mouth.y) * (tip.y - mouth.y));
+}
+
+double Notch::distance(Vec2 place) const {
+    const double x = tip.x - mouth.x, y = tip.y - mouth.y;
+    const double along = std::clamp(((place.x - mouth.x) * x + (place.y - mouth.y) * y) / (x * x + y * y), 0.0, 1.0);
+    const double dx = place.x - mouth.x - along * x, dy = place.y - mouth.y - along * y;
+    return std::sqrt(dx * dx + dy * dy);
+}
+
+bool Shape::holds(Vec2 place) const {
+    for (std::size_t k = 0; k < outline.size(); ++k)
+        if (side_of(outline[k], outline[k + 1 == outline.size() ? 0 : k + 1], place) < 0.0) return false;
+    return true;
+}
+
+void KindRequest::refuse(const std::string& key, const std::string& found, const std::string& expected,
+                         const std::string& remedy) const {
+    throw InputError(fmt::format("{}: found {}, expected {}; {}", test.at(key), found, expected, remedy));
+}
+
+const std::vector<TestKind>& test_kinds() {
+    static const std::vector<TestKind> all{
+        {"compression", "the whole packing between two platens", true, true, whole_packing, nullptr},
+        {"tension", "the whole packing pulled by two platens", false, true, whole_packing, nullptr},
+        {"biaxial", "compression under a confining pressure", true, true, whole_packing, nullptr},
+        {"brazilian", "a disc split between two jaws", true, false, brazilian_shape, brazilian_apparatus},
+        {"bending", "a beam on two supports, pressed at midspan", true, false, bending_shape, bending_apparatus},
+        {"scb", "half a disc with a notch on two supports", true, false, scb_shape, scb_apparatus},
+        {"direct_shear", "a block in two half boxes, the upper one pressed and drawn along", false, false,
+         whole_packing, direct_shear_apparatus},
+    };
+    return all;
+}
+
+const TestKind& test_kind(const std::string& name) {
+    for (const TestKind& kind : test_kinds())
+        if (name == kind.name) return kind;
+    throw std::out_of_range("test_kind: " + name);
+}
+
+std::vector<std::string> test_kind_names() {
+    std::vector<std::string> names;
+    for (const TestKind& kind : test_kinds()) names.emplace_back(kind.name);
+    return names;
+}
+
+double half_angle(const KindRequest& request) {
+    return request.test.loading.half_angle.value_or(default_half_angle) * std::numbers::pi / 180.0;
+}
+
+double pad_width(const KindRequest& request) {
+    const Domain& box = request.packing;
+    const double size = request.test.loading.kind == "scb" ? 0.5 * disc_diameter(request) : box.y2 - box.y1;
+    return request.test.loading.pad_width.value_or(
+        std::max(pad_share * size, fewest_particles_of_a_pad * request.particle));
+}
+
+LoadingPart flat_pad(double x, double y, double width, bool up) {
+    // As deep as half its width: no corner is ever pressed in so far.
+    const double half = 0.5 * width, back = up ? y - half : y + half;
+    LoadingPart pad;
+    if (up)
+        pad.corners = {{x + half, y}, {x - half, y}, {x - half, back}, {x + half, back}};
+    else
+        pad.corners = {{x - half, y}, {x + half, y}, {x + half, back}, {x - half, back}};
+    return pad;
+}
+
+Shape whole_packing(const KindRequest& request) {
+    Shape shape;
+    shape.width = request.packing.x2 - request.packing.x1;
+    shape.height = request.packing.y2 - request.packing.y1;
+    return shape;
+}
+
+}  // namespace crackle

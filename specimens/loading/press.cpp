@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/loading/press.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "solver/base/errors.hpp"
+#include "solver/linear/elastic.hpp"
+#include "solver/stepping/step.hpp"
+#include "specimens/elastic/held_parts.hpp"
+#include "specimens/loading/displace.hpp"
+
+namespace crackle {
+namespace {
+
+constexpr int most_rounds = 50;
+
+/// Forces that are left on every body, the normal force among them.
+std::vector<BodyMotion> forces_left(const VirtualTest& test) {
+    std::vector<BodyMotion> left;
+    for (const BodyForce& force : test.world.bodies.force) left.push_back({force.fx, force.fy, force.torque});
+    left[test.setup.top].y -= test.setup.normal_force;
+    return left;
+}
+
+}  // namespace
+
+void press(VirtualTest& test) {
+    World& world = test.world;
+    const TestSetup& setup = test.setup;
+    if (!test.small_strain) {
+        throw InputError(fmt::format("{}: expected an elastic solution, by which the specimen is pressed: {}",
+                                     test.description.at("loading.normal_stress"), test.no_small_strain));
+    }
+    std::vector<bool> held(world.bodies.size(), true);
+    for (const BodyIndex b : find_free_motions(world, bodies_of_parts(setup)).bodies) held[b] = false;
+    const double particle = std::sqrt(setup.width * setup.height / static_cast<double>(setup.particles));
+    const double of_particle = setup.normal_force * particle / setup.width;
+    for (int round = 0;; ++round) {
+        std::vector<BodyMotion> left = forces_left(test);
+        double largest = std::abs(left[setup.top].y) / setup.normal_force;
+        for (BodyIndex b = 0; b < world.bodies.size(); ++b) {
+            if (!held[b]) left[b] = {};
+            if (setup.is_platen(b)) continue;
+            largest = std::max(largest, std::hypot(left[b].x, left[b].y) / of_particle);
+        }
+        if (largest <= most_unbalanced_pressed) break;
+        if (round == most_rounds || !std::isfinite(largest)) {
+            throw InputError(
+                fmt::format("{}: found no equilibrium under {:g} {}: a force of {:.2g} of that on a particle was left, "
+                            "expected at most "
+                            "{:g}, and {} bonds had broken; lower it",
+                            test.description.at("loading.normal_stress"), *test.description.loading.normal_stress,
+                            test.description.stress_unit(), largest, most_unbalanced_pressed, world.bonds.broken));
+        }
+        displace(world, solve_elastic(world, prescribed_parts(setup, 0.0), left).displacement);
+    }
+    if (world.bonds.broken > 0)
+        test.setup.notices.push_back(fmt::format("{} of {} bonds broke under the normal stress alone, before loading",
+                                                 world.bonds.broken, world.bonds.initial));
+    restart_account(world);
+    compute_forces(world);
+    strains_begin_at(test.setup, world);
+}
+
+}  // namespace crackle

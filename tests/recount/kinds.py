@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tests that are not between platens: what their stress and strain refer to, and what follows from the peak. Their bonds
+and frames are not recounted."""
+import math
+
+import numpy as np
+
+from measures import recount_energies
+
+default_notch = 0.5  # of half a disc's radius
+default_span = {"bending": 4.0, "scb": 0.8}  # over the depth; over the diameter
+default_half_angle = 10.0  # degrees
+
+
+def hondros(alpha):
+    """Stress at the centre of a disc over 2P/(πD) by uniform pressure over arcs of half angle alpha, rad."""
+    return (math.sin(2 * alpha) - alpha) / math.sin(alpha)
+
+
+def notched_beam(a):
+    """f(a/W) of ASTM E399 for S = 4W."""
+    return 3 * math.sqrt(a) * (1.99 - a * (1 - a) * (2.15 - 3.93 * a + 2.7 * a**2)) / (2 * (1 + 2 * a) * (1 - a) ** 1.5)
+
+
+def half_disc(b, s):
+    """Y' of ISRM 2014. @param b a/R @param s span over diameter"""
+    return -1.297 + 9.516 * s - (0.47 + 16.457 * s) * b + (1.071 + 34.401 * s) * b**2
+
+
+def recount_kind(r):
+    recount_energies(r)
+    key, s, kind = r.results.key, r.summary, r.summary["kind"]
+    width, height = s["initial_width"], s["initial_height"]
+    suffix = "" if s["failed"] else "_so_far"
+    peak = r.curve["axial_stress"][r.peak] if r.peak is not None else math.nan
+    intensity = None  # K_I over the nominal stress
+    if kind == "brazilian":
+        alpha = math.radians(key("loading", "half_angle", default_half_angle))
+        even = key("loading", "platens") != "frictional" or key("loading", "jaws", "arc") == "arc"
+        section, length = math.pi * width / 2 / (hondros(alpha) if even else 1.0), width
+        r.key("initial_height", width)
+    elif kind == "bending":
+        span = key("loading", "span", default_span[kind] * height)
+        r.key("span", span)
+        section, length = 2 * height**2 / (3 * span), span**2 / (6 * height)
+        notch = key("shape", "notch")
+        if notch is not None:
+            intensity = 2 / 3 * math.sqrt(height) * notched_beam(notch / height)
+            r.key("notch", notch)
+    elif kind == "scb":
+        span = key("loading", "span", default_span[kind] * width)
+        r.key("span", span)
+        section, length = width, width / 2
+        r.key("initial_height", width / 2)
+        notch = key("shape", "notch", default_notch * width / 2)
+        intensity = half_disc(2 * notch / width, span / width) * math.sqrt(math.pi * notch)
+        r.key("notch", notch)
+    else:
+        section = length = width
+        normal = key("loading", "normal_stress")
+        r.key("normal_stress", normal)
+        recount_box(r, height, length, normal * width)
+    r.key("stress_section", section)
+    r.key("strain_length", length)
+    if r.peak is not None:
+        r.key("peak_force" + suffix, peak * section)
+        if intensity is not None:
+            r.key("fracture_toughness" + suffix, peak * intensity)
+    claims = s["validity"]
+    known = [claim["holds"] for claim in claims]
+    r.key("valid", False if False in known else None if None in known else True)
+
+
+def recount_box(r, height, length, force):
+    """@param force N, that presses the upper half box down"""
+    c = r.curve
+    rise, way = c["lateral_strain"] * height, c["axial_strain"] * length
+    r.key("dilation_end", rise[-1])
+    # What the normal force does is minus it times the rise, to the rounding of a sum of steps.
+    r.rows("curve: confinement_work", c["confinement_work"], -force * rise,
+           1e-9 * force * np.max(np.abs(rise)) + 1e-12 * np.abs(c["platen_work"]) + 1e-15)
+    if r.summary["ended_by"] == "max_axial_strain":
+        r.key("residual_stress", c["axial_stress"][c["axial_strain"] >= 0.9 * c["axial_strain"][-1]].mean())
+    if r.peak is None:
+        return
+    at = c["axial_strain"][r.peak]
+    near = np.abs(c["axial_strain"] - at) <= 0.1 * at
+    if near.sum() >= 3:
+        r.key("dilation_angle_at_peak", math.degrees(math.atan(np.polyfit(way[near], rise[near], 1)[0])), floor=1e-6)

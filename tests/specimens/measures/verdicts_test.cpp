@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Verdicts on made-up cracks, each true of one specimen and false of another; figures of a shear box on a made-up
+// curve.
+
+#include "specimens/measures/verdicts.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "specimens/measures/shear_box.hpp"
+#include "tests/support/claim.hpp"
+
+namespace crackle {
+namespace {
+
+using testing::agrees;
+using testing::within;
+
+/// Particles on a grid of spacing 1, and cracks between neighbours of it.
+class Cracked {
+  public:
+    Cracked(const std::string& kind, int columns, int rows) : columns_(columns) {
+        setup.kind = kind;
+        setup.uniaxial = kind == "compression" || kind == "tension";
+        setup.compression = kind != "tension" && kind != "direct_shear";
+        setup.width = columns;
+        setup.height = rows;
+        setup.area = columns * rows;
+        setup.particles = static_cast<std::int64_t>(columns) * rows;
+        setup.middle = 0.5 * (columns - 1);
+        setup.middle_height = 0.5 * (rows - 1);
+        for (int row = 0; row < rows; ++row)
+            for (int column = 0; column < columns; ++column)
+                setup.start.push_back({static_cast<double>(column), static_cast<double>(row), 0.0});
+        setup.bottom = static_cast<BodyIndex>(setup.start.size());
+        setup.top = setup.bottom + 1;
+        setup.start.resize(setup.start.size() + 2);
+        setup.parts = {{setup.bottom, 2}, {setup.top, 2}};
+    }
+    BodyIndex at(int column, int row) const { return static_cast<BodyIndex>(row * columns_ + column); }
+    void break_between(BodyIndex a, BodyIndex b, double time = 1.0, double energy = 1.0) {
+        setup.bonds.push_back(PointKind::circle_circle, ContactPoint{a, b, 0, 0});
+        Crack crack;
+        crack.time = time;
+        crack.energy = energy;
+        crack.bond = static_cast<PointIndex>(setup.bonds.size() - 1);
+        history.cracks.push_back(crack);
+    }
+    /// Breaks a column from its right neighbour, zigzagging so that breaks share particles.
+    void split(int column, int from, int to) {
+        for (int row = from; row <= to; ++row) {
+            break_between(at(column, row), at(column + 1, row));
+            if (row < to) break_between(at(column, row + 1), at(column + 1, row));
+        }
+    }
+    std::vector<Verdict> verdicts(bool failed = true) const {
+        // A drop of 2 % at time 2.
+        std::vector<CurveRow> rows(4);
+        const double stress[] = {0.0, 100.0, 98.0, 10.0};
+        for (std::size_t k = 0; k < rows.size(); ++k) {
+            rows[k].time = static_cast<double>(k);
+            rows[k].axial_stress = stress[k];
+        }
+        return verdicts_on(setup, rows, history, failed);
+    }
+
+    TestSetup setup;
+    ContactHistory history;
+
+  private:
+    int columns_;
+};
+
+TEST(Verdicts, DiscThatSplitsAlongItsLoadIsValid) {
+    Cracked disc("brazilian", 21, 21);
+    disc.split(10, 3, 17);
+    for (const Verdict& verdict : disc.verdicts())
+        EXPECT_EQ(verdict.holds, true) << verdict.claim << ": " << verdict.found;
+}
+
+TEST(Verdicts, DiscThatIsCrushedAtBothJawsIsNot) {
+    Cracked disc("brazilian", 21, 21);
+    disc.split(10, 0, 2);  // whose mean place is the centre
+    disc.split(10, 18, 20);
+    for (const Verdict& verdict : disc.verdicts())
+        EXPECT_EQ(verdict.holds, false) << verdict.claim << ": " << verdict.found;
+}
+
+TEST(Verdicts, BreaksAfterTheFirstDropDoNotCountAgainstADisc) {
+    Cracked disc("brazilian", 21, 21);
+    disc.break_between(disc.at(10, 10), disc.at(11, 10), 1.0);
+    disc.break_between(disc.at(10, 0), disc.at(11, 0), 2.5, 1000.0);
+    const auto verdicts = disc.verdicts();
+    EXPECT_EQ(verdicts[0].holds, true) << verdicts[0].found;
+    EXPECT_EQ(verdicts[1].holds, true) << verdicts[1].found;
+}
+
+TEST(Verdicts, SlantedCrackOfADiscIsNotASplit) {
+    Cracked disc("brazilian", 21, 21);
+    for (int k = 4; k < 16; ++k) {
+        disc.break_between(disc.at(k, k), disc.at(k + 1, k));
+        disc.break_between(disc.at(k + 1, k), disc.at(k + 1, k + 1));
+    }
+    EXPECT_EQ(disc.verdicts()[2].holds, false) << disc.verdicts()[2].found;
+    EXPECT_FALSE(disc.verdicts(false)[2].holds.has_value());  // it may yet
+}
+
+TEST(Verdicts, BeamBreaksAtMidspanOrNot) {
+    Cracked middle("bending", 81, 21), end("bending", 81, 21);
+    middle.split(40, 0, 15);
+    end.split(70, 0, 15);
+    EXPECT_EQ(middle.verdicts()[0].holds, true) << middle.verdicts()[0].found;
+    EXPECT_EQ(end.verdicts()[0].holds, false) << end.verdicts()[0].found;
+}
+
+TEST(Verdicts, BoxShearsAlongItsGapOrNot) {
+    Cracked along("direct_shear", 41, 21), across("direct_shear", 41, 21);
+    for (int k = 0; k < 40; ++k) along.break_between(along.at(k, 10), along.at(k, 11));
+    for (int k = 0; k < 20; ++k) across.break_between(across.at(k, k), across.at(k + 1, k));
+    EXPECT_EQ(along.verdicts()[0].holds, true) << along.verdicts()[0].found;
+    EXPECT_EQ(across.verdicts()[0].holds, false) << across.verdicts()[0].found;
+}
+
+TEST(Verdicts, SpecimenBetweenPlatensIsWideEnoughAndPartsInTheMiddleOrNot) {
+    Cracked good("tension", 20, 40), bad("tension", 10, 40);
+    good.break_between(good.at(5, 20), good.at(5, 21));
+    bad.break_between(bad.at(5, 0), bad.setup.bottom);
+    for (const Verdict& verdict : good.verdicts())
+        EXPECT_EQ(verdict.holds, true) << verdict.claim << ": " << verdict.found;
+    for (const Verdict& verdict : bad.verdicts())
+        EXPECT_EQ(verdict.holds, false) << verdict.claim << ": " << verdict.found;
+    EXPECT_FALSE(Cracked("tension", 20, 40).verdicts()[1].holds.has_value());
+}
+
+TEST(ShearBox, ResidualAndDilationAreThoseOfTheCurve) {
+    // Stress 1 - 0.5 (1 - exp(...)) is not needed: a peak in row 50, then 3; rise with a slope of tan 12 degrees.
+    std::vector<CurveRow> rows(101);
+    const double slope = std::tan(12.0 * 3.14159265358979 / 180.0), height = 2.0, length = 3.0;
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+        rows[k].axial_strain = 1e-4 * static_cast<double>(k);
+        rows[k].axial_stress = k == 50 ? 10.0 : k > 50 ? 3.0 : 0.1 * static_cast<double>(k);
+        rows[k].lateral_strain = slope * rows[k].axial_strain * length / height;
+    }
+    const ShearBoxFigures figures = measure_shear_box(rows, 50, true, height, length);
+    EXPECT_TRUE(agrees("residual stress", figures.residual, 3.0, 1e-12));
+    EXPECT_TRUE(agrees("dilation angle", figures.dilation_at_peak, 12.0, 1e-9));
+    EXPECT_TRUE(std::isnan(measure_shear_box(rows, 50, false, height, length).residual));
+    EXPECT_TRUE(std::isnan(measure_shear_box({}, -1, true, height, length).dilation_at_peak));
+}
+
+}  // namespace
+}  // namespace crackle
