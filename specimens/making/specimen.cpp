@@ -282,18 +282,13 @@ bool cell_on_side(const Cell& cell, Wall side, bool domain_boundary, const std::
     return std::count_if(cell.centres.begin(), cell.centres.end(), touches) >= 2;
 }
 
-// Of the mean cell size: at 0.02 all but one in a hundred faces have both their points (solver/MODEL.md 5.2), and no
-// cell of a usual packing is destroyed.
-constexpr double derived_gap_share = 0.02;
-
 /// The gap between cells of a case that gives none.
 double derived_mesh_thick(const TestCase& test, const Scene& circles, const TestHooks& hooks) {
     if (test.mesh.inset) return 2.0 * *test.mesh.inset;
     const Rectangle box = rectangle(circles.domain);
     const std::size_t cells =
         mesh_kind(test) == MeshKind::voronoi ? circles.bodies.size() : bare_cells(test, circles).cells.size();
-    const double thick =
-        derived_gap_share * std::sqrt((box.x2 - box.x1) * (box.y2 - box.y1) / static_cast<double>(cells));
+    const double thick = derived_gap((box.x2 - box.x1) * (box.y2 - box.y1), static_cast<double>(cells));
     hooks.report_stage(
         fmt::format("mesh.thick = {:.4g} m by default: {} of the mean cell size", thick, derived_gap_share));
     return thick;
