@@ -2,11 +2,14 @@
 // `crackle envelope OUT...`: strength over confinement, of tests and of campaigns.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <nlohmann/json.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -187,6 +190,20 @@ void print(const EnvelopeFigure& e) {
     }
 }
 
+/// @throws InputError of too little, with what was left out
+EnvelopeFigure fitted_to(const MeasuredStrengths& tests) {
+    try {
+        return {fit_envelope(tests.compressions), tests, mean_of(tests.tensions)};
+    } catch (const InputError& error) {
+        if (tests.left_out.empty()) throw;
+        constexpr std::size_t most_named = 5;
+        const std::size_t named = std::min(most_named, tests.left_out.size());
+        throw InputError(fmt::format(
+            "{}; left out: {}{}", error.what(), fmt::join(std::span(tests.left_out).first(named), "; "),
+            named < tests.left_out.size() ? fmt::format("; and {} more", tests.left_out.size() - named) : ""));
+    }
+}
+
 void draw(const EnvelopeFigure& e, const fs::path& output, const plot::FigureLook& look, plot::Format format) {
     using Rows = std::vector<std::vector<plot::Panel>>;
     constexpr double widest_stacked = 120.0 * plot::points_of_mm;
@@ -237,7 +254,7 @@ int envelope(const Invocation& given) {
         refuse_replacing(output, values.contains("force"));
     }
     const MeasuredStrengths tests = read_strengths(std::vector<fs::path>(given.operands.begin(), given.operands.end()));
-    const EnvelopeFigure fitted{fit_envelope(tests.compressions), tests, mean_of(tests.tensions)};
+    const EnvelopeFigure fitted = fitted_to(tests);
     const std::vector<std::string> notices = notices_on(fitted);
     if (!output.empty()) draw(fitted, output, look, format);
     if (values.contains("json")) {

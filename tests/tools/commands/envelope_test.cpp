@@ -178,6 +178,8 @@ TEST_F(EnvelopeCommand, SaysWhatItLacks) {
     std::string one_packing;
     for (const double pressure : pressures) one_packing += sample({1, pressure, on_line(pressure)}) + " ";
     expect_refused(one_packing, "found 6 confinements of 1 packings");
+    const std::string unfailed = sample({2, 100.0, std::nullopt});
+    expect_refused(one_packing + unfailed, "left out: " + unfailed + ": did not fail by loading.max_axial_strain");
     expect_refused(one_packing + "c1_0", "c1_0: found a second compression of packing 1 under 0 N/m");
 }
 
