@@ -197,6 +197,7 @@ void judge_bounds(const Rock& rock) {
 /// A law needs compressions under several pressures.
 void judge_laws(const Rock& rock) {
     std::vector<double> start;
+    start.reserve(rock.free.size());
     for (const FreeKey& free : rock.free) start.push_back(free.start);
     for (const Target& target : rock.targets) {
         std::set<double> pressures;
