@@ -166,7 +166,7 @@ class Calibration {
             "{}: found {} of {} of only {} of {} packings to be a number above 0 at {} ({} are 0 or less, {} have gone "
             "wrong "
             "or not failed), expected all targets' of at least half; {}; see `crackle campaign show {}`",
-            space_.target(worst).where, space_.target(worst).figure, rock_.tests[space_.target(worst).test].name,
+            space_.target(worst).where, space_.target(worst).quantity(), space_.target(worst).source(rock_.tests),
             fewest, packings.count, at, negative, packings.count - fewest - negative,
             negative > 0 ? "take another target"
                          : "tests that do not fail want a larger loading.max_axial_strain, or a "

@@ -5,13 +5,17 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "solver/base/errors.hpp"
 #include "specimens/campaign/point_table.hpp"
+#include "specimens/envelope/strength_envelope.hpp"
 #include "specimens/making/hooks.hpp"
 
 namespace crackle {
 namespace {
+
+constexpr std::size_t no_column = std::numeric_limits<std::size_t>::max();
 
 double number_in(const std::vector<LedgerCell>& row, std::size_t column) {
     const auto* number = column < row.size() ? std::get_if<double>(&row[column]) : nullptr;
@@ -76,9 +80,14 @@ void Measurements::read(const Plan& plan) {
                                         results.columns.begin());
     };
     const std::size_t failed = column("failed"), state = column("state");
-    std::vector<std::size_t> columns;
-    columns.reserve(rock_.targets.size());
-    for (const Target& target : rock_.targets) columns.push_back(column(target.figure));
+    std::vector<std::size_t> columns, divisors;  // of figures, and of those that ratios are over
+    for (const Target& target : rock_.targets) {
+        columns.push_back(target.of_law() ? column("peak_stress") : column(target.figure));
+        divisors.push_back(target.over.empty() ? no_column : column(target.over));
+    }
+    const std::size_t pressure = column("confining_pressure");
+    // Of each point and packing, by target: the strengths that its law is fitted to.
+    std::map<std::pair<std::size_t, std::int64_t>, std::map<std::size_t, std::vector<StrengthPoint>>> strengths;
     for (auto& [place, figures] : known_) figures.assign(rock_.targets.size(), std::nan(""));
     std::vector<bool> any(rock_.targets.size(), false), done(rock_.tests.size(), false);
     for (std::size_t r = 0; r < results.rows.size(); ++r) {
@@ -88,14 +97,33 @@ void Measurements::read(const Plan& plan) {
         const PlanRow& asked = plan.rows[r];
         const std::size_t test = plan.points[asked.point].test;
         done[test] = true;
-        std::vector<double>& figures = known_.at({asked.point / rock_.tests.size(), asked.seed - rock_.first_seed});
+        const std::pair place(asked.point / rock_.tests.size(), asked.seed - rock_.first_seed);
+        std::vector<double>& figures = known_.at(place);
         for (std::size_t t = 0; t < rock_.targets.size(); ++t) {
             const Target& target = rock_.targets[t];
+            double value = number_in(row, columns[t]);
+            if (target.of_law()) {
+                if (std::ranges::find(target.tests, test) == target.tests.end() || !std::isfinite(value)) continue;
+                const double confined = number_in(row, pressure);
+                strengths[place][t].push_back({"", std::isfinite(confined) ? confined : 0.0, value});
+                continue;
+            }
             if (target.test != test) continue;
-            const double value = number_in(row, columns[t]);
+            if (divisors[t] != no_column) value /= number_in(row, divisors[t]);
             any[t] = any[t] || std::isfinite(value);
-            if (number_in(row, failed) == 0.0 && refers_to_peak(target.figure)) continue;
+            if (number_in(row, failed) == 0.0 && (refers_to_peak(target.figure) || refers_to_peak(target.over)))
+                continue;
             figures[t] = value;
+        }
+    }
+    // A packing that lacks a strength has no law: that of the others would be another's.
+    for (const auto& [place, of_targets] : strengths) {
+        for (const auto& [t, points] : of_targets) {
+            const Target& target = rock_.targets[t];
+            if (points.size() < target.tests.size()) continue;
+            const FittedLaws laws = fit_laws(points);
+            known_.at(place)[t] = target.figure == "friction_angle" ? laws.friction_angle : laws.hoek_brown_m;
+            any[t] = true;
         }
     }
     for (std::size_t t = 0; t < rock_.targets.size(); ++t) {
@@ -103,7 +131,7 @@ void Measurements::read(const Plan& plan) {
         if (any[t]) continue;
         throw InputError(fmt::format(
             "{}: found no {} in any test of {}{}, expected a number; see `crackle campaign show {} --wrong`",
-            target.where, target.figure, rock_.tests[target.test].name,
+            target.where, target.quantity(), target.source(rock_.tests),
             done[target.test] ? " (did one fail by loading.max_axial_strain?)" : ", of which none was done",
             options_.folder.string()));
     }

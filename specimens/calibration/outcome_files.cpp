@@ -26,7 +26,7 @@ Json json_of(const MeanFigure& mean) {
 
 /// What a target is called in a sentence.
 std::string target_name(const Rock& rock, std::size_t k) {
-    return fmt::format("{} of {}", rock.targets[k].figure, rock.tests[rock.targets[k].test].name);
+    return fmt::format("{} of {}", rock.targets[k].quantity(), rock.targets[k].source(rock.tests));
 }
 
 std::string percent(double share) { return fmt::format("{:+.1f} %", 100.0 * share); }
@@ -126,8 +126,8 @@ Json calibration_json(const Rock& rock, const CalibrationOutcome& outcome) {
     for (std::size_t k = 0; k < rock.targets.size(); ++k) {
         const Target& target = rock.targets[k];
         const ReachedTarget& reached = outcome.targets[k];
-        all["targets"].push_back({{"test", rock.tests[target.test].name},
-                                  {"figure", target.figure},
+        all["targets"].push_back({{"test", target.source(rock.tests)},
+                                  {"figure", target.quantity()},
                                   {"value", target.value},
                                   {"tolerance", target.tolerance},
                                   {"error", target.error},
@@ -189,7 +189,7 @@ std::string calibration_text(const Rock& rock, const CalibrationOutcome& outcome
     for (std::size_t k = 0; k < rock.targets.size(); ++k) {
         const ReachedTarget& reached = outcome.targets[k];
         const bool area = rock.case_of(rock.targets[k].test, outcome.values()).area_units();
-        const std::string unit = unit_of_figure(rock.targets[k].figure, area);
+        const std::string unit = rock.targets[k].unit(area);
         text +=
             fmt::format("  {:<34}{:>11.4g}{:>11.4g}{:>11.2g}{:>11.2g}{:>10}{:>7.1f} %  {}\n",
                         fmt::format("{}{}{}", target_name(rock, k), unit.empty() ? "" : ", ", unit),

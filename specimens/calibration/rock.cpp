@@ -6,12 +6,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <set>
 
 #include "solver/base/errors.hpp"
 #include "solver/files/read_file.hpp"
 #include "specimens/campaign/plan_file.hpp"
+#include "specimens/campaign/point_table.hpp"
 #include "specimens/case/keyed_table.hpp"
 #include "specimens/case/parameters.hpp"
+#include "specimens/envelope/strength_envelope.hpp"
 #include "specimens/recordings/measured_curve.hpp"
 #include "specimens/results/summary.hpp"
 
@@ -27,6 +31,11 @@ constexpr DeclaredKey rock_keys[]{
     {"[[test]]", "set", "a table", "Keys of the case with other values, as in a plan."},
     {"[[target]]", "test", "the name of a test", "Which one the figure is of; required where there are several."},
     {"[[target]]", "figure", "a figure of summary.json", "\"youngs_modulus\", \"peak_stress\"; required."},
+    {"[[target]]", "over", "another figure of summary.json",
+     "The target is the ratio to it: crack_initiation_stress over peak_stress."},
+    {"[[target]]", "tests", "a list of names",
+     "In place of test, with figure \"friction_angle\" (Mohr-Coulomb, deg) or \"hoek_brown_m\": compressions under "
+     "three pressures or more, 0 among them, that the law is fitted to, of each packing by itself."},
     {"[[target]]", "value", "a number > 0", "What the mean over packings is to be, in the figure's units; required."},
     {"[[target]]", "tolerance", "a number > 0 and < 1", "Share of it that the mean may be off by; 0.05 by default."},
     {"[[target]]", "error", "a number >= 0 and < 1", "Standard error of the measured value, as a share of it; 0."},
@@ -46,19 +55,23 @@ constexpr DeclaredKey rock_keys[]{
 };
 constexpr std::size_t most_free_keys = 8;
 
-std::size_t test_of(const Rock& rock, const KeyedTable& table) {
-    const std::optional<std::string> name = table.text("test");
-    if (!name && rock.tests.size() == 1) return 0;
-    if (!name) table.refuse("test", "nothing");
+std::size_t test_named(const Rock& rock, const KeyedTable& table, const char* key, const std::string& name) {
     const auto at =
-        std::find_if(rock.tests.begin(), rock.tests.end(), [&](const auto& one) { return one.name == *name; });
+        std::find_if(rock.tests.begin(), rock.tests.end(), [&](const auto& one) { return one.name == name; });
     if (at == rock.tests.end()) {
         std::vector<std::string> names;
         names.reserve(rock.tests.size());
         for (const PlannedTest& test : rock.tests) names.push_back(test.name);
-        table.refuse("test", fmt::format("\"{:.40}\"", *name), fmt::format("one of {}", fmt::join(names, ", ")));
+        table.refuse(key, fmt::format("\"{:.40}\"", name), fmt::format("one of {}", fmt::join(names, ", ")));
     }
     return static_cast<std::size_t>(at - rock.tests.begin());
+}
+
+std::size_t test_of(const Rock& rock, const KeyedTable& table) {
+    const std::optional<std::string> name = table.text("test");
+    if (!name && rock.tests.size() == 1) return 0;
+    if (!name) table.refuse("test", "nothing");
+    return test_named(rock, table, "test", *name);
 }
 
 double share(const KeyedTable& table, const char* key, double otherwise, bool zero) {
@@ -67,21 +80,58 @@ double share(const KeyedTable& table, const char* key, double otherwise, bool ze
     return found.value_or(otherwise);
 }
 
+void require_summary_figure(const KeyedTable& table, const char* key, std::string name) {
+    const std::string asked = name;
+    if (name.ends_with(converted_suffix)) name.resize(name.size() - std::string_view(converted_suffix).size());
+    const auto& known = summary_keys();
+    if (std::none_of(known.begin(), known.end(), [&](const SummaryKey& one) { return one.what.name == name; }))
+        table.refuse(key, fmt::format("\"{:.60}\"", asked), "a figure of summary.json, peak_stress say");
+}
+
+constexpr const char* law_figures[]{"friction_angle", "hoek_brown_m"};
+bool is_of_law(const std::string& figure) { return std::ranges::find(law_figures, figure) != std::end(law_figures); }
+
+/// The tests of a law; in which pressures they are is judged with the bounds, where their cases are whole.
+std::vector<std::size_t> law_tests(const Rock& rock, const KeyedTable& table) {
+    std::vector<std::size_t> tests;
+    for (const std::string& name : table.texts("tests")) {
+        const std::size_t test = test_named(rock, table, "tests", name);
+        if (std::ranges::find(tests, test) != tests.end())
+            table.refuse("tests", fmt::format("\"{:.40}\" twice", name), "each test once");
+        tests.push_back(test);
+    }
+    return tests;
+}
+
 Target read_target(const Rock& rock, const KeyedTable& table) {
     Target target;
-    target.test = test_of(rock, table);
     target.where = table.where("figure");
     const std::optional<std::string> figure = table.text("figure");
     if (!figure) table.refuse("figure", "nothing");
     target.figure = *figure;
-    std::string name = target.figure;
-    if (name.ends_with(converted_suffix)) name.resize(name.size() - std::string_view(converted_suffix).size());
-    const auto& known = summary_keys();
-    if (std::none_of(known.begin(), known.end(), [&](const SummaryKey& key) { return key.what.name == name; }))
-        table.refuse("figure", fmt::format("\"{:.60}\"", *figure), "a figure of summary.json, peak_stress say");
+    target.over = table.text("over").value_or("");
+    target.tests = law_tests(rock, table);
+    if (is_of_law(target.figure) != target.of_law()) {
+        if (target.of_law())
+            table.refuse("figure", fmt::format("\"{:.60}\" of several tests", *figure),
+                         fmt::format("one of {}", fmt::join(law_figures, ", ")));
+        table.refuse("tests", "nothing", fmt::format("the compressions that {} is fitted to", *figure));
+    }
+    if (target.of_law()) {
+        target.test = target.tests.front();
+        for (const char* key : {"test", "over"})
+            if (table.text(key)) table.refuse(key, "it beside tests", "none");
+    } else {
+        target.test = test_of(rock, table);
+        require_summary_figure(table, "figure", target.figure);
+    }
+    if (!target.over.empty()) {
+        require_summary_figure(table, "over", target.over);
+        if (target.over == target.figure) table.refuse("over", "the figure itself", "another one");
+    }
     for (const Target& other : rock.targets)
-        if (other.test == target.test && other.figure == target.figure)
-            table.refuse("figure", fmt::format("{} twice", *figure), "one [[target]] a figure of a test");
+        if (other.test == target.test && other.tests == target.tests && other.quantity() == target.quantity())
+            table.refuse("figure", fmt::format("{} twice", target.quantity()), "one [[target]] a figure of a test");
     const std::optional<double> value = table.positive("value");
     if (!value) table.refuse("value", "nothing");
     target.value = *value;
@@ -144,7 +194,41 @@ void judge_bounds(const Rock& rock) {
     }
 }
 
+/// A law needs compressions under several pressures.
+void judge_laws(const Rock& rock) {
+    std::vector<double> start;
+    start.reserve(rock.free.size());
+    for (const FreeKey& free : rock.free) start.push_back(free.start);
+    for (const Target& target : rock.targets) {
+        std::set<double> pressures;
+        for (const std::size_t test : target.tests) {
+            const TestCase of = rock.case_of(test, start);
+            if (of.loading.kind == "tension") {
+                throw InputError(fmt::format("{}: [[target]] tests: found {}, a tension, expected compressions",
+                                             target.where, rock.tests[test].name));
+            }
+            pressures.insert(of.confinement.pressure.value_or(0.0));
+        }
+        if (target.of_law() && pressures.size() < fewest_confinements) {
+            throw InputError(fmt::format("{}: [[target]] tests: found {} confining pressures, expected {} or more",
+                                         target.where, pressures.size(), fewest_confinements));
+        }
+    }
+}
+
 }  // namespace
+
+std::string Target::source(const std::vector<PlannedTest>& all) const {
+    if (!of_law()) return all[test].name;
+    std::string names;
+    for (const std::size_t one : tests) names += (names.empty() ? "" : ", ") + all[one].name;
+    return names;
+}
+
+std::string Target::unit(bool area_units) const {
+    if (of_law()) return figure == "friction_angle" ? "deg" : "";
+    return over.empty() ? unit_of_figure(figure, area_units) : "";
+}
 
 double FreeKey::to_variable(double value) const { return logarithmic() ? std::log(value) : value / scale(); }
 double FreeKey::to_value(double variable) const {
@@ -209,6 +293,7 @@ Rock read_rock(const fs::path& path) {
     rock.first_seed = packings.whole("first_seed", 0).value_or(rock.first_seed);
     rock.time_limit = file.table("run").positive("time_limit").value_or(0.0);
     judge_bounds(rock);
+    judge_laws(rock);
     return rock;
 }
 

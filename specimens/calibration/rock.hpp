@@ -4,6 +4,8 @@
 //   title = "…"
 //   [[test]]     name, case, set                              as in a campaign's plan
 //   [[target]]   test, figure, value, tolerance, error        a figure of summary.json that the mean is to reach
+//                over                                         or its ratio to another one of the same test
+//                tests, figure                                or what a law fitted to several compressions has
 //   [[free]]     key, of, from, to, start                     a key to be found between bounds; with `of` its ratio to
 //   another
 //   [[curve]]    test, file                                   measured, drawn beside the fresh packings' curves
@@ -25,14 +27,21 @@
 namespace crackle {
 
 struct Target {
-    std::size_t test = 0;     ///< into Rock::tests
-    std::string figure;       ///< of summary.json, "peak_stress"
+    std::size_t test = 0;  ///< into Rock::tests
+    /// Of a law of strength over confinement: these tests, `test` the first of them; else empty.
+    std::vector<std::size_t> tests = {};
+    std::string figure;       ///< of summary.json, "peak_stress"; or of the law, friction_angle, hoek_brown_m
+    std::string over = {};    ///< of summary.json, too: the target is the ratio to it; empty: the figure
     double value = 0.0;       ///< > 0, in the units of the figure
     double tolerance = 0.05;  ///< share of the value that the mean may be off by
     double error = 0.0;       ///< standard error of the value itself, as a share of it
     std::string where;
 
-    std::string name(const std::vector<PlannedTest>& tests) const { return tests[test].name + " " + figure; }
+    bool of_law() const { return !tests.empty(); }
+    std::string quantity() const { return over.empty() ? figure : figure + " over " + over; }
+    std::string source(const std::vector<PlannedTest>& all) const;  ///< names of its tests
+    std::string name(const std::vector<PlannedTest>& all) const { return source(all) + " " + quantity(); }
+    std::string unit(bool area_units) const;  ///< empty of a number without one
 };
 
 /// A number to be found. Searched on a logarithmic scale where its bounds are above 0, else on a linear one.

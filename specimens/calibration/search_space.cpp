@@ -11,6 +11,10 @@ namespace {
 
 using Eigen::Index;
 
+bool is_linear(const Target& target) {
+    return target.over.empty() && !target.of_law() && linear_figure_of(target.figure).has_value();
+}
+
 /// The key that all strengths go with; -1: none.
 Index level_key_of(const SearchSpace& space) {
     Index tensile = -1;
@@ -47,10 +51,9 @@ SearchSpace::SearchSpace(const Rock& of)
     for (Index t = 0; t < targets; ++t) {
         logs[t] = std::log(target(t).value);
         widths[t] = std::log1p(target(t).tolerance);
-        moduli = moduli || linear_figure_of(target(t).figure);
+        moduli = moduli || is_linear(target(t));
     }
-    for (Index t = 0; t < targets; ++t)
-        (elastic && linear_figure_of(target(t).figure) ? linear_targets : other_targets).push_back(t);
+    for (Index t = 0; t < targets; ++t) (elastic && is_linear(target(t)) ? linear_targets : other_targets).push_back(t);
     for (Index k = 0; k < keys; ++k) {
         if (moduli && is_elastic_key(key(k).key))
             linear_keys.push_back(k);
@@ -68,7 +71,9 @@ std::vector<double> SearchSpace::values_at(const Eigen::VectorXd& x) const {
 
 bool SearchSpace::goes_with_level(Index t) const {
     const std::string& figure = target(t).figure;
-    return level_key >= 0 && (figure.starts_with("peak_stress") || figure.starts_with("largest_stress"));
+    const bool strength = figure.starts_with("peak_stress") || figure.starts_with("largest_stress");
+    return level_key >= 0 && strength && target(t).over.empty() &&
+           !rock.case_of(target(t).test, values_at(start)).confined();
 }
 
 }  // namespace crackle

@@ -27,7 +27,7 @@ struct SearchSpace {
     std::vector<double> values_at(const Eigen::VectorXd& x) const;
     const Target& target(Eigen::Index t) const { return rock.targets[static_cast<std::size_t>(t)]; }
     const FreeKey& key(Eigen::Index k) const { return rock.free[static_cast<std::size_t>(k)]; }
-    /// Whether it is a strength, which goes with the level.
+    /// Whether it is a strength, which goes with the level; one under a pressure, which does not change, does not.
     bool goes_with_level(Eigen::Index t) const;
 };
 

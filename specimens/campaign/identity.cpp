@@ -49,6 +49,13 @@ std::string listed(const TestCase& test, FileHashes& files, const Wanted& wanted
     return text;
 }
 
+bool states_material(const TestCase& test) {
+    const TestCase::MaterialKeys& m = test.material;
+    const bool stiff =
+        test.area_units() ? m.contact_modulus && m.stiffness_ratio : m.normal_stiffness && m.shear_stiffness;
+    return m.density && stiff && m.friction_angle && (m.damping_ratio || (m.normal_damping && m.shear_damping));
+}
+
 }  // namespace
 
 const std::string& FileHashes::of(const std::filesystem::path& file) {
@@ -63,6 +70,24 @@ std::string identity_of(const TestCase& test, FileHashes& files) {
     };
     return hash_of(listed(test, files, counts) +
                    fmt::format("damping {} step {}\n", test.damping_scale, test.step_scale));
+}
+
+bool differs_within_a_rock(const std::string& key) {
+    constexpr std::array<std::string_view, 5> keys{"title", "packing.seed", "bond.strength_seed", "minerals.seed",
+                                                   "numerics.threads"};
+    constexpr std::array<std::string_view, 3> tables{"confinement.", "loading.", "output."};
+    return std::ranges::find(keys, key) != keys.end() ||
+           std::ranges::any_of(tables, [&](std::string_view table) { return key.starts_with(table); });
+}
+
+std::map<std::string, std::string> keys_of_rock(const TestCase& test, FileHashes& files) {
+    std::map<std::string, std::string> keys;
+    for (const ResolvedKey& key : resolved_keys(test)) {
+        if (differs_within_a_rock(key.label)) continue;
+        if (key.label == "particles.file" && states_material(test)) continue;
+        keys[key.label] = text_of(test, key, files);
+    }
+    return keys;
 }
 
 std::string packing_identity(const TestCase& test, FileHashes& files) {

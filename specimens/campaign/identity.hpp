@@ -33,4 +33,11 @@ std::string identity_of(const TestCase& test, FileHashes& files);
 /// The same of what makes the packing alone: tests that have it equal start from the same circles.
 std::string packing_identity(const TestCase& test, FileHashes& files);
 
+/// Whether two tests of one rock may differ in a key: title, seeds, confinement, loading, threads and output.
+bool differs_within_a_rock(const std::string& key);
+
+/// What the rock of a test is made of: every key but those with its value, files by what they contain. A particle file
+/// is a packing, like a seed, where the case states the material; else it has that, too, and counts.
+std::map<std::string, std::string> keys_of_rock(const TestCase& test, FileHashes& files);
+
 }  // namespace crackle

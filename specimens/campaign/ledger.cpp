@@ -13,6 +13,7 @@
 
 #include "solver/base/errors.hpp"
 #include "solver/files/read_file.hpp"
+#include "specimens/campaign/identity.hpp"
 
 namespace crackle {
 namespace {
@@ -59,6 +60,22 @@ std::string rows_mark(const Plan& plan, const std::vector<std::string>& identiti
                             identities[k]);
     const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
     return fmt::format("{:016x}{:016x}", hash.high64, hash.low64);
+}
+
+/// By the tests' names.
+std::string rocks_text(const Plan& plan) {
+    nlohmann::ordered_json rocks = nlohmann::ordered_json::object();
+    FileHashes files;
+    for (std::size_t k = 0; k < plan.points.size(); ++k) {
+        const PlanPoint& point = plan.points[k];
+        const std::string& name = plan.tests[point.test].name;
+        if (rocks.contains(name)) continue;
+        std::map<std::string, std::string> keys =
+            keys_of_rock(plan.test_of({k, point.own_seed, Variant::as_asked}), files);
+        for (const CaseSetting& setting : point.settings) keys.erase(setting.key);
+        rocks[name] = keys;
+    }
+    return rocks.dump();
 }
 
 void run(SQLite::Statement& statement) {
@@ -258,6 +275,7 @@ void Ledger::set_plan(const Plan& plan, const std::vector<std::string>& identiti
         note("plan_file", plan.file.filename().string());
         note("results_version", fmt::format("{}", results_version));
         note("rows", rows_mark(plan, identities));
+        note("rocks", rocks_text(plan));
         make_views();
         change.commit();
     });

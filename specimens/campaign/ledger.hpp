@@ -2,7 +2,9 @@
 // The ledger of a campaign: one SQLite file that says what was planned, what has been run, and what came of it. Written
 // by one process; any number may read it meanwhile, by `crackle campaign show`, sqlite3, pandas.
 //
-//   meta     key, value: the plan's text, title, versions
+//   meta     key, value: the plan's text, title, versions; rocks: what each of its tests is made of (keys_of_rock() of
+//   its
+//            first point, without the axes that are for it), as JSON
 //   point    number, test, and a column for each axis of the plan, named by its key
 //   plan     row, point, seed, variant, identity: what the present plan asks for
 //   test     identity, state, tries, host, processor_seconds, wall_seconds, exit, message, notices: all that were run,

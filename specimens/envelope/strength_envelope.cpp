@@ -124,7 +124,7 @@ std::vector<StrengthAt> by_confinement(std::span<const StrengthPoint> tests) {
     std::vector<StrengthAt> all;
     for (const auto& [confinement, values] : strengths) {
         const MeanFigure mean = mean_of(values);
-        all.push_back({confinement, values.size(), mean.mean, mean.deviation});
+        all.push_back({confinement, values.size(), mean.mean, mean.deviation, mean.low, mean.high});
     }
     return all;
 }
@@ -155,8 +155,38 @@ std::array<double, 6> numbers_of(const Points& points) {
 
 }  // namespace
 
+FittedLaws fit_laws(std::span<const StrengthPoint> tests) {
+    Points points;
+    for (const StrengthAt& at : by_confinement(tests))
+        points.push_back({at.confinement, at.mean, std::sqrt(static_cast<double>(at.tests)) / at.mean});
+    if (points.size() < fewest_confinements) {
+        throw InputError(
+            fmt::format("envelope: found {} confinements, expected at least {}", points.size(), fewest_confinements));
+    }
+    const std::array<double, 6> found = numbers_of(points);
+    return {found[0], found[1], found[2], found[3], found[4], found[5]};
+}
+
 double StrengthEnvelope::hoek_brown(double confinement) const {
     return HoekBrown{hoek_brown_strength.value, hoek_brown_m.value}.at(confinement);
+}
+
+double StrengthEnvelope::hoek_brown_tension() const {
+    const double m = hoek_brown_m.value;
+    // m - sqrt(m² + 4) of a large m without its cancellation.
+    return -2.0 * hoek_brown_strength.value / (m + std::sqrt(m * m + 4.0));
+}
+
+PlaneStress StrengthEnvelope::hoek_brown_on_plane(double deviator) const {
+    const double c = hoek_brown_strength.value, m = hoek_brown_m.value;
+    const double confinement = (deviator * deviator - c * c) / (m * c);
+    if (deviator == 0.0) return {confinement, 0.0};
+    const double k = 1.0 + m * c / (2.0 * deviator);
+    return {confinement + deviator / (1.0 + k), deviator * std::sqrt(k) / (1.0 + k)};
+}
+
+double StrengthEnvelope::mohr_coulomb_on_plane(double normal) const {
+    return cohesion.value + normal * (slope.value - 1.0) / (2.0 * std::sqrt(slope.value));  // tan φ
 }
 
 StrengthEnvelope fit_envelope(std::span<const StrengthPoint> tests) {

@@ -38,6 +38,13 @@ struct StrengthAt {
     std::size_t tests = 0;
     double mean = 0.0;
     double deviation = std::numeric_limits<double>::quiet_NaN();  ///< sample standard deviation; not of one test
+    double low = std::numeric_limits<double>::quiet_NaN();        ///< of the mean's 95 % interval (mean_of()); likewise
+    double high = std::numeric_limits<double>::quiet_NaN();
+};
+
+/// Stresses on the plane of failure, compression positive.
+struct PlaneStress {
+    double normal = 0.0, shear = 0.0;
 };
 
 struct StrengthEnvelope {
@@ -51,7 +58,28 @@ struct StrengthEnvelope {
 
     double mohr_coulomb(double confinement) const { return strength.value + slope.value * confinement; }
     double hoek_brown(double confinement) const;
+
+    /// Strengths under tension: the confinement, below 0, at which the law has σ1 = 0. Of Hoek-Brown
+    /// C (m - sqrt(m² + 4))/2; that of Mohr-Coulomb, -C/N, is not meant to hold.
+    double mohr_coulomb_tension() const { return -strength.value / slope.value; }
+    double hoek_brown_tension() const;
+
+    /// The envelope of the law's Mohr circles, at the circle whose σ1 - σ3 this is (Balmer, Proc. ASTM 52, 1952):
+    ///   σn = σ3 + (σ1 - σ3)/(1 + k),  τ = (σ1 - σ3) sqrt(k)/(1 + k),  k = dσ1/dσ3
+    /// with σ3 = ((σ1 - σ3)² - C²)/(m C), k = 1 + m C/(2 (σ1 - σ3)). It begins at σn = -C/m, τ = 0. Mohr-Coulomb, whose
+    /// k = N everywhere, is τ = c + σn tan φ. @param deviator σ1 - σ3, >= 0
+    PlaneStress hoek_brown_on_plane(double deviator) const;
+    double mohr_coulomb_on_plane(double normal) const;
 };
+
+/// Both laws of one packing's tests.
+struct FittedLaws {
+    double strength = 0.0, slope = 0.0, friction_angle = 0.0, cohesion = 0.0;  // as of StrengthEnvelope
+    double hoek_brown_strength = 0.0, hoek_brown_m = 0.0;
+};
+/// Each test weighs 1/strength²; numbers of packings scatter about those of their means. @param tests of one packing
+/// @throws InputError of fewer than three confinements
+FittedLaws fit_laws(std::span<const StrengthPoint> tests);
 
 inline constexpr std::size_t fewest_confinements = 3, fewest_packings = 2;
 

@@ -51,6 +51,8 @@ constexpr double filled_share = 0.835;
 
 }  // namespace
 
+double derived_gap(double area, double cells) { return derived_gap_share * std::sqrt(area / cells); }
+
 CellSizes measure_cells(const Mesh& mesh) {
     double sum = 0.0, squares = 0.0;
     for (const Cell& cell : mesh.cells) {

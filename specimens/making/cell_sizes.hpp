@@ -20,6 +20,11 @@ struct CellSizes {
     double spread = 0.0;  ///< coefficient of variation, -
 };
 
+/// Share of the mean cell size sqrt(area/cells) that lies between cells of a case that gives no gap: at 0.02 all but
+/// one in a hundred faces have both their points (solver/MODEL.md 5.2), and no cell of a usual packing is destroyed.
+inline constexpr double derived_gap_share = 0.02;
+double derived_gap(double area, double cells);  // m
+
 CellSizes measure_cells(const Mesh& mesh);
 
 /// Sizes of circles whose centres' cells have these diameters, but for a factor on all radii near 1.

@@ -300,16 +300,12 @@ double area_of(const Shape& shape, const Domain& box) {
     return 0.5 * twice;
 }
 
-// Of the mean cell size: at 0.02 all but one in a hundred faces have both their points (solver/MODEL.md 5.2), and no
-// cell of a usual packing is destroyed.
-constexpr double derived_gap_share = 0.02;
-
 /// The gap between cells of a case that gives none.
 double derived_mesh_thick(const TestCase& test, const Scene& circles, const Shape& shape, const TestHooks& hooks) {
     if (test.mesh.inset) return 2.0 * *test.mesh.inset;
     const std::size_t cells =
         mesh_kind(test) == MeshKind::voronoi ? circles.bodies.size() : bare_cells(test, circles, shape).cells.size();
-    const double thick = derived_gap_share * std::sqrt(area_of(shape, circles.domain) / static_cast<double>(cells));
+    const double thick = derived_gap(area_of(shape, circles.domain), static_cast<double>(cells));
     hooks.report_stage(
         fmt::format("mesh.thick = {:.4g} m by default: {} of the mean cell size", thick, derived_gap_share));
     return thick;

@@ -33,6 +33,18 @@ inline std::string target_text(const std::string& test, const std::string& figur
 }
 
 inline const char* const circles_tests = "[[test]]\ncase = \"compression.toml\"\n[[test]]\ncase = \"tension.toml\"\n";
+/// The compression under two pressures besides.
+inline const char* const pressed_tests =
+    "[[test]]\nname = \"pressed\"\ncase = \"compression.toml\"\n"
+    "set = {\"loading.kind\" = \"biaxial\", \"confinement.pressure\" = 1e6}\n"
+    "[[test]]\nname = \"squeezed\"\ncase = \"compression.toml\"\n"
+    "set = {\"loading.kind\" = \"biaxial\", \"confinement.pressure\" = 3e6}\n";
+/// Of a law of these and of the compression.
+inline std::string law_target_text(const std::string& figure, double value,
+                                   const std::string& tests = "[\"compression\", \"pressed\", \"squeezed\"]") {
+    return fmt::format("[[target]]\ntests = {}\nfigure = \"{}\"\nvalue = {:.10g}\n", tests, figure, value);
+}
+
 inline const char* const elastic_keys =
     "[[free]]\nkey = \"material.contact_modulus\"\nfrom = 2e9\nto = 200e9\n"
     "[[free]]\nkey = \"material.stiffness_ratio\"\nfrom = 1\nto = 10\n";

@@ -26,11 +26,11 @@ std::string targets_table(const Rock& rock, const CalibrationOutcome& outcome) {
     for (std::size_t k = 0; k < rock.targets.size(); ++k) {
         const Target& target = rock.targets[k];
         const ReachedTarget& reached = outcome.targets[k];
-        const std::string unit = unit_of_figure(target.figure, in_area_units(rock, outcome, k));
+        const std::string unit = target.unit(in_area_units(rock, outcome, k));
         text += fmt::format(
             "<tr><td>{} of {}{}</td><td>{}</td><td>{} ± {:.2g}</td><td>{:.2g}</td><td>{:+.1f}</td><td>{:.1f}</td>"
             "<td class=\"word{}\">{}</td></tr>\n",
-            html(spoken_figure(target.figure)), html(rock.tests[target.test].name), unit.empty() ? "" : ", " + unit,
+            html(spoken_figure(target.quantity())), html(target.source(rock.tests)), unit.empty() ? "" : ", " + unit,
             in_cell(target.value), in_cell(reached.fresh.mean), reached.fresh.standard_error, reached.fresh.deviation,
             100.0 * reached.off, 100.0 * reached.limit, reached.reached() ? "" : " wrong", name_of(reached.verdict));
     }
@@ -86,16 +86,16 @@ std::optional<CampaignFigure> targets_plane(const Rock& rock, const CalibrationO
     for (const plot::Series& series : {tried, frontier, target, reached})
         if (!series.x.empty()) all.push_back(series);
     const auto name = [&](std::size_t k) {
-        return fmt::format("{} of {}", spoken_figure(rock.targets[k].figure), rock.tests[rock.targets[k].test].name);
+        return fmt::format("{} of {}", spoken_figure(rock.targets[k].quantity()), rock.targets[k].source(rock.tests));
     };
-    const std::string unit = unit_of_figure(rock.targets[x].figure, in_area_units(rock, outcome, x));
+    const std::string unit = rock.targets[x].unit(in_area_units(rock, outcome, x));
     return CampaignFigure{
         fmt::format(
             "{} over {}: means of the fit packings at the points that were tried, the target with its tolerance, "
             "and the mean of {} fresh packings with its 95 % interval",
             name(y), name(x), outcome.targets[y].fresh.count),
         {plot::over_axis(unit.empty() ? name(x) : name(x) + ", " + unit, name(y),
-                         unit_of_figure(rock.targets[y].figure, in_area_units(rock, outcome, y)), all)}};
+                         rock.targets[y].unit(in_area_units(rock, outcome, y)), all)}};
 }
 
 }  // namespace

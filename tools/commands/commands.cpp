@@ -89,6 +89,8 @@ const std::vector<Command>& commands() {
          describe_elastic, elastic},
         {"campaign", "a table of tests on all processors or a cluster: means, scatter, bias", describe_campaign,
          campaign, campaign_studies},
+        {"envelope", "strength over confinement: Mohr-Coulomb, Hoek-Brown, with intervals and Mohr circles",
+         describe_envelope, envelope},
         {"calibrate", "a rock's keys from its laboratory values: cases, intervals, what is out of reach",
          describe_calibrate, calibrate_rock},
         {"report", "one self-contained HTML page from the results of tests", describe_report, report},

@@ -37,6 +37,8 @@ int elastic(const Invocation& given);
 CommandLine describe_campaign();
 int campaign(const Invocation& given);
 const std::vector<Command>& campaign_studies();
+CommandLine describe_envelope();
+int envelope(const Invocation& given);
 CommandLine describe_calibrate();
 int calibrate_rock(const Invocation& given);
 CommandLine describe_report();

@@ -19,6 +19,7 @@
 #include "tools/campaign/page/figures.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/page/report_page.hpp"
+#include "tools/plot/figure_options.hpp"
 #include "tools/plot/panels.hpp"
 
 namespace crackle::tools {
@@ -28,44 +29,14 @@ namespace fs = std::filesystem;
 using namespace plot;
 using Words = std::vector<std::string>;
 
-constexpr double column_width = 85.0, page_width = 180.0;  // mm, of most journals
-
-Format format_named(const std::string& where, const std::string& name) {
-    const std::map<std::string, Format> formats{{"svg", Format::svg}, {"pdf", Format::pdf}, {"png", Format::png}};
-    const auto found = formats.find(name);
-    if (found == formats.end())
-        throw InputError(fmt::format("plot: {}: found '{}', expected svg, pdf or png", where, name));
-    return found->second;
-}
-
-double number_between(const po::variables_map& given, const char* option, double low, double high, const char* unit) {
-    const double value = given[option].as<double>();
-    if (!(value >= low && value <= high))
-        throw InputError(fmt::format("plot: --{}: found {}, expected {} to {}{}{}", option, value, low, high,
-                                     *unit ? " " : "", unit));
-    return value;
-}
-
 /// How the figure looks, of whatever it is.
-struct Look {
-    double width = 0.0;  // pt
-    SheetStyle sheet;
+struct Look : FigureLook {
     DrawingStyle drawing;
 };
 
 Look look_of(const po::variables_map& given) {
-    const int columns = given["columns"].as<int>();
-    if (columns != 1 && columns != 2)
-        throw InputError(fmt::format("plot: --columns: found {}, expected 1 or 2", columns));
-    Look look;
-    const double width = given.contains("width") ? number_between(given, "width", 30.0, 1000.0, "mm")
-                         : columns == 1          ? column_width
-                                                 : page_width;
-    look.width = width * points_of_mm;
-    look.sheet.font = given["font"].as<std::string>();
-    look.sheet.font_size = number_between(given, "font-size", 3.0, 72.0, "pt");
-    look.sheet.dpi = number_between(given, "dpi", 20.0, 2400.0, "dots an inch");
-    look.drawing.magnify = number_between(given, "magnify", 0.0, 1e6, "");
+    Look look{figure_look("plot", given), {}};
+    look.drawing.magnify = number_between("plot", given, "magnify", 0.0, 1e6, "");
     return look;
 }
 
@@ -159,9 +130,7 @@ Words everything_of(const std::vector<Recording>& tests) {
 
 void plot_tests(const po::variables_map& given, const Words& folders, const Look& look, Messages& messages) {
     const fs::path output = given["output"].as<std::string>();
-    const std::string extension = output.extension().string();
-    const Format format =
-        format_named(fmt::format("--output {}", output.string()), extension.empty() ? "" : extension.substr(1));
+    const Format format = format_of_output("plot", output);
     refuse_replacing(output, given.contains("force"));
     Words what = given.contains("what") ? given["what"].as<Words>() : Words{"all"};
     for (const std::string& word : what) {
@@ -201,16 +170,14 @@ void plot_tests(const po::variables_map& given, const Words& folders, const Look
         for (std::size_t k = 0; k < tests.size(); ++k)
             panels.push_back(drawings_of(tests[k], folders[k], moments, look.drawing));
     }
-    replace_file(output, figure(panels, given["title"].as<std::string>(), look.width, format, look.sheet));
+    replace_file(output, figure(panels, look.title, look.width, format, look.sheet));
     if (!messages.quiet()) std::cout << output.string() << '\n';
 }
 
 /// All figures of a campaign, one below the other.
 void plot_campaign(const po::variables_map& given, const fs::path& folder, const Look& look, Messages& messages) {
     const fs::path output = given["output"].as<std::string>();
-    const std::string extension = output.extension().string();
-    const Format format =
-        format_named(fmt::format("--output {}", output.string()), extension.empty() ? "" : extension.substr(1));
+    const Format format = format_of_output("plot", output);
     refuse_replacing(output, given.contains("force"));
     CampaignRecord record = read_campaign(folder, given.contains("figure") ? given["figure"].as<Words>() : Words{},
                                           given.contains("test") ? given["test"].as<Words>() : Words{});
@@ -220,8 +187,7 @@ void plot_campaign(const po::variables_map& given, const fs::path& folder, const
         panels.insert(panels.end(), part.panels.begin(), part.panels.end());
     if (panels.empty())
         throw InputError(fmt::format("plot: {}: found nothing to draw, expected figures or curves", folder.string()));
-    const std::string title = given["title"].as<std::string>();
-    replace_file(output, figure(panels, title, look.width, format, look.sheet));
+    replace_file(output, figure(panels, look.title, look.width, format, look.sheet));
     if (!messages.quiet()) std::cout << output.string() << '\n';
 }
 
@@ -231,7 +197,7 @@ constexpr int first_guide_figure = 26, last_guide_figure = 29;
 void plot_guide(const po::variables_map& given, const Look& look, Messages& messages) {
     const fs::path folder = given["guide"].as<std::string>(), output = given["output"].as<std::string>();
     const std::string extension = given["format"].as<std::string>();
-    const Format format = format_named("--format", extension);
+    const Format format = format_named("plot", "--format", extension);
     if (fs::exists(output) && !fs::is_directory(output))
         throw InputError(fmt::format("plot: --output: found {}, a file, expected a folder for the guide's figures",
                                      output.string()));
@@ -279,7 +245,7 @@ void plot_guide(const po::variables_map& given, const Look& look, Messages& mess
     make_folder(output);
     for (const auto& [number, panels] : figures) {
         const fs::path file = file_of(number);
-        replace_file(file, figure(panels, given["title"].as<std::string>(), look.width, format, look.sheet));
+        replace_file(file, figure(panels, look.title, look.width, format, look.sheet));
         if (!messages.quiet()) std::cout << file.string() << '\n';
     }
 }
@@ -294,16 +260,10 @@ CommandLine describe_plot() {
          "curve, ae, strain (of the area, and what of it is cracks), specimen, or all, one below the other (default: "
          "all)")  //
         ("at", po::value<Words>()->multitoken()->value_name("STRAIN"),
-         "strains of the specimens, or start, peak, end (default: start peak end); the nearest frame is drawn")  //
-        ("columns", po::value<int>()->value_name("N")->default_value(1),
-         "of a journal: 1 (85 mm wide) or 2 (180 mm)")                                                           //
-        ("width", po::value<double>()->value_name("MM"), "of the figure, mm, in place of --columns")             //
-        ("font", po::value<std::string>()->value_name("NAME")->default_value(SheetStyle{}.font), "of all text")  //
-        ("font-size", po::value<double>()->value_name("PT")->default_value(SheetStyle{}.font_size), "pt")        //
-        ("dpi", po::value<double>()->value_name("N")->default_value(SheetStyle{}.dpi), "dots an inch, of PNG")   //
-        ("magnify", po::value<double>()->value_name("FACTOR")->default_value(1.0),
-         "draw displacements so many times as large")                                                       //
-        ("title", po::value<std::string>()->value_name("TEXT")->default_value("", ""), "above the figure")  //
+         "strains of the specimens, or start, peak, end (default: start peak end); the nearest frame is drawn");
+    add_figure_options(options, 1);
+    options.add_options()("magnify", po::value<double>()->value_name("FACTOR")->default_value(1.0),
+                          "draw displacements so many times as large")  //
         ("labels", po::value<Words>()->multitoken()->value_name("NAME"),
          "names of the tests in legends, in their order")  //
         ("guide", po::value<std::string>()->value_name("FOLDER"),

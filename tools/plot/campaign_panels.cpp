@@ -17,12 +17,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// A colour mixed with white.
-Colour tinted(const Colour& colour, double share) {
-    const auto mixed = [&](double part) { return 1.0 - share * (1.0 - part); };
-    return {mixed(colour.red), mixed(colour.green), mixed(colour.blue)};
-}
-
 /// Between the points of a curve; not a number beyond its end.
 double stress_at(const std::vector<std::pair<double, double>>& curve, double strain) {
     const auto after = std::lower_bound(curve.begin(), curve.end(), strain,
@@ -42,32 +36,6 @@ Scale figure_scale(double smallest, double largest, int ticks) {
     scale.low = smallest - 0.08 * range;
     scale.high = largest + 0.08 * range;
     return scale;
-}
-
-/// What a legend above and the axes' numbers leave of a panel.
-Rect frame_below(const Canvas& canvas, const Rect& place, const Legend& legend, const Scale& y) {
-    const double left = Axes::room_left(canvas, y);
-    const double top = place.y + std::max(legend.height(), 1.6 * canvas.style().font_size);
-    return {place.x + left, top, place.width - left - 4.0, place.bottom() - Axes::room_below(canvas) - top};
-}
-
-std::string titled(const std::string& title, const std::string& unit) {
-    return unit.empty() ? title : title + ", " + unit;
-}
-
-void draw_mean(Canvas& canvas, Point mean, Point low, Point high, const Colour& colour, bool across) {
-    const Colour white = plot::colour("#ffffff");
-    constexpr double cap = 2.5;  // pt
-    if (std::isfinite(low.x) && std::isfinite(low.y) && std::isfinite(high.x) && std::isfinite(high.y)) {
-        canvas.line({low, high}, colour, curve_width);
-        for (const Point& end : {low, high}) {
-            if (across)
-                canvas.line({{end.x, end.y - cap}, {end.x, end.y + cap}}, colour, curve_width);
-            else
-                canvas.line({{end.x - cap, end.y}, {end.x + cap, end.y}}, colour, curve_width);
-        }
-    }
-    canvas.circle(mean, 2.2, &white, &colour, curve_width);
 }
 
 }  // namespace

@@ -14,6 +14,30 @@ const Colour& series_colour(std::size_t number) {
     return series[number % series.size()];
 }
 
+Colour tinted(const Colour& colour, double share) {
+    const auto mixed = [&](double part) { return 1.0 - share * (1.0 - part); };
+    return {mixed(colour.red), mixed(colour.green), mixed(colour.blue)};
+}
+
+std::string titled(const std::string& title, const std::string& unit) {
+    return unit.empty() ? title : title + ", " + unit;
+}
+
+void draw_mean(Canvas& canvas, Point mean, Point low, Point high, const Colour& colour, bool across) {
+    const Colour white = plot::colour("#ffffff");
+    constexpr double cap = 2.5;  // pt
+    if (std::isfinite(low.x) && std::isfinite(low.y) && std::isfinite(high.x) && std::isfinite(high.y)) {
+        canvas.line({low, high}, colour, curve_width);
+        for (const Point& end : {low, high}) {
+            if (across)
+                canvas.line({{end.x, end.y - cap}, {end.x, end.y + cap}}, colour, curve_width);
+            else
+                canvas.line({{end.x - cap, end.y}, {end.x + cap, end.y}}, colour, curve_width);
+        }
+    }
+    canvas.circle(mean, 2.2, &white, &colour, curve_width);
+}
+
 Legend::Legend(const Canvas& canvas, std::vector<Entry> entries, double width) : entries_(std::move(entries)) {
     constexpr double between = 10.0;  // pt
     double widest = 0.0;
@@ -53,6 +77,12 @@ void Legend::draw(Canvas& canvas, Point corner) const {
 
 Legend legend_of(const Canvas& canvas, std::vector<Legend::Entry> entries, double width) {
     return {canvas, std::move(entries), width - beside_letter - 4.0};
+}
+
+Rect frame_below(const Canvas& canvas, const Rect& place, const Legend& legend, const Scale& y) {
+    const double left = Axes::room_left(canvas, y);
+    const double top = place.y + std::max(legend.height(), 1.6 * canvas.style().font_size);
+    return {place.x + left, top, place.width - left - 4.0, place.bottom() - Axes::room_below(canvas) - top};
 }
 
 }  // namespace crackle::plot

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What diagrams have in common: their colours, the width of curves, the unit of strain, and a legend.
+// What diagrams have in common: their colours, the width of curves, the unit of strain, means with intervals, and a
+// legend.
 // Tested by tests/tools/commands/plot_test.cpp.
 #pragma once
 
@@ -8,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/plot/axes.hpp"
 #include "tools/plot/canvas.hpp"
 
 namespace crackle::plot {
@@ -22,6 +24,15 @@ inline constexpr double beside_letter = 20.0;  // pt, from the left of a panel, 
 
 /// As in the report (tools/viewer/src/colours/theme.ts): distinguishable with any colour vision.
 const Colour& series_colour(std::size_t number);
+
+/// A colour mixed with white.
+Colour tinted(const Colour& colour, double share);
+
+/// "peak stress, MPa"
+std::string titled(const std::string& title, const std::string& unit);
+
+/// A mean with its interval, where that is finite. @param across the interval lies along x
+void draw_mean(Canvas& canvas, Point mean, Point low, Point high, const Colour& colour, bool across);
 
 /// The width that a diagram's height is a share of: a page's width is no reason to be as high as half a page.
 inline double proportional(double width) { return std::min(width, 340.0); }
@@ -51,5 +62,8 @@ class Legend {
 
 /// Beside the letter of a panel of this width.
 Legend legend_of(const Canvas& canvas, std::vector<Legend::Entry> entries, double width);
+
+/// What a legend above and the axes' numbers leave of a panel.
+Rect frame_below(const Canvas& canvas, const Rect& place, const Legend& legend, const Scale& y);
 
 }  // namespace crackle::plot

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "solver/base/errors.hpp"
 #include "solver/base/threads_to_be_had.hpp"
 
@@ -30,28 +32,53 @@ std::string letters_of(std::size_t number) {
 
 std::string figure(const std::vector<Panel>& panels, const std::string& title, double width, Format format,
                    const SheetStyle& style) {
+    std::vector<std::vector<Panel>> rows;
+    rows.reserve(panels.size());
+    for (const Panel& panel : panels) rows.push_back({panel});
+    return figure(rows, title, width, format, style);
+}
+
+std::string figure(const std::vector<std::vector<Panel>>& rows, const std::string& title, double width, Format format,
+                   const SheetStyle& style) {
     refuse_without_threads();
     constexpr double margin = 2.0;  // pt, around the figure
     const double between = 1.5 * style.font_size;
     const double inside = width - 2.0 * margin;
     const double title_height = title.empty() ? 0.0 : 2.0 * style.font_size;
+    std::size_t panels = 0;
+    for (const std::vector<Panel>& row : rows) panels += row.size();
     const auto letter_height = [&](const Panel& panel) {
-        return panels.size() > 1 && panel.letter_above ? 1.5 * style.font_size : 0.0;
+        return panels > 1 && panel.letter_above ? 1.5 * style.font_size : 0.0;
+    };
+    const auto panel_width = [&](const std::vector<Panel>& row) {
+        const auto count = static_cast<double>(row.size());
+        return (inside - between * (count - 1.0)) / count;
+    };
+    const auto row_height = [&](const Canvas& measure, const std::vector<Panel>& row) {
+        double highest = 0.0;
+        for (const Panel& panel : row)
+            highest = std::max(highest, letter_height(panel) + panel.height(measure, panel_width(row)));
+        return highest;
     };
     const Canvas measure(1.0, 1.0, Format::svg, style);
-    double height = 2.0 * margin + title_height + between * static_cast<double>(panels.size() - 1);
-    for (const Panel& panel : panels) height += letter_height(panel) + panel.height(measure, inside);
+    double height = 2.0 * margin + title_height + between * static_cast<double>(rows.size() - 1);
+    for (const std::vector<Panel>& row : rows) height += row_height(measure, row);
 
     Canvas canvas(width, height, format, style);
     if (!title.empty()) canvas.text({0.5 * width, margin}, escaped(title), Across::centre, Down::top, 1.1);
     double y = margin + title_height;
     std::size_t number = 0;
-    for (const Panel& panel : panels) {
-        const Rect place{margin, y + letter_height(panel), inside, panel.height(measure, inside)};
-        panel.draw(canvas, place);
-        if (panels.size() > 1)
-            canvas.text({place.x, y}, fmt::format("<b>({})</b>", letters_of(number++)), Across::left, Down::top, 1.1);
-        y = place.bottom() + between;
+    for (const std::vector<Panel>& row : rows) {
+        const double bottom = y + row_height(measure, row);
+        double x = margin;
+        for (const Panel& panel : row) {
+            const double top = y + letter_height(panel);
+            panel.draw(canvas, {x, top, panel_width(row), bottom - top});
+            if (panels > 1)
+                canvas.text({x, y}, fmt::format("<b>({})</b>", letters_of(number++)), Across::left, Down::top, 1.1);
+            x += panel_width(row) + between;
+        }
+        y = bottom + between;
     }
     return canvas.finish();
 }

@@ -57,5 +57,8 @@ Panel drawings(const std::vector<DrawnMoment>& moments, const std::vector<std::f
 /// A figure of panels one below the other. @param width pt @return the file's bytes
 std::string figure(const std::vector<Panel>& panels, const std::string& title, double width, Format format,
                    const SheetStyle& style);
+/// The same of rows of panels side by side, as wide as each other and as high as the highest of the row.
+std::string figure(const std::vector<std::vector<Panel>>& rows, const std::string& title, double width, Format format,
+                   const SheetStyle& style);
 
 }  // namespace crackle::plot

@@ -12,6 +12,7 @@
 #include "solver/base/errors.hpp"
 #include "specimens/calibration/measurements.hpp"
 #include "specimens/calibration/outcome_files.hpp"
+#include "specimens/envelope/strength_envelope.hpp"
 #include "specimens/making/hooks.hpp"
 #include "tests/specimens/calibration/known_rock.hpp"
 #include "tests/support/claim.hpp"
@@ -63,6 +64,27 @@ TEST_F(CalibrationTest, AllStressesAndModuliTimesALambdaAreTheSameTests) {
     for (Eigen::Index k = 0; k < a.rows(); ++k)
         for (Eigen::Index t = 0; t < a.cols(); ++t)
             EXPECT_TRUE(agrees("strength over lambda", b(k, t) / lambda, a(k, t), 1e-6)) << k << ' ' << t;
+}
+
+TEST_F(CalibrationTest, RatiosAndLawsAreThoseOfEachPackingsTests) {
+    const Rock rock = rock_of(testing::pressed_tests + target_text("compression", "peak_stress", 1e7) +
+                              target_text("pressed", "peak_stress", 1e7) + target_text("squeezed", "peak_stress", 1e7) +
+                              target_text("compression", "crack_damage_stress", 1e7) +
+                              target_text("compression", "crack_damage_stress", 0.8, "over = \"peak_stress\"") +
+                              testing::law_target_text("friction_angle", 40) +
+                              testing::law_target_text("hoek_brown_m", 15) + testing::strength_keys);
+    Measurements tests(rock, Keep::figures, {.folder = folder_ / "out", .workers = 2}, {});
+    const std::vector<double> here{true_tensile, true_cohesion};
+    tests.measure({here}, {0, 4});
+    const Eigen::MatrixXd all = tests.figures(here, {0, 4});
+    for (Eigen::Index k = 0; k < all.rows(); ++k) {
+        EXPECT_TRUE(agrees("a ratio", all(k, 4), all(k, 3) / all(k, 0), 1e-15));
+        const FittedLaws laws =
+            fit_laws(std::vector<StrengthPoint>{{"", 0.0, all(k, 0)}, {"", 1e6, all(k, 1)}, {"", 3e6, all(k, 2)}});
+        EXPECT_TRUE(agrees("friction angle", all(k, 5), laws.friction_angle, 1e-12));
+        EXPECT_TRUE(agrees("m", all(k, 6), laws.hoek_brown_m, 1e-9));
+        EXPECT_GT(all(k, 1), all(k, 0)) << "a pressure makes it stronger";
+    }
 }
 
 TEST_F(CalibrationTest, ANarrowRangeIsSearchedToItsRightEnd) {

@@ -127,6 +127,56 @@ TEST_F(RockFile, KeysAndTargetsGoToTheSearchThatFindsThem) {
     EXPECT_EQ(SearchSpace(apart).level_key, -1);
 }
 
+TEST_F(RockFile, TargetsAreRatiosAndLawsOfSeveralTests) {
+    const std::string pressed = tests_ + testing::pressed_tests;
+    const Rock rock = rock_of(pressed + target_ + target_text("pressed", "peak_stress", 6e7) +
+                              target_text("compression", "crack_initiation_stress", 0.45, "over = \"peak_stress\"") +
+                              target_text("compression", "youngs_modulus", 300, "over = \"peak_stress\"") +
+                              testing::law_target_text("friction_angle", 40) +
+                              testing::law_target_text("hoek_brown_m", 15) + testing::elastic_keys + strengths_);
+    ASSERT_EQ(rock.targets.size(), 6U);
+    EXPECT_EQ(rock.targets[2].name(rock.tests), "compression crack_initiation_stress over peak_stress");
+    EXPECT_EQ(rock.targets[2].unit(true), "");
+    EXPECT_EQ(rock.targets[4].tests, (std::vector<std::size_t>{0, 2, 3}));
+    EXPECT_EQ(rock.targets[4].name(rock.tests), "compression, pressed, squeezed friction_angle");
+    EXPECT_EQ(rock.targets[4].unit(true), "deg");
+    EXPECT_EQ(rock.targets[0].unit(true), "Pa");
+    const SearchSpace space(rock);
+    EXPECT_TRUE(space.linear_targets.empty()) << "a modulus over a strength is no modulus";
+    ASSERT_GE(space.level_key, 0);
+    EXPECT_TRUE(space.goes_with_level(0));
+    EXPECT_FALSE(space.goes_with_level(1)) << "the pressure stays as it is";
+    EXPECT_FALSE(space.goes_with_level(2)) << "a ratio of strengths";
+    EXPECT_FALSE(space.goes_with_level(4));
+}
+
+TEST_F(RockFile, RefusesRatiosAndLawsThatAreNone) {
+    const std::string pressed = tests_ + testing::pressed_tests;
+    expect_refused(tests_ + target_text("tension", "peak_stress", 1, "over = \"beauty\"") + strengths_,
+                   "[[target]] over: found \"beauty\", expected a figure of summary.json");
+    expect_refused(tests_ + target_text("tension", "peak_stress", 1, "over = \"peak_stress\"") + strengths_,
+                   "the figure itself");
+    expect_refused(pressed + testing::law_target_text("peak_stress", 1) + strengths_,
+                   "of several tests, expected one of friction_angle, hoek_brown_m");
+    expect_refused(pressed + target_text("pressed", "friction_angle", 40) + strengths_,
+                   "[[target]] tests: found nothing, expected the compressions that friction_angle is fitted to");
+    expect_refused(
+        pressed + testing::law_target_text("friction_angle", 40, "[\"compression\", \"sheared\"]") + strengths_,
+        "found \"sheared\", expected one of compression, tension, pressed, squeezed");
+    expect_refused(
+        pressed + testing::law_target_text("friction_angle", 40, "[\"compression\", \"compression\"]") + strengths_,
+        "each test once");
+    expect_refused(
+        pressed + testing::law_target_text("friction_angle", 40, "[\"compression\", \"pressed\"]") + strengths_,
+        "found 2 confining pressures, expected 3 or more");
+    expect_refused(pressed +
+                       testing::law_target_text("friction_angle", 40, "[\"tension\", \"pressed\", \"squeezed\"]") +
+                       strengths_,
+                   "found tension, a tension, expected compressions");
+    expect_refused(pressed + testing::law_target_text("friction_angle", 40) + "over = \"peak_stress\"\n" + strengths_,
+                   "found it beside tests");
+}
+
 TEST_F(RockFile, CornersOfTheBoundsAreJudgedBeforeAnyTest) {
     // At the lower corner cohesion is less than friction times tensile strength.
     expect_refused(

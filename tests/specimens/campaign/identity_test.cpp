@@ -68,6 +68,49 @@ TEST(Identity, LooksIntoFilesAndNotAtTheirNames) {
     EXPECT_NE(identity("a", "1 2 3"), identity("b", "1 2 4"));
 }
 
+TEST(KeysOfRock, LeaveOutSeedsLoadingAndWhatIsWritten) {
+    const testing::ScratchFolder scratch;
+    const CaseFiles files(testing::write_packed_case(scratch / "case.toml"));
+    FileHashes hashes;
+    const auto asked = keys_of_rock(files.with({}), hashes);
+    EXPECT_EQ(asked.at("material.friction_angle"), "27");
+    for (const auto& [key, value] :
+         std::vector<std::pair<std::string, CaseValue>>{{"title", std::string("Another")},
+                                                        {"packing.seed", std::int64_t{2}},
+                                                        {"loading.kind", std::string("compression")},
+                                                        {"loading.max_axial_strain", 0.5},
+                                                        {"numerics.threads", std::int64_t{2}},
+                                                        {"output.curve_rows", std::int64_t{201}}})
+        EXPECT_EQ(keys_of_rock(with(files, key, value), hashes), asked) << key;
+    for (const auto& [key, value] :
+         std::vector<std::pair<std::string, CaseValue>>{{"packing.count", std::int64_t{61}},
+                                                        {"material.friction_angle", 27.000000001},
+                                                        {"numerics.integrator", std::string("consistent")},
+                                                        {"bond.thick", 1e-5}})
+        EXPECT_NE(keys_of_rock(with(files, key, value), hashes), asked) << key;
+}
+
+/// A particle file has the material of what the case does not state.
+TEST(KeysOfRock, OfParticleFilesCountThemUnlessTheCaseStatesTheMaterial) {
+    const testing::ScratchFolder scratch;
+    const auto keys = [&](const char* contents, const char* material) {
+        testing::write_text(scratch / "rock.dat", contents);
+        testing::write_text(
+            scratch / "case.toml",
+            fmt::format("[particles]\nfile = \"rock.dat\"\n[material]\n{}[loading]\nkind = \"tension\"\n"
+                        "max_axial_strain = 1e-3\n",
+                        material));
+        FileHashes hashes;
+        return keys_of_rock(read_case(scratch / "case.toml"), hashes);
+    };
+    const char* stated =
+        "density = 2500.0\nnormal_stiffness = 1e7\nshear_stiffness = 2.5e6\nfriction_angle = 27.0\ndamping_ratio = "
+        "0.2\n";
+    EXPECT_EQ(keys("1 2 3", stated), keys("1 2 4", stated));
+    EXPECT_NE(keys("1 2 3", "density = 2500.0\n"), keys("1 2 4", "density = 2500.0\n"));
+    EXPECT_EQ(keys("1 2 3", "density = 2500.0\n"), keys("1 2 3", "density = 2500.0\n"));
+}
+
 TEST(Identity, OfThePackingAloneLeavesTheRestOut) {
     const testing::ScratchFolder scratch;
     const CaseFiles files(testing::write_packed_case(scratch / "case.toml"));

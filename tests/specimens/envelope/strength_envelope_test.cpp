@@ -88,6 +88,49 @@ TEST(StrengthEnvelope, OfScatteredStrengthsLiesInItsIntervalsAsOftenAsStated) {
     EXPECT_TRUE(within("of all curves m in its interval", of_m, expected, spread));
 }
 
+/// Each circle of the law touches the curve, from within: nowhere is a point of it closer to the centre than the
+/// radius.
+TEST(StrengthEnvelope, OnThePlaneOfFailureTouchesEachCircleOfTheLaw) {
+    const StrengthEnvelope envelope = fit_envelope(tests_of(hoek_brown, 0.0, 0.0, nullptr));
+    const double c = unconfined;
+    EXPECT_TRUE(agrees("apex -C/m", envelope.hoek_brown_on_plane(0.0).normal, -c / m, 1e-9));
+    EXPECT_EQ(envelope.hoek_brown_on_plane(0.0).shear, 0.0);
+    EXPECT_TRUE(agrees("and near it", envelope.hoek_brown_on_plane(1e-6 * c).normal, -c / m, 1e-5));
+    for (const double s3 : {envelope.hoek_brown_tension(), 0.0, 0.1 * c, 0.5 * c}) {
+        const double s1 = envelope.hoek_brown(s3), centre = 0.5 * (s1 + s3), radius = 0.5 * (s1 - s3);
+        double nearest = 2.0 * radius;
+        constexpr int steps = 20'000;  // of the deviator: a quadratic minimum is met to the square of a step
+        for (int k = 0; k <= steps; ++k) {
+            const PlaneStress on = envelope.hoek_brown_on_plane(3.0 * (s1 - s3) * k / steps);
+            nearest = std::min(nearest, std::hypot(on.normal - centre, on.shear));
+        }
+        EXPECT_TRUE(
+            agrees(fmt::format("nearest point of the curve to the circle at {:.3g} Pa", s3), nearest, radius, 1e-7));
+        const PlaneStress on = envelope.hoek_brown_on_plane(s1 - s3);
+        EXPECT_TRUE(agrees("which is its own", std::hypot(on.normal - centre, on.shear), radius, 1e-12));
+    }
+    EXPECT_TRUE(within("s1 at the tensile strength, over C", envelope.hoek_brown(envelope.hoek_brown_tension()) / c,
+                       0.0, 1e-9));
+    const StrengthEnvelope straight = fit_envelope(tests_of(line, 0.0, 0.0, nullptr));
+    EXPECT_TRUE(agrees("cohesion", straight.mohr_coulomb_on_plane(0.0), 33541019.66249685, 1e-12));
+    EXPECT_TRUE(agrees("and tan 41.81 more at 1 Pa",
+                       straight.mohr_coulomb_on_plane(1e8) - straight.mohr_coulomb_on_plane(0.0), 0.8944271909999159e8,
+                       1e-12));
+    EXPECT_TRUE(agrees("s1 = 0 at -C/N", straight.mohr_coulomb_tension(), -unconfined / slope, 1e-12));
+}
+
+TEST(FittedLaws, OfOnePackingsExactStrengthsAreTheirLaws) {
+    const std::vector<StrengthPoint> straight = tests_of(line, 0.0, 0.0, nullptr),
+                                     curved = tests_of(hoek_brown, 0.0, 0.0, nullptr);
+    const FittedLaws of_line = fit_laws(std::span(straight).first(3)), of_curve = fit_laws(std::span(curved).first(6));
+    EXPECT_TRUE(agrees("C", of_line.strength, unconfined, 1e-12));
+    EXPECT_TRUE(agrees("friction angle", of_line.friction_angle, 41.810314895778596, 1e-12));
+    EXPECT_TRUE(agrees("cohesion", of_line.cohesion, 33541019.66249685, 1e-12));
+    EXPECT_TRUE(agrees("C of Hoek and Brown", of_curve.hoek_brown_strength, unconfined, 1e-9));
+    EXPECT_TRUE(agrees("m", of_curve.hoek_brown_m, m, 1e-9));
+    EXPECT_THROW(fit_laws(std::span(straight).first(2)), InputError);
+}
+
 TEST(StrengthEnvelope, OfTooLittleIsRefusedWithWhatThereIs) {
     std::vector<StrengthPoint> tests = tests_of(line, 0.0, 0.0, nullptr);
     std::vector<StrengthPoint> one_packing(tests.begin(), tests.begin() + 6);

@@ -1,0 +1,232 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/envelope/measured_strengths.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "solver/base/errors.hpp"
+#include "solver/files/read_file.hpp"
+#include "specimens/campaign/campaign.hpp"
+#include "specimens/campaign/identity.hpp"
+#include "specimens/campaign/ledger.hpp"
+#include "specimens/case/parameters.hpp"
+#include "specimens/making/cell_sizes.hpp"
+#include "specimens/recordings/test_results.hpp"
+
+namespace crackle {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using RockKeys = std::map<std::string, std::string>;
+
+double number_of(const Json& figures, const char* key) {
+    const auto found = figures.find(key);
+    return found != figures.end() && found->is_number() ? found->get<double>() : std::nan("");
+}
+
+std::string word_of(const Json& figures, const char* key) {
+    const auto found = figures.find(key);
+    return found != figures.end() && found->is_string() ? found->get<std::string>() : std::string();
+}
+
+std::string shown_value(const RockKeys& keys, const std::string& key) {
+    const auto at = keys.find(key);
+    return at == keys.end() ? "nothing" : fmt::format("{:.60}", at->second);
+}
+
+/// The first key, by its name, in which two rocks differ.
+std::optional<std::string> first_difference(const RockKeys& a, const RockKeys& b) {
+    std::set<std::string> keys;
+    for (const RockKeys* rock : {&a, &b})
+        for (const auto& [key, value] : *rock) keys.insert(key);
+    for (const std::string& key : keys)
+        if (shown_value(a, key) != shown_value(b, key)) return key;
+    return std::nullopt;
+}
+
+/// One test, whoever ran it.
+struct StrengthTest {
+    std::string where;    ///< for messages
+    std::string packing;  ///< by whom it is drawn again
+    Json figures;         ///< of summary.json, by name
+    RockKeys rock;
+};
+
+/// Adds tests, each judged against those before it.
+class Collection {
+  public:
+    void add(const StrengthTest& test) {
+        const std::string unit = word_of(test.figures, "material_units") == "area" ? "Pa" : "N/m";
+        if (all_.unit.empty()) {
+            all_.unit = unit;
+            first_ = test;
+        }
+        require_same(test, unit);
+        const double strength = number_of(test.figures, "peak_stress");
+        const bool pulled = word_of(test.figures, "kind") == "tension";
+        if (!std::isfinite(strength)) {
+            leave_out(test.where, "did not fail by loading.max_axial_strain");
+            return;
+        }
+        const std::string parted = word_of(test.figures, "failed_at");
+        if (pulled && (parted == "platen" || parted == "grip")) {
+            leave_out(test.where, fmt::format("parted at the {}: that is not the rock's tensile strength", parted));
+            return;
+        }
+        const double pressure = number_of(test.figures, "confining_pressure");
+        const double confinement = std::isfinite(pressure) ? pressure : 0.0;
+        const auto [at, is_new] = seen_.emplace(std::tuple(pulled, confinement, test.packing), test.where);
+        if (!is_new) {
+            throw InputError(fmt::format(
+                "envelope: {}: found a second {} of packing {}{} (the other in {}), expected one; leave one out",
+                test.where, pulled ? "tension" : "compression", test.packing,
+                pulled ? "" : fmt::format(" under {:g} {}", confinement, unit), at->second));
+        }
+        if (pulled)
+            all_.tensions.push_back(strength);
+        else
+            all_.compressions.push_back({test.packing, confinement, strength});
+    }
+    void leave_out(const std::string& where, const std::string& why) { ++left_out_[{where, why}]; }
+
+    MeasuredStrengths taken() {
+        for (const auto& [one, count] : left_out_) {
+            all_.left_out.push_back(count == 1 ? fmt::format("{}: {}", one.first, one.second)
+                                               : fmt::format("{}: {} tests: {}", one.first, count, one.second));
+        }
+        return std::move(all_);
+    }
+
+  private:
+    void require_same(const StrengthTest& test, const std::string& unit) const {
+        if (unit != all_.unit) {
+            throw InputError(
+                fmt::format("envelope: {}: found stresses in {}, expected {} as in {}; give tests of one rock",
+                            test.where, unit, all_.unit, first_.where));
+        }
+        if (const std::optional<std::string> key = first_difference(test.rock, first_.rock)) {
+            throw InputError(fmt::format("envelope: {}: {}: found {}, expected {} as in {}; give tests of one rock",
+                                         test.where, *key, shown_value(test.rock, *key), shown_value(first_.rock, *key),
+                                         first_.where));
+        }
+    }
+
+    MeasuredStrengths all_;
+    StrengthTest first_;
+    std::map<std::tuple<bool, double, std::string>, std::string> seen_;  // to where
+    std::map<std::pair<std::string, std::string>, int> left_out_;
+};
+
+/// The resolved case states the gap that a silent one was given.
+bool is_derived_gap(double thick, const Json& summary) {
+    constexpr double rounding = 1e-9;
+    const double area = number_of(summary, "initial_width") * number_of(summary, "initial_height");
+    return std::abs(thick / derived_gap(area, number_of(summary, "particles")) - 1.0) < rounding;
+}
+
+StrengthTest read_test(const fs::path& folder, FileHashes& files) {
+    StrengthTest test;
+    test.where = folder.string();
+    test.figures = read_results(folder).summary;
+    const TestCase made = read_case(folder / "case.toml");
+    test.rock = keys_of_rock(made, files);
+    if (made.mesh.thick && is_derived_gap(*made.mesh.thick, test.figures)) test.rock.erase("mesh.thick");
+    if (made.particles.file) {
+        const std::string hash = files.of(made.resolve_path("particles.file", *made.particles.file));
+        test.packing = fmt::format("{:.8}, {}, {}", hash, made.bond.strength_seed.value_or(0), made.minerals.seed);
+    } else {
+        test.packing = fmt::format("{}", made.packing.seed);
+    }
+    return test;
+}
+
+/// As keys_of_rock() has it.
+std::string axis_text(const std::string& key, const LedgerCell& cell) {
+    if (const auto* text = std::get_if<std::string>(&cell)) return *text;
+    const double value = std::get<double>(cell);
+    const std::size_t dot = key.find('.');
+    const Parameter* p = find_parameter(key.substr(0, std::min(dot, key.find('['))), key.substr(dot + 1));
+    if (p != nullptr && p->kind == ValueKind::flag) return value != 0.0 ? "true" : "false";
+    return fmt::format("{}", value);
+}
+
+/// A row of a ledger by the names of its columns.
+struct LedgerRow {
+    const LedgerTable& table;
+    const std::vector<LedgerCell>& cells;
+
+    Json figures() const {
+        Json all = Json::object();
+        for (std::size_t k = 0; k < cells.size(); ++k) {
+            if (const auto* number = std::get_if<double>(&cells[k])) all[table.columns[k]] = *number;
+            if (const auto* text = std::get_if<std::string>(&cells[k])) all[table.columns[k]] = *text;
+        }
+        return all;
+    }
+    /// The folder's, with what the plan calls the row.
+    std::string where(const fs::path& folder) const {
+        std::string text = fmt::format("{}, {}", folder.string(), std::get<std::string>(cells[1]));
+        for (std::size_t k = 2; table.columns[k] != "seed"; ++k)
+            if (!std::holds_alternative<std::monostate>(cells[k]))
+                text += fmt::format(", {} = {}", table.columns[k], axis_text(table.columns[k], cells[k]));
+        return text;
+    }
+    /// Values of the axes that are for it, which stand between the test's name and the seed.
+    RockKeys axes() const {
+        RockKeys all;
+        for (std::size_t k = 2; table.columns[k] != "seed"; ++k)
+            if (!std::holds_alternative<std::monostate>(cells[k]) && !differs_within_a_rock(table.columns[k]))
+                all[table.columns[k]] = axis_text(table.columns[k], cells[k]);
+        return all;
+    }
+};
+
+void add_campaign(Collection& all, const fs::path& folder) {
+    const Ledger ledger = Ledger::read(ledger_file(folder));
+    const std::string text = ledger.meta("rocks");
+    if (text.empty()) {
+        throw InputError(
+            fmt::format("envelope: {}: found no record of what its tests are made of, expected that of its plan; call "
+                        "`crackle campaign` again, which keeps what has been run",
+                        folder.string()));
+    }
+    const Json rocks = Json::parse(text);
+    const LedgerTable table = ledger.results();
+    for (const std::vector<LedgerCell>& cells : table.rows) {
+        const LedgerRow row{table, cells};
+        const Json figures = row.figures();
+        if (word_of(figures, "variant") != name_of(Variant::as_asked)) continue;
+        const std::string state = word_of(figures, "state");
+        if (state != row_done) {
+            all.leave_out(row.where(folder), state.empty() ? "not run yet" : "gone wrong (" + state + ")");
+            continue;
+        }
+        RockKeys rock = rocks.at(word_of(figures, "test")).get<RockKeys>();
+        for (const auto& [key, value] : row.axes()) rock[key] = value;
+        all.add({row.where(folder), fmt::format("{:.0f}", number_of(figures, "seed")), figures, rock});
+    }
+}
+
+}  // namespace
+
+MeasuredStrengths read_strengths(std::span<const fs::path> folders) {
+    Collection all;
+    FileHashes files;
+    for (const fs::path& folder : folders) {
+        if (is_file(ledger_file(folder)))
+            add_campaign(all, folder);
+        else
+            all.add(read_test(folder, files));
+    }
+    return all.taken();
+}
+
+}  // namespace crackle

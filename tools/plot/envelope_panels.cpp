@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/plot/envelope_panels.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "tools/plot/axes.hpp"
+#include "tools/plot/legend.hpp"
+
+namespace crackle::plot {
+namespace {
+
+constexpr int points_of_curve = 200;
+constexpr double beyond_last = 1.08;  // laws go on a little behind the last test
+
+const Colour& line_colour() { return series_colour(1); }
+const Colour& hoek_brown_colour() { return series_colour(2); }
+
+/// A letter with an index beneath, as Pango's markup.
+std::string indexed(const char* letter, const char* index) {
+    return fmt::format("<i>{}</i><span size=\"75%\" rise=\"-2pt\">{}</span>", letter, index);
+}
+
+double largest_confinement(const EnvelopeFigure& figure) { return figure.laws.strengths.back().confinement; }
+
+double largest_strength(const EnvelopeFigure& figure) {
+    double largest = 0.0;
+    for (const StrengthPoint& test : figure.tests.compressions) largest = std::max(largest, test.strength);
+    return largest;
+}
+
+/// Of the smallest strength, so that pressures, a small share of it, are no long fractions.
+Unit stress_unit(const EnvelopeFigure& figure) {
+    return unit_for(figure.laws.strengths.front().mean, figure.tests.unit);
+}
+
+/// With what was fitted.
+std::vector<Legend::Entry> fitted_entries(const EnvelopeFigure& figure) {
+    const StrengthEnvelope& laws = figure.laws;
+    const Unit unit = stress_unit(figure);
+    const auto stress = [&](const FittedNumber& number) {
+        return fmt::format("{:.3g} {}", number.value / unit.factor, unit.name);
+    };
+    return {{fmt::format("Mohr-Coulomb: φ = {:.1f}°, c = {}", laws.friction_angle.value, stress(laws.cohesion)),
+             line_colour(), true, false},
+            {fmt::format("Hoek-Brown: m = {:.3g}, C = {}", laws.hoek_brown_m.value, stress(laws.hoek_brown_strength)),
+             hoek_brown_colour(), false, false}};
+}
+
+std::vector<Legend::Entry> circle_entries(const EnvelopeFigure& figure) {
+    std::vector<Legend::Entry> entries{{"Mohr-Coulomb", line_colour(), true, false},
+                                       {"Hoek-Brown", hoek_brown_colour(), false, false},
+                                       {"means", ink, false, false}};
+    if (figure.tension.count > 0) entries.push_back({"tension", tension_colour, false, false});
+    return entries;
+}
+
+/// Stresses between two ends, evenly.
+template <class Law>
+std::vector<Point> curve_of(const Axes& axes, double factor, double from, double to, const Law& law) {
+    std::vector<Point> points;
+    for (int k = 0; k <= points_of_curve; ++k) {
+        const double at = std::lerp(from, to, static_cast<double>(k) / points_of_curve);
+        const Point stress = law(at);
+        points.push_back(axes.at(stress.x / factor, stress.y / factor));
+    }
+    return points;
+}
+
+/// Axes on which a length of σn is as long as one of τ.
+struct MohrAxes {
+    Unit unit;
+    double width;  ///< of the frame, pt
+    Scale x, y;
+
+    MohrAxes(const EnvelopeFigure& figure, const Canvas& canvas, double panel_width) : unit(stress_unit(figure)) {
+        double right = 0.0, radius = 0.0;
+        for (const StrengthAt& at : figure.laws.strengths) {
+            right = std::max(right, at.mean);
+            radius = std::max(radius, 0.5 * (at.mean - at.confinement));
+        }
+        const double left = figure.tension.count > 0 ? -figure.tension.mean : 0.0;
+        x = scale_for(left / unit.factor, right / unit.factor, panel_width < 300.0 ? 7 : 10);
+        const double top = 1.12 * radius / unit.factor;
+        y = {0.0, top, scale_for(0.0, top, 4).step};
+        width = panel_width - Axes::room_left(canvas, y) - 4.0;
+    }
+    double points_of_unit() const { return width / (x.high - x.low); }
+    double height() const { return y.high * points_of_unit(); }
+};
+
+double room_above(const Canvas& canvas, const Legend& legend) {
+    return std::max(legend.height(), 1.6 * canvas.style().font_size);
+}
+
+void draw_circle(Canvas& canvas, const Axes& axes, double factor, double smallest, double largest,
+                 const Colour& colour) {
+    const double centre = 0.5 * (smallest + largest), radius = 0.5 * (largest - smallest);
+    canvas.line(curve_of(axes, factor, 0.0, std::numbers::pi,
+                         [&](double angle) {
+                             return Point{centre + radius * std::cos(angle), radius * std::sin(angle)};
+                         }),
+                colour, 0.7 * curve_width);
+}
+
+}  // namespace
+
+Panel strengths_over_confinement(const EnvelopeFigure& figure) {
+    Panel panel;
+    panel.height = [figure](const Canvas& measure, double width) {
+        return 0.55 * proportional(width) + legend_of(measure, fitted_entries(figure), width).more_rows();
+    };
+    panel.draw = [figure](Canvas& canvas, const Rect& place) {
+        const StrengthEnvelope& laws = figure.laws;
+        const Unit unit = stress_unit(figure);
+        const double last = beyond_last * largest_confinement(figure);
+        double highest = std::max({largest_strength(figure), laws.mohr_coulomb(last), laws.hoek_brown(last)});
+        // An interval of two tests may be many times as long as all else: it then runs out of the frame.
+        const double room_for_intervals = 1.2 * highest;
+        for (const StrengthAt& one : laws.strengths)
+            if (one.high > highest) highest = std::min(one.high, room_for_intervals);
+        Axes axes;
+        axes.x = scale_for(figure.tension.count > 0 ? -figure.tension.mean / unit.factor : 0.0, last / unit.factor,
+                           place.width < 300.0 ? 5 : 8);
+        axes.y = scale_for(0.0, highest / unit.factor, 5);
+        const Legend legend = legend_of(canvas, fitted_entries(figure), place.width);
+        axes.frame = frame_below(canvas, place, legend, axes.y);
+        legend.draw(canvas, {place.x + beside_letter, place.y});
+        canvas.clip(axes.frame);
+        canvas.line(curve_of(axes, unit.factor, laws.mohr_coulomb_tension(), last,
+                             [&](double s3) {
+                                 return Point{s3, laws.mohr_coulomb(s3)};
+                             }),
+                    line_colour(), curve_width, true);
+        canvas.line(curve_of(axes, unit.factor, laws.hoek_brown_tension(), last,
+                             [&](double s3) {
+                                 return Point{s3, laws.hoek_brown(s3)};
+                             }),
+                    hoek_brown_colour(), curve_width);
+        canvas.unclip();
+        const auto at = [&](double s3, double s1) { return axes.at(s3 / unit.factor, s1 / unit.factor); };
+        const Colour faint = tinted(ink, 0.45);
+        constexpr double beside = 4.5;  // pt, from the mean and its interval
+        for (const StrengthPoint& test : figure.tests.compressions) {
+            const Point place_of_test = at(test.confinement, test.strength);
+            canvas.circle({place_of_test.x + beside, place_of_test.y}, 1.0, &faint, nullptr, 0.0);
+        }
+        for (const double tension : figure.tests.tensions) {
+            const Point place_of_test = at(-tension, 0.0);
+            canvas.circle({place_of_test.x, place_of_test.y - beside}, 1.0, &faint, nullptr, 0.0);
+        }
+        axes.draw(canvas, titled("confining pressure " + indexed("σ", "3"), unit.name),
+                  titled("strength " + indexed("σ", "1"), unit.name));
+        constexpr double mark = 5.0;  // pt, half of one that stands on the axis
+        canvas.clip({axes.frame.x - mark, axes.frame.y, axes.frame.width + 2.0 * mark, axes.frame.height});
+        for (const StrengthAt& one : laws.strengths) {
+            draw_mean(canvas, at(one.confinement, one.mean), at(one.confinement, one.low),
+                      at(one.confinement, one.high), ink, false);
+        }
+        canvas.unclip();
+        if (figure.tension.count > 0) {
+            draw_mean(canvas, at(-figure.tension.mean, 0.0), at(-figure.tension.high, 0.0),
+                      at(-figure.tension.low, 0.0), tension_colour, true);
+        }
+    };
+    return panel;
+}
+
+Panel mohr_circles(const EnvelopeFigure& figure) {
+    Panel panel;
+    panel.height = [figure](const Canvas& measure, double width) {
+        const Legend legend = legend_of(measure, circle_entries(figure), width);
+        return room_above(measure, legend) + MohrAxes(figure, measure, width).height() + Axes::room_below(measure);
+    };
+    panel.draw = [figure](Canvas& canvas, const Rect& place) {
+        const StrengthEnvelope& laws = figure.laws;
+        const Legend legend = legend_of(canvas, circle_entries(figure), place.width);
+        const MohrAxes scales(figure, canvas, place.width);
+        Axes axes;
+        axes.x = scales.x;
+        axes.y = scales.y;
+        axes.frame = frame_below(canvas, place, legend, axes.y);
+        // A row may be higher than this needs: more of the ordinate, at the same scale.
+        axes.y.high = axes.frame.height / (axes.frame.width / (axes.x.high - axes.x.low));
+        legend.draw(canvas, {place.x + beside_letter, place.y});
+        const double factor = scales.unit.factor, last = beyond_last * largest_confinement(figure);
+        const double last_deviator = laws.hoek_brown(last) - last;
+        const double last_normal = laws.hoek_brown_on_plane(last_deviator).normal;
+        canvas.clip(axes.frame);
+        for (const StrengthAt& at : laws.strengths) draw_circle(canvas, axes, factor, at.confinement, at.mean, ink);
+        if (figure.tension.count > 0) draw_circle(canvas, axes, factor, -figure.tension.mean, 0.0, tension_colour);
+        const double apex = -laws.cohesion.value / (laws.mohr_coulomb_on_plane(1.0) - laws.cohesion.value);
+        canvas.line(curve_of(axes, factor, apex, last_normal,
+                             [&](double normal) {
+                                 return Point{normal, laws.mohr_coulomb_on_plane(normal)};
+                             }),
+                    line_colour(), curve_width, true);
+        canvas.line(curve_of(axes, factor, 0.0, last_deviator,
+                             [&](double deviator) {
+                                 const PlaneStress on = laws.hoek_brown_on_plane(deviator);
+                                 return Point{on.normal, on.shear};
+                             }),
+                    hoek_brown_colour(), curve_width);
+        canvas.unclip();
+        axes.draw(canvas, titled("normal stress " + indexed("σ", "n"), scales.unit.name),
+                  titled("shear stress <i>τ</i>", scales.unit.name));
+    };
+    return panel;
+}
+
+}  // namespace crackle::plot

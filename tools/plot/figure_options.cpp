@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/plot/figure_options.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+
+#include "solver/base/errors.hpp"
+
+namespace crackle::plot {
+namespace {
+
+namespace po = boost::program_options;
+
+constexpr double column_width = 85.0, page_width = 180.0;  // mm, of most journals
+
+}  // namespace
+
+void add_figure_options(po::options_description& options, int columns) {
+    options.add_options()("columns", po::value<int>()->value_name("N")->default_value(columns),
+                          "of a journal: 1 (85 mm wide) or 2 (180 mm)")                                          //
+        ("width", po::value<double>()->value_name("MM"), "of the figure, mm, in place of --columns")             //
+        ("font", po::value<std::string>()->value_name("NAME")->default_value(SheetStyle{}.font), "of all text")  //
+        ("font-size", po::value<double>()->value_name("PT")->default_value(SheetStyle{}.font_size), "pt")        //
+        ("dpi", po::value<double>()->value_name("N")->default_value(SheetStyle{}.dpi), "dots an inch, of PNG")   //
+        ("title", po::value<std::string>()->value_name("TEXT")->default_value("", ""), "above the figure");
+}
+
+double number_between(const std::string& command, const po::variables_map& given, const char* option, double low,
+                      double high, const char* unit) {
+    const double value = given[option].as<double>();
+    if (!(value >= low && value <= high))
+        throw InputError(fmt::format("{}: --{}: found {}, expected {} to {}{}{}", command, option, value, low, high,
+                                     *unit ? " " : "", unit));
+    return value;
+}
+
+FigureLook figure_look(const std::string& command, const po::variables_map& given) {
+    const int columns = given["columns"].as<int>();
+    if (columns != 1 && columns != 2)
+        throw InputError(fmt::format("{}: --columns: found {}, expected 1 or 2", command, columns));
+    FigureLook look;
+    const double width = given.contains("width") ? number_between(command, given, "width", 30.0, 1000.0, "mm")
+                         : columns == 1          ? column_width
+                                                 : page_width;
+    look.width = width * points_of_mm;
+    look.sheet.font = given["font"].as<std::string>();
+    look.sheet.font_size = number_between(command, given, "font-size", 3.0, 72.0, "pt");
+    look.sheet.dpi = number_between(command, given, "dpi", 20.0, 2400.0, "dots an inch");
+    look.title = given["title"].as<std::string>();
+    return look;
+}
+
+Format format_named(const std::string& command, const std::string& where, const std::string& name) {
+    const std::map<std::string, Format> formats{{"svg", Format::svg}, {"pdf", Format::pdf}, {"png", Format::png}};
+    const auto found = formats.find(name);
+    if (found == formats.end())
+        throw InputError(fmt::format("{}: {}: found '{}', expected svg, pdf or png", command, where, name));
+    return found->second;
+}
+
+Format format_of_output(const std::string& command, const std::filesystem::path& output) {
+    const std::string extension = output.extension().string();
+    return format_named(command, fmt::format("--output {}", output.string()),
+                        extension.empty() ? "" : extension.substr(1));
+}
+
+}  // namespace crackle::plot
