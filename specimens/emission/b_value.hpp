@@ -47,7 +47,7 @@ enum class Completeness {
 double completeness_of(std::span<const double> magnitudes, Completeness rule);
 
 /// b above the Mc of a rule. Of `least_distance` without errors, interval and `straight`: the same events have chosen
-/// it, and the errors would be too small by a third.
+/// it, and the errors would be too small by a quarter.
 BValue fit_b_value(std::span<const double> magnitudes, Completeness rule);
 
 }  // namespace crackle
