@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/measure/last_pass.hpp"
 
+#include <cmath>
+
 #include "solver/base/correctly_rounded.hpp"
 #include "solver/geometry/geometry.hpp"
 
@@ -15,8 +17,13 @@ BodyState body_at_last_pass(const World& world, BodyIndex b) {
     body.y -= drift * body.vy;
     body.angle -= turn;
     if (world.bodies.names[b].shape == no_shape) return body;
-    const double c = body.shape[0], s = body.shape[1];
-    const double cosine = correctly_rounded::cos(turn), sine = correctly_rounded::sin(turn);
+    const double c = body.shape[0], s = body.shape[1], q = turn * turn;
+    double cosine = 1.0 - q * (0.5 - q * (1.0 / 24.0 - q / 720.0)),
+           sine = turn * (1.0 - q * (1.0 / 6.0 - q * (1.0 / 120.0 - q / 5040.0)));  // as bodies are turned
+    if (std::abs(turn) >= 0.01) {
+        cosine = correctly_rounded::cos(turn);
+        sine = correctly_rounded::sin(turn);
+    }
     body.shape[0] = c * cosine + s * sine;
     body.shape[1] = s * cosine - c * sine;
     return body;
@@ -24,7 +31,7 @@ BodyState body_at_last_pass(const World& world, BodyIndex b) {
 
 template <PointKind K>
 PointLoad load_of_kind(const World& world, PointIndex k) {
-    const ContactPoint point = world.points.contact[k];
+    const ContactPoint point = world.points.contact.at<K>(k);
     const BodyState i = body_at_last_pass(world, point.body_i);
     const BodyState j = K == PointKind::element_wall ? i : body_at_last_pass(world, point.body_j);
     std::uint32_t feature = point.feature_j;

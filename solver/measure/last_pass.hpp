@@ -15,6 +15,10 @@ struct PointLoad {
     Vec2 normal;  // unit, from i to j
 };
 PointLoad load_of_last_pass(const World& world, PointIndex point);
+/// Whether it can have borne anything.
+inline bool bore_in_last_pass(const World& world, PointIndex point) {
+    return (world.points.state[point].flags & (point_touching | point_bonded)) != 0;
+}
 
 /// s, of the last force pass.
 double time_of_last_pass(const World& world);

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
+#include <utility>
 
 #include "solver/base/errors.hpp"
 #include "solver/measure/last_pass.hpp"
@@ -34,6 +36,8 @@ std::vector<EarlierForce>::const_iterator find_earlier(const std::vector<Earlier
                                          [&](const EarlierForce& one) { return comes_before(one, kind, key); });
     return at != before.end() && at->kind == kind && key_of(kind, at->point) == key ? at : before.end();
 }
+
+bool is_source(const OpenEvent& open, BodyIndex body) { return std::ranges::binary_search(open.bodies, body); }
 
 /// Force on body_i just before its bond broke, N: that of the break.
 Vec2 force_of_break(const BreakEvent& one, Vec2 normal) {
@@ -88,16 +92,14 @@ EmissionRule emission_rule(const World& world, const TestSetup& setup, double yo
     return rule;
 }
 
-bool EmissionListener::is_source(const OpenEvent& open, BodyIndex body) const {
-    return std::ranges::binary_search(open.bodies, body);
-}
-
 std::size_t EmissionListener::listen(std::span<const BreakEvent> breaks, double axial_strain) {
     const double now = breaks.empty() ? time_of_last_pass(world_) : breaks.front().time;
-    const std::size_t ended = end_if(now);
+    const std::size_t ended = end_before(now);
+    if (emission_.open.empty() && breaks.empty()) return ended;
+    if (list_builds_ != world_.list.builds) list_points();
     for (const BreakEvent& one : breaks) add_break(event_of(one, axial_strain), one, breaks);
-    if (changed_ || list_builds_ != world_.list.builds) find_surfaces();
     for (std::size_t k = 0; k < emission_.open.size(); ++k) {
+        if (!surfaces_[k].found) surfaces_[k] = surface_of(emission_.open[k]);
         AcousticEvent& event = emission_.open[k].event;
         const MomentTensor moment = moment_of(emission_.open[k], surfaces_[k]);
         if (!(scalar_moment(moment) > scalar_moment(event.moment))) continue;
@@ -107,33 +109,45 @@ std::size_t EmissionListener::listen(std::span<const BreakEvent> breaks, double 
     return ended;
 }
 
-std::size_t EmissionListener::end_all() { return end_if(std::numeric_limits<double>::infinity()); }
+std::size_t EmissionListener::end_all() { return end_before(std::numeric_limits<double>::infinity()); }
 
-std::size_t EmissionListener::end_if(double now) {
-    const auto over = [&](const OpenEvent& open) { return now > open.event.time + open.event.duration; };
-    const std::size_t before = emission_.events.size();
-    for (const OpenEvent& open : emission_.open)
-        if (over(open)) emission_.events.push_back(open.event);
-    std::erase_if(emission_.open, over);
-    const std::size_t ended = emission_.events.size() - before;
-    changed_ = changed_ || ended > 0;
+std::size_t EmissionListener::end_before(double now) {
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < emission_.open.size(); ++k) {
+        const AcousticEvent& event = emission_.open[k].event;
+        if (now > event.time + event.duration) {
+            emission_.events.push_back(event);
+            continue;
+        }
+        if (kept != k) {
+            emission_.open[kept] = std::move(emission_.open[k]);
+            surfaces_[kept] = std::move(surfaces_[k]);
+        }
+        ++kept;
+    }
+    const std::size_t ended = emission_.open.size() - kept;
+    emission_.open.resize(kept);
+    surfaces_.resize(kept);
     return ended;
 }
 
-OpenEvent& EmissionListener::event_of(const BreakEvent& one, double axial_strain) {
-    for (OpenEvent& open : emission_.open)
-        if (norm(one.position - open.event.centre) <= open.event.radius) return open;
+std::size_t EmissionListener::event_of(const BreakEvent& one, double axial_strain) {
+    for (std::size_t k = 0; k < emission_.open.size(); ++k) {
+        const AcousticEvent& event = emission_.open[k].event;
+        if (norm(one.position - event.centre) <= event.radius) return k;
+    }
     OpenEvent begun;
     begun.event.time = one.time;
     begun.event.axial_strain = axial_strain;
-    return emission_.open.emplace_back(begun);
+    emission_.open.push_back(std::move(begun));
+    surfaces_.emplace_back();
+    return emission_.open.size() - 1;
 }
 
-void EmissionListener::add_break(OpenEvent& open, const BreakEvent& one, std::span<const BreakEvent> breaks) {
-    changed_ = true;
+void EmissionListener::add_break(std::size_t number, const BreakEvent& one, std::span<const BreakEvent> breaks) {
+    OpenEvent& open = emission_.open[number];
     AcousticEvent& event = open.event;
     open.places.push_back(one.position);
-    open.last = one.time;
     event.breaks += 1;
     event.breaks_in_shear += one.shear_mode ? 1 : 0;
     event.energy += one.energy;
@@ -143,25 +157,26 @@ void EmissionListener::add_break(OpenEvent& open, const BreakEvent& one, std::sp
     double farthest = 0.0;
     for (const Vec2 place : open.places) farthest = std::max(farthest, norm(place - event.centre));
     event.radius = emission_.rule.diameter + farthest;
-    event.duration = open.last - event.time + emission_.rule.window(event.radius);
-    for (const BodyIndex body : {one.point.body_i, one.point.body_j})
-        if (!setup_.is_platen(body) && !is_source(open, body)) add_body(open, body, breaks);
+    event.duration = one.time - event.time + emission_.rule.window(event.radius);
+    for (const BodyIndex body : {one.point.body_i, one.point.body_j}) {
+        if (setup_.is_platen(body) || is_source(open, body)) continue;
+        add_body(open, body, breaks);
+        surfaces_[number].found = false;
+    }
 }
 
 void EmissionListener::add_body(OpenEvent& open, BodyIndex body, std::span<const BreakEvent> breaks) {
-    const auto& pairs = world_.points.contact.pairs;
     const PointIndex walls = world_.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
-    for (PointIndex k = 0; k < pairs.size(); ++k) {
-        const bool of_i = pairs[k].body_i == body, of_j = k < walls && pairs[k].body_j == body;
-        if (!of_i && !of_j) continue;
-        // What lies between two source bodies does not count, and never will again.
-        if (k < walls && is_source(open, of_i ? pairs[k].body_j : pairs[k].body_i)) continue;
-        const PointKind kind = kind_of_point(world_, k);
+    for (const PointIndex k : points_of(body)) {
         const ContactPoint point = world_.points.contact[k];
+        // What lies between two source bodies does not count, and never will again.
+        if (k < walls && is_source(open, point.body_i == body ? point.body_j : point.body_i)) continue;
+        const PointKind kind = kind_of_point(world_, k);
+        const auto broke = std::ranges::find_if(
+            breaks, [&](const BreakEvent& one) { return one.kind == kind && same_point(kind, one.point, point); });
+        if (broke == breaks.end() && !bore_in_last_pass(world_, k)) continue;
         const PointLoad load = load_of_last_pass(world_, k);
-        Vec2 force = load.force;
-        for (const BreakEvent& one : breaks)
-            if (one.kind == kind && same_point(kind, one.point, point)) force = force_of_break(one, load.normal);
+        const Vec2 force = broke == breaks.end() ? load.force : force_of_break(*broke, load.normal);
         if (force != Vec2{}) open.before.push_back({kind, point, force, load.place});
     }
     open.bodies.insert(std::ranges::lower_bound(open.bodies, body), body);
@@ -174,47 +189,64 @@ void EmissionListener::add_body(OpenEvent& open, BodyIndex body, std::span<const
     });
 }
 
-void EmissionListener::find_surfaces() {
+void EmissionListener::list_points() {
     list_builds_ = world_.list.builds;
-    changed_ = false;
-    surfaces_.assign(emission_.open.size(), {});
-    marks_.assign(world_.bodies.size(), 0);
-    for (const OpenEvent& open : emission_.open)
-        for (const BodyIndex body : open.bodies) marks_[body] = 1;
+    for (Surface& surface : surfaces_) surface.found = false;
     const auto& pairs = world_.points.contact.pairs;
     const PointIndex walls = world_.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
-    std::vector<PointIndex> near;
-    for (PointIndex k = 0; k < pairs.size(); ++k)
-        if (marks_[pairs[k].body_i] != 0 || (k < walls && marks_[pairs[k].body_j] != 0)) near.push_back(k);
-    for (std::size_t n = 0; n < emission_.open.size(); ++n) {
-        const OpenEvent& open = emission_.open[n];
-        std::vector<bool> listed(open.before.size(), false);
-        for (const PointIndex k : near) {
-            const bool of_i = is_source(open, pairs[k].body_i), of_j = k < walls && is_source(open, pairs[k].body_j);
-            if (of_i == of_j) continue;
-            const PointKind kind = kind_of_point(world_, k);
+    points_begin_.assign(world_.bodies.size() + 1, 0);
+    const auto visit = [&](auto&& with) {
+        for (PointIndex k = 0; k < pairs.size(); ++k) {
+            with(pairs[k].body_i, k);
+            if (k < walls) with(pairs[k].body_j, k);
+        }
+    };
+    visit([&](BodyIndex b, PointIndex /*k*/) { ++points_begin_[b + 1]; });
+    for (std::size_t b = 0; b < world_.bodies.size(); ++b) points_begin_[b + 1] += points_begin_[b];
+    points_.resize(points_begin_.back());
+    std::vector<PointIndex> next(points_begin_.begin(), points_begin_.end() - 1);
+    visit([&](BodyIndex b, PointIndex k) { points_[next[b]++] = k; });
+    marks_.assign(world_.bodies.size(), 0);
+}
+
+EmissionListener::PointRange EmissionListener::points_of(BodyIndex body) const {
+    return PointRange(points_).subspan(points_begin_[body], points_begin_[body + 1] - points_begin_[body]);
+}
+
+EmissionListener::Surface EmissionListener::surface_of(const OpenEvent& open) {
+    Surface surface;
+    surface.found = true;
+    const PointIndex walls = world_.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
+    std::vector<bool> listed(open.before.size(), false);
+    for (const BodyIndex body : open.bodies) marks_[body] = 1;
+    for (const BodyIndex body : open.bodies) {
+        for (const PointIndex k : points_of(body)) {
             const ContactPoint point = world_.points.contact[k];
+            const bool of_i = point.body_i == body;
+            if (k < walls && marks_[of_i ? point.body_j : point.body_i] != 0) continue;
+            const PointKind kind = kind_of_point(world_, k);
             const auto found = find_earlier(open.before, kind, point);
             const auto at = static_cast<std::size_t>(found - open.before.cbegin());
             const bool bore = found != open.before.cend();
             if (bore) listed[at] = true;
-            surfaces_[n].points.push_back({k, of_i, bore ? at : bore_nothing});
+            surface.points.push_back({k, of_i, bore ? at : bore_nothing});
         }
-        for (std::size_t k = 0; k < listed.size(); ++k)
-            if (!listed[k]) surfaces_[n].gone.push_back(k);
     }
+    for (const BodyIndex body : open.bodies) marks_[body] = 0;
+    for (std::size_t k = 0; k < listed.size(); ++k)
+        if (!listed[k]) surface.gone.push_back(k);
+    return surface;
 }
 
 MomentTensor EmissionListener::moment_of(const OpenEvent& open, const Surface& surface) const {
     MomentTensor moment;
     for (const SurfacePoint& on : surface.points) {
-        const PointLoad load = load_of_last_pass(world_, on.point);
-        Vec2 change = load.force, place = load.place;
-        if (on.before != bore_nothing) {
-            change = change - open.before[on.before].force;
-            place = open.before[on.before].place;
-        }
-        if (change != Vec2{}) moment.add(on.of_i ? -change : change, place - open.event.centre);
+        const bool bore = on.before != bore_nothing, bears = bore_in_last_pass(world_, on.point);
+        if (!bore && !bears) continue;
+        const PointLoad load = bears ? load_of_last_pass(world_, on.point) : PointLoad{};
+        const EarlierForce* const earlier = bore ? &open.before[on.before] : nullptr;
+        const Vec2 change = bore ? load.force - earlier->force : load.force;
+        moment.add(on.of_i ? -change : change, (bore ? earlier->place : load.place) - open.event.centre);
     }
     for (const std::size_t k : surface.gone) {
         const EarlierForce& earlier = open.before[k];

@@ -74,7 +74,6 @@ struct EarlierForce {
 /// An event whose window has not ended.
 struct OpenEvent {
     AcousticEvent event;               ///< its duration and moment so far
-    double last = 0.0;                 // s, of its last break
     std::vector<Vec2> places;          // m, of its breaks
     std::vector<BodyIndex> bodies;     ///< of the source, sorted
     std::vector<EarlierForce> before;  ///< of their points that bore something, by kind and key (point_order.hpp)
@@ -82,7 +81,6 @@ struct OpenEvent {
     template <class Self, class Visit>
     static constexpr void fields(Self& s, Visit&& visit) {
         visit("event", s.event);
-        visit("last", s.last);
         visit("places", s.places);
         visit("bodies", s.bodies);
         visit("before", s.before);
@@ -106,7 +104,7 @@ struct Emission {
 class EmissionListener {
   public:
     EmissionListener(const World& world, const TestSetup& setup, Emission& emission)
-        : world_(world), setup_(setup), emission_(emission) {}
+        : world_(world), setup_(setup), emission_(emission), surfaces_(emission.open.size()) {}
 
     /// Whether a force pass is to be listened to. @param broke found it a break
     bool hears(bool broke) const { return emission_.rule.on() && (broke || !emission_.open.empty()); }
@@ -124,26 +122,30 @@ class EmissionListener {
         bool of_i;           ///< body_i is the source's
         std::size_t before;  ///< into OpenEvent::before; npos: bore nothing then
     };
+    /// Of an open event; found again where the list was built or it gained a body.
     struct Surface {
+        bool found = false;
         std::vector<SurfacePoint> points;
         std::vector<std::size_t> gone;  ///< of OpenEvent::before those that are not listed any more
     };
+    using PointRange = std::span<const PointIndex>;
 
-    bool is_source(const OpenEvent& open, BodyIndex body) const;
-    std::size_t end_if(double before);
-    OpenEvent& event_of(const BreakEvent& one, double axial_strain);
-    void add_break(OpenEvent& open, const BreakEvent& one, std::span<const BreakEvent> breaks);
+    std::size_t end_before(double now);
+    std::size_t event_of(const BreakEvent& one, double axial_strain);
+    void add_break(std::size_t number, const BreakEvent& one, std::span<const BreakEvent> breaks);
     void add_body(OpenEvent& open, BodyIndex body, std::span<const BreakEvent> breaks);
-    void find_surfaces();
+    void list_points();
+    PointRange points_of(BodyIndex body) const;
+    Surface surface_of(const OpenEvent& open);
     MomentTensor moment_of(const OpenEvent& open, const Surface& surface) const;
 
     const World& world_;
     const TestSetup& setup_;
     Emission& emission_;
-    std::vector<Surface> surfaces_;  // of the open events; found again where the list was built or an event changed
+    std::vector<Surface> surfaces_;  // of Emission::open, in the same order
     std::int64_t list_builds_ = -1;
-    bool changed_ = true;
-    std::vector<char> marks_;  // by body
+    std::vector<PointIndex> points_, points_begin_;  // by body: those of body b from points_begin_[b] on
+    std::vector<char> marks_;                        // by body; 0 between calls
 };
 
 }  // namespace crackle

@@ -75,7 +75,7 @@ constexpr double least_strength_over_modulus = 1e-6, least_modulus = 1e5;  // Pa
 void listen_for_emission(VirtualTest& test) {
     const TestCase::Output& output = test.description.output;
     if (!output.emission) return;
-    std::string why = test.no_small_strain;
+    std::string why = "there is no small-strain modulus";
     if (test.small_strain) {
         try {
             test.state.emission.rule =

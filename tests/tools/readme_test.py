@@ -97,7 +97,7 @@ def declared(name):
     """A key of a summary by the wildcards of FILES.md."""
     name = re.sub(r"^numerical_errors\.companions\.\w+", "numerical_errors.companions.*", name)
     name = re.sub(r"^crack_rose\.\w+", "crack_rose.*", name)
-    name = re.sub(r"^files\.(curve\.csv|events\.csv|slips\.csv|checkpoint)", "files.*", name)
+    name = re.sub(r"^files\.(curve\.csv|events\.csv|slips\.csv|ae\.csv|checkpoint)", "files.*", name)
     return re.sub(r"^numerical_errors\.(youngs_modulus|peak_stress|peak_strain)", "numerical_errors.*", name)
 
 
