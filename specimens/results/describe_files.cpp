@@ -94,7 +94,7 @@ shows, for such a bond slides within its limit and parts where its overlap is us
 constexpr const char* emission_text = R"(
 ## `ae.csv`
 
-With `output.emission = true`, the default, one row for each acoustic event, in the order in which they ended: breaks that belong together in place and
+With `output.emission = true`, one row for each acoustic event, in the order in which they ended: breaks that belong together in place and
 time, and the largest moment of their source meanwhile ([how](../METHODS.md#acoustic-emission)). Every break is in one event. Energies and moments are those of the
 model, per unit thickness; magnitudes are those of the specimen as thick as `output.out_of_plane_thickness` says.
 )";

@@ -166,7 +166,7 @@ std::vector<SummaryKey> all_summary_keys() {
 
         {{"emission", "",
           "acoustic events, ae.csv: breaks clustered in place and time; those that ended, and what tells them apart",
-          "null where the linear solution gives no shear wave, and with `output.emission = false`; the window keeps "
+          "with `output.emission = true`; null where the linear solution gives no shear wave; the window keeps "
           "its "
           "meaning with physical masses and little damping"}},
         {{"emission.events", "", "rows of ae.csv"}},

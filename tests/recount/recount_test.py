@@ -62,7 +62,7 @@ def run(name, case, *options):
 
 
 def circles():
-    return run("circles", rock + squeezed + rate + output + "out_of_plane_thickness = 0.05\nslips = true\n", "--verify")
+    return run("circles", rock + squeezed + rate + output + "out_of_plane_thickness = 0.05\nslips = true\nemission = true\n", "--verify")
 
 
 def cells_of_an_area_pulled():

@@ -3,10 +3,12 @@
 // Tested by tests/tools/commands/plot_test.cpp.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "specimens/emission/b_value.hpp"
 #include "tools/plot/axes.hpp"
@@ -77,28 +79,44 @@ std::string range_text(const std::vector<PlottedTest>& tests, const char* key, c
     return (from == to ? from : from + " to " + to) + unit;
 }
 
+std::string joined(const std::vector<std::string>& parts) { return fmt::format("{}", fmt::join(parts, ", ")); }
+
 /// What is known of b, a line each; the first is the result.
 std::vector<std::string> lines_of(const BValue& value, const std::vector<PlottedTest>& tests, std::size_t all) {
-    std::vector<std::string> lines;
-    if (value.known()) {
-        lines.push_back(fmt::format("<i>b</i> = {:.2f} ± {:.2f}", value.b, value.standard_error));
-        lines.push_back(fmt::format("{} of {} events above {} = {}", value.events, all, completeness_sign,
-                                    signed_number(value.completeness, 2)));
-        if (value.of_few()) lines.push_back(fmt::format("fewer than {} events", few_magnitudes));
-        if (!value.straight) lines.emplace_back("not a straight line (at 5 %)");
-    } else if (std::isnan(value.completeness)) {
-        lines.push_back(fmt::format("{} events: too few for <i>b</i>", all));
-    } else {
-        lines.push_back(fmt::format("{} of {} events above {} = {}: too few for <i>b</i>", value.events, all,
-                                    completeness_sign, signed_number(value.completeness, 2)));
-    }
-    if (tests.size() > 1) lines.push_back(fmt::format("{} tests together", tests.size()));
+    std::vector<std::string> counts, flaws, physics;
+    counts.push_back(std::isnan(value.completeness)
+                         ? fmt::format("{} events", all)
+                         : fmt::format("{} of {} events above {} = {}", value.events, all, completeness_sign,
+                                       signed_number(value.completeness, 2)));
+    if (tests.size() > 1) counts.push_back(fmt::format("{} tests together", tests.size()));
+    if (value.known() && value.of_few()) flaws.push_back(fmt::format("fewer than {} events", few_magnitudes));
+    if (value.known() && !value.straight) flaws.emplace_back("not a straight line (at 5 %)");
     const std::string damping = range_text(tests, "damping_ratio", ""),
                       density = range_text(tests, "density", " kg/m²");
-    if (!damping.empty()) lines.push_back("damping ratio " + damping);
-    if (!density.empty()) lines.push_back("density " + density);
+    if (!damping.empty()) physics.push_back("damping ratio " + damping);
+    if (!density.empty()) physics.push_back("density " + density);
+    std::vector<std::string> lines{value.known()
+                                       ? fmt::format("<i>b</i> = {:.2f} ± {:.2f}", value.b, value.standard_error)
+                                       : "too few events for <i>b</i>"};
+    for (const auto& parts : {counts, flaws, physics})
+        if (!parts.empty()) lines.push_back(joined(parts));
     return lines;
 }
+
+double size_of_line(std::size_t number) { return number == 0 ? 1.0 : small_letters; }
+
+double height_of(const Canvas& canvas, const std::vector<std::string>& lines) {
+    double height = 3.0;  // pt, down to the frame
+    for (std::size_t k = 0; k < lines.size(); ++k) height += 1.1 * canvas.size_of(lines[k], size_of_line(k)).height;
+    return height;
+}
+
+/// What is drawn of all tests together.
+struct Magnitudes {
+    std::vector<double> sorted;
+    BValue value;
+    std::vector<std::string> lines;
+};
 
 constexpr double at_least = 1.1, of_bin = 1.6;  // pt, radii of marks
 
@@ -112,9 +130,9 @@ void draw_legend(Canvas& canvas, Point at) {
     canvas.text({next + 5.0, at.y}, within, Across::left, Down::middle, 1.0, ink);
 }
 
-void draw_magnitudes(Canvas& canvas, const Rect& place, const std::vector<PlottedTest>& tests) {
-    const std::vector<double> magnitudes = pooled(tests);
-    const BValue value = fit_b_value(magnitudes, Completeness::maximum_curvature);
+void draw_magnitudes(Canvas& canvas, const Rect& place, const Magnitudes& all) {
+    const std::vector<double>& magnitudes = all.sorted;
+    const BValue& value = all.value;
     const auto count = static_cast<double>(magnitudes.size());
     Axes axes;
     axes.x = magnitudes.empty() ? magnitude_scale(-1.0, 0.0, 5)
@@ -123,7 +141,14 @@ void draw_magnitudes(Canvas& canvas, const Rect& place, const std::vector<Plotte
     axes.y.low = -0.08 * axes.y.high;
     axes.y.step = axes.y.high > 2.5 ? 1.0 : 0.5;
     const double left = Axes::room_left(canvas, axes.y);
-    const double top = place.y + 1.6 * canvas.style().font_size;
+    double y = place.y + 1.4 * canvas.style().font_size;
+    for (std::size_t k = 0; k < all.lines.size(); ++k) {
+        const double size = size_of_line(k);
+        canvas.text({place.x + beside_letter, y}, all.lines[k], Across::left, Down::top, size,
+                    k == 0 && value.known() ? fitted : ink);
+        y += 1.1 * canvas.size_of(all.lines[k], size).height;
+    }
+    const double top = y + 3.0;
     axes.frame = {place.x + left, top, place.width - left - 4.0, place.bottom() - Axes::room_below(canvas) - top};
     draw_legend(canvas, {place.x + beside_letter, place.y + 0.6 * canvas.style().font_size});
     const Colour white = colour("#ffffff");
@@ -149,15 +174,6 @@ void draw_magnitudes(Canvas& canvas, const Rect& place, const std::vector<Plotte
         canvas.line({axes.at(value.completeness, axes.y.low), axes.at(value.completeness, axes.y.high)}, grey, 0.6,
                     true);
     }
-    double y = top + 1.0;
-    bool first = true;
-    for (const std::string& line : lines_of(value, tests, magnitudes.size())) {
-        const double size = first ? 1.0 : small_letters;
-        canvas.text({axes.frame.right() - 1.0, y}, line, Across::right, Down::top, size,
-                    first && value.known() ? fitted : ink);
-        y += 1.1 * canvas.size_of(line, size).height;
-        first = false;
-    }
     axes.draw(canvas, "moment magnitude <i>M</i>", "log₁₀ of the number of events");
 }
 
@@ -172,7 +188,7 @@ Colour time_colour(double share) {
     return {std::lerp(a.red, b.red, rest), std::lerp(a.green, b.green, rest), std::lerp(a.blue, b.blue, rest)};
 }
 
-constexpr double least_radius = 0.6, largest_radius = 6.0;  // pt, of marks
+constexpr double least_radius = 0.6, largest_radius = 4.5;  // pt, of marks
 constexpr double key_rows = 34.0;                           // pt, of the map's key
 
 /// How marks of a map are coloured and how large they are.
@@ -216,9 +232,14 @@ void draw_map_key(Canvas& canvas, const Rect& place, const MapScale& scale) {
 bool has_emission(const TestResults& results) { return results.emission.has_value(); }
 
 Panel magnitude_frequency(const std::vector<PlottedTest>& tests) {
+    Magnitudes all{pooled(tests), {}, {}};
+    all.value = fit_b_value(all.sorted, Completeness::maximum_curvature);
+    all.lines = lines_of(all.value, tests, all.sorted.size());
     Panel panel;
-    panel.height = [](const Canvas& /*measure*/, double width) { return 0.62 * proportional(width); };
-    panel.draw = [tests](Canvas& canvas, const Rect& place) { draw_magnitudes(canvas, place, tests); };
+    panel.height = [all](const Canvas& measure, double width) {
+        return 0.55 * proportional(width) + height_of(measure, all.lines);
+    };
+    panel.draw = [all](Canvas& canvas, const Rect& place) { draw_magnitudes(canvas, place, all); };
     return panel;
 }
 

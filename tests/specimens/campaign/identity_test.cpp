@@ -44,7 +44,7 @@ TEST(Identity, ChangesWithEveryKeyButThoseThatNoFigureDependsOn) {
                                                         {"numerics.threads", std::int64_t{2}},
                                                         {"output.frames", std::int64_t{7}},
                                                         {"output.slips", true},
-                                                        {"output.emission", false},
+                                                        {"output.emission", true},
                                                         {"output.frame_precision", std::string("double")},
                                                         {"output.checkpoint_interval", 5.0}})
         EXPECT_EQ(identity_of(with(files, key, value), hashes), asked) << key;

@@ -173,7 +173,9 @@ TEST_F(Clustering, PartsWhatIsFarInPlaceOrTime) {
 TEST(EmissionRule, TakesTheSpeedFromModuliAndMassesInEitherUnits) {
     const testing::ScratchFolder scratch;
     testing::write_circles_rock(scratch / "");
-    const VirtualTest area = prepare_test(read_case(scratch / "compression.toml"));
+    TestCase wanted = read_case(scratch / "compression.toml");
+    wanted.output.emission = true;
+    const VirtualTest area = prepare_test(wanted);
     const EmissionRule& rule = area.state.emission.rule;
     ASSERT_TRUE(rule.on());
     // By hand: circles of 2600 kg/m3 with a sixth of pores, 1 m thick.
@@ -210,6 +212,7 @@ TEST(EmissionOfATest, HoldsEveryBreakOnce) {
         wanted.kind = "compression";
         wanted.mesh = mesh;
         wanted.max_strain = 0.02;
+        wanted.output += "\nemission = true";
         VirtualTest test = prepare_test(read_case(testing::write_small_case(scratch / "", wanted)));
         load_specimen(test);
         const std::vector<AcousticEvent>& events = test.state.emission.events;
