@@ -16,9 +16,9 @@ namespace crackle {
 namespace {
 
 // Of the keys of a case, those that no figure depends on.
-constexpr std::array<std::string_view, 7> without_figures{
-    "title",           "numerics.threads",          "output.frames", "output.frame_precision", "output.slips",
-    "output.emission", "output.checkpoint_interval"};
+constexpr std::array<std::string_view, 6> without_figures{"title",         "numerics.threads",
+                                                          "output.frames", "output.frame_precision",
+                                                          "output.slips",  "output.checkpoint_interval"};
 
 std::string text_of(const TestCase& test, const ResolvedKey& key, FileHashes& files) {
     if (key.parameter->is_path) return files.of(test.resolve_path(key.label, std::get<std::string>(key.value)));

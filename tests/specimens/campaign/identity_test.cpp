@@ -37,6 +37,7 @@ TEST(Identity, ChangesWithEveryKeyButThoseThatNoFigureDependsOn) {
                                                         {"numerics.safety_factor", 0.5},
                                                         {"output.curve_rows", std::int64_t{201}},
                                                         {"output.out_of_plane_thickness", 0.1},
+                                                        {"output.emission", true},
                                                         {"bond.thick", 1e-5}})
         EXPECT_TRUE(seen.insert(identity_of(with(files, key, value), hashes)).second) << key;
     for (const auto& [key, value] :
@@ -44,7 +45,6 @@ TEST(Identity, ChangesWithEveryKeyButThoseThatNoFigureDependsOn) {
                                                         {"numerics.threads", std::int64_t{2}},
                                                         {"output.frames", std::int64_t{7}},
                                                         {"output.slips", true},
-                                                        {"output.emission", true},
                                                         {"output.frame_precision", std::string("double")},
                                                         {"output.checkpoint_interval", 5.0}})
         EXPECT_EQ(identity_of(with(files, key, value), hashes), asked) << key;
