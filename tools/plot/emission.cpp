@@ -20,10 +20,10 @@ namespace crackle::plot {
 namespace {
 
 constexpr double small_letters = 0.8;  // of the font size
-constexpr double bin = 0.1;            // of magnitude
+constexpr double magnitude_bin = 0.1;  // of magnitude
 constexpr const char* completeness_sign = "<i>M</i><span size=\"75%\" rise=\"-2pt\">c</span>";
 
-const Colour grey = colour("#8a9199"), fitted = shear_colour;
+const Colour faint = colour("#8a9199"), fitted = shear_colour;
 
 std::string signed_number(double value, int decimals) {
     std::string text = fmt::format("{:.{}f}", value, decimals);
@@ -50,7 +50,7 @@ Scale magnitude_scale(double low, double high, int most_ticks) {
         scale.step = step;
         break;
     }
-    const double margin = std::max(0.03 * (high - low), 0.5 * bin);
+    const double margin = std::max(0.03 * (high - low), 0.5 * magnitude_bin);
     scale.low = low - margin;
     scale.high = high + margin;
     return scale;
@@ -79,7 +79,7 @@ std::string range_text(const std::vector<PlottedTest>& tests, const char* key, c
     return (from == to ? from : from + " to " + to) + unit;
 }
 
-std::string joined(const std::vector<std::string>& parts) { return fmt::format("{}", fmt::join(parts, ", ")); }
+std::string in_one_line(const std::vector<std::string>& parts) { return fmt::format("{}", fmt::join(parts, ", ")); }
 
 /// What is known of b, a line each; the first is the result.
 std::vector<std::string> lines_of(const BValue& value, const std::vector<PlottedTest>& tests, std::size_t all) {
@@ -99,7 +99,7 @@ std::vector<std::string> lines_of(const BValue& value, const std::vector<Plotted
                                        ? fmt::format("<i>b</i> = {:.2f} ± {:.2f}", value.b, value.standard_error)
                                        : "too few events for <i>b</i>"};
     for (const auto& parts : {counts, flaws, physics})
-        if (!parts.empty()) lines.push_back(joined(parts));
+        if (!parts.empty()) lines.push_back(in_one_line(parts));
     return lines;
 }
 
@@ -126,7 +126,7 @@ void draw_legend(Canvas& canvas, Point at) {
     const std::string above = "at least so large", within = "within 0.1";
     canvas.text({at.x + 8.0, at.y}, above, Across::left, Down::middle, 1.0, ink);
     const double next = at.x + 8.0 + canvas.size_of(above).width + 12.0;
-    canvas.circle({next, at.y}, of_bin, &white, &grey, 0.7);
+    canvas.circle({next, at.y}, of_bin, &white, &faint, 0.7);
     canvas.text({next + 5.0, at.y}, within, Across::left, Down::middle, 1.0, ink);
 }
 
@@ -153,11 +153,11 @@ void draw_magnitudes(Canvas& canvas, const Rect& place, const Magnitudes& all) {
     draw_legend(canvas, {place.x + beside_letter, place.y + 0.6 * canvas.style().font_size});
     const Colour white = colour("#ffffff");
     for (std::size_t k = 0; k < magnitudes.size();) {
-        const double number = std::floor(magnitudes[k] / bin);
+        const double number = std::floor(magnitudes[k] / magnitude_bin);
         std::size_t end = k;
-        while (end < magnitudes.size() && std::floor(magnitudes[end] / bin) == number) ++end;
-        const Point at = axes.at((number + 0.5) * bin, std::log10(static_cast<double>(end - k)));
-        canvas.circle(at, of_bin, &white, &grey, 0.7);
+        while (end < magnitudes.size() && std::floor(magnitudes[end] / magnitude_bin) == number) ++end;
+        const Point at = axes.at((number + 0.5) * magnitude_bin, std::log10(static_cast<double>(end - k)));
+        canvas.circle(at, of_bin, &white, &faint, 0.7);
         k = end;
     }
     for (std::size_t k = 0; k < magnitudes.size(); ++k) {
@@ -171,7 +171,7 @@ void draw_magnitudes(Canvas& canvas, const Rect& place, const Magnitudes& all) {
                     fitted, 1.2);
     }
     if (!std::isnan(value.completeness)) {
-        canvas.line({axes.at(value.completeness, axes.y.low), axes.at(value.completeness, axes.y.high)}, grey, 0.6,
+        canvas.line({axes.at(value.completeness, axes.y.low), axes.at(value.completeness, axes.y.high)}, faint, 0.6,
                     true);
     }
     axes.draw(canvas, "moment magnitude <i>M</i>", "log₁₀ of the number of events");
