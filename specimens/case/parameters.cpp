@@ -402,6 +402,11 @@ std::vector<Parameter> all_parameters() {
         CRACKLE_KEY(output, slips, "",
                     "Writes slips.csv: the first arrival of each back-tension bond at its Coulomb limit.")
             .otherwise(false),
+        CRACKLE_KEY(
+            output, emission, "",
+            "Writes ae.csv: acoustic events, breaks clustered in place and time, with their moments; takes some "
+            "time, and needs the moduli of the linear solution.")
+            .otherwise(false),
         CRACKLE_KEY(output, checkpoint_interval, "s", "Wall-clock time between checkpoints.").above(0).otherwise(60.0),
         CRACKLE_KEY(output, out_of_plane_thickness, "m",
                     "Only converts what is reported: stresses in N/m over this give the _pa values, and MPa beside "

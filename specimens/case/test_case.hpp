@@ -150,6 +150,7 @@ struct TestCase {
         std::optional<std::int64_t> frames;  ///< absent until the bodies are counted: default_frames()
         std::string frame_precision;         ///< of points: "single" or "double"
         bool slips = false;
+        bool emission = false;
         double checkpoint_interval = 0.0;              // s, wall clock
         std::optional<double> out_of_plane_thickness;  // m
     } output;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <span>
 
 #include "solver/base/errors.hpp"
 #include "solver/measure/health.hpp"
@@ -36,6 +37,7 @@ class LoadingLoop {
         : world_(test.world),
           setup_(test.setup),
           state_(test.state),
+          listener_(test.world, test.setup, test.state.emission),
           hooks_(hooks),
           files_(files),
           max_strain_(test.description.loading.max_axial_strain),
@@ -55,9 +57,11 @@ class LoadingLoop {
             load();
         } catch (const UnstableRun&) {
             record_events();  // of the step that went wrong
+            write_emission(listener_.end_all());
             state_.step_seconds = step_seconds();
             throw;
         }
+        if (!state_.ended_by.empty()) write_emission(listener_.end_all());
         state_.step_seconds = step_seconds();
     }
 
@@ -130,7 +134,9 @@ class LoadingLoop {
     }
 
     void record_breaks() {
-        if (world_.bonds.events.size() == events_counted_) return;
+        const bool broke = world_.bonds.events.size() != events_counted_;
+        if (listener_.hears(broke)) listen();
+        if (!broke) return;
         const PhaseTimer timer(world_.workers.profile, Phase::observe);
         for (std::size_t k = events_counted_; k < world_.bonds.events.size(); ++k) {
             const BreakEvent& event = world_.bonds.events[k];
@@ -141,6 +147,19 @@ class LoadingLoop {
         }
         if (files_ != nullptr) world_.bonds.events.clear();
         events_counted_ = world_.bonds.events.size();
+    }
+
+    void listen() {
+        const PhaseTimer timer(world_.workers.profile, Phase::observe);
+        write_emission(listener_.listen(std::span(world_.bonds.events).subspan(events_counted_), strain_));
+    }
+
+    /// @param count of the last events that ended
+    void write_emission(std::size_t count) {
+        if (files_ == nullptr) return;
+        const std::vector<AcousticEvent>& events = state_.emission.events;
+        for (std::size_t k = events.size() - count; k < events.size(); ++k)
+            files_->add_emission(events[k], state_.emission.rule.thickness);
     }
 
     void record_row(bool at_end) {
@@ -208,6 +227,7 @@ class LoadingLoop {
     World& world_;
     const TestSetup& setup_;
     TestState& state_;
+    EmissionListener listener_;
     const TestHooks& hooks_;
     TestFiles* files_;
     double max_strain_;

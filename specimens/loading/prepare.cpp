@@ -75,6 +75,24 @@ void solve_small_strain(VirtualTest& test, const World& world, const TestSetup& 
 // Rocks fail at some 1e-3 of strain, the softest soils at 0.1: numbers far from that are in another unit.
 constexpr double least_strength_over_modulus = 1e-6, least_modulus = 1e5;  // Pa
 
+/// Acoustic events are told apart by a shear wave's speed; without one a notice says why there are none.
+void listen_for_emission(VirtualTest& test) {
+    const TestCase::Output& output = test.description.output;
+    if (!output.emission) return;
+    std::string why = "there is no small-strain modulus";
+    if (test.small_strain) {
+        try {
+            test.state.emission.rule =
+                emission_rule(test.world, test.setup, test.state.youngs_modulus, test.state.poissons_ratio,
+                              output.out_of_plane_thickness.value_or(1.0));
+            return;
+        } catch (const InputError& error) {
+            why = error.what();
+        }
+    }
+    test.setup.notices.push_back("no acoustic events: " + why);
+}
+
 /// Where numbers in Pa look as if they were meant in MPa or GPa.
 void notice_small_numbers(VirtualTest& test) {
     const TestCase& asked = test.description;
@@ -181,6 +199,7 @@ VirtualTest bond_test(const TestCase& description, const TestHooks& hooks, const
         }
         if (description.confined()) confine(test, twin.world, own);  // what it refuses, no test goes on without
     }
+    listen_for_emission(test);
     if (description.confined())
         hooks.report_stage(
             fmt::format("confined by {:.4g} {}", test.setup.confining_pressure, description.stress_unit()));

@@ -177,6 +177,7 @@ TestOutcome finished_test(VirtualTest& test, const TestOptions& options, const T
             make_summary(test.description, test.setup, test.state, test.world, timing, errors ? &*errors : nullptr);
         FileMarks files{{"curve.csv", test.state.curve}, {"events.csv", test.state.events}};
         if (test.description.output.slips) files.emplace_back("slips.csv", test.state.slips);
+        if (test.state.emission.rule.on()) files.emplace_back("ae.csv", test.state.ae);
         crackle::write_summary(folder, outcome.summary, std::move(files));
     };
     write_summary();

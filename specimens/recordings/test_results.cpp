@@ -196,6 +196,11 @@ TestResults read_results(const std::filesystem::path& folder) {
         results.slips = read_table("slips.csv");
         require_columns(slips, *results.slips, {"time", "axial_strain", "x", "y", "orientation"});
     }
+    const std::filesystem::path emission = folder / "ae.csv";
+    if (is_there(emission) || states(stated, "ae.csv")) {
+        results.emission = read_table("ae.csv", "type", {"opening", "shear", "closing", "none"});
+        require_columns(emission, *results.emission, {"time", "axial_strain", "x", "y", "moment_magnitude"});
+    }
     return results;
 }
 

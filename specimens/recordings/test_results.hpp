@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The results of one finished test, read back from its folder: summary, curve, breaks, and slips where there are any.
+// The results of one finished test, read back from its folder: summary, curve, breaks, and slips and
+// acoustic events where there are any.
 // Tested by tests/tools/commands/view_test.cpp, slips by tests/tools/page/page_data_test.cpp.
 #pragma once
 
@@ -32,6 +33,8 @@ struct TestResults {
     NumberTable curve;                 ///< columns of curve.csv
     NumberTable events;                ///< columns of events.csv; `mode` as 1 for shear, 0 for tension
     std::optional<NumberTable> slips;  ///< columns of slips.csv; none where the test did not record slips
+    /// Columns of ae.csv, `type` as 0 to 3 for opening, shear, closing, none; none where the test did not listen.
+    std::optional<NumberTable> emission;
 };
 
 /// Comma-separated numbers under a line of names. The words of column `word_column`, if given, are read as their place

@@ -7,6 +7,7 @@
 #include <ostream>
 #include <string>
 
+#include "specimens/emission/acoustic_event.hpp"
 #include "specimens/frames/frame_painter.hpp"
 #include "specimens/observers/curve.hpp"
 #include "specimens/observers/events.hpp"
@@ -58,7 +59,7 @@ take the place of the old ones once they are complete. `crackle report OUT` adds
 
 What a stop leaves: a signal, a full disc or a loss of power at any moment leaves the earlier results whole, or a checkpoint from which
 `--resume` goes on to the same bytes. A checkpoint gets its name when it and all that it knows of are on the disc; `curve.csv`,
-`events.csv` and `slips.csv` must still begin with what was written up to it (by their hash), or the test is not resumed. Files that are
+`events.csv`, `slips.csv` and `ae.csv` must still begin with what was written up to it (by their hash), or the test is not resumed. Files that are
 moved away or changed while the test runs end it with an error. `summary.json` states length and hash of these files and of the checkpoint:
 whatever reads results, and `--resume` of a finished test, refuses a file that is not the one that the test wrote.
 
@@ -88,6 +89,14 @@ constexpr const char* slips_text = R"(
 
 With `output.slips = true`, one row for each back-tension bond that reached its Coulomb limit for the first time: the shear damage that no break
 shows, for such a bond slides within its limit and parts where its overlap is used up. Coulomb bonds stick until they fail.
+)";
+
+constexpr const char* emission_text = R"(
+## `ae.csv`
+
+With `output.emission = true`, one row for each acoustic event, in the order in which they ended: breaks that belong together in place and
+time, and the largest moment of their source meanwhile ([how](../METHODS.md#acoustic-emission)). Every break is in one event. Energies and moments are those of the
+model, per unit thickness; magnitudes are those of the specimen as thick as `output.out_of_plane_thickness` says.
 )";
 
 constexpr const char* summary_text = R"(
@@ -128,6 +137,9 @@ void describe_test_files(std::ostream& out) {
     out << slips_text;
     begin_table(out, "column");
     for (const SlipColumn& column : slip_columns()) print_row(out, column.what);
+    out << emission_text;
+    begin_table(out, "column");
+    for (const AcousticColumn& column : acoustic_columns()) print_row(out, column.what);
     out << summary_text;
     begin_table(out, "key");
     for (const SummaryKey& key : summary_keys())

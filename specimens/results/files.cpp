@@ -51,6 +51,8 @@ TestFiles::TestFiles(const OutputFolder& folder, std::string case_hash, TestStat
     if (state.events.bytes == 0) events_.write(events_header());
     if (slips) slips_.emplace(folder.path() / "slips.csv", state.slips);
     if (slips && state.slips.bytes == 0) slips_->write(slips_header());
+    if (state.emission.rule.on()) ae_.emplace(folder.path() / "ae.csv", state.ae);
+    if (ae_ && state.ae.bytes == 0) ae_->write(acoustic_header());
     remove_unlisted_frames(folder.path() / "frames", state);
     if (state.peak_frame.bodies.size() < large_frame_) return;
     peak_on_disc_.emplace(folder.path());
@@ -66,6 +68,10 @@ void TestFiles::add_event(const BreakEvent& event, double axial_strain) {
 
 void TestFiles::add_slip(const SlipEvent& event, double axial_strain) {
     if (slips_) slips_->write(slip_line(event, axial_strain));
+}
+
+void TestFiles::add_emission(const AcousticEvent& event, double thickness) {
+    if (ae_) ae_->write(acoustic_line(event, thickness));
 }
 
 void TestFiles::add_frame(const CurveRow& row, std::int64_t row_index, const TestSetup& setup, TestState& state,
@@ -154,6 +160,7 @@ void TestFiles::write_checkpoint(const TestSetup& setup, TestState& state, const
     state.curve = curve_.mark();
     state.events = events_.mark();
     if (slips_) state.slips = slips_->mark();
+    if (ae_) state.ae = ae_->mark();
     if (peak_on_disc_) state.peak_frame = peak_on_disc_->whole();
     folder_.write(
         "checkpoint", [&](std::ostream& out) { save_test(out, case_hash_, setup, state, world); }, Durable::yes);
@@ -165,12 +172,14 @@ void TestFiles::flush() {
     curve_.flush();
     events_.flush();
     if (slips_) slips_->flush();
+    if (ae_) ae_->flush();
 }
 
 void TestFiles::write_summary(nlohmann::ordered_json& summary, const TestState& state) {
     write_collection(state);
     FileMarks files{{"curve.csv", curve_.mark()}, {"events.csv", events_.mark()}};
     if (slips_) files.emplace_back("slips.csv", slips_->mark());
+    if (ae_) files.emplace_back("ae.csv", ae_->mark());
     crackle::write_summary(folder_, summary, std::move(files));
 }
 

@@ -21,6 +21,7 @@ void write_summary(const OutputFolder& folder, nlohmann::ordered_json& summary, 
 class TestFiles {
   public:
     /// Begins from the start (state without rows) or goes on from the state, removing what came after it.
+    /// ae.csv is written where the state says that emission is listened to.
     /// @param slips whether slips.csv is written  @param pressed whether the curve has the columns of such a test
     /// @param large_frame bodies from which on the frame at the peak waits on the disc
     TestFiles(const OutputFolder& folder, std::string case_hash, TestState& state, PointPrecision precision,
@@ -29,6 +30,7 @@ class TestFiles {
     void add_row(const CurveRow& row);
     void add_event(const BreakEvent& event, double axial_strain);
     void add_slip(const SlipEvent& event, double axial_strain);
+    void add_emission(const AcousticEvent& event, double thickness);
     /// Takes the present moment for a frame, as take_frame(). Lists it in state.frames, in the order of rows, and has
     /// its pictures written beside the stepping: they are there, all of them, before a checkpoint or a summary is.
     /// frames.pvd follows within a second, or then: replacing a file costs more than a small specimen's frame. World
@@ -59,7 +61,7 @@ class TestFiles {
     std::string case_hash_;
     bool pressed_;
     GrowingFile curve_, events_;
-    std::optional<GrowingFile> slips_;
+    std::optional<GrowingFile> slips_, ae_;
     PointPrecision precision_;
     std::size_t large_frame_;
     std::optional<FrameOnDisc> peak_on_disc_;  // in place of TestState::peak_frame

@@ -29,7 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 
 // In the order in which staged results take the old ones' place: the summary, which readers look for, comes last.
-constexpr std::array<ResultFile, 9> files_of_a_test{{
+constexpr std::array<ResultFile, 10> files_of_a_test{{
     {"case.toml",
      "the case with every value in the open and the hashes of its inputs, with a comment on each key "
      "(`crackle test --keys` lists them all); it can be run again"},
@@ -40,6 +40,9 @@ constexpr std::array<ResultFile, 9> files_of_a_test{{
     {"curve.csv", "one row an observed step"},
     {"events.csv", "one row a broken bonded point"},
     {"slips.csv", "one row the first slip of a bonded point; with `output.slips = true`"},
+    {"ae.csv",
+     "one row an acoustic event: breaks that belong together, and the moment of their source; with "
+     "`output.emission = true`"},
     {"frames", "a folder of pictures for ParaView, start, peak and end among them: open `frames/frames.pvd`"},
     {"checkpoint", "the complete state, for `--resume`; a format of its own, of one version of the program"},
     {"summary.json", "figures of the whole test"},

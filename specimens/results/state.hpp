@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "specimens/emission/listener.hpp"
 #include "specimens/frames/frame.hpp"
 #include "specimens/observers/contact_history.hpp"
 #include "specimens/observers/curve.hpp"
@@ -56,7 +57,9 @@ struct TestState {
     double gauge_modulus = std::numeric_limits<double>::quiet_NaN();  ///< N/m, stress over strain of the gauge length
     double modulus_residual = std::numeric_limits<double>::quiet_NaN();  ///< of the solve, its relative error
 
-    FileMark curve, events, slips;                  ///< the files at the checkpoint
+    Emission emission;
+
+    FileMark curve, events, slips, ae;              ///< the files at the checkpoint
     double wall_seconds = 0.0, step_seconds = 0.0;  ///< spent before this process
     std::string command;                            ///< that began the test
 
@@ -79,9 +82,11 @@ struct TestState {
         visit("poissons_ratio", s.poissons_ratio);
         visit("gauge_modulus", s.gauge_modulus);
         visit("modulus_residual", s.modulus_residual);
+        visit("emission", s.emission);
         visit("curve", s.curve);
         visit("events", s.events);
         visit("slips", s.slips);
+        visit("ae", s.ae);
         visit("wall_seconds", s.wall_seconds);
         visit("step_seconds", s.step_seconds);
         visit("command", s.command);

@@ -3,11 +3,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
 
+#include "specimens/emission/b_value.hpp"
 #include "specimens/measures/crack_rose.hpp"
 #include "specimens/measures/crack_thresholds.hpp"
 #include "specimens/measures/curve_analysis.hpp"
@@ -253,6 +257,53 @@ void damage(Writer& w, const TestSetup& setup, const TestState& state, const Wor
                   : Json(nullptr));
 }
 
+void acoustic_emission(Writer& w, const TestState& state) {
+    const EmissionRule& rule = state.emission.rule;
+    if (!rule.on()) {
+        w.put("emission", nullptr);
+        w.put("b_value", nullptr);
+        return;
+    }
+    std::vector<double> magnitudes;
+    std::array<std::int64_t, 3> types{};
+    double largest = -std::numeric_limits<double>::infinity();
+    for (const AcousticEvent& event : state.emission.events) {
+        const double magnitude = moment_magnitude(event, rule.thickness);
+        if (!std::isfinite(magnitude)) continue;
+        magnitudes.push_back(magnitude);
+        largest = std::max(largest, magnitude);
+        ++types[static_cast<std::size_t>(source_type(isotropic_percent(event.moment)))];
+    }
+    const auto count = static_cast<double>(magnitudes.size());
+    const auto share = [&](SourceType type) {
+        return finite_or_null(static_cast<double>(types[static_cast<std::size_t>(type)]) / count);
+    };
+    w.put("emission", {{"events", state.emission.events.size()},
+                       {"opening", share(SourceType::opening)},
+                       {"shear", share(SourceType::shear)},
+                       {"closing", share(SourceType::closing)},
+                       {"without_moment", state.emission.events.size() - magnitudes.size()},
+                       {"largest_magnitude", finite_or_null(largest)},
+                       {"radius", rule.diameter},
+                       {"window", rule.window(rule.diameter)},
+                       {"shear_wave_speed", rule.shear_wave_speed},
+                       {"density", rule.density},
+                       {"damping_ratio", finite_or_null(rule.damping_ratio)}});
+    const BValue value = fit_b_value(magnitudes, Completeness::maximum_curvature),
+                 other = fit_b_value(magnitudes, Completeness::least_distance);
+    w.put("b_value", {{"b", finite_or_null(value.b)},
+                      {"error", finite_or_null(value.standard_error)},
+                      {"interval", {finite_or_null(value.low), finite_or_null(value.high)}},
+                      {"events", value.events},
+                      {"few", value.of_few()},
+                      {"completeness", finite_or_null(value.completeness)},
+                      {"straight", value.known() ? Json(value.straight) : Json(nullptr)},
+                      {"least_distance",
+                       {{"b", finite_or_null(other.b)},
+                        {"events", other.events},
+                        {"completeness", finite_or_null(other.completeness)}}}});
+}
+
 void counts(Writer& w, const TestSetup& setup, const World& world) {
     w.put("initial_width", setup.width);
     w.put("initial_height", setup.height);
@@ -478,6 +529,7 @@ nlohmann::ordered_json make_summary(const TestCase& test, const TestSetup& setup
     cracking(w, setup, state);
     damage(w, setup, state, world);
     directions(w, setup, state, world);
+    acoustic_emission(w, state);
     energies(w, state);
     counts(w, setup, world);
     numerics(w, test, setup, state, world);

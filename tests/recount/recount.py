@@ -12,6 +12,7 @@ except ImportError:
     print("recount: found no numpy, expected Debian's python3-numpy; install it", file=sys.stderr)
     sys.exit(2)
 
+from emission import recount_emission
 from events import recount_events, recount_parting
 from frames import recount_frame, recount_places
 from history import holds_every_step, recount_history
@@ -292,6 +293,7 @@ def recount(folder):
         recount_slips(r, model, bonds)
         recount_parting(r, model)
         recount_rose(r, model)
+        recount_emission(r, model)
         rows = r.results.frame_rows()
         for what, table in (("events", r.events), ("slips", r.results.slips)):
             if table is not None and len(table["time"]):

@@ -62,7 +62,7 @@ def run(name, case, *options):
 
 
 def circles():
-    return run("circles", rock + squeezed + rate + output + "out_of_plane_thickness = 0.05\nslips = true\n", "--verify")
+    return run("circles", rock + squeezed + rate + output + "out_of_plane_thickness = 0.05\nslips = true\nemission = true\n", "--verify")
 
 
 def cells_of_an_area_pulled():
@@ -366,6 +366,30 @@ class FaultsAreFound(unittest.TestCase):
         self.found(self.spoil_column("slips.csv", "x", lambda column: column[1:] + column[:1]), "slips: place")
         more = lambda column: [str(float(value) / 2) for value in column]  # noqa: E731
         self.found(self.spoil_column("slips.csv", "orientation", more), "slips: orientation")
+
+    def test_acoustic_events(self):
+        halved = lambda column: [str(float(value) / 2) for value in column]  # noqa: E731
+        for column, figure in (("scalar_moment", "ae: scalar_moment"), ("moment_magnitude", "ae: moment_magnitude"),
+                               ("moment_xx", "ae: scalar_moment"), ("energy", "ae: energy"), ("x", "ae: x"),
+                               ("radius", "ae: radius"), ("duration", "ae: duration")):
+            with self.subTest(column=column):
+                self.found(self.spoil_column("ae.csv", column, halved), figure)
+        more = lambda column: [str(int(column[0]) + 1)] + column[1:]  # noqa: E731
+        self.found(self.spoil_column("ae.csv", "breaks", more), "ae: breaks")
+        other = lambda column: ["closing" if word == "opening" else word for word in column]  # noqa: E731
+        self.found(self.spoil_column("ae.csv", "type", other), "ae: rows of another type")
+        for name in ("events", "opening", "largest_magnitude", "shear_wave_speed", "density", "damping_ratio", "window"):
+
+            def change(summary, name=name):
+                summary["emission"][name] = 1.01 * summary["emission"][name] + 0.01
+
+            with self.subTest(figure=name):
+                self.found(self.spoil_summary(change), "emission." + name)
+
+        def count(summary):
+            summary["b_value"]["events"] += 1
+
+        self.found(self.spoil_summary(count), "b_value.events")
 
     def test_strength_and_energy_of_events(self):
         halved = lambda column: [str(float(value) / 2) for value in column]  # noqa: E731

@@ -182,6 +182,8 @@ class Results:
         self.events = read_table(self.folder / "events.csv")
         slips = self.folder / "slips.csv"
         self.slips = read_table(slips) if slips.is_file() else None
+        emission = self.folder / "ae.csv"
+        self.emission = read_table(emission) if emission.is_file() else None
         if len(self.curve.get("step", [])) < 2:
             raise Unreadable(f"{self.folder}/curve.csv: found fewer than two rows, expected those of a test that was loaded; "
                              "--resume goes on with it")

@@ -19,6 +19,8 @@ struct SampleTest {
     double larger_after_peak = 0.0;  ///< N/m, of pieces that carry again; 0: nothing is larger than the peak
     double thickness = 0.0;          ///< m, out of plane; 0: not given
     bool slips = false;              ///< recorded: more of them than breaks, most of them before the peak
+    /// Acoustic events, of magnitudes as quantiles of b = 1 above -6 have them; 0: no ae.csv.
+    int emission = 0;
     std::string title = "Sample test";
     int columns = 13, rows = 30;  ///< lattice sites
 };

@@ -123,9 +123,30 @@ Words everything_of(const std::vector<Recording>& tests) {
     if (tests.size() == 1 && first.summary.value("kind", std::string()) != "tension" && has_area_strain(first))
         what.emplace_back("strain");
     what.emplace_back("ae");
+    if (std::ranges::all_of(tests, [](const Recording& test) { return has_emission(test.results); }))
+        what.emplace_back("emission");
     if (std::ranges::none_of(tests, [](const Recording& test) { return test.frames.empty(); }))
         what.emplace_back("specimen");
     return what;
+}
+
+/// Magnitudes of all tests together, and rows of maps of those that have a frame.
+void add_emission_panels(std::vector<Panel>& panels, const std::vector<Recording>& tests, const Words& folders,
+                         const std::vector<PlottedTest>& plotted) {
+    panels.push_back(magnitude_frequency(plotted));
+    constexpr std::size_t most_in_a_row = 4;
+    std::vector<DrawnMoment> row;
+    std::vector<fs::path> of_row;
+    for (std::size_t k = 0; k < tests.size(); ++k) {
+        if (!tests[k].frames.empty()) {
+            row.push_back({&tests[k], 0, tests.size() > 1 ? Words{escaped(plotted[k].label)} : Words{}});
+            of_row.emplace_back(folders[k]);
+        }
+        if (row.empty() || (row.size() < most_in_a_row && k + 1 < tests.size())) continue;
+        panels.push_back(emission_map(std::move(row), of_row));
+        row.clear();
+        of_row.clear();
+    }
 }
 
 void plot_tests(const po::variables_map& given, const Words& folders, const Look& look, Messages& messages) {
@@ -134,9 +155,10 @@ void plot_tests(const po::variables_map& given, const Words& folders, const Look
     refuse_replacing(output, given.contains("force"));
     Words what = given.contains("what") ? given["what"].as<Words>() : Words{"all"};
     for (const std::string& word : what) {
-        if (word != "curve" && word != "ae" && word != "strain" && word != "specimen" && word != "all")
+        if (word != "curve" && word != "ae" && word != "emission" && word != "strain" && word != "specimen" &&
+            word != "all")
             throw InputError(
-                fmt::format("plot: --what: found '{}', expected curve, ae, strain, specimen or all", word));
+                fmt::format("plot: --what: found '{}', expected curve, ae, emission, strain, specimen or all", word));
     }
     std::vector<Recording> tests;
     for (const std::string& folder : folders) {
@@ -153,6 +175,15 @@ void plot_tests(const po::variables_map& given, const Words& folders, const Look
                             test.name));
         }
     }
+    if (std::ranges::find(what, "emission") != what.end()) {
+        for (const Recording& test : tests) {
+            if (has_emission(test.results)) continue;
+            throw InputError(
+                fmt::format("plot: {}: found no ae.csv, expected that of a test that listened (output.emission of its "
+                            "case, and a linear solution: see notices of summary.json); leave emission out of --what",
+                            test.name));
+        }
+    }
     Words labels = given.contains("labels") ? given["labels"].as<Words>() : default_labels(tests);
     if (labels.size() != tests.size())
         throw InputError(
@@ -166,6 +197,7 @@ void plot_tests(const po::variables_map& given, const Words& folders, const Look
         if (word == "curve") panels.push_back(stress_strain(plotted));
         if (word == "ae") panels.push_back(breaks(plotted));
         if (word == "strain") panels.push_back(area_strain(plotted));
+        if (word == "emission") add_emission_panels(panels, tests, folders, plotted);
         if (word != "specimen") continue;
         for (std::size_t k = 0; k < tests.size(); ++k)
             panels.push_back(drawings_of(tests[k], folders[k], moments, look.drawing));
@@ -257,8 +289,8 @@ CommandLine describe_plot() {
     options.add_options()("output,o", po::value<std::string>()->value_name("FIGURE"),
                           "figure to write: .svg, .pdf or .png; with --guide a folder")  //
         ("what", po::value<Words>()->multitoken()->value_name("WORD"),
-         "curve, ae, strain (of the area, and what of it is cracks), specimen, or all, one below the other (default: "
-         "all)")  //
+         "curve, ae (breaks), emission (acoustic events: magnitudes of all tests together, and maps), strain (of the "
+         "area, and what of it is cracks), specimen, or all, one below the other (default: all)")  //
         ("at", po::value<Words>()->multitoken()->value_name("STRAIN"),
          "strains of the specimens, or start, peak, end (default: start peak end); the nearest frame is drawn");
     add_figure_options(options, 1);
@@ -282,16 +314,18 @@ CommandLine describe_plot() {
         .description =
             "Figures for a paper from the folders that `crackle test` wrote: axial stress over axial strain with "
             "the breaks beneath, the strain of the area and of the cracks in it, bonds broken along the loading (what "
-            "acoustic emission hears), specimens at given strains with their cracks. Of a campaign's folder: bands of "
+            "acoustic emission hears), magnitudes and places of acoustic events, specimens at given strains with their "
+            "cracks. Of a campaign's folder: bands of "
             "curves, distributions, figures over its axes.",
         .options = {{"options", options}},
         .operand = "OUT",
         .several_operands = true,
-        .choices = {{"what", {"curve", "ae", "strain", "specimen", "all"}},
+        .choices = {{"what", {"curve", "ae", "emission", "strain", "specimen", "all"}},
                     {"at", {"start", "peak", "end"}},
                     {"format", {"svg", "pdf", "png"}}},
         .verbose = "cells, bonds and frames read",
         .examples = {{"crackle plot out/pulled out/squeezed -o curves.pdf --what curve"},
+                     {"crackle plot out/seed-1 out/seed-2 -o emission.pdf --what emission"},
                      {"crackle plot out/squeezed -o squeezed.svg --at start 0.001 peak end"},
                      {"crackle plot out/squeezed -o specimen.png --what specimen --at peak end --dpi 600 --width 120"},
                      {"crackle plot out/granite -o granite.pdf --test tension", "a campaign"},

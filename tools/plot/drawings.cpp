@@ -109,6 +109,7 @@ struct Moment {
     std::vector<bool> shown;                  // of cells
     const std::vector<RecordedCell>* cells = nullptr;
     std::vector<CrackLine> cracks;
+    std::vector<DrawnMark> marks;
     std::vector<std::string> caption;  // lines
     Extent extent;
 };
@@ -197,7 +198,8 @@ Moment prepared(const DrawnMoment& drawn, const fs::path& folder, const DrawingS
     moment.caption = drawn.caption;
     if (left_out > 0)
         moment.caption.push_back(fmt::format("{} {} farther out", left_out, left_out == 1 ? "particle" : "particles"));
-    moment.cracks = cracks_of(folder, recording.frames[drawn.frame], bodies, style.magnify);
+    moment.marks = drawn.marks;
+    if (drawn.cracks) moment.cracks = cracks_of(folder, recording.frames[drawn.frame], bodies, style.magnify);
     return moment;
 }
 
@@ -240,6 +242,8 @@ void draw_moment(Canvas& canvas, const Rect& place, const Moment& moment, const 
     }
     for (const CrackLine& line : moment.cracks)
         canvas.line({at(line.from), at(line.to)}, line.shear ? shear_colour : tension_colour, crack);
+    const Colour rim = colour("#ffffff");
+    for (const DrawnMark& mark : moment.marks) canvas.circle(at(mark.place), mark.radius, &mark.colour, &rim, 0.3);
     canvas.unclip();
 }
 

@@ -39,11 +39,19 @@ Panel area_strain(const std::vector<PlottedTest>& tests);
 /// Whether the specimen has a lateral strain.
 bool has_area_strain(const TestResults& results);
 
+/// A disc over a specimen.
+struct DrawnMark {
+    Vec2 place;           // m
+    double radius = 1.0;  ///< pt
+    Colour colour;
+};
 /// One moment of one specimen.
 struct DrawnMoment {
     const Recording* recording = nullptr;
     std::size_t frame = 0;
     std::vector<std::string> caption;  ///< lines, markup
+    bool cracks = true;
+    std::vector<DrawnMark> marks = {};
 };
 struct DrawingStyle {
     double magnify = 1.0;  ///< displacements
@@ -53,6 +61,15 @@ struct DrawingStyle {
 /// @param folders  of the moments' tests, which hold the frames' cracks
 Panel drawings(const std::vector<DrawnMoment>& moments, const std::vector<std::filesystem::path>& folders,
                const DrawingStyle& style);
+
+/// Events over magnitude, of all tests together: so many at least so large, so many in each 0.1, and the fitted line
+/// above the magnitude of completeness, with b, its error, the number behind it, damping and density.
+Panel magnitude_frequency(const std::vector<PlottedTest>& tests);
+/// Where acoustic events came, coloured by the strain when they began, sized by magnitude, on the specimens of these
+/// moments side by side.
+Panel emission_map(std::vector<DrawnMoment> moments, const std::vector<std::filesystem::path>& folders);
+/// Whether the test wrote ae.csv.
+bool has_emission(const TestResults& results);
 
 /// A figure of panels one below the other. @param width pt @return the file's bytes
 std::string figure(const std::vector<Panel>& panels, const std::string& title, double width, Format format,

@@ -37,6 +37,7 @@ TEST(Identity, ChangesWithEveryKeyButThoseThatNoFigureDependsOn) {
                                                         {"numerics.safety_factor", 0.5},
                                                         {"output.curve_rows", std::int64_t{201}},
                                                         {"output.out_of_plane_thickness", 0.1},
+                                                        {"output.emission", true},
                                                         {"bond.thick", 1e-5}})
         EXPECT_TRUE(seen.insert(identity_of(with(files, key, value), hashes)).second) << key;
     for (const auto& [key, value] :

@@ -211,6 +211,41 @@ TEST_F(PlotCommand, BarsOfBreaksAddUpToTheEventsOfEachMode) {
     EXPECT_NEAR(got, expected, 0.01 * expected);
 }
 
+TEST_F(PlotCommand, MagnitudesOfAllTestsAreDrawnTogetherWithTheirLine) {
+    SampleTest heard;
+    heard.emission = 120;
+    write_sample_results(folder_ / "heard", heard);
+    heard.emission = 80;
+    write_sample_results(folder_ / "heard_too", heard);
+    const std::string svg = drawn("heard heard_too --what emission --width 200", "figure.svg");
+    // A disc an event on the curve (and one in the legend), and one on a map.
+    EXPECT_EQ(shapes_filled(svg, {29, 33, 37}), 200 + 1);
+    std::vector<std::vector<Vec2>> fitted;
+    for (const std::vector<Vec2>& line : lines_of(svg))
+        if (line.size() == 2 && line[0].x < line[1].x - 20.0 && line[0].y < line[1].y - 20.0) fitted.push_back(line);
+    ASSERT_EQ(fitted.size(), 1U) << "the line, downwards";
+    // In units of the axes: magnitudes are as quantiles of b = 1, whose tail a maximum likelihood of 60 takes as it is.
+    const std::vector<std::vector<Vec2>> frames = frames_of(svg);
+    ASSERT_EQ(frames.size(), 1U);
+    EXPECT_GT(fitted[0][0].x, frames[0][1].x);
+    EXPECT_LT(fitted[0][1].y, frames[0][1].y);
+}
+
+TEST_F(PlotCommand, OfATestThatDidNotListenThereIsNoEmission) {
+    expect_refused("pulled --force -o figure.pdf --what emission", "pulled: found no ae.csv");
+    EXPECT_FALSE(drawn("pulled", "figure.pdf").empty());
+}
+
+TEST_F(PlotCommand, FewMagnitudesHaveNoLine) {
+    SampleTest heard;
+    heard.emission = 30;
+    write_sample_results(folder_ / "heard", heard);
+    const std::string svg = drawn("heard --what emission --width 200", "figure.svg");
+    EXPECT_EQ(shapes_filled(svg, {29, 33, 37}), 30 + 1);
+    for (const std::vector<Vec2>& line : lines_of(svg))
+        EXPECT_FALSE(line.size() == 2 && line[0].x < line[1].x - 20.0 && line[0].y < line[1].y - 20.0);
+}
+
 /// Cells of a table's last line.
 std::vector<double> last_line(const std::string& table) {
     const std::size_t begin = table.rfind('\n', table.size() - 2) + 1;
@@ -446,7 +481,7 @@ TEST_F(PlotCommand, RefusesWhatItCannotDrawAndLeavesTheFigureThatIsThere) {
     expect_refused("pulled -o figure", "found '', expected svg, pdf or png");
     expect_refused("nowhere --force -o figure.pdf", "nowhere: found no such folder");
     expect_refused("pulled --force -o figure.pdf --what cracks",
-                   "--what: found 'cracks', expected curve, ae, strain, specimen or all");
+                   "--what: found 'cracks', expected curve, ae, emission, strain, specimen or all");
     expect_refused("pulled --force -o figure.pdf --at 0.5",
                    "--at: found 0.5, expected 0 to 0.0015, the last strain of pulled");
     expect_refused("pulled --force -o figure.pdf --at soon",

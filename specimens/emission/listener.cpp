@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/emission/listener.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "solver/base/errors.hpp"
+#include "solver/measure/last_pass.hpp"
+#include "solver/world/point_order.hpp"
+
+namespace crackle {
+namespace {
+
+constexpr std::size_t bore_nothing = static_cast<std::size_t>(-1);
+
+PointKind kind_of_point(const World& world, PointIndex k) {
+    int kind = 0;
+    while (k >= world.points.kind_begin[static_cast<std::size_t>(kind) + 1]) ++kind;
+    return static_cast<PointKind>(kind);
+}
+
+bool comes_before(const EarlierForce& a, PointKind kind, const PointKey& key) {
+    return a.kind != kind ? a.kind < kind : key_of(kind, a.point) < key;
+}
+
+/// Where a point stands in what is ordered by kind and key; the end if it is not there.
+std::vector<EarlierForce>::const_iterator find_earlier(const std::vector<EarlierForce>& before, PointKind kind,
+                                                       const ContactPoint& point) {
+    const PointKey key = key_of(kind, point);
+    const auto at = std::partition_point(before.begin(), before.end(),
+                                         [&](const EarlierForce& one) { return comes_before(one, kind, key); });
+    return at != before.end() && at->kind == kind && key_of(kind, at->point) == key ? at : before.end();
+}
+
+bool is_source(const OpenEvent& open, BodyIndex body) { return std::ranges::binary_search(open.bodies, body); }
+
+/// Force on body_i just before its bond broke, N: that of the break.
+Vec2 force_of_break(const BreakEvent& one, Vec2 normal) {
+    return one.shear_force * perpendicular(normal) - one.normal_force * normal;
+}
+
+double mean_damping_ratio(const World& world, const TestSetup& setup) {
+    double sum = 0.0;
+    std::int64_t count = 0;
+    for (PointIndex k = 0; k < world.points.size(); ++k) {
+        const ContactPoint point = world.points.contact[k];
+        if ((world.points.state[k].flags & point_bonded) == 0 || setup.is_platen(point.body_i) ||
+            setup.is_platen(point.body_j))
+            continue;
+        // Shares are in the root mass: the critical dashpot is 2 sqrt(k_n) times it.
+        const ContactLaw& law = world.settings.laws[world.points.state[k].law];
+        const double mass = world.points.root_mass[k];
+        sum += (law.normal_damping + law.normal_damping_ratio_term * mass) /
+               (2.0 * std::sqrt(law.normal_stiffness) * mass);
+        ++count;
+    }
+    return sum / static_cast<double>(count);
+}
+
+}  // namespace
+
+EmissionRule emission_rule(const World& world, const TestSetup& setup, double youngs_modulus, double poissons_ratio,
+                           double thickness) {
+    if (!(youngs_modulus > 0.0) || !(poissons_ratio > -1.0)) {
+        throw InputError(fmt::format(
+            "found E = {:.4g} and nu = {:.4g} of the linear solution, expected E > 0 and nu > -1, which particles "
+            "along the sides give",
+            youngs_modulus, poissons_ratio));
+    }
+    EmissionRule rule;
+    double mass = 0.0, diameters = 0.0;
+    std::int64_t particles = 0;
+    for (std::size_t b = 0; b < world.bodies.size(); ++b) {
+        if (setup.is_platen(static_cast<BodyIndex>(b))) continue;
+        const double own = world.bodies.inertia[b].mass;
+        const double area = own / world.settings.materials[world.bodies.info(b).material].density;
+        mass += own;
+        diameters += 2.0 * std::sqrt(area / std::numbers::pi);
+        ++particles;
+    }
+    rule.diameter = diameters / static_cast<double>(particles);
+    rule.density = mass / (setup.width * setup.height);
+    const double shear_modulus = youngs_modulus / (2.0 * (1.0 + poissons_ratio));
+    rule.shear_wave_speed = std::sqrt(shear_modulus / rule.density);
+    rule.damping_ratio = mean_damping_ratio(world, setup);
+    rule.thickness = world.settings.units == StiffnessUnits::area ? thickness : 1.0;
+    return rule;
+}
+
+std::size_t EmissionListener::listen(std::span<const BreakEvent> breaks, double axial_strain) {
+    const double now = breaks.empty() ? time_of_last_pass(world_) : breaks.front().time;
+    const std::size_t ended = end_before(now);
+    if (emission_.open.empty() && breaks.empty()) return ended;
+    if (list_builds_ != world_.list.builds) list_points();
+    for (const BreakEvent& one : breaks) add_break(event_of(one, axial_strain), one, breaks);
+    for (std::size_t k = 0; k < emission_.open.size(); ++k) {
+        if (!surfaces_[k].found) surfaces_[k] = surface_of(emission_.open[k]);
+        AcousticEvent& event = emission_.open[k].event;
+        const MomentTensor moment = moment_of(emission_.open[k], surfaces_[k]);
+        if (!(scalar_moment(moment) > scalar_moment(event.moment))) continue;
+        event.moment = moment;
+        event.rise_time = now - event.time;
+    }
+    return ended;
+}
+
+std::size_t EmissionListener::end_all() { return end_before(std::numeric_limits<double>::infinity()); }
+
+std::size_t EmissionListener::end_before(double now) {
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < emission_.open.size(); ++k) {
+        const AcousticEvent& event = emission_.open[k].event;
+        if (now > event.time + event.duration) {
+            emission_.events.push_back(event);
+            continue;
+        }
+        if (kept != k) {
+            emission_.open[kept] = std::move(emission_.open[k]);
+            surfaces_[kept] = std::move(surfaces_[k]);
+        }
+        ++kept;
+    }
+    const std::size_t ended = emission_.open.size() - kept;
+    emission_.open.resize(kept);
+    surfaces_.resize(kept);
+    return ended;
+}
+
+std::size_t EmissionListener::event_of(const BreakEvent& one, double axial_strain) {
+    for (std::size_t k = 0; k < emission_.open.size(); ++k) {
+        const AcousticEvent& event = emission_.open[k].event;
+        if (norm(one.position - event.centre) <= event.radius) return k;
+    }
+    OpenEvent begun;
+    begun.event.time = one.time;
+    begun.event.axial_strain = axial_strain;
+    emission_.open.push_back(std::move(begun));
+    surfaces_.emplace_back();
+    return emission_.open.size() - 1;
+}
+
+void EmissionListener::add_break(std::size_t number, const BreakEvent& one, std::span<const BreakEvent> breaks) {
+    OpenEvent& open = emission_.open[number];
+    AcousticEvent& event = open.event;
+    open.places.push_back(one.position);
+    event.breaks += 1;
+    event.breaks_in_shear += one.shear_mode ? 1 : 0;
+    event.energy += one.energy;
+    Vec2 sum;
+    for (const Vec2 place : open.places) sum = sum + place;
+    event.centre = (1.0 / static_cast<double>(open.places.size())) * sum;
+    double farthest = 0.0;
+    for (const Vec2 place : open.places) farthest = std::max(farthest, norm(place - event.centre));
+    event.radius = emission_.rule.diameter + farthest;
+    event.duration = one.time - event.time + emission_.rule.window(event.radius);
+    for (const BodyIndex body : {one.point.body_i, one.point.body_j}) {
+        if (setup_.is_platen(body) || is_source(open, body)) continue;
+        add_body(open, body, breaks);
+        surfaces_[number].found = false;
+    }
+}
+
+void EmissionListener::add_body(OpenEvent& open, BodyIndex body, std::span<const BreakEvent> breaks) {
+    const PointIndex walls = world_.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
+    for (const PointIndex k : points_of(body)) {
+        const ContactPoint point = world_.points.contact[k];
+        // What lies between two source bodies does not count, and never will again.
+        if (k < walls && is_source(open, point.body_i == body ? point.body_j : point.body_i)) continue;
+        const PointKind kind = kind_of_point(world_, k);
+        const auto broke = std::ranges::find_if(
+            breaks, [&](const BreakEvent& one) { return one.kind == kind && same_point(kind, one.point, point); });
+        if (broke == breaks.end() && !bore_in_last_pass(world_, k)) continue;
+        const PointLoad load = load_of_last_pass(world_, k);
+        const Vec2 force = broke == breaks.end() ? load.force : force_of_break(*broke, load.normal);
+        if (force != Vec2{}) open.before.push_back({kind, point, force, load.place});
+    }
+    open.bodies.insert(std::ranges::lower_bound(open.bodies, body), body);
+    std::erase_if(open.before, [&](const EarlierForce& earlier) {
+        return earlier.kind != PointKind::element_wall && is_source(open, earlier.point.body_i) &&
+               is_source(open, earlier.point.body_j);
+    });
+    std::ranges::sort(open.before, [](const EarlierForce& a, const EarlierForce& b) {
+        return comes_before(a, b.kind, key_of(b.kind, b.point));
+    });
+}
+
+void EmissionListener::list_points() {
+    list_builds_ = world_.list.builds;
+    for (Surface& surface : surfaces_) surface.found = false;
+    const auto& pairs = world_.points.contact.pairs;
+    const PointIndex walls = world_.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
+    points_begin_.assign(world_.bodies.size() + 1, 0);
+    const auto visit = [&](auto&& with) {
+        for (PointIndex k = 0; k < pairs.size(); ++k) {
+            with(pairs[k].body_i, k);
+            if (k < walls) with(pairs[k].body_j, k);
+        }
+    };
+    visit([&](BodyIndex b, PointIndex /*k*/) { ++points_begin_[b + 1]; });
+    for (std::size_t b = 0; b < world_.bodies.size(); ++b) points_begin_[b + 1] += points_begin_[b];
+    points_.resize(points_begin_.back());
+    std::vector<PointIndex> next(points_begin_.begin(), points_begin_.end() - 1);
+    visit([&](BodyIndex b, PointIndex k) { points_[next[b]++] = k; });
+    marks_.assign(world_.bodies.size(), 0);
+}
+
+EmissionListener::PointRange EmissionListener::points_of(BodyIndex body) const {
+    return PointRange(points_).subspan(points_begin_[body], points_begin_[body + 1] - points_begin_[body]);
+}
+
+EmissionListener::Surface EmissionListener::surface_of(const OpenEvent& open) {
+    Surface surface;
+    surface.found = true;
+    const PointIndex walls = world_.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
+    std::vector<bool> listed(open.before.size(), false);
+    for (const BodyIndex body : open.bodies) marks_[body] = 1;
+    for (const BodyIndex body : open.bodies) {
+        for (const PointIndex k : points_of(body)) {
+            const ContactPoint point = world_.points.contact[k];
+            const bool of_i = point.body_i == body;
+            if (k < walls && marks_[of_i ? point.body_j : point.body_i] != 0) continue;
+            const PointKind kind = kind_of_point(world_, k);
+            const auto found = find_earlier(open.before, kind, point);
+            const auto at = static_cast<std::size_t>(found - open.before.cbegin());
+            const bool bore = found != open.before.cend();
+            if (bore) listed[at] = true;
+            surface.points.push_back({k, of_i, bore ? at : bore_nothing});
+        }
+    }
+    for (const BodyIndex body : open.bodies) marks_[body] = 0;
+    for (std::size_t k = 0; k < listed.size(); ++k)
+        if (!listed[k]) surface.gone.push_back(k);
+    return surface;
+}
+
+MomentTensor EmissionListener::moment_of(const OpenEvent& open, const Surface& surface) const {
+    MomentTensor moment;
+    for (const SurfacePoint& on : surface.points) {
+        const bool bore = on.before != bore_nothing, bears = bore_in_last_pass(world_, on.point);
+        if (!bore && !bears) continue;
+        const PointLoad load = bears ? load_of_last_pass(world_, on.point) : PointLoad{};
+        const EarlierForce* const earlier = bore ? &open.before[on.before] : nullptr;
+        const Vec2 change = bore ? load.force - earlier->force : load.force;
+        moment.add(on.of_i ? -change : change, (bore ? earlier->place : load.place) - open.event.centre);
+    }
+    for (const std::size_t k : surface.gone) {
+        const EarlierForce& earlier = open.before[k];
+        moment.add(is_source(open, earlier.point.body_i) ? earlier.force : -earlier.force,
+                   earlier.place - open.event.centre);
+    }
+    return moment;
+}
+
+}  // namespace crackle

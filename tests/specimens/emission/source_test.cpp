@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Sources whose moments are known: openings, slips and closings, in any direction.
+
+#include "specimens/emission/source.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/support/claim.hpp"
+
+namespace crackle {
+namespace {
+
+using testing::agrees;
+using testing::within;
+
+Vec2 turned(Vec2 v, double angle) {
+    return {std::cos(angle) * v.x - std::sin(angle) * v.y, std::sin(angle) * v.x + std::cos(angle) * v.y};
+}
+
+/// Forces of 3 N at arms of 0.1 m either side, `sense` (1: away from each other) turned by `force_turn` from the arms,
+/// the whole turned by `angle`; M has 2·3·0.1 N m along the line.
+MomentTensor dipole(double sense, double force_turn, double angle) {
+    MomentTensor moment;
+    for (const double side : {-1.0, 1.0}) {
+        const Vec2 arm = turned({0.1 * side, 0.0}, angle);
+        moment.add(sense * 30.0 * turned(arm, force_turn), arm);
+    }
+    return moment;
+}
+
+MomentTensor sum(const MomentTensor& a, const MomentTensor& b) {
+    return {a.xx + b.xx, a.xy + b.xy, a.yx + b.yx, a.yy + b.yy};
+}
+
+constexpr double right_angle = 0.5 * std::numbers::pi;
+
+TEST(MomentTensorOfASource, IsTheSameInAnyDirection) {
+    for (const double angle : {0.0, 0.3, 1.2, 2.5}) {
+        const MomentTensor line = dipole(1.0, 0.0, angle), all_round = sum(line, dipole(1.0, 0.0, angle + right_angle));
+        // A couple and the one that balances its torque.
+        const MomentTensor slip = sum(dipole(1.0, right_angle, angle), dipole(1.0, -right_angle, angle + right_angle));
+        EXPECT_TRUE(agrees("opening along a line, N m", scalar_moment(line), 0.6 / std::numbers::sqrt2, 1e-12));
+        EXPECT_TRUE(agrees("R", isotropic_percent(line), 50.0, 1e-12));
+        EXPECT_TRUE(agrees("opening all round, N m", scalar_moment(all_round), 0.6, 1e-12));
+        EXPECT_TRUE(agrees("R", isotropic_percent(all_round), 100.0, 1e-12));
+        EXPECT_TRUE(agrees("slip, N m", scalar_moment(slip), 0.6, 1e-12));
+        EXPECT_TRUE(within("R", isotropic_percent(slip), 0.0, 1e-12));
+        EXPECT_EQ(source_type(isotropic_percent(line)), SourceType::opening);
+        EXPECT_EQ(source_type(isotropic_percent(slip)), SourceType::shear);
+        EXPECT_EQ(source_type(isotropic_percent(dipole(-1.0, 0.0, angle))), SourceType::closing);
+        const PrincipalMoments m = principal_moments(line);
+        EXPECT_TRUE(within("along the line", std::abs(std::sin(m.direction - angle)), 0.0, 1e-12));
+        EXPECT_TRUE(agrees("its moment, N m", m.largest, 0.6, 1e-12));
+        EXPECT_TRUE(within("across", m.smallest, 0.0, 1e-15));
+        EXPECT_TRUE(agrees("a slip's two moments are opposite", principal_moments(slip).smallest,
+                           -principal_moments(slip).largest, 1e-12));
+    }
+}
+
+TEST(MomentTensorOfASource, HasNoPartInItsTorque) {
+    // A couple alone: half of it is the torque.
+    EXPECT_TRUE(agrees("N m", scalar_moment(dipole(1.0, right_angle, 0.7)), 0.3, 1e-12));
+}
+
+TEST(SourceType, ChangesAtThirtyPercent) {
+    // Moments m and q m: R = 100 (1 + q)/((1 + q) + (1 - q)) = 50 (1 + q).
+    for (const double q : {-0.41, -0.39}) {
+        const MomentTensor moment = sum(dipole(1.0, 0.0, 0.4), dipole(q, 0.0, 0.4 + right_angle));
+        EXPECT_TRUE(agrees("R", isotropic_percent(moment), 50.0 * (1.0 + q), 1e-12));
+        EXPECT_EQ(source_type(isotropic_percent(moment)), q < -0.4 ? SourceType::shear : SourceType::opening);
+        const MomentTensor opposite = sum(dipole(-1.0, 0.0, 0.4), dipole(-q, 0.0, 0.4 + right_angle));
+        EXPECT_EQ(source_type(isotropic_percent(opposite)), q < -0.4 ? SourceType::shear : SourceType::closing);
+    }
+}
+
+TEST(Magnitude, OfMomentAndEnergyIsThatOfTheFormulas) {
+    EXPECT_TRUE(within("Mw of 1e9 N m", moment_magnitude(1e9), 0.0, 1e-12));
+    EXPECT_TRUE(agrees("Mw of 1 mN m", moment_magnitude(1e-3), -8.0, 1e-12));
+    EXPECT_TRUE(within("Me of 10^4.8 J", energy_magnitude(std::pow(10.0, 4.8)), 0.0, 1e-12));
+    EXPECT_TRUE(std::isinf(moment_magnitude(0.0)));
+    EXPECT_TRUE(std::isnan(isotropic_percent({})));
+}
+
+}  // namespace
+}  // namespace crackle
