@@ -67,13 +67,15 @@ void set_velocities(World& world, const std::vector<BodyMotion>& motion, double 
 }
 
 void displace(World& world, const std::vector<BodyMotion>& way) {
-    const WithoutLoads aside(world);
     double farthest = 0.0;
     for (const BodyMotion& one : way) farthest = std::max(farthest, std::hypot(one.x, one.y));
     const auto step = world.stepping.steps;
     const double time = world.stepping.time, kick_share = world.stepping.kick_share;
     const double parts = std::max(1.0, std::ceil(farthest / (share_of_a_step * world.list.fastest_allowed_move)));
-    for (double part = 0.0; part < parts; ++part) drift(world, way, 1.0 / parts);
+    {
+        const WithoutLoads aside(world);
+        for (double part = 0.0; part < parts; ++part) drift(world, way, 1.0 / parts);
+    }
     set_velocities(world, std::vector<BodyMotion>(way.size()), 0.0);
     drive_parts(world, std::vector<BodyMotion>(way.size()), 0.0);
     compute_forces(world);

@@ -140,6 +140,23 @@ class Recount(unittest.TestCase):
             self.assertIn("biaxial", text)
             self.agrees(run(name, text), 200)
 
+    def test_cells_that_are_not_between_platens(self):
+        """What section, length and toughness are is computed by other formulas' code; bonds and frames are not."""
+        box = "[packing]\nwidth = {}\nheight = {}\nradius_min = 1.333e-2\nradius_max = 2.667e-2\nmean_overlap = 7.74e-5\nseed = 3\n"
+        for kind, width, height, keys, shape in (
+                ("brazilian", 0.6, 0.6, "half_angle = 12.0\n", ""), ("bending", 1.3, 0.25, "", ""),
+                ("bending", 1.3, 0.25, "", "[shape]\nnotch = 0.1\n"), ("scb", 0.8, 0.4, "span = 0.6\n", ""),
+                ("direct_shear", 0.6, 0.4, "normal_stress = 1e6\n", "")):
+            loading = f'[loading]\nkind = "{kind}"\nmax_axial_strain = 0.01\n' + keys
+            text = box.format(width, height) + area + strengths + cells + cohesive + shape + loading + output
+            with self.subTest(kind=kind, shape=shape):
+                folder = run(kind + ("_notched" if shape else ""), text)
+                self.agrees(folder, 40)
+                r = recount(folder)
+                self.assertLessEqual({"stress_section", "strain_length", "valid"}, r.keys)
+                notched = shape or kind == "scb"
+                self.assertEqual(bool(notched), any(key.startswith("fracture_toughness") for key in r.keys))
+
     def test_cells_of_a_size_asked_for(self):
         self.agrees(cells_by_their_size(), 100)
         self.assertLessEqual({"packing.cell_diameter", "packing.cell_spread"}, recount(cells_by_their_size()).keys)
