@@ -36,7 +36,7 @@ std::vector<bool> held_freedoms(const World& world, const std::vector<BodyIndex>
         const BodyInertia& inertia = world.bodies.inertia[b];
         const std::array<double, 3> inverse{inertia.inverse_mass_x, inertia.inverse_mass_y, inertia.inverse_moment};
         const bool driven = std::ranges::any_of(inverse, [](double one) { return one == 0.0; });
-        for (std::size_t d = 0; d < 3; ++d) held[3 * b + d] = !driven || inverse[d] == 0.0;
+        for (std::size_t d = 0; d < 3; ++d) held[3 * std::size_t{b} + d] = !driven || inverse[d] == 0.0;
     }
     return held;
 }
@@ -157,11 +157,12 @@ ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>&
     ElasticSolution solution;
     solution.displacement.assign(world.bodies.size(), BodyMotion{});
     std::vector<BodyIndex> bodies;
+    bodies.reserve(prescribed.size());
     for (const Prescribed& p : prescribed) bodies.push_back(p.body);
     const std::vector<bool> held = held_freedoms(world, bodies);
     for (const Prescribed& p : prescribed)
         for (int d = 0; d < 3; ++d)
-            if (held[3 * p.body + static_cast<std::size_t>(d)])
+            if (held[3 * std::size_t{p.body} + static_cast<std::size_t>(d)])
                 component(solution.displacement[p.body], d) = component(p.motion, d);
     const std::vector<Spring> springs = springs_of(world, ClosedPoints::bonded);
     const ScaledSystem system(world, springs, held);

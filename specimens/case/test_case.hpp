@@ -109,7 +109,7 @@ struct TestCase {
     } shape;
 
     struct Loading {
-        std::string kind;                         // test_kinds() of specimens/kinds has them
+        std::string kind = "compression";         // test_kinds() of specimens/kinds has them
         std::optional<double> axial_strain_rate;  // 1/s; or:
         std::optional<double> rate_tolerance;
         double max_axial_strain = 0.0;

@@ -13,6 +13,7 @@ namespace crackle {
 /// Supports in place, the driving part moved by this along its axis, m.
 inline std::vector<Prescribed> prescribed_parts(const TestSetup& setup, double way) {
     std::vector<Prescribed> prescribed;
+    prescribed.reserve(setup.parts.size());
     for (const SetupPart& part : setup.parts) {
         const double own = part.body == setup.top ? way : 0.0;
         prescribed.push_back({part.body, setup.axis == 1 ? BodyMotion{0.0, own, 0.0} : BodyMotion{own, 0.0, 0.0}});
@@ -23,6 +24,7 @@ inline std::vector<Prescribed> prescribed_parts(const TestSetup& setup, double w
 /// The bodies of all parts.
 inline std::vector<BodyIndex> bodies_of_parts(const TestSetup& setup) {
     std::vector<BodyIndex> bodies;
+    bodies.reserve(setup.parts.size());
     for (const SetupPart& part : setup.parts) bodies.push_back(part.body);
     return bodies;
 }

@@ -111,14 +111,15 @@ std::vector<BodyMotion> start_moving(VirtualTest& test, double rate) {
     World& world = test.world;
     const TestSetup& setup = test.setup;
     const std::vector<bool> elastic = elastic_bodies(test);
-    const std::vector<BodyMotion> motion = elastic_motion(test, elastic);
+    std::vector<BodyMotion> motion = elastic_motion(test, elastic);
     set_velocities(world, motion, rate);
     if (test.description.loading.platens != "frictional") {
         settle_dashpots(world, setup, elastic);
         set_velocities(world, motion, rate);
     }
     change_velocity(world, setup.top, setup.axis, -setup.sense() * rate * setup.length);
-    restart_account(world);  // it begins with this motion
+    if (!setup.uniaxial) strains_begin_at(test.setup, world);  // parts that are free have moved with the rest
+    restart_account(world);                                    // it begins with this motion
     velocities_changed(world);
     compute_forces(world);
     return motion;

@@ -85,6 +85,7 @@ std::vector<CellCentre> centres_of(const Scene& circles) {
 
 std::vector<Point> outline_of(const Shape& shape) {
     std::vector<Point> outline;
+    outline.reserve(shape.outline.size());
     for (const Vec2 corner : shape.outline) outline.push_back({corner.x, corner.y});
     return outline;
 }

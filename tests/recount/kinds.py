@@ -66,9 +66,6 @@ def recount_kind(r):
         r.key("peak_force" + suffix, peak * section)
         if intensity is not None:
             r.key("fracture_toughness" + suffix, peak * intensity)
-    claims = s["validity"]
-    known = [claim["holds"] for claim in claims]
-    r.key("valid", False if False in known else None if None in known else True)
 
 
 def recount_box(r, height, length, force):

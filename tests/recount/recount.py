@@ -269,6 +269,9 @@ def recount_errors(r):
 def recount(folder):
     r = Recount(Results(folder))
     recount_curve(r)
+    known = [claim["holds"] for claim in r.summary["validity"]]
+    r.true("valid: as its claims", r.summary["valid"] is (False if False in known else None if None in known else True))
+    r.keys.add("valid")
     if not r.uniaxial:
         recount_kind(r)
         recount_lengths(r)

@@ -200,7 +200,8 @@ INSTANTIATE_TEST_SUITE_P(
         Refusal{"NoDropAtAll", "kind = \"tension\"", "kind = \"tension\"\nstrength_drop = 0.0",
                 ":14: loading.strength_drop: found 0, expected a number > 0 and < 1"},
         Refusal{"MissingKey", "kind = \"tension\"\n", "",
-                ":12: loading.kind: found nothing, expected \"compression\" or \"tension\" or \"biaxial\"; add it to "
+                ":12: loading.kind: found nothing, expected \"compression\" or \"tension\" or \"biaxial\" or "
+                "\"brazilian\" or \"bending\" or \"scb\" or \"direct_shear\"; add it to "
                 "[loading]"},
         Refusal{"MissingMaterial", "density = 2500\n", "", ":6: material.density: found nothing"},
         Refusal{"HalfADashpot", "damping_ratio = 0.2\n", "normal_damping = 10\n",

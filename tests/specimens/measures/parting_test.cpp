@@ -18,6 +18,7 @@ TestSetup chain(double grip) {
     setup.grip = grip;
     setup.bottom = 10;
     setup.top = 11;
+    setup.parts = {{10, 2}, {11, 2}};
     for (int k = 0; k < 10; ++k) setup.start.push_back({0.0, 2.05 + 0.1 * k, 0.0});
     setup.start.push_back({0.0, 1.9, 0.0});
     setup.start.push_back({0.0, 3.1, 0.0});

@@ -114,7 +114,7 @@ class Page {
             })] : []), element('span', {class: 'hint'}, 'A click shows the specimens at that strain. Shift and wheel zoom the strain axis, dragging moves it, a double click resets it.')),
             this.panelHolder,
             element('p', {class: 'caption'},
-                'Stress is the mean of the two platens’ forces over the initial width, strain the platen displacement over the initial height, both positive in ',
+                'Stress is the mean of the two platens’ forces over the initial width, strain the platen displacement over the initial height (of tests that are not between platens as their kind defines them: Hondros’ stress of a disc, the fibre stress of a beam), both positive in ',
                 'the test’s own sense. Below the curves: bonds broken in each interval of strain, by mode (', mark('tension'), ' tension, ', mark('shear'), ' shear), ',
                 'and the total so far as a line.',
                 ...(curved.some(({test}) => hasSlips(test)) ? [' In strips of their own, slips (', mark('slid'), `): ${slipMeaning}.`] : [])));
