@@ -78,6 +78,7 @@ def recount_b(r, magnitudes):
     other, tried = r.summary["b_value"]["least_distance"], np.sort(magnitudes)
     if other["completeness"] is None:
         r.true(names + "least_distance: none of fewer than 50", len(magnitudes) < 50 and other["b"] is None)
+        r.keys.add(names + "least_distance.events")
         return
     stride = (len(tried) - 50) // 64 + 1
     distances = [(distance_from_law(tried[tried > m] - m), m) for m in tried[: len(tried) - 50 : stride] if np.sum(tried > m) >= 50]

@@ -131,7 +131,20 @@ pressure = 1e3
 [output]
 frames = 2
 """
-CONTAINERS = {"files.*", "crack_rose.*", "numerical_errors.*", "numerical_errors.companions", "numerical_errors.companions.*", "profile.phases", "profile.phases[]", "minerals[]"}
+# Kinds of test that are not between platens, before and after they have failed, and a test that is listened to.
+GRAIN = """include = "{top}/specimens/rocks/granite.toml"
+[packing]
+width = 0.03
+height = {height}
+"""
+OTHERS = {
+    "half_disc": (0.015, '[loading]\nkind = "scb"\nmax_axial_strain = 0.002\n'),
+    "half_disc_unfailed": (0.015, '[loading]\nkind = "scb"\nmax_axial_strain = 1e-5\n'),
+    "beam_unfailed": (0.007, '[loading]\nkind = "bending"\nspan = 0.02\nmax_axial_strain = 1e-5\n'),
+    "sheared": (0.015, '[loading]\nkind = "direct_shear"\nnormal_stress = 1e6\nmax_axial_strain = 0.003\n'),
+    "heard": (0.06, '[loading]\nkind = "tension"\nmax_axial_strain = 0.001\n[output]\nemission = true\n'),
+}
+CONTAINERS = {"files.*", "crack_rose.*", "numerical_errors.*", "numerical_errors.companions", "numerical_errors.companions.*", "profile.phases", "profile.phases[]", "minerals[]", "validity[]"}
 
 
 class Pages(unittest.TestCase):
@@ -157,6 +170,12 @@ class Pages(unittest.TestCase):
             (cls.folder / f"{name}.toml").write_text(CONFINED.format(top=TOP, strain=strain), encoding="utf-8")
             cls.confined.append(subprocess.run([PROGRAM, "test", f"{name}.toml", "-o", f"out/{name}", "-q"], cwd=cls.folder, capture_output=True,
                                                text=True, check=False, stdin=subprocess.DEVNULL))
+
+        cls.others = []
+        for name, (height, text) in OTHERS.items():
+            (cls.folder / f"{name}.toml").write_text(GRAIN.format(top=TOP, height=height) + text, encoding="utf-8")
+            cls.others.append(subprocess.run([PROGRAM, "test", f"{name}.toml", "-o", f"out/{name}", "-q"], cwd=cls.folder, capture_output=True,
+                                             text=True, check=False, stdin=subprocess.DEVNULL))
 
     @classmethod
     def run_of(cls, page, mark, words):
@@ -226,7 +245,9 @@ class Pages(unittest.TestCase):
 
     def test_keys_are_those_of_summaries(self):
         found = set()
-        for results in self.results():
+        for done in self.others:
+            self.assertEqual(done.returncode, 0, done.stderr)
+        for results in (*self.results(), *(self.folder / "out" / name for name in OTHERS)):
             found |= {declared(name) for name in flat(json.loads((results / "summary.json").read_text(encoding="utf-8")))}
         self.assertEqual(sorted(set(table(FILES, "## `summary.json`")) ^ (found - CONTAINERS)), [])
 
