@@ -84,7 +84,7 @@ Apparatus bending_apparatus(const KindRequest& request, const Shape& shape) {
     apparatus.parts.push_back(driver);
     apparatus.section = 2.0 * depth * depth / (3.0 * span);
     apparatus.length = span * span / (6.0 * depth);
-    apparatus.supports = span;
+    apparatus.span = span;
     if (shape.notch) {
         const double ratio = *request.test.shape.notch / depth;
         apparatus.stress_intensity = 2.0 / 3.0 * std::sqrt(depth) * notched_beam_factor(ratio);

@@ -2,15 +2,17 @@
 // The Brazilian test: a disc of diameter D, pressed along y over an arc of half angle α on either side.
 //
 // Stress at the centre, tension (Hondros, Aust. J. Appl. Sci. 10, 1959; ISRM 1978):
-//     σ_t = k 2P/(πD),   k = (sin 2α - α)/sin α: 0.991, 0.965, 0.920 at α = 5, 10, 15 degrees; flat and curved jaws k =
-//     1
+//     σ_t = k 2P/(πD),   k = (sin 2α - α)/sin α: 0.991, 0.965, 0.920 at α = 5, 10, 15 degrees
+// and k = 1 of flat and curved jaws;
 // so section = πD/(2k); length = D, the strain is the shortening of the diameter over it.
 // The outline is a polygon whose sides are about a particle long, with corners where the arcs end.
 // Tested by tests/specimens/kinds/test_kind_test.cpp.
 
 #include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "solver/base/correctly_rounded.hpp"
@@ -63,21 +65,36 @@ LoadingPart turned(const LoadingPart& part, Vec2 centre) {
     return other;
 }
 
-std::vector<Vec2> face_of(const KindRequest& request, Vec2 centre, double radius, double alpha) {
-    const double far = request.high - centre.y;
-    if (request.test.loading.platens != "frictional") {
-        return arc(centre, radius + request.cut_offset, quarter + alpha, quarter - alpha,
-                   sides_of_arc(2.0 * alpha, radius, request.particle, 2));
-    }
+/// The face of the upper jaw that is bonded to the disc: side by side with the outline's.
+std::vector<Vec2> bonded_face(const KindRequest& request, Vec2 centre, double radius, double alpha) {
+    return arc(centre, radius + request.cut_offset, quarter + alpha, quarter - alpha,
+               sides_of_arc(2.0 * alpha, radius, request.particle, 2));
+}
+
+/// The face of an upper jaw that just touches the specimen from above. @param upside_down of the lower one, whose
+/// specimen is turned by half a turn about the centre for it
+std::vector<Vec2> touching_face(const KindRequest& request, Vec2 centre, double radius, double alpha,
+                                bool upside_down) {
     const std::string jaws = request.test.loading.jaws.value_or("arc");
-    if (jaws == "flat")
-        return {{centre.x - flat_jaw_half_width * radius, request.high},
-                {centre.x + flat_jaw_half_width * radius, request.high}};
-    if (jaws == "curved") {
-        const double curve = jaw_radius * radius, half = correctly_rounded::asin(jaw_half_width / jaw_radius);
-        return arc({centre.x, request.high - curve}, curve, quarter + half, quarter - half, jaw_sides);
+    const bool flat = jaws == "flat";
+    double farthest = 0.0;  // m, that the specimen reaches from the centre
+    for (const SurfacePoint& point : request.surface)
+        farthest = std::max(farthest, norm(point.place - centre) + point.reach);
+    // Sides of an arc lie within it, by the cosine of half their angle.
+    const double half = jaws == "curved" ? correctly_rounded::asin(jaw_half_width / jaw_radius) : alpha;
+    const double inner = correctly_rounded::cos(half / jaw_sides);
+    const double curve = jaws == "curved" ? jaw_radius * radius : farthest / inner;
+    const double half_width = flat ? flat_jaw_half_width * radius : curve * correctly_rounded::sin(half);
+    double height = -std::numeric_limits<double>::infinity();  // m, of the flat face, or of the arc's centre
+    for (const SurfacePoint& point : request.surface) {
+        const double side = upside_down ? -1.0 : 1.0;
+        const double x = side * (point.place.x - centre.x), y = side * (point.place.y - centre.y);
+        if (y < 0.0 || std::abs(x) > half_width + point.reach) continue;
+        const double clear = curve * inner - point.reach;
+        height = std::max(height, flat ? y + point.reach : y - std::sqrt(std::max(0.0, clear * clear - x * x)));
     }
-    return arc(centre, far, quarter + alpha, quarter - alpha, jaw_sides);
+    if (flat) return {{centre.x - half_width, centre.y + height}, {centre.x + half_width, centre.y + height}};
+    return arc({centre.x, centre.y + height}, curve, quarter + half, quarter - half, jaw_sides);
 }
 
 }  // namespace
@@ -127,19 +144,18 @@ Apparatus brazilian_apparatus(const KindRequest& request, const Shape& shape) {
     const Vec2 centre = centre_of(request.packing);
     const bool bonded = request.test.loading.platens != "frictional";
     const double top = centre.y + (1.0 + jaw_depth) * radius;
-    LoadingPart upper = upper_jaw(face_of(request, centre, radius, alpha), top);
-    upper.x = upper.y = upper.rotation = {Drive::velocity, 0.0};
-    LoadingPart lower = turned(upper, centre);
-    if (!bonded) {  // it begins where the specimen does
-        const double rise = (2.0 * centre.y - request.high) - request.low;
-        for (Vec2& corner : lower.corners) corner.y -= rise;
-    }
+    const auto jaw = [&](bool lower) {
+        LoadingPart part = upper_jaw(
+            bonded ? bonded_face(request, centre, radius, alpha) : touching_face(request, centre, radius, alpha, lower),
+            top);
+        part.x = part.y = part.rotation = {Drive::velocity, 0.0};
+        return lower ? turned(part, centre) : part;
+    };
     Apparatus apparatus;
-    apparatus.parts = {lower, upper};
+    apparatus.parts = {jaw(true), jaw(false)};
     const bool over_an_arc = bonded || request.test.loading.jaws.value_or("arc") == "arc";
     apparatus.section = 0.5 * std::numbers::pi * diameter / (over_an_arc ? brazilian_factor(alpha) : 1.0);
     apparatus.length = diameter;
-    apparatus.diameter = diameter;
     return apparatus;
 }
 

@@ -56,8 +56,8 @@ Shape scb_shape(const KindRequest& request) {
                        "make the pads narrower, or the particles smaller");
     }
     const double end = std::sqrt(radius * radius - half_pad * half_pad);
-    const double from = 0.0, to = correctly_rounded::atan2(end, half_pad);
-    const int sides = std::max(4, static_cast<int>(std::lround((to - from) * radius / request.particle)));
+    const double to = correctly_rounded::atan2(end, half_pad);
+    const int sides = std::max(4, static_cast<int>(std::lround(to * radius / request.particle)));
     Shape shape;
     const auto place = [&](int k, double side) {
         const double angle = to * static_cast<double>(k) / sides;
@@ -98,8 +98,7 @@ Apparatus scb_apparatus(const KindRequest& request, const Shape& shape) {
     apparatus.parts.push_back(driver);
     apparatus.section = shape.width;
     apparatus.length = radius;
-    apparatus.supports = span;
-    apparatus.diameter = shape.width;
+    apparatus.span = span;
     const double notch = notch_of(request, radius);
     apparatus.stress_intensity =
         semicircle_factor(notch / radius, span / shape.width) * std::sqrt(std::numbers::pi * notch);

@@ -17,7 +17,7 @@ constexpr double default_half_angle = 10.0;  // degrees: ISRM's jaws
 // Of a beam's depth or a half disc's radius, and of a particle: narrower pads press single grains in.
 constexpr double pad_share = 0.1, fewest_particles_of_a_pad = 2.0;
 
-double side_of(Vec2 a, Vec2 b, Vec2 p) { return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x); }
+double side_of(Vec2 a, Vec2 b, Vec2 p) { return cross(b - a, p - a); }
 
 }  // namespace
 
@@ -26,15 +26,9 @@ bool Notch::parts(Vec2 a, Vec2 b) const {
     return across && side_of(a, b, mouth) * side_of(a, b, tip) < 0.0;
 }
 
-double Notch::length() const {
-    return std::sqrt((tip.x - mouth.x) * (tip.x - mouth.x) + (tip.y - mouth.y) * (tip.y - mouth.y));
-}
-
 double Notch::distance(Vec2 place) const {
-    const double x = tip.x - mouth.x, y = tip.y - mouth.y;
-    const double along = std::clamp(((place.x - mouth.x) * x + (place.y - mouth.y) * y) / (x * x + y * y), 0.0, 1.0);
-    const double dx = place.x - mouth.x - along * x, dy = place.y - mouth.y - along * y;
-    return std::sqrt(dx * dx + dy * dy);
+    const Vec2 way = tip - mouth, from = place - mouth;
+    return norm(from - std::clamp(dot(from, way) / dot(way, way), 0.0, 1.0) * way);
 }
 
 bool Shape::holds(Vec2 place) const {
@@ -50,14 +44,13 @@ void KindRequest::refuse(const std::string& key, const std::string& found, const
 
 const std::vector<TestKind>& test_kinds() {
     static const std::vector<TestKind> all{
-        {"compression", "the whole packing between two platens", true, true, whole_packing, nullptr},
-        {"tension", "the whole packing pulled by two platens", false, true, whole_packing, nullptr},
-        {"biaxial", "compression under a confining pressure", true, true, whole_packing, nullptr},
-        {"brazilian", "a disc split between two jaws", true, false, brazilian_shape, brazilian_apparatus},
-        {"bending", "a beam on two supports, pressed at midspan", true, false, bending_shape, bending_apparatus},
-        {"scb", "half a disc with a notch on two supports", true, false, scb_shape, scb_apparatus},
-        {"direct_shear", "a block in two half boxes, the upper one pressed and drawn along", false, false,
-         whole_packing, direct_shear_apparatus},
+        {"compression", true, true, whole_packing, nullptr},
+        {"tension", false, true, whole_packing, nullptr},
+        {"biaxial", true, true, whole_packing, nullptr},
+        {"brazilian", true, false, brazilian_shape, brazilian_apparatus},
+        {"bending", true, false, bending_shape, bending_apparatus},
+        {"scb", true, false, scb_shape, scb_apparatus},
+        {"direct_shear", false, false, whole_packing, direct_shear_apparatus},
     };
     return all;
 }

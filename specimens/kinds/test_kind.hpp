@@ -29,7 +29,6 @@ struct Notch {
 
     /// Whether the way from a to b crosses it.
     bool parts(Vec2 a, Vec2 b) const;
-    double length() const;
     double distance(Vec2 place) const;  ///< m, of a place from it
 };
 
@@ -61,24 +60,28 @@ struct LoadingPart {
 
 /// What holds and drives a specimen, and what is read from it.
 struct Apparatus {
-    std::vector<LoadingPart> parts;         ///< the last one drives
-    int axis = 1;                           ///< of its way: 0 x, 1 y
-    double section = 0.0, length = 0.0;     // m
-    double normal_force = 0.0;              ///< N, on the driving part across its way, towards the specimen
-    double stress_intensity = 0.0;          ///< sqrt(m): K_I over the nominal stress; 0 without a notch
-    double supports = 0.0, diameter = 0.0;  ///< m: span; of a disc
+    std::vector<LoadingPart> parts;      ///< the last one drives
+    int axis = 1;                        ///< of its way: 0 x, 1 y
+    double section = 0.0, length = 0.0;  // m
+    double normal_force = 0.0;           ///< N, on the driving part across its way, towards the specimen
+    double stress_intensity = 0.0;       ///< sqrt(m): K_I over the nominal stress; 0 without a notch
+    double span = 0.0;                   ///< m, between supports; 0 without
+};
+
+/// A corner, or a circle, of the specimen: what comes nearer than its reach touches it.
+struct SurfacePoint {
+    Vec2 place;          // m
+    double reach = 0.0;  // m
 };
 
 /// What a kind goes by.
 struct KindRequest {
     const TestCase& test;
-    Domain packing;         ///< the box of the packing
-    double particle = 0.0;  ///< m, mean size: of a cell the root of its area, of a circle its diameter
-    bool polygons = false;
-    double offset = 0.0;      ///< m, from a face of the packing to that of a part which is bonded to it
-    double cut_offset = 0.0;  ///< m, likewise from an outline that was cut
-    /// Lowest and highest place of the specimen's surface, m, where a face that is not bonded begins.
-    double low = 0.0, high = 0.0;
+    Domain packing;                          ///< the box of the packing
+    double particle = 0.0;                   ///< m, mean size: of a cell the root of its area, of a circle its diameter
+    double offset = 0.0;                     ///< m, from a face of the packing to that of a part which is bonded to it
+    double cut_offset = 0.0;                 ///< m, likewise from an outline that was cut
+    std::vector<SurfacePoint> surface = {};  ///< of the specimen, which parts that are not bonded just touch
 
     [[noreturn]] void refuse(const std::string& key, const std::string& found, const std::string& expected,
                              const std::string& remedy) const;
@@ -86,7 +89,6 @@ struct KindRequest {
 
 struct TestKind {
     const char* name;
-    const char* sentence;
     bool compression;  ///< the driving part moves against its axis
     bool uniaxial;     ///< stress and strain are those of the rock: moduli, thresholds and the like are defined
     /// What is cut from the packing, before bodies are known.
@@ -101,7 +103,7 @@ const TestKind& test_kind(const std::string& name);
 /// Their names, in the order in which they are told.
 std::vector<std::string> test_kind_names();
 
-/// Default keys of the case that a kind gives where the case is silent are those of the request's members below.
+/// m; the largest that the packing has room for where the case gives none
 double disc_diameter(const KindRequest& request);
 /// rad, half of the arc over which a jaw presses
 double half_angle(const KindRequest& request);

@@ -475,7 +475,7 @@ double particle_size(const Specimen& specimen, const TestCase& test) {
 
 /// Leaves the bodies that lie within the shape of the kind of test; circles that its notch runs through are taken away.
 void cut(Specimen& specimen, const TestCase& test) {
-    const KindRequest request{test, specimen.scene.domain, specimen.particle, specimen.polygons};
+    const KindRequest request{test, specimen.scene.domain, specimen.particle};
     specimen.shape = test_kind(test.loading.kind).shape(request);
     const Shape& shape = specimen.shape;
     if (shape.whole()) return;

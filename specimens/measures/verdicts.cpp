@@ -27,22 +27,23 @@ struct BreakPlace {
     std::size_t crack = 0;  // which it is of
 };
 
-/// Breaks within the specimen, where its bodies were bonded, and of which crack each is: breaks that share a particle.
+/// Breaks within the specimen, where its bodies were bonded, and of which crack each is: breaks that lie within a mean
+/// particle of each other.
 std::vector<BreakPlace> places_of(const TestSetup& setup, const ContactHistory& history) {
-    boost::disjoint_sets_with_storage<> cracked(setup.start.size());
     std::vector<BreakPlace> places;
     for (const Crack& crack : history.cracks) {
         const ContactPoint point = setup.bonds[crack.bond];
         if (setup.is_platen(point.body_i) || setup.is_platen(point.body_j)) continue;
-        cracked.union_set(point.body_i, point.body_j);
-    }
-    for (const Crack& crack : history.cracks) {
-        const ContactPoint point = setup.bonds[crack.bond];
-        if (setup.is_platen(point.body_i) || setup.is_platen(point.body_j)) continue;
         const StartPlace &a = setup.start[point.body_i], &b = setup.start[point.body_j];
-        places.push_back(
-            {0.5 * (a.x + b.x), 0.5 * (a.y + b.y), crack.energy, crack.time, cracked.find_set(point.body_i)});
+        places.push_back({0.5 * (a.x + b.x), 0.5 * (a.y + b.y), crack.energy, crack.time, 0});
     }
+    std::ranges::stable_sort(places, {}, &BreakPlace::x);
+    const double size = std::sqrt(setup.area / static_cast<double>(setup.particles));
+    boost::disjoint_sets_with_storage<> joined(places.size());
+    for (std::size_t k = 0; k < places.size(); ++k)
+        for (std::size_t n = k + 1; n < places.size() && places[n].x - places[k].x <= size; ++n)
+            if (std::hypot(places[n].x - places[k].x, places[n].y - places[k].y) <= size) joined.union_set(k, n);
+    for (std::size_t k = 0; k < places.size(); ++k) places[k].crack = joined.find_set(k);
     return places;
 }
 

@@ -13,6 +13,7 @@
 //   spans
 //                         half of what the notch has left
 //   direct_shear          two thirds of the energy of breaks come from within a quarter of the height of the gap
+// Of kinds that are not between platens a crack is what breaks make that lie within a mean particle of each other.
 // Tested by tests/specimens/measures/verdicts_test.cpp.
 #pragma once
 

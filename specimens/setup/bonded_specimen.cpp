@@ -41,6 +41,8 @@ Bonding bonding_of(const Specimen& specimen, const TestCase& test, double thick)
     if (!test.coulomb_bonds()) return bonding;
     const TestCase::Bond& keys = test.bond;
     if (specimen.polygons) bonding.gap = keys.gap.value_or(overhang_share * thick);
+    // By pairs of circles `range` goes: this is of circles and the parts that hold them.
+    if (!specimen.polygons && !specimen.shape.outline.empty()) bonding.gap = cut_circles_offset * specimen.particle;
     bonding.range = keys.range;
     bonding.tensile_factor = keys.tensile_factor;
     bonding.cohesion_factor = keys.cohesion_factor;

@@ -75,13 +75,12 @@ int next_id(const Scene& scene) { return std::ranges::max_element(scene.bodies, 
 
 /// The parts of a kind of test that has no platens.
 void add_parts(Scene& scene, const Specimen& specimen, const TestCase& test, double thick, Platens& platens) {
-    const Extent extent = vertical_extent(scene);
-    KindRequest request{test, scene.domain, specimen.particle, specimen.polygons};
+    KindRequest request{test, scene.domain, specimen.particle};
     request.offset = part_offset(specimen, thick);
-    // Circles that were cut out by their centres reach beyond the outline.
-    request.cut_offset = specimen.polygons ? request.offset : 0.0;
-    request.low = extent.low - thick;
-    request.high = extent.high + thick;
+    // Circles that were cut out by their centres reach beyond the outline: half a radius on, none is through it.
+    request.cut_offset = specimen.polygons ? request.offset : cut_circles_offset * specimen.particle;
+    for (const CircleElement& circle : scene.circles) request.surface.push_back({circle.centre, circle.radius + thick});
+    for (const Vec2 corner : scene.vertices) request.surface.push_back({corner, thick});
     platens.apparatus = test_kind(test.loading.kind).apparatus(request, specimen.shape);
     const int material = platen_material(scene, specimen, test.loading);
     platens.bottom_id = next_id(scene);

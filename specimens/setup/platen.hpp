@@ -39,6 +39,10 @@ inline constexpr double platen_width_ratio = 2.0;
 /// Depth of a platen over the specimen's height: more than any corner is ever pressed in.
 inline constexpr double platen_depth_ratio = 0.05;
 
+/// Of a mean circle's diameter, from an outline that circles were cut by their centres with to a bonded face along it;
+/// by as much more of a gap they are bonded to it.
+inline constexpr double cut_circles_offset = 0.25;
+
 /// Adds both platens and their controls to the specimen's scene, removes the walls and gives every particle the
 /// velocity that grows linearly from the lower to the upper platen, so that loading sends no shock; of kinds with other
 /// parts it stays at rest.

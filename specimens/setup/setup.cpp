@@ -168,7 +168,7 @@ TestSetup record_setup(const World& world, const Specimen& specimen, const Plate
     setup.area = specimen.area;
     setup.middle = 0.5 * (world.settings.domain.x1 + world.settings.domain.x2);
     setup.middle_height = 0.5 * (world.settings.domain.y1 + world.settings.domain.y2);
-    setup.span = platens.apparatus.supports;
+    setup.span = platens.apparatus.span;
     if (specimen.shape.notch) setup.notch = specimen.shape.notch->tip.y - world.settings.domain.y1;
     setup.grip = grip * specimen.height;
     setup.low_end = world.settings.domain.y1;

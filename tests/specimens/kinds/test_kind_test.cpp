@@ -59,7 +59,31 @@ TEST(TestKinds, ANotchPartsWhatLiesOnEitherSideOfIt) {
     EXPECT_FALSE(notch.parts({-1.0, 0.0}, {-0.5, 0.5}));
     EXPECT_EQ(notch.distance({0.5, 0.0}), 0.5);
     EXPECT_EQ(notch.distance({0.0, 2.0}), 1.0);
-    EXPECT_EQ(notch.length(), 2.0);
+}
+
+/// A jaw's face is where the parts of a test say: outline and face of every jaw are apart by what it touches at.
+TEST(TestKinds, JawsThatAreNotBondedJustTouchTheDisc) {
+    TestCase test;
+    test.loading.kind = "brazilian";
+    test.loading.platens = "frictional";
+    constexpr double reach = 1e-5;
+    KindRequest request{test, {0.0, 0.1, 0.0, 0.1, {}}, 0.005};
+    const Shape shape = brazilian_shape(request);
+    for (const Vec2 corner : shape.outline) request.surface.push_back({corner, reach});
+    for (const char* jaws : {"arc", "flat", "curved"}) {
+        test.loading.jaws = jaws;
+        const Apparatus apparatus = brazilian_apparatus(request, shape);
+        ASSERT_EQ(apparatus.parts.size(), 2U);
+        for (const LoadingPart& part : apparatus.parts) {
+            double nearest = 1e300;
+            for (std::uint32_t k = 0; k + 1 < part.face; ++k)
+                for (const Vec2 corner : shape.outline)
+                    nearest = std::min(nearest, Notch{part.corners[k], part.corners[k + 1]}.distance(corner));
+            // Sides are allowed for by the whole of their depth, of which a corner uses some: 1/8 (side/radius)² of it.
+            EXPECT_GE(nearest, reach * (1.0 - 1e-9)) << jaws;
+            EXPECT_LE(nearest, reach + 1e-4 * shape.width) << jaws;
+        }
+    }
 }
 
 /// A triangular lattice of discs as a particle file and a case that tests it.
