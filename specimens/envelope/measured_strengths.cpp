@@ -64,6 +64,13 @@ struct StrengthTest {
 class Collection {
   public:
     void add(const StrengthTest& test) {
+        const std::string kind = word_of(test.figures, "kind");
+        const bool pulled = kind == "tension";
+        if (!pulled && kind != "compression" && kind != "biaxial") {
+            leave_out(test.where,
+                      fmt::format("is a test of another kind, {}: its peak is no strength over confinement", kind));
+            return;
+        }
         const std::string unit = word_of(test.figures, "material_units") == "area" ? "Pa" : "N/m";
         if (all_.unit.empty()) {
             all_.unit = unit;
@@ -71,7 +78,6 @@ class Collection {
         }
         require_same(test, unit);
         const double strength = number_of(test.figures, "peak_stress");
-        const bool pulled = word_of(test.figures, "kind") == "tension";
         if (!std::isfinite(strength)) {
             leave_out(test.where, "did not fail by loading.max_axial_strain");
             return;

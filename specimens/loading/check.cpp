@@ -124,7 +124,7 @@ void warn(TestCheck& check) {
                         "packing and the boundary; make it of more grains, or average over several seeds",
                         check.grains_across, fewest_grains_across));
     }
-    if (setup.polygons && !setup.compression && test.loading.platens == "bonded") {
+    if (setup.polygons && test.loading.kind == "tension" && test.loading.platens == "bonded") {
         check.warnings.push_back(fmt::format(
             "{}: polygons that are pulled by bonded platens part at the platen: the strength is not the rock's; "
             "platens = \"glued\" hold it",

@@ -249,7 +249,7 @@ Panel stress_strain(const std::vector<PlottedTest>& tests) {
         legend.draw(canvas, {place.x + beside_letter, place.y});
         draw_curves(canvas, upper, tests, unit.factor);
         if (inset) draw_inset(canvas, *inset, slivers);
-        upper.draw(canvas, "", fmt::format("axial stress, {}", unit.name));
+        upper.draw(canvas, "", fmt::format("{}, {}", names_of(tests).stress, unit.name));
         if (single) {
             draw_bars(canvas, lower, histogram);
             canvas.text({lower.frame.right() - 2.0, lower.frame.y - 1.5}, "in " + histogram.interval(), Across::right,
@@ -257,7 +257,8 @@ Panel stress_strain(const std::vector<PlottedTest>& tests) {
         } else {
             draw_so_far(canvas, lower, tests);
         }
-        lower.draw(canvas, strain_title, single ? "breaks" : "broken");
+        lower.draw(canvas, fmt::format("{}, {}", names_of(tests).strain, strain_unit_title),
+                   single ? "breaks" : "broken");
     };
     return panel;
 }
@@ -295,11 +296,11 @@ Panel breaks(const std::vector<PlottedTest>& tests) {
             PlottedTest test = tests.front();
             test.colour = 0;
             draw_so_far(canvas, second, {test});
-            axes.draw(canvas, strain_title, "bonds broken");
+            axes.draw(canvas, fmt::format("{}, {}", names_of(tests).strain, strain_unit_title), "bonds broken");
             axes.draw_right(canvas, so_far, "so far");
         } else {
             draw_so_far(canvas, axes, tests);
-            axes.draw(canvas, strain_title, "bonds broken so far");
+            axes.draw(canvas, fmt::format("{}, {}", names_of(tests).strain, strain_unit_title), "bonds broken so far");
         }
     };
     return panel;

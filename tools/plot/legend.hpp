@@ -16,6 +16,7 @@ namespace crackle::plot {
 
 inline constexpr double strain_unit = 1e-3;
 inline constexpr const char* strain_title = "axial strain, 10⁻³";
+inline constexpr const char* strain_unit_title = "10⁻³";
 inline constexpr double curve_width = 0.9;  // pt
 /// Crack initiation and damage. Pango's own <sub> takes the default size for that of the text.
 inline constexpr const char* crack_initiation_sign = "<i>σ</i><span size=\"75%\" rise=\"-2pt\">ci</span>";

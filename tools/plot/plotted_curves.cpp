@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
+#include <string_view>
 
 namespace crackle::plot {
 
@@ -43,6 +46,23 @@ std::vector<Point> curve_points(const Axes& axes, const std::vector<double>& x, 
 double number_of(const PlottedTest& test, const char* key) {
     const auto found = test.results->summary.find(key);
     return found != test.results->summary.end() && found->is_number() ? found->get<double>() : std::nan("");
+}
+
+CurveNames names_of(const std::vector<PlottedTest>& tests) {
+    static const std::map<std::string, CurveNames, std::less<>> kinds{
+        {"brazilian", {"tensile stress at the centre", "shortening of the diameter"}},
+        {"bending", {"fibre stress", "fibre strain"}},
+        {"scb", {"P/2R", "displacement over R"}},
+        {"direct_shear", {"shear stress", "displacement over length"}}};
+    const auto name = [](const PlottedTest& test) {
+        const auto found = kinds.find(test.results->summary.value("kind", std::string()));
+        return found == kinds.end() ? CurveNames{"axial stress", "axial strain"} : found->second;
+    };
+    if (tests.empty()) return {};
+    const CurveNames first = name(tests.front());
+    const bool alike = std::ranges::all_of(
+        tests, [&](const PlottedTest& test) { return std::string_view(name(test).stress) == first.stress; });
+    return alike ? first : CurveNames{};
 }
 
 std::vector<Legend::Entry> entries_of(const std::vector<PlottedTest>& tests) {

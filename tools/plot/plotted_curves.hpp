@@ -23,6 +23,13 @@ double smallest_of(const std::vector<PlottedTest>& tests, const char* name);  //
 std::vector<Point> curve_points(const Axes& axes, const std::vector<double>& x, double x_unit,
                                 const std::vector<double>& y, double y_unit);
 
+/// What stress and strain of these tests are called: by their kind, where they are of one.
+struct CurveNames {
+    const char* stress = "stress";
+    const char* strain = "strain";
+};
+CurveNames names_of(const std::vector<PlottedTest>& tests);
+
 std::vector<Legend::Entry> entries_of(const std::vector<PlottedTest>& tests);
 Scale strain_scale(const std::vector<PlottedTest>& tests, double width);
 

@@ -162,8 +162,10 @@ TEST_F(EnvelopeCommand, LeavesOutWhatHasNoStrengthAndNamesIt) {
     const std::string folders = three_packings(on_line);
     const std::string unfailed = sample({4, 100.0, std::nullopt});
     const std::string held = sample({5, 0.0, 80.0, "tension", "", {{"failed_at", "grip"}}});
-    const Json json = fitted(folders + unfailed + " " + held);
+    const std::string split = sample({6, 0.0, 9000.0, "brazilian"});
+    const Json json = fitted(folders + unfailed + " " + held + " " + split);
     EXPECT_EQ(json["packings"], 3);
+    EXPECT_TRUE(mentions(json["notices"], "left out: " + split + ": is a test of another kind, brazilian"));
     EXPECT_TRUE(mentions(json["notices"], "left out: " + unfailed + ": did not fail by loading.max_axial_strain"));
     EXPECT_TRUE(mentions(json["notices"], "left out: " + held + ": parted at the grip"));
     EXPECT_TRUE(json["tension"].is_null());
