@@ -2,6 +2,7 @@
 #include "specimens/campaign/identity.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <xxhash.h>
 
 #include <algorithm>

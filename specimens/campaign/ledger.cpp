@@ -42,8 +42,8 @@ void bind_value(SQLite::Statement& statement, int place, const CaseValue& value)
         statement.bind(place, *whole);
     else if (const auto* flag = std::get_if<bool>(&value))
         statement.bind(place, *flag ? 1 : 0);
-    else if (const auto* text = std::get_if<std::string>(&value))
-        statement.bind(place, *text);
+    else
+        statement.bind(place, value_text(value));
 }
 
 LedgerCell cell_of(const SQLite::Column& column) {

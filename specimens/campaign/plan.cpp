@@ -3,9 +3,11 @@
 #include "specimens/campaign/plan.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
+#include <vector>
 
 #include "solver/base/errors.hpp"
 
@@ -77,6 +79,8 @@ std::string value_text(const CaseValue& value) {
     if (const auto* text = std::get_if<std::string>(&value)) return *text;
     if (const auto* pair = std::get_if<std::array<std::string, 2>>(&value))
         return fmt::format("{}-{}", (*pair)[0], (*pair)[1]);
+    if (const auto* numbers = std::get_if<std::vector<double>>(&value))
+        return fmt::format("{}", fmt::join(*numbers, "-"));
     if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
     if (const auto* whole = std::get_if<std::int64_t>(&value)) return fmt::format("{}", *whole);
     return fmt::format("{}", std::get<double>(value));

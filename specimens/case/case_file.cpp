@@ -54,6 +54,17 @@ CaseValue value_of(const Parameter& p, const toml::node& node, const std::string
                 return CaseValue(number);
             }
             break;
+        case ValueKind::reals:
+            if (const auto* list = node.as_array(); list != nullptr && !list->empty()) {
+                std::vector<double> numbers;
+                for (const toml::node& one : *list) {
+                    const std::optional<double> number = one.value<double>();
+                    if (!number || !p.accepts(*number)) refuse(shown(one));
+                    numbers.push_back(*number);
+                }
+                return CaseValue(std::move(numbers));
+            }
+            break;
         case ValueKind::text:
             if (const auto* text = node.as_string()) {
                 if (!p.choices.empty() &&
@@ -216,7 +227,11 @@ std::unique_ptr<toml::node> node_of(const CaseValue& value) {
             using Value = std::decay_t<decltype(one)>;
             if constexpr (std::is_same_v<Value, std::array<std::string, 2>>)
                 return std::make_unique<toml::array>(one[0], one[1]);
-            else
+            else if constexpr (std::is_same_v<Value, std::vector<double>>) {
+                auto list = std::make_unique<toml::array>();
+                for (const double number : one) list->push_back(number);
+                return list;
+            } else
                 return std::make_unique<toml::value<Value>>(one);
         },
         value);
@@ -323,9 +338,15 @@ std::string quoted_text(const std::string& text) {
 std::string written_value(const TestCase& test, const Parameter& p, const CaseValue& value, const fs::path& folder) {
     if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
     if (const auto* number = std::get_if<std::int64_t>(&value)) return fmt::format("{}", *number);
-    if (const auto* number = std::get_if<double>(&value)) {
-        const std::string text = fmt::format("{}", *number);
+    const auto written = [](double number) {
+        const std::string text = fmt::format("{}", number);
         return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
+    };
+    if (const auto* number = std::get_if<double>(&value)) return written(*number);
+    if (const auto* numbers = std::get_if<std::vector<double>>(&value)) {
+        std::vector<std::string> texts;
+        for (const double number : *numbers) texts.push_back(written(number));
+        return fmt::format("[{}]", fmt::join(texts, ", "));
     }
     if (const auto* texts = std::get_if<std::array<std::string, 2>>(&value))
         return fmt::format("[{}, {}]", quoted_text((*texts)[0]), quoted_text((*texts)[1]));

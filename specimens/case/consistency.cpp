@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <string>
 #include <vector>
@@ -278,8 +279,42 @@ class ConsistencyCheck {
                     "only platens = \"frictional\" has it: bonded and glued platens take the specimen's");
         }
         keys_of_kinds();
+        turning_round();
         if (test_.confined()) need("confinement.pressure", "kind = \"biaxial\" needs it");
         if (test_.loading.platens != "glued") exclude("loading.grip", "only platens = \"glued\" has grips");
+    }
+
+    /// A platen that goes back: by cycles, each of which begins farther than the one before, or by lateral strain.
+    void turning_round() const {
+        const TestCase::Loading& loading = test_.loading;
+        if (loading.by_lateral_strain()) {
+            if (loading.kind != "compression" && loading.kind != "biaxial")
+                refuse("loading.control", "\"lateral\"", "\"axial\" with kind = \"" + loading.kind + "\"",
+                       "only a specimen that is compressed between platens widens");
+            if (loading.unloads())
+                refuse("loading.control", "\"lateral\"", "\"axial\" where the specimen is unloaded",
+                       "the platen goes back by itself");
+            if (loading.axial_strain_rate)
+                refuse("loading.control", "\"lateral\" besides axial_strain_rate", "loading by tolerance",
+                       "the platen's speed is what follows; give rate_tolerance in place of the rate");
+        }
+        if (!loading.unloads()) {
+            exclude("loading.unload_to", "only loading.unload_at_strain or unload_at_stress has it");
+            return;
+        }
+        const bool by_strain = loading.unload_at_strain.has_value();
+        const std::string key = by_strain ? "loading.unload_at_strain" : "loading.unload_at_stress";
+        if (by_strain && loading.unload_at_stress)
+            refuse("loading.unload_at_stress", "stresses besides unload_at_strain", "one of them", "remove the other");
+        if (loading.axial_strain_rate)
+            refuse(key, "unloading at an axial_strain_rate", "loading by tolerance",
+                   "a platen that turns round at once sends a shock; give rate_tolerance in place of the rate");
+        const std::vector<double>& at = by_strain ? *loading.unload_at_strain : *loading.unload_at_stress;
+        if (!std::ranges::is_sorted(at, std::less_equal()))
+            refuse(key, fmt::format("[{}]", fmt::join(at, ", ")), "ascending numbers", "sort them");
+        if (by_strain && at.back() >= loading.max_axial_strain)
+            refuse(key, fmt::format("{}", at.back()),
+                   fmt::format("strains below max_axial_strain = {}", loading.max_axial_strain), "the test ends there");
     }
 
     /// Keys of some kinds of test, and what a kind asks of the rest.

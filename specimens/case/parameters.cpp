@@ -46,11 +46,12 @@ Parameter declare(std::string table, std::string key, std::string unit, Member m
     p.key = std::move(key);
     p.unit = std::move(unit);
     p.sentence = std::move(sentence);
-    p.kind = std::is_same_v<T, bool>           ? ValueKind::flag
-             : std::is_same_v<T, std::int64_t> ? ValueKind::integer
-             : std::is_same_v<T, double>       ? ValueKind::real
-             : std::is_same_v<T, std::string>  ? ValueKind::text
-                                               : ValueKind::text_pair;
+    p.kind = std::is_same_v<T, bool>                  ? ValueKind::flag
+             : std::is_same_v<T, std::int64_t>        ? ValueKind::integer
+             : std::is_same_v<T, double>              ? ValueKind::real
+             : std::is_same_v<T, std::string>         ? ValueKind::text
+             : std::is_same_v<T, std::vector<double>> ? ValueKind::reals
+                                                      : ValueKind::text_pair;
     p.presence = Unwrap<Held>::optional ? Presence::optional : Presence::required;
     p.set = [member](TestCase& c, const CaseValue& value, std::size_t entry) {
         reach(member, c, entry) = std::get<T>(value);
@@ -352,6 +353,21 @@ std::vector<Parameter> all_parameters() {
             .at_least(0),
         CRACKLE_KEY(loading, box_gap, "m", "direct_shear: between the half boxes; two mean particles if not given.")
             .above(0),
+        CRACKLE_KEY(loading, control, "",
+                    "What grows steadily: axial strain, if not given, or the lateral strain of a compressed specimen, "
+                    "for which the platen goes back where that breaks by itself (class II); max_axial_strain is then "
+                    "the strain gone through back and forth. Needs loading by tolerance.")
+            .one_of({"axial", "lateral"}),
+        CRACKLE_KEY(loading, unload_at_strain, "",
+                    "Axial strains, ascending, at each of which the specimen is unloaded and loaded again: the damage "
+                    "modulus of every cycle stands in summary.json. Needs loading by tolerance.")
+            .above(0)
+            .below(1),
+        CRACKLE_KEY(loading, unload_at_stress, "N/m or Pa", "Likewise at axial stresses, in place of strains.")
+            .above(0),
+        CRACKLE_KEY(loading, unload_to, "", "Down to this share of the stress where unloading began; 0.1 if not given.")
+            .at_least(0)
+            .below(1),
 
         CRACKLE_KEY(confinement, pressure, "N/m or Pa",
                     "On the sides, by a membrane, all through the test; the platens press with the same before loading "
@@ -489,6 +505,7 @@ const std::vector<Alternatives>& case_alternatives() {
         {{"material.tensile_strength"}, {"bond.tensile_factor"}},
         {{"material.cohesion"}, {"bond.cohesion_factor"}},
         {{"loading.axial_strain_rate"}, {"loading.rate_tolerance"}},
+        {{"loading.unload_at_strain"}, {"loading.unload_at_stress"}},
     };
     return all;
 }
@@ -534,9 +551,12 @@ std::string Parameter::expected() const {
             return "two texts in square brackets";
         case ValueKind::integer:
         case ValueKind::real:
+        case ValueKind::reals:
             break;
     }
-    std::string text = kind == ValueKind::integer ? "a whole number" : "a number";
+    std::string text = kind == ValueKind::integer ? "a whole number"
+                       : kind == ValueKind::reals ? "numbers in square brackets, each"
+                                                  : "a number";
     if (std::isfinite(lowest)) text += fmt::format(" {} {:g}", lowest_allowed ? ">=" : ">", lowest);
     if (std::isfinite(highest))
         text += fmt::format("{} {} {:g}", std::isfinite(lowest) ? " and" : "", highest_allowed ? "<=" : "<", highest);

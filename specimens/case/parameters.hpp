@@ -18,7 +18,7 @@
 
 namespace crackle {
 
-enum class ValueKind { flag, integer, real, text, text_pair };
+enum class ValueKind { flag, integer, real, text, text_pair, reals };
 
 /// Who must write a key.
 enum class Presence {

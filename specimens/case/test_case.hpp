@@ -17,7 +17,8 @@
 namespace crackle {
 
 /// A value as TOML knows it.
-using CaseValue = std::variant<bool, std::int64_t, double, std::string, std::array<std::string, 2>>;
+using CaseValue =
+    std::variant<bool, std::int64_t, double, std::string, std::array<std::string, 2>, std::vector<double>>;
 
 /// Of a packing whose case sets no damping: a particle ringing on its contacts loses 95 % of its energy a
 /// period, exp(-4πh) = 1/20; it shortens the stable step by a fifth.
@@ -115,14 +116,21 @@ struct TestCase {
         double max_axial_strain = 0.0;
         double strength_drop = 0.0;
         double stop_at_share_of_peak = 0.0;
-        std::string platens;                          // "bonded", "glued" or "frictional"
-        std::optional<double> grip;                   // -, of the height; glued platens only
-        std::optional<double> platen_friction_angle;  // degrees
-        std::optional<double> half_angle;             // degrees, of a jaw's arc
-        std::optional<std::string> jaws;              // "arc" if not given, "flat" or "curved"
-        std::optional<double> span, pad_width;        // m
-        std::optional<double> normal_stress;          // N/m, or Pa
-        std::optional<double> box_gap;                // m
+        std::string platens;                                  // "bonded", "glued" or "frictional"
+        std::optional<double> grip;                           // -, of the height; glued platens only
+        std::optional<double> platen_friction_angle;          // degrees
+        std::optional<double> half_angle;                     // degrees, of a jaw's arc
+        std::optional<std::string> jaws;                      // "arc" if not given, "flat" or "curved"
+        std::optional<double> span, pad_width;                // m
+        std::optional<double> normal_stress;                  // N/m, or Pa
+        std::optional<std::string> control;                   // "axial" if not given, or "lateral"
+        std::optional<double> box_gap;                        // m
+        std::optional<std::vector<double>> unload_at_strain;  // -; or:
+        std::optional<std::vector<double>> unload_at_stress;  // N/m, or Pa
+        std::optional<double> unload_to;                      // -, of the stress where unloading began
+
+        bool by_lateral_strain() const { return control.value_or("axial") == "lateral"; }
+        bool unloads() const { return unload_at_strain || unload_at_stress; }
 
         /// So many times as fast: a tolerance goes by the square of the rate it allows.
         void scale_rate(double by) {

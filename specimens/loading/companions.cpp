@@ -14,6 +14,7 @@
 #include "solver/base/threads_to_be_had.hpp"
 #include "specimens/loading/load_specimen.hpp"
 #include "specimens/loading/prepare.hpp"
+#include "specimens/measures/cycles.hpp"
 
 namespace crackle {
 namespace {
@@ -59,7 +60,7 @@ double post_peak_difference(const VirtualTest& test, const VirtualTest& other) {
     const double end = std::min(test.state.rows.back().axial_strain, other.state.rows.back().axial_strain);
     double sum = 0.0;
     std::int64_t count = 0;
-    for (const CurveRow& row : test.state.rows) {
+    for (const CurveRow& row : first_loading(test.state.rows, -1).rows) {
         if (row.axial_strain < test.state.failure.peak_strain || row.axial_strain > end) continue;
         sum += std::abs(stress_at(other.state.rows, row.axial_strain) - row.axial_stress);
         ++count;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "solver/base/errors.hpp"
+#include "specimens/setup/unloading.hpp"
 
 namespace crackle {
 namespace {
@@ -37,7 +38,8 @@ std::string likely_cause(const VirtualTest& test) {
 RunEstimate expected_run(const VirtualTest& test, double strain, double steps_per_second) {
     const TestCase::Loading& loading = test.description.loading;
     const double rate = loading.axial_strain_rate ? *loading.axial_strain_rate : test.state.rate.rate;
-    const double steps = strain / rate / test.world.stepping.time_step;
+    const UnloadRule unloading = unload_rule_of(loading, test.setup.rate_rule, test.state.youngs_modulus);
+    const double steps = (strain + unloading.added_travel(strain)) / rate / test.world.stepping.time_step;
     return {strain, steps, steps / steps_per_second};
 }
 

@@ -13,6 +13,8 @@
 #include "solver/stepping/controls.hpp"
 #include "solver/stepping/step.hpp"
 #include "specimens/results/files.hpp"
+#include "specimens/setup/lateral_control.hpp"
+#include "specimens/setup/unloading.hpp"
 
 namespace crackle {
 namespace {
@@ -43,6 +45,10 @@ class LoadingLoop {
           max_strain_(test.description.loading.max_axial_strain),
           stress_unit_(test.description.stress_unit()),
           judged_per_written_(judged_per_written(test)),
+          unload_rule_(unload_rule_of(test.description.loading, test.setup.rate_rule, test.state.youngs_modulus)),
+          lateral_rule_(lateral_rule_of(test.description, test.setup.rate_rule, test.state.poissons_ratio)),
+          turns_(unload_rule_.on() || lateral_rule_.on()),
+          whole_travel_(max_strain_ + unload_rule_.added_travel(max_strain_)),
           row_spacing_(max_strain_ / static_cast<double>(test.description.output.curve_rows * judged_per_written_)),
           frame_spacing_(max_strain_ / static_cast<double>(test.description.output.frames.value())),
           checkpoint_interval_(test.description.output.checkpoint_interval),
@@ -72,8 +78,9 @@ class LoadingLoop {
             if (world_.stepping.steps % steps_between_clock_checks == 0 && check_clock()) break;
             // Platens stand where the last step has put them, whether the forces are known or not.
             strain_ = setup_.axial_strain(world_);
-            const bool at_end = strain_ >= max_strain_;
-            const bool row_due = at_end || strain_ >= row_spacing_ * static_cast<double>(state_.rows.size());
+            const double travel = state_.path.travel(strain_);
+            const bool at_end = (lateral_rule_.on() ? travel : strain_) >= max_strain_;
+            const bool row_due = at_end || travel >= row_spacing_ * static_cast<double>(state_.rows.size());
             const bool check_due = world_.stepping.steps % steps_between_health_checks == 0;
             const bool by_tolerance = setup_.rate_rule.tolerance > 0.0;
             const bool rate_due = by_tolerance && world_.stepping.time >= state_.rate.next_check;
@@ -119,8 +126,16 @@ class LoadingLoop {
     void set_rate() {
         const PhaseTimer timer(world_.workers.profile, Phase::set_the_rate);
         const Ledger ledger = measure_ledger(world_);
-        choose_rate(state_.rate, setup_.rate_rule, ledger.kinetic, ledger.strain, world_.stepping.time);
-        const double speed = state_.rate.rate * setup_.length;
+        const double time = world_.stepping.time;
+        LoadingPath& path = state_.path;
+        choose_rate(state_.rate, setup_.rate_rule, turns_ ? path.speed : state_.rate.rate, ledger.kinetic,
+                    ledger.strain, time);
+        const double allowed = state_.rate.rate, since = time - path.chosen_at;
+        path.chosen_at = time;
+        if (unload_rule_.on()) turn_by_list(path, unload_rule_, allowed, strain_, axial_stress(world_, setup_), since);
+        if (lateral_rule_.on())
+            follow_lateral(path, lateral_rule_, allowed, strain_, setup_.median_lateral_strain(world_), since);
+        const double speed = (turns_ ? path.speed : allowed) * setup_.length;
         change_velocity(world_, setup_.top, setup_.axis, setup_.compression ? -speed : speed);
     }
 
@@ -167,7 +182,13 @@ class LoadingLoop {
         const auto index = static_cast<std::int64_t>(state_.rows.size());
         const CurveRow row = observe_row(world_, setup_);
         state_.rows.push_back(row);
-        const bool new_peak = state_.failure.update(index, row.axial_strain, row.axial_stress);
+        const double travel = state_.path.travel(row.axial_strain);
+        // What is gone through once more, being unloaded and loaded again, says nothing of peak and failure.
+        const bool farther = row.axial_strain > state_.path.farthest;
+        if (farther) state_.path.farthest = row.axial_strain;
+        const bool new_peak = (farther || lateral_rule_.on()) &&
+                              state_.failure.update(index, row.axial_strain,
+                                                    lateral_rule_.on() ? travel : row.axial_strain, row.axial_stress);
         if (new_peak) {
             state_.breaks_in_shear_to_peak = state_.breaks_in_shear;
             state_.breaks_in_tension_to_peak = state_.breaks_in_tension;
@@ -182,11 +203,11 @@ class LoadingLoop {
         if (files_ == nullptr) return;
         const PhaseTimer writing(world_.workers.profile, Phase::write);
         if (index % judged_per_written_ == 0 || !state_.ended_by.empty()) files_->add_row(row);
-        const bool frame_due = row.axial_strain >= frame_spacing_ * static_cast<double>(state_.next_frame);
+        const bool frame_due = travel >= frame_spacing_ * static_cast<double>(state_.next_frame);
         // In one go over those that a step passes, and exactly over the last.
-        const auto passed = static_cast<std::int64_t>(row.axial_strain / frame_spacing_);
+        const auto passed = static_cast<std::int64_t>(travel / frame_spacing_);
         state_.next_frame = std::max(state_.next_frame, passed - 1);
-        while (row.axial_strain >= frame_spacing_ * static_cast<double>(state_.next_frame)) ++state_.next_frame;
+        while (travel >= frame_spacing_ * static_cast<double>(state_.next_frame)) ++state_.next_frame;
         if (new_peak) files_->keep_peak(row, index, setup_, state_, world_);
         if (frame_due || !state_.ended_by.empty()) files_->add_frame(row, index, setup_, state_, world_);
     }
@@ -211,16 +232,16 @@ class LoadingLoop {
     void report_progress(double elapsed) const {
         TestProgress p;
         p.axial_strain = setup_.axial_strain(world_);
-        p.share_done = p.axial_strain / max_strain_;
+        const double travel = state_.path.travel(p.axial_strain);
+        p.share_done = travel / whole_travel_;
         p.axial_stress = state_.rows.empty() ? 0.0 : state_.rows.back().axial_stress;
         p.peak_stress = state_.failure.peak_stress;
         p.stress_unit = stress_unit_;
         p.bonds_broken = world_.bonds.broken;
         p.step = world_.stepping.steps;
         p.steps_per_second = static_cast<double>(world_.stepping.steps - first_step_) / elapsed;
-        const double strain_per_step =
-            p.axial_strain / static_cast<double>(std::max<std::int64_t>(1, world_.stepping.steps));
-        p.seconds_left = (max_strain_ - p.axial_strain) / (strain_per_step * p.steps_per_second);
+        const double strain_per_step = travel / static_cast<double>(std::max<std::int64_t>(1, world_.stepping.steps));
+        p.seconds_left = (whole_travel_ - travel) / (strain_per_step * p.steps_per_second);
         hooks_.progress(p);
     }
 
@@ -233,6 +254,10 @@ class LoadingLoop {
     double max_strain_;
     const char* stress_unit_;
     std::int64_t judged_per_written_;
+    UnloadRule unload_rule_;
+    LateralRule lateral_rule_;
+    bool turns_;
+    double whole_travel_;  // strain
     double row_spacing_, frame_spacing_, checkpoint_interval_;
     Clock::time_point begun_, last_checkpoint_, last_progress_;
     std::int64_t first_step_;

@@ -14,6 +14,7 @@
 #include "specimens/loading/press.hpp"
 #include "specimens/loading/quasi_static_start.hpp"
 #include "specimens/setup/bonded_specimen.hpp"
+#include "specimens/setup/lateral_control.hpp"
 #include "specimens/setup/platen_hold.hpp"
 
 namespace crackle {
@@ -220,6 +221,8 @@ VirtualTest prepare_test(const TestCase& description, const TestHooks& hooks, co
         hooks.report_stage(fmt::format("loading by tolerance {}: first rate {:.3g} 1/s, a wave's transit {:.3g} s",
                                        *description.loading.rate_tolerance, test.state.rate.rate,
                                        test.setup.rate_rule.transit_time));
+        // What it refuses, no test goes on without.
+        lateral_rule_of(description, test.setup.rate_rule, test.state.poissons_ratio);
     } else {
         if (!test.setup.uniaxial) start_by_rate(test);
         notice_fast_loading(test);

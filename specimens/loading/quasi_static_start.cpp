@@ -13,6 +13,7 @@
 #include "solver/stepping/step.hpp"
 #include "specimens/elastic/held_parts.hpp"
 #include "specimens/loading/displace.hpp"
+#include "specimens/setup/unloading.hpp"
 
 namespace crackle {
 namespace {
@@ -139,7 +140,9 @@ void start_by_tolerance(VirtualTest& test) {
     RateRule& rule = setup.rate_rule;
     RateState& rate = test.state.rate;
     rate.rate = rate.slowest = rate.fastest = largest_rate(rule);
-    rule.kinetic_per_rate = kinetic_of(world, start_moving(test, rate.rate));
+    const UnloadRule unloading = unload_rule_of(test.description.loading, rule, test.state.youngs_modulus);
+    test.state.path.speed = unloading.on() ? first_speed(unloading, rate.rate) : rate.rate;
+    rule.kinetic_per_rate = kinetic_of(world, start_moving(test, test.state.path.speed));
 }
 
 }  // namespace crackle

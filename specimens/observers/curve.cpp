@@ -18,15 +18,30 @@ constexpr double least_sliding_force = 1e-9;
 
 }  // namespace
 
-CurveRow observe_row(const World& world, const TestSetup& setup) {
-    CurveRow row;
-    const double sense = setup.sense();
-    row.axial_strain = setup.axial_strain(world);
+namespace {
+
+/// Of the specimen alone.
+PartForces specimen_forces(const World& world, const TestSetup& setup) {
     PartForces forces = forces_on_parts(world, setup);
     if (setup.confined()) {
         forces.driver -= membrane_force_on(world, setup.top).fy;
         forces.supports -= membrane_force_on(world, setup.bottom).fy;
     }
+    return forces;
+}
+
+}  // namespace
+
+double axial_stress(const World& world, const TestSetup& setup) {
+    const PartForces forces = specimen_forces(world, setup);
+    return 0.5 * setup.sense() * (forces.driver - forces.supports) / setup.section;
+}
+
+CurveRow observe_row(const World& world, const TestSetup& setup) {
+    CurveRow row;
+    const double sense = setup.sense();
+    row.axial_strain = setup.axial_strain(world);
+    const PartForces forces = specimen_forces(world, setup);
     row.stress_top = sense * forces.driver / setup.section;
     row.stress_bottom = -sense * forces.supports / setup.section;
     row.confinement_work = setup.confined() ? world.membrane.work : world.account.force_work;

@@ -71,6 +71,9 @@ struct CurveRow {
 /// Needs compute_forces() to have been called. What a membrane presses on a platen is not the specimen's force.
 CurveRow observe_row(const World& world, const TestSetup& setup);
 
+/// N/m, mean of the two platens', positive in the sense of the test; needs compute_forces().
+double axial_stress(const World& world, const TestSetup& setup);
+
 struct CurveColumn {
     Quantity what;
     double (*value)(const CurveRow&);

@@ -7,21 +7,22 @@ namespace crackle {
 namespace {
 
 /// Whether the stress has stayed below the share of the largest for long enough, this row included.
-bool lasts(StressDrop& below, const FailureTracker& f, double share, std::int64_t row, double strain, double stress) {
+bool lasts(StressDrop& below, const FailureTracker& f, double share, std::int64_t row, double travel, double stress) {
     if (stress >= share * f.largest_stress) {
         below = {};
         return false;
     }
-    if (std::isnan(below.since)) below = {strain, row};
-    return strain - below.since >= failure_strain_share * f.strain_at_largest && row - below.row >= failure_rows;
+    if (std::isnan(below.since)) below = {travel, row};
+    return travel - below.since >= failure_strain_share * f.travel_at_largest && row - below.row >= failure_rows;
 }
 
 }  // namespace
 
-bool FailureTracker::update(std::int64_t row, double strain, double stress) {
+bool FailureTracker::update(std::int64_t row, double strain, double travel, double stress) {
     if (stress > largest_stress) {
         largest_stress = stress;
         strain_at_largest = strain;
+        travel_at_largest = travel;
         largest_row = row;
         drop = collapse = {};
         if (failed) return false;
@@ -31,8 +32,8 @@ bool FailureTracker::update(std::int64_t row, double strain, double stress) {
         return true;
     }
     if (largest_row < 0) return false;
-    collapsed = lasts(collapse, *this, share_of_peak, row, strain, stress) || collapsed;
-    failed = lasts(drop, *this, 1.0 - strength_drop, row, strain, stress) || failed || collapsed;
+    collapsed = lasts(collapse, *this, share_of_peak, row, travel, stress) || collapsed;
+    failed = lasts(drop, *this, 1.0 - strength_drop, row, travel, stress) || failed || collapsed;
     return false;
 }
 

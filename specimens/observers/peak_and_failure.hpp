@@ -16,7 +16,7 @@ namespace crackle {
 
 /// Stress below a share of a maximum, and since when.
 struct StressDrop {
-    double since = std::numeric_limits<double>::quiet_NaN();  ///< strain; not a number: not below
+    double since = std::numeric_limits<double>::quiet_NaN();  ///< travel; not a number: not below
     std::int64_t row = -1;                                    ///< that began it
 
     template <class Self, class Visit>
@@ -36,13 +36,16 @@ struct FailureTracker {
     std::int64_t peak_row = -1;   ///< -1: no stress yet
     double largest_stress = 0.0;  // N/m, so far
     double strain_at_largest = 0.0;
+    double travel_at_largest = 0.0;
     std::int64_t largest_row = -1;
     StressDrop drop, collapse;
     bool failed = false;     ///< the peak is known: a drop has followed it, or the test ends
     bool collapsed = false;  ///< the test ends
 
-    /// Adds the next row. @return whether it is a new peak
-    bool update(std::int64_t row, double strain, double stress);
+    /// Adds the next row. @param travel strain gone through back and forth, by which a drop lasts: the strain itself
+    /// where the platen does not turn round @return whether it is a new peak
+    bool update(std::int64_t row, double strain, double travel, double stress);
+    bool update(std::int64_t row, double strain, double stress) { return update(row, strain, strain, stress); }
 
     bool larger_after_peak() const { return largest_row > peak_row; }
 
@@ -55,6 +58,7 @@ struct FailureTracker {
         visit("peak_row", s.peak_row);
         visit("largest_stress", s.largest_stress);
         visit("strain_at_largest", s.strain_at_largest);
+        visit("travel_at_largest", s.travel_at_largest);
         visit("largest_row", s.largest_row);
         visit("drop", s.drop);
         visit("collapse", s.collapse);

@@ -15,6 +15,7 @@
 #include "specimens/observers/curve.hpp"
 #include "specimens/observers/peak_and_failure.hpp"
 #include "specimens/results/growing_file.hpp"
+#include "specimens/setup/loading_path.hpp"
 #include "specimens/setup/loading_rate.hpp"
 
 namespace crackle {
@@ -47,6 +48,7 @@ struct TestState {
     std::vector<FrameEntry> frames;  ///< written so far
     std::int64_t next_frame = 0;     ///< due at this multiple of the strain between frames
     RateState rate;                  ///< loading by tolerance
+    LoadingPath path;
     std::int64_t breaks_in_shear = 0, breaks_in_tension = 0, breaks_after_sliding = 0;
     std::int64_t breaks_in_shear_to_peak = 0, breaks_in_tension_to_peak = 0;
     std::string ended_by;  ///< empty while the test runs
@@ -72,6 +74,7 @@ struct TestState {
         visit("frames", s.frames);
         visit("next_frame", s.next_frame);
         visit("rate", s.rate);
+        visit("path", s.path);
         visit("breaks_in_shear", s.breaks_in_shear);
         visit("breaks_in_tension", s.breaks_in_tension);
         visit("breaks_after_sliding", s.breaks_after_sliding);

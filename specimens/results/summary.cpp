@@ -15,6 +15,7 @@
 #include "specimens/measures/crack_rose.hpp"
 #include "specimens/measures/crack_thresholds.hpp"
 #include "specimens/measures/curve_analysis.hpp"
+#include "specimens/measures/cycles.hpp"
 #include "specimens/measures/fragment_sizes.hpp"
 #include "specimens/measures/parting.hpp"
 #include "specimens/measures/shear_box.hpp"
@@ -78,7 +79,7 @@ void describe(Writer& w, const TestCase& test, const TestSetup& setup, const Tes
     }
 }
 
-void strength(Writer& w, const TestSetup& setup, const TestState& state) {
+void strength(Writer& w, const TestSetup& setup, const TestState& state, const FirstLoading& first) {
     const FailureTracker& f = state.failure;
     const std::string so_far = f.failed ? "" : "_so_far";
     w.stress("peak_stress" + so_far, f.peak_row < 0 ? NAN : f.peak_stress);
@@ -91,7 +92,7 @@ void strength(Writer& w, const TestSetup& setup, const TestState& state) {
     w.stress("gauge_modulus", state.gauge_modulus);
     if (!setup.uniaxial) return;
 
-    const Tangent initial = initial_tangent(state.rows, f.peak_row, setup.compression);
+    const Tangent initial = initial_tangent(first.rows, first.peak_row, setup.compression);
     w.stress("initial_tangent_modulus", initial.modulus);
     w.put("initial_poissons_ratio", finite_or_null(initial.poissons_ratio));
     w.put("initial_tangent_window", {{"rows", initial.rows},
@@ -99,22 +100,22 @@ void strength(Writer& w, const TestSetup& setup, const TestState& state) {
                                      {"bonds_broken", initial.bonds_broken},
                                      {"points_sliding", initial.points_sliding},
                                      {"contacts_gained", initial.contacts_gained}});
-    const Tangent half = tangent_at_half_peak(state.rows, f.peak_row, setup.compression);
+    const Tangent half = tangent_at_half_peak(first.rows, first.peak_row, setup.compression);
     w.stress("tangent_modulus_50", half.modulus);
     w.put("tangent_50_poissons_ratio", finite_or_null(half.poissons_ratio));
-    const Tangent average = tangent_of_straightest(state.rows, f.peak_row, setup.compression);
+    const Tangent average = tangent_of_straightest(first.rows, first.peak_row, setup.compression);
     w.stress("average_modulus", average.modulus);
     w.put("average_poissons_ratio", finite_or_null(average.poissons_ratio));
-    const Tangent secant = secant_to_half_peak(state.rows, f.peak_row, setup.compression);
+    const Tangent secant = secant_to_half_peak(first.rows, first.peak_row, setup.compression);
     w.stress("secant_modulus_50", secant.modulus);
     w.put("secant_50_poissons_ratio", finite_or_null(secant.poissons_ratio));
-    const double falling = f.failed ? tangent_beyond_peak(state.rows, f.peak_row, setup.compression).modulus : NAN;
+    const double falling = f.failed ? tangent_beyond_peak(first.rows, first.peak_row, setup.compression).modulus : NAN;
     w.stress("post_peak_modulus", falling);
     w.put("brittleness_index", finite_or_null(brittleness_index(state.youngs_modulus, falling)));
 }
 
 /// Of a test that is not between platens: what its stress and strain are, and what follows from the peak.
-void apparatus(Writer& w, const TestSetup& setup, const TestState& state) {
+void apparatus(Writer& w, const TestSetup& setup, const TestState& state, const FirstLoading& first) {
     if (setup.uniaxial) return;
     const FailureTracker& f = state.failure;
     const double peak = f.peak_row < 0 ? NAN : f.peak_stress;
@@ -133,17 +134,17 @@ void apparatus(Writer& w, const TestSetup& setup, const TestState& state) {
     if (setup.kind != "direct_shear") return;
     w.stress("normal_stress", setup.normal_force / setup.width);
     const ShearBoxFigures shear =
-        measure_shear_box(state.rows, f.peak_row, state.ended_by == ended_by_strain, setup.height, setup.length);
+        measure_shear_box(first.rows, first.peak_row, state.ended_by == ended_by_strain, setup.height, setup.length);
     w.stress("residual_stress", shear.residual);
     w.put("dilation_angle_at_peak", finite_or_null(shear.dilation_at_peak));
     w.put("dilation_end", finite_or_null(state.rows.empty() ? NAN : state.rows.back().lateral_strain * setup.height));
 }
 
 /// Whether the test is one of what it is meant to be.
-void validity(Writer& w, const TestSetup& setup, const TestState& state) {
+void validity(Writer& w, const TestSetup& setup, const TestState& state, const FirstLoading& first) {
     Json all = Json::array();
     bool every = true, known = true;
-    for (const Verdict& verdict : verdicts_on(setup, state.rows, state.history, state.failure.failed)) {
+    for (const Verdict& verdict : verdicts_on(setup, first.rows, state.history, state.failure.failed)) {
         all.push_back({{"claim", verdict.claim},
                        {"holds", verdict.holds ? Json(*verdict.holds) : Json(nullptr)},
                        {"found", verdict.found}});
@@ -170,11 +171,11 @@ void confinement(Writer& w, const TestSetup& setup, const TestState& state, cons
 }
 
 /// Stresses at which cracks begin and join, of a compression.
-void cracking(Writer& w, const TestSetup& setup, const TestState& state) {
+void cracking(Writer& w, const TestSetup& setup, const TestState& state, const FirstLoading& first) {
     if (!setup.compression || !setup.uniaxial) return;
     const FailureTracker& f = state.failure;
-    const CrackThresholds t = find_crack_thresholds(state.rows, f.peak_row, state.youngs_modulus, state.poissons_ratio,
-                                                    setup.confining_pressure);
+    const CrackThresholds t = find_crack_thresholds(first.rows, first.peak_row, state.youngs_modulus,
+                                                    state.poissons_ratio, setup.confining_pressure);
     w.stress("crack_initiation_stress", t.count_break);
     w.put("crack_initiation_interval", {finite_or_null(t.low), finite_or_null(t.high)});
     w.put("crack_initiation_over_peak", finite_or_null(t.count_break / f.peak_stress));
@@ -185,6 +186,24 @@ void cracking(Writer& w, const TestSetup& setup, const TestState& state) {
     w.stress("crack_damage_stress", t.damage);
     w.put("crack_damage_strain", finite_or_null(t.damage_strain));
     w.put("crack_damage_over_peak", finite_or_null(t.damage / f.peak_stress));
+}
+
+/// What unloading and loading again has shown.
+void cycles(Writer& w, const TestCase& test, const TestSetup& setup, const TestState& state) {
+    if (!test.loading.unloads()) return;
+    Json all = Json::array();
+    for (const LoadingCycle& cycle : find_cycles(state.rows, setup.compression)) {
+        all.push_back({{"strain", cycle.strain},
+                       {"stress", cycle.stress},
+                       {"low_strain", cycle.low_strain},
+                       {"low_stress", cycle.low_stress},
+                       {"modulus", finite_or_null(cycle.modulus)},
+                       {"poissons_ratio", finite_or_null(setup.uniaxial ? cycle.poissons_ratio : NAN)},
+                       {"damage", finite_or_null(1.0 - cycle.modulus / state.youngs_modulus)},
+                       {"permanent_strain", finite_or_null(cycle.permanent_strain)},
+                       {"loss", finite_or_null(cycle.loop * setup.section * setup.length)}});
+    }
+    w.put("cycles", all);
 }
 
 /// Where the platens' work has gone up to a row.
@@ -341,7 +360,7 @@ void numerics(Writer& w, const TestCase& test, const TestSetup& setup, const Tes
         w.put("rate_tolerance", *test.loading.rate_tolerance);
         w.put("axial_strain_rate", last.axial_strain / last.time);
         w.put("axial_strain_rate_range", {rate.slowest, rate.fastest});
-        w.put("strain_share_above_tolerance", rate.strain_above / last.axial_strain);
+        w.put("strain_share_above_tolerance", rate.strain_above / state.path.travel(last.axial_strain));
         w.put("wave_transit_time", setup.rate_rule.transit_time);
     } else {
         w.put("axial_strain_rate", *test.loading.axial_strain_rate, 1);
@@ -471,7 +490,8 @@ std::vector<std::string> notices_of(const TestCase& test, const TestSetup& setup
             parting->place == "platen" ? "; platens = \"glued\" hold it" : "; a deeper grip, or a longer specimen"));
     }
     if (!test.loading.rate_tolerance) return notices;
-    const double above = last.axial_strain > 0.0 ? state.rate.strain_above / last.axial_strain : 0.0;
+    const double travel = state.path.travel(last.axial_strain);
+    const double above = travel > 0.0 ? state.rate.strain_above / travel : 0.0;
     if (above > share_above_to_mention) {
         notices.push_back(
             fmt::format("the inertia error lay above rate_tolerance = {} over {:.0f} % of the strain: breaks set the "
@@ -522,11 +542,14 @@ nlohmann::ordered_json make_summary(const TestCase& test, const TestSetup& setup
     const std::optional<double>& thickness = test.output.out_of_plane_thickness;
     Writer w{json, units, thickness.value_or(1.0), test.area_units()};
     describe(w, test, setup, state);
-    strength(w, setup, state);
-    apparatus(w, setup, state);
-    validity(w, setup, state);
+    const FirstLoading first = test.loading.unloads() ? first_loading(state.rows, state.failure.peak_row)
+                                                      : FirstLoading{state.rows, state.failure.peak_row};
+    strength(w, setup, state, first);
+    apparatus(w, setup, state, first);
+    validity(w, setup, state, first);
     confinement(w, setup, state, world);
-    cracking(w, setup, state);
+    cracking(w, setup, state, first);
+    cycles(w, test, setup, state);
     damage(w, setup, state, world);
     directions(w, setup, state, world);
     acoustic_emission(w, state);

@@ -21,8 +21,8 @@ double largest_rate(const RateRule& rule) { return std::sqrt(rule.tolerance) * r
 
 double slowest_rate(const RateRule& rule) { return slowest_share * largest_rate(rule); }
 
-void choose_rate(RateState& state, const RateRule& rule, double kinetic, double stored, double time) {
-    const double loading = state.rate * state.rate * rule.kinetic_per_rate;
+void choose_rate(RateState& state, const RateRule& rule, double moving, double kinetic, double stored, double time) {
+    const double loading = moving * moving * rule.kinetic_per_rate;
     const double share = std::max(0.0, kinetic - loading) / std::max(stored, rule.energy_floor);
     state.kinetic_share += (share - state.kinetic_share) / checks_per_transit;
     const double error = std::max(std::abs(state.out_of_balance), state.kinetic_share);

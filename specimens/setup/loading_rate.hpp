@@ -76,8 +76,8 @@ inline void watch_balance(RateState& state, const RateRule& rule, double top, do
     state.out_of_balance += share * ((top - bottom) / scale - state.out_of_balance);
 }
 
-/// The coming rate, taken into the state. @param strain axial, >= 0
+/// The coming rate, taken into the state. @param moving 1/s, at which the platen moves now, of either sign
 /// @param kinetic, stored energies of the specimen, J
-void choose_rate(RateState& state, const RateRule& rule, double kinetic, double stored, double time);
+void choose_rate(RateState& state, const RateRule& rule, double moving, double kinetic, double stored, double time);
 
 }  // namespace crackle

@@ -138,6 +138,18 @@ double TestSetup::lateral_strain(const World& world) const {
     return (mean_x(world, right) - mean_x(world, left)) / gauge_length - 1.0;
 }
 
+double TestSetup::median_lateral_strain(const World& world) const {
+    const auto moved = [&](const std::vector<BodyIndex>& side) {
+        std::vector<double> ways;
+        for (const BodyIndex b : side) ways.push_back(world.bodies.state[b].x - start[b].x);
+        const auto half = ways.begin() + std::ssize(ways) / 2;
+        std::ranges::nth_element(ways, half);
+        return *half;
+    };
+    if (gauge_length == 0.0) return std::numeric_limits<double>::quiet_NaN();
+    return (moved(right) - moved(left)) / gauge_length;
+}
+
 double TestSetup::gauge_strain(const World& world) const {
     if (gauge_height == 0.0) return std::numeric_limits<double>::quiet_NaN();
     const double growth = (mean_y(world, gauge_top) - mean_y(world, gauge_bottom)) / gauge_height - 1.0;

@@ -108,6 +108,8 @@ struct TestSetup {
     /// Not a number if the specimen has no side particles in the middle half of its height. Where the driving part
     /// moves along x: the rise of the upper one over the height.
     double lateral_strain(const World& world) const;
+    /// Likewise by medians in place of means, from the places in `start`: what has come off a side does not count.
+    double median_lateral_strain(const World& world) const;
     /// Axial strain between the ends of the axial gauge length; not a number where one has no particles.
     double gauge_strain(const World& world) const;
 

@@ -106,7 +106,9 @@ Panel area_strain(const std::vector<PlottedTest>& tests) {
         const double damage = number_of(tests.front(), "crack_damage_strain");
         if (single && std::isfinite(damage)) {
             const std::vector<double>& axial = column(*tests.front().results, "axial_strain");
-            const auto row = std::ranges::lower_bound(axial, damage) - axial.begin();
+            // The first row there: a platen that goes back brings the strain again.
+            const auto row =
+                std::ranges::find_if(axial, [&](double strain) { return strain >= damage; }) - axial.begin();
             const auto at = std::min(static_cast<std::size_t>(row), axial.size() - 1);
             const Point mark = axes.at(axial[at] / strain_unit, strains.front().all[at] / strain_unit);
             const Colour white = colour("#ffffff");

@@ -17,10 +17,9 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Between the points of a curve; not a number beyond its end.
+/// Where a curve first comes to a strain, between its points; not a number where it never does.
 double stress_at(const std::vector<std::pair<double, double>>& curve, double strain) {
-    const auto after = std::lower_bound(curve.begin(), curve.end(), strain,
-                                        [](const auto& point, double value) { return point.first < value; });
+    const auto after = std::ranges::find_if(curve, [&](const auto& point) { return point.first >= strain; });
     if (after == curve.end()) return std::nan("");
     if (after == curve.begin()) return after->second;
     const auto before = after - 1;
@@ -43,7 +42,7 @@ Scale figure_scale(double smallest, double largest, int ticks) {
 Band band_of(const CurveBundle& bundle, double share, std::size_t strains) {
     std::vector<double> ends;
     for (const auto& curve : bundle.curves)
-        if (!curve.empty()) ends.push_back(curve.back().first);
+        if (!curve.empty()) ends.push_back(std::ranges::max_element(curve)->first);
     Band band;
     if (ends.empty()) return band;
     std::sort(ends.begin(), ends.end());

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Kinds of test: their formulas against published values, their shapes and parts, and the linear solution of lattices
-// against closed forms of discs and beams.
+// Kinds of test: their formulas against published values, their shapes and parts, and what is refused; closed forms of
+// discs and beams are claims (tools/bench/verify/laboratory).
 
 #include "specimens/kinds/test_kind.hpp"
 
@@ -8,23 +8,17 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <fstream>
 #include <numbers>
 
 #include "solver/base/errors.hpp"
-#include "solver/demseg/geometry.hpp"
-#include "solver/linear/elastic.hpp"
 #include "specimens/case/case_file.hpp"
 #include "specimens/case/parameters.hpp"
-#include "specimens/loading/prepare.hpp"
-#include "specimens/making/lattices.hpp"
 #include "tests/support/claim.hpp"
-#include "tests/support/deck_files.hpp"
+#include "tools/bench/verify/scenes/lattice_case.hpp"
 
 namespace crackle {
 namespace {
 
-using testing::agrees;
 using testing::within;
 
 constexpr double degree = std::numbers::pi / 180.0;
@@ -86,166 +80,11 @@ TEST(TestKinds, JawsThatAreNotBondedJustTouchTheDisc) {
     }
 }
 
-/// A triangular lattice of discs as a particle file and a case that tests it.
-class Lattice : public ::testing::Test {
-  protected:
-    static constexpr double radius = 1e-3, overlap = 1e-5, spacing = 2.0 * radius - overlap, kn = 1e9, share = 0.5;
-
-    VirtualTest prepared(int columns, int rows, const std::string& loading, const std::string& tables = {}) const {
-        Material material;
-        material.density = 2500.0;
-        material.normal_stiffness = kn;
-        material.shear_stiffness = share * kn;
-        material.friction_angle = 45.0;
-        Scene scene = triangular_lattice(columns, rows, radius, overlap, material);
-        double x1 = 1e9, x2 = -1e9, y1 = 1e9, y2 = -1e9;
-        for (const CircleElement& circle : scene.circles) {
-            x1 = std::min(x1, circle.centre.x), x2 = std::max(x2, circle.centre.x);
-            y1 = std::min(y1, circle.centre.y), y2 = std::max(y2, circle.centre.y);
-        }
-        const double edge = radius - overlap;
-        scene.domain = {x1 - edge, x2 + edge, y1 - edge, y2 + edge, {true, true, true, true}};
-        scene.time_step = 1e-8;
-        {
-            std::ofstream out(scratch_ / "lattice.dat");
-            write_geometry(out, scene);
-        }
-        std::ofstream(scratch_ / "case.toml")
-            << "[particles]\nfile = \"lattice.dat\"\n[material]\ndamping_ratio = 0.1\n"
-            << tables << loading;
-        return bond_test(read_case(scratch_ / "case.toml"));
-    }
-
-    /// E of the infinite lattice, N/m (tools/bench/verify/assembly/triangular_lattice.cpp).
-    static double modulus() { return kn * 2.0 * std::sqrt(3.0) * (1.0 + share) / (3.0 + share); }
-
-    testing::ScratchFolder scratch_;
-};
-
-/// Weight of a place at a distance from the middle, over the reach: smooth, so that it does not matter which bonds just
-/// lie within.
-double weight(double distance) {
-    const double rest = 1.0 - distance * distance;
-    return rest > 0.0 ? 15.0 / 16.0 * rest * rest : 0.0;  // its integral over -1 to 1 is 1
+VirtualTest prepared(int columns, int rows, const std::string& loading) {
+    return verification::LatticeCase{.columns = columns, .rows = rows, .loading = loading}.bonded();
 }
 
-/// Mean tensile stress in x about a place on the line x = at, N/m.
-double stress_across(const World& world, const std::vector<BodyMotion>& displacement, double at, double middle,
-                     double reach) {
-    double force = 0.0;
-    for (const Spring& spring : springs_of(world, ClosedPoints::bonded)) {
-        const BodyState &a = world.bodies.state[spring.i], &b = world.bodies.state[spring.j];
-        if ((a.x < at) == (b.x < at)) continue;
-        const double y = a.y + (at - a.x) / (b.x - a.x) * (b.y - a.y);
-        const double pull = spring.stiffness * times(spring, spring.gradient, displacement) * spring.push[0];
-        force += weight((y - middle) / reach) * (a.x < at ? pull : -pull);  // what the left one pulls with, along -x
-    }
-    return -force / reach;
-}
-
-constexpr double alpha = 10.0 * degree;
-const char* const split =
-    "[loading]\nkind = \"brazilian\"\nhalf_angle = 10\naxial_strain_rate = 0.01\nmax_axial_strain = 0.001\n";
-// Hexagons, which end where the outline does.
-const char* const meshed =
-    "tensile_strength = 1e4\ncohesion = 1e5\n[mesh]\nkind = \"voronoi\"\n[bond]\nlaw = \"coulomb\"\n";
-
-/// Mean of Hondros' stress across the load line about the centre, N/m. @param reach over the radius
-double hondros(double pressure, double reach) {
-    double sum = 0.0;
-    constexpr int parts = 400;
-    for (int k = 0; k < parts; ++k) {
-        const double along = 2.0 * (k + 0.5) / parts - 1.0, r2 = std::pow(along * reach, 2.0);
-        const double a = (1.0 - r2) * std::sin(2.0 * alpha) / (1.0 - 2.0 * r2 * std::cos(2.0 * alpha) + r2 * r2);
-        const double b = std::atan((1.0 + r2) / (1.0 - r2) * std::tan(alpha));
-        sum += 2.0 * pressure / std::numbers::pi * (a - b) * weight(along) * 2.0 / parts;
-    }
-    return sum;
-}
-
-BodyIndex nearest_body(const VirtualTest& test, Vec2 place) {
-    BodyIndex nearest = 0;
-    double least = 1e300;
-    for (BodyIndex b = 0; b < test.world.bodies.size(); ++b) {
-        const BodyState& body = test.world.bodies.state[b];
-        const double away = std::hypot(body.x - place.x, body.y - place.y);
-        if (test.setup.is_platen(b) || away >= least) continue;
-        least = away;
-        nearest = b;
-    }
-    return nearest;
-}
-
-TEST_F(Lattice, DiscUnderPressureOverTwoArcsHasTheStressOfHondrosAtItsCentre) {
-    // A cell of 60 more or less beside the arcs changes the force by 1 in 10 of them, 5 cells each: the force is the
-    // one that was put on, so that this does not enter; 2 % is the mean over a reach of 9 cells.
-    const std::string loose = std::string(split) + "platens = \"frictional\"\nplaten_friction_angle = 0\n";
-    const VirtualTest test = prepared(61, 71, loose, meshed);
-    const TestSetup& setup = test.setup;
-    const double half = 0.5 * setup.width, pressure = 1.0;
-    const Vec2 centre{setup.middle, setup.middle_height};
-    std::vector<BodyMotion> loads(test.world.bodies.size());
-    constexpr int parts = 400;
-    for (const double side : {1.0, -1.0}) {
-        for (int k = 0; k < parts; ++k) {
-            const double angle = ((k + 0.5) / parts * 2.0 - 1.0) * alpha;
-            const Vec2 out{side * std::sin(angle), side * std::cos(angle)};
-            const Vec2 place{centre.x + half * out.x, centre.y + half * out.y};
-            const double force = pressure * half * 2.0 * alpha / parts;
-            const BodyIndex b = nearest_body(test, place);
-            const BodyState& body = test.world.bodies.state[b];
-            loads[b].x -= force * out.x;
-            loads[b].y -= force * out.y;
-            loads[b].rotation -= force * ((place.x - body.x) * out.y - (place.y - body.y) * out.x);
-        }
-    }
-    // Held at its centre, which has nothing to bear, and against turning.
-    const ElasticSolution solution = solve_elastic(test.world, {{nearest_body(test, centre), {}}}, loads);
-    EXPECT_TRUE(
-        within("force at the held centre over the load", solution.reaction[0].y / (pressure * half), 0.0, 1e-6));
-    const double reach = 0.3;
-    const double got =
-        stress_across(test.world, solution.displacement, centre.x + 0.1 * spacing, centre.y, reach * half);
-    EXPECT_TRUE(agrees("stress across the load line at the centre of a disc", got, hondros(pressure, reach), 0.02));
-}
-
-TEST_F(Lattice, GluedArcsStretchTheCentreOfADiscByTwentiethLess) {
-    // They do not press evenly and hold the disc across, too: specimens/METHODS.md says by how much the stress of
-    // Hondros is more than there is. One cell of the 5 under each of the arcs is 2 %.
-    const VirtualTest test = prepared(61, 71, split, meshed);
-    ASSERT_TRUE(test.small_strain);
-    const TestSetup& setup = test.setup;
-    const double half = 0.5 * setup.width, reach = 0.3;
-    const double force = test.small_strain->moduli.youngs_modulus * setup.section;  // of a strain of 1, N
-    const double got = -stress_across(test.world, test.small_strain->moduli.solution.displacement,
-                                      setup.middle + 0.1 * spacing, setup.middle_height, reach * half);
-    EXPECT_TRUE(within("stress across over Hondros'", got / hondros(force / (2.0 * half * std::sin(alpha)), reach),
-                       0.95, 0.02));
-}
-
-TEST_F(Lattice, BeamBendsAsTheTheoryOfElasticityHasIt) {
-    // Timoshenko & Goodier, Theory of Elasticity, art. 23: δ = PS³/(48EI) [1 + 2.85 (W/S)² - 0.84 (W/S)³] of a load at
-    // a point. A row of the lattice stands for √3/2 of a spacing; its outer rows are softer, an error that goes with
-    // their share, so that two lattices say what a fine one does. What is left is that the pads press themselves in:
-    // about 2/π ln(W/c) P/E each, c half a pad, of 250 P/E: 1 to 2 %.
-    const auto over_theory = [&](int columns, int rows, double span, double pad) {
-        const VirtualTest test =
-            prepared(columns, rows,
-                     fmt::format("[loading]\nkind = \"bending\"\nspan = {}\npad_width = {}\naxial_strain_rate = 0.01\n"
-                                 "max_axial_strain = 0.001\n",
-                                 span, pad));
-        const TestSetup& setup = test.setup;
-        const double depth = rows * std::sqrt(0.75) * spacing, ratio = depth / setup.span;
-        const double expected = modulus() * std::pow(depth / setup.height, 3.0) /
-                                (1.0 + 2.85 * ratio * ratio - 0.84 * ratio * ratio * ratio);
-        return test.small_strain->moduli.youngs_modulus / expected;
-    };
-    const double coarse = over_theory(118, 13, 0.224, 0.006), fine = over_theory(226, 25, 0.43, 0.0115);
-    EXPECT_LT(std::abs(fine - 1.0), std::abs(coarse - 1.0));
-    EXPECT_TRUE(within("nominal modulus of a beam over theory", fine + (fine - coarse) * 13.0 / 12.0, 1.0, 0.02));
-}
-
-TEST_F(Lattice, SupportsOfABeamCarryHalfTheLoadEachAndNoThrust) {
+TEST(TestKinds, SupportsOfABeamCarryHalfTheLoadEachAndNoThrust) {
     const VirtualTest test = prepared(100, 21,
                                       "[loading]\nkind = \"bending\"\npad_width = 0.008\naxial_strain_rate = 0.01\n"
                                       "max_axial_strain = 0.001\n");
@@ -261,7 +100,7 @@ TEST_F(Lattice, SupportsOfABeamCarryHalfTheLoadEachAndNoThrust) {
         EXPECT_TRUE(within("moment over load and depth", one.rotation / (load * test.setup.height), 0.0, 1e-6));
 }
 
-TEST_F(Lattice, BadInputOfAKindIsRefusedByName) {
+TEST(TestKinds, BadInputOfAKindIsRefusedByName) {
     const std::string rest = "axial_strain_rate = 0.01\nmax_axial_strain = 0.001\n";
     const std::string cases[][2] = {
         {"[shape]\ndiameter = 1.0\n[loading]\nkind = \"brazilian\"\n" + rest, "shape.diameter: found 1 m"},

@@ -37,7 +37,7 @@ double rate_after(double error, double tolerance) {
     RateState state;
     state.rate = largest_rate(rule);
     state.out_of_balance = error;
-    for (int n = 0; n < 400; ++n) choose_rate(state, rule, 0.0, 1.0, n * 5e-4);
+    for (int n = 0; n < 400; ++n) choose_rate(state, rule, state.rate, 0.0, 1.0, n * 5e-4);
     return state.rate;
 }
 
@@ -78,7 +78,7 @@ TEST(LoadingRate, FollowsItsFormulaInBothErrorsOfEachSign) {
         state.rate = state.slowest = state.fastest = 5e-4;  // half the limit of 1e-3
         state.out_of_balance = m.balance;
         state.kinetic_share = m.share_before;
-        choose_rate(state, rule, m.kinetic, m.stored, 3.0);
+        choose_rate(state, rule, state.rate, m.kinetic, m.stored, 3.0);
         // A look is a twentieth of a transit; per transit ln(rate) changes by root(tolerance) ln(tolerance/error),
         // by no more than root(tolerance) up and four times that down.
         const double beyond = std::max(0.0, m.kinetic - 5e-3) / std::max(m.stored, 1.0);
@@ -100,13 +100,13 @@ TEST(LoadingRate, RemembersItsSlowestAndFastestRate) {
     RateState state;
     state.rate = state.slowest = state.fastest = 5e-4;
     state.out_of_balance = 0.02;
-    choose_rate(state, rule, 0.0, 1.0, 0.0);
+    choose_rate(state, rule, state.rate, 0.0, 1.0, 0.0);
     const double slow = state.rate;
     state.out_of_balance = 0.0;
-    for (int n = 0; n < 40; ++n) choose_rate(state, rule, 0.0, 1.0, 0.0);
+    for (int n = 0; n < 40; ++n) choose_rate(state, rule, state.rate, 0.0, 1.0, 0.0);
     const double fast = state.rate;
     state.out_of_balance = 0.02;
-    choose_rate(state, rule, 0.0, 1.0, 0.0);
+    choose_rate(state, rule, state.rate, 0.0, 1.0, 0.0);
     EXPECT_LT(slow, 5e-4);
     EXPECT_GT(fast, 5e-4);
     EXPECT_EQ(state.slowest, slow);

@@ -39,6 +39,9 @@ const std::vector<Claim>& claims() {
                  face_claims(),
                  mesh_claims(),
                  stress_claims(),
+                 disc_claims(),
+                 beam_claims(),
+                 pressure_claims(),
              }) {
             std::move(part.begin(), part.end(), std::back_inserter(list));
         }

@@ -31,5 +31,8 @@ std::vector<Claim> bundle_claims();
 std::vector<Claim> face_claims();
 std::vector<Claim> mesh_claims();
 std::vector<Claim> stress_claims();
+std::vector<Claim> disc_claims();
+std::vector<Claim> beam_claims();
+std::vector<Claim> pressure_claims();
 
 }  // namespace crackle::verification

@@ -104,6 +104,16 @@ function within(name: string, interval: string, of: string): Row {
     return {name, cells: (tests) => ({unit: '%', values: tests.map(shares)})};
 }
 
+/// Figures of all unloadings, in their order.
+function eachCycle(name: string, figure: string, factor: number, unit: string, note: string): Row {
+    const read = (test: TestData): string | undefined => {
+        const cycles = test.summary['cycles'];
+        if (!Array.isArray(cycles) || cycles.length === 0) return undefined;
+        return (cycles as Record<string, unknown>[]).map(({[figure]: value}) => (typeof value === 'number' ? significant(value * factor, 2) : missing)).join(', ');
+    };
+    return {name, note, cells: (tests) => ({unit, values: tests.map(read)})};
+}
+
 /** A part of the relative error that the summary gives for one of its numbers; absent where it was not measured. */
 function errorOf(number: string, part: string): Read {
     return (test) => {
@@ -142,6 +152,9 @@ const groups: readonly {title: string; rows: readonly Row[]}[] = [
         ...stress('Average modulus', ['average_modulus'], 'over the 30 % of the peak stress that a line fits best'),
         ...stress('Secant modulus to half the peak', ['secant_modulus_50']),
         ...stress('Modulus beyond the peak', ['post_peak_modulus'], 'from 90 % down to 60 % of the peak'),
+        eachCycle('Strain at each unloading', 'strain', 1 / strainFactor, strainUnit, 'axial'),
+        eachCycle('Damage there', 'damage', 100, '%', '1 − modulus of the cycle over E'),
+        eachCycle('Permanent strain there', 'permanent_strain', 1 / strainFactor, strainUnit, 'left without stress, by the modulus of the cycle'),
         plain('Brittleness index (M − E)/M', key('brittleness_index'), 'M the modulus beyond the peak: 1 where the stress drops at once'),
     ]},
     {title: 'Strength', rows: [

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Cycles of unloading in the rows of a curve.
+
+#include "specimens/measures/cycles.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/support/claim.hpp"
+
+namespace crackle {
+namespace {
+
+using testing::agrees;
+
+CurveRow row(double strain, double stress, double lateral) {
+    CurveRow r;
+    r.axial_strain = strain;
+    r.axial_stress = stress;
+    r.lateral_strain = lateral;
+    return r;
+}
+
+/// Up to (4, 40), down to (2, 10) along one straight line, up again along another that ends at (5, 42).
+std::vector<CurveRow> loop() {
+    return {row(0, 0, 0),    row(4, 40, 1.0), row(3, 25, 0.8), row(2, 10, 0.6),
+            row(3, 26, 0.8), row(5, 42, 1.4), row(6, 43, 2.0)};
+}
+
+TEST(LoadingCycles, OfKnownLinesAreThoseLines) {
+    const std::vector<CurveRow> rows = loop();
+    const auto cycles = find_cycles(rows, true);
+    ASSERT_EQ(cycles.size(), 1U);
+    const LoadingCycle& c = cycles[0];
+    EXPECT_EQ(c.strain, 4.0);
+    EXPECT_EQ(c.low_stress, 10.0);
+    EXPECT_TRUE(agrees("modulus", c.modulus, 15.0, 1e-14));
+    EXPECT_TRUE(agrees("Poisson's ratio", c.poissons_ratio, 0.2, 1e-14));
+    EXPECT_TRUE(agrees("permanent strain", c.permanent_strain, 2.0 - 10.0 / 15.0, 1e-14));
+    // Down: -(40+25)/2 - (25+10)/2 = -50; up: (10+26)/2 to 3, then to 4, where it stands at 34: (26+34)/2.
+    EXPECT_TRUE(agrees("loop", c.loop, 18.0 + 30.0 - 50.0, 1e-14));
+    EXPECT_TRUE(agrees("Poisson's ratio of a pulled one", find_cycles(rows, false)[0].poissons_ratio, -0.2, 1e-14));
+}
+
+TEST(LoadingCycles, OneThatTheCurveDoesNotEndHasNoLoss) {
+    std::vector<CurveRow> rows = loop();
+    rows.resize(4);
+    const auto cycles = find_cycles(rows, true);
+    ASSERT_EQ(cycles.size(), 1U);
+    EXPECT_TRUE(std::isnan(cycles[0].loop));
+    EXPECT_TRUE(agrees("modulus", cycles[0].modulus, 15.0, 1e-14));
+    rows.resize(2);
+    EXPECT_TRUE(find_cycles(rows, true).empty());
+}
+
+TEST(LoadingCycles, FirstLoadingIsTheCurveWithoutThemAndKeepsItsPeak) {
+    const FirstLoading first = first_loading(loop(), 5);
+    ASSERT_EQ(first.rows.size(), 4U);
+    EXPECT_EQ(first.rows[2].axial_strain, 5.0);
+    EXPECT_EQ(first.peak_row, 2);
+    EXPECT_EQ(first_loading(loop(), -1).peak_row, -1);
+}
+
+}  // namespace
+}  // namespace crackle

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A folder for the files of a case that is made on the spot.
+// Tested by tests/verification/claims_test.cpp.
+#pragma once
+
+#include <stdlib.h>
+
+#include <filesystem>
+#include <string>
+#include <system_error>
+
+#include "solver/base/errors.hpp"
+
+namespace crackle::verification {
+
+/// Empty, and gone with all in it at the end.
+class TemporaryFolder {
+  public:
+    TemporaryFolder() {
+        std::string name = (std::filesystem::temp_directory_path() / "crackle_XXXXXX").string();
+        if (::mkdtemp(name.data()) == nullptr)
+            throw OutputError(name + ": cannot be made, expected room for a folder; set TMPDIR");
+        path_ = name;
+    }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    ~TemporaryFolder() {
+        std::error_code ignored;  // nothing depends on it
+        std::filesystem::remove_all(path_, ignored);
+    }
+    const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+};
+
+}  // namespace crackle::verification
