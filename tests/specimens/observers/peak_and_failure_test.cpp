@@ -237,5 +237,17 @@ TEST(Strength, OfASpecimenPulledApart) {
     EXPECT_EQ(tracker.largest_row, 2);
 }
 
+TEST(Failure, EndsByTheWayGoneWhereStressAndStrainFallTogether) {
+    FailureTracker tracker;
+    // Up to row 1000, then back the same way: class II.
+    const auto at = [](int row) { return (row <= 1000 ? row : 2000 - row) / 1024.0; };
+    int row = 0;
+    for (; row < 2000 && !tracker.collapsed; ++row) tracker.update(row, at(row), row / 1024.0, at(row));
+    EXPECT_EQ(tracker.peak_row, 1000);
+    EXPECT_EQ(tracker.peak_strain, at(1000));
+    // Below half from row 1501 on, and for a tenth of the way to the peak, 100 rows.
+    EXPECT_EQ(row - 1, 1601);
+}
+
 }  // namespace
 }  // namespace crackle
