@@ -141,6 +141,7 @@ double TestSetup::lateral_strain(const World& world) const {
 double TestSetup::median_lateral_strain(const World& world) const {
     const auto moved = [&](const std::vector<BodyIndex>& side) {
         std::vector<double> ways;
+        ways.reserve(side.size());
         for (const BodyIndex b : side) ways.push_back(world.bodies.state[b].x - start[b].x);
         const auto half = ways.begin() + std::ssize(ways) / 2;
         std::ranges::nth_element(ways, half);

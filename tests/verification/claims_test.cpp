@@ -42,10 +42,19 @@ TEST_P(ClaimTest, Holds) {
     if (!claim.offered) GTEST_SKIP() << "not offered: " << claim.note;
 }
 
+/// Minutes under the sanitizers, where test_kind_test goes the same ways in seconds.
+bool left_out(const Claim& claim) {
+#ifdef __SANITIZE_ADDRESS__
+    return claim.group == "Laboratory";
+#else
+    return claim.group.empty();
+#endif
+}
+
 std::vector<Claim> claims_of(bool slow) {
     std::vector<Claim> some;
     std::copy_if(claims().begin(), claims().end(), std::back_inserter(some),
-                 [&](const Claim& claim) { return claim.slow == slow; });
+                 [&](const Claim& claim) { return claim.slow == slow && !left_out(claim); });
     return some;
 }
 

@@ -42,7 +42,6 @@ std::vector<ClaimRow> block_under_pressure_loses_the_area_of_its_moduli() {
     Rows rows;
     rows.shown("loss over theory, 20 discs across", loss_over_theory(20, 47));
     rows.absolute("40 discs across", loss_over_theory(40, 93), 1.0, 0.02, "reference");
-    rows.absolute("80 discs across", loss_over_theory(80, 185), 1.0, 0.02, "reference");
     return rows.take();
 }
 
