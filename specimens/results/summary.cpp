@@ -489,6 +489,13 @@ std::vector<std::string> notices_of(const TestCase& test, const TestSetup& setup
             parting->place, parting->of_platen, parting->bonds,
             parting->place == "platen" ? "; platens = \"glued\" hold it" : "; a deeper grip, or a longer specimen"));
     }
+    if (const TestCase::Loading& loading = test.loading; loading.unloads()) {
+        const auto& asked = loading.unload_at_strain ? *loading.unload_at_strain : *loading.unload_at_stress;
+        if (state.path.unloaded < std::ssize(asked)) {
+            notices.push_back(fmt::format("{} of {} unloadings were come to before the test ended", state.path.unloaded,
+                                          asked.size()));
+        }
+    }
     if (!test.loading.rate_tolerance) return notices;
     const double travel = state.path.travel(last.axial_strain);
     const double above = travel > 0.0 ? state.rate.strain_above / travel : 0.0;

@@ -17,7 +17,8 @@ namespace crackle::verification {
 class TemporaryFolder {
   public:
     TemporaryFolder() {
-        std::string name = (std::filesystem::temp_directory_path() / "crackle_XXXXXX").string();
+        // Six letters that mkdtemp() fills in.
+        std::string name = (std::filesystem::temp_directory_path() / "crackle_").string() + std::string(6, 'X');
         if (::mkdtemp(name.data()) == nullptr)
             throw OutputError(name + ": cannot be made, expected room for a folder; set TMPDIR");
         path_ = name;
