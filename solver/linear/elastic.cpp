@@ -41,6 +41,12 @@ std::vector<bool> held_freedoms(const World& world, const std::vector<BodyIndex>
     return held;
 }
 
+std::vector<Spring> springs_between_bodies(const World& world, ClosedPoints closed) {
+    std::vector<Spring> springs = springs_of(world, closed);
+    std::erase_if(springs, [](const Spring& s) { return s.j == no_body; });
+    return springs;
+}
+
 /// The free degrees of freedom and the stiffness over them, in units of the bodies' own springs: entries of 1 or less.
 class ScaledSystem {
   public:
@@ -152,7 +158,7 @@ Vector solve(const Workers& workers, const ScaledSystem& system, const Vector& l
 }  // namespace
 
 ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>& prescribed,
-                              const std::vector<BodyMotion>& loads) {
+                              const std::vector<BodyMotion>& loads, ClosedPoints closed) {
     if (prescribed.empty()) throw InputError("elastic solve: found no prescribed body, expected at least one platen");
     ElasticSolution solution;
     solution.displacement.assign(world.bodies.size(), BodyMotion{});
@@ -164,7 +170,7 @@ ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>&
         for (int d = 0; d < 3; ++d)
             if (held[3 * std::size_t{p.body} + static_cast<std::size_t>(d)])
                 component(solution.displacement[p.body], d) = component(p.motion, d);
-    const std::vector<Spring> springs = springs_of(world, ClosedPoints::bonded);
+    const std::vector<Spring> springs = springs_between_bodies(world, closed);
     const ScaledSystem system(world, springs, held);
     solution.unknowns = system.stiffness().rows();
     if (solution.unknowns > 0) {
@@ -205,9 +211,9 @@ ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>&
     return solution;
 }
 
-FreeMotions find_free_motions(const World& world, const std::vector<BodyIndex>& held_bodies) {
+FreeMotions find_free_motions(const World& world, const std::vector<BodyIndex>& held_bodies, ClosedPoints closed) {
     const std::vector<bool> held = held_freedoms(world, held_bodies);
-    const ScaledSystem system(world, symmetric_majorant(world, springs_of(world, ClosedPoints::bonded)), held);
+    const ScaledSystem system(world, symmetric_majorant(world, springs_between_bodies(world, closed)), held);
     FreeMotions free;
     if (system.stiffness().rows() == 0) return free;
     world.workers.hear();

@@ -47,7 +47,7 @@ double kinetic_energy(const World& world) {
         for (int d = 0; d < 3; ++d) {
             if (control.dof[d].drive != Drive::force) continue;
             const double without = velocity[d] + share * load[d] * inverse[d];
-            const double with = without + share * control.dof[d].value * inverse[d];
+            const double with = without + share * control.force(d, body) * inverse[d];
             sum += 0.5 * weight[d] * (with * with - without * without);
         }
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/neighbours/point_lists.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "solver/geometry/geometry.hpp"
@@ -147,6 +148,15 @@ bool both_held(const World& world, BodyIndex i, BodyIndex j) {
     return held(i) && held(j);
 }
 
+/// Driven bodies may be told to pass through each other.
+bool pass_through(const World& world, BodyIndex i, BodyIndex j) {
+    if (world.settings.driven_bodies_touch) return false;
+    const auto driven = [&](BodyIndex b) {
+        return std::ranges::any_of(world.bodies.controls, [&](const ControlState& c) { return c.body == b; });
+    };
+    return driven(i) && driven(j);
+}
+
 }  // namespace
 
 PointLists list_points(const World& world, const std::vector<std::uint64_t>& pairs) {
@@ -157,7 +167,7 @@ PointLists list_points(const World& world, const std::vector<std::uint64_t>& pai
     }
     for (const std::uint64_t pair : pairs) {
         const auto i = static_cast<BodyIndex>(pair >> 32), j = static_cast<BodyIndex>(pair & 0xffffffffu);
-        if (both_held(world, i, j)) continue;
+        if (both_held(world, i, j) || pass_through(world, i, j)) continue;
         if (world.bodies.names[i].shape == no_shape && world.bodies.names[j].shape == no_shape) {
             add_single_circles(world, i, j, lists);
             continue;

@@ -105,6 +105,8 @@ enum class Drive : std::uint8_t {
 struct DofControl {
     Drive drive = Drive::free;
     double value = 0.0;
+    /// Of a force: N/m, N m/rad, by which it falls as the degree of freedom moves from where it was entered.
+    double stiffness = 0.0;
 
     friend bool operator==(const DofControl&, const DofControl&) = default;
 
@@ -112,6 +114,7 @@ struct DofControl {
     static constexpr void fields(Self& s, Visit&& visit) {
         visit("drive", s.drive);
         visit("value", s.value);
+        visit("stiffness", s.stiffness);
     }
 };
 
@@ -207,6 +210,7 @@ struct Scene {
     std::vector<Vec2> vertices;
     std::vector<Control> controls;
     Domain domain;
+    bool driven_bodies_touch = true;  ///< false: bodies with a control pass through each other
     double thick =
         0.0;  ///< segment thickness t, m, >= 0: a disc of radius t at each vertex against the other's bare outline
     SegmentLaw segment_law = SegmentLaw::rounded;

@@ -95,7 +95,7 @@ void account_controls(World& world) {
         for (int d = 0; d < 3; ++d) {
             if (control.dof[d].drive == Drive::free) continue;
             const bool reacts = held(control.dof[d]);
-            const double force = reacts ? -load[d] : control.dof[d].value;
+            const double force = reacts ? -load[d] : control.force(d, world.bodies.state[control.body]);
             const double work = 0.5 * (control.last_force[d] + force) * control.last_move[d];
             (reacts ? world.account.displacement_work : world.account.force_work) += work;
             control.last_force[d] = force;
@@ -108,7 +108,7 @@ void kick_controls(World& world, double kick) {
         BodyState& body = world.bodies.state[control.body];
         for (int d = 0; d < 3; ++d) {
             if (control.dof[d].drive == Drive::force) {
-                velocity_of(body, d) += kick * control.dof[d].value * inverse_of(world.bodies.inertia[control.body], d);
+                velocity_of(body, d) += kick * control.force(d, body) * inverse_of(world.bodies.inertia[control.body], d);
             } else if (control.dof[d].drive == Drive::displacement) {
                 set_velocity(world, control.body, d,
                              ramp_velocity(control, d, world.stepping.steps, world.stepping.time_step));

@@ -176,11 +176,16 @@ static_assert(sizeof(Edge) == 64);
 struct ControlState {
     BodyIndex body;
     DofControl dof[3];        // x, y, rotation
-    double start[3];          // position at the first step of the ramp
+    double start[3];          // position when it was entered
     std::int64_t first_step;  // step at which the ramp began
     std::int64_t ramp_steps;
     double last_force[3];  // driving force (N, N m) at the last force pass: the reaction, or the force applied
     double last_move[3];   // m, rad in the last step
+
+    /// N, N m, of a Drive::force now: what is given, less what its spring has taken up since it was entered.
+    double force(int d, const BodyState& b) const {
+        return dof[d].value - dof[d].stiffness * ((d == 0 ? b.x : d == 1 ? b.y : b.angle) - start[d]);
+    }
 
     template <class Self, class Visit>
     static constexpr void fields(Self& s, Visit&& visit) {

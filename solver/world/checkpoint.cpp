@@ -29,7 +29,7 @@
 namespace crackle {
 
 // Raise when a field of a group is added, removed or moved.
-constexpr std::uint32_t checkpoint_version = 20;
+constexpr std::uint32_t checkpoint_version = 21;
 constexpr std::uint64_t checkpoint_magic = 0x454c4b4341524321ULL;  // "!CRACKLE"
 
 template <class Archive>

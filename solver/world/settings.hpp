@@ -51,6 +51,7 @@ constexpr std::size_t pair_number(std::size_t a, std::size_t b) {
 struct Settings {
     Domain domain;
     Vec2 gravity;
+    bool driven_bodies_touch = true;
     double thick = 0.0;  // m
     SegmentLaw segment_law = SegmentLaw::rounded;
     Integrator integrator = Integrator::leapfrog;
@@ -70,6 +71,7 @@ struct Settings {
     static constexpr void fields(Self& s, Visit&& visit) {
         visit("domain", s.domain);
         visit("gravity", s.gravity);
+        visit("driven_bodies_touch", s.driven_bodies_touch);
         visit("thick", s.thick);
         visit("segment_law", s.segment_law);
         visit("integrator", s.integrator);

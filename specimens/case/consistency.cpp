@@ -328,7 +328,8 @@ class ConsistencyCheck {
             {"shape.notch", {"bending", "scb"}},       {"loading.half_angle", {"brazilian"}},
             {"loading.jaws", {"brazilian"}},           {"loading.span", {"bending", "scb"}},
             {"loading.pad_width", {"bending", "scb"}}, {"loading.normal_stress", {"direct_shear"}},
-            {"loading.box_gap", {"direct_shear"}},
+            {"loading.box_gap", {"direct_shear"}},     {"loading.normal_stiffness", {"direct_shear"}},
+            {"confinement.side", {"biaxial"}},
         };
         const std::string& kind = test_.loading.kind;
         for (const KindKey& one : keys) {

@@ -349,6 +349,9 @@ std::vector<Parameter> all_parameters() {
         CRACKLE_KEY(loading, pad_width, "m",
                     "bending, scb: of the three pads; a tenth of depth or radius if not given, at least two particles.")
             .above(0),
+        CRACKLE_KEY(loading, normal_stiffness, "N/m2 or Pa/m",
+                    "direct_shear: by which the normal stress grows as the upper box rises; constant if not given.")
+            .at_least(0),
         CRACKLE_KEY(loading, normal_stress, "N/m or Pa", "direct_shear: that the upper box is pressed down with.")
             .at_least(0),
         CRACKLE_KEY(loading, box_gap, "m", "direct_shear: between the half boxes; two mean particles if not given.")
@@ -370,9 +373,13 @@ std::vector<Parameter> all_parameters() {
             .below(1),
 
         CRACKLE_KEY(confinement, pressure, "N/m or Pa",
-                    "On the sides, by a membrane, all through the test; the platens press with the same before loading "
-                    "begins. Its unit is that of stresses: Pa with material.units = \"area\".")
+                    "On the sides, all through the test; the platens press with the same before loading begins. Its "
+                    "unit is that of stresses: Pa with material.units = \"area\".")
             .above(0),
+        CRACKLE_KEY(confinement, side, "",
+                    "What presses the sides: membrane (if not given), which follows the specimen; walls, two smooth rigid "
+                    "plates, each with the force of the pressure on the initial height.")
+            .one_of({"membrane", "walls"}),
 
         CRACKLE_KEY(numerics, time_step, "s", "Time step; derived from the stiffness bound if not given.").above(0),
         CRACKLE_KEY(numerics, safety_factor, "",

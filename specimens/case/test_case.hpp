@@ -123,6 +123,7 @@ struct TestCase {
         std::optional<std::string> jaws;                      // "arc" if not given, "flat" or "curved"
         std::optional<double> span, pad_width;                // m
         std::optional<double> normal_stress;                  // N/m, or Pa
+        std::optional<double> normal_stiffness;               // N/m2, or Pa/m
         std::optional<std::string> control;                   // "axial" if not given, or "lateral"
         std::optional<double> box_gap;                        // m
         std::optional<std::vector<double>> unload_at_strain;  // -; or:
@@ -140,7 +141,10 @@ struct TestCase {
     } loading;
 
     struct Confinement {
-        std::optional<double> pressure;  // N/m, or Pa
+        std::optional<double> pressure;   // N/m, or Pa
+        std::optional<std::string> side;  ///< "membrane" or "walls"
+
+        bool by_walls() const { return side.value_or("membrane") == "walls"; }
     } confinement;
 
     struct Numerics {

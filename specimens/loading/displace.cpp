@@ -39,7 +39,7 @@ class WithoutLoads {
     explicit WithoutLoads(World& world) : world_(world), controls_(world.bodies.controls) {
         for (ControlState& control : world.bodies.controls)
             for (DofControl& dof : control.dof)
-                if (dof.drive == Drive::force) dof.value = 0.0;
+                if (dof.drive == Drive::force) dof.value = dof.stiffness = 0.0;
     }
     ~WithoutLoads() {
         for (std::size_t k = 0; k < controls_.size(); ++k)

@@ -47,7 +47,6 @@ class LoadingLoop {
           judged_per_written_(judged_per_written(test)),
           unload_rule_(unload_rule_of(test.description.loading, test.setup.rate_rule, test.state.youngs_modulus)),
           lateral_rule_(lateral_rule_of(test.description, test.setup.rate_rule, test.state.poissons_ratio)),
-          turns_(unload_rule_.on() || lateral_rule_.on()),
           whole_travel_(max_strain_ + unload_rule_.added_travel(max_strain_)),
           row_spacing_(max_strain_ / static_cast<double>(test.description.output.curve_rows * judged_per_written_)),
           frame_spacing_(max_strain_ / static_cast<double>(test.description.output.frames.value())),
@@ -128,14 +127,16 @@ class LoadingLoop {
         const Ledger ledger = measure_ledger(world_);
         const double time = world_.stepping.time;
         LoadingPath& path = state_.path;
-        choose_rate(state_.rate, setup_.rate_rule, turns_ ? path.speed : state_.rate.rate, ledger.kinetic,
+        choose_rate(state_.rate, setup_.rate_rule, path.speed, ledger.kinetic,
                     ledger.strain, time);
         const double allowed = state_.rate.rate, since = time - path.chosen_at;
         path.chosen_at = time;
         if (unload_rule_.on()) turn_by_list(path, unload_rule_, allowed, strain_, axial_stress(world_, setup_), since);
-        if (lateral_rule_.on())
+        else if (lateral_rule_.on())
             follow_lateral(path, lateral_rule_, allowed, strain_, setup_.median_lateral_strain(world_), since);
-        const double speed = (turns_ ? path.speed : allowed) * setup_.length;
+        else
+            path.speed = allowed;
+        const double speed = path.speed * setup_.length;
         change_velocity(world_, setup_.top, setup_.axis, setup_.compression ? -speed : speed);
     }
 
@@ -256,7 +257,6 @@ class LoadingLoop {
     std::int64_t judged_per_written_;
     UnloadRule unload_rule_;
     LateralRule lateral_rule_;
-    bool turns_;
     double whole_travel_;  // strain
     double row_spacing_, frame_spacing_, checkpoint_interval_;
     Clock::time_point begun_, last_checkpoint_, last_progress_;

@@ -17,7 +17,7 @@ namespace crackle {
 
 /// Where loading stands. Of a platen that only goes forward no more than the farthest strain is used.
 struct LoadingPath {
-    double speed = 0.0;         // 1/s, of the strain, negative while the platen goes back; where it may not, the first
+    double speed = 0.0;         // 1/s, of the strain, negative while the platen goes back
     double chosen_at = 0.0;     // s, when it was chosen last
     double turned_at = 0.0;     ///< strain where it last turned round
     double travelled = 0.0;     ///< strain gone through until then, back and forth

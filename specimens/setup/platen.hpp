@@ -10,6 +10,9 @@
 //   - frictional platens: just touching the outermost particle. Nothing bonds them, the test starts without force.
 // A block and not one segment: behind a single segment a corner pressed in by more than t would be through, and pushed
 // on. Before that, both carry the same force.
+// Walls that press the sides of a confined specimen (confinement.side = "walls") are smooth blocks that reach beyond both
+// platens, which they pass through; each moves along x by the force of the pressure on the initial height. They too just
+// touch the outermost particle, and wait as far outside.
 // The lower platen is fixed, the upper one moves at constant velocity; both are held laterally and in rotation.
 // Other kinds of test have the parts that specimens/kinds describes: supports first, the one that drives last.
 // Tested by tests/specimens/loading/virtual_test_test.cpp.
@@ -28,6 +31,7 @@ struct Platens {
     double velocity = 0.0;               ///< m/s of the upper one, upwards
     double parked = 0.0;                 ///< m, how far outside its face each waits while the specimen is bonded
     bool bonded = true;
+    bool walls = false;  ///< that press the sides, numbered between the two: the left one, then the right one
 };
 
 /// How far apart platens wait while a specimen with frictional platens is bonded, in specimen heights.

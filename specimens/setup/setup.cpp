@@ -163,8 +163,10 @@ PartForces forces_on_parts(const World& world, const TestSetup& setup) {
         return setup.axis == 1 ? force.fy : force.fx;
     };
     PartForces forces;
-    for (const SetupPart& part : setup.parts)
+    for (const SetupPart& part : setup.parts) {
+        if (part.wall) continue;
         (part.body == setup.top ? forces.driver : forces.supports) += on(part.body);
+    }
     return forces;
 }
 
@@ -199,7 +201,8 @@ TestSetup record_setup(const World& world, const Specimen& specimen, const Plate
     for (int id = platens.bottom_id; id <= platens.top_id; ++id) {
         const auto number = static_cast<std::size_t>(id - platens.bottom_id);
         const auto& parts = platens.apparatus.parts;
-        setup.parts.push_back({body_of_id(world, id), parts.empty() ? 2 : parts[number].face});
+        const bool wall = platens.walls && id != platens.bottom_id && id != platens.top_id;
+        setup.parts.push_back({body_of_id(world, id), parts.empty() ? 2 : parts[number].face, wall});
     }
     note_start_of_driver(setup, world);
     setup.particles = static_cast<std::int64_t>(specimen.scene.bodies.size());

@@ -31,11 +31,13 @@ struct StartPlace {
 struct SetupPart {
     BodyIndex body = 0;
     std::uint32_t face = 2;  ///< its first corners, which are drawn
+    bool wall = false;       ///< presses a side, neither holds nor drives
 
     template <class Self, class Visit>
     static constexpr void fields(Self& s, Visit&& visit) {
         visit("body", s.body);
         visit("face", s.face);
+        visit("wall", s.wall);
     }
 };
 
@@ -57,7 +59,7 @@ struct TestSetup {
     double mesh_gap = 0.0;                     // m
     int bottom_id = 0, top_id = 0;             // as in outputs
     BodyIndex bottom = 0, top = 0;             // in the world: the first support, and what drives
-    std::vector<SetupPart> parts;              ///< all, the driving one last
+    std::vector<SetupPart> parts;              ///< all, a support first, the driving one last
     double top_start = 0.0;                    // m, place of the driving part's centroid along its axis
     double top_height = 0.0;                   // m, its y
     std::vector<BodyIndex> left, right;        ///< side particles in the middle half of the height
@@ -76,7 +78,7 @@ struct TestSetup {
     /// tenths where there are none), and the distance of their mean y, m; 0 where an end has none.
     std::vector<BodyIndex> gauge_bottom, gauge_top;
     double gauge_height = 0.0;
-    double confining_pressure = 0.0;       // N/m, of the membrane; 0: none
+    double confining_pressure = 0.0;       // N/m, on the sides; 0: none
     double stable_time_step = 0.0;         // s, exact, when bonds were made
     bool stable_time_step_proved = false;  ///< by factorisation; else it is a bound
     double time_step_bound = 0.0;          // s, kept up during the run; when loading began
@@ -98,6 +100,7 @@ struct TestSetup {
     double rest_overlap(PointIndex bond) const { return coulomb_bonds ? std::max(bond_overlaps[bond], 0.0) : 0.0; }
 
     bool confined() const { return confining_pressure > 0.0; }
+    bool has_walls() const { return std::ranges::any_of(parts, &SetupPart::wall); }
     bool pressed() const { return confined() || kind == "direct_shear"; }
     bool is_platen(BodyIndex body) const {
         return std::ranges::any_of(parts, [&](const SetupPart& part) { return part.body == body; });
