@@ -86,6 +86,13 @@ void change_velocity(World& world, BodyIndex body, int dof, double velocity) {
     }
 }
 
+void relax_drives(World& world) {
+    for (ControlState& control : world.bodies.controls)
+        for (int d = 0; d < 3; ++d)
+            if (control.dof[d].drive == Drive::force)
+                control.start[d] = position_of(world.bodies.state[control.body], d);
+}
+
 void account_controls(World& world) {
     for (ControlState& control : world.bodies.controls) {
         const BodyForce& contact = world.bodies.force[control.body];
@@ -108,7 +115,8 @@ void kick_controls(World& world, double kick) {
         BodyState& body = world.bodies.state[control.body];
         for (int d = 0; d < 3; ++d) {
             if (control.dof[d].drive == Drive::force) {
-                velocity_of(body, d) += kick * control.force(d, body) * inverse_of(world.bodies.inertia[control.body], d);
+                velocity_of(body, d) +=
+                    kick * control.force(d, body) * inverse_of(world.bodies.inertia[control.body], d);
             } else if (control.dof[d].drive == Drive::displacement) {
                 set_velocity(world, control.body, d,
                              ramp_velocity(control, d, world.stepping.steps, world.stepping.time_step));

@@ -18,6 +18,8 @@ void set_control(World& world, BodyIndex body, const DofControl (&dof)[3], std::
 /// Changes the prescribed velocity of a driven degree of freedom from the coming drift on; what that adds to the body's
 /// kinetic energy is displacement work. @param dof 0 x, 1 y, 2 rotation; driven by Drive::velocity
 void change_velocity(World& world, BodyIndex body, int dof, double velocity);
+/// Springs of all drives by a force count from where their bodies are now.
+void relax_drives(World& world);
 /// Work of the drives over the last drift, by the trapezoidal rule.
 void account_controls(World& world);
 /// Velocities of the coming drift. @param kick length of the kick, s

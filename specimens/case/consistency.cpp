@@ -281,6 +281,9 @@ class ConsistencyCheck {
         keys_of_kinds();
         turning_round();
         if (test_.confined()) need("confinement.pressure", "kind = \"biaxial\" needs it");
+        if (test_.confinement.by_walls() && test_.numerics.intact)
+            refuse("numerics.intact", "true", "false with confinement.side = \"walls\"",
+                   "they press by contacts that no bond has made");
         if (test_.loading.platens != "glued") exclude("loading.grip", "only platens = \"glued\" has grips");
     }
 

@@ -119,9 +119,14 @@ ElasticAnalysis analyse_elastic(const World& world, const TestSetup& setup, cons
     result.time_step_bound = setup.time_step_bound;
     result.time_step = world.stepping.time_step;
     result.free = find_free_motions(world, bodies_of_parts(setup));
+    const std::int64_t all_free = result.free.count;
+    // Walls, which nothing holds along x, are none of the specimen.
+    result.free.count -= std::ssize(result.free.bodies);
+    std::erase_if(result.free.bodies, [&](BodyIndex b) { return setup.is_platen(b); });
+    result.free.count += std::ssize(result.free.bodies);
     for (const BodyIndex b : result.free.bodies) result.free_ids.push_back(world.bodies.info(b).id);
     if (modes > 0) {
-        for (const VibrationMode& mode : lowest_modes(world, modes, result.free.count))
+        for (const VibrationMode& mode : lowest_modes(world, modes, all_free))
             result.frequencies.push_back(mode.frequency);
     }
     return result;

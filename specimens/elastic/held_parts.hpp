@@ -21,6 +21,23 @@ inline std::vector<Prescribed> prescribed_parts(const TestSetup& setup, double w
     return prescribed;
 }
 
+/// What takes part in a linear solution: bonds, and where walls press what they touch besides.
+inline ClosedPoints closed_points(const TestSetup& setup) {
+    return setup.has_walls() ? ClosedPoints::touching : ClosedPoints::bonded;
+}
+
+/// N/m: force that moves the driving part less that on the supports, along the axis, halved, over the section.
+/// @param reaction of prescribed_parts()
+inline double nominal_stress(const TestSetup& setup, const std::vector<BodyMotion>& reaction) {
+    double sum = 0.0;
+    for (std::size_t k = 0; k < setup.parts.size(); ++k) {
+        if (setup.parts[k].wall) continue;
+        const double along = setup.axis == 1 ? reaction[k].y : reaction[k].x;
+        sum += setup.parts[k].body == setup.top ? along : -along;
+    }
+    return 0.5 * sum / setup.section;
+}
+
 /// The bodies of all parts.
 inline std::vector<BodyIndex> bodies_of_parts(const TestSetup& setup) {
     std::vector<BodyIndex> bodies;

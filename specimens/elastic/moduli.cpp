@@ -44,11 +44,7 @@ Moduli solve_moduli(const World& world, const TestSetup& setup) {
     Moduli moduli{};
     moduli.solution = solve_elastic(world, prescribed_parts(setup, setup.length));
     refuse_mechanism(world, setup, moduli.solution.energy);
-    const auto along = [&](const BodyMotion& one) { return setup.axis == 1 ? one.y : one.x; };
-    double supports = 0.0;
-    const std::vector<BodyMotion>& reaction = moduli.solution.reaction;
-    for (std::size_t k = 0; k + 1 < reaction.size(); ++k) supports += along(reaction[k]);
-    moduli.youngs_modulus = 0.5 * (along(reaction.back()) - supports) / setup.section;
+    moduli.youngs_modulus = nominal_stress(setup, moduli.solution.reaction);
     moduli.poissons_ratio = moduli.gauge_modulus = std::numeric_limits<double>::quiet_NaN();
     const auto rise = [&](const std::vector<BodyIndex>& bodies) {
         double sum = 0.0;

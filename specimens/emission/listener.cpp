@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "solver/base/errors.hpp"
+#include "solver/linear/springs.hpp"
 #include "solver/measure/last_pass.hpp"
 #include "solver/world/point_order.hpp"
 
@@ -64,15 +65,30 @@ double mean_damping_ratio(const World& world, const TestSetup& setup) {
 
 }  // namespace
 
+double mean_field_shear_modulus(const World& world, const TestSetup& setup) {
+    std::vector<BodyMotion> shear(world.bodies.size());  // of a shear strain of 1
+    for (std::size_t b = 0; b < shear.size(); ++b)
+        shear[b] = {0.5 * world.bodies.state[b].y, 0.5 * world.bodies.state[b].x, 0.0};
+    double twice_energy = 0.0;
+    for (const Spring& spring : springs_of(world, ClosedPoints::bonded)) {
+        if (setup.is_platen(spring.i) || setup.is_platen(spring.j)) continue;
+        twice_energy += spring.stiffness * times(spring, spring.push, shear) * times(spring, spring.gradient, shear);
+    }
+    return twice_energy / setup.area;
+}
+
 EmissionRule emission_rule(const World& world, const TestSetup& setup, double youngs_modulus, double poissons_ratio,
                            double thickness) {
-    if (!(youngs_modulus > 0.0) || !(poissons_ratio > -1.0)) {
-        throw InputError(fmt::format(
-            "found E = {:.4g} and nu = {:.4g} of the linear solution, expected E > 0 and nu > -1, which particles "
-            "along the sides give",
-            youngs_modulus, poissons_ratio));
-    }
     EmissionRule rule;
+    rule.mean_field = !setup.uniaxial || std::isnan(youngs_modulus) || std::isnan(poissons_ratio);
+    const double shear_modulus =
+        rule.mean_field ? mean_field_shear_modulus(world, setup) : youngs_modulus / (2.0 * (1.0 + poissons_ratio));
+    if (!(shear_modulus > 0.0)) {
+        throw InputError(
+            fmt::format("found a shear modulus of {:.4g} N/m, expected one above 0: of E = {:.4g} and nu = "
+                        "{:.4g} of the linear solution",
+                        shear_modulus, youngs_modulus, poissons_ratio));
+    }
     double mass = 0.0, diameters = 0.0;
     std::int64_t particles = 0;
     for (std::size_t b = 0; b < world.bodies.size(); ++b) {
@@ -84,8 +100,7 @@ EmissionRule emission_rule(const World& world, const TestSetup& setup, double yo
         ++particles;
     }
     rule.diameter = diameters / static_cast<double>(particles);
-    rule.density = mass / (setup.width * setup.height);
-    const double shear_modulus = youngs_modulus / (2.0 * (1.0 + poissons_ratio));
+    rule.density = mass / (setup.uniaxial ? setup.width * setup.height : setup.area);
     rule.shear_wave_speed = std::sqrt(shear_modulus / rule.density);
     rule.damping_ratio = mean_damping_ratio(world, setup);
     rule.thickness = world.settings.units == StiffnessUnits::area ? thickness : 1.0;

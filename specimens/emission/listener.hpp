@@ -31,7 +31,8 @@ namespace crackle {
 /// How events are told apart; what a test's linear solution and its masses give.
 struct EmissionRule {
     double diameter = 0.0;          // m, mean of the particles (of circles of their areas); 0: nothing is listened to
-    double shear_wave_speed = 0.0;  // m/s, sqrt(G/ρ), G = E/(2 (1 + ν)) in two dimensions
+    double shear_wave_speed = 0.0;  // m/s, sqrt(G/ρ)
+    bool mean_field = false;        ///< G is mean_field_shear_modulus(), else that of the linear solution
     double density = 0.0;           // kg/m2, of the specimen with its pores
     double damping_ratio = 0.0;     ///< mean over bonds of the normal dashpot over the critical one
     /// m, by which moments and energies of the world are multiplied before magnitudes are taken: in area units they are
@@ -45,14 +46,20 @@ struct EmissionRule {
     static constexpr void fields(Self& s, Visit&& visit) {
         visit("diameter", s.diameter);
         visit("shear_wave_speed", s.shear_wave_speed);
+        visit("mean_field", s.mean_field);
         visit("density", s.density);
         visit("damping_ratio", s.damping_ratio);
         visit("thickness", s.thickness);
     }
 };
 
-/// @param youngs_modulus, poissons_ratio of the linear solution @param thickness m, out of plane
-/// @throws InputError where they give no shear wave
+/// N/m, of the bonds between particles were all of these to move with one pure shear, none of them turning: no less
+/// than the specimen's own (Voigt's bound). Over the area of what is tested.
+double mean_field_shear_modulus(const World& world, const TestSetup& setup);
+
+/// G = E/(2 (1 + ν)), as it is in two dimensions, or the mean field's where these are not known.
+/// @param youngs_modulus, poissons_ratio of the linear solution, NaN: there is none @param thickness m, out of plane
+/// @throws InputError where there is no shear wave
 EmissionRule emission_rule(const World& world, const TestSetup& setup, double youngs_modulus, double poissons_ratio,
                            double thickness);
 

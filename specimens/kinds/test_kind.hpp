@@ -64,6 +64,7 @@ struct Apparatus {
     int axis = 1;                        ///< of its way: 0 x, 1 y
     double section = 0.0, length = 0.0;  // m
     double normal_force = 0.0;           ///< N, on the driving part across its way, towards the specimen
+    double normal_spring = 0.0;          ///< N/m, by which it grows as that part goes the other way
     double stress_intensity = 0.0;       ///< sqrt(m): K_I over the nominal stress; 0 without a notch
     double span = 0.0;                   ///< m, between supports; 0 without
 };

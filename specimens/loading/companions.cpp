@@ -14,6 +14,7 @@
 #include "solver/base/threads_to_be_had.hpp"
 #include "specimens/loading/load_specimen.hpp"
 #include "specimens/loading/prepare.hpp"
+#include "specimens/measures/crack_thresholds.hpp"
 #include "specimens/measures/cycles.hpp"
 
 namespace crackle {
@@ -68,6 +69,15 @@ double post_peak_difference(const VirtualTest& test, const VirtualTest& other) {
     return count > 0 ? sum / static_cast<double>(count) / test.state.failure.peak_stress : 0.0;
 }
 
+bool cracks_by_compression(const TestSetup& setup) { return setup.compression && setup.uniaxial; }
+
+CrackThresholds thresholds_of(const VirtualTest& test) {
+    if (!cracks_by_compression(test.setup)) return {};
+    const FirstLoading first = first_loading(test.state.rows, test.state.failure.peak_row);
+    return find_crack_thresholds(first.rows, first.peak_row, test.state.youngs_modulus, test.state.poissons_ratio,
+                                 test.setup.confining_pressure);
+}
+
 /// Dashpots of the first law, N s/m where given as such, sqrt(N/m) where by ratio.
 double damping_of(const World& world) {
     if (world.settings.laws.empty()) return undefined;  // it became unstable before there was a world
@@ -101,6 +111,7 @@ std::optional<Companion> run_one(const Plan& plan, const VirtualTest& test, cons
     } catch (const UnstableRun&) {
         Companion unstable = what_it_did(plan, test, other);
         unstable.peak_stress = unstable.peak_strain = unstable.post_peak_difference = undefined;
+        unstable.crack_initiation_stress = unstable.crack_damage_stress = undefined;
         unstable.ended_by = ended_by_instability;
         return unstable;
     }
@@ -109,6 +120,9 @@ std::optional<Companion> run_one(const Plan& plan, const VirtualTest& test, cons
     done.peak_stress = other.state.failure.peak_stress;
     done.peak_strain = other.state.failure.peak_strain;
     done.post_peak_difference = post_peak_difference(test, other);
+    const CrackThresholds cracks = thresholds_of(other);
+    done.crack_initiation_stress = cracks.count_break;
+    done.crack_damage_stress = cracks.damage;
     return done;
 }
 
@@ -119,6 +133,13 @@ double resolved_stress(const VirtualTest& test) {
     if (f.peak_row < 1) return 0.0;
     const CurveRow& before = test.state.rows[static_cast<std::size_t>(f.peak_row - 1)];
     return std::abs(f.peak_stress - before.axial_stress) / f.peak_stress;
+}
+/// What the row that first comes to a stress rose by, over it.
+double resolved_before_peak(const VirtualTest& test, double stress) {
+    const std::vector<CurveRow>& rows = test.state.rows;
+    const auto at = std::ranges::find_if(rows, [&](const CurveRow& row) { return row.axial_stress >= stress; });
+    if (at == rows.begin() || at == rows.end()) return 0.0;
+    return std::abs(at->axial_stress - (at - 1)->axial_stress) / stress;
 }
 double resolved_strain(const VirtualTest& test) {
     const FailureTracker& f = test.state.failure;
@@ -190,6 +211,14 @@ std::optional<NumericalErrors> run_companions(const VirtualTest& test, const Tes
     const FailureTracker& f = test.state.failure;
     errors.peak_stress = error_of(f.peak_stress, resolved_stress(test), errors.companions, &Companion::peak_stress);
     errors.peak_strain = error_of(f.peak_strain, resolved_strain(test), errors.companions, &Companion::peak_strain);
+    if (cracks_by_compression(test.setup)) {
+        const CrackThresholds own = thresholds_of(test);
+        const auto error = [&](double stress, double Companion::*value) {
+            return error_of(stress, resolved_before_peak(test, stress), errors.companions, value);
+        };
+        errors.crack_initiation_stress = error(own.count_break, &Companion::crack_initiation_stress);
+        errors.crack_damage_stress = error(own.damage, &Companion::crack_damage_stress);
+    }
     if (f.failed) errors.peak_converged = on_one_branch(errors.peak_stress, errors.peak_strain);
     return errors;
 }

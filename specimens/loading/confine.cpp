@@ -22,6 +22,8 @@ namespace {
 
 constexpr int most_rounds = 100, steps_of_relaxation = 2000;
 constexpr double most_left_by_a_solution = 0.5;  // of the force that was left before
+// Parts are brought to their force in the unloaded specimen: so near, from a first way of this share of a particle.
+constexpr double near_enough = 1e-3, first_way = 1e-5, farthest_way = 0.25;
 
 /// Of each body of one world its number in another.
 std::vector<BodyIndex> numbers_in(const World& other, const World& world) {
@@ -49,7 +51,7 @@ class Confinement {
           pressure_(*test.description.confinement.pressure),
           particle_(std::sqrt(test.setup.width * test.setup.height / static_cast<double>(test.setup.particles))),
           held_(bonded.bodies.size(), true) {
-        for (const BodyIndex b : find_free_motions(bonded, bodies_of_parts(own)).bodies) held_[b] = false;
+        find_held();
     }
 
     void run() {
@@ -58,8 +60,13 @@ class Confinement {
         const double time = world_.stepping.time, kick_share = world_.stepping.kick_share;
         const std::size_t events = world_.bonds.events.size();
         displace(world_, std::vector<BodyMotion>(moving.size()));  // at rest
-        add_membrane(world_, pressure_, 0.5 * particle_, test_.setup.bottom, test_.setup.top);
-        compute_forces(world_);
+        if (test_.setup.has_walls()) {
+            bring_parts();
+            find_held();
+        } else {
+            add_membrane(world_, pressure_, 0.5 * particle_, test_.setup.bottom, test_.setup.top);
+            compute_forces(world_);
+        }
         Imbalance left = imbalance();
         for (int round = 0; !settled(left); ++round) {
             if (round == most_rounds) refuse(left, "");
@@ -94,6 +101,8 @@ class Confinement {
         }
         for (const BodyIndex platen : {test_.setup.bottom, test_.setup.top})
             change_velocity(world_, platen, 1, moving[platen].vy);
+        // Loading begins as it goes on: the walls give way as the specimen widens.
+        if (test_.setup.has_walls()) test_.small_strain->moduli.solution = stretched();
         restart_account(world_);
         velocities_changed(world_);
         compute_forces(world_);
@@ -107,8 +116,68 @@ class Confinement {
         return left.force <= most_unbalanced && std::abs(left.stress) <= most_unbalanced * pressure_;
     }
 
+    void find_held() {
+        held_.assign(held_.size(), true);
+        for (const BodyIndex b : find_free_motions(bonded_, bodies_of_parts(own_), closed_points(own_)).bodies)
+            held_[b] = false;
+    }
+
+    /// Force of the drive of a wall, along x.
+    double force_of(BodyIndex wall) const {
+        const auto control = std::ranges::find(world_.bodies.controls, wall, &ControlState::body);
+        return control->force(0, world_.bodies.state[wall]);
+    }
+    double left_on(BodyIndex wall) const { return world_.bodies.force[wall].fx + force_of(wall); }
+
+    /// Each wall, and each platen that only touches, to where the specimen, which does not move, bears its force: what
+    /// it presses grows with the way.
+    void bring_parts() {
+        struct Way {
+            BodyIndex part;
+            bool wall;
+            double start, inwards, force, way;      // m, -, N, m
+            double too_little = 0.0, enough = 0.0;  // m, of the way; 0: not found yet
+            bool done = false;
+        };
+        const auto place = [&](const Way& one) -> double& {
+            BodyState& body = world_.bodies.state[one.part];
+            return one.wall ? body.x : body.y;
+        };
+        const bool platens_touch = test_.description.loading.platens == "frictional";
+        std::vector<Way> ways;
+        for (const SetupPart& part : test_.setup.parts) {
+            if (!part.wall && !platens_touch) continue;
+            const bool low = part.wall ? force_of(part.body) > 0.0 : part.body != test_.setup.top;
+            const double force = pressure_ * (part.wall ? test_.setup.height : test_.setup.width);
+            ways.push_back({part.body, part.wall, 0.0, low ? 1.0 : -1.0, force, first_way * particle_});
+            ways.back().start = place(ways.back());
+        }
+        while (!std::ranges::all_of(ways, &Way::done)) {
+            for (const Way& one : ways) place(one) = one.start + one.inwards * one.way;
+            bodies_moved(world_);
+            compute_forces(world_);
+            for (Way& one : ways) {
+                const BodyForce& borne = world_.bodies.force[one.part];
+                const double left = one.force + one.inwards * (one.wall ? borne.fx : borne.fy);
+                one.done = std::abs(left) <= near_enough * one.force;
+                if (one.done) continue;
+                (left > 0.0 ? one.too_little : one.enough) = one.way;
+                one.way = one.enough > 0.0 ? 0.5 * (one.too_little + one.enough) : 2.0 * one.way;
+                if (one.way > farthest_way * particle_)
+                    refuse({one.way, left}, " (a wall or platen goes through particles)");
+            }
+        }
+    }
+
+    /// A strain of 1 between the platens: Moduli's own solution, or with walls that keep their force.
+    ElasticSolution stretched() const {
+        return solve_elastic(bonded_, prescribed_parts(own_, own_.length), {}, closed_points(own_));
+    }
+
     Imbalance imbalance() const {
         Imbalance left;
+        for (const SetupPart& part : test_.setup.parts)
+            if (part.wall) left.force = std::max(left.force, std::abs(left_on(part.body) / force_of(part.body)));
         for (BodyIndex b = 0; b < world_.bodies.size(); ++b) {
             if (test_.setup.is_platen(b) || !held_[number_[b]]) continue;
             const BodyForce& force = world_.bodies.force[b];
@@ -128,20 +197,20 @@ class Confinement {
             const BodyForce& force = world_.bodies.force[b];
             loads[k] = {force.fx, force.fy, force.torque};
         }
-        const ElasticSolution solved = solve_elastic(bonded_, {{own_.bottom, {}}, {own_.top, {}}}, loads);
+        for (const SetupPart& part : own_.parts)
+            if (part.wall) loads[part.body].x = left_on(part.body);
+        const ElasticSolution solved = solve_elastic(bonded_, prescribed_parts(own_, 0.0), loads, closed_points(own_));
         // Held in place by more force from outside is pressed by as much more from within.
-        const double gained = 0.5 * (solved.reaction[0].y - solved.reaction[1].y) / test_.setup.width;
-        const Moduli& moduli = test_.small_strain->moduli;
-        const double strain = (left.stress - gained) / moduli.youngs_modulus;
+        const double gained = -nominal_stress(own_, solved.reaction);
+        const ElasticSolution with_walls = own_.has_walls() ? stretched() : ElasticSolution{};
+        const ElasticSolution& stretch = own_.has_walls() ? with_walls : test_.small_strain->moduli.solution;
+        const double strain = (left.stress - gained) / nominal_stress(own_, stretch.reaction);
         std::vector<BodyMotion> way(world_.bodies.size());
         for (BodyIndex b = 0; b < way.size(); ++b) {
-            const BodyMotion &by_load = solved.displacement[number_[b]],
-                             &by_strain = moduli.solution.displacement[number_[b]];
+            const BodyMotion &by_load = solved.displacement[number_[b]], &by_strain = stretch.displacement[number_[b]];
             way[b] = {by_load.x - strain * by_strain.x, by_load.y - strain * by_strain.y,
                       by_load.rotation - strain * by_strain.rotation};
         }
-        way[test_.setup.bottom] = {};
-        way[test_.setup.top] = {0.0, -strain * test_.setup.height, 0.0};
         displace(world_, way);
     }
 
@@ -195,7 +264,10 @@ void confine(VirtualTest& test, const World& bonded, const TestSetup& own) {
             fmt::format("{}: expected an elastic solution, by which the specimen is brought under pressure: {}",
                         test.description.at("confinement.pressure"), test.no_small_strain));
     }
-    Confinement(test, bonded, own).run();
+    if (test.setup.has_walls())
+        Confinement(test, test.world, test.setup).run();
+    else
+        Confinement(test, bonded, own).run();
 }
 
 }  // namespace crackle

@@ -76,22 +76,17 @@ void solve_small_strain(VirtualTest& test, const World& world, const TestSetup& 
 // Rocks fail at some 1e-3 of strain, the softest soils at 0.1: numbers far from that are in another unit.
 constexpr double least_strength_over_modulus = 1e-6, least_modulus = 1e5;  // Pa
 
-/// Acoustic events are told apart by a shear wave's speed; without one a notice says why there are none.
+/// Acoustic events are told apart by a shear wave's speed; without one a notice says that there are none.
 void listen_for_emission(VirtualTest& test) {
     const TestCase::Output& output = test.description.output;
     if (!output.emission) return;
-    std::string why = "there is no small-strain modulus";
-    if (test.small_strain) {
-        try {
-            test.state.emission.rule =
-                emission_rule(test.world, test.setup, test.state.youngs_modulus, test.state.poissons_ratio,
-                              output.out_of_plane_thickness.value_or(1.0));
-            return;
-        } catch (const InputError& error) {
-            why = error.what();
-        }
+    try {
+        test.state.emission.rule =
+            emission_rule(test.world, test.setup, test.state.youngs_modulus, test.state.poissons_ratio,
+                          output.out_of_plane_thickness.value_or(1.0));
+    } catch (const InputError& error) {
+        test.setup.notices.push_back(std::string("no acoustic events: ") + error.what());
     }
-    test.setup.notices.push_back("no acoustic events: " + why);
 }
 
 /// Where numbers in Pa look as if they were meant in MPa or GPa.
@@ -186,7 +181,7 @@ VirtualTest bond_test(const TestCase& description, const TestHooks& hooks, const
         check_platen_hold(test.world, test.setup, bonded.platens, description);
         solve_small_strain(test, test.world, test.setup, visit);
         if (description.confined()) confine(test, test.world, test.setup);
-        if (test.setup.normal_force > 0.0) press(test);
+        if (test.setup.normal_force > 0.0 || test.setup.normal_spring > 0.0) press(test);
     } else {
         TestCase::Loading held = description.loading;
         held.platens = "bonded";

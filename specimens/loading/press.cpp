@@ -9,6 +9,7 @@
 
 #include "solver/base/errors.hpp"
 #include "solver/linear/elastic.hpp"
+#include "solver/stepping/controls.hpp"
 #include "solver/stepping/step.hpp"
 #include "specimens/elastic/held_parts.hpp"
 #include "specimens/loading/displace.hpp"
@@ -26,9 +27,20 @@ std::vector<BodyMotion> forces_left(const VirtualTest& test) {
     return left;
 }
 
-}  // namespace
+/// A spring stiffer than what holds the box would rule the time step, which knows nothing of it.
+void check_spring(const VirtualTest& test) {
+    double holding = 0.0;
+    for (const Spring& spring : springs_of(test.world, ClosedPoints::bonded))
+        if (spring.i == test.setup.top || spring.j == test.setup.top) holding += spring.stiffness;
+    if (test.setup.normal_spring <= holding) return;
+    throw InputError(fmt::format(
+        "{}: found {:g} {}/m, expected at most {:.3g}, the stiffness of the bonds of the upper box; lower it",
+        test.description.at("loading.normal_stiffness"), *test.description.loading.normal_stiffness,
+        test.description.stress_unit(), holding / test.setup.width));
+}
 
-void press(VirtualTest& test) {
+/// Moves the bodies until the specimen bears the normal force.
+void find_equilibrium(VirtualTest& test) {
     World& world = test.world;
     const TestSetup& setup = test.setup;
     if (!test.small_strain) {
@@ -61,9 +73,17 @@ void press(VirtualTest& test) {
     if (world.bonds.broken > 0)
         test.setup.notices.push_back(fmt::format("{} of {} bonds broke under the normal stress alone, before loading",
                                                  world.bonds.broken, world.bonds.initial));
-    restart_account(world);
-    compute_forces(world);
-    strains_begin_at(test.setup, world);
+}
+
+}  // namespace
+
+void press(VirtualTest& test) {
+    if (test.setup.normal_spring > 0.0) check_spring(test);
+    if (test.setup.normal_force > 0.0) find_equilibrium(test);
+    restart_account(test.world);
+    compute_forces(test.world);
+    strains_begin_at(test.setup, test.world);
+    relax_drives(test.world);
 }
 
 }  // namespace crackle

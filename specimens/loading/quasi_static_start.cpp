@@ -57,8 +57,9 @@ void settle_dashpots(World& world, const TestSetup& setup, const std::vector<boo
     // A force from outside balances contacts that are to stay as they are.
     for (const ControlState& control : world.bodies.controls)
         for (int d = 0; d < 3; ++d)
-            if (control.dof[d].drive == Drive::force) component(loads[control.body], d) += control.dof[d].value;
-    const ElasticSolution settled = solve_elastic(world, prescribed_parts(setup, 0.0), loads);
+            if (control.dof[d].drive == Drive::force)
+                component(loads[control.body], d) += control.force(d, world.bodies.state[control.body]);
+    const ElasticSolution settled = solve_elastic(world, prescribed_parts(setup, 0.0), loads, closed_points(setup));
     displace(world, settled.displacement);
 }
 
@@ -103,7 +104,9 @@ std::vector<bool> elastic_bodies(const VirtualTest& test) {
     const bool bonded = test.description.loading.platens != "frictional";
     std::vector<bool> elastic(test.world.bodies.size(), bonded);
     if (bonded)
-        for (const BodyIndex b : find_free_motions(test.world, bodies_of_parts(test.setup)).bodies) elastic[b] = false;
+        for (const BodyIndex b :
+             find_free_motions(test.world, bodies_of_parts(test.setup), closed_points(test.setup)).bodies)
+            elastic[b] = false;
     return elastic;
 }
 
@@ -119,8 +122,11 @@ std::vector<BodyMotion> start_moving(VirtualTest& test, double rate) {
         set_velocities(world, motion, rate);
     }
     change_velocity(world, setup.top, setup.axis, -setup.sense() * rate * setup.length);
-    if (!setup.uniaxial) strains_begin_at(test.setup, world);  // parts that are free have moved with the rest
-    restart_account(world);                                    // it begins with this motion
+    if (!setup.uniaxial) {  // parts that are free have moved with the rest
+        strains_begin_at(test.setup, world);
+        relax_drives(world);
+    }
+    restart_account(world);  // it begins with this motion
     velocities_changed(world);
     compute_forces(world);
     return motion;

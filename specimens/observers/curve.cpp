@@ -44,7 +44,7 @@ CurveRow observe_row(const World& world, const TestSetup& setup) {
     const PartForces forces = specimen_forces(world, setup);
     row.stress_top = sense * forces.driver / setup.section;
     row.stress_bottom = -sense * forces.supports / setup.section;
-    row.confinement_work = setup.confined() ? world.membrane.work : world.account.force_work;
+    row.confinement_work = world.account.force_work;
     row.axial_stress = 0.5 * (row.stress_top + row.stress_bottom);
     row.lateral_strain = setup.lateral_strain(world);
     row.gauge_strain = setup.gauge_strain(world);
@@ -134,7 +134,8 @@ const std::vector<CurveColumn>& curve_columns() {
           "each has its row in slips.csv, where that is asked for"},
          [](Row r) { return static_cast<double>(r.bonds_slid); },
          true},
-        {{"confinement_work", "J", "done by the membrane, or the normal force of direct shear, on the specimen so far",
+        {{"confinement_work", "J",
+          "done by the membrane, the walls, or the normal force of direct shear, on the specimen so far",
           "of such tests"},
          [](Row r) { return r.confinement_work; },
          false,

@@ -39,7 +39,7 @@ struct CurveRow {
     double energy_error = 0.0;   // J
     double gauge_strain = 0.0;
     std::int64_t bonds_slid = 0;
-    double confinement_work = 0.0;     ///< J, of membrane or normal force; a column of such tests
+    double confinement_work = 0.0;     ///< J, of membrane, walls or normal force; a column of such tests
     std::int64_t contacts_gained = 0;  ///< points touching without a bond; kept for the summary, not a column
 
     template <class Self, class Visit>

@@ -13,6 +13,7 @@ namespace crackle {
 struct Companion {
     std::string name;  ///< "half_time_step", "half_rate", "half_damping", "double_damping"
     double peak_stress = 0.0, peak_strain = 0.0;
+    double crack_initiation_stress = 0.0, crack_damage_stress = 0.0;  // N/m; NaN but of a compression
     std::string ended_by;  ///< as the test's own; "instability": it has no numbers worth comparing
     std::int64_t steps = 0;
     double time_step = 0.0, axial_strain_rate = 0.0;  ///< s, 1/s; means of its run
@@ -30,6 +31,7 @@ struct NumberError {
 struct NumericalErrors {
     std::vector<Companion> companions;
     NumberError peak_stress, peak_strain;
+    std::optional<NumberError> crack_initiation_stress, crack_damage_stress;  ///< of a compression
     std::optional<bool> peak_converged;  ///< no companion by step or rate is on another branch; none: no failure yet
 };
 

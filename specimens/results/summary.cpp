@@ -133,6 +133,16 @@ void apparatus(Writer& w, const TestSetup& setup, const TestState& state, const 
     }
     if (setup.kind != "direct_shear") return;
     w.stress("normal_stress", setup.normal_force / setup.width);
+    if (setup.normal_spring > 0.0) {
+        // Where the box has risen by this share of the height.
+        const auto grown = [&](double rise) {
+            return (setup.normal_force + setup.normal_spring * rise * setup.height) / setup.width;
+        };
+        const bool known = first.peak_row >= 0;
+        w.stress("normal_stress_at_peak" + so_far,
+                 known ? grown(first.rows[static_cast<std::size_t>(first.peak_row)].lateral_strain) : NAN);
+        w.stress("normal_stress_end", state.rows.empty() ? NAN : grown(state.rows.back().lateral_strain));
+    }
     const ShearBoxFigures shear =
         measure_shear_box(first.rows, first.peak_row, state.ended_by == ended_by_strain, setup.height, setup.length);
     w.stress("residual_stress", shear.residual);
@@ -155,13 +165,15 @@ void validity(Writer& w, const TestSetup& setup, const TestState& state, const F
     w.put("validity", all);
 }
 
-/// Of a confined test: what pressed it, and what its membrane has done.
+/// Of a confined test: what pressed it, and what a membrane has done.
 void confinement(Writer& w, const TestSetup& setup, const TestState& state, const World& world) {
     if (!setup.confined()) return;
     const FailureTracker& f = state.failure;
     const std::string so_far = f.failed ? "" : "_so_far";
     w.stress("confining_pressure", setup.confining_pressure);
     w.stress("deviator_stress" + so_far, f.peak_row < 0 ? NAN : f.peak_stress - setup.confining_pressure);
+    w.put("confining_side", setup.has_walls() ? "walls" : "membrane");
+    if (setup.has_walls()) return;
     const Membrane& membrane = world.membrane;
     w.put("membrane", {{"points", membrane.points.size()},
                        {"wrapped", membrane.wrapped},
@@ -306,6 +318,7 @@ void acoustic_emission(Writer& w, const TestState& state) {
                        {"radius", rule.diameter},
                        {"window", rule.window(rule.diameter)},
                        {"shear_wave_speed", rule.shear_wave_speed},
+                       {"speed_from", rule.mean_field ? "mean field" : "moduli"},
                        {"density", rule.density},
                        {"damping_ratio", finite_or_null(rule.damping_ratio)}});
     const BValue value = fit_b_value(magnitudes, Completeness::maximum_curvature),
@@ -414,7 +427,7 @@ Json error_of(const NumberError* measured, double closing) {
             {"resolution", value(&NumberError::resolution)}, {"stated", value(&NumberError::stated)}};
 }
 
-void numerical_errors(Writer& w, const TestState& state, const NumericalErrors* errors) {
+void numerical_errors(Writer& w, const TestSetup& setup, const TestState& state, const NumericalErrors* errors) {
     const CurveRow last = state.rows.empty() ? CurveRow{} : state.rows.back();
     const double closing = std::abs(last.energy_error / last.platen_work);
     // A solve, not a run: neither step nor rate enters.
@@ -423,6 +436,14 @@ void numerical_errors(Writer& w, const TestState& state, const NumericalErrors* 
              {"peak_stress", error_of(errors != nullptr ? &errors->peak_stress : nullptr, closing)},
              {"peak_strain", error_of(errors != nullptr ? &errors->peak_strain : nullptr, closing)}};
     all["youngs_modulus"]["stated"] = finite_or_null(state.modulus_residual);
+    const bool cracking = setup.compression && setup.uniaxial;
+    const auto of = [&](const std::optional<NumberError> NumericalErrors::*which) {
+        return error_of(errors != nullptr && errors->*which ? &*(errors->*which) : nullptr, closing);
+    };
+    if (cracking) {
+        all["crack_initiation_stress"] = of(&NumericalErrors::crack_initiation_stress);
+        all["crack_damage_stress"] = of(&NumericalErrors::crack_damage_stress);
+    }
     if (errors != nullptr) {
         for (const Companion& c : errors->companions) {
             all["companions"][c.name] = {{"peak_stress", finite_or_null(c.peak_stress)},
@@ -433,6 +454,9 @@ void numerical_errors(Writer& w, const TestState& state, const NumericalErrors* 
                                          {"axial_strain_rate", finite_or_null(c.axial_strain_rate)},
                                          {"damping", finite_or_null(c.damping)},
                                          {"post_peak_difference", finite_or_null(c.post_peak_difference)}};
+            if (!cracking) continue;
+            all["companions"][c.name]["crack_initiation_stress"] = finite_or_null(c.crack_initiation_stress);
+            all["companions"][c.name]["crack_damage_stress"] = finite_or_null(c.crack_damage_stress);
         }
     }
     w.put("numerical_errors", all);
@@ -563,7 +587,7 @@ nlohmann::ordered_json make_summary(const TestCase& test, const TestSetup& setup
     energies(w, state);
     counts(w, setup, world);
     numerics(w, test, setup, state, world);
-    numerical_errors(w, state, errors);
+    numerical_errors(w, setup, state, errors);
     packing(w, setup);
     minerals(w, setup);
     frames(w, state);

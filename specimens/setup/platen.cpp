@@ -15,16 +15,16 @@ struct Extent {
     double high = -std::numeric_limits<double>::infinity();
 };
 
-/// Lowest and highest surface points of the particles (bare corners for polygons).
-Extent vertical_extent(const Scene& scene) {
+/// Outermost surface points of the particles along x or y (bare corners for polygons).
+Extent extent_along(const Scene& scene, double Vec2::*axis) {
     Extent extent;
     for (const CircleElement& circle : scene.circles) {
-        extent.low = std::min(extent.low, circle.centre.y - circle.radius);
-        extent.high = std::max(extent.high, circle.centre.y + circle.radius);
+        extent.low = std::min(extent.low, circle.centre.*axis - circle.radius);
+        extent.high = std::max(extent.high, circle.centre.*axis + circle.radius);
     }
     for (const Vec2 corner : scene.vertices) {
-        extent.low = std::min(extent.low, corner.y);
-        extent.high = std::max(extent.high, corner.y);
+        extent.low = std::min(extent.low, corner.*axis);
+        extent.high = std::max(extent.high, corner.*axis);
     }
     return extent;
 }
@@ -37,13 +37,17 @@ double bonded_offset(const Specimen& specimen, double depth, double thick) {
     return flat ? 0.5 * specimen.mesh_gap : specimen.mesh_gap - depth;
 }
 
-int platen_material(Scene& scene, const Specimen& specimen, const TestCase::Loading& loading) {
-    const int of_specimen = specimen.platen_material;
-    if (loading.platens != "frictional") return of_specimen;
-    Material material = scene.materials[static_cast<std::size_t>(of_specimen)];
-    material.friction_angle = material.residual_friction_angle = *loading.platen_friction_angle;
+/// The platens' material with another friction angle, degrees.
+int material_with_friction(Scene& scene, const Specimen& specimen, double angle) {
+    Material material = scene.materials[static_cast<std::size_t>(specimen.platen_material)];
+    material.friction_angle = material.residual_friction_angle = angle;
     scene.materials.push_back(material);
     return static_cast<int>(scene.materials.size()) - 1;
+}
+
+int platen_material(Scene& scene, const Specimen& specimen, const TestCase::Loading& loading) {
+    if (loading.platens != "frictional") return specimen.platen_material;
+    return material_with_friction(scene, specimen, *loading.platen_friction_angle);
 }
 
 void hold(Scene& scene, std::uint32_t body, double velocity) {
@@ -102,9 +106,33 @@ void add_parts(Scene& scene, const Specimen& specimen, const TestCase& test, dou
 
 }  // namespace
 
+/// Blocks beside the specimen, from beyond the lower platen to beyond the upper one, that the pressure drives.
+/// @param sides of the particles alone
+void add_walls(Scene& scene, const Specimen& specimen, const TestCase& test, double thick, const Platens& platens,
+               const Extent& sides) {
+    const int material = material_with_friction(scene, specimen, 0.0);
+    const double force = *test.confinement.pressure * specimen.height;
+    const double depth = platen_depth_ratio * specimen.width, beyond = platen_depth_ratio * specimen.height;
+    const double low = platens.bottom_y - beyond, high = platens.top_y + beyond;
+    const auto add = [&](int id, double face, double outwards) {
+        const double x = face + outwards * platens.walls_parked, back = x + outwards * depth;
+        // Counter-clockwise, the face first.
+        std::vector<Vec2> corners = outwards < 0.0 ? std::vector<Vec2>{{x, low}, {x, high}, {back, high}, {back, low}}
+                                                   : std::vector<Vec2>{{x, high}, {x, low}, {back, low}, {back, high}};
+        Control control;
+        control.body = static_cast<int>(scene.add_chain_body(id, material, corners, true));
+        control.x = {Drive::force, -outwards * force};
+        control.y = control.rotation = {Drive::velocity, 0.0};
+        scene.controls.push_back(control);
+    };
+    add(platens.bottom_id + 1, sides.low - thick, -1.0);
+    add(platens.bottom_id + 2, sides.high + thick, 1.0);
+    scene.driven_bodies_touch = false;
+}
+
 Platens add_platens(Scene& scene, const Specimen& specimen, const TestCase& test, double thick) {
     const TestCase::Loading& loading = test.loading;
-    const Extent extent = vertical_extent(scene);
+    const Extent extent = extent_along(scene, &Vec2::y), sides = extent_along(scene, &Vec2::x);
     const Domain& domain = scene.domain;
     Platens platens;
     platens.bonded = loading.platens != "frictional";
@@ -126,8 +154,9 @@ Platens add_platens(Scene& scene, const Specimen& specimen, const TestCase& test
     platens.velocity = loading.kind == "tension" ? speed : -speed;
     spread_velocity(scene, platens);
 
+    platens.walls = test.confined() && test.confinement.by_walls();
     platens.bottom_id = next_id(scene);
-    platens.top_id = platens.bottom_id + 1;
+    platens.top_id = platens.bottom_id + (platens.walls ? 3 : 1);
     const int material = platen_material(scene, specimen, loading);
     const double middle = 0.5 * (domain.x1 + domain.x2);
     const double half = 0.5 * platen_width_ratio * specimen.width;
@@ -144,13 +173,21 @@ Platens add_platens(Scene& scene, const Specimen& specimen, const TestCase& test
         platens.top_id, material, {{left, top_y}, {right, top_y}, {right, top_y + depth}, {left, top_y + depth}}, true);
     hold(scene, bottom, 0.0);
     hold(scene, top, platens.velocity);
+    if (platens.walls) {
+        platens.walls_parked = platen_parking_distance * specimen.width;
+        add_walls(scene, specimen, test, thick, platens, sides);
+    }
     return platens;
 }
 
 void place_platens(World& world, const Platens& platens) {
-    if (platens.bonded) return;
+    if (platens.bonded && !platens.walls) return;
     world.bodies.state[body_of_id(world, platens.bottom_id)].y += platens.parked;
     world.bodies.state[body_of_id(world, platens.top_id)].y -= platens.parked;
+    if (platens.walls) {
+        world.bodies.state[body_of_id(world, platens.bottom_id + 1)].x += platens.walls_parked;
+        world.bodies.state[body_of_id(world, platens.bottom_id + 2)].x -= platens.walls_parked;
+    }
     bodies_moved(world);
 }
 

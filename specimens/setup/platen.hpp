@@ -10,12 +10,11 @@
 //   - frictional platens: just touching the outermost particle. Nothing bonds them, the test starts without force.
 // A block and not one segment: behind a single segment a corner pressed in by more than t would be through, and pushed
 // on. Before that, both carry the same force.
-// Walls that press the sides of a confined specimen (confinement.side = "walls") are smooth blocks that reach beyond both
-// platens, which they pass through; each moves along x by the force of the pressure on the initial height. They too just
-// touch the outermost particle, and wait as far outside.
-// The lower platen is fixed, the upper one moves at constant velocity; both are held laterally and in rotation.
-// Other kinds of test have the parts that specimens/kinds describes: supports first, the one that drives last.
-// Tested by tests/specimens/loading/virtual_test_test.cpp.
+// Walls that press the sides of a confined specimen (confinement.side = "walls") are smooth blocks that reach beyond
+// both platens, which they pass through; each moves along x by the force of the pressure on the initial height. They
+// too just touch the outermost particle, and wait as far outside. The lower platen is fixed, the upper one moves at
+// constant velocity; both are held laterally and in rotation. Other kinds of test have the parts that specimens/kinds
+// describes: supports first, the one that drives last. Tested by tests/specimens/loading/virtual_test_test.cpp.
 #pragma once
 
 #include "solver/scene/scene.hpp"
@@ -30,6 +29,7 @@ struct Platens {
     double bottom_y = 0.0, top_y = 0.0;  ///< m, faces at the start of loading
     double velocity = 0.0;               ///< m/s of the upper one, upwards
     double parked = 0.0;                 ///< m, how far outside its face each waits while the specimen is bonded
+    double walls_parked = 0.0;           ///< m, likewise the walls
     bool bonded = true;
     bool walls = false;  ///< that press the sides, numbered between the two: the left one, then the right one
 };
@@ -53,7 +53,7 @@ inline constexpr double cut_circles_offset = 0.25;
 /// @param thick segment thickness at bonding, m
 Platens add_platens(Scene& scene, const Specimen& specimen, const TestCase& test, double thick);
 
-/// Brings frictional platens from where they waited to where loading starts; bonded ones are there already.
+/// Brings frictional platens, and walls, from where they waited to where loading starts; bonded ones are there already.
 void place_platens(World& world, const Platens& platens);
 
 }  // namespace crackle

@@ -48,8 +48,9 @@ double face_width(const World& world, const SetupPart& part) {
 bool connected(const TestSetup& setup, std::size_t bodies) {
     boost::disjoint_sets_with_storage<> pieces(bodies);
     for (const BodyPair& bond : setup.bonds.pairs) pieces.union_set(bond.body_i, bond.body_j);
-    return std::ranges::all_of(
-        setup.parts, [&](const SetupPart& part) { return pieces.find_set(part.body) == pieces.find_set(setup.top); });
+    return std::ranges::all_of(setup.parts, [&](const SetupPart& part) {
+        return part.wall || pieces.find_set(part.body) == pieces.find_set(setup.top);
+    });
 }
 
 void check_part_hold(const World& world, const TestSetup& setup, const TestCase& test) {

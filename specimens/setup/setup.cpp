@@ -180,6 +180,7 @@ TestSetup record_setup(const World& world, const Specimen& specimen, const Plate
     setup.length = platens.apparatus.length;
     setup.stress_intensity = platens.apparatus.stress_intensity;
     setup.normal_force = platens.apparatus.normal_force;
+    setup.normal_spring = platens.apparatus.normal_spring;
     setup.area = specimen.area;
     setup.middle = 0.5 * (world.settings.domain.x1 + world.settings.domain.x2);
     setup.middle_height = 0.5 * (world.settings.domain.y1 + world.settings.domain.y2);

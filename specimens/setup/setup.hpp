@@ -55,6 +55,7 @@ struct TestSetup {
     double area = 0.0;                         // m2, of what is tested
     double middle = 0.0, middle_height = 0.0;  // m, of the packing's box, in which the specimen lies symmetrically
     double normal_force = 0.0;                 // N, on the driving part across its way
+    double normal_spring = 0.0;                // N/m, by which it grows as that part rises
     double bond_thick = 0.0;                   // m
     double mesh_gap = 0.0;                     // m
     int bottom_id = 0, top_id = 0;             // as in outputs
@@ -135,6 +136,7 @@ struct TestSetup {
         visit("middle", s.middle);
         visit("middle_height", s.middle_height);
         visit("normal_force", s.normal_force);
+        visit("normal_spring", s.normal_spring);
         visit("bond_thick", s.bond_thick);
         visit("mesh_gap", s.mesh_gap);
         visit("bottom_id", s.bottom_id);

@@ -59,7 +59,7 @@ def recount_kind(r):
         section = length = width
         normal = key("loading", "normal_stress")
         r.key("normal_stress", normal)
-        recount_box(r, height, length, normal * width)
+        recount_box(r, height, length, normal * width, key("loading", "normal_stiffness", 0.0) * width)
     r.key("stress_section", section)
     r.key("strain_length", length)
     if r.peak is not None:
@@ -68,14 +68,18 @@ def recount_kind(r):
             r.key("fracture_toughness" + suffix, peak * intensity)
 
 
-def recount_box(r, height, length, force):
-    """@param force N, that presses the upper half box down"""
+def recount_box(r, height, length, force, spring):
+    """@param force N, that presses the upper half box down  @param spring N/m, by which it grows with the rise"""
     c = r.curve
     rise, way = c["lateral_strain"] * height, c["axial_strain"] * length
     r.key("dilation_end", rise[-1])
-    # What the normal force does is minus it times the rise, to the rounding of a sum of steps.
-    r.rows("curve: confinement_work", c["confinement_work"], -force * rise,
-           1e-9 * force * np.max(np.abs(rise)) + 1e-12 * np.abs(c["platen_work"]) + 1e-15)
+    if spring > 0.0:
+        r.key("normal_stress_end", (force + spring * rise[-1]) / length)
+        if r.peak is not None:
+            r.key("normal_stress_at_peak" + ("" if r.summary["failed"] else "_so_far"), (force + spring * rise[r.peak]) / length)
+    # What the normal force does is minus its mean times the rise, to the rounding of a sum of steps.
+    r.rows("curve: confinement_work", c["confinement_work"], -(force + 0.5 * spring * rise) * rise,
+           1e-9 * (force + spring * np.max(np.abs(rise))) * np.max(np.abs(rise)) + 1e-12 * np.abs(c["platen_work"]) + 1e-15)
     if r.summary["ended_by"] == "max_axial_strain":
         r.key("residual_stress", c["axial_stress"][c["axial_strain"] >= 0.9 * c["axial_strain"][-1]].mean())
     if r.peak is None:

@@ -282,7 +282,9 @@ def recount(folder):
         if r.peak is not None:
             suffix = "" if r.summary["failed"] else "_so_far"
             r.key("deviator_stress" + suffix, r.curve["axial_stress"][r.peak] - r.results.key("confinement", "pressure"))
-        r.key("membrane.work", r.curve["confinement_work"][-1], 0.0)
+        r.key("confining_side", r.results.key("confinement", "side", "membrane"))
+        if r.summary["confining_side"] == "membrane":
+            r.key("membrane.work", r.curve["confinement_work"][-1], 0.0)
     recount_packing(r)
     recount_cells(r)
     if r.results.key("numerics", "contact_law", "rounded") == "rounded" or r.results.polygons is None:

@@ -254,7 +254,8 @@ class Recount(unittest.TestCase):
                 stated = of.summary["numerical_errors"]["companions"][name]
                 for figure, from_summary in (("peak_stress", "peak_stress"), ("peak_strain", "peak_strain"), ("steps", "steps"),
                                              ("time_step", "time_step_mean"), ("axial_strain_rate", "axial_strain_rate"),
-                                             ("ended_by", "ended_by")):
+                                             ("ended_by", "ended_by"), ("crack_initiation_stress", "crack_initiation_stress"),
+                                             ("crack_damage_stress", "crack_damage_stress")):
                     expected = other.summary[from_summary]
                     with self.subTest(kind=kind, companion=name, figure=figure):
                         if figure == "axial_strain_rate":  # off its rows, and as given

@@ -141,7 +141,8 @@ OTHERS = {
     "half_disc": (0.015, '[loading]\nkind = "scb"\nmax_axial_strain = 0.002\n'),
     "half_disc_unfailed": (0.015, '[loading]\nkind = "scb"\nmax_axial_strain = 1e-5\n'),
     "beam_unfailed": (0.007, '[loading]\nkind = "bending"\nspan = 0.02\nmax_axial_strain = 1e-5\n'),
-    "sheared": (0.015, '[loading]\nkind = "direct_shear"\nnormal_stress = 1e6\nmax_axial_strain = 0.003\n'),
+    "sheared": (0.015, '[loading]\nkind = "direct_shear"\nnormal_stress = 1e6\nnormal_stiffness = 1e11\nmax_axial_strain = 0.003\n'),
+    "sheared_unfailed": (0.015, '[loading]\nkind = "direct_shear"\nnormal_stress = 1e6\nnormal_stiffness = 1e11\nmax_axial_strain = 1e-5\n'),
     "unloaded": (0.015, '[loading]\nkind = "compression"\nunload_at_strain = [0.001]\nmax_axial_strain = 0.002\n'),
     "heard": (0.06, '[loading]\nkind = "tension"\nmax_axial_strain = 0.001\n[output]\nemission = true\n'),
 }

@@ -15,6 +15,7 @@
 namespace crackle {
 namespace {
 
+using testing::agrees;
 using testing::within;
 
 Scene one_disc(double radius, double damping_ratio, double friction_angle) {
@@ -83,6 +84,70 @@ TEST(Controls, TheGuidesForceControlledSegmentMovesAsPrinted) {
                            -3.0 + a * 4e-10 * n * (n + 1) / 2.0, 1e-14));
     }
     EXPECT_EQ(fmt::format("{:.6g}", world.bodies.state[0].x), "-2.99933");
+}
+
+/// A block of 1 kg, driven along x.
+Scene driven_block(const DofControl& along, Vec2 place = {}) {
+    Scene scene;
+    Material material;
+    material.density = 1.0;
+    material.normal_stiffness = 1e4;
+    material.shear_stiffness = 1e4;
+    scene.materials = {material};
+    scene.domain.x1 = scene.domain.y1 = -10.0;
+    scene.domain.x2 = scene.domain.y2 = 10.0;
+    scene.domain.wall_present = {false, false, false, false};
+    scene.time_step = 1e-3;
+    const DofControl held{Drive::velocity, 0.0};
+    const auto body = scene.add_chain_body(
+        1, 0, {place + Vec2{1.0, 0.0}, place + Vec2{1.0, 1.0}, place + Vec2{0.0, 1.0}, place}, true);
+    scene.controls.push_back({static_cast<int>(body), along, held, held, 0});
+    return scene;
+}
+
+TEST(Controls, AForceWithASpringSwingsAboutWhereTheyBalanceAndClosesTheEnergy) {
+    constexpr double force = 3.0, stiffness = 40.0;
+    World world = build_world(driven_block({Drive::force, force, stiffness}));
+    const double start = world.bodies.state[0].x, period = 2.0 * std::numbers::pi / std::sqrt(stiffness);
+    double farthest = 0.0, worst = 0.0;
+    while (world.stepping.time < 3.0 * period) {
+        compute_forces(world);
+        worst = std::max(worst, std::abs(measure_ledger(world).closing_error));
+        farthest = std::max(farthest, world.bodies.state[0].x - start);
+        advance(world);
+    }
+    const double wave = period / world.stepping.time_step;  // steps
+    EXPECT_TRUE(agrees("farthest way, m", farthest, 2.0 * force / stiffness, 20.0 / (wave * wave)));
+    // After whole periods it is back; leapfrog's are shorter by (ω Δt)²/24 of them.
+    compute_forces(world);
+    EXPECT_TRUE(within("way after three periods, m", world.bodies.state[0].x - start, 0.0, 1e-3 * farthest));
+    EXPECT_TRUE(
+        within("closing error over the energy", worst / (force * force / stiffness), 0.0, 40.0 / (wave * wave)));
+}
+
+TEST(Controls, ASpringOfADriveCountsFromWhereItIsRelaxed) {
+    World world = build_world(driven_block({Drive::force, 0.0, 40.0}));
+    world.bodies.state[0].x += 0.5;
+    bodies_moved(world);
+    relax_drives(world);
+    for (int n = 0; n < 10; ++n) step(world);
+    EXPECT_TRUE(within("way of a block at rest, m", world.bodies.state[0].vx, 0.0, 0.0));
+}
+
+TEST(Controls, DrivenBodiesPassThroughEachOtherWhereTheyAreToldTo) {
+    for (const bool touch : {true, false}) {
+        Scene scene = driven_block({Drive::force, 0.0});
+        const Scene other = driven_block({Drive::velocity, -1.0}, {1.5, 0.3});
+        scene.add_chain_body(2, 0, other.vertices, true);
+        scene.controls.push_back(other.controls.front());
+        scene.controls.back().body = 1;
+        scene.driven_bodies_touch = touch;
+        World world = build_world(scene);
+        while (world.stepping.time < 1.0) step(world);
+        compute_forces(world);
+        const double speed = world.bodies.state[0].vx;
+        EXPECT_EQ(speed == 0.0, !touch) << "the block that nothing drives goes with " << speed << " m/s";
+    }
 }
 
 /// Largest closing error over the energy of the fall: the guide's circle falls by its radius and a half onto a floor

@@ -69,8 +69,12 @@ void print_figures(const TestOutcome& outcome) {
     if (s.contains("peak_converged") && s["peak_converged"].is_boolean()) {
         const auto& e = s["numerical_errors"];
         std::cout << fmt::format(
-            "  stated errors: strength {}, its strain {} of their values; {}\n", shown(e["peak_stress"], "stated"),
+            "  stated errors: strength {}, its strain {}{} of their values; {}\n", shown(e["peak_stress"], "stated"),
             shown(e["peak_strain"], "stated"),
+            e.contains("crack_initiation_stress")
+                ? fmt::format(", crack initiation {}, damage {}", shown(e["crack_initiation_stress"], "stated"),
+                              shown(e["crack_damage_stress"], "stated"))
+                : "",
             s["peak_converged"].get<bool>() ? "the peak is converged" : "the peak jumps between branches");
     }
     std::cout << fmt::format("  {} steps in {} s: {} particle-steps/s\n", shown(s, "steps"), shown(s, "step_seconds"),

@@ -3,6 +3,7 @@
 
 #include "specimens/emission/listener.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -61,7 +62,7 @@ TestSetup ends_of(const World& world) {
     return setup;
 }
 
-EmissionRule slow_rule() { return {2.0 * radius, 1.0, 1.0, 0.0, 1.0}; }
+EmissionRule slow_rule() { return {.diameter = 2.0 * radius, .shear_wave_speed = 1.0, .density = 1.0}; }
 
 /// Pulls until the event of the one break has ended.
 AcousticEvent pulled_apart(double angle, double damping_ratio) {
@@ -114,7 +115,7 @@ TEST(EmissionOfAChain, SwingsToTwiceTheMomentWithoutDamping) {
 class Clustering : public ::testing::Test {
   protected:
     Clustering() : world_(chain(0.0, 0.1)), setup_(ends_of(world_)), listener_(world_, setup_, emission_) {
-        emission_.rule = {1.0, 4.0, 1.0, 0.0, 1.0};  // a window of half the radius
+        emission_.rule = {.diameter = 1.0, .shear_wave_speed = 4.0, .density = 1.0};  // a window of half the radius
         compute_forces(world_);
     }
     std::size_t hear(double time, std::initializer_list<Vec2> places) {
@@ -199,10 +200,42 @@ TEST(EmissionRule, TakesTheSpeedFromModuliAndMassesInEitherUnits) {
     EXPECT_EQ(rule.thickness, 1.0);
 }
 
+TEST(EmissionRule, GoesByAMeanFieldWhereModuliAreNotKnown) {
+    // A bond of length l along the axes shears by l/2 under a shear strain of 1, one across them stretches by as much.
+    const World level = chain(0.0, 0.1), slanted = chain(0.25 * std::numbers::pi, 0.1);
+    TestSetup setup = ends_of(level);
+    setup.area = 0.01;
+    setup.width = setup.height = 0.1;
+    const double length = 2.0 * radius - overlap, ratio = level.settings.laws[0].shear_stiffness / stiffness;
+    double sum = 0.0;
+    for (const double l : {length, 2.0 * radius - weak_overlap, length}) sum += 0.25 * stiffness * l * l;
+    EXPECT_TRUE(
+        agrees("G of a level chain, N/m", mean_field_shear_modulus(level, setup), ratio * sum / setup.area, 1e-9));
+    EXPECT_TRUE(agrees("of a slanted one", mean_field_shear_modulus(slanted, setup), sum / setup.area, 1e-9));
+    const EmissionRule rule = emission_rule(level, setup, std::nan(""), std::nan(""), 1.0);
+    EXPECT_TRUE(rule.mean_field);
+    EXPECT_TRUE(agrees("speed, m/s", rule.shear_wave_speed, std::sqrt(ratio * sum / setup.area / rule.density), 1e-9));
+}
+
+TEST(EmissionRule, OfAMeanFieldIsNoSlowerThanThatOfTheModuli) {
+    for (const char* mesh : {"", "voronoi"}) {
+        const testing::ScratchFolder scratch;
+        testing::SmallCase wanted;
+        wanted.mesh = mesh;
+        const VirtualTest test = prepare_test(read_case(testing::write_small_case(scratch / "", wanted)));
+        const double known = test.state.youngs_modulus / 2.0 / (1.0 + test.state.poissons_ratio);
+        const double over = mean_field_shear_modulus(test.world, test.setup) / known;
+        fmt::print("  {}: {:.3f} times the shear modulus of the solution\n", *mesh == '\0' ? "circles" : mesh, over);
+        EXPECT_GT(over, 0.85) << "its bonds at the platens left out, which are some of the solution's";
+        EXPECT_LT(over, 1.5);
+    }
+}
+
 TEST(EmissionRule, IsRefusedWithoutAShearModulus) {
     const World world = chain(0.0, 0.1);
-    EXPECT_THROW(emission_rule(world, ends_of(world), 1e9, std::nan(""), 1.0), InputError);
-    EXPECT_THROW(emission_rule(world, ends_of(world), std::nan(""), 0.2, 1.0), InputError);
+    TestSetup setup = ends_of(world);
+    setup.area = 0.01;
+    EXPECT_THROW(emission_rule(world, setup, -1e9, 0.2, 1.0), InputError);
 }
 
 TEST(EmissionOfATest, HoldsEveryBreakOnce) {

@@ -12,6 +12,7 @@
 #include "solver/measure/ledger.hpp"
 #include "solver/membrane/wrap.hpp"
 #include "solver/stepping/step.hpp"
+#include "specimens/elastic/held_parts.hpp"
 #include "specimens/loading/load_specimen.hpp"
 #include "specimens/loading/prepare.hpp"
 #include "tests/support/claim.hpp"
@@ -26,14 +27,16 @@ using testing::within;
 
 class Confined : public ::testing::Test {
   protected:
-    TestCase described(const std::string& mesh, double pressure, const std::string& loading = {}) const {
+    TestCase described(const std::string& mesh, double pressure, const std::string& loading = {},
+                       const std::string& side = "membrane") const {
         testing::SmallCase wanted;
         wanted.kind = "biaxial";
         wanted.mesh = mesh;
         wanted.rate = 0.05;
         wanted.max_strain = 0.01;
         wanted.loading = loading;
-        wanted.output = "curve_rows = 2000\nframes = 5\n[confinement]\npressure = " + std::to_string(pressure);
+        wanted.output =
+            fmt::format("curve_rows = 2000\nframes = 5\n[confinement]\npressure = {}\nside = \"{}\"", pressure, side);
         return read_case(testing::write_small_case(scratch_ / "", wanted));
     }
     testing::ScratchFolder scratch_;
@@ -60,6 +63,74 @@ TEST_F(Confined, SpecimenIsInEquilibriumBeforeLoadingBegins) {
             EXPECT_EQ(world.bonds.broken, 0);
             EXPECT_EQ(test.setup.confining_pressure, pressure);
         }
+    }
+}
+
+/// N, of the specimen on a wall, inwards positive where it presses it out.
+double force_on_wall(const VirtualTest& test, std::size_t wall) {
+    const double force = test.world.bodies.force[test.setup.parts[wall].body].fx;
+    return wall == 1 ? -force : force;
+}
+
+TEST_F(Confined, WallsAreInEquilibriumWithTheSpecimenBeforeLoadingBegins) {
+    for (const char* mesh : {"", "delaunay", "voronoi"}) {
+        for (const char* loading : {"", "platens = \"frictional\"\nplaten_friction_angle = 10"}) {
+            VirtualTest test = prepare_test(described(mesh, pressure, loading, "walls"));
+            World& world = test.world;
+            ASSERT_EQ(test.setup.parts.size(), 4U);
+            for (BodyState& body : world.bodies.state) body.vx = body.vy = body.omega = 0.0;
+            velocities_changed(world);
+            compute_forces(world);
+            const std::string what =
+                std::string(*mesh == '\0' ? "circles" : mesh) + (*loading == '\0' ? "" : ", friction");
+            const CurveRow row = observe_row(world, test.setup);
+            EXPECT_TRUE(
+                within(what + ": stress of the platens over the pressure", row.axial_stress / pressure, 1.0, 1e-4));
+            for (const std::size_t wall : {1U, 2U}) {
+                EXPECT_TRUE(agrees(fmt::format("{}: force on wall {}", what, wall), force_on_wall(test, wall),
+                                   pressure * test.setup.height, 1e-4));
+                EXPECT_EQ(world.bodies.force[test.setup.parts[wall].body].fy, 0.0) << "walls are smooth";
+            }
+            EXPECT_EQ(row.axial_strain, 0.0);
+            EXPECT_EQ(world.bonds.broken, 0);
+            EXPECT_EQ(test.setup.confining_pressure, pressure);
+        }
+    }
+}
+
+TEST_F(Confined, WallsDoTheWorkOfTheirForceAndTheEnergyCloses) {
+    for (const char* mesh : {"", "voronoi"}) {
+        VirtualTest test = prepare_test(described(mesh, pressure, {}, "walls"));
+        const auto apart = [&] {
+            const auto x = [&](std::size_t wall) { return test.world.bodies.state[test.setup.parts[wall].body].x; };
+            return x(2) - x(1);
+        };
+        const double before = apart();
+        load_specimen(test);
+        const CurveRow& last = test.state.rows.back();
+        EXPECT_GT(test.state.failure.peak_stress, 2.0 * pressure);
+        EXPECT_GT(apart(), before);
+        const double force = pressure * test.setup.height;
+        EXPECT_TRUE(agrees("work of the walls, J", last.confinement_work, -force * (apart() - before), 1e-9));
+        const double work = std::abs(last.platen_work) + std::abs(last.confinement_work);
+        EXPECT_TRUE(within("closing error over the works", last.energy_error / work, 0.0, 2e-3));
+    }
+}
+
+TEST_F(Confined, SpecimenBetweenWallsHasTheModulusOfItsSolutionAndIsNoSofterThanInAMembrane) {
+    for (const char* mesh : {"", "voronoi"}) {
+        TestCase description = described(mesh, pressure, {}, "walls");
+        description.loading.max_axial_strain = 1e-4;  // by less of it the start's small waves are seen
+        *description.loading.axial_strain_rate = 5e-4;
+        VirtualTest test = prepare_test(description);
+        const double solved = nominal_stress(test.setup, test.small_strain->moduli.solution.reaction);
+        load_specimen(test);
+        const CurveRow &first = test.state.rows.front(), &last = test.state.rows.back();
+        ASSERT_EQ(last.bonds_broken, 0);
+        const double modulus = (last.axial_stress - first.axial_stress) / last.axial_strain;
+        EXPECT_TRUE(agrees("slope, N/m", modulus, solved, 2e-3));
+        EXPECT_GE(solved, test.state.youngs_modulus);
+        EXPECT_LT(solved, 1.1 * test.state.youngs_modulus) << "free to widen, walls hinder nothing but unevenness";
     }
 }
 
@@ -119,9 +190,10 @@ TEST_F(Confined, PressureBeyondTheRockIsRefusedWhateverThePlatens) {
 }
 
 TEST_F(Confined, PressureBelongsToBiaxialTestsAlone) {
-    const auto refusal = [&](const std::string& kind, const std::string& table) {
+    const auto refusal = [&](const std::string& kind, const std::string& table, const std::string& numerics = {}) {
         testing::SmallCase wanted;
         wanted.kind = kind;
+        wanted.numerics = numerics;
         wanted.output = "curve_rows = 2000\nframes = 5\n" + table;
         try {
             read_case(testing::write_small_case(scratch_ / "", wanted));
@@ -135,6 +207,13 @@ TEST_F(Confined, PressureBelongsToBiaxialTestsAlone) {
     EXPECT_NE(refusal("compression", "[confinement]\npressure = 1e3").find("only loading.kind = \"biaxial\""),
               std::string::npos);
     EXPECT_NE(refusal("biaxial", "").find("confinement.pressure"), std::string::npos);
+    EXPECT_NE(refusal("compression", "[confinement]\nside = \"walls\"").find("only loading.kind = \"biaxial\""),
+              std::string::npos);
+    EXPECT_NE(refusal("biaxial", "[confinement]\npressure = 1e3\nside = \"wall\"").find("found \"wall\""),
+              std::string::npos);
+    EXPECT_NE(
+        refusal("biaxial", "[confinement]\npressure = 1e3\nside = \"walls\"", "intact = true").find("numerics.intact"),
+        std::string::npos);
     EXPECT_NE(refusal("biaxial", "[confinement]\npressure = -1e3").find("found -1000"), std::string::npos);
 }
 

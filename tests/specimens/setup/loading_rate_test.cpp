@@ -11,8 +11,10 @@
 #include "specimens/loading/load_specimen.hpp"
 #include "specimens/loading/prepare.hpp"
 #include "specimens/loading/virtual_test.hpp"
+#include "specimens/measures/crack_thresholds.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/deck_files.hpp"
+#include "tests/support/small_circles_rock.hpp"
 #include "tests/support/small_rock.hpp"
 
 namespace crackle {
@@ -255,12 +257,35 @@ TEST_F(ByTolerance, StatedErrorCoversAFiveTimesSlowerRun) {
     ASSERT_TRUE(errors);
     EXPECT_EQ(errors->companions.size(), 4U);
     EXPECT_EQ(errors->peak_converged, true);
+    EXPECT_FALSE(errors->crack_initiation_stress) << "of a tension";
     description.loading.axial_strain_rate = 0.004;
     const VirtualTest slow = tested(description);
     const double actual = std::abs(slow.state.failure.peak_stress / test.state.failure.peak_stress - 1.0);
     fmt::print("  stated {:.3g}, actual {:.3g}\n", errors->peak_stress.stated, actual);
     EXPECT_LE(actual, errors->peak_stress.stated);
     EXPECT_LE(errors->peak_stress.stated, 0.05);
+}
+
+TEST_F(ByTolerance, CracksOfACompressionHaveTheErrorsOfItsCompanions) {
+    testing::write_circles_rock(scratch_ / "");
+    const VirtualTest test = tested(read_case(scratch_ / "compression.toml"));
+    ASSERT_TRUE(test.state.failure.failed);
+    const auto errors = run_companions(test, {});
+    ASSERT_TRUE(errors && errors->crack_initiation_stress && errors->crack_damage_stress);
+    const auto thresholds = find_crack_thresholds(test.state.rows, test.state.failure.peak_row,
+                                                  test.state.youngs_modulus, test.state.poissons_ratio);
+    for (const Companion& companion : errors->companions) {
+        EXPECT_GT(companion.crack_damage_stress, 0.0) << companion.name;
+        EXPECT_LE(companion.crack_damage_stress, companion.peak_stress) << companion.name;
+        if (companion.name != "half_rate") continue;
+        EXPECT_TRUE(agrees("damage, change at half the rate", errors->crack_damage_stress->rate,
+                           std::abs(companion.crack_damage_stress / thresholds.damage - 1.0), 1e-12));
+    }
+    // Of these few breaks two lines cannot be told apart, in the test or its companions.
+    EXPECT_EQ(std::isnan(errors->crack_initiation_stress->stated), std::isnan(thresholds.count_break));
+    const double spacing = test.state.rows[1].axial_stress / thresholds.damage;
+    EXPECT_GT(errors->crack_damage_stress->resolution, 0.0);
+    EXPECT_LT(errors->crack_damage_stress->resolution, 2.0 * spacing);
 }
 
 std::vector<Companion> companions_of_peaks(double half_step, double half_rate, double half_damping,

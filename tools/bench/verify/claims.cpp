@@ -42,6 +42,7 @@ const std::vector<Claim>& claims() {
                  disc_claims(),
                  beam_claims(),
                  pressure_claims(),
+                 joint_claims(),
              }) {
             std::move(part.begin(), part.end(), std::back_inserter(list));
         }

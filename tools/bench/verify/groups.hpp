@@ -34,5 +34,6 @@ std::vector<Claim> stress_claims();
 std::vector<Claim> disc_claims();
 std::vector<Claim> beam_claims();
 std::vector<Claim> pressure_claims();
+std::vector<Claim> joint_claims();
 
 }  // namespace crackle::verification

@@ -201,6 +201,8 @@ const groups: readonly {title: string; rows: readonly Row[]}[] = [
     {title: 'Numerical errors', rows: [
         ...errorRows('peak_stress', 'Peak stress'),
         ...errorRows('peak_strain', 'Strain at peak'),
+        percent('Crack initiation: stated', errorOf('crack_initiation_stress', 'stated'), 'as that of the peak'),
+        percent('Crack damage: stated', errorOf('crack_damage_stress', 'stated'), 'as that of the peak'),
         words('Peak converged', (test) => {
             const value = test.summary['peak_converged'];
             return typeof value === 'boolean' ? (value ? 'yes' : 'no: jumps between branches') : undefined;
