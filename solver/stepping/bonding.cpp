@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include "solver/base/errors.hpp"
 #include "solver/geometry/contact_share.hpp"
@@ -78,31 +80,36 @@ PointShare share_of_point(const World& world, PointIndex k, const std::optional<
     return {share.stiffness() / points, share.length / points};
 }
 
-/// Shares of bonded points; that of strength with the random factor of the pair.
+/// Shares of the bonded points of one pair, which are all from begin to end; that of strength with the random factor of
+/// the pair.
+void share_pair(World& world, const Bonding& bonding, PointIndex begin, PointIndex end) {
+    const auto is_chain = [&](BodyIndex b) { return world.bodies.info(b).piece_count > 0; };
+    std::int64_t count = 0;
+    double gap = std::numeric_limits<double>::infinity();  // m, of the faces: corners overhang
+    for (PointIndex k = begin; k < end; ++k) {
+        if (!of_face(world, k)) continue;
+        ++count;
+        gap = std::min(gap, world.settings.thick - world.points.bond_overlap[k]);
+    }
+    const ContactPoint pair = world.points.contact[begin];
+    std::optional<ContactShare> face;
+    if (count > 0 && world.settings.units == StiffnessUnits::area && is_chain(pair.body_i) && is_chain(pair.body_j))
+        face = share_of_face(world, pair.body_i, pair.body_j, gap);
+    const double factor = bonding.factors.between(world.bodies.info(pair.body_i).id, world.bodies.info(pair.body_j).id);
+    for (PointIndex k = begin; k < end; ++k) {
+        if (!of_face(world, k)) continue;
+        const PointShare share = share_of_point(world, k, face, count);
+        world.points.stiffness_share[k] = static_cast<float>(share.stiffness);
+        world.points.strength_share[k] = static_cast<float>(share.length * factor);
+    }
+}
+
+/// The same of all pairs.
 void share_faces(World& world, const Bonding& bonding) {
     const PointIndex walls = world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
-    const auto is_chain = [&](BodyIndex b) { return world.bodies.info(b).piece_count > 0; };
     for (PointIndex begin = 0; begin < walls;) {
         const PointIndex end = points_between(world, begin).second;
-        std::int64_t count = 0;
-        double gap = std::numeric_limits<double>::infinity();  // m, of the faces: corners overhang
-        for (PointIndex k = begin; k < end; ++k) {
-            if (!of_face(world, k)) continue;
-            ++count;
-            gap = std::min(gap, world.settings.thick - world.points.bond_overlap[k]);
-        }
-        const ContactPoint pair = world.points.contact[begin];
-        std::optional<ContactShare> face;
-        if (count > 0 && world.settings.units == StiffnessUnits::area && is_chain(pair.body_i) && is_chain(pair.body_j))
-            face = share_of_face(world, pair.body_i, pair.body_j, gap);
-        const double factor =
-            bonding.factors.between(world.bodies.info(pair.body_i).id, world.bodies.info(pair.body_j).id);
-        for (PointIndex k = begin; k < end; ++k) {
-            if (!of_face(world, k)) continue;
-            const PointShare share = share_of_point(world, k, face, count);
-            world.points.stiffness_share[k] = static_cast<float>(share.stiffness);
-            world.points.strength_share[k] = static_cast<float>(share.length * factor);
-        }
+        share_pair(world, bonding, begin, end);
         begin = end;
     }
 }
@@ -140,6 +147,15 @@ void set_strengths(World& world, const Bonding& bonding) {
             "{:.6g}, expected at most that; give more cohesion, or less tensile strength",
             law.tensile_strength, law.cohesion / law.bond_friction));
     }
+}
+
+/// The exact stable step of the points that touch, and what a derived step goes back to.
+void find_exact_step(World& world) {
+    const CriticalStep exact = critical_step(world, ClosedPoints::touching);
+    world.stepping.exact_step = exact.step;
+    world.stepping.exact_step_proved = exact.proved;
+    world.stepping.step_goal =
+        world.stepping.automatic_step && world.bonds.initial > 0 ? world.stepping.safety_factor * exact.step : 0.0;
 }
 
 }  // namespace
@@ -199,6 +215,57 @@ std::int64_t bond_all(World& world, const Bonding& bonding) {
     return bonds;
 }
 
+std::int64_t bond_pairs(World& world, std::span<const BodyPair> pairs, double gap) {
+    const auto ordered = [](BodyIndex i, BodyIndex j) { return std::pair(std::min(i, j), std::max(i, j)); };
+    std::vector<std::pair<BodyIndex, BodyIndex>> asked;
+    for (const BodyPair& pair : pairs) {
+        if (pair.body_i == pair.body_j)
+            throw InputError(
+                fmt::format("bond: found body {} twice, expected two bodies", world.bodies.info(pair.body_i).id));
+        asked.push_back(ordered(pair.body_i, pair.body_j));
+    }
+    std::ranges::sort(asked);
+    refresh_neighbours(world);
+    std::vector<PointIndex> fresh;
+    std::int64_t interfaces = 0;
+    const PointIndex walls = world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
+    for (PointIndex begin = 0, end = 0; begin < walls; begin = end) {
+        end = points_between(world, begin).second;
+        const ContactPoint pair = world.points.contact[begin];
+        if (!std::ranges::binary_search(asked, ordered(pair.body_i, pair.body_j))) continue;
+        bool had_none = true;
+        const std::size_t before = fresh.size();
+        for (PointIndex k = begin; k < end; ++k) {
+            had_none = had_none && !bonded(world, k);
+            const double overlap = overlap_of(world, k);
+            if (bonded(world, k) || overlap + gap <= 0.0) continue;
+            world.points.shear_force[k] = 0.0;
+            world.points.bond_overlap[k] = overlap;
+            world.points.state[k].flags = point_bonded | point_touching;
+            fresh.push_back(k);
+        }
+        if (fresh.size() == before) continue;
+        interfaces += had_none ? 1 : 0;
+        if (world.settings.own_shares()) share_pair(world, {}, begin, end);
+    }
+    if (fresh.empty()) return 0;
+    find_point_properties(world);
+    world.bonds.made = true;
+    world.bonds.initial += static_cast<std::int64_t>(fresh.size());
+    world.bonds.interfaces_initial += interfaces;
+    visit_remembered(world.points, [&]<class T>(Array<T>& values, Remembered remembered) {
+        if (remembered == Remembered::always || remembered == Remembered::own_shares || !keeps(world, remembered))
+            return;
+        values.resize(world.points.size());  // there are none of some before the world's first bonds
+        for (const PointIndex k : fresh) values[k] = T{};
+    });
+    find_exact_step(world);
+    evaluate_step_bound(world);
+    restart_account(world);
+    velocities_changed(world);
+    return static_cast<std::int64_t>(fresh.size());
+}
+
 void finish_bonding(World& world) {
     world.bonds.made = true;
     world.bonds.initial = std::count_if(world.points.state.begin(), world.points.state.end(),
@@ -207,11 +274,7 @@ void finish_bonding(World& world) {
         return (p.flags & point_held) != 0 && (p.flags & point_bonded) != 0;
     });
     world.bonds.interfaces_initial = count_interfaces(world);
-    const CriticalStep exact = critical_step(world, ClosedPoints::touching);
-    world.stepping.exact_step = exact.step;
-    world.stepping.exact_step_proved = exact.proved;
-    world.stepping.step_goal =
-        world.stepping.automatic_step && world.bonds.initial > 0 ? world.stepping.safety_factor * exact.step : 0.0;
+    find_exact_step(world);
     evaluate_step_bound(world);
     world.bonds.broken = world.bonds.broken_after_sliding = 0;
     world.bonds.interfaces_lost = 0;
