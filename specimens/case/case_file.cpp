@@ -190,11 +190,11 @@ void take_file(TestCase& test, const fs::path& file, const toml::table& content)
     }
 }
 
-/// Reads a file after what it includes, so that its own keys stand over it.
+void take_with_includes(TestCase& test, const fs::path& path, std::vector<fs::path> within);
+
+/// Takes what a file says after what it includes, so that its own keys stand over it.
 /// @param within the files that include this one, the case first: none may come again
-void take_with_includes(TestCase& test, const fs::path& path, std::vector<fs::path> within) {
-    const toml::table content = parse_toml(path, "a case file");
-    test.inputs.push_back(path);
+void take_content(TestCase& test, const fs::path& path, const toml::table& content, std::vector<fs::path> within) {
     if (const toml::node* include = content.get("include")) {
         const std::string where = line_of(path, *include);
         const auto* text = include->as_string();
@@ -218,6 +218,12 @@ void take_with_includes(TestCase& test, const fs::path& path, std::vector<fs::pa
         take_with_includes(test, other, std::move(within));
     }
     take_file(test, path, content);
+}
+
+void take_with_includes(TestCase& test, const fs::path& path, std::vector<fs::path> within) {
+    const toml::table content = parse_toml(path, "a case file");
+    test.inputs.push_back(path);
+    take_content(test, path, content, std::move(within));
 }
 
 /// A value as a node of a file, so that it is judged as one.
@@ -316,6 +322,12 @@ CaseFiles::CaseFiles(const fs::path& path) {
     take_with_includes(written_, path, {});
 }
 
+CaseFiles::CaseFiles(const CaseText& text) {
+    written_.source = text.name;
+    take_content(written_, text.name,
+                 text.json ? toml_of_json(text.name, text.text) : parse_toml_text(text.name, text.text), {});
+}
+
 TestCase CaseFiles::with(std::span<const CaseSetting> settings) const {
     TestCase test = written_;
     for (const CaseSetting& setting : settings) take_setting(test, setting);
@@ -325,6 +337,7 @@ TestCase CaseFiles::with(std::span<const CaseSetting> settings) const {
 }
 
 TestCase read_case(const fs::path& path) { return CaseFiles(path).with({}); }
+TestCase read_case(const CaseText& text) { return CaseFiles(text).with({}); }
 
 namespace {
 

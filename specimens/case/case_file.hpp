@@ -24,11 +24,20 @@ struct CaseSetting {
     std::string where;  ///< "file:line" for errors; paths are relative to that file
 };
 
+/// A case that is no file: its text, as TOML or as the same tables in JSON.
+struct CaseText {
+    std::string name = "case";  ///< in errors, and its title unless it has one
+    std::string text;
+    bool json = false;  ///< keys have no lines then
+    /// Paths in it are relative to the present folder.
+};
+
 /// What a case and the files it includes say, before settings and defaults: read once, made into many tests.
 class CaseFiles {
   public:
     /// @throws InputError as read_case(), but for what only the whole case shows
     explicit CaseFiles(const std::filesystem::path& path);
+    explicit CaseFiles(const CaseText& text);
 
     /// The test with settings over what the files say, the last one over those before it. @throws InputError
     TestCase with(std::span<const CaseSetting> settings) const;
@@ -39,6 +48,7 @@ class CaseFiles {
 
 /// Reads and checks a case. @throws InputError «file:line: key: found X, expected Y; what to do».
 TestCase read_case(const std::filesystem::path& path);
+TestCase read_case(const CaseText& text);
 
 /// Writes the case with every value in the open, each with its unit and sentence; reading it back gives the same test.
 /// @param folder where the text will stand: paths are written relative to it.

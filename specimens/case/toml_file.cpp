@@ -3,28 +3,69 @@
 
 #include <fmt/format.h>
 
+#include <cstdint>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <utility>
+
 #include "solver/base/errors.hpp"
 #include "solver/files/read_file.hpp"
 #include "specimens/case/toml_shape.hpp"
 
 namespace crackle {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// What a JSON value is in TOML. @param name of it, for errors
+std::unique_ptr<toml::node> node_of(const Json& value, const std::string& name) {
+    if (value.is_boolean()) return std::make_unique<toml::value<bool>>(value.get<bool>());
+    if (value.is_number_integer()) return std::make_unique<toml::value<std::int64_t>>(value.get<std::int64_t>());
+    if (value.is_number_float()) return std::make_unique<toml::value<double>>(value.get<double>());
+    if (value.is_string()) return std::make_unique<toml::value<std::string>>(value.get<std::string>());
+    if (value.is_array()) {
+        auto list = std::make_unique<toml::array>();
+        for (const Json& one : value) list->push_back(std::move(*node_of(one, name)));
+        return list;
+    }
+    if (!value.is_object())
+        throw InputError(fmt::format("{}: found {}, expected a value; leave the key out", name, value.type_name()));
+    auto table = std::make_unique<toml::table>();
+    for (const auto& [key, inner] : value.items())
+        table->insert(key, std::move(*node_of(inner, fmt::format("{}: {}", name, key))));
+    return table;
+}
+
+}  // namespace
 
 toml::table parse_toml(const std::filesystem::path& path, const std::string& expected) {
     if (!is_file(path)) {
         throw InputError(fmt::format("{}: found no such file, expected {}; check the path", path.string(), expected));
     }
-    const std::string text = read_text(path);
-    check_toml_shape(path.string(), text);
+    return parse_toml_text(path, read_text(path));
+}
+
+toml::table parse_toml_text(const std::filesystem::path& name, const std::string& text) {
+    check_toml_shape(name.string(), text);
     try {
-        return toml::parse(text, path.string());
+        return toml::parse(text, name.string());
     } catch (const toml::parse_error& problem) {
-        throw InputError(fmt::format("{}:{}: not valid TOML: {:.200}", path.string(), problem.source().begin.line,
+        throw InputError(fmt::format("{}:{}: not valid TOML: {:.200}", name.string(), problem.source().begin.line,
                                      problem.description()));
     }
 }
 
+toml::table toml_of_json(const std::filesystem::path& name, std::string_view json) {
+    const Json content = Json::parse(json, nullptr, false);
+    if (!content.is_object())
+        throw InputError(fmt::format("{}: found {}, expected tables of keys", name.string(),
+                                     content.is_discarded() ? "no JSON" : content.type_name()));
+    return std::move(*node_of(content, name.string())->as_table());
+}
+
 std::string line_of(const std::filesystem::path& file, const toml::node& node) {
-    return fmt::format("{}:{}", file.string(), node.source().begin.line);
+    const auto line = node.source().begin.line;
+    return line == 0 ? file.string() : fmt::format("{}:{}", file.string(), line);
 }
 
 std::string kind_name(const toml::node& node) {

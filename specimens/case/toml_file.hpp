@@ -6,13 +6,19 @@
 #include <toml++/toml.h>
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 namespace crackle {
 
 /// @param expected in words, "a case file" @throws InputError «file:line: …» if there is none, or it is not TOML
 toml::table parse_toml(const std::filesystem::path& path, const std::string& expected);
 
-/// "file:line".
+/// The same of a text. @param name for errors
+toml::table parse_toml_text(const std::filesystem::path& name, const std::string& text);
+/// The same content written as JSON, an object; its nodes have no lines. @throws InputError where it is something else
+toml::table toml_of_json(const std::filesystem::path& name, std::string_view json);
+
+/// "file:line"; "file" of a node that comes from no line.
 std::string line_of(const std::filesystem::path& file, const toml::node& node);
 /// What a node is, "a whole number".
 std::string kind_name(const toml::node& node);

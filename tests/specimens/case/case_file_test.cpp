@@ -109,6 +109,52 @@ TEST_F(CaseFile, IncludedFileHoldsWhereTheCaseIsSilent) {
     EXPECT_NE(refusal("include = \"rocks.toml\"\n").find(":1: include: found no file"), std::string::npos);
 }
 
+TEST_F(CaseFile, ATextIsACaseLikeAFile) {
+    const TestCase test = read_case(CaseText{"mine", good_case});
+    EXPECT_EQ(test.material.density, 2500.0);
+    EXPECT_EQ(test.title, "mine");
+    EXPECT_TRUE(test.inputs.empty()) << "no file of its own";
+    EXPECT_EQ(test.at("material.density"), "mine:7: material.density");
+    std::ofstream(scratch_ / "rock.toml") << good_case;
+    const std::string include = fmt::format("include = \"{}\"\n", (scratch_ / "rock.toml").string());
+    EXPECT_EQ(read_case(CaseText{"mine", include}).inputs.size(), 1U);
+    const auto says = [](const CaseText& text) {
+        try {
+            read_case(text);
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string("accepted");
+    };
+    EXPECT_EQ(says({"mine", "[packing]\ncount = \"many\"\n"}).substr(0, 45),
+              "mine:2: packing.count: found \"many\" (a text),");
+}
+
+TEST_F(CaseFile, TablesInJsonAreTheSameCase) {
+    const std::string json = R"({"packing": {"count": 50, "radius_min": 0.01, "radius_max": 0.02, "mean_overlap": 1e-4},
+        "material": {"density": 2500, "normal_stiffness": 1e7, "shear_stiffness": 2.5e6, "friction_angle": 27,
+        "damping_ratio": 0.2}, "loading": {"kind": "tension", "axial_strain_rate": 0.01, "max_axial_strain": 0.02}})";
+    const auto resolved = [](const CaseText& text) {
+        std::ostringstream out;
+        write_resolved_case(out, read_case(text), ".");
+        return out.str();
+    };
+    EXPECT_EQ(resolved({"mine", json, true}), resolved({"mine", good_case}));
+    const auto says = [](const char* text) {
+        try {
+            read_case(CaseText{"mine", text, true});
+        } catch (const InputError& error) {
+            return std::string(error.what());
+        }
+        return std::string("accepted");
+    };
+    EXPECT_EQ(says("{\"packing\": {\"count\": 0.5}}").substr(0, 30), "mine: packing.count: found 0.5");
+    EXPECT_EQ(says("{\"packing\": {\"count\": null}}"),
+              "mine: packing: count: found null, expected a value; leave the key out");
+    EXPECT_EQ(says("[1]"), "mine: found array, expected tables of keys");
+    EXPECT_EQ(says("{"), "mine: found no JSON, expected tables of keys");
+}
+
 TEST_F(CaseFile, IncludesNestButNotInARing) {
     std::ofstream(scratch_ / "rock.toml") << good_case;
     std::ofstream(scratch_ / "faster.toml") << "include = \"rock.toml\"\n[loading]\naxial_strain_rate = 0.5\n";
