@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <future>
 #include <limits>
@@ -22,6 +23,7 @@ namespace {
 
 constexpr double student_two = 2.920;      // 95 % point, two degrees of freedom
 constexpr double convergence_index = 3.0;  // two grids, first order
+constexpr std::chrono::milliseconds between_questions{50};
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
 struct Plan {
@@ -195,6 +197,9 @@ std::optional<NumericalErrors> run_companions(const VirtualTest& test, const Tes
             running.push_back(std::async(policy, [&, k] { return run_one(plans[k], test, hooks); }));
         for (std::size_t k = 0; k < running.size(); ++k) {
             std::optional<Companion>& companion = done[first + k];
+            // This thread alone may be the one that hears of an interrupt.
+            while (hooks.interrupted && running[k].wait_for(between_questions) == std::future_status::timeout)
+                hooks.interrupted();
             companion = running[k].get();
             if (companion && hooks.stage) {
                 hooks.stage(fmt::format("  {}: {:.4g} {} at strain {:.4g}, {} steps ({} of {})", companion->name,

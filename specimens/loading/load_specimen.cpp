@@ -36,7 +36,8 @@ std::int64_t judged_per_written(const VirtualTest& test) {
 class LoadingLoop {
   public:
     LoadingLoop(VirtualTest& test, const TestHooks& hooks, TestFiles* files)
-        : world_(test.world),
+        : test_(test),
+          world_(test.world),
           setup_(test.setup),
           state_(test.state),
           listener_(test.world, test.setup, test.state.emission),
@@ -74,7 +75,7 @@ class LoadingLoop {
     void load() {
         if (files_ != nullptr && state_.rows.empty()) files_->write_checkpoint(setup_, state_, world_);
         while (true) {
-            if (world_.stepping.steps % steps_between_clock_checks == 0 && check_clock()) break;
+            if (stop_asked_ || (world_.stepping.steps % steps_between_clock_checks == 0 && check_clock())) break;
             // Platens stand where the last step has put them, whether the forces are known or not.
             strain_ = setup_.axial_strain(world_);
             const double travel = state_.path.travel(strain_);
@@ -83,7 +84,9 @@ class LoadingLoop {
             const bool check_due = world_.stepping.steps % steps_between_health_checks == 0;
             const bool by_tolerance = setup_.rate_rule.tolerance > 0.0;
             const bool rate_due = by_tolerance && world_.stepping.time >= state_.rate.next_check;
-            if (!row_due && !check_due && !rate_due) {
+            const bool look_due =
+                hooks_.look && (hooks_.look_every > 0 ? world_.stepping.steps % hooks_.look_every == 0 : row_due);
+            if (!row_due && !check_due && !rate_due && !look_due) {
                 const double drift = world_.stepping.drift;
                 step(world_);
                 if (by_tolerance) watch_platens(drift);
@@ -93,12 +96,16 @@ class LoadingLoop {
             compute_forces(world_);
             record_events();
             if (row_due) record_row(at_end);
+            if (look_due && state_.ended_by.empty()) look(row_due);
             const bool ended = !state_.ended_by.empty();
             // An end that instability brought about is none.
             if (ended || check_due) check();
             if (ended) break;
-            if (by_tolerance) watch_platens(world_.stepping.drift);
-            if (rate_due) set_rate();
+            // A look may have ended loading by tolerance.
+            if (setup_.rate_rule.tolerance > 0.0) {
+                watch_platens(world_.stepping.drift);
+                if (rate_due) set_rate();
+            }
             advance(world_);
         }
     }
@@ -127,11 +134,11 @@ class LoadingLoop {
         const Ledger ledger = measure_ledger(world_);
         const double time = world_.stepping.time;
         LoadingPath& path = state_.path;
-        choose_rate(state_.rate, setup_.rate_rule, path.speed, ledger.kinetic,
-                    ledger.strain, time);
+        choose_rate(state_.rate, setup_.rate_rule, path.speed, ledger.kinetic, ledger.strain, time);
         const double allowed = state_.rate.rate, since = time - path.chosen_at;
         path.chosen_at = time;
-        if (unload_rule_.on()) turn_by_list(path, unload_rule_, allowed, strain_, axial_stress(world_, setup_), since);
+        if (unload_rule_.on())
+            turn_by_list(path, unload_rule_, allowed, strain_, axial_stress(world_, setup_), since);
         else if (lateral_rule_.on())
             follow_lateral(path, lateral_rule_, allowed, strain_, setup_.median_lateral_strain(world_), since);
         else
@@ -161,7 +168,10 @@ class LoadingLoop {
             note_break(setup_, event, state_.history);
             if (files_ != nullptr) files_->add_event(event, strain_);
         }
-        if (files_ != nullptr) world_.bonds.events.clear();
+        if (files_ != nullptr) {
+            if (hooks_.look) unseen_.insert(unseen_.end(), world_.bonds.events.begin(), world_.bonds.events.end());
+            world_.bonds.events.clear();
+        }
         events_counted_ = world_.bonds.events.size();
     }
 
@@ -213,6 +223,27 @@ class LoadingLoop {
         if (frame_due || !state_.ended_by.empty()) files_->add_frame(row, index, setup_, state_, world_);
     }
 
+    /// @param recorded whether the moment is the last row already
+    void look(bool recorded) {
+        if (files_ != nullptr) world_.bonds.events.swap(unseen_);  // those since the last look
+        const AfterLook after = hooks_.look(test_);
+        if (files_ != nullptr) {
+            world_.bonds.events.clear();
+            world_.bonds.events.swap(unseen_);
+        }
+        stop_asked_ = after == AfterLook::interrupt;
+        if (after != AfterLook::end) return;
+        state_.ended_by = ended_by_caller;
+        if (!recorded) {
+            record_row(false);
+            return;
+        }
+        if (files_ == nullptr) return;
+        const auto index = static_cast<std::int64_t>(state_.rows.size()) - 1;
+        if (index % judged_per_written_ != 0) files_->add_row(state_.rows.back());
+        files_->add_frame(state_.rows.back(), index, setup_, state_, world_);
+    }
+
     /// Between steps: progress, checkpoint, interrupt. @return whether to stop
     bool check_clock() {
         if (hooks_.interrupted && hooks_.interrupted()) return true;
@@ -246,6 +277,7 @@ class LoadingLoop {
         hooks_.progress(p);
     }
 
+    VirtualTest& test_;
     World& world_;
     const TestSetup& setup_;
     TestState& state_;
@@ -264,6 +296,8 @@ class LoadingLoop {
     double step_seconds_before_;
     double strain_ = 0.0;  // axial, of the last force pass
     std::size_t events_counted_ = 0;
+    bool stop_asked_ = false;         // by a look
+    std::vector<BreakEvent> unseen_;  // by looks, of a test with files
 };
 
 }  // namespace

@@ -15,6 +15,7 @@ namespace crackle {
 struct Packing;
 struct PackingRequest;
 struct TestCase;
+struct VirtualTest;
 
 struct TestProgress {
     double axial_strain = 0.0;
@@ -26,6 +27,13 @@ struct TestProgress {
     double seconds_left = 0.0;  ///< until max_axial_strain; failure may come first
 };
 
+/// What a look at a running test decides.
+enum class AfterLook : std::uint8_t {
+    go_on,
+    end,       ///< the test is complete; the moment looked at is its last row
+    interrupt  ///< as an interrupt: what is written stays, and the test can be gone on with
+};
+
 /// Empty members are skipped.
 struct TestHooks {
     std::function<void(const std::string&)> stage;      ///< one line a stage: "packed 304 circles …"
@@ -34,6 +42,12 @@ struct TestHooks {
     std::function<void(const TestProgress&)> progress;  ///< a few times a second
     std::function<bool()> interrupted;
     std::function<void(const std::string& name, const Scene&)> made;  ///< circles, then polygons, as they are tested
+
+    /// Looks at the test while it is loaded, where the forces of the moment are known and nothing has moved yet: at
+    /// every judged row, or every so many steps. World::bonds.events holds the breaks since the last look. May set the
+    /// platen's speed (specimens/loading/own_loading.hpp).
+    std::function<AfterLook(VirtualTest&)> look;
+    std::int64_t look_every = 0;  ///< steps; 0: at rows
 
     /// Gives the packing of a case, made by `make` or made before; not asked for where it is empty.
     std::function<Packing(const TestCase&, const PackingRequest&, const std::function<Packing()>& make)> keep_packing;

@@ -37,6 +37,7 @@ struct FrameEntry {
 /// How a test ended; words as in summary.json.
 inline constexpr const char* ended_by_failure = "failure";
 inline constexpr const char* ended_by_strain = "max_axial_strain";
+inline constexpr const char* ended_by_caller = "caller";  // who looks at it, by TestHooks::look
 inline constexpr const char* ended_by_interrupt = "interrupt";
 inline constexpr const char* ended_by_instability = "instability";
 

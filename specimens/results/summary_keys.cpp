@@ -26,7 +26,7 @@ std::vector<SummaryKey> all_summary_keys() {
         {{"interrupted", "", "whether it was stopped before its end, and can be gone on with"}, unlisted},
         {{"ended_by", "",
           "`failure` (the stress stayed as long below `loading.stop_at_share_of_peak` of its largest), "
-          "`max_axial_strain`, `interrupt` or `instability`"},
+          "`max_axial_strain`, `caller` (a callback in Python), `interrupt` or `instability`"},
          unlisted},
         {{"note", "", "only while it has not failed: what peak and moduli refer to"}, unlisted},
 

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/loading/own_loading.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "solver/base/errors.hpp"
+#include "solver/stepping/controls.hpp"
+
+namespace crackle {
+namespace {
+
+constexpr const char* own_speed = "the driving part's speed is the caller's from strain ";
+
+}  // namespace
+
+double platen_speed(const VirtualTest& test) {
+    const BodyState& driver = test.world.bodies.state[test.setup.top];
+    const double along = test.setup.axis == 0 ? driver.vx : driver.vy;
+    return test.setup.compression ? -along : along;
+}
+
+void set_platen_speed(VirtualTest& test, double speed) {
+    const TestCase::Loading& loading = test.description.loading;
+    if (!std::isfinite(speed)) throw InputError(fmt::format("platen speed: found {}, expected a number in m/s", speed));
+    if (loading.unloads() || loading.by_lateral_strain()) {
+        throw InputError(fmt::format(
+            "platen speed: found one set while the case drives by {}, expected one of them; leave that key out",
+            loading.unloads() ? "a list of unloadings" : "lateral strain"));
+    }
+    TestSetup& setup = test.setup;
+    LoadingPath& path = test.state.path;
+    const double strain = setup.axial_strain(test.world);
+    if (std::ranges::none_of(setup.notices, [](const std::string& text) { return text.starts_with(own_speed); }))
+        setup.notices.push_back(fmt::format("{}{:.6g} on", own_speed, strain));
+    setup.rate_rule.tolerance = 0.0;
+    path.change_speed(speed / setup.length, std::numeric_limits<double>::infinity(), strain);
+    change_velocity(test.world, setup.top, setup.axis, setup.compression ? -speed : speed);
+}
+
+}  // namespace crackle
