@@ -318,8 +318,10 @@ Mesh make_mesh(std::span<const CellCentre> centres, const Rectangle& domain, con
     check_centres(centres, domain);
     check_outline(centres, request);
     const double depth = request.inset.value_or(0.5 * request.mesh_gap);
-    return request.kind == MeshKind::voronoi ? mesh_voronoi(centres, domain, request, depth)
-                                             : mesh_delaunay(centres, domain, request, depth);
+    Mesh mesh = request.kind == MeshKind::voronoi ? mesh_voronoi(centres, domain, request, depth)
+                                                  : mesh_delaunay(centres, domain, request, depth);
+    mesh.report.centres = static_cast<std::int64_t>(centres.size());
+    return mesh;
 }
 
 }  // namespace crackle

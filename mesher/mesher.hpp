@@ -86,6 +86,7 @@ struct Cell {
 };
 
 struct MeshReport {
+    std::int64_t centres = 0;
     std::int64_t cells = 0;
     std::int64_t segments = 0;         ///< sum of the cells' edges
     double shortest_edge = 0.0;        ///< m, after the inset

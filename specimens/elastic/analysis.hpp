@@ -30,6 +30,20 @@ struct LinearBond {
     double shear_force = 0.0;    // N, magnitude
     double break_strain = 0.0;   ///< infinite where the point is squeezed
     double slip_strain = 0.0;    ///< infinite where it sticks forever
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("body_i", s.body_i);
+        visit("body_j", s.body_j);
+        visit("position", s.position);
+        visit("strength", s.strength);
+        visit("overlap", s.overlap);
+        visit("closing", s.closing);
+        visit("normal_force", s.normal_force);
+        visit("shear_force", s.shear_force);
+        visit("break_strain", s.break_strain);
+        visit("slip_strain", s.slip_strain);
+    }
 };
 
 struct FirstEvent {

@@ -6,9 +6,27 @@
 // Tested by tests/tools/commands/command_line_test.cpp.
 #pragma once
 
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
 #include <vector>
 
 #include "tools/commands/command_line.hpp"
+
+namespace crackle {
+
+struct ElasticAnalysis;
+struct MeshReport;
+struct PackingRequest;
+struct Scene;
+struct TestCase;
+struct TestCheck;
+struct TestHooks;
+struct TestOptions;
+struct TestProgress;
+struct VirtualTest;
+
+}  // namespace crackle
 
 namespace crackle::tools {
 
@@ -57,6 +75,24 @@ CommandLine describe_manual();
 int manual(const Invocation& given);
 
 void print_version();  // crackle --version
+
+// What the commands do, without their printing: for callers that want values (tools/python).
+
+/// @throws InputError naming the option
+PackingRequest packing_request(const po::variables_map& values, Messages& messages);
+/// Polygons from the text of a packing or of a list of centres. @param name of it, for errors
+Scene meshed_scene(const std::string& name, const std::string& text, const po::variables_map& values,
+                   Messages& messages, MeshReport& report);
+/// Threads that are of use here, of those that are asked for.
+void limit_threads(TestOptions& options, std::int64_t asked);
+/// How far a test is, as the program shows it.
+Progress shown_progress(const TestProgress& test);
+/// What `crackle test --check --json` prints.
+nlohmann::ordered_json check_as_json(const TestCheck& check);
+/// The case as the linear solution takes it; a notice of each thing that it leaves out.
+TestCase elastic_case(TestCase description, std::vector<std::string>& notices);
+/// What `crackle elastic --json` prints.
+nlohmann::ordered_json elastic_as_json(const VirtualTest& test, const ElasticAnalysis& analysis, double seconds);
 
 // Exit codes of the program; exit_codes() explains them.
 inline constexpr int exit_done = 0;

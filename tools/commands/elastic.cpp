@@ -7,6 +7,8 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "solver/base/errors.hpp"
 #include "solver/files/replace_file.hpp"
@@ -31,51 +33,6 @@ Json event(const ElasticAnalysis& a, const std::optional<FirstEvent>& first) {
 }
 
 Json stress_of(const std::optional<FirstEvent>& first) { return first ? Json(first->stress) : Json(nullptr); }
-
-Json as_json(const VirtualTest& test, const ElasticAnalysis& a, double seconds) {
-    Json json{{"title", test.description.title},
-              {"kind", test.description.loading.kind},
-              {"platens", test.description.loading.platens},
-              {"specimen", test.setup.specimen},
-              {"particles", test.setup.particles},
-              {"bonds", a.bonds.size()},
-              {test.setup.uniaxial ? "youngs_modulus" : "nominal_modulus", finite_or_null(a.youngs_modulus)},
-              {"poissons_ratio", finite_or_null(a.poissons_ratio)},
-              {"stable_time_step", finite_or_null(a.stable_time_step)},
-              {"stable_time_step_proved", a.stable_time_step_proved},
-              {"time_step_bound", finite_or_null(a.time_step_bound)},
-              {"time_step", a.time_step},
-              {"first_break_stress", stress_of(a.first_break)},
-              {"first_break", event(a, a.first_break)},
-              {"first_slip_stress", stress_of(a.first_slip)},
-              {"first_slip", event(a, a.first_slip)},
-              {"zero_energy_modes", a.free.count},
-              {"zero_energy_bodies", a.free_ids},
-              {"unknowns", a.unknowns},
-              {"residual", a.residual},
-              {"seconds", seconds}};
-    if (!a.frequencies.empty()) json["angular_frequencies"] = a.frequencies;
-    const std::string stress = test.description.stress_unit();
-    json["units"] = {
-        {"youngs_modulus", stress +
-                               ", small strain, all bonds intact and sticking; nominal_modulus in its place where the "
-                               "test is not between platens: stress over strain as its kind defines them"},
-        {"poissons_ratio", "-, by the definition of the curve's lateral strain"},
-        {"stable_time_step", "s, exact: 4M - 2dt C - dt^2 K positive definite below it, checked by Cholesky if proved"},
-        {"time_step_bound", "s, guaranteed stable below, found without an eigenvalue solve"},
-        {"time_step", "s, what crackle test takes"},
-        {"first_break_stress", stress + ", axial, when the first bond fails (linear, no slip); null: none"},
-        {"first_slip_stress", stress + ", axial, when the first point reaches its Coulomb limit; null: none"},
-        {"bond_strength", "N"},
-        {"x", "m"},
-        {"y", "m"},
-        {"zero_energy_modes", "motions that store no energy: floating particles, particles on one circle contact"},
-        {"zero_energy_bodies", "ids of those that take part"},
-        {"residual", "|f - Ku| over |f|, the numerical error of the solve"},
-        {"angular_frequencies", "rad/s, lowest modes that store energy, platens held"},
-        {"seconds", "bonding, exact step, assembly, solves and eigenvalues, without making the specimen"}};
-    return json;
-}
 
 std::string event_text(const VirtualTest& test, const ElasticAnalysis& a, const std::optional<FirstEvent>& first) {
     if (!first) return "none";
@@ -126,6 +83,65 @@ std::string bonds_table(const ElasticAnalysis& a) {
 
 }  // namespace
 
+TestCase elastic_case(TestCase description, std::vector<std::string>& notices) {
+    if (description.loading.platens == "frictional") {
+        notices.push_back("the linear solution knows bonded platens alone: taken in place of " +
+                          description.loading.platens);
+        description.loading.platens = "bonded";
+    }
+    if (description.confined()) {
+        notices.push_back("the linear solution is of the specimen without confining pressure");
+        description.loading.kind = "compression";
+        description.confinement = {};
+    }
+    return description;
+}
+
+nlohmann::ordered_json elastic_as_json(const VirtualTest& test, const ElasticAnalysis& a, double seconds) {
+    Json json{{"title", test.description.title},
+              {"kind", test.description.loading.kind},
+              {"platens", test.description.loading.platens},
+              {"specimen", test.setup.specimen},
+              {"particles", test.setup.particles},
+              {"bonds", a.bonds.size()},
+              {test.setup.uniaxial ? "youngs_modulus" : "nominal_modulus", finite_or_null(a.youngs_modulus)},
+              {"poissons_ratio", finite_or_null(a.poissons_ratio)},
+              {"stable_time_step", finite_or_null(a.stable_time_step)},
+              {"stable_time_step_proved", a.stable_time_step_proved},
+              {"time_step_bound", finite_or_null(a.time_step_bound)},
+              {"time_step", a.time_step},
+              {"first_break_stress", stress_of(a.first_break)},
+              {"first_break", event(a, a.first_break)},
+              {"first_slip_stress", stress_of(a.first_slip)},
+              {"first_slip", event(a, a.first_slip)},
+              {"zero_energy_modes", a.free.count},
+              {"zero_energy_bodies", a.free_ids},
+              {"unknowns", a.unknowns},
+              {"residual", a.residual},
+              {"seconds", seconds}};
+    if (!a.frequencies.empty()) json["angular_frequencies"] = a.frequencies;
+    const std::string stress = test.description.stress_unit();
+    json["units"] = {
+        {"youngs_modulus", stress +
+                               ", small strain, all bonds intact and sticking; nominal_modulus in its place where the "
+                               "test is not between platens: stress over strain as its kind defines them"},
+        {"poissons_ratio", "-, by the definition of the curve's lateral strain"},
+        {"stable_time_step", "s, exact: 4M - 2dt C - dt^2 K positive definite below it, checked by Cholesky if proved"},
+        {"time_step_bound", "s, guaranteed stable below, found without an eigenvalue solve"},
+        {"time_step", "s, what crackle test takes"},
+        {"first_break_stress", stress + ", axial, when the first bond fails (linear, no slip); null: none"},
+        {"first_slip_stress", stress + ", axial, when the first point reaches its Coulomb limit; null: none"},
+        {"bond_strength", "N"},
+        {"x", "m"},
+        {"y", "m"},
+        {"zero_energy_modes", "motions that store no energy: floating particles, particles on one circle contact"},
+        {"zero_energy_bodies", "ids of those that take part"},
+        {"residual", "|f - Ku| over |f|, the numerical error of the solve"},
+        {"angular_frequencies", "rad/s, lowest modes that store energy, platens held"},
+        {"seconds", "bonding, exact step, assembly, solves and eigenvalues, without making the specimen"}};
+    return json;
+}
+
 CommandLine describe_elastic() {
     po::options_description options;
     options.add_options()("json", "print one JSON object")  //
@@ -170,16 +186,9 @@ int elastic(const Invocation& given) {
     if (messages.verbose()) hooks.detail = [&messages](const std::string& text) { messages.detail(text); };
     if (messages.progress().shown())
         hooks.working = [&messages](const std::string& what) { messages.progress().draw({.detail = what}); };
-    if (description.loading.platens == "frictional") {
-        messages.notice("the linear solution knows bonded platens alone: taken in place of " +
-                        description.loading.platens);
-        description.loading.platens = "bonded";
-    }
-    if (description.confined()) {
-        messages.notice("the linear solution is of the specimen without confining pressure");
-        description.loading.kind = "compression";
-        description.confinement = {};
-    }
+    std::vector<std::string> notices;
+    description = elastic_case(std::move(description), notices);
+    for (const std::string& notice : notices) messages.notice(notice);
     const Clock::time_point start = Clock::now();
     const VirtualTest test = bond_test(description, hooks);
     messages.progress().begin("solving the linear system", 2.0, "");
@@ -192,7 +201,7 @@ int elastic(const Invocation& given) {
         for (const std::string& notice : test.setup.notices) hooks.stage("notice: " + notice);
     if (values.contains("bonds")) replace_file(values["bonds"].as<std::string>(), bonds_table(analysis));
     if (values.contains("json"))
-        std::cout << as_json(test, analysis, seconds).dump(2) << '\n';
+        std::cout << elastic_as_json(test, analysis, seconds).dump(2) << '\n';
     else
         print(test, analysis, seconds);
     return exit_done;

@@ -178,10 +178,8 @@ fs::path output_path(const po::variables_map& values, MeshKind kind, const fs::p
     return path;
 }
 
-void print_report(const Source& source, const Mesh& mesh, const MeshRequest& request, const fs::path& output) {
-    const MeshReport& report = mesh.report;
-    const Domain& domain = source.scene.domain;
-    std::cout << fmt::format("centres            {} in x {:.6g} to {:.6g}, y {:.6g} to {:.6g}\n", source.centres.size(),
+void print_report(const MeshReport& report, const Domain& domain, const MeshRequest& request, const fs::path& output) {
+    std::cout << fmt::format("centres            {} in x {:.6g} to {:.6g}, y {:.6g} to {:.6g}\n", report.centres,
                              domain.x1, domain.x2, domain.y1, domain.y2)
               << fmt::format("cells            {} ({})\n", report.cells,
                              request.kind == MeshKind::delaunay ? "delaunay" : "voronoi")
@@ -196,6 +194,19 @@ void print_report(const Source& source, const Mesh& mesh, const MeshRequest& req
 }
 
 }  // namespace
+
+Scene meshed_scene(const std::string& name, const std::string& text, const po::variables_map& values,
+                   Messages& messages, MeshReport& report) {
+    const MeshRequest request = request_of(values);
+    Source source =
+        looks_like_centre_list(text) ? centres_of_list(name, text, values) : centres_of_deck(name, text, values);
+    messages.detail(fmt::format("read {} centres from {}, {} bytes", source.centres.size(), name, text.size()));
+    messages.progress().step(1.0, fmt::format("meshing {} centres", source.centres.size()));
+    const Mesh made = mesh_source(source, request);
+    messages.detail(fmt::format("meshed {} cells of {} segments", made.report.cells, made.report.segments));
+    report = made.report;
+    return scene_of(std::move(source), made, request.mesh_gap);
+}
 
 CommandLine describe_mesh() {
     const Material usual{2500.0, 1.0e7, 2.5e6, 0.0, 0.0, {}, 27.0};
@@ -245,20 +256,15 @@ int mesh(const Invocation& given) {
     const fs::path output = output_path(values, request.kind, name);
     Messages& messages = given.messages;
     messages.progress().begin("reading " + name, 3.0, "");
-    const std::string text = read_text(name);
-    Source source =
-        looks_like_centre_list(text) ? centres_of_list(name, text, values) : centres_of_deck(name, text, values);
-    messages.detail(fmt::format("read {} centres from {}, {} bytes", source.centres.size(), name, text.size()));
-    messages.progress().step(1.0, fmt::format("meshing {} centres", source.centres.size()));
-    const Mesh made = mesh_source(source, request);
-    messages.detail(fmt::format("meshed {} cells of {} segments", made.report.cells, made.report.segments));
-    messages.progress().step(2.0, fmt::format("writing {} cells", made.report.cells));
+    MeshReport report;
+    const Scene scene = meshed_scene(name, read_text(name), values, messages, report);
+    messages.progress().step(2.0, fmt::format("writing {} cells", report.cells));
     std::ostringstream deck;
-    write_geometry(deck, scene_of(source, made, request.mesh_gap));
+    write_geometry(deck, scene);
     replace_file(output, deck.str());
     messages.make_room();
     messages.detail(fmt::format("wrote {} bytes", deck.str().size()));
-    if (!messages.quiet()) print_report(source, made, request, output);
+    if (!messages.quiet()) print_report(report, scene.domain, request, output);
     return exit_done;
 }
 

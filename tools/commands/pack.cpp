@@ -44,26 +44,6 @@ SizeDistribution sizes_of(const po::variables_map& values) {
     return UniformRadii{*low, *high};
 }
 
-PackingRequest packing_request(const po::variables_map& values, Messages& messages) {
-    PackingRequest request;
-    request.count = optional_value<std::int64_t>(values, "count");
-    request.height_to_width = optional_value<double>(values, "height-to-width");
-    request.width = optional_value<double>(values, "width");
-    request.height = optional_value<double>(values, "height");
-    request.sizes = sizes_of(values);
-    request.mean_overlap = optional_value<double>(values, "mean-overlap");
-    request.void_ratio = optional_value<double>(values, "void-ratio");
-    const auto seed = values["seed"].as<std::int64_t>();
-    if (seed < 0) throw InputError(fmt::format("--seed: found {}, expected a whole number >= 0", seed));
-    request.seed = static_cast<std::uint64_t>(seed);
-    request.threads = threads_of_machine(values["threads"].as<int>(), messages);
-    request.material.density = values["density"].as<double>();
-    request.material.normal_stiffness = values["normal-stiffness"].as<double>();
-    request.material.shear_stiffness = values["shear-stiffness"].as<double>();
-    request.material.friction_angle = values["friction-angle"].as<double>();
-    return request;
-}
-
 void print_report(const PackingReport& r, const std::string& output) {
     std::cout << fmt::format("circles          {}, radii {:.6g} to {:.6g} m\n", r.circles, r.radius_min, r.radius_max)
               << fmt::format("box              {:.9g} m x {:.9g} m\n", r.width, r.height)
@@ -87,6 +67,26 @@ void print_report(const PackingReport& r, const std::string& output) {
 }
 
 }  // namespace
+
+PackingRequest packing_request(const po::variables_map& values, Messages& messages) {
+    PackingRequest request;
+    request.count = optional_value<std::int64_t>(values, "count");
+    request.height_to_width = optional_value<double>(values, "height-to-width");
+    request.width = optional_value<double>(values, "width");
+    request.height = optional_value<double>(values, "height");
+    request.sizes = sizes_of(values);
+    request.mean_overlap = optional_value<double>(values, "mean-overlap");
+    request.void_ratio = optional_value<double>(values, "void-ratio");
+    const auto seed = values["seed"].as<std::int64_t>();
+    if (seed < 0) throw InputError(fmt::format("--seed: found {}, expected a whole number >= 0", seed));
+    request.seed = static_cast<std::uint64_t>(seed);
+    request.threads = threads_of_machine(values["threads"].as<int>(), messages);
+    request.material.density = values["density"].as<double>();
+    request.material.normal_stiffness = values["normal-stiffness"].as<double>();
+    request.material.shear_stiffness = values["shear-stiffness"].as<double>();
+    request.material.friction_angle = values["friction-angle"].as<double>();
+    return request;
+}
 
 CommandLine describe_pack() {
     const Material usual{2500.0, 1.0e7, 2.5e6, 0.0, 0.0, {}, 27.0};

@@ -97,15 +97,7 @@ TestHooks hooks_for(Messages& messages) {
     if (messages.verbose()) hooks.detail = [&messages](const std::string& text) { messages.detail(text); };
     if (!messages.progress().shown()) return hooks;
     hooks.working = [&messages](const std::string& what) { messages.progress().draw({.detail = what}); };
-    hooks.progress = [&messages](const TestProgress& p) {
-        messages.progress().draw(
-            {.share = p.share_done,
-             .rate = p.steps_per_second,
-             .unit = "steps",
-             .seconds_left = p.seconds_left,
-             .detail = fmt::format("strain {:.3e}, {:.3e} {} (peak {:.3e}), {} bonds broken", p.axial_strain,
-                                   p.axial_stress, p.stress_unit, p.peak_stress, p.bonds_broken)});
-    };
+    hooks.progress = [&messages](const TestProgress& p) { messages.progress().draw(shown_progress(p)); };
     return hooks;
 }
 
@@ -162,58 +154,6 @@ Json loss_as_json(const std::optional<FirstLoss>& loss) {
 
 Json run_as_json(const RunEstimate& run) {
     return {{"strain", run.strain}, {"steps", run.steps}, {"seconds", run.seconds}};
-}
-
-Json as_json(const TestCheck& check) {
-    const VirtualTest& test = check.test;
-    const std::string stress = test.description.stress_unit();
-    Json json{{"title", test.description.title},
-              {"kind", test.description.loading.kind},
-              {"platens", test.description.loading.platens},
-              {"specimen", test.setup.specimen},
-              {"particles", test.setup.particles},
-              {"grains_across", check.grains_across},
-              {"bonds", test.world.bonds.initial},
-              {test.setup.uniaxial ? "youngs_modulus" : "nominal_modulus", finite_or_null(check.youngs_modulus)},
-              {"poissons_ratio", finite_or_null(check.poissons_ratio)},
-              {"gauge_modulus", finite_or_null(check.gauge_modulus)},
-              {"first_slip", loss_as_json(check.first_slip)},
-              {"first_break", loss_as_json(check.first_break)},
-              {"strength_estimate", nullptr},
-              {"time_step", test.world.stepping.time_step},
-              {"axial_strain_rate", check.rate},
-              {"slowest_axial_strain_rate", check.slowest_rate},
-              {"steps_per_second", check.steps_per_second},
-              {"run_to_strength", check.to_strength ? run_as_json(*check.to_strength) : Json(nullptr)},
-              {"run_to_max_axial_strain", run_as_json(check.to_end)},
-              {"specimen_seconds", test.specimen_seconds},
-              {"memory", check.memory},
-              {"warnings", check.warnings}};
-    if (const auto& strength = check.strength)
-        json["strength_estimate"] = {{"stress", strength->stress},
-                                     {"strain", strength->strain},
-                                     {"share_broken", strength->share},
-                                     {"within_factor", strength->factor}};
-    json["units"] = {
-        {"grains_across", "width over sqrt(width height / particles)"},
-        {"youngs_modulus", stress +
-                               ", small strain, all bonds intact and sticking; nominal_modulus in its place where the "
-                               "test is not between platens"},
-        {"gauge_modulus", stress + ", over the strain of the axial gauge length"},
-        {"first_slip", "strain; stress in " + stress + "; null: none by the linear solution"},
-        {"first_break", "likewise"},
-        {"strength_estimate",
-         "rough: modulus times the strain at which share_broken of the points that can break has broken by the linear "
-         "solution; within_factor: the most it was off by in the cases it is calibrated with"},
-        {"time_step", "s"},
-        {"axial_strain_rate", "1/s, to begin with"},
-        {"slowest_axial_strain_rate", "1/s, while many bonds break"},
-        {"steps_per_second", "1/s, measured on this machine now"},
-        {"run_to_strength", "steps and seconds at the first rate; null without an estimate below max_axial_strain"},
-        {"run_to_max_axial_strain", "likewise, should the specimen not fail before"},
-        {"specimen_seconds", "s, making the specimen"},
-        {"memory", "bytes, largest of this check"}};
-    return json;
 }
 
 std::string loss_text(const std::optional<FirstLoss>& loss, const char* unit) {
@@ -296,7 +236,7 @@ int check(const Invocation& given) {
         const TestCheck checked = check_test(description, hooks);
         given.messages.make_room();
         if (json)
-            std::cout << as_json(checked).dump(2) << '\n';
+            std::cout << check_as_json(checked).dump(2) << '\n';
         else
             print_check(checked);
     } catch (const TestInterrupted& stop) {
@@ -308,6 +248,76 @@ int check(const Invocation& given) {
 }
 
 }  // namespace
+
+Progress shown_progress(const TestProgress& test) {
+    return {.share = test.share_done,
+            .rate = test.steps_per_second,
+            .unit = "steps",
+            .seconds_left = test.seconds_left,
+            .detail = fmt::format("strain {:.3e}, {:.3e} {} (peak {:.3e}), {} bonds broken", test.axial_strain,
+                                  test.axial_stress, test.stress_unit, test.peak_stress, test.bonds_broken)};
+}
+
+void limit_threads(TestOptions& options, std::int64_t asked) {
+    options.fewest_bodies_a_thread = bodies_worth_a_thread;
+    // No more are tried than are asked for: many tests may run side by side.
+    const ThreadRoom room =
+        room_for_threads(static_cast<int>(std::clamp<std::int64_t>(asked, 1, options.most_threads)));
+    options.most_threads = room.threads;
+    options.most_threads_why = room.why;
+}
+
+nlohmann::ordered_json check_as_json(const TestCheck& check) {
+    const VirtualTest& test = check.test;
+    const std::string stress = test.description.stress_unit();
+    Json json{{"title", test.description.title},
+              {"kind", test.description.loading.kind},
+              {"platens", test.description.loading.platens},
+              {"specimen", test.setup.specimen},
+              {"particles", test.setup.particles},
+              {"grains_across", check.grains_across},
+              {"bonds", test.world.bonds.initial},
+              {test.setup.uniaxial ? "youngs_modulus" : "nominal_modulus", finite_or_null(check.youngs_modulus)},
+              {"poissons_ratio", finite_or_null(check.poissons_ratio)},
+              {"gauge_modulus", finite_or_null(check.gauge_modulus)},
+              {"first_slip", loss_as_json(check.first_slip)},
+              {"first_break", loss_as_json(check.first_break)},
+              {"strength_estimate", nullptr},
+              {"time_step", test.world.stepping.time_step},
+              {"axial_strain_rate", check.rate},
+              {"slowest_axial_strain_rate", check.slowest_rate},
+              {"steps_per_second", check.steps_per_second},
+              {"run_to_strength", check.to_strength ? run_as_json(*check.to_strength) : Json(nullptr)},
+              {"run_to_max_axial_strain", run_as_json(check.to_end)},
+              {"specimen_seconds", test.specimen_seconds},
+              {"memory", check.memory},
+              {"warnings", check.warnings}};
+    if (const auto& strength = check.strength)
+        json["strength_estimate"] = {{"stress", strength->stress},
+                                     {"strain", strength->strain},
+                                     {"share_broken", strength->share},
+                                     {"within_factor", strength->factor}};
+    json["units"] = {
+        {"grains_across", "width over sqrt(width height / particles)"},
+        {"youngs_modulus", stress +
+                               ", small strain, all bonds intact and sticking; nominal_modulus in its place where the "
+                               "test is not between platens"},
+        {"gauge_modulus", stress + ", over the strain of the axial gauge length"},
+        {"first_slip", "strain; stress in " + stress + "; null: none by the linear solution"},
+        {"first_break", "likewise"},
+        {"strength_estimate",
+         "rough: modulus times the strain at which share_broken of the points that can break has broken by the linear "
+         "solution; within_factor: the most it was off by in the cases it is calibrated with"},
+        {"time_step", "s"},
+        {"axial_strain_rate", "1/s, to begin with"},
+        {"slowest_axial_strain_rate", "1/s, while many bonds break"},
+        {"steps_per_second", "1/s, measured on this machine now"},
+        {"run_to_strength", "steps and seconds at the first rate; null without an estimate below max_axial_strain"},
+        {"run_to_max_axial_strain", "likewise, should the specimen not fail before"},
+        {"specimen_seconds", "s, making the specimen"},
+        {"memory", "bytes, largest of this check"}};
+    return json;
+}
 
 CommandLine describe_test() {
     po::options_description options;
@@ -384,26 +394,18 @@ int test(const Invocation& given) {
     options.verify = values.contains("verify");
     options.profile = values.contains("profile");
     options.threads = values.contains("threads") ? values["threads"].as<int>() : 0;
-    options.fewest_bodies_a_thread = bodies_worth_a_thread;
     options.endless = values.contains("long");
     options.command = "crackle test";
     for (const std::string& word : given.words) options.command += ' ' + word;
     watch_interrupts();
     const TestHooks hooks = hooks_for(given.messages);
-    // No more are tried than are asked for: many tests may run side by side.
-    const auto find_room = [&](std::int64_t asked) {
-        const ThreadRoom room =
-            room_for_threads(static_cast<int>(std::clamp<std::int64_t>(asked, 1, options.most_threads)));
-        options.most_threads = room.threads;
-        options.most_threads_why = room.why;
-    };
     TestOutcome outcome;
     if (resume) {
-        find_room(options.threads > 0 ? options.threads : options.most_threads);
+        limit_threads(options, options.threads > 0 ? options.threads : options.most_threads);
         outcome = resume_test(options, hooks);
     } else {
         TestCase description = read_case(given_or_shipped(given.operands.front()));
-        find_room(options.threads > 0 ? options.threads : description.numerics.threads);
+        limit_threads(options, options.threads > 0 ? options.threads : description.numerics.threads);
         if (values.contains("allow-unstable")) description.numerics.allow_unstable = true;
         try {
             outcome = run_test(description, options, hooks);

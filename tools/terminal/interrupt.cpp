@@ -7,11 +7,17 @@
 #include <cerrno>
 #include <csignal>
 #include <string_view>
+#include <utility>
 
 #include "tools/terminal/terminal.hpp"
 
 namespace crackle::tools {
 namespace {
+
+std::function<bool()>& host() {
+    static std::function<bool()> hears;
+    return hears;
+}
 
 std::atomic<bool> asked{false}, on_terminal{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler");
@@ -42,6 +48,7 @@ extern "C" void take_down_interrupt(int /*signal*/) {
 }  // namespace
 
 void watch_interrupts() {
+    if (host()) return;
     on_terminal = is_terminal(Stream::err);
     std::signal(SIGINT, take_down_interrupt);
     std::signal(SIGTERM, take_down_interrupt);
@@ -53,6 +60,8 @@ void make_writing_fail_by_error() {
     std::signal(SIGXFSZ, SIG_IGN);
 }
 
-bool interrupted() { return asked; }
+void hear_interrupts_by(std::function<bool()> hears) { host() = std::move(hears); }
+
+bool interrupted() { return host() ? host()() : asked.load(); }
 
 }  // namespace crackle::tools

@@ -74,5 +74,17 @@ TEST(Interrupt, ThatIsHeardSoonSaysNothing) {
     EXPECT_EQ(WEXITSTATUS(status), 130);
 }
 
+TEST(Interrupt, AHostThatHearsSignalsItselfKeepsThem) {
+    bool wanted = false;
+    hear_interrupts_by([&] { return wanted; });
+    watch_interrupts();
+    EXPECT_EQ(std::signal(SIGINT, SIG_DFL), SIG_DFL) << "as it was";
+    EXPECT_FALSE(interrupted());
+    wanted = true;
+    EXPECT_TRUE(interrupted());
+    hear_interrupts_by({});
+    EXPECT_FALSE(interrupted());
+}
+
 }  // namespace
 }  // namespace crackle::tools
