@@ -158,6 +158,7 @@ class Pages(unittest.TestCase):
         (cls.folder / "specimens").symlink_to(TOP / "specimens")
         (cls.folder / "build" / "release").mkdir(parents=True)
         (cls.folder / "build" / "release" / "tools").symlink_to(PROGRAM.parent)
+        (cls.folder / "build" / "release" / "python").symlink_to(PROGRAM.parents[1] / "python")
         cls.runs = {}
         for page in PAGES:
             before = "" if page == "README.md" else 'export PATH="$PWD/build/release/tools:$PATH"\n'
@@ -183,7 +184,8 @@ class Pages(unittest.TestCase):
     def run_of(cls, page, mark, words):
         if not blocks(mark, page):
             return
-        done = subprocess.run(words, cwd=cls.folder, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
+        environment = os.environ | {"PYTHONPATH": str(cls.folder / "build" / "release" / "python"), "PYTHONDONTWRITEBYTECODE": "1"}
+        done = subprocess.run(words, cwd=cls.folder, capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL, env=environment)
         print(f"== {page}, {mark}", done.stdout, done.stderr, sep="\n")
         cls.runs[page, mark] = done
 

@@ -1,0 +1,103 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cases in Python are those of the command line: the same keys, defaults and refusals."""
+import copy
+import math
+import os
+import pickle
+import subprocess
+import sys
+import unittest
+from pathlib import Path
+
+import numpy
+
+import crackle
+from small import CASE, TOP, InScratch, program, small, toml
+
+
+class Cases(InScratch):
+    def test_a_dict_a_text_and_a_file_are_one_case(self):
+        Path("case.toml").write_text(toml(CASE), encoding="utf-8")
+        resolved = crackle.read_case(CASE).resolved()
+        self.assertIn("normal_stiffness = 10000000", resolved)
+        self.assertEqual(crackle.read_case(toml(CASE)).resolved(), resolved)
+        self.assertEqual(crackle.read_case("case.toml").resolved(), resolved)
+        self.assertEqual(crackle.read_case(Path("case.toml")).resolved(), resolved)
+
+    def test_numbers_of_numpy_and_absent_keys(self):
+        case = small(packing={"count": numpy.int64(60), "seed": numpy.int32(1)},
+                     material={"density": numpy.float64(2500.0), "tensile_strength": None})
+        self.assertEqual(crackle.read_case(case).resolved(), crackle.read_case(CASE).resolved())
+
+    def test_lists_of_tables(self):
+        case = small(material={"units": "area", "normal_stiffness": None, "shear_stiffness": None, "contact_modulus": 2e10,
+                               "stiffness_ratio": 2.5, "tensile_strength": 1e7, "cohesion": 5e7},
+                     bond={"law": "coulomb"}, mineral=None)
+        case["mineral"] = [{"name": "quartz", "area_share": 0.3}, {"name": "feldspar", "contact_modulus": 1e10}]
+        self.assertIn("quartz", crackle.read_case(case).resolved())
+        case["mineral"][0]["area_share"] = -1
+        with self.assertRaises(crackle.InputError) as refused:
+            crackle.read_case(case)
+        self.assertEqual(refused.exception.key, "mineral[1].area_share")
+
+    def test_includes_lead_to_shipped_cases_from_anywhere(self):
+        case = crackle.read_case({"include": "specimens/guide_rock/circles_tension.toml", "title": "mine"})
+        self.assertEqual((case.title, case.kind), ("mine", "tension"))
+        with self.assertRaises(crackle.InputError) as refused:
+            crackle.read_case({"include": "nothing.toml"})
+        self.assertIn("found no file", str(refused.exception))
+
+    def test_a_refusal_is_the_command_lines(self):
+        for change in ({"normal_stiffness": -1.0}, {"cohesive": 1.0}, {"density": "heavy"}):
+            case = small(material=change)
+            Path("case.toml").write_text(toml(case), encoding="utf-8")
+            said = program("test", "case.toml", "-o", "out")
+            self.assertEqual(said.returncode, 2)
+            with self.assertRaises(crackle.InputError) as refused:
+                crackle.test("case.toml", "out")
+            self.assertEqual("crackle: " + str(refused.exception) + "\n", said.stderr)
+            with self.assertRaises(crackle.InputError) as of_dict:
+                crackle.test(case)
+            line = refused.exception.where
+            self.assertTrue(line.startswith("case.toml:"), line)
+            self.assertEqual(str(of_dict.exception), str(refused.exception).replace(line, "case"))
+
+    def test_parts_of_a_refusal(self):
+        with self.assertRaises(crackle.InputError) as refused:
+            crackle.read_case(small(material={"normal_stiffness": -1.0}))
+        error = refused.exception
+        self.assertEqual((error.where, error.key, error.found), ("case", "material.normal_stiffness", "-1"))
+        self.assertIn("> 0", error.expected)
+        self.assertIsInstance(error, ValueError)
+        self.assertEqual(str(pickle.loads(pickle.dumps(error))), str(error))
+
+    def test_what_no_case_can_be(self):
+        for wrong, words in ((5, "found a int"), ({"packing": {"count": object()}}, "packing.count: found a object"),
+                             ({"packing": {"count": 2**70}}, "64 bits"), ({1: {}}, "found a key 1"),
+                             ({"material": {"density": math.nan}}, "material.density: found nan"),
+                             ("a = [", "case:1: not valid TOML"), ({"packing": 5}, "packing"), ({}, "case: "),
+                             ("no_such.toml", "found no such file"), ([], "found a list"),
+                             ({"packing": {"count": {"a": {"b": 1}}}}, "packing.count: found a table")):
+            with self.assertRaises(crackle.InputError, msg=wrong) as refused:
+                crackle.read_case(wrong)
+            self.assertIn(words, str(refused.exception))
+
+    def test_all_keys_are_told(self):
+        self.assertEqual(crackle.case_keys(), program("test", "--keys").stdout)
+
+
+class Importing(unittest.TestCase):
+    def test_importing_loads_no_numpy(self):
+        # What makes an import slow; a notebook that only reads a summary need not wait for it.
+        told = subprocess.run([sys.executable, "-c", "import crackle, sys; print('numpy' in sys.modules, 'IPython' in sys.modules)"],
+                              capture_output=True, text=True, check=True, env=os.environ).stdout
+        self.assertEqual(told.split(), ["False", "False"])
+
+    def test_all_names_are_documented(self):
+        for name in crackle.__all__:
+            self.assertTrue(getattr(crackle, name).__doc__, name)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,185 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Commands as functions: the same files and numbers as the command line's, the same options, the same refusals."""
+import inspect
+import json
+import sqlite3
+import unittest
+from pathlib import Path
+
+import numpy
+
+import crackle
+from crackle import _engine
+from small import CASE, InScratch, program, small, toml
+
+PACKING = dict(count=60, radius_min=0.01333, radius_max=0.02667, mean_overlap=7.74e-5)
+WORDS = ("--count", 60, "--radius-min", 0.01333, "--radius-max", 0.02667, "--mean-overlap", 7.74e-5)
+# What a function of Python has no need of.
+OF_A_TERMINAL = {"quiet", "verbose", "help", "keys", "files", "json", "dry-run"}
+
+
+class Options(unittest.TestCase):
+    """A keyword for each option, so that neither grows without the other."""
+
+    def test_keywords_are_the_options(self):
+        others = {"pack": set(), "mesh": set(), "elastic": {"bonds", "force"}, "test": {"resume", "check"}, "campaign": set(),
+                  "calibrate": set(), "envelope": set(), "plot": {"guide", "format"}, "report": set()}
+        for command, left_out in others.items():
+            options = {option[0] for option in _engine.options(command)} - OF_A_TERMINAL - left_out
+            parameters = inspect.signature(getattr(crackle, command)).parameters
+            keywords = {name.replace("_", "-") for name, parameter in parameters.items()
+                        if parameter.kind is not parameter.VAR_POSITIONAL} - {"progress", "call", "every"}
+            operand = {"mesh": "particles", "elastic": "case", "test": "case", "campaign": "plan", "calibrate": "rock"}
+            self.assertEqual(keywords - {operand.get(command)}, options, command)
+
+    def test_an_unknown_keyword_is_refused(self):
+        with self.assertRaises(TypeError):
+            crackle.pack(cuont=5)
+        with self.assertRaises(crackle.InputError) as refused:
+            _engine.pack(["--cuont=5"], None)
+        self.assertIn("did you mean --count?", str(refused.exception))
+
+
+class Particles(InScratch):
+    def test_a_packing_is_the_programs(self):
+        self.assertEqual(program("pack", *WORDS, "-o", "a.dat", "-q").returncode, 0)
+        made = crackle.pack(**PACKING, output="b.dat")
+        self.assertEqual(Path("a.dat").read_bytes(), Path("b.dat").read_bytes())
+        self.assertEqual(made.text(), Path("a.dat").read_text())
+        self.assertEqual(len(made), 60)
+        circles = made.circles
+        self.assertEqual(made.facts["circles"], 60)
+        x1, x2, y1, y2 = made.domain
+        area = numpy.pi * (circles["radius"] ** 2).sum()
+        self.assertAlmostEqual(((x2 - x1) * (y2 - y1) - area) / area, made.facts["void_ratio"], delta=1e-12)
+        with self.assertRaises(crackle.InputError) as refused:
+            crackle.pack(**PACKING, output="b.dat")
+        self.assertIn("--force", str(refused.exception))
+        again = crackle.read("b.dat")
+        numpy.testing.assert_array_equal(again.circles["radius"], circles["radius"])
+
+    def test_a_mesh_is_the_programs(self):
+        packed = crackle.pack(**PACKING, output="in.dat")
+        for kind in ("voronoi", "delaunay"):
+            self.assertEqual(program("mesh", "in.dat", "--kind", kind, "--thick", 1e-3, "-o", f"{kind}.dat", "-q").returncode, 0)
+            made = crackle.mesh(packed, kind=kind, thick=1e-3)
+            self.assertEqual(made.text(), Path(f"{kind}.dat").read_text())
+            self.assertEqual(crackle.mesh("in.dat", kind=kind, thick=1e-3).text(), made.text())
+            bodies, corners = made.bodies, made.vertices
+            self.assertEqual(bodies["vertex_count"].sum(), len(corners))
+            self.assertTrue(bodies["closed"].all())
+            self.assertEqual(made.facts["cells"], len(made))
+
+    def test_a_mesh_of_centres(self):
+        centres = numpy.array([[-0.25, 0.5], [0.25, 0.5], [0.25, 1.5], [-0.25, 1.5]])
+        made = crackle.mesh(centres, kind="voronoi", thick=0.0, domain=(-0.5, 0.5, 0.0, 2.0), density=2000.0)
+        self.assertEqual(len(made), 4)
+        self.assertAlmostEqual(made.facts["area_before_inset"], 2.0, delta=1e-12)
+
+    def test_refusals_are_the_programs(self):
+        for options, words in ((dict(count=5, radius_min=0.1), ("--count", 5, "--radius-min", 0.1)),
+                               (dict(count=60, radius_min=0.1, radius_max=0.2), ("--count", 60, "--radius-min", 0.1, "--radius-max", 0.2)),
+                               ({**PACKING, "seed": -1}, (*WORDS, "--seed=-1"))):
+            with self.assertRaises(crackle.InputError) as refused:
+                crackle.pack(**options)
+            self.assertEqual(f"crackle: {refused.exception}\n", program("pack", *words, "-o", "none.dat").stderr)
+        packed = crackle.pack(**PACKING)
+        for options in (dict(kind="hexagonal", thick=0.0), dict(kind="voronoi"), dict(kind="voronoi", thick=1.0)):
+            with self.assertRaises(crackle.InputError):
+                crackle.mesh(packed, **options)
+        for wrong in (5, [1.0, 2.0], [("a", "b")]):
+            with self.assertRaises(crackle.InputError):
+                crackle.mesh(wrong, kind="voronoi", thick=0.0)
+
+    def test_ctrl_c_is_heard_while_packing(self):
+        def raise_it(kind, text, share):
+            raise KeyboardInterrupt
+        with self.assertRaises(KeyboardInterrupt):
+            crackle.pack(count=20000, radius_min=0.01, radius_max=0.02, mean_overlap=1e-5, progress=raise_it)
+
+
+class Solutions(InScratch):
+    def test_elastic_is_the_programs(self):
+        Path("case.toml").write_text(toml(CASE), encoding="utf-8")
+        told = json.loads(program("elastic", "case.toml", "--json", "--modes", 3).stdout)
+        found = crackle.elastic(CASE, modes=3)
+        self.assertEqual({**found, "seconds": 0}, {**told, "seconds": 0})
+        self.assertEqual(len(found.bonds), told["bonds"])
+        first = found.bonds[numpy.argmin(found.bonds["break_strain"])]
+        self.assertEqual({first["body_i"], first["body_j"]}, {told["first_break"]["body_i"], told["first_break"]["body_j"]})
+        self.assertEqual(found.notices, [])
+        confined = small(loading={"kind": "biaxial"}, confinement={"pressure": 100.0})
+        self.assertIn("without confining pressure", crackle.elastic(confined).notices[0])
+        for wrong in (dict(strain=0.0), dict(strain=float("nan")), dict(modes=-1)):
+            with self.assertRaises(crackle.InputError):
+                crackle.elastic(CASE, **wrong)
+
+    def test_check_is_the_programs(self):
+        Path("case.toml").write_text(toml(CASE), encoding="utf-8")
+        told = json.loads(program("test", "--check", "case.toml", "--json").stdout)
+        found = crackle.check(CASE)
+        self.assertEqual(found.keys(), told.keys())
+        for key in ("youngs_modulus", "bonds", "first_break", "strength_estimate", "time_step", "units"):
+            self.assertEqual(found[key], told[key], key)
+
+
+PLAN = """
+title = "Two seeds"
+[[test]]
+name = "tension"
+case = "case.toml"
+[[axis]]
+key = "loading.axial_strain_rate"
+values = [0.02, 0.04]
+[packings]
+count = 2
+"""
+
+
+class Tables(InScratch):
+    def test_a_campaign_is_the_programs(self):
+        Path("case.toml").write_text(toml(CASE), encoding="utf-8")
+        Path("plan.toml").write_text(PLAN, encoding="utf-8")
+        made = program("campaign", "plan.toml", "-o", "by_program", "-q")
+        if made.returncode == 2:
+            self.fail(made.stderr)
+        found = crackle.campaign("plan.toml", "by_python", workers=2)
+        results = found.results
+        self.assertEqual(len(results.peak_stress), 4)
+        other = sqlite3.connect("by_program/campaign.sqlite").execute("SELECT peak_stress FROM results").fetchall()
+        self.assertEqual(sorted(results.peak_stress), sorted(row[0] for row in other))
+        self.assertEqual(crackle.read("by_python").query("SELECT count(*) AS n FROM results").n, [4])
+        self.assertIn("<svg", found.figure())
+        with self.assertRaises(crackle.InputError):
+            crackle.campaign("none.toml", "by_python")
+
+    def test_an_envelope_is_the_programs(self):
+        for seed in (1, 2):
+            for pressure in (0, 500, 1500):
+                case = {"include": "specimens/guide_rock/circles_compression.toml", "packing": {"seed": seed, "count": 100},
+                        "loading": {"axial_strain_rate": 0.1, "max_axial_strain": 0.03},
+                        "output": {"frames": 1, "curve_rows": 200}}
+                if pressure > 0:
+                    case["loading"]["kind"] = "biaxial"
+                    case["confinement"] = {"pressure": pressure}
+                crackle.test(case, f"out/{seed}_{pressure}")
+        folders = sorted(str(path) for path in Path("out").iterdir())
+        told = program("envelope", *folders, "--json")
+        self.assertEqual(told.returncode, 0, told.stderr)
+        self.assertEqual(crackle.envelope(*folders), json.loads(told.stdout))
+        crackle.envelope(*(crackle.read(folder) for folder in folders), output="envelope.svg")
+        self.assertIn("<svg", Path("envelope.svg").read_text())
+        with self.assertRaises(crackle.InputError) as refused:
+            crackle.envelope(folders[0])
+        self.assertEqual(f"crackle: {refused.exception}\n", program("envelope", folders[0], "--json").stderr)
+
+    def test_a_calibration_is_refused_as_the_program_does(self):
+        Path("rock.toml").write_text("title = 'none'\n", encoding="utf-8")
+        with self.assertRaises(crackle.InputError) as refused:
+            crackle.calibrate("rock.toml", "out")
+        self.assertEqual(f"crackle: {refused.exception}\n", program("calibrate", "rock.toml", "-o", "out").stderr)
+
+
+if __name__ == "__main__":
+    unittest.main()

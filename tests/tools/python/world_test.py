@@ -1,0 +1,273 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Worlds that Python steps: the same motion as the program's, arrays over the engine's memory, bonds and laws changed
+while it runs, and no way to crash it."""
+import gc
+import threading
+import time
+import unittest
+
+import numpy
+
+import crackle
+from small import CASE, InScratch, small
+
+
+class Worlds(InScratch):
+    def test_stepping_in_calls_is_stepping_at_once(self):
+        one, other = crackle.World(CASE), crackle.World(CASE)
+        one.step(5000)
+        for _ in range(50):
+            views = other.bodies, other.pairs, other.shear_forces  # held over steps
+            other.step(100)
+        self.assertEqual(one.state_hash(), other.state_hash())
+        self.assertEqual((one.steps, other.steps), (5000, 5000))
+        self.assertGreater(views[0]["y"].sum(), 0.0)
+
+    def test_a_world_moves_as_the_programs_test(self):
+        seen = {}
+
+        def look(state):
+            seen[state.steps] = (state.state_hash(), state.row()["axial_stress"])
+        crackle.test(CASE, every=500, call=look)
+        world = crackle.World(CASE)
+        for step in sorted(seen)[:8]:
+            world.step(step - world.steps)
+            self.assertEqual(world.row()["axial_stress"], seen[step][1])
+        self.assertGreater(len(seen), 8)
+
+    def test_own_loading_follows_the_modulus(self):
+        world = crackle.World(CASE)
+        linear = crackle.elastic(CASE)
+        target = 0.5 * linear["first_slip"]["strain"]  # below it the solution is exact
+        world.platen_speed = 5e-5 * target * world.length / world.time_step
+        while world.axial_strain < target:
+            world.step(100)
+        world.platen_speed = 0.0
+        world.step(100_000)  # rests, but for a particle that nothing holds
+        row = world.row()
+        self.assertEqual((row["bonds_slid"], row["bonds_broken"]), (0, 0))
+        self.assertAlmostEqual(row["axial_stress"] / (linear["youngs_modulus"] * row["axial_strain"]), 1.0, delta=1e-3)
+
+    def test_threads_change_nothing(self):
+        one, other = crackle.World(CASE), crackle.World(CASE, threads=2)
+        one.step(3000)
+        other.step(1000)
+        other.threads = 1
+        other.step(2000)
+        self.assertEqual(one.state_hash(), other.state_hash())
+
+    def test_events_are_the_programs(self):
+        result = crackle.test(CASE, "out")
+        world = crackle.World(CASE)
+        while len(world.events) < len(result.events.step):
+            world.step(1000)
+        events = world.events[:len(result.events.step)]
+        numpy.testing.assert_array_equal(events["step"], result.events.step)
+        numpy.testing.assert_array_equal(events["position"]["x"], result.events.x)
+
+
+class Arrays(InScratch):
+    def test_views_are_the_engines_memory(self):
+        world = crackle.World(CASE)
+        one, other = world.bodies, world.bodies
+        self.assertEqual(one.__array_interface__["data"][0], other.__array_interface__["data"][0])
+        self.assertFalse(one.flags.owndata)
+        self.assertEqual(one.dtype.itemsize, 64)
+        self.assertEqual(one.dtype.names, ("x", "y", "vx", "vy", "omega", "shape", "angle"))
+
+    def test_views_are_read_only(self):
+        world = crackle.World(CASE)
+        for array in (world.bodies, world.names, world.masses, world.forces, world.bonds, world.pairs, world.laws,
+                      world.shear_forces, world.bond_overlaps):
+            with self.assertRaises(ValueError):
+                array[0] = array[0]
+
+    def test_a_view_outlives_its_world(self):
+        world = crackle.World(CASE)
+        view, copy = world.bodies, world.bodies.copy()
+        world.step(100)
+        late = world.bodies
+        late_copy = late.copy()
+        del world
+        gc.collect()
+        numpy.zeros(10**6)  # takes the memory that is free
+        self.assertEqual(view.tobytes(), copy.tobytes())
+        self.assertEqual(late.tobytes(), late_copy.tobytes())
+        self.assertNotEqual(view.tobytes(), late.tobytes())
+
+    def test_a_second_view_outlives_the_first(self):
+        world = crackle.World(CASE)
+        first, second = world.bodies, world.bodies
+        copy = first.copy()
+        world.step(10)
+        del first
+        gc.collect()
+        self.assertEqual(second.tobytes(), copy.tobytes())
+
+    def test_views_of_results_and_particles_outlive_them(self):
+        result = crackle.test(CASE)
+        stress, events = result.curve.axial_stress, result.events.energy
+        sums = stress.sum(), events.sum()
+        particles = crackle.pack(count=100, radius_min=0.01, radius_max=0.02, mean_overlap=1e-5)
+        circles, copy = particles.circles, particles.circles.copy()
+        del result, particles
+        gc.collect()
+        self.assertEqual((stress.sum(), events.sum()), sums)
+        self.assertEqual(circles.tobytes(), copy.tobytes())
+
+    def test_forces_balance_inside(self):
+        world = crackle.World(CASE)
+        world.step(500)
+        inner = world.masses["inverse_mass_x"] > 0.0
+        forces = world.forces
+        total = numpy.array([forces["fx"][inner].sum(), forces["fy"][inner].sum()])
+        driven = numpy.array([forces["fx"][~inner].sum(), forces["fy"][~inner].sum()])
+        scale = numpy.abs(world.contacts()["normal_force"]).sum()
+        self.assertLess(numpy.abs(total + driven).max(), 1e-12 * scale)  # action is reaction, to rounding
+
+    def test_contacts_are_those_of_the_world(self):
+        world = crackle.World(CASE)
+        contacts = world.contacts()
+        self.assertEqual(contacts["bonded"].sum(), world.bonds_initial)
+        normals = contacts["normal"]
+        numpy.testing.assert_allclose(numpy.hypot(normals["x"], normals["y"]), 1.0, atol=1e-12)
+        names, bodies = world.names, world.bodies
+        numpy.testing.assert_array_equal(names["id"][contacts["body_i"]], contacts["id_i"])
+        between = contacts["id_j"] > 0
+        radii = bodies["shape"][:, 0]
+        circles = between & (radii[contacts["body_i"]] > 0) & ~numpy.isin(contacts["id_j"], world.platens) \
+            & ~numpy.isin(contacts["id_i"], world.platens)
+        i, j = contacts["body_i"][circles], contacts["body_j"][circles]
+        apart = numpy.hypot(bodies["x"][j] - bodies["x"][i], bodies["y"][j] - bodies["y"][i])
+        numpy.testing.assert_allclose(radii[i] + radii[j] - apart, contacts["overlap"][circles], atol=1e-14)
+        self.assertEqual(world.index(int(names["id"][3])), 3)
+
+
+class Changes(InScratch):
+    def pulled_apart(self, **law):
+        """Two of the discs of a packing, bonded, the rest free of bonds, pulled apart; @return breaks"""
+        particles = crackle.pack(count=40, radius_min=0.01, radius_max=0.02, mean_overlap=1e-4)
+        world = crackle.World(particles, walls=False)
+        contacts = world.contacts()
+        deepest = contacts[numpy.argmax(contacts["overlap"])]
+        i, j = int(deepest["id_i"]), int(deepest["id_j"])
+        return world, i, j, deepest
+
+    def test_an_added_bond_holds_and_breaks_at_its_back_tension(self):
+        world, i, j, contact = self.pulled_apart()
+        self.assertEqual(world.add_bond(i, j), 1)
+        self.assertEqual(world.add_bond(i, j), 0, "has one already")
+        self.assertEqual((world.bonds_initial, world.bonds_broken), (1, 0))
+        bonded = world.contacts()
+        bonded = bonded[bonded["bonded"]][0]
+        self.assertEqual(bonded["normal_force"], 0.0)
+        self.assertEqual(bonded["bond_overlap"], contact["overlap"])
+        # Everything else aside, and j pulled along the normal at a speed that the step resolves.
+        for body in world.names["id"]:
+            world.drive(int(body), 0.0, 0.0)  # may turn
+        nx, ny = float(bonded["normal"]["x"]), float(bonded["normal"]["y"])
+        speed = 1e-4 * bonded["overlap"] / world.time_step
+        world.drive(j, speed * nx, speed * ny)
+        world.step(9_990)
+        self.assertEqual(len(world.events), 0)
+        pull = world.contacts()
+        pull = pull[pull["bonded"]][0]["normal_force"]
+        stiffness = float(world.laws["normal_stiffness"][0])
+        # Back-tension: f = -k (δ0 - δ), and it is lost at δ = 0, k δ0.
+        self.assertAlmostEqual(pull / (-stiffness * 0.999 * contact["overlap"]), 1.0, delta=2e-4)
+        world.step(20)
+        self.assertEqual(len(world.events), 1)
+        self.assertAlmostEqual(world.events["strength"][0], stiffness * contact["overlap"], delta=1e-9)
+        self.assertEqual({world.events["body_i"][0], world.events["body_j"][0]}, {i, j})
+
+    def test_a_gap_is_bonded_where_it_is_asked_for(self):
+        world, i, j, contact = self.pulled_apart()
+        all_ids = [int(one) for one in world.names["id"]]
+        touching = len(world.contacts())
+        pairs = [(a, b) for a in all_ids for b in all_ids if a < b]
+        self.assertEqual(world.add_bonds(pairs), touching)
+        self.assertGreater(world.add_bonds(pairs, gap=2e-3), 0)
+
+    def test_a_stiffer_law_makes_a_shorter_step(self):
+        world = crackle.World(CASE)
+        before, energy = world.time_step, world.bonds_initial
+        world.set_property("normal_stiffness", 4.0e7)
+        self.assertEqual(world.laws["normal_stiffness"][0], 4.0e7)
+        # All springs in the normal direction four times as stiff: the step falls, by half at most.
+        self.assertLess(world.time_step, 0.75 * before)
+        self.assertGreaterEqual(world.time_step, 0.5 * before)
+        self.assertEqual(world.bonds_initial, energy)
+        world.step(1000)
+        world.set_property("friction_angle", 10.0)
+        self.assertAlmostEqual(world.laws["friction"][0], numpy.tan(numpy.radians(10.0)), delta=1e-15)
+
+    def test_a_stiffer_world_is_that_of_a_stiffer_case(self):
+        stiff = small(material={"normal_stiffness": 2.0e7, "shear_stiffness": 5.0e6})
+        world = crackle.World(CASE)
+        world.set_property("normal_stiffness", 2.0e7)
+        world.set_property("shear_stiffness", 5.0e6)
+        other = crackle.World(stiff)
+        for name in ("normal_stiffness", "shear_stiffness", "friction"):
+            self.assertEqual(world.laws[name][0], other.laws[name][0], name)
+        numpy.testing.assert_allclose(world.laws["normal_damping_ratio_term"][0],
+                                      other.laws["normal_damping_ratio_term"][0], rtol=1e-15)
+        numpy.testing.assert_allclose(world.time_step, other.time_step, rtol=1e-9)
+
+    def test_what_cannot_be_changed(self):
+        world = crackle.World(CASE)
+        for wrong, words in ((("stiffness", 1.0), "expected one of normal_stiffness"),
+                             (("normal_stiffness", 0.0), "> 0"), (("normal_stiffness", float("nan")), "found nan"),
+                             (("friction_angle", 90.0), "< 90"), (("cohesion", 1e3), "back-tension"),
+                             (("normal_stiffness", 1e7, (1, 9)), "materials 1 and 9"),
+                             (("normal_stiffness", 1e7, (0, 1)), "materials 0 and 1")):
+            with self.assertRaises(crackle.InputError, msg=wrong) as refused:
+                world.set_property(*wrong)
+            self.assertIn(words, str(refused.exception))
+        hash_before = world.state_hash()
+        for wrong in (lambda: world.add_bond(10**6, 1), lambda: world.add_bond(1, 1), lambda: world.drive(10**6, 0.0),
+                      lambda: world.drive(1, float("inf")), lambda: world.drive(1, ("push", 1.0)), lambda: world.step(-1),
+                      lambda: world.add_bonds([(1, 2)], gap=-1.0), lambda: world.index(-7),
+                      lambda: setattr(world, "threads", 0), lambda: setattr(world, "platen_speed", float("nan"))):
+            with self.assertRaises(crackle.InputError):
+                wrong()
+        for wrong in (lambda: world.step("many"), lambda: world.drive("top"), lambda: world.step(1.5)):
+            with self.assertRaises(TypeError):
+                wrong()
+        self.assertEqual(world.state_hash(), hash_before)
+
+    def test_particles_have_no_platens(self):
+        world, *_ = self.pulled_apart()
+        for use in (lambda: world.platen_speed, lambda: world.row(), lambda: world.axial_strain, lambda: world.platens):
+            with self.assertRaises(crackle.InputError) as refused:
+                use()
+            self.assertIn("without platens", str(refused.exception))
+
+    def test_a_world_that_goes_wrong_says_so(self):
+        world = crackle.World(CASE)
+        world.drive(int(world.names["id"][10]), ("force", 1e9))
+        with self.assertRaises(crackle.UnstableRun) as unstable:
+            world.step(100_000)
+        self.assertGreater(unstable.exception.step, 0)
+        self.assertEqual(unstable.exception.body, world.names["id"][10])
+        self.assertEqual(len(world.bodies), 62)  # still there to be looked at
+
+    def test_two_threads_on_one_world(self):
+        world = crackle.World(small(packing={"count": 300}))
+        thread = threading.Thread(target=lambda: world.step(20_000))
+        thread.start()
+        refused = 0
+        while thread.is_alive():
+            try:
+                world.bodies
+            except RuntimeError as error:
+                self.assertIn("another thread is stepping", str(error))
+                refused += 1
+            time.sleep(0.001)
+        thread.join()
+        self.assertGreater(refused, 0)
+        self.assertEqual(world.steps, 20_000)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Arrays of the engine as arrays of numpy: structured by the fields that records list (solver/base/fields.hpp), over
+// the engine's own memory, read-only.
+//
+// A view shows the moment at which it was taken. Taking one copies nothing. Where one is still held when the engine
+// goes on, the engine leaves it the memory and goes on with a copy (Loans::settle): a view never changes and never
+// dangles, whoever drops what first.
+// Tested by tests/tools/python/world_test.py.
+#pragma once
+
+#include <pybind11/numpy.h>
+#include <pybind11/pybind11.h>
+
+#include <cstddef>
+#include <memory>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+#include "solver/base/fields.hpp"
+
+namespace crackle::python {
+
+namespace py = pybind11;
+
+template <class T>
+py::object dtype_of();
+
+/// Adds fields to the parts of a numpy dtype.
+class DtypeParts {
+  public:
+    explicit DtypeParts(const void* record) : record_(static_cast<const char*>(record)) {}
+
+    template <class T, class... More>
+    void operator()(const char* name, T& field, const More&... /*more*/) {
+        using Plain = std::remove_cv_t<T>;
+        names_.append(name);
+        offsets_.append(reinterpret_cast<const char*>(&field) - record_);
+        if constexpr (std::is_array_v<Plain>)
+            formats_.append(
+                py::make_tuple(dtype_of<std::remove_extent_t<Plain>>(), py::make_tuple(std::extent_v<Plain>)));
+        else
+            formats_.append(dtype_of<Plain>());
+    }
+    py::dtype dtype(std::size_t size) {
+        return {std::move(names_), std::move(formats_), std::move(offsets_), static_cast<py::ssize_t>(size)};
+    }
+
+  private:
+    const char* record_;
+    py::list names_, formats_, offsets_;
+};
+
+/// Made once a type: numpy is loaded with the first.
+template <class T>
+py::object dtype_of() {
+    if constexpr (HasFields<T>) {
+        static const auto* const made = [] {
+            const T record{};
+            DtypeParts parts(&record);
+            T::fields(record, parts);
+            return new py::object(parts.dtype(sizeof(T)));  // stays: the interpreter may end before statics do
+        }();
+        return *made;
+    } else if constexpr (std::is_enum_v<T>) {
+        return py::dtype::of<std::underlying_type_t<T>>();
+    } else {
+        return py::dtype::of<T>();
+    }
+}
+
+/// Read-only, over memory that `keeper` keeps alive.
+inline py::array view_of(const py::object& dtype, std::size_t count, std::size_t size, const void* data,
+                         const py::object& keeper) {
+    py::array view(py::reinterpret_borrow<py::dtype>(dtype), {static_cast<py::ssize_t>(count)},
+                   {static_cast<py::ssize_t>(size)}, data, keeper);
+    py::detail::array_proxy(view.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+    return view;
+}
+
+/// A capsule that keeps what is shared.
+inline py::capsule keep(std::shared_ptr<void> shared) {
+    auto held = std::make_unique<std::shared_ptr<void>>(std::move(shared));
+    py::capsule capsule(held.get(), [](void* kept) { delete static_cast<std::shared_ptr<void>*>(kept); });
+    static_cast<void>(held.release());  // the capsule has it
+    return capsule;
+}
+
+/// An array of a scene, a result or anything else that does not change as long as it is shared.
+template <class Array>
+py::array view_of(const Array& values, std::shared_ptr<void> owner) {
+    using T = typename Array::value_type;
+    return view_of(dtype_of<T>(), values.size(), sizeof(T), values.data(), keep(std::move(owner)));
+}
+
+/// The arrays of something that goes on, as far as views of them are held.
+class Loans {
+  public:
+    /// @param owner of the array, kept until settle() or the view's end; may be null where settle() always comes first
+    template <class Array>
+    py::array lend(Array& values, std::shared_ptr<void> owner) {
+        using T = typename Array::value_type;
+        std::shared_ptr<Loan> loan;  // one an array: all its views share the memory
+        std::erase_if(loans_, [](const auto& one) { return one.expired(); });
+        for (const std::weak_ptr<Loan>& one : loans_)
+            if (std::shared_ptr<Loan> held = one.lock(); held && held->array == &values) loan = std::move(held);
+        if (!loan) {
+            loan = std::make_shared<LoanOf<Array>>(values, std::move(owner));
+            loans_.emplace_back(loan);
+        }
+        return view_of(dtype_of<T>(), values.size(), sizeof(T), values.data(), keep(std::move(loan)));
+    }
+
+    /// Before the engine changes what is lent: views that are still held keep the memory, the engine gets a copy.
+    void settle() {
+        for (const std::weak_ptr<Loan>& one : loans_)
+            if (const std::shared_ptr<Loan> held = one.lock()) held->settle();
+        loans_.clear();
+    }
+
+  private:
+    struct Loan {
+        explicit Loan(const void* lent_array) : array(lent_array) {}
+        Loan(const Loan&) = delete;
+        Loan& operator=(const Loan&) = delete;
+        virtual ~Loan() = default;
+        virtual void settle() = 0;
+        const void* array;
+    };
+    template <class Array>
+    struct LoanOf final : Loan {
+        LoanOf(Array& values, std::shared_ptr<void> its_owner)
+            : Loan(&values), lent(&values), owner(std::move(its_owner)) {}
+        void settle() override {
+            Array copy = *lent;
+            kept = std::move(*lent);
+            *lent = std::move(copy);
+            owner.reset();
+        }
+        Array* lent;
+        Array kept;  // of the view, once the engine has gone on
+        std::shared_ptr<void> owner;
+    };
+
+    std::vector<std::weak_ptr<Loan>> loans_;
+};
+
+}  // namespace crackle::python

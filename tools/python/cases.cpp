@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A case of a test: read from a file, from a TOML text, or from the tables of a dict as JSON.
+// Tested by tests/tools/python/case_test.py.
+#include <pybind11/stl.h>
+
+#include <filesystem>
+#include <sstream>
+
+#include "specimens/case/case_file.hpp"
+#include "tools/python/parts.hpp"
+
+namespace crackle::python {
+
+namespace py = pybind11;
+
+void bind_cases(py::module_& module) {
+    py::class_<TestCase>(module, "Case", "One virtual test as a case describes it, checked, defaults filled in.")
+        .def_readonly("title", &TestCase::title)
+        .def_property_readonly("kind", [](const TestCase& test) { return test.loading.kind; })
+        .def_property_readonly("stress_unit", &TestCase::stress_unit)
+        .def(
+            "resolved",
+            [](const TestCase& test) {
+                std::ostringstream text;
+                write_resolved_case(text, test, ".");
+                return text.str();
+            },
+            "The case as TOML with every value in the open, each with its unit and a sentence.")
+        .def("__repr__", [](const TestCase& test) { return "<crackle.Case '" + test.title + "'>"; });
+    module.def(
+        "read_case_file", [](const std::string& path) { return read_case(std::filesystem::path(path)); },
+        py::arg("path"));
+    module.def(
+        "read_case_text",
+        [](const std::string& text, const std::string& name, bool json) {
+            return read_case(CaseText{name, text, json});
+        },
+        py::arg("text"), py::arg("name"), py::arg("json"));
+    module.def("case_keys", [] {
+        std::ostringstream text;
+        describe_case_keys(text);
+        return text.str();
+    });
+}
+
+}  // namespace crackle::python

@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Commands of the program called in the process: their options, and those whose results are files or JSON.
+// Tested by tests/tools/python/commands_test.py.
+#include "tools/commands/commands.hpp"
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include <chrono>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "solver/base/errors.hpp"
+#include "specimens/elastic/analysis.hpp"
+#include "specimens/loading/check.hpp"
+#include "specimens/loading/prepare.hpp"
+#include "tools/campaign/campaign.hpp"
+#include "tools/python/arrays.hpp"
+#include "tools/python/parts.hpp"
+#include "tools/python/reports.hpp"
+#include "tools/terminal/interrupt.hpp"
+#include "tools/terminal/threads.hpp"
+
+namespace crackle::python {
+namespace {
+
+struct Called {
+    const char* name;
+    tools::CommandLine (*describe)();
+    int (*run)(const tools::Invocation&);
+};
+
+/// Those that the module calls by words.
+const std::vector<Called>& called() {
+    static const std::vector<Called> all{{"pack", tools::describe_pack, tools::pack},
+                                         {"mesh", tools::describe_mesh, tools::mesh},
+                                         {"test", tools::describe_test, tools::test},
+                                         {"elastic", tools::describe_elastic, tools::elastic},
+                                         {"campaign", tools::describe_campaign, tools::campaign},
+                                         {"campaign show", tools::describe_campaign_show, tools::campaign_show},
+                                         {"envelope", tools::describe_envelope, tools::envelope},
+                                         {"calibrate", tools::describe_calibrate, tools::calibrate_rock},
+                                         {"report", tools::describe_report, tools::report},
+                                         {"view", tools::describe_view, tools::view},
+                                         {"plot", tools::describe_plot, tools::plot}};
+    return all;
+}
+
+const Called& command(const std::string& name) {
+    for (const Called& one : called())
+        if (name == one.name) return one;
+    throw InputError(fmt::format("command: found '{:.40}', expected one that the module calls", name));
+}
+
+/// Name, argument, whether it takes several, default, description, words understood.
+py::list options(const std::string& name) {
+    py::list all;
+    for (const tools::OptionGroup& group : tools::option_groups(command(name).describe()))
+        for (const tools::OptionFacts& option : group.options)
+            all.append(py::make_tuple(option.name, option.argument, option.several, option.value, option.description,
+                                      option.words));
+    return all;
+}
+
+/// While this lives std::cout writes here, and interrupts are heard by this thread alone: one at a time in a process.
+class OneCommand {
+  public:
+    explicit OneCommand(Interrupts& interrupts) {
+        if (running)
+            throw std::runtime_error(
+                "found another command of crackle running in this process, expected one at a time");
+        running = true;
+        before_ = std::cout.rdbuf(text_.rdbuf());
+        tools::hear_interrupts_by([&interrupts] { return interrupts.heard(); });
+    }
+    OneCommand(const OneCommand&) = delete;
+    OneCommand& operator=(const OneCommand&) = delete;
+    ~OneCommand() {
+        tools::hear_interrupts_by([] { return false; });
+        std::cout.rdbuf(before_);
+        running = false;
+    }
+    std::string printed() const { return text_.str(); }
+
+  private:
+    inline static bool running = false;  // looked at with the interpreter's lock held
+    std::ostringstream text_;
+    std::streambuf* before_ = nullptr;
+};
+
+/// Runs a command that prints nothing but its result. @return its exit code and what it printed
+py::tuple run_command(const std::string& name, const tools::Arguments& words) {
+    const Called& asked = command(name);
+    const tools::ParsedWords parsed = tools::parse_words("crackle " + name, asked.describe(), words);
+    tools::Messages messages(tools::Loudness::quiet);
+    Interrupts interrupts;
+    const OneCommand output(interrupts);
+    int code = 0;
+    {
+        const py::gil_scoped_release free;
+        code = asked.run({parsed.values, parsed.operands, words, messages});
+    }
+    interrupts.rethrow();
+    return py::make_tuple(code, output.printed());
+}
+
+/// @return JSON as text, all bonds, and notices
+py::tuple elastic(const TestCase& description, double strain, int modes, const py::object& report) {
+    if (!(strain > 0.0) || !(strain < 1.0))
+        throw InputError(fmt::format("crackle elastic: strain: found {}, expected a number > 0 and < 1", strain));
+    if (modes < 0) throw InputError(fmt::format("crackle elastic: modes: found {}, expected a number >= 0", modes));
+    std::vector<std::string> notices;
+    Interrupts interrupts;
+    const TestHooks hooks = reporting_hooks(report, interrupts);
+    auto analysis = std::make_shared<ElasticAnalysis>();
+    std::string json;
+    try {
+        const py::gil_scoped_release free;
+        const auto start = std::chrono::steady_clock::now();
+        const VirtualTest test = bond_test(tools::elastic_case(description, notices), hooks);
+        *analysis = analyse_elastic(test.world, test.setup, moduli_of(test), strain, modes);
+        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        notices.insert(notices.end(), test.setup.notices.begin(), test.setup.notices.end());
+        json = tools::elastic_as_json(test, *analysis, seconds - test.specimen_seconds).dump();
+    } catch (const TestInterrupted&) {
+        interrupts.rethrow();
+        throw;
+    }
+    interrupts.rethrow();
+    return py::make_tuple(json, view_of(analysis->bonds, analysis), notices);
+}
+
+/// @return JSON as text
+std::string check(TestCase description, int threads, const py::object& report) {
+    tools::Messages messages(tools::Loudness::quiet);
+    if (threads > 0) description.numerics.threads = threads;
+    description.numerics.threads = tools::threads_of_machine(static_cast<int>(description.numerics.threads), messages);
+    Interrupts interrupts;
+    const TestHooks hooks = reporting_hooks(report, interrupts);
+    std::string json;
+    try {
+        const py::gil_scoped_release free;
+        json = tools::check_as_json(check_test(description, hooks)).dump();
+    } catch (const TestInterrupted&) {
+        interrupts.rethrow();
+        throw;
+    }
+    interrupts.rethrow();
+    return json;
+}
+
+}  // namespace
+
+void bind_commands(py::module_& module) {
+    module.def("options", &options, py::arg("command"));
+    module.def("run_command", &run_command, py::arg("command"), py::arg("words"));
+    module.def("elastic", &elastic, py::arg("case"), py::arg("strain"), py::arg("modes"), py::arg("report"));
+    module.def("check", &check, py::arg("case"), py::arg("threads"), py::arg("report"));
+}
+
+}  // namespace crackle::python

@@ -1,0 +1,87 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cases from dicts, TOML texts and files; where shipped files are."""
+import json
+import math
+import os
+
+from . import _engine
+from ._errors import InputError
+
+
+def _shipped_folder():
+    """The folder that holds specimens/: of an installed package PREFIX/share/crackle, else the sources' top."""
+    here = os.path.dirname(os.path.abspath(__file__))
+    parents = [here]
+    for _ in range(6):
+        parents.append(os.path.dirname(parents[-1]))
+    candidates = [os.path.join(p, "share", "crackle") for p in parents] + parents
+    for folder in candidates:
+        if os.path.isdir(os.path.join(folder, "specimens", "guide_rock")):
+            return folder
+    return None
+
+
+def given_or_shipped(path):
+    """The path; one that begins with "specimens/" and is not there leads to the shipped file of that name."""
+    path = os.fspath(path)
+    if os.path.exists(path) or not path.startswith("specimens/"):
+        return path
+    folder = _shipped_folder()
+    shipped = os.path.join(folder, path) if folder else path
+    return shipped if os.path.exists(shipped) else path
+
+
+def _plain(value, name):
+    """The value as JSON has it. Numbers of numpy become Python's."""
+    if isinstance(value, dict):
+        out = {}
+        for key, inner in value.items():
+            if not isinstance(key, str):
+                raise InputError(f"case: {name}: found a key {key!r}, expected a text")
+            inner = _plain(inner, f"{name}.{key}" if name else key)
+            if inner is not None:
+                out[key] = inner
+        return out
+    if isinstance(value, (list, tuple)):
+        return [_plain(one, name) for one in value]
+    if value is None or isinstance(value, (bool, str)):
+        return value
+    if hasattr(value, "tolist"):  # numpy's scalars and arrays
+        return _plain(value.tolist(), name)
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    if isinstance(value, int):
+        if not -(2**63) <= value < 2**63:
+            raise InputError(f"case: {name}: found {value}, expected a whole number of 64 bits")
+        return value
+    if isinstance(value, float):
+        if not math.isfinite(value):
+            raise InputError(f"case: {name}: found {value}, expected a finite number")
+        return value
+    raise InputError(f"case: {name}: found a {type(value).__name__}, expected a number, a text, a list or a table")
+
+
+def read_case(case):
+    """The case, read and checked.
+
+    case: a dict of tables (None leaves a key out), a TOML text, or the path of a file. Keys, units and defaults are
+    those of `crackle test --keys`. An `include` of a dict or text is relative to the present folder; shipped cases are
+    found as "specimens/...". Raises InputError with where, key, found and expected.
+    """
+    if isinstance(case, _engine.Case):
+        return case
+    if isinstance(case, dict):
+        tables = _plain(case, "")
+        if isinstance(tables.get("include"), str):
+            tables["include"] = given_or_shipped(tables["include"])
+        return _engine.read_case_text(json.dumps(tables, ensure_ascii=False), "case", True)
+    if isinstance(case, str) and ("\n" in case or "=" in case):
+        return _engine.read_case_text(case, "case", False)
+    if isinstance(case, (str, os.PathLike)):
+        return _engine.read_case_file(given_or_shipped(case))
+    raise InputError(f"case: found a {type(case).__name__}, expected a dict, a TOML text or the path of a file")
+
+
+def case_keys():
+    """All keys of a case with unit, default, range and a sentence: the text of `crackle test --keys`."""
+    return _engine.case_keys()

@@ -1,0 +1,32 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Keyword arguments as the words of the command line, so that the program's own parser judges them."""
+import os
+
+from ._errors import InputError
+
+
+def words_of(options):
+    """The words of options: {"radius_min": 0.01, "force": True} is --radius-min 0.01 --force. None and False: left out."""
+    words = []
+    for name, value in options.items():
+        option = "--" + name.rstrip("_").replace("_", "-")
+        if value is None or value is False:
+            continue
+        if value is True:
+            words.append(option)
+        elif isinstance(value, (list, tuple)):
+            words.append(option)
+            words.extend(_word(name, one) for one in value)
+        else:
+            words.append(f"{option}={_word(name, value)}")
+    return words
+
+
+def _word(name, value):
+    if isinstance(value, os.PathLike):
+        return os.fspath(value)
+    if hasattr(value, "tolist"):
+        value = value.tolist()
+    if isinstance(value, bool) or not isinstance(value, (int, float, str)):
+        raise InputError(f"{name}: found a {type(value).__name__}, expected a number or a text")
+    return repr(value) if isinstance(value, float) else str(value)

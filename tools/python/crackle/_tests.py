@@ -1,0 +1,244 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Commands as functions: the options of `crackle COMMAND --help` are keywords, with their units and defaults."""
+from __future__ import annotations
+
+import json
+import os
+from typing import TYPE_CHECKING, Any
+
+from . import _engine
+from ._case import given_or_shipped, read_case
+from ._commands import words_of
+from ._errors import InputError
+from ._progress import reporting
+from ._results import Calibration, Campaign, Result, Temporary, _run
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    _Path = str | os.PathLike[str]
+    _Case = dict[str, Any] | _Path | _engine.Case
+    _Results = Result | Campaign | _Path
+    _Progress = bool | Callable[[str, str, float], Any] | None
+
+
+def pack(*, count: int | None = None, height_to_width: float | None = None, width: float | None = None,
+         height: float | None = None, radius_min: float | None = None, radius_max: float | None = None,
+         lognormal_median: float | None = None, lognormal_deviation: float | None = None, sieve: _Path | None = None,
+         mean_overlap: float | None = None, void_ratio: float | None = None, seed: int | None = None,
+         threads: int | None = None, density: float | None = None, normal_stiffness: float | None = None,
+         shear_stiffness: float | None = None, friction_angle: float | None = None, output: _Path | None = None,
+         force: bool = False, progress: _Progress = None) -> _engine.Particles:
+    """Packs random circles between four smooth walls to mechanical equilibrium, as `crackle pack`.
+
+    Give count, or width and height (m); sizes: radius_min and radius_max (m), lognormal_median (m) and
+    lognormal_deviation, or sieve (CSV file); the target mean_overlap (m) or void_ratio. Of the file's material: density
+    (kg/m2), normal_stiffness, shear_stiffness (N/m), friction_angle (degrees). The same seed gives the same bytes,
+    whatever the threads.
+
+    Returns Particles; with output the file is written, too (InputError where it is there, unless force is true).
+    """
+    options = dict(count=count, height_to_width=height_to_width, width=width, height=height, radius_min=radius_min,
+                   radius_max=radius_max, lognormal_median=lognormal_median, lognormal_deviation=lognormal_deviation,
+                   sieve=sieve, mean_overlap=mean_overlap, void_ratio=void_ratio, seed=seed, threads=threads,
+                   density=density, normal_stiffness=normal_stiffness, shear_stiffness=shear_stiffness,
+                   friction_angle=friction_angle)
+    with reporting(progress) as report:
+        made = _engine.pack(words_of(options), report)
+    if output is not None:
+        made.write(os.fspath(output), force)
+    return made
+
+
+def mesh(particles: _engine.Particles | _Path | Sequence[Sequence[float]], *, kind: str | None = None,
+         thick: float | None = None, inset: float | None = None, boundary: str | None = None, merge: bool = False,
+         domain: Sequence[float] | None = None, bounding_box: bool = False, density: float | None = None,
+         normal_stiffness: float | None = None, shear_stiffness: float | None = None,
+         friction_angle: float | None = None, output: _Path | None = None, force: bool = False) -> _engine.Particles:
+    """Makes polygons of the centres of circles, as `crackle mesh`.
+
+    particles: Particles, the path of a particle file, or a sequence of centres x, y (m; with domain = (x1, x2, y1, y2)
+    or bounding_box). kind: "delaunay" or "voronoi"; thick: gap between facing edges, m; inset, m; boundary: "domain" or
+    "centres"; merge: give the place of cells that the inset destroys to neighbours.
+
+    Returns Particles; with output the file is written, too.
+    """
+    if isinstance(particles, _engine.Particles):
+        name, text = "particles", particles.text()
+    elif isinstance(particles, (str, os.PathLike)):
+        name = given_or_shipped(particles)
+        text = _engine.read_text(name)
+    else:
+        name = "centres"
+        try:
+            text = "".join(f"{float(x)!r} {float(y)!r}\n" for x, y in particles)
+        except (TypeError, ValueError):
+            raise InputError(f"centres: found a {type(particles).__name__}, expected Particles, a path, or pairs of "
+                             "numbers x, y in m") from None
+    options = dict(kind=kind, thick=thick, inset=inset, boundary=boundary, merge=merge,
+                   domain=None if domain is None else [float(one) for one in domain], bounding_box=bounding_box,
+                   density=density, normal_stiffness=normal_stiffness, shear_stiffness=shear_stiffness,
+                   friction_angle=friction_angle)
+    made = _engine.mesh(name, text, words_of(options))
+    if output is not None:
+        made.write(os.fspath(output), force)
+    return made
+
+
+class Elastic(dict):
+    """What `crackle elastic --json` prints, its own units within, and `bonds`: an array, shape (bonds,): body_i, body_j
+    (ids), position (x, y in m), strength (N), overlap, closing (m), normal_force, shear_force (N, at the strain asked
+    for), break_strain, slip_strain (inf: never); notices: a list of what to know, such as what it leaves out of the
+    case."""
+
+    bonds = None
+    notices = ()
+
+
+def elastic(case: _Case, *, strain: float = 1e-4, modes: int = 0, progress: _Progress = None) -> Elastic:
+    """Small-strain moduli, first break and slip, stable time step, by a sparse solve, as `crackle elastic`.
+
+    strain: axial, at which bonds gives forces; modes: lowest vibration modes to find. Returns Elastic.
+    """
+    with reporting(progress) as report:
+        text, bonds, notices = _engine.elastic(read_case(case), strain, modes, report)
+    found = Elastic(json.loads(text))
+    found.bonds, found.notices = bonds, notices
+    return found
+
+
+def check(case: _Case, *, threads: int | None = None, progress: _Progress = None) -> dict[str, Any]:
+    """What a test would give and cost, as `crackle test --check --json`: a dict, its own units within."""
+    with reporting(progress) as report:
+        return json.loads(_engine.check(read_case(case), _threads(threads), report))
+
+
+def _threads(threads):
+    if threads is None:
+        return 0
+    if isinstance(threads, bool) or not isinstance(threads, int) or threads < 1:
+        raise InputError(f"threads: found {threads!r}, expected a whole number >= 1")
+    return threads
+
+
+def _every(every):
+    if every in ("row", "rows"):
+        return 0
+    if isinstance(every, bool) or not isinstance(every, int) or every < 1:
+        raise InputError(f"every: found {every!r}, expected \"row\" or a number of steps >= 1")
+    return every
+
+
+def _options(folder, force=False, verify=False, profile=False, long=False, allow_unstable=False, threads=None):
+    options = _engine.TestOptions()
+    options.folder = os.fspath(folder)
+    options.force, options.verify, options.profile = bool(force), bool(verify), bool(profile)
+    options.endless, options.allow_unstable, options.threads = bool(long), bool(allow_unstable), _threads(threads)
+    return options
+
+
+def test(case: _Case, output: _Path | None = None, *, force: bool = False, verify: bool = False,
+         profile: bool = False, threads: int | None = None, long: bool = False, allow_unstable: bool = False,
+         every: int | str = "row", call: Callable[[_engine.State], Any] | None = None,
+         progress: _Progress = None) -> Result:
+    """Runs one virtual test, as `crackle test CASE -o OUT`, to the same bytes.
+
+    case: a dict, a TOML text or the path of a file. output: folder for the results; None: a folder that goes with the
+    Result. force: replace results that are there; verify: run the companions, too, for the errors of strength and
+    strain; profile: time the phases of a step; threads: no result depends on them; long: run it although it takes more
+    than a day; allow_unstable: accept a time step above the stable bound.
+
+    call: is called with the State of the test at every row, or every so many steps: every = "row" or a number. It may
+    read arrays, set state.platen_speed, and end the test by state.stop(). What it raises ends the test as Ctrl-C does:
+    what was written is kept, and `resume` goes on.
+
+    Returns Result. Raises InputError, UnstableRun (results up to there are kept), KeyboardInterrupt.
+    """
+    every = _every(every)
+    asked = read_case(case)
+    temporary = None
+    if output is None:
+        temporary = Temporary()
+        output = os.path.join(temporary.name, "test")
+    options = _options(output, force, verify, profile, long, allow_unstable, threads)
+    options.command = "crackle.test"
+    with reporting(progress) as report:
+        folder, _, _ = _engine.run_test(asked, options, report, call, every)
+    return Result(folder, temporary=temporary)
+
+
+def resume(folder: _Path, *, verify: bool = False, threads: int | None = None, long: bool = False,
+           every: int | str = "row", call: Callable[[_engine.State], Any] | None = None,
+           progress: _Progress = None) -> Result:
+    """Goes on with a test that was interrupted, as `crackle test --resume OUT`; keywords as of test(). Returns Result."""
+    options = _options(folder, False, verify, False, long, False, threads)
+    with reporting(progress) as report:
+        folder, _, _ = _engine.resume_test(options, report, call, _every(every))
+    return Result(folder)
+
+
+def campaign(plan: _Path, output: _Path, *, workers: int | None = None, verify: bool = False, retry: bool = False,
+             shard: str | tuple[int, int] | None = None, long: bool = False) -> Campaign:
+    """Runs a table of tests on several processors, as `crackle campaign PLAN -o DIR`. Stopped at any moment, the same
+    call goes on. shard: (I, N), share I of N. Returns Campaign."""
+    if shard is not None and not isinstance(shard, str):
+        shard = f"{shard[0]}/{shard[1]}"
+    options = dict(output=os.fspath(output), workers=workers, verify=verify, retry=retry, shard=shard, long=long)
+    code, _ = _run("campaign", [given_or_shipped(plan)], options)
+    if code != 0:
+        raise KeyboardInterrupt(f"interrupted; the same call goes on in {output}")
+    return Campaign(output)
+
+
+def calibrate(rock: _Path, output: _Path, *, workers: int | None = None, long: bool = False) -> Calibration:
+    """Finds the free keys of a rock from its laboratory values, as `crackle calibrate ROCK -o DIR`. Stopped at any
+    moment, the same call goes on. Returns Calibration, whether or not all targets were reached."""
+    code, _ = _run("calibrate", [given_or_shipped(rock)], dict(output=os.fspath(output), workers=workers, long=long))
+    if code not in (0, 1):
+        raise KeyboardInterrupt(f"interrupted; the same call goes on in {output}")
+    return Calibration(output)
+
+
+def _folder(one):
+    return one.folder if hasattr(one, "folder") else given_or_shipped(one)
+
+
+def envelope(*folders: _Results, output: _Path | None = None, columns: int | None = None, width: float | None = None,
+             font: str | None = None, font_size: float | None = None, dpi: int | None = None,
+             title: str | None = None, force: bool = False) -> dict[str, Any]:
+    """Mohr-Coulomb and Hoek-Brown from tests and campaigns at several confinements, as `crackle envelope --json`.
+
+    folders: paths, Results or Campaigns. output: a figure to write, .svg, .pdf or .png. Returns a dict, its own units
+    within.
+    """
+    options = dict(output=output, columns=columns, width=width, font=font, font_size=font_size, dpi=dpi, title=title,
+                   force=force, json=True)
+    _, text = _run("envelope", [_folder(one) for one in folders], options)
+    return json.loads(text)
+
+
+def plot(*results: _Results, output: _Path, what: str | Sequence[str] | None = None,
+         at: str | float | Sequence[str | float] | None = None, columns: int | None = None,
+         width: float | None = None, font: str | None = None, font_size: float | None = None, dpi: int | None = None,
+         title: str | None = None, magnify: float | None = None, labels: str | Sequence[str] | None = None,
+         figure: str | Sequence[str] | None = None, test: str | Sequence[str] | None = None,
+         measured: _Path | None = None, force: bool = False) -> None:
+    """Draws a figure for a paper, as `crackle plot OUT... -o FIGURE`: .svg, .pdf or .png.
+
+    results: Results, Campaigns or their folders. what: words of "curve", "ae", "emission", "strain", "specimen"; at:
+    strains, or "start", "peak", "end"; width in mm; magnify: displacements so many times as large.
+    """
+    def many(value):
+        return [value] if isinstance(value, (str, float, int)) else value
+    options = dict(output=os.fspath(output), what=many(what), at=many(at), columns=columns, width=width, font=font,
+                   font_size=font_size, dpi=dpi, title=title, magnify=magnify, labels=many(labels), figure=many(figure),
+                   test=many(test), measured=measured, force=force)
+    _run("plot", [_folder(one) for one in results], options)
+
+
+def report(*results: _Results, output: _Path, title: str | None = None, frames: int | None = None,
+           test: str | Sequence[str] | None = None, measured: _Path | None = None) -> None:
+    """Writes a self-contained page of results, as `crackle report OUT... -o report.html`."""
+    options = dict(output=os.fspath(output), title=title, frames=frames, test=test, measured=measured)
+    _run("report", [_folder(one) for one in results], options)
+

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Particles at rest: what `pack` and `mesh` make, and particle files hold.
+// Tested by tests/tools/python/commands_test.py.
+#include "tools/python/particles.hpp"
+
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include <cstddef>
+#include <filesystem>
+#include <sstream>
+#include <vector>
+
+#include "mesher/mesher.hpp"
+#include "solver/demseg/deck_reader.hpp"
+#include "solver/demseg/geometry.hpp"
+#include "solver/files/read_file.hpp"
+#include "solver/files/replace_file.hpp"
+#include "specimens/packing/packing.hpp"
+#include "tools/commands/commands.hpp"
+#include "tools/python/arrays.hpp"
+#include "tools/python/parts.hpp"
+#include "tools/python/reports.hpp"
+
+namespace crackle::python {
+namespace {
+
+/// Of Body those members that numpy can have.
+py::dtype body_dtype() {
+    const Body body;
+    DtypeParts parts(&body);
+    parts("id", body.id);
+    parts("material", body.material);
+    parts("velocity", body.velocity);
+    parts("spin", body.spin);
+    parts("first_circle", body.first_circle);
+    parts("circle_count", body.circle_count);
+    parts("first_vertex", body.first_vertex);
+    parts("vertex_count", body.vertex_count);
+    parts("closed", body.closed);
+    return parts.dtype(sizeof(Body));
+}
+
+py::dtype circle_dtype() {
+    const CircleElement circle;
+    DtypeParts parts(&circle);
+    parts("centre", circle.centre);
+    parts("radius", circle.radius);
+    parts("angle", circle.angle);
+    return parts.dtype(sizeof(CircleElement));
+}
+
+std::string text_of(const Scene& scene) {
+    std::ostringstream text;
+    write_geometry(text, scene);
+    return text.str();
+}
+
+void write(const Scene& scene, const std::string& path, bool force) {
+    refuse_replacing(path, force);
+    const std::filesystem::path folder = std::filesystem::path(path).parent_path();
+    if (!folder.empty()) make_folder(folder);
+    replace_file(path, text_of(scene));
+}
+
+std::shared_ptr<Particles> pack(const tools::Arguments& words, const py::object& report) {
+    const tools::ParsedWords parsed = tools::parse_words("crackle pack", tools::describe_pack(), words);
+    tools::Messages messages(tools::Loudness::quiet);
+    const PackingRequest request = tools::packing_request(parsed.values, messages);
+    Interrupts interrupts;
+    const auto progress = [&](const PackingProgress& p) {
+        if (!interrupts.heard() && !report.is_none())
+            call_report(report, interrupts, "work",
+                        fmt::format("{} (draw {}): unbalanced by {:.1e} of the mean contact force", p.stage, p.attempt,
+                                    p.residual),
+                        0.0);
+        if (interrupts.heard()) throw TestInterrupted();
+    };
+    auto made = std::make_shared<Particles>();
+    try {
+        const py::gil_scoped_release free;
+        Packing packing = make_packing(request, progress);
+        made->scene = std::move(packing.scene);
+        made->packing = packing.report;
+    } catch (const TestInterrupted&) {
+        interrupts.rethrow();
+        throw;
+    }
+    return made;
+}
+
+std::shared_ptr<Particles> mesh(const std::string& name, const std::string& text, const tools::Arguments& words) {
+    const tools::ParsedWords parsed = tools::parse_words("crackle mesh", tools::describe_mesh(), words);
+    tools::Messages messages(tools::Loudness::quiet);
+    auto made = std::make_shared<Particles>();
+    MeshReport report;
+    {
+        const py::gil_scoped_release free;
+        made->scene = tools::meshed_scene(name, text, parsed.values, messages, report);
+    }
+    made->mesh = report;
+    return made;
+}
+
+py::dict facts(const Particles& particles) {
+    py::dict all;
+    if (const auto& p = particles.packing) {
+        all["circles"] = p->circles;
+        all["width"] = p->width;
+        all["height"] = p->height;
+        all["radius_min"] = p->radius_min;
+        all["radius_max"] = p->radius_max;
+        all["void_ratio"] = p->void_ratio;
+        all["mean_overlap"] = p->mean_overlap;
+        all["contacts"] = p->circle_contacts;
+        all["coordination"] = p->coordination;
+        all["coordination_of_carrying"] = p->coordination_of_carrying;
+        all["floating"] = p->floating;
+        all["stress_x"] = p->stress_x;
+        all["stress_y"] = p->stress_y;
+        all["anisotropy"] = p->anisotropy;
+        all["residual"] = p->residual;
+        all["radius_scale"] = p->radius_scale;
+        all["notices"] = packing_notices(*p);
+    }
+    if (const auto& m = particles.mesh) {
+        all["centres"] = m->centres;
+        all["cells"] = m->cells;
+        all["segments"] = m->segments;
+        all["shortest_edge"] = m->shortest_edge;
+        all["smallest_angle"] = m->smallest_angle;
+        all["cells_destroyed"] = m->cells_destroyed;
+        all["area_before_inset"] = m->area_before_inset;
+        all["area_after_inset"] = m->area_after_inset;
+    }
+    return all;
+}
+
+}  // namespace
+
+void bind_particles(py::module_& module) {
+    using Shared = std::shared_ptr<Particles>;
+    py::class_<Particles, Shared>(module, "Particles",
+                                  "Circles or polygons at rest: a packing, a mesh, or what a particle file holds.")
+        .def_property_readonly(
+            "bodies",
+            [](const Shared& p) {
+                return view_of(body_dtype(), p->scene.bodies.size(), sizeof(Body), p->scene.bodies.data(), keep(p));
+            },
+            "View, shape (bodies,): id, material (index), velocity (x, y in m/s), spin (rad/s), first_circle and "
+            "circle_count into `circles`, first_vertex and vertex_count into `vertices`, closed.")
+        .def_property_readonly(
+            "circles",
+            [](const Shared& p) {
+                return view_of(circle_dtype(), p->scene.circles.size(), sizeof(CircleElement), p->scene.circles.data(),
+                               keep(p));
+            },
+            "View, shape (circles,): centre (x, y in m), radius (m), angle (rad).")
+        .def_property_readonly(
+            "vertices", [](const Shared& p) { return view_of(p->scene.vertices, p); },
+            "View, shape (vertices,): x, y in m, the corners of all polygons and chains.")
+        .def_property_readonly(
+            "domain",
+            [](const Particles& p) {
+                const Domain& d = p.scene.domain;
+                return py::make_tuple(d.x1, d.x2, d.y1, d.y2);
+            },
+            "x1, x2, y1, y2 in m.")
+        .def_property_readonly("facts", &facts,
+                               "What `crackle pack` or `crackle mesh` prints of it; empty of a file that was read.")
+        .def(
+            "text", [](const Particles& p) { return text_of(p.scene); }, "The particle file that holds them.")
+        .def(
+            "write", [](const Particles& p, const std::string& path, bool force) { write(p.scene, path, force); },
+            py::arg("path"), py::arg("force") = false,
+            "Writes the particle file (in_gm.dat). Raises InputError where it is there, unless force is true.")
+        .def("__len__", [](const Particles& p) { return p.scene.bodies.size(); })
+        .def("__repr__", [](const Particles& p) {
+            return fmt::format("<crackle.Particles: {} bodies, {} circles, {} corners>", p.scene.bodies.size(),
+                               p.scene.circles.size(), p.scene.vertices.size());
+        });
+    module.def("pack", &pack, py::arg("words"), py::arg("report"));
+    module.def("mesh", &mesh, py::arg("name"), py::arg("text"), py::arg("words"));
+    module.def(
+        "read_particles",
+        [](const std::string& path) {
+            auto made = std::make_shared<Particles>();
+            made->scene = read_deck_geometry(std::filesystem::path(path)).scene;
+            return made;
+        },
+        py::arg("path"));
+    module.def(
+        "read_text", [](const std::string& path) { return read_text(path); }, py::arg("path"));
+}
+
+}  // namespace crackle::python

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/python/state.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <stdexcept>
+#include <vector>
+
+#include "solver/base/errors.hpp"
+#include "solver/measure/health.hpp"
+#include "solver/measure/point_view.hpp"
+#include "solver/stepping/step.hpp"
+#include "solver/world/state_hash.hpp"
+#include "specimens/loading/own_loading.hpp"
+#include "tools/python/interrupts.hpp"
+
+namespace crackle::python {
+namespace {
+
+const pid_t loaded_in = ::getpid();
+
+constexpr std::int64_t steps_between_health_checks = 100;
+constexpr std::int64_t steps_between_questions = 64;
+
+/// A contact point with its numbers at the present places.
+struct Contact {
+    std::int32_t id_i, id_j;  ///< of the bodies; of a wall -1 to -4: left, right, bottom, top
+    BodyIndex body_i, body_j;
+    Vec2 position, normal;
+    double overlap, normal_force, shear_force, bond_overlap;
+    bool bonded, touching, sliding, slid;
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("id_i", s.id_i);
+        visit("id_j", s.id_j);
+        visit("body_i", s.body_i);
+        visit("body_j", s.body_j);
+        visit("position", s.position);
+        visit("normal", s.normal);
+        visit("overlap", s.overlap);
+        visit("normal_force", s.normal_force);
+        visit("shear_force", s.shear_force);
+        visit("bond_overlap", s.bond_overlap);
+        visit("bonded", s.bonded);
+        visit("touching", s.touching);
+        visit("sliding", s.sliding);
+        visit("slid", s.slid);
+    }
+};
+
+py::array contacts(State& state) {
+    const World& world = state.world_with_forces();
+    auto found = std::make_shared<std::vector<Contact>>();
+    for (PointIndex k = 0; k < world.points.size(); ++k) {
+        const PointView p = view_point(world, k);
+        if (!p.touching && !p.bonded) continue;
+        const bool wall = p.kind == PointKind::element_wall;
+        found->push_back({world.bodies.names[p.body_i].id,
+                          wall ? -1 - static_cast<std::int32_t>(p.body_j) : world.bodies.names[p.body_j].id, p.body_i,
+                          p.body_j, p.position, p.normal, p.overlap, p.normal_force, p.shear_force, p.bond_overlap,
+                          p.bonded, p.touching, p.sliding, p.slid});
+    }
+    return view_of(*found, found);
+}
+
+/// One record, as an array of one gives it.
+py::object measured_row(State& state) {
+    state.driven();
+    const World& world = state.world_with_forces();
+    auto row = std::make_shared<std::vector<CurveRow>>(1, observe_row(world, state.test().setup));
+    return view_of(*row, row)[py::int_(0)];
+}
+
+}  // namespace
+
+void refuse_threads_after_fork(int threads) {
+    if (threads <= 1 || ::getpid() == loaded_in) return;
+    throw InputError(fmt::format(
+        "threads: found {} in a process that was forked after crackle was imported, expected 1; use one thread a "
+        "process, or start processes with multiprocessing's method \"spawn\"",
+        threads));
+}
+
+VirtualTest& State::test() const {
+    if (test_ == nullptr)
+        throw std::runtime_error(
+            "the moment is over: found a state kept after its callback, expected it to be used "
+            "there; keep arrays or numbers of it");
+    if (stepping_) throw std::runtime_error("found a world that another thread is stepping, expected one at rest");
+    return *test_;
+}
+
+World& State::world_with_forces() {
+    World& found = world();
+    if (!found.stepping.forces_current) {
+        settle();
+        compute_forces(found);
+    }
+    return found;
+}
+
+VirtualTest& State::driven() const {
+    VirtualTest& found = test();
+    if (found.setup.parts.empty())
+        throw InputError("world: found particles without platens, expected a world made from a case");
+    return found;
+}
+
+void State::over() {
+    settle();
+    test_ = nullptr;
+}
+
+void OwnWorld::step(std::int64_t count) {
+    if (count < 0) throw InputError(fmt::format("step: found {}, expected a number of steps >= 0", count));
+    World& stepped = world();
+    refuse_threads_after_fork(stepped.workers.threads);
+    settle();
+    Interrupts interrupts;
+    const Stepping stepping(*this);
+    {
+        const py::gil_scoped_release free;
+        for (std::int64_t k = 0; k < count; ++k) {
+            if (k % steps_between_questions == 0 && interrupts.heard()) break;
+            if (stepped.stepping.steps % steps_between_health_checks == 0) {
+                compute_forces(stepped);
+                check_health(stepped);
+            }
+            crackle::step(stepped);
+        }
+    }
+    interrupts.rethrow();
+}
+
+void bind_state(py::module_& module) {
+    py::class_<State, std::shared_ptr<State>>(
+        module, "State",
+        "A test in memory. Arrays are read-only views of the engine's own memory, of the moment at which they were "
+        "taken; one that is still held when the engine goes on stays as it is. Bodies are in the engine's order; "
+        "`names` has their ids.")
+        .def_property_readonly(
+            "steps", [](const State& s) { return s.world().stepping.steps; }, "Steps done.")
+        .def_property_readonly(
+            "time", [](const State& s) { return s.world().stepping.time; }, "s")
+        .def_property_readonly(
+            "time_step", [](const State& s) { return s.world().stepping.time_step; }, "s, of the coming step.")
+        .def_property_readonly(
+            "axial_strain", [](const State& s) { return s.driven().setup.axial_strain(s.world()); },
+            "Of the driving part, positive in the sense of the test.")
+        .def_property(
+            "platen_speed", [](const State& s) { return platen_speed(s.driven()); },
+            [](State& s, double speed) {
+                s.driven();
+                s.settle();
+                set_platen_speed(s.test(), speed);
+            },
+            "m/s, of the driving part in the sense of the test, negative while it goes back. Setting it ends "
+            "loading by tolerance; a notice of the summary says so.")
+        .def_property_readonly(
+            "length", [](const State& s) { return s.driven().setup.length; },
+            "m, that strains refer to: speed over it is the strain rate.")
+        .def_property_readonly(
+            "section", [](const State& s) { return s.driven().setup.section; }, "m, that stresses refer to.")
+        .def("row", &measured_row,
+             "One row of the curve, measured now: axial_strain, axial_stress (N/m, or Pa), stress_top, stress_bottom, "
+             "lateral_strain, bonds_broken, energies in J, ... as crackle test --files lists them.")
+        .def_property_readonly(
+            "bodies", [](State& s) { return s.lend(s.world().bodies.state); },
+            "View, shape (bodies,): x, y (m), vx, vy (m/s, half a step behind the places), omega "
+            "(rad/s), shape (of a circle radius and 0; else cosine and sine of its turn), angle (rad).")
+        .def_property_readonly(
+            "names", [](State& s) { return s.lend(s.world().bodies.names); },
+            "View, shape (bodies,): id, material (index), closed, shape.")
+        .def_property_readonly(
+            "masses", [](State& s) { return s.lend(s.world().bodies.inertia); },
+            "View, shape (bodies,): mass (kg) and the inverses that the step uses, 0 where driven.")
+        .def_property_readonly(
+            "forces", [](State& s) { return s.lend(s.world_with_forces().bodies.force); },
+            "View, shape (bodies,): fx, fy (N), torque (N m) of the contacts.")
+        .def_property_readonly(
+            "bonds", [](State& s) { return s.lend(s.world().points.state); },
+            "View, shape (contact points,): law, flags (2: bonded, 4: sliding, 1: touching).")
+        .def_property_readonly(
+            "pairs", [](State& s) { return s.lend(s.world().points.contact.pairs); },
+            "View, shape (contact points,): body_i, body_j, indices into `bodies`.")
+        .def_property_readonly(
+            "shear_forces", [](State& s) { return s.lend(s.world().points.shear_force); },
+            "View, shape (contact points,): N, elastic.")
+        .def_property_readonly(
+            "bond_overlaps", [](State& s) { return s.lend(s.world().points.bond_overlap); },
+            "View, shape (contact points,): m, overlap when bonded.")
+        .def(
+            "contacts", &contacts,
+            "A copy, of the points that touch or are bonded: id_i, id_j (of a wall -1 to -4), body_i, body_j, position "
+            "(m), normal (from i to j), overlap (m), normal_force (N, compression positive), shear_force (N), "
+            "bond_overlap (m), bonded, touching, sliding, slid.")
+        .def_property_readonly(
+            "rows", [](State& s) { return s.lend(s.test().state.rows); },
+            "View, shape (rows,): the curve so far, all judged rows; of a world none.")
+        .def_property_readonly(
+            "events", [](State& s) { return s.lend(s.world().bonds.events); },
+            "View, shape (events,): breaks since the last call; of a world all so far.")
+        .def_property_readonly("bonds_broken", [](const State& s) { return s.world().bonds.broken; })
+        .def_property_readonly("bonds_initial", [](const State& s) { return s.world().bonds.initial; })
+        .def_property_readonly(
+            "laws", [](State& s) { return s.lend(s.world().settings.laws); },
+            "View of the contact laws: of material pairs (1,1), (1,2), (2,2), (1,3)..., then the "
+            "same with bonds that cannot break, then of materials against walls.")
+        .def_property_readonly(
+            "platens",
+            [](const State& s) {
+                py::list ids;
+                for (const SetupPart& part : s.driven().setup.parts) ids.append(s.world().bodies.names[part.body].id);
+                return ids;
+            },
+            "Ids of the bodies that hold and drive the specimen, the driving one last.")
+        .def(
+            "index", [](const State& s, int id) { return body_of_id(s.world(), id); }, py::arg("id"),
+            "Index into `bodies` of an id. Raises InputError if there is none.")
+        .def(
+            "state_hash", [](const State& s) { return fmt::format("{:016x}", hash_state(s.world())); },
+            "Of the complete state: equal for equal bytes.")
+        .def("stop", &State::stop, "Ends the test after this callback: complete, its last row the present moment.");
+}
+
+}  // namespace crackle::python

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Worlds that Python steps itself.
+// Tested by tests/tools/python/world_test.py.
+#include <fmt/format.h>
+#include <pybind11/stl.h>
+
+#include <cmath>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "solver/base/errors.hpp"
+#include "solver/measure/point_view.hpp"
+#include "solver/stepping/bonding.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "solver/stepping/change_law.hpp"
+#include "solver/stepping/controls.hpp"
+#include "solver/stepping/time_step.hpp"
+#include "specimens/loading/prepare.hpp"
+#include "tools/python/particles.hpp"
+#include "tools/python/parts.hpp"
+#include "tools/python/reports.hpp"
+#include "tools/python/state.hpp"
+#include "tools/terminal/threads.hpp"
+
+namespace crackle::python {
+namespace {
+
+using Shared = std::shared_ptr<OwnWorld>;
+
+void use_threads(World& world, int threads) {
+    const tools::ThreadRoom room = tools::room_for_threads(threads);
+    refuse_threads_after_fork(room.threads);
+    set_threads(world, room.threads);
+}
+
+Shared world_of_case(TestCase description, int threads, const py::object& report) {
+    if (threads > 0) description.numerics.threads = threads;
+    Interrupts interrupts;
+    const TestHooks hooks = reporting_hooks(report, interrupts);
+    auto test = std::make_shared<VirtualTest>();
+    const int asked = static_cast<int>(description.numerics.threads);
+    refuse_threads_after_fork(asked);
+    try {
+        const py::gil_scoped_release free;
+        *test = prepare_test(description, hooks);
+    } catch (const TestInterrupted&) {
+        interrupts.rethrow();
+        throw;
+    }
+    interrupts.rethrow();
+    use_threads(test->world, asked);
+    return std::make_shared<OwnWorld>(std::move(test));
+}
+
+Shared world_of_particles(const Particles& particles, int threads, bool walls) {
+    auto test = std::make_shared<VirtualTest>();
+    Scene scene = particles.scene;
+    if (!walls) scene.domain.wall_present = {false, false, false, false};
+    const py::gil_scoped_release free;
+    test->world = build_world(std::move(scene));
+    use_threads(test->world, threads);
+    return std::make_shared<OwnWorld>(std::move(test));
+}
+
+std::int64_t add_bonds(State& state, const std::vector<std::pair<int, int>>& ids, double gap) {
+    World& world = state.world();
+    if (!(gap >= 0.0)) throw InputError(fmt::format("gap: found {}, expected a length >= 0 in m", gap));
+    std::vector<BodyPair> pairs;
+    for (const auto& [i, j] : ids) pairs.push_back({body_of_id(world, i), body_of_id(world, j)});
+    state.settle();
+    return bond_pairs(world, pairs, gap);
+}
+
+void set_property(State& state, const std::string& name, double value, std::pair<int, int> materials) {
+    World& world = state.world();
+    if (materials.first < 1 || materials.second < 1)
+        throw InputError(fmt::format("{}: found materials {} and {}, expected numbers from 1", name, materials.first,
+                                     materials.second));
+    state.settle();
+    change_law(world, static_cast<std::size_t>(materials.first - 1), static_cast<std::size_t>(materials.second - 1),
+               name, value);
+}
+
+/// A velocity, nothing (free), or ("force", value).
+DofControl drive_of(const char* name, const py::object& asked) {
+    if (asked.is_none()) return {};
+    if (py::isinstance<py::tuple>(asked)) {
+        const auto pair = asked.cast<std::pair<std::string, double>>();
+        if (pair.first != "force" || !std::isfinite(pair.second))
+            throw InputError(fmt::format("{}: found ('{:.20}', {}), expected ('force', a number in N or N m)", name,
+                                         pair.first, pair.second));
+        return {Drive::force, pair.second};
+    }
+    const auto velocity = asked.cast<double>();
+    if (!std::isfinite(velocity))
+        throw InputError(fmt::format("{}: found {}, expected a velocity in m/s or rad/s", name, velocity));
+    return {Drive::velocity, velocity};
+}
+
+void drive(State& state, int id, const py::object& x, const py::object& y, const py::object& rotation) {
+    World& world = state.world();
+    const BodyIndex body = body_of_id(world, id);
+    const DofControl dof[3] = {drive_of("x", x), drive_of("y", y), drive_of("rotation", rotation)};
+    state.settle();
+    set_control(world, body, dof, 0);
+    velocities_changed(world);
+}
+
+}  // namespace
+
+void bind_worlds(py::module_& module) {
+    bind_state(module);
+    py::class_<OwnWorld, State, Shared>(module, "World")
+        .def(py::init(&world_of_case), py::arg("case"), py::arg("threads"), py::arg("report"))
+        .def(py::init(&world_of_particles), py::arg("particles"), py::arg("threads"), py::arg("walls"))
+        .def("step", &OwnWorld::step, py::arg("count") = 1,
+             "Takes so many steps. The interpreter's lock is free meanwhile, Ctrl-C ends it between steps. Raises "
+             "UnstableRun where energies run away.")
+        .def("add_bonds", &add_bonds, py::arg("pairs"), py::arg("gap") = 0.0,
+             "Bonds the contact points without a bond between pairs of ids where the overlap is more than -gap (m), as "
+             "the world's law bonds: returns how many. The account of energy begins again.")
+        .def("set_property", &set_property, py::arg("name"), py::arg("value"),
+             py::arg("materials") = std::pair<int, int>(1, 1),
+             "Changes normal_stiffness, shear_stiffness (N/m), friction_angle, residual_friction_angle (degrees), "
+             "tensile_strength or cohesion (N) of contacts between two materials, numbers from 1. The stable step is "
+             "found again, the account of energy begins again.")
+        .def("drive", &drive, py::arg("id"), py::arg("x") = py::none(), py::arg("y") = py::none(),
+             py::arg("rotation") = py::none(),
+             "Drives a body from now on: in x, y and rotation each at a velocity (m/s, rad/s), by ('force', value) (N, "
+             "N m), or None, free.")
+        .def_property(
+            "threads", [](const OwnWorld& s) { return s.world().workers.threads; },
+            [](OwnWorld& s, int threads) { use_threads(s.world(), threads); },
+            "Of the coming steps; no result depends on them.");
+}
+
+}  // namespace crackle::python
