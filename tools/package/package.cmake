@@ -10,16 +10,40 @@ add_custom_command(OUTPUT ${documents}/changelog.gz ${documents}/crackle.1.gz
 add_custom_target(crackle_compressed ALL DEPENDS ${documents}/changelog.gz)
 install(FILES ${documents}/crackle.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES ${copyright} ${documents}/changelog.gz DESTINATION ${CMAKE_INSTALL_DOCDIR})
+install(FILES ${copyright} ${documents}/changelog.gz DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libcrackle-dev COMPONENT development)
+if(CRACKLE_PYTHON)
+  install(FILES ${copyright} ${documents}/changelog.gz DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-crackle COMPONENT python)
+endif()
 
 set(CPACK_GENERATOR DEB)
+# crackle, python3-crackle, and libcrackle-dev with what find_package(crackle) finds.
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_GROUPING IGNORE)
+set(CPACK_COMPONENTS_ALL program development)
+if(CRACKLE_PYTHON)
+  list(APPEND CPACK_COMPONENTS_ALL python)
+endif()
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME crackle)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-crackle)
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libcrackle-dev)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_PACKAGE_NAME crackle)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
 set(CPACK_PACKAGE_CONTACT "Crackle maintainers <crackle@example.org>")
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "bonded rock specimens, made and tested virtually")
-set(CPACK_PACKAGE_DESCRIPTION "Crackle packs circles, makes Delaunay triangles or Voronoi polygons of them,
+# The first line of each is its summary.
+set(CPACK_DEBIAN_PROGRAM_DESCRIPTION "bonded rock specimens, made and tested virtually
+Crackle packs circles, makes Delaunay triangles or Voronoi polygons of them,
 bonds them and loads them between platens until they break: two-dimensional
 discrete elements for rock mechanics. It writes stress-strain curves, every
 bond break, frames for ParaView, figures and an interactive report.")
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION "bonded rock specimens, made and tested from Python
+The commands of crackle as functions, with the same words and the same bytes:
+specimens, tests with callbacks, worlds that are stepped and loaded by one's
+own rules, and the engine's arrays as those of numpy, without copies.")
+set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION "bonded rock specimens, libraries to link
+Static libraries and headers of crackle, found by find_package(crackle) of
+CMake: the solver, the mesher, and the virtual tests that are made of them.")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
@@ -27,6 +51,11 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_DEPENDS fonts-dejavu-core)
-set(CPACK_DEBIAN_PACKAGE_SUGGESTS "gnuplot-nox, paraview")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS fonts-dejavu-core)
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "gnuplot-nox, paraview, python3-crackle")
+# Shipped cases and their pages come with the program.
+set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "crackle (= ${PROJECT_VERSION}), python3 (>= 3.11), python3 (<< 3.12), python3-numpy, fonts-dejavu-core")
+set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-pandas, python3-matplotlib")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libfmt-dev, nlohmann-json3-dev, libssl-dev, libpugixml-dev, libsqlite3-dev, libsqlitecpp-dev, libnlopt-cxx-dev, libtomlplusplus-dev, zlib1g-dev, libcairo2-dev, libisal-dev, libxxhash-dev, libmpfr-dev, libgmp-dev, libeigen3-dev, pkg-config")
 include(CPack)
