@@ -28,6 +28,8 @@ CommandLine describe_pack();
 int pack(const Invocation& given);
 CommandLine describe_mesh();
 int mesh(const Invocation& given);
+CommandLine describe_joints();
+int joints(const Invocation& given);
 CommandLine describe_run();
 int run_deck(const Invocation& given);
 CommandLine describe_test();
