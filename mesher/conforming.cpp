@@ -13,6 +13,7 @@
 #include <CGAL/Delaunay_mesher_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Spatial_sort_traits_adapter_2.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <CGAL/property_map.h>
 #include <CGAL/spatial_sort.h>
@@ -22,7 +23,6 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
-#include <unordered_map>
 #include <utility>
 
 #include "mesher/place_grid.hpp"
@@ -40,12 +40,16 @@ constexpr double smallest_squared_sine = 0.125;  // of 20.7 degrees: up to that 
 struct PointInfo {
     int centre = -1;
     bool near_trace = true;  // also of points that refinement adds
+    int number = -1;         // among the mesh's points
 };
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using VertexBase =
     CGAL::Triangulation_vertex_base_with_info_2<PointInfo, Kernel, CGAL::Delaunay_mesh_vertex_base_2<Kernel>>;
-using FaceBase = CGAL::Delaunay_mesh_face_base_2<Kernel>;
+struct FaceNumber {
+    int value = -1;  // of the triangle; of what lies outside of the mesh -1
+};
+using FaceBase = CGAL::Triangulation_face_base_with_info_2<FaceNumber, Kernel, CGAL::Delaunay_mesh_face_base_2<Kernel>>;
 using Constrained =
     CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
                                                CGAL::Exact_predicates_tag>;
@@ -293,13 +297,13 @@ class Conforming {
         }
     }
     std::pair<int, int> key_of(ConstrainedVertex a, ConstrainedVertex b) const {
-        return std::minmax(number_.at(&*a), number_.at(&*b));
+        return std::minmax(a->info().number, b->info().number);
     }
 
     void number_points() {
         Triangles& t = out_.triangles;
         for (const ConstrainedVertex v : mesh_.finite_vertex_handles()) {
-            number_[&*v] = static_cast<int>(t.points.size());
+            v->info().number = static_cast<int>(t.points.size());
             const Point p = place_of(v);
             t.points.push_back(p);
             t.centre_of.push_back(v->info().centre);
@@ -310,10 +314,9 @@ class Conforming {
 
     void collect() {
         Triangles& t = out_.triangles;
-        std::unordered_map<const Constrained::Face*, int> triangle;
         std::vector<ConstrainedFace> faces;
         for (const ConstrainedFace face : mesh_.finite_face_handles()) {
-            triangle[&*face] = static_cast<int>(faces.size());
+            face->info().value = static_cast<int>(faces.size());
             faces.push_back(face);
         }
         for (const ConstrainedFace face : faces) {
@@ -322,9 +325,8 @@ class Conforming {
             auto& traces = t.traces.emplace_back(std::array<int, 3>{-1, -1, -1});
             for (int k = 0; k < 3; ++k) {
                 const auto at = static_cast<std::size_t>(k);
-                corners[at] = number_.at(&*face->vertex(k));
-                const auto beyond = triangle.find(&*face->neighbor(k));
-                neighbours[at] = beyond == triangle.end() ? -1 : beyond->second;
+                corners[at] = face->vertex(k)->info().number;
+                neighbours[at] = face->neighbor(k)->info().value;
                 if (!face->is_constrained(k)) continue;
                 const auto found =
                     trace_of_.find(key_of(face->vertex(Constrained::ccw(k)), face->vertex(Constrained::cw(k))));
@@ -339,7 +341,6 @@ class Conforming {
     std::vector<TracePiece> pieces_;
     std::vector<std::pair<ConstrainedVertex, ConstrainedVertex>> ends_;  // of the pieces
     Constrained mesh_;
-    std::unordered_map<const Constrained::Vertex*, int> number_;
     std::map<std::pair<int, int>, int> trace_of_;  // by the ends of an edge
     ConformingTriangles out_;
 };

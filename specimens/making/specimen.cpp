@@ -368,7 +368,8 @@ void mesh_specimen(Specimen& specimen, const TestCase& test, const TestHooks& ho
                  jointed_mesh_text(mesh, make_mesh(centres, rectangle(circles.domain), request)))
                 hooks.report_stage(line);
             specimen.notices.emplace_back(
-                "joints are faces of the mesh with the rock's own properties: they weaken by being straight alone");
+                "joints are faces of the mesh with the rock's own properties: they change it by being straight, "
+                "Voronoi cells by their even rows, too");
         }
     } catch (const MeshError& error) {
         throw InputError(
