@@ -5,11 +5,14 @@
 #include "mesher/merge.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <deque>
 #include <map>
+#include <set>
+#include <utility>
 
 #include "mesher/inset.hpp"
 
@@ -65,12 +68,14 @@ Polygon Joiner::polygon_of(int key) const {
     return {{c[0], key}, {c[1], key}, {c[2], key}};
 }
 
-// @return triangle on the other side of an edge, -1 at the end of the mesh.
+// @return triangle on the other side of an edge, -1 at the end of the mesh and at a trace, which stays one.
 int Joiner::beyond(const Polygon& polygon, std::size_t side) const {
     const auto triangle = static_cast<std::size_t>(polygon[side].triangle);
     const auto& corners = mesh_.corners[triangle];
     for (std::size_t k = 0; k < 3; ++k) {
-        if (corners[(k + 1) % 3] == polygon[side].corner) return mesh_.neighbours[triangle][k];
+        if (corners[(k + 1) % 3] != polygon[side].corner) continue;
+        const bool trace = !mesh_.traces.empty() && mesh_.traces[triangle][k] >= 0;
+        return trace ? -1 : mesh_.neighbours[triangle][k];
     }
     return -1;
 }
@@ -131,10 +136,13 @@ void Joiner::join(const std::vector<int>& destroyed) {
         if (best.empty()) {
             const auto& c = mesh_.corners[static_cast<std::size_t>(key)];
             const Point at = mesh_.points[static_cast<std::size_t>(c[0])];
-            throw MeshError(fmt::format(
-                "mesh: found triangle {} at ({:.9g}, {:.9g}) destroyed by the inset and convex with none of its "
-                "neighbours, expected one to merge it with; use a smaller thick or inset, or kind voronoi",
-                key, at.x, at.y));
+            std::vector<int> traces = traces_about(mesh_, static_cast<std::size_t>(key));
+            throw MeshError(
+                fmt::format("mesh: found triangle {} at ({:.9g}, {:.9g}){} destroyed by the inset and convex with none "
+                            "of its neighbours, expected one to merge it with; use a smaller thick or inset, or kind "
+                            "voronoi",
+                            key, at.x, at.y, in_words(traces)),
+                {}, std::move(traces));
         }
         const int lowest = std::min(key, best_other);
         polygons_.erase(key);
@@ -163,6 +171,24 @@ JoinedTriangles join_destroyed(const Triangles& mesh, const std::vector<int>& de
     Joiner joiner(mesh, depth, coordinate_scale);
     joiner.join(destroyed);
     return joiner.result();
+}
+
+std::vector<int> traces_about(const Triangles& mesh, std::size_t triangle) {
+    if (mesh.traces.empty()) return {};
+    std::set<int> named;
+    const auto take = [&](std::size_t t) {
+        for (const int trace : mesh.traces[t])
+            if (trace >= 0) named.insert(trace);
+    };
+    take(triangle);
+    for (const int beside : mesh.neighbours[triangle])
+        if (beside >= 0) take(static_cast<std::size_t>(beside));
+    return {named.begin(), named.end()};
+}
+
+std::string in_words(const std::vector<int>& traces) {
+    if (traces.empty()) return "";
+    return fmt::format(" by trace{} {}", traces.size() == 1 ? "" : "s", fmt::join(traces, ", "));
 }
 
 }  // namespace crackle

@@ -2,6 +2,8 @@
 // Joining of triangles that the inset would destroy with neighbours.
 #pragma once
 
+#include <cstddef>
+#include <string>
 #include <vector>
 
 #include "mesher/partition.hpp"
@@ -26,5 +28,10 @@ struct JoinedTriangles {
 /// @throws MeshError if a destroyed triangle is convex with none of its neighbours
 JoinedTriangles join_destroyed(const Triangles& mesh, const std::vector<int>& destroyed, double depth,
                                double coordinate_scale);
+
+/// Traces on a triangle's edges and on those of its neighbours; none of a mesh without.
+std::vector<int> traces_about(const Triangles& mesh, std::size_t triangle);
+/// " by traces 3, 5"; empty of none.
+std::string in_words(const std::vector<int>& traces);
 
 }  // namespace crackle

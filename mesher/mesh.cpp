@@ -7,15 +7,19 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <set>
 #include <utility>
 
+#include "mesher/conforming.hpp"
 #include "mesher/inset.hpp"
+#include "mesher/jointed_cells.hpp"
 #include "mesher/merge.hpp"
 #include "mesher/mesh_builder.hpp"
 #include "mesher/mesher.hpp"
 #include "mesher/partition.hpp"
+#include "mesher/trace_graph.hpp"
 
 namespace crackle {
 namespace {
@@ -101,6 +105,33 @@ void check_outline(std::span<const CellCentre> centres, const MeshRequest& reque
     }
 }
 
+void check_traces(const Rectangle& domain, const MeshRequest& request) {
+    if (request.traces.empty()) return;
+    if (request.boundary != Boundary::domain || !request.outline.empty()) {
+        throw MeshError(fmt::format("mesh: found {} traces with {}, expected cells that fill the domain",
+                                    request.traces.size(),
+                                    request.outline.empty() ? "triangles between centres alone" : "an outline"));
+    }
+    if (request.kind == MeshKind::voronoi && request.merge_destroyed)
+        throw MeshError(
+            "mesh: found traces with Voronoi cells to be merged, expected no merging; seeds along traces "
+            "belong together");
+    for (std::size_t t = 0; t < request.traces.size(); ++t) {
+        const std::vector<Point>& trace = request.traces[t];
+        if (trace.size() < 2)
+            throw MeshError(fmt::format("mesh: found trace {} of one point, expected two or more", t));
+        for (std::size_t k = 0; k < trace.size(); ++k) {
+            const Point p = trace[k];
+            const bool inside = p.x >= domain.x1 && p.x <= domain.x2 && p.y >= domain.y1 && p.y <= domain.y2;
+            if (inside && (k == 0 || p != trace[k - 1])) continue;
+            throw MeshError(fmt::format("mesh: found trace {} at ({:.9g}, {:.9g}), expected its points apart from each "
+                                        "other and inside the domain",
+                                        t, p.x, p.y),
+                            {}, {static_cast<int>(t)});
+        }
+    }
+}
+
 /// What of a cell lies within the outline.
 class Cutter {
   public:
@@ -125,13 +156,13 @@ class Cutter {
 std::string place(Point p) { return fmt::format("({:.9g}, {:.9g})", p.x, p.y); }
 
 [[noreturn]] void refuse_destroyed(const std::string& cell, std::span<const Point> outline, double depth, double scale,
-                                   std::size_t count, std::vector<int> centres) {
+                                   std::size_t count, std::vector<int> centres, std::vector<int> traces = {}) {
     throw MeshError(
         fmt::format(
             "mesh: found {} of inscribed radius {:.6g} destroyed by the inset of {:.6g} ({} cell{} in all), expected "
             "every cell to survive; use a smaller thick or inset, or merge the destroyed cells",
             cell, inscribed_radius(outline, scale), depth, count, count == 1 ? "" : "s"),
-        std::move(centres));
+        std::move(centres), std::move(traces));
 }
 
 // Twice the area over the perimeter: grows with the inscribed radius, and finds the cell to be named quickly.
@@ -247,11 +278,100 @@ Triangles triangles_within(std::span<const CellCentre> centres, const Rectangle&
     return triangles;
 }
 
+double mean_spacing(std::span<const CellCentre> centres, const Rectangle& domain) {
+    return std::sqrt((domain.x2 - domain.x1) * (domain.y2 - domain.y1) / static_cast<double>(centres.size()));
+}
+
+TraceGraph graph_of(std::span<const CellCentre> centres, const Rectangle& domain, const MeshRequest& request) {
+    return trace_graph(domain, request.traces, trace_reach_share * mean_spacing(centres, domain));
+}
+
+/// What traces cost a mesh.
+void report_traces(MeshReport& report, const TraceGraph& graph, std::size_t left_out, std::size_t added) {
+    report.ends_moved = static_cast<std::int64_t>(graph.moved.size());
+    for (const TraceGraph::MovedEnd& end : graph.moved)
+        report.largest_move = std::max(report.largest_move, std::abs(end.by));
+    for (const TraceGraph::Coincidence& both : graph.coincident) report.coincident += both.length;
+    report.centres_left = static_cast<std::int64_t>(left_out);
+    report.points_added = static_cast<std::int64_t>(added);
+}
+
+Mesh mesh_jointed_voronoi(std::span<const CellCentre> centres, const Rectangle& domain, const MeshRequest& request,
+                          double depth) {
+    const double scale = coordinate_scale(domain);
+    const TraceGraph graph = graph_of(centres, domain, request);
+    const JointedCells made = jointed_cells(centres, domain, graph, mean_spacing(centres, domain));
+    Inset inset(depth, scale);
+    MeshBuilder builder(domain, made.cells.cells.size(), made.cells.corners.size());
+    std::vector<VoronoiCells::Range> destroyed;
+    for (const VoronoiCells::Range& range : made.cells.cells) {
+        const auto before = made.cells.outline(range), after = inset.of(before);
+        if (after.empty()) {
+            destroyed.push_back(range);
+            continue;
+        }
+        builder.add(before, after, std::span(made.traces).subspan(range.first, range.count)).centre = range.centre;
+    }
+    if (!destroyed.empty()) {
+        const auto worst = *std::ranges::min_element(
+            destroyed, {}, [&](const VoronoiCells::Range& cell) { return slenderness(made.cells.outline(cell)); });
+        const auto number = static_cast<std::size_t>(worst.centre);
+        std::set<int> named;
+        for (std::size_t k = 0; k < worst.count; ++k)
+            if (const int trace = made.traces[worst.first + k]; trace >= 0) named.insert(trace);
+        const std::vector<int> traces(named.begin(), named.end());
+        refuse_destroyed(fmt::format("the cell at {}{}", place(made.seeds.places[number]), in_words(traces)),
+                         made.cells.outline(worst), depth, scale, destroyed.size(), {made.seeds.centre[number]},
+                         traces);
+    }
+    Mesh mesh = builder.finish();
+    mesh.cells = in_order_of_centres(mesh.cells, made.seeds.centre);
+    report_traces(mesh.report, graph, made.seeds.left_out,
+                  static_cast<std::size_t>(std::count(made.seeds.added.begin(), made.seeds.added.end(), 1)));
+    return mesh;
+}
+
+/// Of the edge between two points of a triangle, whichever comes first.
+class EdgeTraces {
+  public:
+    explicit EdgeTraces(const Triangles& triangles) {
+        for (std::size_t t = 0; t < triangles.traces.size(); ++t) {
+            for (std::size_t k = 0; k < 3; ++k) {
+                const auto& corners = triangles.corners[t];
+                if (triangles.traces[t][k] >= 0)
+                    traces_[std::minmax(corners[(k + 1) % 3], corners[(k + 2) % 3])] = triangles.traces[t][k];
+            }
+        }
+    }
+    /// By the edge from each corner to the next.
+    std::span<const int> of(std::span<const int> corners) {
+        edges_.clear();
+        for (std::size_t k = 0; k < corners.size(); ++k) {
+            const int next = corners[k + 1 == corners.size() ? 0 : k + 1];
+            const auto found = traces_.find(std::minmax(corners[k], next));
+            edges_.push_back(found == traces_.end() ? -1 : found->second);
+        }
+        return edges_;
+    }
+
+  private:
+    std::map<std::pair<int, int>, int> traces_;
+    std::vector<int> edges_;
+};
+
 Mesh mesh_delaunay(std::span<const CellCentre> centres, const Rectangle& domain, const MeshRequest& request,
                    double depth) {
     const double scale = coordinate_scale(domain);
-    const Triangles triangles = request.outline.empty() ? delaunay_triangles(centres, domain, request.boundary)
-                                                        : triangles_within(centres, domain, request.outline);
+    const bool traced = !request.traces.empty();
+    TraceGraph graph;
+    ConformingTriangles made;
+    if (traced) {
+        graph = graph_of(centres, domain, request);
+        made = conforming_triangles(centres, domain, graph, mean_spacing(centres, domain));
+    }
+    const Triangles triangles = traced                    ? std::move(made.triangles)
+                                : request.outline.empty() ? delaunay_triangles(centres, domain, request.boundary)
+                                                          : triangles_within(centres, domain, request.outline);
     if (triangles.corners.empty()) {
         throw MeshError(fmt::format(
             "mesh: found {} centre{} that form no triangle with a circumcentre in the domain, expected at least three "
@@ -284,42 +404,72 @@ Mesh mesh_delaunay(std::span<const CellCentre> centres, const Rectangle& domain,
         std::vector<int> named;
         std::string numbers;
         for (const int centre : centres_of(static_cast<std::size_t>(worst))) {
-            numbers += (numbers.empty() ? "" : ", ") + (centre < 0 ? std::string("wall") : std::to_string(centre));
+            numbers += (numbers.empty() ? "" : ", ") + (centre >= 0              ? std::to_string(centre)
+                                                        : request.traces.empty() ? std::string("wall")
+                                                                                 : std::string("wall or trace"));
             if (centre >= 0) named.push_back(centre);
         }
-        refuse_destroyed(fmt::format("triangle {} of centres {} at {}, {}, {}", worst, numbers, place(corners[0]),
-                                     place(corners[1]), place(corners[2])),
-                         corners, depth, scale, destroyed.size(), std::move(named));
+        std::vector<int> traces = traces_about(triangles, static_cast<std::size_t>(worst));
+        const std::string by = in_words(traces);
+        refuse_destroyed(fmt::format("triangle {} of centres {} at {}, {}, {}{}", worst, numbers, place(corners[0]),
+                                     place(corners[1]), place(corners[2]), by),
+                         corners, depth, scale, destroyed.size(), std::move(named), std::move(traces));
     }
     const JoinedTriangles joined = join_destroyed(triangles, destroyed, depth, scale);
     MeshBuilder builder(domain, triangles.corners.size(), 3 * triangles.corners.size());
+    EdgeTraces edge_traces(triangles);
     auto next = joined.outlines.begin();
     std::vector<Point> before;
     for (std::size_t t = 0; t < triangles.corners.size(); ++t) {
         if (!joined.joined[t]) {
             const auto alone = outline(t);
-            builder.add(alone, inset.of(alone)).centres = centres_of(t);
+            const auto after = inset.of(alone);
+            Cell& cell =
+                traced ? builder.add(alone, after, edge_traces.of(triangles.corners[t])) : builder.add(alone, after);
+            cell.centres = centres_of(t);
         } else if (next != joined.outlines.end() && static_cast<std::size_t>(next->triangle) == t) {
             before.clear();
             for (const int corner : next->corners) before.push_back(point(corner));
-            builder.add(before, inset.of(before)).centres = centres_of(t);
+            const auto after = inset.of(before);
+            Cell& cell =
+                traced ? builder.add(before, after, edge_traces.of(next->corners)) : builder.add(before, after);
+            cell.centres = centres_of(t);
             ++next;
         }
     }
     Mesh mesh = builder.finish();
     mesh.report.cells_destroyed = static_cast<std::int64_t>(destroyed.size());
+    if (traced) report_traces(mesh.report, graph, made.left_out, made.added);
     return mesh;
 }
 
 }  // namespace
 
+MeshQuality quality_of(const Mesh& mesh) {
+    MeshQuality quality;
+    quality.smallest_angle = mesh.report.smallest_angle;
+    double least = std::numeric_limits<double>::infinity(), edges = 0.0;
+    for (const Cell& cell : mesh.cells) {
+        least = std::min(least, cell.area);
+        const auto outline = mesh.outline(cell);
+        for (std::size_t k = 0; k < outline.size(); ++k)
+            edges += distance(outline[k], outline[k + 1 == outline.size() ? 0 : k + 1]);
+    }
+    quality.smallest_area = least * static_cast<double>(mesh.cells.size()) / mesh.report.area_before_inset;
+    quality.shortest_edge = mesh.report.shortest_edge * static_cast<double>(mesh.report.segments) / edges;
+    return quality;
+}
+
 Mesh make_mesh(std::span<const CellCentre> centres, const Rectangle& domain, const MeshRequest& request) {
     check_request(domain, request);
     check_centres(centres, domain);
     check_outline(centres, request);
+    check_traces(domain, request);
     const double depth = request.inset.value_or(0.5 * request.mesh_gap);
-    Mesh mesh = request.kind == MeshKind::voronoi ? mesh_voronoi(centres, domain, request, depth)
-                                                  : mesh_delaunay(centres, domain, request, depth);
+    const bool voronoi = request.kind == MeshKind::voronoi;
+    Mesh mesh = voronoi && !request.traces.empty() ? mesh_jointed_voronoi(centres, domain, request, depth)
+                : voronoi                          ? mesh_voronoi(centres, domain, request, depth)
+                                                   : mesh_delaunay(centres, domain, request, depth);
     mesh.report.centres = static_cast<std::int64_t>(centres.size());
     return mesh;
 }

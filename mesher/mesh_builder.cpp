@@ -36,6 +36,42 @@ Cell& MeshBuilder::add(std::span<const Point> before, std::span<const Point> aft
     return cell;
 }
 
+namespace {
+
+/// Which edge of the outline without inset one of the inset outline is: the one that runs in its direction, for a
+/// convex outline has one of each; flat corners aside, where the nearer one is it.
+std::size_t edge_of(std::span<const Point> before, Point a, Point b) {
+    std::size_t best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    const double length = distance(a, b);
+    for (std::size_t k = 0; k < before.size(); ++k) {
+        const Point p = before[k], q = before[k + 1 == before.size() ? 0 : k + 1];
+        const double along = distance(p, q), x = (q.x - p.x) / along, y = (q.y - p.y) / along;
+        const double turn = std::abs(x * (b.y - a.y) - y * (b.x - a.x)) / length;
+        if (x * (b.x - a.x) + y * (b.y - a.y) <= 0.0) continue;
+        // Off its span, as a share of a turn: of two edges on one line the one beside counts.
+        const double middle = x * (0.5 * (a.x + b.x) - p.x) + y * (0.5 * (a.y + b.y) - p.y);
+        const double off = std::max({0.0, -middle, middle - along}) / (along + length);
+        if (turn + 1e-9 * off >= least) continue;
+        least = turn + 1e-9 * off;
+        best = k;
+    }
+    return best;
+}
+
+}  // namespace
+
+Cell& MeshBuilder::add(std::span<const Point> before, std::span<const Point> after, std::span<const int> traces) {
+    for (std::size_t k = 0; k < after.size(); ++k) {
+        const int trace = traces[edge_of(before, after[k], after[k + 1 == after.size() ? 0 : k + 1])];
+        mesh_.edge_traces.push_back(trace);
+        if (trace >= 0) ++mesh_.report.trace_edges;
+    }
+    for (std::size_t k = 0; k < before.size(); ++k)
+        if (traces[k] >= 0) trace_length_.add(0.5 * distance(before[k], before[k + 1 == before.size() ? 0 : k + 1]));
+    return add(before, after);
+}
+
 // Angles are compared by a measure that grows with them and needs no arc function: sin up to 90 degrees, 2 - sin
 // beyond.
 void MeshBuilder::measure_edges(std::span<const Point> outline) {
@@ -60,6 +96,7 @@ Mesh MeshBuilder::finish() {
     report.segments = static_cast<std::int64_t>(mesh_.corners.size());
     report.area_before_inset = area_before_.value();
     report.area_after_inset = area_after_.value();
+    report.trace_length = trace_length_.value();
     report.shortest_edge = shortest_edge_;
     const bool acute = smallest_corner_ <= 1.0;
     const double quarter = std::asin(std::clamp(acute ? smallest_corner_ : 2.0 - smallest_corner_, -1.0, 1.0));

@@ -21,6 +21,8 @@ class MeshBuilder {
     /// counter-clockwise
     /// @return the cell, of no centre yet; valid until the next call
     Cell& add(std::span<const Point> before, std::span<const Point> after);
+    /// The same of a mesh with traces. @param traces  of the edge from each corner of `before`; -1: none
+    Cell& add(std::span<const Point> before, std::span<const Point> after, std::span<const int> traces);
 
     /// The cells in the order in which they came, and the report on them. The builder is empty afterwards.
     Mesh finish();
@@ -40,7 +42,7 @@ class MeshBuilder {
 
     Rectangle domain_;
     Mesh mesh_;
-    Sum area_before_, area_after_;
+    Sum area_before_, area_after_, trace_length_;
     double shortest_edge_ = std::numeric_limits<double>::infinity();
     double smallest_corner_ = 2.0;  // a measure of the angle, see measure_edges()
 };

@@ -64,7 +64,13 @@ struct MeshRequest {
     /// about a mean spacing apart, and centres nearer to it than a third of one are left out, for triangles with them
     /// would be slivers.
     std::vector<Point> outline;
+    /// Traces of joints, points one after another, in the domain or on its boundary: edges of the cells follow them.
+    /// Meshes that fill the domain have them, without an outline, and Voronoi cells without merging. An end as near to
+    /// another trace or a wall as trace_reach_share of the mean spacing goes to it along its own line.
+    std::vector<std::vector<Point>> traces;
 };
+
+inline constexpr double trace_reach_share = 0.25;
 
 /// Sides of the domain, as bits of Cell::sides.
 enum SideBit : std::uint8_t { side_left = 1, side_right = 2, side_bottom = 4, side_top = 8 };
@@ -73,7 +79,8 @@ enum SideBit : std::uint8_t { side_left = 1, side_right = 2, side_bottom = 4, si
 struct Cell {
     std::uint32_t first_corner = 0;  ///< into Mesh::corners
     std::uint32_t corner_count = 0;
-    int centre = -1;  ///< Voronoi: index of its centre; triangles: -1
+    /// Voronoi: index of its centre, of a cell that a trace made of the nearest one; triangles: -1
+    int centre = -1;
     std::array<int, 3> centres{-1, -1,
                                -1};  ///< triangles: centres at the corners, -1 for a corner added on the domain's face
     double area = 0.0;               ///< m2, before the inset
@@ -94,11 +101,22 @@ struct MeshReport {
     std::int64_t cells_destroyed = 0;  ///< by the inset, all of them merged
     double area_before_inset = 0.0;    ///< m2, sum over the cells
     double area_after_inset = 0.0;     ///< m2
+    // Of a mesh with traces:
+    std::int64_t trace_edges = 0;   ///< edges of cells on traces, both sides, after the inset
+    double trace_length = 0.0;      ///< m, of the edges on traces before the inset, each once
+    std::int64_t ends_moved = 0;    ///< ends of traces that went on to another trace or a wall, or back to it
+    double largest_move = 0.0;      ///< m
+    double coincident = 0.0;        ///< m along which traces lie on others, whose edges are the first one's
+    std::int64_t centres_left = 0;  ///< centres that made way for traces
+    std::int64_t points_added = 0;  ///< corners inside that no centre is
 };
 
 struct Mesh {
     std::vector<Point> corners;  ///< of all cells, numbered along space
     std::vector<Cell> cells;     ///< Voronoi: in the order of the centres; triangles: along space
+    /// By corner: the trace, into MeshRequest::traces, on which the edge to the cell's next corner lies; -1: none.
+    /// Empty of a mesh without traces.
+    std::vector<int> edge_traces;
     MeshReport report;
 
     std::span<const Point> outline(const Cell& cell) const {
@@ -106,13 +124,22 @@ struct Mesh {
     }
 };
 
-/// Centres or a request from which no mesh can be made. `centres` holds the indices it names, if any.
+/// How well shaped cells are.
+struct MeshQuality {
+    double smallest_angle = 0.0;  ///< degrees
+    double smallest_area = 0.0;   ///< of a cell over their mean, before the inset
+    double shortest_edge = 0.0;   ///< over their mean, after the inset
+};
+MeshQuality quality_of(const Mesh& mesh);
+
+/// Centres, traces or a request from which no mesh can be made. `centres` and `traces` hold the indices it names, if
+/// any.
 class MeshError : public std::runtime_error {
   public:
-    explicit MeshError(const std::string& text, std::vector<int> named = {})
-        : std::runtime_error(text), centres(std::move(named)) {}
+    explicit MeshError(const std::string& text, std::vector<int> named_centres = {}, std::vector<int> named_traces = {})
+        : std::runtime_error(text), centres(std::move(named_centres)), traces(std::move(named_traces)) {}
 
-    std::vector<int> centres;
+    std::vector<int> centres, traces;
 };
 
 /// Partitions `domain` and insets every cell. Same input, same bytes.

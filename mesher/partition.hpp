@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Partitions of a rectangle before the inset. The one place that knows CGAL is partition.cpp.
+// Partitions of a rectangle before the inset. partition.cpp knows CGAL, and conforming.cpp, where there are traces.
 // Tested by tests/mesher/voronoi_test.cpp.
 #pragma once
 
@@ -33,6 +33,7 @@ struct Triangles {
     std::vector<int> centre_of;                  // by point; -1: added
     std::vector<std::array<int, 3>> corners;     // into points
     std::vector<std::array<int, 3>> neighbours;  // across the edge opposite to corner k; -1: none
+    std::vector<std::array<int, 3>> traces;      // on that edge, -1: none; empty of a mesh without traces
 };
 
 /// @throws MeshError on coincident centres. The centres are finite and inside the domain.

@@ -2,8 +2,8 @@
 // Small-strain solution of a bonded specimen: K u = f from its own bonds and driven bodies, without time stepping.
 //
 // Every bonded point (every touching one in a world without bonds; or all that touch, where that is asked for) is two
-// linear springs, springs.hpp; domain walls are left out. The contact forces are zero after back-tension bonding, so the
-// solution is exact for small strain with all bonds intact and sticking.
+// linear springs, springs.hpp; domain walls are left out. The contact forces are zero after back-tension bonding, so
+// the solution is exact for small strain with all bonds intact and sticking.
 //
 // Floating particles, particles held by one circle contact and other mechanisms make K singular. It is scaled
 // by each body's own springs (displacements by their sum k, rotations by k times the square of its bounding radius),
@@ -42,8 +42,7 @@ struct ElasticSolution {
 /// @throws InputError if nothing is prescribed, or the refinement does not reach a residual of 1e-9: loads on bodies
 /// that nothing holds have no solution.
 ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>& prescribed,
-                              const std::vector<BodyMotion>& loads = {},
-                              ClosedPoints closed = ClosedPoints::bonded);
+                              const std::vector<BodyMotion>& loads = {}, ClosedPoints closed = ClosedPoints::bonded);
 
 /// Motions without energy of a world whose `held` bodies stay in place, as Prescribed has it.
 struct FreeMotions {

@@ -21,6 +21,7 @@
 #include "solver/files/read_file.hpp"
 #include "solver/scene/scene.hpp"
 #include "specimens/case/consistency.hpp"
+#include "specimens/case/joint_checks.hpp"
 #include "specimens/case/parameters.hpp"
 #include "specimens/case/toml_file.hpp"
 #include "specimens/case/toml_shape.hpp"
@@ -336,6 +337,18 @@ TestCase CaseFiles::with(std::span<const CaseSetting> settings) const {
     return test;
 }
 
+TestCase CaseFiles::joints() const {
+    TestCase test = written_;
+    for (const Parameter& p : case_parameters()) {
+        if (p.table != "joints" && p.table != "joint_set" && p.table != "trace") continue;
+        const TableDescription& table = *find_table(p.table);
+        const std::size_t entries = table.repeated() ? table.count(test) : 1;
+        for (std::size_t entry = 0; entry < entries; ++entry) fill_default(test, p, entry);
+    }
+    check_joints(test);
+    return test;
+}
+
 TestCase read_case(const fs::path& path) { return CaseFiles(path).with({}); }
 TestCase read_case(const CaseText& text) { return CaseFiles(text).with({}); }
 
@@ -348,7 +361,9 @@ std::string quoted_text(const std::string& text) {
 }
 
 /// A value as a case writes it. @param folder that paths are relative to
-std::string written_value(const TestCase& test, const Parameter& p, const CaseValue& value, const fs::path& folder) {
+std::string written_value(const TestCase& test, const ResolvedKey& key, const fs::path& folder) {
+    const Parameter& p = *key.parameter;
+    const CaseValue& value = key.value;
     if (const auto* flag = std::get_if<bool>(&value)) return *flag ? "true" : "false";
     if (const auto* number = std::get_if<std::int64_t>(&value)) return fmt::format("{}", *number);
     const auto written = [](double number) {
@@ -365,7 +380,7 @@ std::string written_value(const TestCase& test, const Parameter& p, const CaseVa
         return fmt::format("[{}, {}]", quoted_text((*texts)[0]), quoted_text((*texts)[1]));
     const std::string& text = std::get<std::string>(value);
     if (!p.is_path) return quoted_text(text);
-    const fs::path target = test.resolve_path(p.full_key(), text);
+    const fs::path target = test.resolve_path(key.label, text);
     return quoted_text(fs::absolute(target)
                            .lexically_normal()
                            .lexically_proximate(fs::absolute(folder).lexically_normal())
@@ -375,6 +390,7 @@ std::string written_value(const TestCase& test, const Parameter& p, const CaseVa
 /// Tables that say nothing where the case has none.
 bool left_out(const TestCase& test, const std::string& table) {
     if (table == "minerals") return !test.has_table("mineral");
+    if (table == "joints") return !test.jointed();
     if (table == "shape" && test.uniaxial()) return true;
     return (table == "packing" || table == "mesh") && !test.has_table(table);
 }
@@ -407,14 +423,14 @@ void write_resolved_case(std::ostream& out, const TestCase& test, const fs::path
             out << '\n' << described.heading() << "  # " << described.sentence << '\n';
             table = own;
         }
-        out << fmt::format("{} = {}  # {}{}\n", p.key, written_value(test, p, key.value, folder),
+        out << fmt::format("{} = {}  # {}{}\n", p.key, written_value(test, key, folder),
                            p.unit.empty() ? "" : p.unit + ": ", p.sentence);
     }
 }
 
 void describe_case_keys(std::ostream& out) {
     out << "include = \"FILE\" at the top: values of FILE hold wherever the case is silent; FILE may include "
-           "another. A list, [[mineral]] or [[mineral_pair]], holds as a whole. A line has at most "
+           "another. A list, such as [[mineral]], holds as a whole. A line has at most "
         << longest_toml_line << " bytes.\n";
     for (const TableDescription& table : case_tables()) {
         if (!table.name.empty()) out << '\n' << table.heading() << "  " << table.sentence << '\n';

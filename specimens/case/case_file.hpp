@@ -42,6 +42,10 @@ class CaseFiles {
     /// The test with settings over what the files say, the last one over those before it. @throws InputError
     TestCase with(std::span<const CaseSetting> settings) const;
 
+    /// The joints alone, of a file that need not be a whole case: defaults and checks of [joints], [[joint_set]] and
+    /// [[trace]]; of the rest what the files say. @throws InputError
+    TestCase joints() const;
+
   private:
     TestCase written_;
 };

@@ -14,6 +14,7 @@
 #include "solver/base/correctly_rounded.hpp"
 #include "solver/base/errors.hpp"
 #include "solver/scene/bond_strength.hpp"
+#include "specimens/case/joint_checks.hpp"
 #include "specimens/case/mineral_checks.hpp"
 #include "specimens/case/parameters.hpp"
 
@@ -30,7 +31,9 @@ class ConsistencyCheck {
         material();
         bond();
         check_minerals(test_);
+        check_joints(test_);
         mesh();
+        check_jointed_specimen(test_);
         loading();
         if (test_.output.frames.value_or(0) > test_.output.curve_rows) {
             refuse("output.frames", fmt::format("{}", *test_.output.frames),

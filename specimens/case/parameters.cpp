@@ -94,8 +94,8 @@ struct With {
 // clang-format on
 #define CRACKLE_KEY(table, key, unit, sentence) \
     With { declare(#table, #key, unit, CRACKLE_MEMBER(table.key), sentence) }
-#define CRACKLE_LIST_KEY(list, key, sentence) \
-    With { declare(#list, #key, "", CRACKLE_ENTRY(list, key), sentence) }
+#define CRACKLE_LIST_KEY(list, key, unit, sentence) \
+    With { declare(#list, #key, unit, CRACKLE_ENTRY(list, key), sentence) }
 // NOLINTEND(bugprone-macro-parentheses)
 
 /// A number of [material] as a key of the list's entries, which hold MaterialKeys of their own.
@@ -235,15 +235,108 @@ std::vector<Parameter> all_parameters() {
         CRACKLE_KEY(minerals, image, "", "PNG file laid over the box; a grain has the mineral of most of its pixels.")
             .path(),
 
-        CRACKLE_LIST_KEY(mineral, name, "What [[mineral_pair]], labels and results call it.").needed_with_table(),
-        With{declare("mineral", "area_share", "", CRACKLE_ENTRY(mineral, area_share),
-                     "Share of all grains' area; one mineral may leave it out and has the rest.")}
+        CRACKLE_LIST_KEY(mineral, name, "", "What [[mineral_pair]], labels and results call it.").needed_with_table(),
+        CRACKLE_LIST_KEY(mineral, area_share, "",
+                         "Share of all grains' area; one mineral may leave it out and has the rest.")
             .above(0)
             .at_most(1),
-        CRACKLE_LIST_KEY(mineral, colour, "Colour in the image, \"#rrggbb\"."),
+        CRACKLE_LIST_KEY(mineral, colour, "", "Colour in the image, \"#rrggbb\"."),
 
-        CRACKLE_LIST_KEY(mineral_pair, between, "Names of two minerals; of one twice for contacts among its grains.")
+        CRACKLE_LIST_KEY(mineral_pair, between, "",
+                         "Names of two minerals; of one twice for contacts among its grains.")
             .needed_with_table(),
+
+        CRACKLE_KEY(joints, seed, "", "Seed of the joint sets; the same seed gives the same traces.")
+            .at_least(0)
+            .otherwise(whole(1)),
+        CRACKLE_KEY(joints, section, "",
+                    "The plane of the model, for orientation = \"fisher\": a vertical section, +y up, or a horizontal "
+                    "one seen from above.")
+            .one_of({"vertical", "horizontal"})
+            .otherwise(Text("vertical")),
+        CRACKLE_KEY(joints, section_trend, "deg", "Where +x of the section points: from north, clockwise.")
+            .at_least(0)
+            .below(360),
+
+        CRACKLE_KEY(joints, shortest, "m",
+                    "Traces that have less in the box are left out, for a mesh whose grains are larger; amounts are "
+                    "reached before. None are if not given.")
+            .above(0),
+
+        CRACKLE_LIST_KEY(joint_set, name, "", "What reports, figures and results call it.").needed_with_table(),
+        CRACKLE_LIST_KEY(joint_set, orientation, "",
+                         "fixed: all at angle; uniform: angle within angle_deviation either way; von_mises: axial, "
+                         "density ~ exp(kappa cos 2(theta - angle)); fisher: planes about dip and dip_direction, cut "
+                         "by the model's section.")
+            .one_of({"fixed", "uniform", "von_mises", "fisher"})
+            .otherwise(Text("fixed")),
+        CRACKLE_LIST_KEY(joint_set, angle, "deg", "Of the traces (their mean), from +x, counter-clockwise.")
+            .at_least(-360)
+            .at_most(360),
+        CRACKLE_LIST_KEY(joint_set, angle_deviation, "deg", "Half the range of orientation = \"uniform\".")
+            .above(0)
+            .at_most(90),
+        CRACKLE_LIST_KEY(joint_set, kappa, "", "Concentration of orientation = \"von_mises\".")
+            .at_least(1e-3)
+            .at_most(1e6),
+        CRACKLE_LIST_KEY(joint_set, dip, "deg", "Of the mean plane, from the horizontal.").at_least(0).at_most(90),
+        CRACKLE_LIST_KEY(joint_set, dip_direction, "deg", "Where the mean plane dips to: from north, clockwise.")
+            .at_least(0)
+            .at_most(360),
+        CRACKLE_LIST_KEY(joint_set, fisher_k, "", "Concentration of the planes' normals about the mean one.")
+            .at_least(1e-3)
+            .at_most(1e6),
+        CRACKLE_LIST_KEY(
+            joint_set, length, "",
+            "persistent: through the whole box; gaps: along a line length_mean of joint, then gap_mean of "
+            "rock (each within its deviation, uniform); fixed; uniform: within length_deviation; "
+            "lognormal; exponential; power_law: density ~ l^-length_exponent from length_min to length_max.")
+            .one_of({"persistent", "gaps", "fixed", "uniform", "lognormal", "exponential", "power_law"})
+            .otherwise(Text("persistent")),
+        CRACKLE_LIST_KEY(joint_set, length_mean, "m", "Mean length of a trace, before the box cuts it.").above(0),
+        CRACKLE_LIST_KEY(joint_set, length_deviation, "m",
+                         "uniform, gaps: half the range; lognormal: standard deviation.")
+            .above(0),
+        CRACKLE_LIST_KEY(joint_set, length_min, "m", "Shortest trace of a power law.").above(0),
+        CRACKLE_LIST_KEY(joint_set, length_max, "m", "Longest trace of a power law.").above(0),
+        CRACKLE_LIST_KEY(joint_set, length_exponent, "", "Of a power law.").at_least(-10).at_most(10),
+        CRACKLE_LIST_KEY(joint_set, gap_mean, "m", "Rock bridge between two traces of a line, length = \"gaps\".")
+            .above(0),
+        CRACKLE_LIST_KEY(joint_set, gap_deviation, "m", "Half the range of gaps.").above(0),
+        CRACKLE_LIST_KEY(joint_set, number, "", "Amount: traces in the box.").at_least(1).at_most(100000),
+        CRACKLE_LIST_KEY(joint_set, p10, "1/m",
+                         "Amount: traces per length of scan line, the mean over all lines along scan_line in the box.")
+            .above(0),
+        CRACKLE_LIST_KEY(joint_set, p20, "1/m2", "Amount: traces' midpoints per area.").above(0),
+        CRACKLE_LIST_KEY(joint_set, p21, "m/m2",
+                         "Amount: length of traces per area; the last trace is shortened to meet it.")
+            .above(0),
+        CRACKLE_LIST_KEY(joint_set, spacing, "m",
+                         "Amount: mean distance between lines, square to the mean direction; of length = "
+                         "\"persistent\" and \"gaps\".")
+            .above(0),
+        CRACKLE_LIST_KEY(joint_set, scan_line, "deg",
+                         "Direction that P10 counts along; square to the mean direction if not given.")
+            .at_least(-360)
+            .at_most(360),
+        CRACKLE_LIST_KEY(joint_set, spacing_law, "",
+                         "Of distances between lines; uniform within spacing_deviation; fixed if not given.")
+            .one_of({"fixed", "uniform", "exponential", "lognormal"}),
+        CRACKLE_LIST_KEY(joint_set, spacing_deviation, "m", "uniform: half the range; lognormal: standard deviation.")
+            .above(0),
+        CRACKLE_LIST_KEY(joint_set, through, "m",
+                         "x and y of a point on one line, with spacing; at random if not given."),
+
+        CRACKLE_LIST_KEY(trace, name, "",
+                         "What reports, figures and results call it; its number or its file if not given."),
+        CRACKLE_LIST_KEY(trace, points, "m", "x1, y1, x2, y2, ...: one trace of straight pieces; or file."),
+        CRACKLE_LIST_KEY(trace, file, "",
+                         "Measured traces: .csv with columns trace,x,y (a line a point) or x1,y1,x2,y2 (a line a "
+                         "straight trace); .dxf (R12: lines and polylines); any other: a trace a line, x1 y1 x2 y2 ...")
+            .path(),
+        CRACKLE_LIST_KEY(trace, layer, "", "Of a DXF file: reads this layer alone; all if not given."),
+        CRACKLE_LIST_KEY(trace, scale, "m", "Length of a unit of the file; 1 if not given.").above(0),
+        CRACKLE_LIST_KEY(trace, offset, "m", "x and y that are added to a file's places, scaled before."),
 
         CRACKLE_KEY(bond, law, "",
                     "back_tension: the overlap at bonding is the strength, as the guide has it. coulomb: tensile "
@@ -376,9 +469,10 @@ std::vector<Parameter> all_parameters() {
                     "On the sides, all through the test; the platens press with the same before loading begins. Its "
                     "unit is that of stresses: Pa with material.units = \"area\".")
             .above(0),
-        CRACKLE_KEY(confinement, side, "",
-                    "What presses the sides: membrane (if not given), which follows the specimen; walls, two smooth rigid "
-                    "plates, each with the force of the pressure on the initial height.")
+        CRACKLE_KEY(
+            confinement, side, "",
+            "What presses the sides: membrane (if not given), which follows the specimen; walls, two smooth rigid "
+            "plates, each with the force of the pressure on the initial height.")
             .one_of({"membrane", "walls"}),
 
         CRACKLE_KEY(numerics, time_step, "s", "Time step; derived from the stiffness bound if not given.").above(0),
@@ -531,6 +625,12 @@ const std::vector<TableDescription>& case_tables() {
          "Contacts between two minerals, in place of springs in series and the smaller friction of the two.",
          [](const TestCase& c) { return c.mineral_pair.size(); },
          [](TestCase& c, std::size_t n) { c.mineral_pair.resize(n); }},
+        {"joints", "How joint sets are drawn."},
+        {"joint_set", "One table a set of joints, drawn by its laws.",
+         [](const TestCase& c) { return c.joint_set.size(); },
+         [](TestCase& c, std::size_t n) { c.joint_set.resize(n); }},
+        {"trace", "One table a measured trace, or a file of them.", [](const TestCase& c) { return c.trace.size(); },
+         [](TestCase& c, std::size_t n) { c.trace.resize(n); }},
         {"bond", "What holds the particles together, and how it breaks."},
         {"shape", "What is cut from the packing, of brazilian, bending and scb."},
         {"loading", "The kind of test, and how it is loaded: the lower platen is fixed, the upper one moves."},

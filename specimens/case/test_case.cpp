@@ -19,13 +19,15 @@ fs::path TestCase::resolve_path(const std::string& key, const std::string& writt
 
 std::vector<std::filesystem::path> files_read(const TestCase& test) {
     std::vector<std::filesystem::path> files = test.inputs;
-    const auto add = [&](const char* key, const std::optional<std::string>& file) {
+    const auto add = [&](const std::string& key, const std::optional<std::string>& file) {
         if (file) files.push_back(test.resolve_path(key, *file));
     };
     add("particles.file", test.particles.file);
     add("packing.sieve", test.packing.sieve);
     add("minerals.labels", test.minerals.labels);
     add("minerals.image", test.minerals.image);
+    for (std::size_t k = 0; k < test.trace.size(); ++k)
+        add("trace[" + std::to_string(k + 1) + "].file", test.trace[k].file);
     return files;
 }
 

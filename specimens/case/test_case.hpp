@@ -93,6 +93,46 @@ struct TestCase {
     };
     std::vector<MineralPair> mineral_pair;
 
+    struct Joints {
+        std::int64_t seed = 1;
+        std::string section = "vertical";     // or "horizontal"
+        std::optional<double> section_trend;  // degrees from north, clockwise: where +x of the section points
+        std::optional<double> shortest;       // m
+    } joints;
+
+    /// Joints drawn by laws (specimens/joints). Which keys go together: case/joint_checks.cpp.
+    struct JointSet {
+        std::string name;
+        std::string orientation = "fixed";
+        std::optional<double> angle, angle_deviation, kappa;  // degrees from +x, counter-clockwise; degrees; -
+        std::optional<double> dip, dip_direction, fisher_k;   // degrees; degrees from north, clockwise; -
+        std::string length = "persistent";
+        std::optional<double> length_mean, length_deviation;  // m
+        std::optional<double> length_min, length_max;         // m
+        std::optional<double> length_exponent;                // -
+        std::optional<double> gap_mean, gap_deviation;        // m
+        std::optional<std::int64_t> number;                   // of one set one of these five:
+        std::optional<double> p10, p20, p21;                  // 1/m, 1/m2, m/m2
+        std::optional<double> spacing;                        // m
+        std::optional<double> scan_line;                      // degrees from +x, of p10
+        std::optional<std::string> spacing_law;               // "fixed" if not given
+        std::optional<double> spacing_deviation;              // m
+        std::optional<std::vector<double>> through;           // m, x and y
+    };
+    std::vector<JointSet> joint_set;
+
+    /// Measured traces: points of one, or a file of any number.
+    struct Trace {
+        std::optional<std::string> name;
+        std::optional<std::vector<double>> points;  // m, x1, y1, x2, y2, ...
+        std::optional<std::string> file;            ///< as written
+        std::optional<std::string> layer;           ///< of a DXF file
+        std::optional<double> scale;                // m a unit of the file
+        std::optional<std::vector<double>> offset;  // m, x and y
+    };
+    std::vector<Trace> trace;
+    bool jointed() const { return !joint_set.empty() || !trace.empty(); }
+
     struct Bond {
         std::string law = "back_tension";       // or "coulomb"
         std::optional<double> thick;            // m

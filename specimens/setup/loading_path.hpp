@@ -17,13 +17,13 @@ namespace crackle {
 
 /// Where loading stands. Of a platen that only goes forward no more than the farthest strain is used.
 struct LoadingPath {
-    double speed = 0.0;         // 1/s, of the strain, negative while the platen goes back
-    double chosen_at = 0.0;     // s, when it was chosen last
-    double turned_at = 0.0;     ///< strain where it last turned round
-    double travelled = 0.0;     ///< strain gone through until then, back and forth
-    bool unloading = false;     // unloading.hpp
-    std::int64_t unloaded = 0;  ///< times that unloading has begun
-    double stress_at_turn = 0.0;                                 // N/m, where it last did
+    double speed = 0.0;           // 1/s, of the strain, negative while the platen goes back
+    double chosen_at = 0.0;       // s, when it was chosen last
+    double turned_at = 0.0;       ///< strain where it last turned round
+    double travelled = 0.0;       ///< strain gone through until then, back and forth
+    bool unloading = false;       // unloading.hpp
+    std::int64_t unloaded = 0;    ///< times that unloading has begun
+    double stress_at_turn = 0.0;  // N/m, where it last did
     double lateral = std::numeric_limits<double>::quiet_NaN();   ///< strain, smoothed: lateral_control.hpp
     double lateral_target = 0.0;                                 // lateral_control.hpp
     double farthest = -std::numeric_limits<double>::infinity();  ///< strain of the rows so far

@@ -3,7 +3,8 @@
 // Both in turn, in processor time of the thread; `over_insertion` is the median of the pairs' quotients, whatever else
 // the machine does. `peak_MB` is what the resident set grows by at most while one mesh is made, the mesh included;
 // `destroyed` are the cells that the inset destroys and that are merged.
-// Arguments: centres, gap in thousandths of the mean spacing.
+// The jointed ones have 50 traces, two sets of 25 through the whole square; `over_plain` is the median quotient of
+// their time over that of the same centres without. Arguments: centres, gap in thousandths of the mean spacing.
 
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -109,6 +110,39 @@ void run(benchmark::State& state, MeshKind kind) {
     state.counters["over_insertion"] = median(quotient);
 }
 
+/// One in each square of a lattice, as circles of a packing keep apart.
+std::vector<CellCentre> apart_seeds(int across) {
+    std::mt19937_64 random(1);
+    const auto offset = [&random] { return 0.5 + 0.4 * (static_cast<double>(random() >> 11) * 0x1p-53 - 0.5); };
+    std::vector<CellCentre> centres;
+    for (int i = 0; i < across; ++i)
+        for (int j = 0; j < across; ++j) centres.push_back({(i + offset()) / across, (j + offset()) / across});
+    return centres;
+}
+
+void run_jointed(benchmark::State& state, MeshKind kind) {
+    const std::vector<CellCentre> centres = apart_seeds(100);
+    MeshRequest plain;
+    plain.kind = kind;
+    MeshRequest jointed = plain;
+    for (int k = 0; k < 25; ++k) {
+        const double at = (k + 0.3) / 26.0;
+        jointed.traces.push_back({{0.0, at}, {1.0, at + 0.02}});
+        jointed.traces.push_back({{at + 0.01, 0.0}, {at, 1.0}});
+    }
+    std::vector<double> with, quotient;
+    for (auto _ : state) {
+        const double without = time_of_meshing(centres, plain);
+        with.push_back(time_of_meshing(centres, jointed));
+        quotient.push_back(with.back() / without);
+        state.SetIterationTime(with.back());
+    }
+    state.counters["meshing_ms"] = 1e3 * median(with);
+    state.counters["over_plain"] = median(quotient);
+}
+void jointed_voronoi(benchmark::State& state) { run_jointed(state, MeshKind::voronoi); }
+void jointed_delaunay(benchmark::State& state) { run_jointed(state, MeshKind::delaunay); }
+
 void voronoi(benchmark::State& state) { run(state, MeshKind::voronoi); }
 void delaunay(benchmark::State& state) { run(state, MeshKind::delaunay); }
 
@@ -122,6 +156,8 @@ void sizes(benchmark::internal::Benchmark* made, std::initializer_list<int> gaps
 // Gaps that spare every cell, and that destroy a few in a million.
 BENCHMARK(voronoi)->Apply([](auto* made) { sizes(made, {50, 100}); });
 BENCHMARK(delaunay)->Apply([](auto* made) { sizes(made, {0, 1}); });
+BENCHMARK(jointed_voronoi)->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(pairs);
+BENCHMARK(jointed_delaunay)->UseManualTime()->Unit(benchmark::kMillisecond)->Iterations(pairs);
 
 }  // namespace
 }  // namespace crackle

@@ -25,6 +25,7 @@ namespace crackle::fuzz {
     USE(sieve)                    \
     USE(labels)                   \
     USE(image)                    \
+    USE(traces)                   \
     USE(journal)
 
 #define CRACKLE_FUZZ_DECLARE(name) void name(std::string_view bytes);

@@ -46,6 +46,8 @@ CommandLine describe_pack();
 int pack(const Invocation& given);
 CommandLine describe_mesh();
 int mesh(const Invocation& given);
+CommandLine describe_joints();
+int joints(const Invocation& given);
 CommandLine describe_run();
 int run_deck(const Invocation& given);
 CommandLine describe_test();
@@ -82,7 +84,7 @@ void print_version();  // crackle --version
 PackingRequest packing_request(const po::variables_map& values, Messages& messages);
 /// Polygons from the text of a packing or of a list of centres. @param name of it, for errors
 Scene meshed_scene(const std::string& name, const std::string& text, const po::variables_map& values,
-                   Messages& messages, MeshReport& report);
+                   Messages& messages, MeshReport& report, std::vector<std::string>* of_joints = nullptr);
 /// Threads that are of use here, of those that are asked for.
 void limit_threads(TestOptions& options, std::int64_t asked);
 /// How far a test is, as the program shows it.

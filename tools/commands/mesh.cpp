@@ -17,6 +17,9 @@
 #include "solver/demseg/geometry.hpp"
 #include "solver/files/read_file.hpp"
 #include "solver/files/replace_file.hpp"
+#include "specimens/case/case_file.hpp"
+#include "specimens/joints/joint_network.hpp"
+#include "specimens/joints/mesh_traces.hpp"
 #include "specimens/making/cell_bodies.hpp"
 #include "tools/commands/centre_list.hpp"
 #include "tools/commands/commands.hpp"
@@ -125,7 +128,8 @@ Source centres_of_deck(const std::string& name, const std::string& text, const p
     return source;
 }
 
-Mesh mesh_source(const Source& source, const MeshRequest& request) {
+/// @param joints  whose traces the request has; of none without traces
+Mesh mesh_source(const Source& source, const MeshRequest& request, const JointNetwork& joints) {
     const Domain& domain = source.scene.domain;
     try {
         return make_mesh(source.centres, {domain.x1, domain.x2, domain.y1, domain.y2}, request);
@@ -135,7 +139,7 @@ Mesh mesh_source(const Source& source, const MeshRequest& request) {
             named += fmt::format("{}centre {} is {}", named.empty() ? " (" : ", ", centre,
                                  source.origin[static_cast<std::size_t>(centre)]);
         }
-        throw InputError(error.what() + named + (named.empty() ? "" : ")"));
+        throw InputError(error.what() + named + (named.empty() ? "" : ")") + traces_named(joints, error.traces));
     }
 }
 
@@ -170,12 +174,22 @@ MeshRequest request_of(const po::variables_map& values) {
     return request;
 }
 
-fs::path output_path(const po::variables_map& values, MeshKind kind, const fs::path& input) {
+fs::path output_path(const po::variables_map& values, MeshKind kind, const fs::path& input, const fs::path& joints) {
     const char* usual = kind == MeshKind::delaunay ? "in_gm_tri.dat" : "in_gm_volo.dat";
     fs::path path = values.contains("output") ? values["output"].as<std::string>() : std::string(usual);
     if (fs::is_directory(path)) path /= usual;
-    refuse_replacing(path, values.contains("force"), std::array{input});
+    refuse_replacing(path, values.contains("force"), std::array{input, joints});
     return path;
+}
+
+/// The traces of a file of joints, in the source's domain.
+JointNetwork joints_of(const po::variables_map& values, const Domain& domain) {
+    if (!values.contains("joints")) return {};
+    const fs::path file = values["joints"].as<std::string>();
+    const TestCase test = CaseFiles(file).joints();
+    if (!test.jointed())
+        throw InputError(fmt::format("{}: found no [[joint_set]] and no [[trace]], expected one", file.string()));
+    return make_joints(test, domain);
 }
 
 void print_report(const MeshReport& report, const Domain& domain, const MeshRequest& request, const fs::path& output) {
@@ -196,13 +210,23 @@ void print_report(const MeshReport& report, const Domain& domain, const MeshRequ
 }  // namespace
 
 Scene meshed_scene(const std::string& name, const std::string& text, const po::variables_map& values,
-                   Messages& messages, MeshReport& report) {
-    const MeshRequest request = request_of(values);
+                   Messages& messages, MeshReport& report, std::vector<std::string>* of_joints) {
+    MeshRequest request = request_of(values);
     Source source =
         looks_like_centre_list(text) ? centres_of_list(name, text, values) : centres_of_deck(name, text, values);
     messages.detail(fmt::format("read {} centres from {}, {} bytes", source.centres.size(), name, text.size()));
     messages.progress().step(1.0, fmt::format("meshing {} centres", source.centres.size()));
-    const Mesh made = mesh_source(source, request);
+    const JointNetwork joints = joints_of(values, source.scene.domain);
+    request.traces = mesh_traces(joints);
+    const Mesh made = mesh_source(source, request, joints);
+    if (of_joints != nullptr) {
+        *of_joints = joints.notices;
+        if (!request.traces.empty()) {
+            request.traces.clear();
+            const auto more = jointed_mesh_text(made, mesh_source(source, request, joints));
+            of_joints->insert(of_joints->end(), more.begin(), more.end());
+        }
+    }
     messages.detail(fmt::format("meshed {} cells of {} segments", made.report.cells, made.report.segments));
     report = made.report;
     return scene_of(std::move(source), made, request.mesh_gap);
@@ -219,6 +243,7 @@ CommandLine describe_mesh() {
         ("boundary", word("WHICH")->default_value("domain"),
          "of triangles. domain: flat faces, made by projecting the outer centres; centres: between centres only")  //
         ("merge", "give the place of cells that the inset destroys to neighbours, instead of an error")            //
+        ("joints", word("FILE"), "traces of this file of joints become edges (crackle joints)")                    //
         ("output,o", word("FILE"), "file to write, or folder (default: in_gm_tri.dat or in_gm_volo.dat)")          //
         ("force", "replace the output if it is there");
     plain.add_options()("domain", word("X1 X2 Y1 Y2"), "the domain, m")               //
@@ -227,22 +252,25 @@ CommandLine describe_mesh() {
         ("normal-stiffness", number()->default_value(usual.normal_stiffness), "N/m")  //
         ("shear-stiffness", number()->default_value(usual.shear_stiffness), "N/m")    //
         ("friction-angle", number()->default_value(usual.friction_angle), "degrees");
-    return {.synopses = {"crackle mesh IN --kind delaunay|voronoi --thick T [OPTIONS]"},
-            .description =
-                "Makes polygons of the centres of the circles in IN, an in_gm.dat, or of a list of centres, one x y a "
-                "line. Each polygon is inset along every edge, so that facing edges stand T apart, and T/2 from the "
-                "domain's faces. Writes a particle file of polygons (in_gm_tri.dat or in_gm_volo.dat). Lengths in the "
-                "units of IN.",
-            .options = {{"options", options}, {"options for a list of centres", plain}},
-            .operand = "IN",
-            .choices = {{"kind", {"delaunay", "voronoi"}}, {"boundary", {"domain", "centres"}}},
-            .verbose = "seconds of each stage, counts",
-            .examples = {{"crackle mesh in_gm.dat --kind voronoi --thick 1e-3", "the cells of a packing"},
-                         {"crackle mesh in_gm.dat --kind delaunay --thick 1e-3 --boundary centres",
-                          "triangles between circles only"},
-                         {"crackle mesh centres.txt --kind voronoi --thick 0 --domain 0 1 0 2",
-                          "cells of your own centres, no gaps"}},
-            .prepared = join_domain};
+    return {
+        .synopses = {"crackle mesh IN --kind delaunay|voronoi --thick T [OPTIONS]"},
+        .description =
+            "Makes polygons of the centres of the circles in IN, an in_gm.dat, or of a list of centres, one x y a "
+            "line. Each polygon is inset along every edge, so that facing edges stand T apart, and T/2 from the "
+            "domain's faces. Writes a particle file of polygons (in_gm_tri.dat or in_gm_volo.dat). Lengths in the "
+            "units of IN.",
+        .options = {{"options", options}, {"options for a list of centres", plain}},
+        .operand = "IN",
+        .choices = {{"kind", {"delaunay", "voronoi"}}, {"boundary", {"domain", "centres"}}},
+        .verbose = "seconds of each stage, counts",
+        .examples = {{"crackle mesh in_gm.dat --kind voronoi --thick 1e-3", "the cells of a packing"},
+                     {"crackle mesh in_gm.dat --kind delaunay --thick 1e-3 --boundary centres",
+                      "triangles between circles only"},
+                     {"crackle mesh in_gm.dat --kind delaunay --thick 1e-3 --joints specimens/jointed/two_sets.toml",
+                      "triangles along joints"},
+                     {"crackle mesh centres.txt --kind voronoi --thick 0 --domain 0 1 0 2",
+                      "cells of your own centres, no gaps"}},
+        .prepared = join_domain};
 }
 
 int mesh(const Invocation& given) {
@@ -253,18 +281,23 @@ int mesh(const Invocation& given) {
     }
     const MeshRequest request = request_of(values);
     const std::string& name = given.operands.front();
-    const fs::path output = output_path(values, request.kind, name);
+    const fs::path output =
+        output_path(values, request.kind, name, values.contains("joints") ? values["joints"].as<std::string>() : name);
     Messages& messages = given.messages;
     messages.progress().begin("reading " + name, 3.0, "");
     MeshReport report;
-    const Scene scene = meshed_scene(name, read_text(name), values, messages, report);
+    std::vector<std::string> lines;
+    const Scene scene = meshed_scene(name, read_text(name), values, messages, report, &lines);
     messages.progress().step(2.0, fmt::format("writing {} cells", report.cells));
     std::ostringstream deck;
     write_geometry(deck, scene);
     replace_file(output, deck.str());
     messages.make_room();
     messages.detail(fmt::format("wrote {} bytes", deck.str().size()));
-    if (!messages.quiet()) print_report(report, scene.domain, request, output);
+    if (!messages.quiet()) {
+        print_report(report, scene.domain, request, output);
+        for (const std::string& line : lines) std::cout << line << '\n';
+    }
     return exit_done;
 }
 

@@ -1,0 +1,355 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Traces are cut into pieces about as long as the centres are apart; centres within 0.4 of that of a trace are left
+// out, for triangles on the trace with them would be flat; wall points come from the mesh without traces. CGAL's
+// mesher then splits pieces until each has an empty diametral circle, and adds circumcentres where a triangle near a
+// trace has a small angle. Away from traces the triangles stay those of the centres.
+
+#include "mesher/conforming.hpp"
+
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Delaunay_mesh_criteria_2.h>
+#include <CGAL/Delaunay_mesh_face_base_2.h>
+#include <CGAL/Delaunay_mesh_vertex_base_2.h>
+#include <CGAL/Delaunay_mesher_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Spatial_sort_traits_adapter_2.h>
+#include <CGAL/Triangulation_face_base_with_info_2.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <CGAL/property_map.h>
+#include <CGAL/spatial_sort.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <utility>
+
+#include "mesher/place_grid.hpp"
+
+namespace crackle {
+namespace {
+
+// Shares of the spacing. A triangle on a piece one spacing long whose apex is 0.4 off has angles above 21 degrees.
+constexpr double left_out_share = 0.4;
+constexpr double near_share = 1.3;  // within it triangles are looked at: the first row beside the trace
+// Passages narrower than that share, and angles below that sine (of a degree), would be filled with triangles as small.
+constexpr double narrowest_share = 0.02, least_sine = 0.0175;
+constexpr double smallest_squared_sine = 0.125;  // of 20.7 degrees: up to that refinement is sure to end
+
+struct PointInfo {
+    int centre = -1;
+    bool near_trace = true;  // also of points that refinement adds
+    int number = -1;         // among the mesh's points
+};
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using VertexBase =
+    CGAL::Triangulation_vertex_base_with_info_2<PointInfo, Kernel, CGAL::Delaunay_mesh_vertex_base_2<Kernel>>;
+struct FaceNumber {
+    int value = -1;  // of the triangle; of what lies outside of the mesh -1
+};
+using FaceBase = CGAL::Triangulation_face_base_with_info_2<FaceNumber, Kernel, CGAL::Delaunay_mesh_face_base_2<Kernel>>;
+using Constrained =
+    CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
+                                               CGAL::Exact_predicates_tag>;
+using ConstrainedVertex = Constrained::Vertex_handle;
+using ConstrainedFace = Constrained::Face_handle;
+
+Point place_of(ConstrainedVertex v) { return {v->point().x(), v->point().y()}; }
+
+/// CGAL's criterion for triangles near a trace; others are good.
+class NearTraceCriteria : public CGAL::Delaunay_mesh_criteria_2<Constrained> {
+    using Base = CGAL::Delaunay_mesh_criteria_2<Constrained>;
+
+  public:
+    using Base::Base;
+    class Is_bad : public Base::Is_bad {
+      public:
+        using Base::Is_bad::Is_bad;
+        using Base::Is_bad::operator();
+        CGAL::Mesh_2::Face_badness operator()(const Face_handle& face, Quality& quality) const {
+            bool near = false;
+            for (int k = 0; k < 3; ++k) near = near || face->vertex(k)->info().near_trace;
+            if (near) return Base::Is_bad::operator()(face, quality);
+            quality = 1.0;
+            return CGAL::Mesh_2::NOT_BAD;
+        }
+    };
+    Is_bad is_bad_object() const { return Is_bad(bound(), traits); }
+};
+
+struct TracePiece : Segment {
+    int trace;
+};
+
+class Conforming {
+  public:
+    Conforming(const Rectangle& domain, const TraceGraph& graph, double spacing)
+        : domain_(domain), graph_(graph), spacing_(spacing) {
+        cut_into_pieces();
+    }
+
+    ConformingTriangles make(std::span<const CellCentre> centres) {
+        const SegmentGrid grid({pieces_.begin(), pieces_.end()}, near_share * spacing_);
+        refuse_narrow_passages(grid);
+        insert_points(chosen_points(centres, grid));
+        constrain();
+        refine();
+        number_points();
+        collect();
+        return std::move(out_);
+    }
+
+  private:
+    struct ChosenPoint {
+        Point place;
+        PointInfo info;
+    };
+
+    void cut_into_pieces() {
+        for (const TraceGraph::Edge& edge : graph_.edges) {
+            const Point a = graph_.nodes[static_cast<std::size_t>(edge.from)],
+                        b = graph_.nodes[static_cast<std::size_t>(edge.to)];
+            if (edge.trace < 0) continue;
+            const auto parts = std::max(1, static_cast<int>(std::lround(distance(a, b) / spacing_)));
+            Point last = a;
+            for (int part = 1; part <= parts; ++part) {
+                const double share = static_cast<double>(part) / parts;
+                const Point next = part == parts ? b : Point{a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)};
+                pieces_.push_back({{last, next}, edge.trace});
+                last = next;
+            }
+        }
+    }
+
+    [[noreturn]] void refuse_narrow(int trace, int other, Point at, const std::string& what) const {
+        std::vector<int> named{trace};
+        if (other >= 0 && other != trace) named.push_back(other);
+        const std::string beside = other < 0 ? "a wall" : other == trace ? "itself" : fmt::format("trace {}", other);
+        throw MeshError(
+            fmt::format("mesh: found trace {} and {} {} at ({:.9g}, {:.9g}), expected traces at least {:.4g} "
+                        "apart ({} of the mean spacing) or meeting at 1 degree or more; remove one, move "
+                        "it, or make the particles smaller",
+                        trace, beside, what, at.x, at.y, narrowest_share * spacing_, narrowest_share),
+            {}, std::move(named));
+    }
+
+    /// Two straight pieces that do not meet are nearest at an end of one.
+    void refuse_narrow_passages(const SegmentGrid& grid) const {
+        const double narrow = narrowest_share * spacing_;
+        for (const TracePiece& piece : pieces_) {
+            for (const auto& [end, start] : {std::pair{piece.a, piece.b}, {piece.b, piece.a}}) {
+                grid.each_near(end, [&](std::size_t number) {
+                    const TracePiece& other = pieces_[number];
+                    const bool meets = end == other.a || end == other.b;
+                    if (!meets) {
+                        const double away = distance_to(other, end);
+                        if (away < narrow)
+                            refuse_narrow(piece.trace, other.trace, end, fmt::format("{:.3g} apart", away));
+                    } else if (&other != &piece) {
+                        refuse_sharp(piece.trace, other.trace, end, start, end == other.a ? other.b : other.a);
+                    }
+                });
+                refuse_near_walls(piece.trace, end, start, narrow);
+            }
+        }
+    }
+    /// @param at  where both pieces begin
+    void refuse_sharp(int trace, int other, Point at, Point end, Point other_end) const {
+        const Point u{end.x - at.x, end.y - at.y}, v{other_end.x - at.x, other_end.y - at.y};
+        const double lengths = distance(at, end) * distance(at, other_end);
+        if (u.x * v.x + u.y * v.y > 0.0 && std::abs(u.x * v.y - u.y * v.x) < least_sine * lengths)
+            refuse_narrow(trace, other, at, "meeting at less than a degree");
+    }
+    void refuse_near_walls(int trace, Point end, Point start, double narrow) const {
+        for (const auto& [level, upright] :
+             {std::pair{domain_.x1, true}, {domain_.x2, true}, {domain_.y1, false}, {domain_.y2, false}}) {
+            const double away = std::abs((upright ? end.x : end.y) - level);
+            const double rise = std::abs((upright ? start.x : start.y) - level);
+            if (away == 0.0 ? rise < least_sine * distance(start, end) : away < narrow)
+                refuse_narrow(trace, -1, end,
+                              away == 0.0 ? "meeting at less than a degree" : fmt::format("{:.3g} apart", away));
+        }
+    }
+
+    /// Infinite beyond the grid's reach.
+    static double from_traces(Point p, const SegmentGrid& grid) {
+        double least = std::numeric_limits<double>::infinity();
+        grid.each_near(p, [&](std::size_t k) { least = std::min(least, distance_to(grid.segments()[k], p)); });
+        return least;
+    }
+
+    /// Centres far enough from traces, and what the walls have of points without traces.
+    std::vector<ChosenPoint> chosen_points(std::span<const CellCentre> centres, const SegmentGrid& grid) {
+        std::vector<CellCentre> kept;
+        std::vector<int> number;
+        const double room = left_out_share * spacing_;
+        for (std::size_t k = 0; k < centres.size(); ++k) {
+            if (from_traces(centres[k], grid) < room) {
+                ++out_.left_out;
+                continue;
+            }
+            kept.push_back(centres[k]);
+            number.push_back(static_cast<int>(k));
+        }
+        std::vector<ChosenPoint> points;
+        for (const double x : {domain_.x1, domain_.x2})
+            for (const double y : {domain_.y1, domain_.y2})
+                points.push_back({{x, y}, {-1, from_traces({x, y}, grid) <= near_share * spacing_}});
+        if (kept.empty()) return points;
+        const Triangles without = delaunay_triangles(kept, domain_, Boundary::domain);
+        for (std::size_t k = 0; k < without.points.size(); ++k) {
+            const Point p = without.points[k];
+            const int centre = without.centre_of[k];
+            const bool corner = (p.x == domain_.x1 || p.x == domain_.x2) && (p.y == domain_.y1 || p.y == domain_.y2);
+            if (centre < 0 && corner) continue;
+            const double away = from_traces(p, grid);
+            if (centre < 0 && away < room) continue;
+            points.push_back(
+                {p, {centre < 0 ? -1 : number[static_cast<std::size_t>(centre)], away <= near_share * spacing_}});
+        }
+        return points;
+    }
+
+    void insert_points(std::vector<ChosenPoint> points) {
+        using Placed = std::pair<Kernel::Point_2, PointInfo>;
+        std::vector<Placed> order;
+        order.reserve(points.size() + 2 * pieces_.size());
+        for (const ChosenPoint& one : points) order.emplace_back(Kernel::Point_2(one.place.x, one.place.y), one.info);
+        for (const TracePiece& piece : pieces_)
+            for (const Point p : {piece.a, piece.b}) order.emplace_back(Kernel::Point_2(p.x, p.y), PointInfo{});
+        using PlaceOf = CGAL::First_of_pair_property_map<Placed>;
+        CGAL::spatial_sort(order.begin(), order.end(), CGAL::Spatial_sort_traits_adapter_2<Kernel, PlaceOf>());
+        ConstrainedFace hint;
+        for (const auto& [place, info] : order) {
+            const std::size_t before = mesh_.number_of_vertices();
+            const ConstrainedVertex v = mesh_.insert(place, hint);
+            // A trace's point comes twice, and may be a corner.
+            if (mesh_.number_of_vertices() != before || info.centre < 0) v->info() = info;
+            hint = v->face();
+        }
+    }
+
+    ConstrainedVertex vertex_at(Point p, ConstrainedFace& hint) {
+        const ConstrainedVertex v = mesh_.insert(Kernel::Point_2(p.x, p.y), hint);
+        hint = v->face();
+        return v;
+    }
+
+    void constrain() {
+        ConstrainedFace hint;
+        for (const TracePiece& piece : pieces_) {
+            const ConstrainedVertex a = vertex_at(piece.a, hint), b = vertex_at(piece.b, hint);
+            mesh_.insert_constraint(a, b);
+            hint = a->face();  // the one found before may be gone
+            ends_.emplace_back(a, b);
+        }
+        // The walls are the convex hull.
+        auto round = mesh_.incident_vertices(mesh_.infinite_vertex());
+        const auto start = round;
+        std::vector<ConstrainedVertex> around;
+        do around.push_back(round);
+        while (++round != start);
+        for (std::size_t k = 0; k < around.size(); ++k)
+            mesh_.insert_constraint(around[k], around[(k + 1) % around.size()]);
+    }
+
+    void refine() {
+        CGAL::Delaunay_mesher_2<Constrained, NearTraceCriteria> mesher(mesh_, NearTraceCriteria(smallest_squared_sine));
+        mesher.refine_mesh();
+    }
+
+    /// The constrained edges from a to b, which refinement has split, are the trace's.
+    void note_trace(ConstrainedVertex a, ConstrainedVertex b, int trace) {
+        const Point end = place_of(b);
+        const Point from = place_of(a);
+        const double whole = distance(from, end);
+        while (a != b) {
+            const Point here = place_of(a);
+            ConstrainedVertex best = nullptr;
+            double least = 1e-6 * whole;  // off the line: other traces leave at angles that can be seen
+            auto edge = mesh_.incident_edges(a);
+            const auto start = edge;
+            do {
+                const ConstrainedFace face = edge->first;
+                const int k = edge->second;
+                if (mesh_.is_infinite(*edge) || !mesh_.is_constrained(*edge)) continue;
+                const ConstrainedVertex ccw = face->vertex(Constrained::ccw(k)), cw = face->vertex(Constrained::cw(k));
+                const ConstrainedVertex other = ccw == a ? cw : ccw;
+                const Point there = place_of(other);
+                const double ahead = (there.x - here.x) * (end.x - from.x) + (there.y - here.y) * (end.y - from.y);
+                const double beyond = (end.x - there.x) * (end.x - from.x) + (end.y - there.y) * (end.y - from.y);
+                if (ahead <= 0.0 || (beyond < 0.0 && other != b)) continue;
+                const double off =
+                    std::abs((end.x - from.x) * (there.y - from.y) - (end.y - from.y) * (there.x - from.x)) / whole;
+                if (off >= least && other != b) continue;
+                least = other == b ? -1.0 : off;
+                best = other;
+            } while (++edge != start);
+            if (best == ConstrainedVertex(nullptr))
+                throw MeshError(
+                    fmt::format("mesh: found trace {} at ({:.9g}, {:.9g}) so close to another that its "
+                                "edges are lost in rounding, expected traces apart or crossing; remove one",
+                                trace, here.x, here.y));
+            trace_of_[key_of(a, best)] = trace;
+            a = best;
+        }
+    }
+    std::pair<int, int> key_of(ConstrainedVertex a, ConstrainedVertex b) const {
+        return std::minmax(a->info().number, b->info().number);
+    }
+
+    void number_points() {
+        Triangles& t = out_.triangles;
+        for (const ConstrainedVertex v : mesh_.finite_vertex_handles()) {
+            v->info().number = static_cast<int>(t.points.size());
+            const Point p = place_of(v);
+            t.points.push_back(p);
+            t.centre_of.push_back(v->info().centre);
+            if (v->info().centre < 0 && sides_at(p, domain_) == 0) ++out_.added;
+        }
+        for (std::size_t k = 0; k < pieces_.size(); ++k) note_trace(ends_[k].first, ends_[k].second, pieces_[k].trace);
+    }
+
+    void collect() {
+        Triangles& t = out_.triangles;
+        std::vector<ConstrainedFace> faces;
+        for (const ConstrainedFace face : mesh_.finite_face_handles()) {
+            face->info().value = static_cast<int>(faces.size());
+            faces.push_back(face);
+        }
+        for (const ConstrainedFace face : faces) {
+            auto& corners = t.corners.emplace_back();
+            auto& neighbours = t.neighbours.emplace_back();
+            auto& traces = t.traces.emplace_back(std::array<int, 3>{-1, -1, -1});
+            for (int k = 0; k < 3; ++k) {
+                const auto at = static_cast<std::size_t>(k);
+                corners[at] = face->vertex(k)->info().number;
+                neighbours[at] = face->neighbor(k)->info().value;
+                if (!face->is_constrained(k)) continue;
+                const auto found =
+                    trace_of_.find(key_of(face->vertex(Constrained::ccw(k)), face->vertex(Constrained::cw(k))));
+                if (found != trace_of_.end()) traces[at] = found->second;
+            }
+        }
+    }
+
+    Rectangle domain_;
+    const TraceGraph& graph_;
+    double spacing_;
+    std::vector<TracePiece> pieces_;
+    std::vector<std::pair<ConstrainedVertex, ConstrainedVertex>> ends_;  // of the pieces
+    Constrained mesh_;
+    std::map<std::pair<int, int>, int> trace_of_;  // by the ends of an edge
+    ConformingTriangles out_;
+};
+
+}  // namespace
+
+ConformingTriangles conforming_triangles(std::span<const CellCentre> centres, const Rectangle& domain,
+                                         const TraceGraph& graph, double spacing) {
+    return Conforming(domain, graph, spacing).make(centres);
+}
+
+}  // namespace crackle

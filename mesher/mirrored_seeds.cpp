@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesher/mirrored_seeds.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "mesher/angles.hpp"
+#include "mesher/place_grid.hpp"
+
+namespace crackle {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+// Shares of the spacing: seeds of a pair lie a spacing apart; a given centre is kept as far off as one is from another.
+constexpr double half_width_share = 0.5, kept_share = 0.55;
+// Rows narrower than that share of a full one are not made: they do not cover the trace, which is then refused.
+constexpr double narrowest_share = 0.1;
+// Half a row's width over the distance to another trace: two rows d wide between them, and circles of radius √2 d about
+// places on the traces, which must not reach the other's seeds; to one that meets it at a node seeds lie by the ring's
+// angle; a wall mirrors the row itself.
+constexpr double passage_share = 0.4, fork_share = 0.5, wall_share = 0.7;
+constexpr double widest_half_angle = pi / 3.0;  // of a pair on a ring: three seeds about a tip
+
+struct Arm {
+    double angle;  // rad, away from the node
+    int edge;      // of the graph
+    bool trace;
+};
+
+/// Directions on a ring about a node, each at the same angle from every arm beside it.
+struct Ring {
+    double half_angle = 0.0;     // between a seed and an arm
+    std::vector<double> angles;  // rad, of all seeds
+};
+
+/// Seeds of a sector of that width besides those at its arms, evenly: so many gaps.
+int gaps_of(double rest, double half_angle) {
+    return std::max(1, static_cast<int>(std::lround(rest / std::max(2.0 * half_angle, pi / 3.0))));
+}
+double smallest_gap(const std::vector<double>& sectors, double half_angle) {
+    double least = 2.0 * half_angle;
+    for (const double sector : sectors) {
+        const double rest = sector - 2.0 * half_angle;
+        if (rest < -1e-9) return -1.0;
+        if (rest > 1e-9) least = std::min(least, rest / gaps_of(rest, half_angle));
+    }
+    return least;
+}
+
+class SeedPlacing {
+  public:
+    SeedPlacing(std::span<const CellCentre> centres, const Rectangle& domain, const TraceGraph& graph, double spacing,
+                std::span<const double> shrink)
+        : centres_(centres),
+          domain_(domain),
+          graph_(graph),
+          spacing_(spacing),
+          shrink_(shrink),
+          edges_(segments_of(graph), 2.0 * spacing),
+          arms_(graph.nodes.size()) {
+        for (std::size_t e = 0; e < graph.edges.size(); ++e) {
+            add_arm(graph.edges[e].from, graph.edges[e].to, e);
+            add_arm(graph.edges[e].to, graph.edges[e].from, e);
+        }
+    }
+
+    SeedSet make() {
+        for (std::size_t n = 0; n < arms_.size(); ++n) place_ring(n);
+        for (std::size_t e = 0; e < graph_.edges.size(); ++e)
+            if (graph_.edges[e].trace >= 0) place_pairs(e);
+        return with_centres();
+    }
+
+  private:
+    struct NodeRing {
+        double radius = 0.0, half_angle = 0.0;
+    };
+
+    static std::vector<Segment> segments_of(const TraceGraph& graph) {
+        std::vector<Segment> segments;
+        segments.reserve(graph.edges.size());
+        for (const TraceGraph::Edge& edge : graph.edges)
+            segments.push_back(
+                {graph.nodes[static_cast<std::size_t>(edge.from)], graph.nodes[static_cast<std::size_t>(edge.to)]});
+        return segments;
+    }
+    Point node(int n) const { return graph_.nodes[static_cast<std::size_t>(n)]; }
+    void add_arm(int at, int to, std::size_t edge) {
+        const Point a = node(at), b = node(to);
+        arms_[static_cast<std::size_t>(at)].push_back(
+            {angle_of(b.x - a.x, b.y - a.y), static_cast<int>(edge), graph_.edges[edge].trace >= 0});
+    }
+
+    static Point from(Point at, double radius, double angle) {
+        const Point direction = direction_at(angle);
+        return {at.x + radius * direction.x, at.y + radius * direction.y};
+    }
+    bool inside(Point p) const { return p.x > domain_.x1 && p.x < domain_.x2 && p.y > domain_.y1 && p.y < domain_.y2; }
+
+    /// Half the width of a row there, by what is neither this edge nor one that goes on from it straight.
+    double half_width(std::size_t edge, Point p) const {
+        double least = half_width_share * spacing_ * shrink_[edge];
+        edges_.each_near(p, [&](std::size_t other) {
+            if (other == edge || goes_on(edge, other)) return;
+            const double share = graph_.edges[other].trace < 0 ? wall_share
+                                 : meet(edge, other)           ? fork_share
+                                                               : passage_share;
+            least = std::min(least, share * distance_to(edges_.segments()[other], p));
+        });
+        return std::max(least, narrowest_share * half_width_share * spacing_);
+    }
+    bool meet(std::size_t edge, std::size_t other) const {
+        const TraceGraph::Edge &s = graph_.edges[edge], &t = graph_.edges[other];
+        return s.from == t.from || s.from == t.to || s.to == t.from || s.to == t.to;
+    }
+    bool goes_on(std::size_t edge, std::size_t other) const {
+        const TraceGraph::Edge &s = graph_.edges[edge], &t = graph_.edges[other];
+        if (s.trace != t.trace) return false;
+        const Point a = node(s.from), b = node(s.to), c = node(t.from), d = node(t.to);
+        const double turn = (b.x - a.x) * (d.y - c.y) - (b.y - a.y) * (d.x - c.x);
+        return std::abs(turn) <= 1e-9 * distance(a, b) * distance(c, d);
+    }
+
+    void place_ring(std::size_t n) {
+        std::vector<Arm>& arms = arms_[n];
+        rings_.resize(arms_.size());
+        if (std::none_of(arms.begin(), arms.end(), [](const Arm& arm) { return arm.trace; })) return;
+        std::sort(arms.begin(), arms.end(), [](const Arm& a, const Arm& b) { return a.angle < b.angle; });
+        const Point at = graph_.nodes[n];
+        std::vector<double> sectors;
+        std::vector<char> within;  // the domain
+        double shortest = std::numeric_limits<double>::infinity(), factor = 1.0;
+        for (std::size_t k = 0; k < arms.size(); ++k) {
+            const double next = k + 1 < arms.size() ? arms[k + 1].angle : arms[0].angle + 2.0 * pi;
+            const double middle = 0.5 * (arms[k].angle + next), step = 1e-6 * spacing_;
+            sectors.push_back(next - arms[k].angle);
+            within.push_back(inside(from(at, step, middle)) ? 1 : 0);
+            const Segment& arm = edges_.segments()[static_cast<std::size_t>(arms[k].edge)];
+            shortest = std::min(shortest, distance(arm.a, arm.b));
+            factor = std::min(factor, shrink_[static_cast<std::size_t>(arms[k].edge)]);
+        }
+        std::vector<double> inner;
+        for (std::size_t k = 0; k < sectors.size(); ++k)
+            if (within[k] != 0) inner.push_back(sectors[k]);
+        double best = -1.0, half_angle = 0.0;
+        for (const double sector : inner) {
+            for (const double candidate : {0.5 * sector, 0.25 * sector, widest_half_angle}) {
+                const double gap = smallest_gap(inner, std::min(candidate, widest_half_angle));
+                if (gap <= best) continue;
+                best = gap;
+                half_angle = std::min(candidate, widest_half_angle);
+            }
+        }
+        // As wide as a row, but no longer than a spacing, and not half an arm long.
+        const double sine = direction_at(half_angle).y;
+        double radius = std::min({half_width_share * spacing_ * factor / sine, spacing_ * factor, 0.4 * shortest});
+        radius = std::min(radius, 0.5 * room_about(n));
+        rings_[n] = {radius, half_angle};
+        for (std::size_t k = 0; k < sectors.size(); ++k) {
+            if (within[k] == 0) continue;
+            const double rest = sectors[k] - 2.0 * half_angle;
+            const int gaps = rest > 1e-9 ? gaps_of(rest, half_angle) : 0;
+            for (int g = 0; g <= gaps; ++g) {
+                const double angle =
+                    gaps == 0 ? arms[k].angle + 0.5 * sectors[k] : arms[k].angle + half_angle + rest * g / gaps;
+                add(from(at, radius, angle));
+            }
+        }
+    }
+
+    /// To the nearest edge that does not end at the node.
+    double room_about(std::size_t n) const {
+        double least = 2.0 * spacing_;
+        edges_.each_near(graph_.nodes[n], [&](std::size_t e) {
+            const TraceGraph::Edge& edge = graph_.edges[e];
+            if (static_cast<std::size_t>(edge.from) == n || static_cast<std::size_t>(edge.to) == n) return;
+            least = std::min(least, distance_to(edges_.segments()[e], graph_.nodes[n]));
+        });
+        return least;
+    }
+
+    /// Between the first pairs of both ends' rings.
+    void place_pairs(std::size_t e) {
+        const TraceGraph::Edge& edge = graph_.edges[e];
+        const NodeRing &first = rings_[static_cast<std::size_t>(edge.from)],
+                       &last = rings_[static_cast<std::size_t>(edge.to)];
+        const Point a = node(edge.from), b = node(edge.to);
+        const double length = distance(a, b);
+        const Point along{(b.x - a.x) / length, (b.y - a.y) / length};
+        const double from = first.radius * direction_at(first.half_angle).x,
+                     to = length - last.radius * direction_at(last.half_angle).x;
+        const auto at = [&](double s) { return Point{a.x + s * along.x, a.y + s * along.y}; };
+        // Steps of a tenth of the spacing; a pair after each whole count of widths, which are made to fit.
+        const auto steps = static_cast<std::size_t>(std::ceil(std::max(1.0, 20.0 * (to - from) / spacing_)));
+        std::vector<double> count{0.0};
+        const double step = (to - from) / static_cast<double>(steps);
+        for (std::size_t k = 0; k < steps; ++k)
+            count.push_back(count.back() +
+                            step / (2.0 * half_width(e, at(from + (static_cast<double>(k) + 0.5) * step))));
+        const auto pairs = std::max(1L, std::lround(count.back()));  // gaps between them
+        std::size_t k = 0;
+        for (long pair = 1; pair < pairs; ++pair) {
+            const double wanted = count.back() * static_cast<double>(pair) / static_cast<double>(pairs);
+            while (k + 1 < steps && count[k + 1] < wanted) ++k;
+            const double s = from + step * (static_cast<double>(k) + (wanted - count[k]) / (count[k + 1] - count[k]));
+            const Point p = at(s);
+            const double off = half_width(e, p);
+            add({p.x - off * along.y, p.y + off * along.x});
+            add({p.x + off * along.y, p.y - off * along.x});
+        }
+    }
+
+    void add(Point p) {
+        if (inside(p)) added_.push_back(p);
+    }
+
+    SeedSet with_centres() const {
+        SeedSet set;
+        const double room = kept_share * spacing_;
+        PlaceGrid seeds(room), given(spacing_);
+        for (const Point p : added_) seeds.add(p);
+        for (const CellCentre& centre : centres_) given.add(centre);
+        for (std::size_t k = 0; k < centres_.size(); ++k) {
+            bool kept = !seeds.any_within(centres_[k], room);
+            edges_.each_near(centres_[k], [&](std::size_t e) {
+                if (graph_.edges[e].trace < 0 || !kept) return;
+                const Segment& s = edges_.segments()[e];
+                kept = distance_to(s, centres_[k]) >= half_width_share * spacing_ * shrink_[e] + room;
+            });
+            if (!kept) {
+                ++set.left_out;
+                continue;
+            }
+            set.places.push_back(centres_[k]);
+            set.centre.push_back(static_cast<int>(k));
+            set.added.push_back(0);
+        }
+        for (const Point p : added_) {
+            set.places.push_back(p);
+            set.centre.push_back(given.nearest(p));
+            set.added.push_back(1);
+        }
+        return set;
+    }
+
+    std::span<const CellCentre> centres_;
+    Rectangle domain_;
+    const TraceGraph& graph_;
+    double spacing_;
+    std::span<const double> shrink_;
+    SegmentGrid edges_;
+    std::vector<std::vector<Arm>> arms_;  // by node
+    std::vector<NodeRing> rings_;
+    std::vector<Point> added_;
+};
+
+}  // namespace
+
+SeedSet mirrored_seeds(std::span<const CellCentre> centres, const Rectangle& domain, const TraceGraph& graph,
+                       double spacing, std::span<const double> shrink) {
+    return SeedPlacing(centres, domain, graph, spacing, shrink).make();
+}
+
+}  // namespace crackle

@@ -1,0 +1,363 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesher/trace_graph.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numeric>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+
+#include "mesher/inset.hpp"
+#include "mesher/partition.hpp"
+
+namespace crackle {
+namespace {
+
+// Places nearer than this share of the largest coordinate are one: crossings of three lines at a point differ by some
+// rounding errors.
+constexpr double same_place_share = 1e-13;
+constexpr std::size_t most_crossings = 5'000'000;
+
+Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
+double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
+double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
+Point along(Point a, Point b, double share) { return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)}; }
+
+struct Piece {
+    Point a, b;
+    int trace;            // -1: a wall
+    bool ends_a, ends_b;  // of the trace
+};
+
+/// Of p along the line from a to b, 0 to 1 between them.
+double share_at(const Piece& s, Point p) { return dot(p - s.a, s.b - s.a) / dot(s.b - s.a, s.b - s.a); }
+double off_line(const Piece& s, Point p) { return std::abs(cross(s.b - s.a, p - s.a)) / distance(s.a, s.b); }
+
+/// Where the lines of two pieces meet, as shares of both; nothing of parallel ones.
+std::optional<std::pair<double, double>> lines_meet(const Piece& s, const Piece& t) {
+    const Point d = s.b - s.a, e = t.b - t.a;
+    const double sine = cross(d, e);
+    if (std::abs(sine) <= 64.0 * relative_rounding * std::sqrt(dot(d, d) * dot(e, e))) return std::nullopt;
+    const Point between = t.a - s.a;
+    return std::pair{cross(between, e) / sine, cross(between, d) / sine};
+}
+
+/// Which pieces come near each other: by their boxes, swept along x.
+template <class Use>
+void each_near_pair(const std::vector<Piece>& pieces, double reach, Use use) {
+    std::vector<std::size_t> order(pieces.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    const auto left = [&](std::size_t k) { return std::min(pieces[k].a.x, pieces[k].b.x); };
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return left(i) < left(j); });
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        const Piece& s = pieces[order[i]];
+        const double right = std::max(s.a.x, s.b.x) + reach;
+        const auto [low, high] = std::minmax(s.a.y, s.b.y);
+        for (std::size_t j = i + 1; j < order.size() && left(order[j]) <= right; ++j) {
+            const Piece& t = pieces[order[j]];
+            if (std::max(t.a.y, t.b.y) < low - reach || std::min(t.a.y, t.b.y) > high + reach) continue;
+            use(std::min(order[i], order[j]), std::max(order[i], order[j]));
+        }
+    }
+}
+
+class GraphMaker {
+  public:
+    GraphMaker(const Rectangle& box, std::span<const std::vector<Point>> traces, double reach)
+        : box_(box), reach_(reach), same_place_(same_place_share * coordinate_scale(box)) {
+        const std::array<Point, 4> corners{Point{box.x1, box.y1}, {box.x2, box.y1}, {box.x2, box.y2}, {box.x1, box.y2}};
+        for (std::size_t k = 0; k < 4; ++k) pieces_.push_back({corners[k], corners[(k + 1) % 4], -1, false, false});
+        for (std::size_t t = 0; t < traces.size(); ++t) {
+            const bool loop = traces[t].front() == traces[t].back();
+            for (std::size_t k = 0; k + 1 < traces[t].size(); ++k)
+                pieces_.push_back({traces[t][k], traces[t][k + 1], static_cast<int>(t), !loop && k == 0,
+                                   !loop && k + 2 == traces[t].size()});
+        }
+    }
+
+    TraceGraph make() {
+        if (reach_ > 0.0) join_ends();
+        cut();
+        number_nodes();
+        return std::move(graph_);
+    }
+
+  private:
+    struct Join {
+        double by = std::numeric_limits<double>::infinity();  // along the piece's own line, outwards
+        Point place;
+        int onto = -1;
+    };
+
+    /// The nearest place on piece t to which the end of piece s can go along its line.
+    void look_for_join(const Piece& s, bool at_a, const Piece& t, Join& best) const {
+        if (s.trace == t.trace) return;
+        const Point end = at_a ? s.a : s.b;
+        const double along_t = std::clamp(share_at(t, end), 0.0, 1.0);
+        const double gap = distance(end, along(t.a, t.b, along_t));
+        if (gap > reach_) return;
+        const auto meet = lines_meet(s, t);
+        if (!meet || meet->second < 0.0 || meet->second > 1.0) return;
+        const double by = (at_a ? -meet->first : meet->first - 1.0) * distance(s.a, s.b);
+        // Not so far back that little is left, and not to where it is anyway.
+        if (std::abs(by) > 2.0 * reach_ || by < -0.5 * distance(s.a, s.b) || std::abs(by) >= std::abs(best.by)) return;
+        best = {by, on_wall(along(t.a, t.b, meet->second), t), t.trace};
+    }
+
+    /// A place on a wall lies there exactly.
+    Point on_wall(Point p, const Piece& t) const {
+        if (t.trace >= 0) return p;
+        if (t.a.x == t.b.x) p.x = t.a.x;
+        if (t.a.y == t.b.y) p.y = t.a.y;
+        return p;
+    }
+
+    void join_ends() {
+        std::vector<std::array<Join, 2>> joins(pieces_.size());
+        each_near_pair(pieces_, reach_, [&](std::size_t i, std::size_t j) {
+            for (const auto& [own, other] : {std::pair{i, j}, {j, i}}) {
+                const Piece& s = pieces_[own];
+                if (s.ends_a && sides_at(s.a, box_) == 0) look_for_join(s, true, pieces_[other], joins[own][0]);
+                if (s.ends_b && sides_at(s.b, box_) == 0) look_for_join(s, false, pieces_[other], joins[own][1]);
+            }
+        });
+        for (std::size_t k = 0; k < pieces_.size(); ++k) {
+            for (const bool at_a : {true, false}) {
+                const Join& join = joins[k][at_a ? 0 : 1];
+                if (!std::isfinite(join.by)) continue;
+                (at_a ? pieces_[k].a : pieces_[k].b) = join.place;
+                if (std::abs(join.by) > same_place_)
+                    graph_.moved.push_back({pieces_[k].trace, join.place, join.onto, join.by});
+            }
+        }
+    }
+
+    void cut() {
+        cuts_.resize(pieces_.size());
+        std::size_t count = 0;
+        for (std::size_t k = 0; k < pieces_.size(); ++k) cuts_[k] = {{0.0, pieces_[k].a}, {1.0, pieces_[k].b}};
+        each_near_pair(pieces_, same_place_, [&](std::size_t i, std::size_t j) {
+            cut(i, j);
+            if (++count > most_crossings)
+                throw MeshError(
+                    fmt::format("found more than {} traces near each other, expected fewer; lower their "
+                                "amount",
+                                most_crossings));
+        });
+    }
+
+    /// @return whether an end of piece j lies on piece i, which is cut there then
+    bool cut_at_ends(std::size_t i, std::size_t j) {
+        bool any = false;
+        const Piece& s = pieces_[i];
+        const double slack = same_place_ / distance(s.a, s.b);
+        for (const Point end : {pieces_[j].a, pieces_[j].b}) {
+            const double share = share_at(s, end);
+            if (share < -slack || share > 1.0 + slack || off_line(s, end) > same_place_) continue;
+            cuts_[i].emplace_back(share, end);
+            any = true;
+        }
+        return any;
+    }
+
+    void cut(std::size_t i, std::size_t j) {
+        const bool on_first = cut_at_ends(i, j), on_second = cut_at_ends(j, i);
+        if (on_first || on_second) return;  // two straight pieces meet at no other place, or all along
+        const auto meet = lines_meet(pieces_[i], pieces_[j]);
+        if (!meet) return;
+        const auto [s, t] = *meet;
+        if (s < 0.0 || s > 1.0 || t < 0.0 || t > 1.0) return;
+        // Of the longer one the place is the more exact.
+        const bool first =
+            pieces_[i].trace < 0 || distance(pieces_[i].a, pieces_[i].b) >= distance(pieces_[j].a, pieces_[j].b);
+        const std::size_t own = first ? i : j;
+        const Point place = on_wall(along(pieces_[own].a, pieces_[own].b, first ? s : t), pieces_[own]);
+        cuts_[i].emplace_back(s, place);
+        cuts_[j].emplace_back(t, place);
+    }
+
+    int node_at(Point p) {
+        const auto index = [&](double x) { return static_cast<std::int64_t>(std::floor(x / (4.0 * same_place_))); };
+        const std::int64_t i = index(p.x), j = index(p.y);
+        for (std::int64_t u = i - 1; u <= i + 1; ++u) {
+            for (std::int64_t v = j - 1; v <= j + 1; ++v) {
+                const auto [first, last] = buckets_.equal_range(key(u, v));
+                for (auto one = first; one != last; ++one) {
+                    const Point q = graph_.nodes[static_cast<std::size_t>(one->second)];
+                    if (distance(p, q) <= 4.0 * same_place_) return one->second;
+                }
+            }
+        }
+        graph_.nodes.push_back(p);
+        const int node = static_cast<int>(graph_.nodes.size()) - 1;
+        buckets_.emplace(key(i, j), node);
+        return node;
+    }
+    static std::uint64_t key(std::int64_t i, std::int64_t j) {
+        return static_cast<std::uint64_t>(i) * 0x9E3779B97F4A7C15ULL + static_cast<std::uint64_t>(j);
+    }
+
+    /// Walls come first: what is near a wall takes the wall's place.
+    void number_nodes() {
+        std::map<std::pair<int, int>, std::size_t> edge_of;
+        std::map<std::pair<int, int>, double> coincident;
+        for (std::size_t k = 0; k < pieces_.size(); ++k) {
+            std::stable_sort(cuts_[k].begin(), cuts_[k].end(),
+                             [](const auto& p, const auto& q) { return p.first < q.first; });
+            int from = node_at(cuts_[k].front().second);
+            for (const auto& [share, place] : cuts_[k]) {
+                const int to = node_at(place);
+                if (to == from) continue;
+                const auto [at, is_new] = edge_of.try_emplace(std::minmax(from, to), graph_.edges.size());
+                const int trace = pieces_[k].trace;
+                if (is_new)
+                    graph_.edges.push_back({from, to, trace});
+                else if (graph_.edges[at->second].trace != trace)
+                    coincident[{graph_.edges[at->second].trace, trace}] += distance(
+                        graph_.nodes[static_cast<std::size_t>(from)], graph_.nodes[static_cast<std::size_t>(to)]);
+                from = to;
+            }
+        }
+        for (const auto& [pair, length] : coincident) graph_.coincident.push_back({pair.first, pair.second, length});
+    }
+
+    Rectangle box_;
+    double reach_, same_place_;
+    std::vector<Piece> pieces_;
+    std::vector<std::vector<std::pair<double, Point>>> cuts_;  // by piece: share along it, place
+    std::unordered_multimap<std::uint64_t, int> buckets_;      // nodes, by their place
+    TraceGraph graph_;
+};
+
+/// Walks round the parts of a graph, each part to the left.
+class PartWalk {
+  public:
+    explicit PartWalk(const TraceGraph& graph) : graph_(graph), around_(graph.nodes.size()) {
+        for (std::size_t e = 0; e < graph.edges.size(); ++e) {
+            around_[node(2 * e)].push_back(2 * e);
+            around_[node(2 * e + 1)].push_back(2 * e + 1);
+        }
+        for (auto& leaving : around_)
+            std::sort(leaving.begin(), leaving.end(),
+                      [this](std::size_t a, std::size_t b) { return turns_before(a, b); });
+    }
+
+    struct Round {
+        std::vector<Point> corners;
+        int component;
+        double area;  // negative: round a component from outside
+    };
+    std::vector<Round> rounds() {
+        const std::vector<int> component = components();
+        std::vector<char> walked(2 * graph_.edges.size());
+        std::vector<Round> all;
+        for (std::size_t start = 0; start < walked.size(); ++start) {
+            if (walked[start] != 0) continue;
+            Round round;
+            round.component = component[node(start)];
+            for (std::size_t h = start; walked[h] == 0; h = next(h)) {
+                walked[h] = 1;
+                round.corners.push_back(place(h));
+            }
+            round.area = polygon_area(round.corners);
+            all.push_back(std::move(round));
+        }
+        return all;
+    }
+
+  private:
+    // Half-edge 2e leaves edge e's first node, 2e + 1 its second.
+    std::size_t node(std::size_t half) const {
+        const TraceGraph::Edge& edge = graph_.edges[half / 2];
+        return static_cast<std::size_t>(half % 2 == 0 ? edge.from : edge.to);
+    }
+    Point place(std::size_t half) const { return graph_.nodes[node(half)]; }
+    Point direction(std::size_t half) const { return place(half ^ 1U) - place(half); }
+    bool turns_before(std::size_t a, std::size_t b) const {
+        const Point u = direction(a), v = direction(b);
+        const auto lower = [](Point d) { return d.y < 0.0 || (d.y == 0.0 && d.x < 0.0); };
+        if (lower(u) != lower(v)) return lower(v);
+        return cross(u, v) > 0.0;
+    }
+    /// At its far end the first one to the right of the way back.
+    std::size_t next(std::size_t half) const {
+        const std::vector<std::size_t>& leaving = around_[node(half ^ 1U)];
+        const auto back = std::find(leaving.begin(), leaving.end(), half ^ 1U);
+        return back == leaving.begin() ? leaving.back() : *(back - 1);
+    }
+    std::vector<int> components() const {
+        std::vector<int> component(graph_.nodes.size(), -1);
+        int count = 0;
+        for (std::size_t n = 0; n < component.size(); ++n) {
+            if (component[n] >= 0) continue;
+            std::vector<std::size_t> waiting{n};
+            component[n] = count;
+            while (!waiting.empty()) {
+                const std::size_t here = waiting.back();
+                waiting.pop_back();
+                for (const std::size_t half : around_[here]) {
+                    const std::size_t there = node(half ^ 1U);
+                    if (component[there] >= 0) continue;
+                    component[there] = count;
+                    waiting.push_back(there);
+                }
+            }
+            ++count;
+        }
+        return component;
+    }
+
+    const TraceGraph& graph_;
+    std::vector<std::vector<std::size_t>> around_;  // by node: half-edges that leave it, counter-clockwise
+};
+
+bool holds(const std::vector<Point>& corners, Point p) {
+    bool inside = false;
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+        const Point a = corners[k], b = corners[k + 1 == corners.size() ? 0 : k + 1];
+        if ((a.y > p.y) == (b.y > p.y)) continue;
+        const double turn = cross(b - a, p - a);
+        if ((b.y > a.y) == (turn > 0.0)) inside = !inside;
+    }
+    return inside;
+}
+
+}  // namespace
+
+TraceGraph trace_graph(const Rectangle& box, std::span<const std::vector<Point>> traces, double reach) {
+    return GraphMaker(box, traces, reach).make();
+}
+
+std::vector<double> parted_areas(const TraceGraph& graph) {
+    const std::vector<PartWalk::Round> rounds = PartWalk(graph).rounds();
+    double whole = 0.0;
+    for (const auto& round : rounds) whole = std::max(whole, round.area);
+    const double none = 1e-12 * whole;  // of a tree of traces, walked there and back
+    std::vector<double> areas;
+    std::vector<std::size_t> parts;
+    for (std::size_t k = 0; k < rounds.size(); ++k) {
+        if (rounds[k].area <= none) continue;
+        parts.push_back(k);
+        areas.push_back(rounds[k].area);
+    }
+    // What lies like an island in a part is none of it. The walls are the first component, and in no part.
+    for (const auto& island : rounds) {
+        if (island.area >= -none || island.component == 0) continue;
+        std::size_t within = parts.size();
+        for (std::size_t p = 0; p < parts.size(); ++p) {
+            const auto& part = rounds[parts[p]];
+            if (part.component == island.component || !holds(part.corners, island.corners.front())) continue;
+            if (within == parts.size() || part.area < rounds[parts[within]].area) within = p;
+        }
+        if (within < parts.size()) areas[within] += island.area;
+    }
+    return areas;
+}
+
+}  // namespace crackle

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/case/joint_checks.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <initializer_list>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "solver/base/errors.hpp"
+#include "specimens/case/parameters.hpp"
+
+namespace crackle {
+namespace {
+
+/// What one choice of a key has for keys of its own.
+struct LawKeys {
+    const char* choice;
+    std::vector<const char*> needed, allowed;
+};
+
+const std::vector<LawKeys>& orientation_laws() {
+    static const std::vector<LawKeys> all{{"fixed", {"angle"}, {}},
+                                          {"uniform", {"angle", "angle_deviation"}, {}},
+                                          {"von_mises", {"angle", "kappa"}, {}},
+                                          {"fisher", {"dip", "dip_direction", "fisher_k"}, {}}};
+    return all;
+}
+const std::vector<LawKeys>& length_laws() {
+    static const std::vector<LawKeys> all{{"persistent", {}, {}},
+                                          {"gaps", {"length_mean", "gap_mean"}, {"length_deviation", "gap_deviation"}},
+                                          {"fixed", {"length_mean"}, {}},
+                                          {"uniform", {"length_mean", "length_deviation"}, {}},
+                                          {"lognormal", {"length_mean", "length_deviation"}, {}},
+                                          {"exponential", {"length_mean"}, {}},
+                                          {"power_law", {"length_min", "length_max", "length_exponent"}, {}}};
+    return all;
+}
+const std::vector<LawKeys>& spacing_laws() {
+    static const std::vector<LawKeys> all{{"fixed", {}, {}},
+                                          {"uniform", {"spacing_deviation"}, {}},
+                                          {"exponential", {}, {}},
+                                          {"lognormal", {"spacing_deviation"}, {}}};
+    return all;
+}
+
+constexpr std::initializer_list<const char*> amounts{"number", "p10", "p20", "p21", "spacing"};
+
+class JointCheck {
+  public:
+    explicit JointCheck(const TestCase& test) : test_(test) {}
+
+    void run() const {
+        if (test_.has_table("joints") && !test_.jointed())
+            refuse("joints", "no [[joint_set]] or [[trace]]", "one", "add it, or remove this");
+        names();
+        bool fisher = false;
+        for (std::size_t k = 0; k < test_.joint_set.size(); ++k) {
+            set(k);
+            fisher = fisher || test_.joint_set[k].orientation == "fisher";
+        }
+        if (fisher && !written("joints.section_trend"))
+            refuse("joints.section_trend", "nothing", find_parameter("joints", "section_trend")->expected(),
+                   "planes are cut by a section whose direction is known");
+        if (!fisher && written("joints.section_trend"))
+            refuse("joints.section_trend", "a value", "none", "only orientation = \"fisher\" has planes to cut");
+        for (std::size_t k = 0; k < test_.trace.size(); ++k) trace(k);
+    }
+
+  private:
+    [[noreturn]] void refuse(const std::string& key, const std::string& found, const std::string& expected,
+                             const std::string& remedy) const {
+        throw InputError(fmt::format("{}: found {}, expected {}; {}", test_.at(key), found, expected, remedy));
+    }
+    bool written(const std::string& key) const { return test_.position.contains(key); }
+    static std::string of_set(std::size_t k, const char* key) { return fmt::format("joint_set[{}].{}", k + 1, key); }
+    static std::string of_trace(std::size_t k, const char* key) { return fmt::format("trace[{}].{}", k + 1, key); }
+
+    void need(const std::string& label, const char* table, const char* key, const std::string& because) const {
+        if (!written(label)) refuse(label, "nothing", find_parameter(table, key)->expected(), because);
+    }
+    void exclude(const std::string& label, const std::string& because) const {
+        if (written(label)) refuse(label, "a value", "none", because);
+    }
+
+    void names() const {
+        std::set<std::string> taken;
+        const auto take = [&](const std::string& key, const std::string& name) {
+            if (name.empty()) refuse(key, "an empty text", "a name", "give one");
+            if (!taken.insert(name).second)
+                refuse(key, fmt::format("\"{:.40}\" a second time", name), "a name of its own", "rename one");
+        };
+        for (std::size_t k = 0; k < test_.joint_set.size(); ++k) take(of_set(k, "name"), test_.joint_set[k].name);
+        for (std::size_t k = 0; k < test_.trace.size(); ++k)
+            if (test_.trace[k].name) take(of_trace(k, "name"), *test_.trace[k].name);
+    }
+
+    /// The keys of the law chosen are there, those of other laws are not.
+    void law(std::size_t k, const char* key, const std::string& choice, const std::vector<LawKeys>& laws) const {
+        const auto chosen =
+            std::find_if(laws.begin(), laws.end(), [&](const LawKeys& one) { return choice == one.choice; });
+        const std::string because = fmt::format("{} = \"{}\"", key, choice);
+        for (const char* needed : chosen->needed) need(of_set(k, needed), "joint_set", needed, because + " needs it");
+        const auto has = [](const std::vector<const char*>& keys, const std::string& one) {
+            return std::find(keys.begin(), keys.end(), one) != keys.end();
+        };
+        for (const LawKeys& other : laws) {
+            for (const auto* keys : {&other.needed, &other.allowed}) {
+                for (const char* one : *keys) {
+                    if (!has(chosen->needed, one) && !has(chosen->allowed, one))
+                        exclude(of_set(k, one), because + " does not have it");
+                }
+            }
+        }
+    }
+
+    void below(std::size_t k, const char* key, const std::optional<double>& value, const char* bound_key,
+               const std::optional<double>& bound) const {
+        if (value && bound && *value >= *bound)
+            refuse(of_set(k, key), fmt::format("{} m", *value), fmt::format("less than {} = {} m", bound_key, *bound),
+                   "no length is 0 or less");
+    }
+
+    void set(std::size_t k) const {
+        const TestCase::JointSet& s = test_.joint_set[k];
+        law(k, "orientation", s.orientation, orientation_laws());
+        law(k, "length", s.length, length_laws());
+        if (s.length != "lognormal") below(k, "length_deviation", s.length_deviation, "length_mean", s.length_mean);
+        below(k, "gap_deviation", s.gap_deviation, "gap_mean", s.gap_mean);
+        below(k, "length_min", s.length_min, "length_max", s.length_max);
+        amount(k);
+    }
+
+    void amount(std::size_t k) const {
+        const TestCase::JointSet& s = test_.joint_set[k];
+        std::vector<const char*> given;
+        for (const char* one : amounts)
+            if (written(of_set(k, one))) given.push_back(one);
+        if (given.size() != 1) {
+            refuse(fmt::format("joint_set[{}]", k + 1),
+                   given.empty() ? std::string("no amount") : fmt::format("{}", fmt::join(given, " and ")),
+                   fmt::format("one of {}", fmt::join(amounts, ", ")), given.empty() ? "add one" : "remove others");
+        }
+        const bool lines = s.length == "persistent" || s.length == "gaps";
+        if (s.spacing) {
+            if (!lines)
+                refuse(of_set(k, "spacing"), fmt::format("length = \"{}\"", s.length), "\"persistent\" or \"gaps\"",
+                       "traces of their own have midpoints, not lines: give p10, p20, p21 or number");
+            law(k, "spacing_law", s.spacing_law.value_or("fixed"), spacing_laws());
+            if (s.spacing_law == "uniform") below(k, "spacing_deviation", s.spacing_deviation, "spacing", s.spacing);
+        } else {
+            for (const char* key : {"spacing_law", "spacing_deviation", "through"})
+                exclude(of_set(k, key), "only an amount by spacing has it");
+        }
+        if (s.p20 && lines)
+            refuse(of_set(k, "p20"), fmt::format("length = \"{}\"", s.length), "traces with midpoints",
+                   "lines have none: give spacing, p10, p21 or number");
+        if (s.through && s.through->size() != 2)
+            refuse(of_set(k, "through"), fmt::format("{} numbers", s.through->size()), "two, x and y", "correct it");
+        if (!s.p10) exclude(of_set(k, "scan_line"), "only p10 counts along a line");
+    }
+
+    void trace(std::size_t k) const {
+        const TestCase::Trace& t = test_.trace[k];
+        if (t.points.has_value() == t.file.has_value()) {
+            refuse(fmt::format("trace[{}]", k + 1), t.points ? "points and a file" : "neither points nor a file",
+                   "one of them", t.points ? "remove one" : "add one");
+        }
+        if (t.points) {
+            for (const char* key : {"scale", "offset", "layer"}) exclude(of_trace(k, key), "only a file has it");
+            if (t.points->size() < 4 || t.points->size() % 2 != 0)
+                refuse(of_trace(k, "points"), fmt::format("{} numbers", t.points->size()),
+                       "x and y of two points or more", "correct it");
+        }
+        if (t.offset && t.offset->size() != 2)
+            refuse(of_trace(k, "offset"), fmt::format("{} numbers", t.offset->size()), "two, x and y", "correct it");
+    }
+
+    const TestCase& test_;
+};
+
+}  // namespace
+
+void check_joints(const TestCase& test) { JointCheck(test).run(); }
+
+void check_jointed_specimen(const TestCase& test) {
+    if (!test.jointed()) return;
+    const auto refuse = [&](const std::string& key, const std::string& found, const std::string& expected) {
+        throw InputError(
+            fmt::format("{}: found {} with joints, expected {}; change it, or remove [[joint_set]] and "
+                        "[[trace]]",
+                        test.at(key), found, expected));
+    };
+    const std::string first = test.joint_set.empty() ? "trace[1]" : "joint_set[1]";
+    if (!test.has_table("mesh")) refuse(first, "no [mesh]", "one");
+    if (test.mesh.boundary != "domain")
+        refuse("mesh.boundary", fmt::format("\"{}\"", test.mesh.boundary), "\"domain\"");
+    if (test.mesh.merge_destroyed && *test.mesh.kind == "voronoi")
+        refuse("mesh.merge_destroyed", "true", "false with kind = \"voronoi\"");
+    if (!test.uniaxial())
+        refuse("loading.kind", fmt::format("\"{}\"", test.loading.kind), "\"compression\", \"tension\" or \"biaxial\"");
+}
+
+}  // namespace crackle

@@ -1,0 +1,310 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/joints/drawn_sets.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "solver/base/correctly_rounded.hpp"
+#include "solver/base/errors.hpp"
+#include "specimens/joints/clipping.hpp"
+#include "specimens/statistics/random_numbers.hpp"
+
+namespace crackle {
+namespace {
+
+namespace cr = correctly_rounded;
+constexpr double radians = std::numbers::pi / 180.0;
+
+Vec2 unit(double angle) { return {cr::cos(angle), cr::sin(angle)}; }
+
+/// The distances between lines, gaps between traces, and the like.
+LengthLaw spread_law(double mean, const std::optional<double>& deviation) {
+    return deviation ? LengthLaw::uniform(mean, *deviation) : LengthLaw::fixed(mean);
+}
+
+LengthLaw spacing_law(const TestCase::JointSet& set) {
+    const std::string law = set.spacing_law.value_or("fixed");
+    if (law == "exponential") return LengthLaw::exponential(*set.spacing);
+    if (law == "lognormal") return LengthLaw::lognormal(*set.spacing, *set.spacing_deviation);
+    return spread_law(*set.spacing, law == "uniform" ? set.spacing_deviation : std::nullopt);
+}
+
+/// Lengths by strata: of number k those that between 2^-(k+1) and 2^-k of all exceed.
+class LengthStrata {
+  public:
+    LengthStrata(const LengthLaw& law, double width, double height) : law_(law) {
+        double share = 1.0;
+        for (std::size_t k = 0; k < count; ++k) {
+            share *= 0.5;
+            longest_[k] = law.exceeded_by(share);
+            sum_ += share * (width + longest_[k]) * (height + longest_[k]);
+            weight_below_[k] = sum_;
+        }
+    }
+
+    struct Drawn {
+        double length, longest;
+    };
+    /// Strata as often as the box, wider by half their longest length on every side, has room for their midpoints.
+    Drawn draw(std::mt19937_64& generator) const {
+        const double at = sum_ * uniform_number(generator);
+        const auto k = static_cast<std::size_t>(
+            std::min(std::upper_bound(weight_below_.begin(), weight_below_.end(), at), weight_below_.end() - 1) -
+            weight_below_.begin());
+        const double share = std::ldexp(1.0 - 0.5 * share_number(generator), -static_cast<int>(k));
+        return {std::min(law_.exceeded_by(share), longest_[k]), longest_[k]};
+    }
+
+  private:
+    static constexpr std::size_t count = 50;  // of what is longer there is one in 1e15
+    const LengthLaw& law_;
+    std::array<double, count> longest_{}, weight_below_{};
+    double sum_ = 0.0;
+};
+
+class SetDrawing {
+  public:
+    SetDrawing(const TestCase& test, std::size_t set, const OrientationLaw& directions, const Domain& box,
+               std::size_t source)
+        : test_(test),
+          number_(set),
+          set_(test.joint_set[set]),
+          directions_(directions),
+          box_(box),
+          source_(source),
+          width_(box.x2 - box.x1),
+          height_(box.y2 - box.y1),
+          scan_line_(set_.scan_line ? *set_.scan_line * radians : directions.mean() + 0.5 * std::numbers::pi) {
+        const auto seed = static_cast<std::uint64_t>(test.joints.seed);
+        std::seed_seq mixed{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32U),
+                            static_cast<std::uint32_t>(set)};
+        generator_.seed(mixed);
+    }
+
+    std::vector<JointTrace> draw() {
+        constexpr double parallel = 1e-6;  // sine
+        if (set_.p10 && directions_.single() &&
+            std::abs(cross(unit(directions_.mean()), unit(scan_line_))) < parallel) {
+            throw InputError(
+                fmt::format("{}: found {} deg, the direction of the set, expected another: such a line "
+                            "crosses none of it",
+                            at("scan_line"), *set_.scan_line));
+        }
+        if (set_.spacing)
+            lines_at_spacing();
+        else if (set_.length == "persistent" || set_.length == "gaps")
+            lines_anywhere();
+        else
+            midpoints();
+        return std::move(traces_);
+    }
+
+  private:
+    std::string at(const char* key) const { return test_.at(fmt::format("joint_set[{}].{}", number_ + 1, key)); }
+
+    const char* amount() const {
+        return set_.number ? "number" : set_.p10 ? "p10" : set_.p20 ? "p20" : set_.p21 ? "p21" : "spacing";
+    }
+
+    /// What of the amount is still missing, in its own measure times the area; the trace counted by measure_of().
+    double asked() const {
+        const double area = width_ * height_;
+        if (set_.number) return static_cast<double>(*set_.number);
+        if (set_.p10) return *set_.p10 * area;
+        if (set_.p21) return *set_.p21 * area;
+        const double midpoints = std::round(*set_.p20 * area);
+        if (midpoints < 1.0)
+            throw InputError(
+                fmt::format("{}: found {} 1/m2, expected at least half a midpoint in the box of {:.4g} "
+                            "m2; raise it",
+                            at("p20"), *set_.p20, area));
+        return midpoints;
+    }
+    double measure_of(const JointTrace& trace) const {
+        if (set_.number) return 1.0;
+        if (set_.p10) return length_across(trace, scan_line_);
+        if (set_.p21) return trace.length();
+        return trace.centred ? 1.0 : 0.0;
+    }
+
+    bool full() const { return !set_.spacing && reached_ >= asked_; }
+
+    /// Takes a trace that lies in the box; the last one is shortened where its length counts.
+    void take(JointTrace trace) {
+        if (traces_.size() >= most_traces_of_a_set)
+            throw InputError(
+                fmt::format("{}: found more than {} traces in the box of {:.4g} m by {:.4g} m, expected "
+                            "fewer; lower the amount",
+                            at(amount()), most_traces_of_a_set, width_, height_));
+        const double more = set_.spacing ? 0.0 : measure_of(trace);
+        if ((set_.p10 || set_.p21) && reached_ + more > asked_) {
+            const double share = (asked_ - reached_) / more;
+            Vec2& end = trace.points.back();
+            const Vec2 start = trace.points.front();
+            end = start + share * (end - start);
+            reached_ = asked_;
+            if (!(norm(end - start) > least_share * norm({width_, height_}))) return;  // nothing is missing
+        } else {
+            reached_ += more;
+        }
+        traces_.push_back(std::move(trace));
+    }
+    void take_part(Vec2 a, Vec2 b, double whole_length) {
+        const auto part = clipped(a, b, box_);
+        if (!part) return;
+        const Vec2 middle = 0.5 * (a + b);
+        const bool centred = std::isfinite(whole_length) && middle.x >= box_.x1 && middle.x <= box_.x2 &&
+                             middle.y >= box_.y1 && middle.y <= box_.y2;
+        take({{part->first, part->second}, source_, whole_length, centred});
+    }
+
+    void midpoints() {
+        asked_ = asked();
+        const LengthLaw law = length_law(set_);
+        const LengthStrata strata(law, width_, height_);
+        while (!full()) {
+            const auto [length, longest] = strata.draw(generator_);
+            const Vec2 half = 0.5 * length * unit(directions_.draw(generator_));
+            const Vec2 middle{
+                uniform_number(generator_, box_.x1 - 0.5 * longest, box_.x2 + 0.5 * longest),
+                uniform_number(generator_, box_.y1 - 0.5 * longest, box_.y2 + 0.5 * longest),
+            };
+            take_part(middle - half, middle + half, length);
+        }
+    }
+
+    /// One line through the plane: a joint all along it, or joints and gaps in turn.
+    void line(Vec2 through, double angle) {
+        const Vec2 along = unit(angle);
+        // Beyond the box either way, wherever on the line the point is.
+        const Vec2 centre{0.5 * (box_.x1 + box_.x2), 0.5 * (box_.y1 + box_.y2)};
+        const double middle = dot(centre - through, along), reach = norm({width_, height_});
+        if (set_.length == "persistent") {
+            take_part(through + (middle - reach) * along, through + (middle + reach) * along,
+                      std::numeric_limits<double>::infinity());
+            return;
+        }
+        const LengthLaw joint = spread_law(*set_.length_mean, set_.length_deviation),
+                        gap = spread_law(*set_.gap_mean, set_.gap_deviation);
+        const double cycle = joint.mean() + gap.mean();
+        if (2.0 * reach / cycle > static_cast<double>(most_traces_of_a_set))
+            throw InputError(
+                fmt::format("{}: found {} m and gaps of {} m, expected at most {} of them along the box; "
+                            "make them longer",
+                            at("length_mean"), joint.mean(), gap.mean(), most_traces_of_a_set));
+        // Some of both before the box: where it begins, they are as anywhere.
+        double from = middle - reach - (settling_cycles + uniform_number(generator_)) * cycle;
+        while (from < middle + reach && !full()) {
+            const double length = joint.draw(generator_);
+            take_part(through + from * along, through + (from + length) * along, length);
+            from += length + gap.draw(generator_);
+        }
+    }
+
+    void lines_anywhere() {
+        asked_ = asked();
+        const double widest = norm({width_, height_});
+        const Vec2 centre{0.5 * (box_.x1 + box_.x2), 0.5 * (box_.y1 + box_.y2)};
+        while (!full()) {
+            const double angle = directions_.draw(generator_);
+            const Vec2 along = unit(angle);
+            const double across = std::abs(along.y) * width_ + std::abs(along.x) * height_;
+            const double offset = uniform_number(generator_, -0.5 * widest, 0.5 * widest);
+            if (std::abs(offset) < 0.5 * across) line(centre + offset * perpendicular(along), angle);
+        }
+    }
+
+    void lines_at_spacing() {
+        const LengthLaw law = spacing_law(set_);
+        const Vec2 along = unit(directions_.mean()), normal = perpendicular(along);
+        const Vec2 centre{0.5 * (box_.x1 + box_.x2), 0.5 * (box_.y1 + box_.y2)};
+        // Lines that deviate reach the box from further off.
+        const double across = std::abs(along.y) * width_ + std::abs(along.x) * height_;
+        const double reach = 0.5 * (directions_.single() ? across : norm({width_, height_}));
+        if (2.0 * reach / *set_.spacing > static_cast<double>(most_traces_of_a_set))
+            throw InputError(fmt::format("{}: found {} m, expected at most {} lines in the box; make it larger",
+                                         at("spacing"), *set_.spacing, most_traces_of_a_set));
+        const auto place = [&](double offset) { line(centre + offset * normal, directions_.draw(generator_)); };
+        if (!set_.through) {
+            double offset = -reach - (settling_cycles + uniform_number(generator_)) * law.mean();
+            for (; offset <= reach; offset += law.draw(generator_))
+                if (offset >= -reach) place(offset);
+            return;
+        }
+        const double first = dot(Vec2{(*set_.through)[0], (*set_.through)[1]} - centre, normal);
+        // From that line up, then down; those beyond the box's far side are walked through alike.
+        const double furthest = std::abs(first) + reach;
+        if (furthest / *set_.spacing > static_cast<double>(most_traces_of_a_set))
+            throw InputError(
+                fmt::format("{}: found a point more than {} spacings away from the box, expected it "
+                            "nearer; choose one inside",
+                            at("through"), most_traces_of_a_set));
+        double offset = 0.0;
+        for (; offset <= furthest; offset += law.draw(generator_))
+            if (std::abs(first + offset) <= reach) place(first + offset);
+        for (offset = law.draw(generator_); offset <= furthest; offset += law.draw(generator_))
+            if (std::abs(first - offset) <= reach) place(first - offset);
+    }
+
+    static constexpr double settling_cycles = 20.0;
+    static constexpr double least_share = 1e-9;  // of the box's diagonal: a trace shorter than that is rounding
+
+    const TestCase& test_;
+    std::size_t number_;
+    const TestCase::JointSet& set_;
+    const OrientationLaw& directions_;
+    Domain box_;
+    std::size_t source_;
+    double width_, height_, scan_line_;
+    std::mt19937_64 generator_;
+    std::vector<JointTrace> traces_;
+    double asked_ = 0.0, reached_ = 0.0;
+};
+
+}  // namespace
+
+OrientationLaw orientation_law(const TestCase& test, std::size_t set) {
+    const TestCase::JointSet& s = test.joint_set[set];
+    if (s.orientation == "fisher") {
+        const double trend = *test.joints.section_trend * radians;
+        const Section section =
+            test.joints.section == "vertical" ? Section::vertical(trend) : Section::horizontal(trend);
+        try {
+            return OrientationLaw::fisher(*s.dip * radians, *s.dip_direction * radians, *s.fisher_k, section);
+        } catch (const InputError& error) {
+            throw InputError(fmt::format("{}: {}", test.at(fmt::format("joint_set[{}].dip", set + 1)), error.what()));
+        }
+    }
+    const double angle = *s.angle * radians;
+    if (s.orientation == "uniform") return OrientationLaw::uniform(angle, *s.angle_deviation * radians);
+    if (s.orientation == "von_mises") return OrientationLaw::von_mises(angle, *s.kappa);
+    return OrientationLaw::fixed(angle);
+}
+
+LengthLaw length_law(const TestCase::JointSet& set) {
+    if (set.length == "uniform") return LengthLaw::uniform(*set.length_mean, *set.length_deviation);
+    if (set.length == "lognormal") return LengthLaw::lognormal(*set.length_mean, *set.length_deviation);
+    if (set.length == "exponential") return LengthLaw::exponential(*set.length_mean);
+    if (set.length == "power_law") return LengthLaw::power_law(*set.length_min, *set.length_max, *set.length_exponent);
+    return LengthLaw::fixed(*set.length_mean);
+}
+
+std::vector<JointTrace> draw_set(const TestCase& test, std::size_t set, const OrientationLaw& directions,
+                                 const Domain& box, std::size_t source) {
+    return SetDrawing(test, set, directions, box, source).draw();
+}
+
+double length_across(const JointTrace& trace, double scan_line) {
+    const Vec2 along = unit(scan_line);
+    double sum = 0.0;
+    for (std::size_t k = 0; k + 1 < trace.points.size(); ++k)
+        sum += std::abs(cross(trace.points[k + 1] - trace.points[k], along));
+    return sum;
+}
+
+}  // namespace crackle

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/joints/joint_network.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "solver/base/errors.hpp"
+#include "specimens/joints/clipping.hpp"
+#include "specimens/joints/drawn_sets.hpp"
+#include "specimens/joints/trace_files.hpp"
+
+namespace crackle {
+namespace {
+
+/// Halfway along.
+Vec2 midpoint_of(const std::vector<Vec2>& points) {
+    double left = 0.5 * length_of(points);
+    for (std::size_t k = 0; k + 1 < points.size(); ++k) {
+        const double part = norm(points[k + 1] - points[k]);
+        if (left <= part) return points[k] + (left / part) * (points[k + 1] - points[k]);
+        left -= part;
+    }
+    return points.back();
+}
+
+bool holds(const Domain& box, Vec2 p) { return p.x >= box.x1 && p.x <= box.x2 && p.y >= box.y1 && p.y <= box.y2; }
+
+TracePoints measured(const TestCase& test, std::size_t number) {
+    const TestCase::Trace& t = test.trace[number];
+    TracePoints traces;
+    if (t.points) {
+        std::vector<Vec2>& points = traces.emplace_back();
+        for (std::size_t k = 0; k < t.points->size(); k += 2) points.push_back({(*t.points)[k], (*t.points)[k + 1]});
+        return traces;
+    }
+    const std::string key = fmt::format("trace[{}].file", number + 1);
+    const std::filesystem::path path = test.resolve_path(key, *t.file);
+    try {
+        traces = read_traces(path, t.layer.value_or(""));
+    } catch (const InputError& error) {
+        throw InputError(fmt::format("{}: {}", test.at(key), error.what()));
+    }
+    const double scale = t.scale.value_or(1.0);
+    const Vec2 offset = t.offset ? Vec2{(*t.offset)[0], (*t.offset)[1]} : Vec2{};
+    for (std::vector<Vec2>& points : traces)
+        for (Vec2& p : points) p = scale * p + offset;
+    return traces;
+}
+
+std::string name_of(const TestCase::Trace& trace, std::size_t number) {
+    if (trace.name) return *trace.name;
+    if (trace.file) return std::filesystem::path(*trace.file).stem().string();
+    return fmt::format("trace {}", number + 1);
+}
+
+void take_measured(JointNetwork& network, const TestCase& test, std::size_t number) {
+    const std::size_t source = network.sources.size();
+    network.sources.push_back({name_of(test.trace[number], number)});
+    const TracePoints traces = measured(test, number);
+    std::size_t outside = 0;
+    for (const std::vector<Vec2>& points : traces) {
+        const auto pieces = clipped(points, network.box);
+        if (pieces.empty()) ++outside;
+        const double whole = length_of(points);
+        bool centred = holds(network.box, midpoint_of(points));
+        for (const std::vector<Vec2>& piece : pieces) {
+            network.traces.push_back({piece, source, whole, centred});
+            centred = false;  // of the first piece alone
+        }
+    }
+    if (outside == traces.size()) {
+        throw InputError(
+            fmt::format("{}: found all of its traces outside of the box x {:.6g} to {:.6g}, y {:.6g} to {:.6g}, "
+                        "expected one inside; "
+                        "{}",
+                        test.at(fmt::format("trace[{}]", number + 1)), network.box.x1, network.box.x2, network.box.y1,
+                        network.box.y2, test.trace[number].file ? "give scale and offset" : "correct its points"));
+    }
+    if (outside > 0)
+        network.notices.push_back(fmt::format("{}: {} of {} traces lie outside of the box", network.sources.back().name,
+                                              outside, traces.size()));
+}
+
+void leave_out_short(JointNetwork& network, double shortest) {
+    std::size_t count = 0;
+    double length = 0.0;
+    for (const JointTrace& trace : network.traces) {
+        if (trace.length() >= shortest) continue;
+        ++count;
+        length += trace.length();
+    }
+    std::erase_if(network.traces, [&](const JointTrace& trace) { return trace.length() < shortest; });
+    if (count > 0)
+        network.notices.push_back(
+            fmt::format("{} traces shorter than {} m are left out, {:.4g} m in all", count, shortest, length));
+}
+
+}  // namespace
+
+JointNetwork make_joints(const TestCase& test, const Domain& box) {
+    JointNetwork network;
+    network.box = box;
+    for (std::size_t set = 0; set < test.joint_set.size(); ++set) {
+        const std::size_t source = network.sources.size();
+        const OrientationLaw directions = orientation_law(test, set);
+        network.sources.push_back({test.joint_set[set].name, true, set, directions.mean()});
+        const std::vector<JointTrace> traces = draw_set(test, set, directions, box, source);
+        if (traces.empty())
+            network.notices.push_back(fmt::format("{}: no trace meets the box", test.joint_set[set].name));
+        network.traces.insert(network.traces.end(), traces.begin(), traces.end());
+    }
+    for (std::size_t number = 0; number < test.trace.size(); ++number) take_measured(network, test, number);
+    if (test.joints.shortest) leave_out_short(network, *test.joints.shortest);
+    return network;
+}
+
+}  // namespace crackle

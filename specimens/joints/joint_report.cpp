@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/joints/joint_report.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "mesher/trace_graph.hpp"
+#include "solver/base/correctly_rounded.hpp"
+#include "solver/base/errors.hpp"
+#include "specimens/joints/drawn_sets.hpp"
+#include "specimens/joints/mesh_traces.hpp"
+
+namespace crackle {
+namespace {
+
+constexpr double degrees = 180.0 / std::numbers::pi;
+
+double angle_of(Vec2 direction) { return correctly_rounded::atan2(direction.y, direction.x); }
+
+/// To [0, 180).
+double as_line(double angle) { return angle - 180.0 * std::floor(angle / 180.0); }
+
+/// Sums over traces, source by source.
+class Sums {
+  public:
+    void add(const JointTrace& trace) {
+        traces_.push_back(&trace);
+        for (std::size_t k = 0; k + 1 < trace.points.size(); ++k) {
+            const Vec2 part = trace.points[k + 1] - trace.points[k];
+            by_length_.add(angle_of(part), norm(part));
+        }
+        const Vec2 chord = trace.points.back() - trace.points.front();
+        if (norm(chord) > 0.0) once_each_.add(angle_of(chord), 1.0);
+        if (!trace.centred) return;
+        ++centred_;
+        whole_lengths_ += trace.whole_length;
+    }
+
+    /// @param scan_line rad; not a number: square to the mean direction
+    SourceReport report(const std::string& name, double scan_line, double area) const {
+        SourceReport r;
+        r.name = name;
+        r.traces = traces_.size();
+        double length = 0.0;
+        bool endless = false;
+        for (const JointTrace* trace : traces_) {
+            length += trace->length();
+            r.longest = std::max(r.longest, trace->length());
+            endless = endless || !std::isfinite(trace->whole_length);
+        }
+        r.p21 = length / area;
+        r.rose = by_length_;
+        r.direction = by_length_.mean_direction();
+        r.kappa = fitted_kappa(once_each_.resultant(), once_each_.count);
+        if (!endless) r.p20 = static_cast<double>(centred_) / area;
+        if (centred_ > 0) r.mean_length = whole_lengths_ / static_cast<double>(centred_);
+        if (std::isnan(scan_line)) scan_line = r.direction / degrees + 0.5 * std::numbers::pi;
+        if (std::isnan(scan_line)) return r;
+        r.scan_line = as_line(scan_line * degrees);
+        r.p10 = 0.0;
+        for (const JointTrace* trace : traces_) r.p10 += length_across(*trace, scan_line) / area;
+        return r;
+    }
+
+  private:
+    std::vector<const JointTrace*> traces_;
+    Rose by_length_, once_each_;
+    std::size_t centred_ = 0;
+    double whole_lengths_ = 0.0;
+};
+
+void add_what_was_asked(SourceReport& r, const TestCase::JointSet& set, double direction) {
+    r.direction_asked = as_line(direction * degrees);
+    if (set.kappa) r.kappa_asked = *set.kappa;
+    double persistence = 1.0;
+    if (set.length == "gaps") {
+        r.mean_length_asked = *set.length_mean;
+        persistence = *set.length_mean / (*set.length_mean + *set.gap_mean);
+    } else if (set.length != "persistent") {
+        r.mean_length_asked = length_law(set).mean();
+    }
+    if (set.number) r.amount = {"number", static_cast<double>(*set.number), static_cast<double>(r.traces)};
+    if (set.p10) r.amount = {"p10", *set.p10, r.p10};
+    if (set.p20) r.amount = {"p20", *set.p20, r.p20};
+    if (set.p21) r.amount = {"p21", *set.p21, r.p21};
+    if (set.spacing) r.amount = {"p10", persistence / *set.spacing, r.p10};
+}
+
+void count_blocks(JointReport& report, const JointNetwork& network) {
+    const std::vector<std::vector<Point>> lines = mesh_traces(network);
+    const Domain& box = network.box;
+    const double reach = block_reach_share * norm({box.x2 - box.x1, box.y2 - box.y1});
+    std::vector<double> areas;
+    try {
+        areas = parted_areas(trace_graph({box.x1, box.x2, box.y1, box.y2}, lines, reach));
+    } catch (const MeshError& error) {
+        throw InputError(fmt::format("joints: {}", error.what()));
+    }
+    std::sort(areas.begin(), areas.end());
+    report.blocks = areas.size();
+    report.largest_block = areas.back() / network.area();
+    report.median_block = areas[(areas.size() - 1) / 2] / network.area();
+}
+
+}  // namespace
+
+JointReport report_joints(const TestCase& test, const JointNetwork& network) {
+    JointReport report;
+    report.notices = network.notices;
+    std::vector<Sums> sums(network.sources.size());
+    Sums all;
+    for (const JointTrace& trace : network.traces) {
+        sums[trace.source].add(trace);
+        all.add(trace);
+    }
+    for (std::size_t k = 0; k < sums.size(); ++k) {
+        const JointSource& source = network.sources[k];
+        if (!source.drawn) {
+            report.sources.push_back(sums[k].report(source.name, SourceReport::none, network.area()));
+            continue;
+        }
+        const TestCase::JointSet& set = test.joint_set[source.set];
+        const double scan_line = set.scan_line ? *set.scan_line / degrees : source.direction + 0.5 * std::numbers::pi;
+        report.sources.push_back(sums[k].report(source.name, scan_line, network.area()));
+        add_what_was_asked(report.sources.back(), set, source.direction);
+    }
+    report.all = all.report("all", SourceReport::none, network.area());
+    count_blocks(report, network);
+    return report;
+}
+
+}  // namespace crackle

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Tested by tests/specimens/joints/joint_network_test.cpp.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "solver/base/vec2.hpp"
+
+namespace crackle {
+
+/// Of straight parts one after another.
+inline double length_of(const std::vector<Vec2>& points) {
+    double length = 0.0;
+    for (std::size_t k = 0; k + 1 < points.size(); ++k) length += norm(points[k + 1] - points[k]);
+    return length;
+}
+
+/// One trace, or what the box leaves of it.
+struct JointTrace {
+    std::vector<Vec2> points;  ///< m, two or more, one after another apart
+    std::size_t source = 0;    ///< into JointNetwork::sources
+    /// m, before the box cut it; infinite of persistent ones.
+    double whole_length = 0.0;
+    bool centred = false;  ///< its midpoint lies in the box, before the box cut it
+
+    double length() const { return length_of(points); }
+};
+
+}  // namespace crackle

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/joints/mesh_traces.hpp"
+
+#include <fmt/format.h>
+
+namespace crackle {
+
+std::vector<std::vector<Point>> mesh_traces(const JointNetwork& network) {
+    std::vector<std::vector<Point>> lines;
+    lines.reserve(network.traces.size());
+    for (const JointTrace& trace : network.traces) {
+        std::vector<Point>& line = lines.emplace_back();
+        for (const Vec2 p : trace.points) line.push_back({p.x, p.y});
+    }
+    return lines;
+}
+
+std::string traces_named(const JointNetwork& network, std::span<const int> traces) {
+    std::string text;
+    for (const int number : traces) {
+        const JointTrace& trace = network.traces[static_cast<std::size_t>(number)];
+        const Vec2 from = trace.points.front(), to = trace.points.back();
+        text +=
+            fmt::format("{}trace {} is of {}, from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g})", text.empty() ? " (" : ", ",
+                        number, network.sources[trace.source].name, from.x, from.y, to.x, to.y);
+    }
+    return text.empty() ? text : text + ")";
+}
+
+std::vector<std::string> jointed_mesh_text(const Mesh& with, const Mesh& without) {
+    const MeshReport& report = with.report;
+    const MeshQuality shape = quality_of(with), plain = quality_of(without);
+    std::vector<std::string> lines{
+        fmt::format("joints: {:.6g} m of traces are {} edges of cells; {} centres made way, {} points were added",
+                    report.trace_length, report.trace_edges, report.centres_left, report.points_added),
+        fmt::format("cells beside those without joints: least angle {:.3g} ({:.3g}) degrees, smallest over mean area "
+                    "{:.2g} ({:.2g}), shortest over mean edge {:.2g} ({:.2g})",
+                    shape.smallest_angle, plain.smallest_angle, shape.smallest_area, plain.smallest_area,
+                    shape.shortest_edge, plain.shortest_edge)};
+    if (report.ends_moved > 0)
+        lines.push_back(
+            fmt::format("joints: {} ends that lay within {} of the mean spacing of another trace or a wall "
+                        "meet it now, by at most {:.3g} m",
+                        report.ends_moved, trace_reach_share, report.largest_move));
+    if (report.coincident > 0.0)
+        lines.push_back(fmt::format("joints: {:.3g} m of traces lie on others, whose edges are the first one's",
+                                    report.coincident));
+    return lines;
+}
+
+}  // namespace crackle

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Voronoi cells with traces: every trace is a chain of edges on its line, the domain is filled without overlap, and
+// random networks are meshed or refused by name.
+
+#include "mesher/mirrored_seeds.hpp"
+#include "tests/mesher/jointed.hpp"
+
+namespace crackle {
+namespace {
+
+using testing::agrees;
+using testing::box;
+using testing::check;
+using testing::distance_from_line;
+using testing::length_of;
+using testing::Lines;
+using testing::packing_like;
+using testing::TraceCheck;
+using testing::within;
+
+MeshRequest with_traces(Lines traces, double gap = 0.0) {
+    return testing::with_traces(MeshKind::voronoi, std::move(traces), gap);
+}
+
+TEST(JointedVoronoi, EveryTraceIsAChainOfEdgesOnItsLine) {
+    for (const Lines& traces :
+         {Lines{{{0.2, 0.7}, {0.8, 1.1}}},                                        // two tips
+          Lines{{{0.0, 0.5}, {1.0, 0.9}}},                                        // from wall to wall
+          Lines{{{0.2, 0.5}, {0.8, 0.9}}, {{0.3, 1.0}, {0.6, 0.4}}},              // a crossing
+          Lines{{{0.1, 0.4}, {0.5, 0.9}, {0.9, 1.0}}, {{0.5, 0.9}, {0.4, 1.6}}},  // a bend, and a branch
+          Lines{{{0.0, 0.3}, {1.0, 0.8}}, {{0.3, 0.0}, {0.6, 2.0}}, {{0.1, 1.2}, {0.5, 1.3}, {0.9, 1.7}}}}) {
+        for (const std::uint64_t seed : {1, 2, 3}) {
+            const Mesh mesh = make_mesh(packing_like(seed), box, with_traces(traces));
+            const TraceCheck found = check(mesh, traces);
+            EXPECT_TRUE(within("distance of the edges from the trace", found.off_line, 0.0, 2e-12));
+            for (std::size_t t = 0; t < traces.size(); ++t)
+                EXPECT_TRUE(
+                    agrees("length of a trace", found.length.at(static_cast<int>(t)), length_of(traces[t]), 1e-9));
+            EXPECT_TRUE(found.paired) << "each edge has a cell on either side, which both know the trace";
+            EXPECT_TRUE(agrees("areas", testing::sum_of_areas(mesh), 2.0, 1e-12));
+            EXPECT_TRUE(testing::convex_and_counter_clockwise(mesh, 2.0));
+        }
+    }
+}
+
+TEST(JointedVoronoi, CellsFarFromTracesAreThoseWithoutThem) {
+    const auto centres = packing_like(4);
+    const Mesh without = make_mesh(centres, box, with_traces({})),
+               with = make_mesh(centres, box, with_traces({{{0.2, 0.2}, {0.8, 0.4}}}));
+    std::set<std::vector<std::pair<double, double>>> cells;
+    const auto corners_of = [](const Mesh& mesh, const Cell& cell) {
+        std::vector<std::pair<double, double>> corners;
+        // Circumcentres are rounded by the corner that they are taken from.
+        for (const Point p : mesh.outline(cell)) corners.emplace_back(std::round(1e9 * p.x), std::round(1e9 * p.y));
+        std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+        return corners;
+    };
+    const auto far = [](const Mesh& mesh, const Cell& cell) {
+        const auto corners = mesh.outline(cell);
+        return std::all_of(corners.begin(), corners.end(), [](Point p) { return p.y > 0.8; });
+    };
+    for (const Cell& cell : without.cells)
+        if (far(without, cell)) cells.insert(corners_of(without, cell));
+    std::size_t same = 0;
+    for (const Cell& cell : with.cells)
+        if (far(with, cell)) same += cells.count(corners_of(with, cell));
+    EXPECT_EQ(same, cells.size());
+    EXPECT_GT(same, 400U);
+}
+
+TEST(JointedVoronoi, CellsAlongATraceAreAboutAsLargeAsOthers) {
+    const Mesh mesh =
+        make_mesh(packing_like(5), box, with_traces({{{0.2, 0.5}, {0.8, 0.9}}, {{0.3, 1.0}, {0.6, 0.4}}}));
+    double least = 1e300, most = 0.0;
+    for (const Cell& cell : mesh.cells) least = std::min(least, cell.area), most = std::max(most, cell.area);
+    const double mean = 2.0 / static_cast<double>(mesh.cells.size());
+    fmt::print("  areas of {} cells from {:.3g} to {:.3g} of their mean\n", mesh.cells.size(), least / mean,
+               most / mean);
+    EXPECT_GT(least, 0.15 * mean);
+    EXPECT_LT(most, 3.0 * mean);
+}
+
+TEST(JointedVoronoi, EdgesOfTheInsetMeshKnowTheirTrace) {
+    const Lines traces{{{0.0, 0.3}, {1.0, 0.8}}, {{0.3, 0.0}, {0.6, 2.0}}};
+    const Mesh apart = make_mesh(packing_like(5), box, with_traces(traces, 1e-3));
+    double length = 0.0;
+    for (const Cell& cell : apart.cells) {
+        const auto corners = apart.outline(cell);
+        for (std::size_t k = 0; k < corners.size(); ++k) {
+            const int trace = apart.edge_traces[cell.first_corner + k];
+            if (trace < 0) continue;
+            const auto& line = traces[static_cast<std::size_t>(trace)];
+            EXPECT_NEAR(distance_from_line(line[0], line[1], corners[k]), 5e-4, 1e-12);
+            length += 0.5 * distance(corners[k], corners[(k + 1) % corners.size()]);
+        }
+    }
+    // Each edge loses about half a gap at either end.
+    const double whole = length_of(traces[0]) + length_of(traces[1]);
+    EXPECT_TRUE(within("length of the inset edges", length,
+                       whole - 0.5e-3 * static_cast<double>(apart.report.trace_edges) / 2.0, 0.02 * whole));
+}
+
+TEST(JointedVoronoi, SameInputSameBytes) {
+    const Lines traces{{{0.0, 0.3}, {1.0, 0.8}}, {{0.3, 0.0}, {0.6, 2.0}}, {{0.1, 1.2}, {0.9, 1.25}}};
+    const auto centres = packing_like(7);
+    const Mesh once = make_mesh(centres, box, with_traces(traces)),
+               again = make_mesh(centres, box, with_traces(traces));
+    EXPECT_EQ(once.corners, again.corners);
+    EXPECT_EQ(once.edge_traces, again.edge_traces);
+}
+
+TEST(JointedVoronoi, RandomNetworksAreMeshedOrRefusedByName) {
+    const testing::NetworkCount count = testing::mesh_random_networks(MeshKind::voronoi, 400);
+    EXPECT_GT(count.meshed, 100);
+    EXPECT_GT(count.refused, 20);
+}
+
+TEST(JointedVoronoi, MergingIsRefused) {
+    MeshRequest request = with_traces({{{0.2, 0.2}, {0.8, 0.4}}});
+    request.merge_destroyed = true;
+    EXPECT_THROW(make_mesh(packing_like(1), box, request), MeshError);
+}
+
+}  // namespace
+}  // namespace crackle

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Keys of joints that do not go together are refused with the key, what was found and what to do; what goes together
+// survives being written out and read again.
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "specimens/case/joint_checks.hpp"
+#include "tests/specimens/joints/cases.hpp"
+#include "tests/support/refusal.hpp"
+
+namespace crackle {
+namespace {
+
+std::string refused(const std::string& text) {
+    return testing::refusal([&] { testing::joints_of(text); });
+}
+std::string of_set(const std::string& keys) { return refused("[[joint_set]]\nname = \"a\"\n" + keys); }
+
+TEST(JointRefusals, ALawHasItsOwnKeysAndNoOthers) {
+    for (const auto& [keys, says] : {
+             std::pair{"angle = 0.0\n",
+                       "joint_set[1]: found no amount, expected one of number, p10, p20, p21, spacing"},
+             {"angle = 0.0\np21 = 1.0\nspacing = 0.1\n", "found p21 and spacing"},
+             {"spacing = 0.1\n", "joint_set[1].angle: found nothing"},
+             {"angle = 0.0\nkappa = 3.0\nspacing = 0.1\n", "orientation = \"fixed\" does not have it"},
+             {"orientation = \"von_mises\"\nangle = 0.0\nspacing = 0.1\n", "joint_set[1].kappa: found nothing"},
+             {"orientation = \"fisher\"\ndip = 10.0\ndip_direction = 0.0\nfisher_k = 3.0\nspacing = 0.1\n",
+              "joints.section_trend: found nothing"},
+             {"angle = 0.0\nlength = \"gaps\"\nlength_mean = 1.0\nspacing = 0.1\n",
+              "joint_set[1].gap_mean: found nothing"},
+             {"angle = 0.0\nlength_mean = 1.0\nspacing = 0.1\n", "length = \"persistent\" does not have it"},
+             {"angle = 0.0\nlength = \"exponential\"\nlength_mean = 1.0\nspacing = 0.1\n",
+              "expected \"persistent\" or \"gaps\""},
+             {"angle = 0.0\nlength = \"uniform\"\nlength_mean = 1.0\nlength_deviation = 1.0\np21 = 1.0\n",
+              "less than length_mean = 1 m"},
+             {"angle = 0.0\nlength = \"power_law\"\nlength_min = 1.0\nlength_max = 1.0\nlength_exponent = 2.0\np21 = "
+              "1.0\n",
+              "less than length_max"},
+             {"angle = 0.0\nspacing = 0.1\nspacing_law = \"lognormal\"\n",
+              "joint_set[1].spacing_deviation: found nothing"},
+             {"angle = 0.0\np21 = 0.1\nspacing_law = \"fixed\"\n", "only an amount by spacing has it"},
+             {"angle = 0.0\np20 = 0.1\n", "lines have none"},
+             {"angle = 0.0\nspacing = 0.1\nthrough = [1.0]\n", "found 1 numbers, expected two"},
+             {"angle = 0.0\nspacing = 0.1\nscan_line = 3.0\n", "only p10 counts along a line"},
+             {"angle = 0.0\nspacing = -0.1\n", "expected a number > 0 in m"},
+             {"angle = 0.0\nspacing = 0.1\nspacings = 0.1\n", "found an unknown key"},
+         }) {
+        EXPECT_NE(of_set(keys).find(says), std::string::npos) << keys << says;
+    }
+}
+
+TEST(JointRefusals, NamesAndTracesAreChecked) {
+    const std::string set = "[[joint_set]]\nname = \"a\"\nangle = 0.0\nspacing = 0.1\n";
+    for (const auto& [text, says] : {
+             std::pair{set + set, "joint_set[2].name: found \"a\" a second time"},
+             {"[joints]\nseed = 3\n", "joints: found no [[joint_set]] or [[trace]]"},
+             {"[joints]\nsection_trend = 3.0\n" + set, "only orientation = \"fisher\""},
+             {"[[trace]]\nname = \"t\"\n", "trace[1]: found neither points nor a file"},
+             {"[[trace]]\npoints = [0.0, 0.0, 1.0, 1.0]\nfile = \"f\"\n", "trace[1]: found points and a file"},
+             {"[[trace]]\npoints = [0.0, 0.0, 1.0]\n", "found 3 numbers, expected x and y of two points"},
+             {"[[trace]]\npoints = [0.0, 0.0, 1.0, 1.0]\nscale = 2.0\n", "only a file has it"},
+             {"[[trace]]\nfile = \"f\"\noffset = [1.0]\n", "trace[1].offset: found 1 numbers"},
+         }) {
+        EXPECT_NE(refused(text).find(says), std::string::npos) << says;
+    }
+}
+
+TEST(JointRefusals, ARefusalNamesFileAndLine) {
+    EXPECT_NE(of_set("angle = 0.0\nkappa = 3.0\nspacing = 0.1\n").find("joints.toml:4: joint_set[1].kappa: found"),
+              std::string::npos);
+}
+
+TEST(ResolvedJoints, AreReadAgain) {
+    const testing::ScratchFolder folder;
+    std::ofstream(folder / "joints.toml") << R"([packing]
+count = 60
+radius_min = 0.01
+radius_max = 0.02
+mean_overlap = 1e-5
+[material]
+density = 2500.0
+normal_stiffness = 1e7
+shear_stiffness = 1e6
+friction_angle = 30.0
+[mesh]
+kind = "delaunay"
+thick = 1e-3
+[bond]
+thick = 1.1e-3
+[loading]
+kind = "compression"
+max_axial_strain = 0.01
+[joints]
+seed = 5
+section_trend = 20.0
+[[joint_set]]
+name = "planes"
+orientation = "fisher"
+dip = 30.0
+dip_direction = 100.0
+fisher_k = 50.0
+length = "gaps"
+length_mean = 0.3
+gap_mean = 0.1
+spacing = 0.2
+through = [0.1, 0.2]
+[[trace]]
+file = "survey.txt"
+scale = 0.001
+)";
+    std::ofstream(folder / "survey.txt") << "0 0 1 1\n";
+    const TestCase test = read_case(folder / "joints.toml");
+    std::filesystem::create_directory(folder / "out");
+    std::ostringstream text;
+    write_resolved_case(text, test, folder / "out");
+    std::ofstream(folder / "out" / "case.toml") << text.str();
+    const TestCase again = read_case(folder / "out" / "case.toml");
+    EXPECT_EQ(again.joints.section_trend, 20.0);
+    ASSERT_EQ(again.joint_set.size(), 1U);
+    EXPECT_EQ(again.joint_set[0].through, (std::vector<double>{0.1, 0.2}));
+    EXPECT_EQ(again.joint_set[0].fisher_k, 50.0);
+    EXPECT_EQ(again.resolve_path("trace[1].file", *again.trace[0].file), (folder / "survey.txt").lexically_normal());
+    const auto files = files_read(test);
+    EXPECT_NE(std::find(files.begin(), files.end(), (folder / "survey.txt").lexically_normal()), files.end());
+}
+
+}  // namespace
+}  // namespace crackle

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A jointed specimen as a test makes it: edges on traces, what is printed, and errors that name traces by their source.
+
+#include "specimens/joints/mesh_traces.hpp"
+
+#include <fstream>
+
+#include "specimens/making/specimen.hpp"
+#include "tests/specimens/joints/cases.hpp"
+#include "tests/support/claim.hpp"
+#include "tests/support/refusal.hpp"
+
+namespace crackle {
+namespace {
+
+const char* const rock = R"([packing]
+width = 0.5
+height = 1.0
+radius_min = 0.01
+radius_max = 0.02
+mean_overlap = 1e-5
+[material]
+density = 2500.0
+normal_stiffness = 1e7
+shear_stiffness = 1e6
+friction_angle = 30.0
+[mesh]
+kind = "delaunay"
+thick = 1e-3
+[bond]
+thick = 1.1e-3
+[loading]
+kind = "compression"
+max_axial_strain = 0.01
+)";
+
+TestCase case_of(const std::string& text) {
+    const testing::ScratchFolder folder;
+    std::ofstream(folder / "case.toml") << text;
+    return read_case(folder / "case.toml");
+}
+
+TEST(JointedSpecimen, HasItsTracesAsFacesAndSaysSo) {
+    std::vector<std::string> stages;
+    TestHooks hooks;
+    hooks.stage = [&](const std::string& line) { stages.push_back(line); };
+    const Specimen specimen = make_specimen(
+        case_of(std::string(rock) +
+                "[[joint_set]]\nname = \"bedding\"\nangle = 45.0\nspacing = 0.3\nthrough = [0.25, 0.5]\n"),
+        hooks);
+    double area = 0.0;
+    for (const Body& body : specimen.scene.bodies) area += mass_properties(specimen.scene, body).mass / 2500.0;
+    EXPECT_GT(area, 0.8 * 0.5) << "the inset takes some";
+    const auto has = [&](const char* text) {
+        return std::any_of(stages.begin(), stages.end(),
+                           [&](const std::string& line) { return line.find(text) != std::string::npos; });
+    };
+    EXPECT_TRUE(has("m of traces are"));
+    EXPECT_TRUE(has("cells beside those without joints"));
+    EXPECT_TRUE(std::any_of(specimen.notices.begin(), specimen.notices.end(), [](const std::string& n) {
+        return n.find("the rock's own properties") != std::string::npos;
+    }));
+}
+
+TEST(JointedSpecimen, ErrorsNameTracesByTheirSource) {
+    const std::string text = testing::refusal([] {
+        make_specimen(case_of(std::string(rock) + "[[trace]]\nname = \"north\"\npoints = [0.0, 0.5, 0.5, 0.5]\n"
+                                                  "[[trace]]\nname = \"south\"\npoints = [0.0, 0.5001, 0.5, 0.5001]\n"),
+                      TestHooks{});
+    });
+    EXPECT_NE(text.find("is of north, from (0, 0.5) to (0.5, 0.5)"), std::string::npos);
+    EXPECT_NE(text.find("is of south"), std::string::npos);
+}
+
+TEST(JointedSpecimen, WhatCannotHaveJointsIsRefused) {
+    const std::string joint = "[[trace]]\npoints = [0.0, 0.5, 0.5, 0.5]\n";
+    const auto refused = [&](const std::string& old_text, const std::string& new_text) {
+        std::string text = rock + joint;
+        text.replace(text.find(old_text), old_text.size(), new_text);
+        return testing::refusal([&] { case_of(text); });
+    };
+    EXPECT_NE(refused("kind = \"delaunay\"\n", "kind = \"voronoi\"\nmerge_destroyed = true\n")
+                  .find("mesh.merge_destroyed: found true with joints"),
+              std::string::npos);
+    EXPECT_NE(refused("[mesh]\nkind = \"delaunay\"\nthick = 1e-3\n[bond]\nthick = 1.1e-3\n", "")
+                  .find("found no [mesh] with joints"),
+              std::string::npos);
+    EXPECT_NE(refused("thick = 1e-3\n", "thick = 1e-3\nboundary = \"seeds\"\n").find("mesh.boundary"),
+              std::string::npos);
+    EXPECT_NE(refused("\"compression\"", "\"brazilian\"").find("loading.kind: found \"brazilian\" with joints"),
+              std::string::npos);
+}
+
+}  // namespace
+}  // namespace crackle

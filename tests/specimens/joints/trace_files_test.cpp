@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Files of traces: the three forms say the same, what is written is read again to the last digit, and what is wrong is
+// named with its line.
+
+#include "specimens/joints/trace_files.hpp"
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "tests/support/refusal.hpp"
+
+namespace crackle {
+namespace {
+
+using testing::refusal;
+
+const TracePoints two{{{0.0, 0.5}, {1.5, 2.0}, {2.0, 2.25}}, {{-1.0, 3.0}, {4.0, 3.5}}};
+
+constexpr const char* dxf =
+    "  0\nSECTION\n  2\nHEADER\n  9\n$ACADVER\n  1\nAC1009\n  0\nENDSEC\n  0\nSECTION\n  2\nENTITIES\n"
+    "  0\nPOLYLINE\n  8\nfaults\n 66\n     1\n 10\n0.0\n 20\n0.0\n"
+    "  0\nVERTEX\n  8\nfaults\n 10\n0.0\n 20\n0.5\n  0\nVERTEX\n 10\n1.5\n 20\n2.0\n  0\nVERTEX\n 10\n2.0\n 20\n2.25\n"
+    "  0\nSEQEND\n  8\nfaults\n"
+    "  0\nLINE\n  8\njoints\n 10\n-1.0\n 20\n3.0\n 30\n0.0\n 11\n4.0\n 21\n3.5\n 31\n0.0\n"
+    "  0\nENDSEC\n  0\nEOF\n";
+
+std::string refused(const std::string& name, const std::string& text, const std::string& layer = "") {
+    return refusal([&] { parse_traces(name, text, layer); });
+}
+
+TEST(TraceFiles, FormsOfOneSurveyAreReadAlike) {
+    EXPECT_EQ(parse_traces("a.txt", "# x1 y1 x2 y2\n0 0.5\t1.5 2 2 2.25\n\n-1 3 +4 3.5 # the other\r\n", ""), two);
+    EXPECT_EQ(parse_traces("a.csv", "trace,x,y\n1,0,0.5\n1,1.5,2\n1,2,2.25\nfar,-1,3\nfar,4,3.5\n", ""), two);
+    EXPECT_EQ(parse_traces("a.DXF", dxf, ""), two);
+    EXPECT_EQ(parse_traces("b.csv", "set,x1,y1,x2,y2\nA,-1,3,4,3.5\n", ""), TracePoints{two[1]});
+}
+
+TEST(TraceFiles, ALayerIsReadAlone) {
+    EXPECT_EQ(parse_traces("a.dxf", dxf, "joints"), TracePoints{two[1]});
+    EXPECT_EQ(parse_traces("a.dxf", dxf, "faults"), TracePoints{two[0]});
+    EXPECT_NE(refused("a.dxf", dxf, "bedding").find("found no trace on layer bedding"), std::string::npos);
+    EXPECT_NE(refused("a.txt", "0 0 1 1\n", "bedding").find("only a DXF file has layers"), std::string::npos);
+}
+
+TEST(TraceFiles, OtherEntitiesAreRefusedUnlessTheyLieOnOtherLayers) {
+    std::string text = dxf;
+    text.insert(text.find("  0\nLINE"), "  0\nCIRCLE\n  8\nholes\n 10\n1\n 20\n1\n 40\n2\n");
+    EXPECT_NE(refused("a.dxf", text).find("found CIRCLE on layer holes"), std::string::npos);
+    EXPECT_EQ(parse_traces("a.dxf", text, "joints"), TracePoints{two[1]});
+    std::string arcs = dxf;
+    arcs.insert(arcs.find("  0\nVERTEX\n 10\n1.5"), " 42\n0.5\n");
+    EXPECT_NE(refused("a.dxf", arcs).find("found a POLYLINE with arcs"), std::string::npos);
+}
+
+TEST(TraceFiles, ClosedPolylinesEndWhereTheyBegin) {
+    const std::string text =
+        "0\nSECTION\n2\nENTITIES\n0\nLWPOLYLINE\n8\n0\n90\n3\n70\n1\n10\n0\n20\n0\n10\n1\n20\n0\n10\n0\n20\n1\n0\nENDSE"
+        "C\n0\nEOF\n";
+    EXPECT_EQ(parse_traces("a.dxf", text, ""), (TracePoints{{{0, 0}, {1, 0}, {0, 1}, {0, 0}}}));
+}
+
+TEST(TraceFiles, WhatIsWrittenIsReadAgain) {
+    const TracePoints traces{{{0.1, 1.0 / 3.0}, {1e-17, 2e20}}, {{0.7, 0.7}, {0.30000000000000004, 5.0}, {6.0, -7.0}}};
+    EXPECT_EQ(parse_traces("a.txt", traces_text(traces), ""), traces);
+}
+
+TEST(TraceFiles, WhatIsWrongIsNamedWithItsLine) {
+    EXPECT_NE(refused("a.txt", "0 0 1 1\n0 0 1\n").find("a.txt:2: found 3 numbers"), std::string::npos);
+    EXPECT_NE(refused("a.txt", "0 0 1 x\n").find("a.txt:1: found 'x'"), std::string::npos);
+    EXPECT_NE(refused("a.txt", "0 0 1 inf\n").find("a.txt:1: found 'inf'"), std::string::npos);
+    EXPECT_NE(refused("a.txt", "1 2 1 2\n").find("a.txt:1: found a trace of one place"), std::string::npos);
+    EXPECT_NE(refused("a.txt", "# nothing\n").find("found no trace"), std::string::npos);
+    EXPECT_NE(refused("a.csv", "x,y\n").find("a.csv:1: found 'x,y', expected a heading"), std::string::npos);
+    EXPECT_NE(refused("a.csv", "").find("no heading"), std::string::npos);
+    EXPECT_NE(refused("a.csv", "trace,x,y\n1,0,0\n1,1\n").find("a.csv:3: found 2 fields"), std::string::npos);
+    EXPECT_NE(refused("a.csv", "trace,x,y\n1,0,0\n1,1,1\n2,0,0\n2,1,1\n1,5,5\n").find("a.csv:6: found trace 1 again"),
+              std::string::npos);
+    EXPECT_NE(refused("a.csv", "trace,x,y\n1,0,0\n2,1,1\n").find("a.csv:2: found a trace of one place"),
+              std::string::npos);
+    EXPECT_NE(refused("a.dxf", "hello\n").find("a.dxf:1: found 'hello', expected a group code"), std::string::npos);
+    EXPECT_NE(refused("a.dxf", "0\nSECTION\n2\nHEADER\n0\nENDSEC\n0\nEOF\n").find("no section ENTITIES"),
+              std::string::npos);
+    EXPECT_NE(refused("a.dxf", std::string(dxf).substr(0, 300)).find("expected"), std::string::npos);
+    EXPECT_NE(refused("a.dxf", "0\nSECTION\n2\nENTITIES\n0\nLINE\n10\nabc\n").find("a.dxf:8: found 'abc'"),
+              std::string::npos);
+}
+
+TEST(TraceFiles, EveryBeginningOfADrawingIsReadOrRefused) {
+    const std::string whole = dxf;
+    std::size_t read = 0;
+    for (std::size_t length = 0; length < whole.size(); ++length) {
+        try {
+            parse_traces("a.dxf", whole.substr(0, length), "");
+            ++read;
+        } catch (const InputError&) {
+        }
+    }
+    EXPECT_LT(read, 12U);  // those that lack no more than the end behind ENDSEC
+}
+
+}  // namespace
+}  // namespace crackle

@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `crackle joints CASE.toml`: traces of joints, generated or read, reported and drawn.
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <filesystem>
+#include <iostream>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+#include "solver/base/errors.hpp"
+#include "solver/files/replace_file.hpp"
+#include "specimens/case/case_file.hpp"
+#include "specimens/joints/joint_network.hpp"
+#include "specimens/joints/joint_report.hpp"
+#include "specimens/joints/trace_files.hpp"
+#include "specimens/results/summary.hpp"
+#include "tools/commands/commands.hpp"
+#include "tools/joints/joint_panels.hpp"
+#include "tools/plot/figure_options.hpp"
+
+namespace crackle::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The box of the case, or of the options, its lower left corner at the origin as a packing's.
+Domain box_of(const TestCase& test, const po::variables_map& values) {
+    Domain box{0.0, 0.0, 0.0, 0.0};
+    const auto take = [&](double& to, const std::optional<double>& of_case, const char* option, const char* key) {
+        if (values.contains(option)) {
+            to = values[option].as<double>();
+            if (!(to > 0.0 && is_a_size(to)))
+                throw InputError(fmt::format("--{}: found {}, expected a length > 0 in m", option, to));
+        } else if (of_case) {
+            to = *of_case;
+        } else {
+            throw InputError(fmt::format("{}: found nothing, expected the size of the box; write it, or give --{}",
+                                         test.at(std::string("packing.") + key), option));
+        }
+    };
+    take(box.x2, test.packing.width, "box-width", "width");
+    take(box.y2, test.packing.height, "box-height", "height");
+    return box;
+}
+
+using Json = nlohmann::ordered_json;
+
+Json json_of(const SourceReport& r) {
+    Json json{{"name", r.name},
+              {"traces", r.traces},
+              {"p10", finite_or_null(r.p10)},
+              {"p20", finite_or_null(r.p20)},
+              {"p21", r.p21},
+              {"scan_line", finite_or_null(r.scan_line)},
+              {"mean_length", finite_or_null(r.mean_length)},
+              {"longest", r.longest},
+              {"direction", finite_or_null(r.direction)},
+              {"kappa", finite_or_null(r.kappa)},
+              {"rose", r.rose.weights}};
+    Json asked = nullptr;
+    if (r.amount) {
+        asked = {{r.amount->key, r.amount->value},
+                 {"mean_length", finite_or_null(r.mean_length_asked)},
+                 {"direction", finite_or_null(r.direction_asked)},
+                 {"kappa", finite_or_null(r.kappa_asked)}};
+    }
+    json["asked"] = asked;
+    return json;
+}
+
+Json as_json(const JointNetwork& network, const JointReport& report) {
+    Json sources = Json::array();
+    for (const SourceReport& r : report.sources) sources.push_back(json_of(r));
+    return {{"width", network.box.x2 - network.box.x1},
+            {"height", network.box.y2 - network.box.y1},
+            {"sources", sources},
+            {"all", json_of(report.all)},
+            {"blocks", report.blocks},
+            {"largest_block", report.largest_block},
+            {"median_block", report.median_block},
+            {"notices", report.notices},
+            {"units",
+             {{"p10", "1/m, crossings per length of all lines along scan_line"},
+              {"p20", "1/m2, midpoints per area"},
+              {"p21", "m/m2, length per area"},
+              {"scan_line, direction", "degrees from +x, counter-clockwise; direction: mean, by length"},
+              {"mean_length", "m, of traces with their midpoint in the box, before that cut them"},
+              {"longest", "m, in the box"},
+              {"kappa", "-, of an axial von Mises law fitted to the traces, each counted once"},
+              {"rose", "m of traces in each 10 degrees from 0 to 180"},
+              {"largest_block, median_block", "-, shares of the box's area, as if all traces were open"}}}};
+}
+
+std::string beside(double reached, double asked) {
+    if (std::isnan(reached)) return "-";
+    return std::isnan(asked) ? fmt::format("{:.4g}", reached) : fmt::format("{:.4g} (asked {:.4g})", reached, asked);
+}
+
+void print(const SourceReport& r) {
+    const auto asked = [&](const char* key) {
+        return r.amount && r.amount->key == key ? r.amount->value : SourceReport::none;
+    };
+    fmt::print("{}\n", r.name);
+    fmt::print("  traces       {}\n", beside(static_cast<double>(r.traces), asked("number")));
+    if (r.traces == 0) return;
+    fmt::print("  P10          {} 1/m along {:.4g} degrees\n", beside(r.p10, asked("p10")), r.scan_line);
+    if (!std::isnan(r.p20)) fmt::print("  P20          {} 1/m2\n", beside(r.p20, asked("p20")));
+    fmt::print("  P21          {} m/m2\n", beside(r.p21, asked("p21")));
+    fmt::print("  mean length  {} m; longest in the box {:.4g} m\n", beside(r.mean_length, r.mean_length_asked),
+               r.longest);
+    fmt::print("  direction    {} degrees; kappa {}\n", beside(r.direction, r.direction_asked),
+               std::isinf(r.kappa) ? "infinite: parallel" : beside(r.kappa, r.kappa_asked));
+}
+
+void print(const JointNetwork& network, const JointReport& report) {
+    fmt::print("box {:.6g} m x {:.6g} m\n", network.box.x2 - network.box.x1, network.box.y2 - network.box.y1);
+    for (const SourceReport& r : report.sources) print(r);
+    if (report.sources.size() > 1) print(report.all);
+    fmt::print("blocks         {} if all were open; the largest has {:.3g} of the area, the median one {:.3g}\n",
+               report.blocks, report.largest_block, report.median_block);
+}
+
+void draw(const JointNetwork& network, const JointReport& report, const fs::path& output, const plot::FigureLook& look,
+          plot::Format format) {
+    using Rows = std::vector<std::vector<plot::Panel>>;
+    constexpr double widest_stacked = 120.0 * plot::points_of_mm;
+    const plot::Panel map = plot::trace_map(network), rose = plot::trace_rose(network, report);
+    const Rows rows = look.width < widest_stacked ? Rows{{map}, {rose}} : Rows{{map, rose}};
+    replace_file(output, plot::figure(rows, look.title, look.width, format, look.sheet));
+}
+
+std::string text_of(const JointNetwork& network) {
+    TracePoints traces;
+    for (const JointTrace& trace : network.traces) traces.push_back(trace.points);
+    return traces_text(traces);
+}
+
+}  // namespace
+
+CommandLine describe_joints() {
+    const auto number = [] { return po::value<double>()->value_name("X"); };
+    po::options_description options;
+    options.add_options()("json", "print one JSON object")                                                         //
+        ("seed", po::value<std::int64_t>()->value_name("N"), "in place of joints.seed")                            //
+        ("box-width", number(), "of the box, m, where the case has no packing.width")                              //
+        ("box-height", number(), "of the box, m, where the case has no packing.height")                            //
+        ("traces", po::value<std::string>()->value_name("FILE"), "writes the traces in the box: x1 y1 x2 y2 ...")  //
+        ("output,o", po::value<std::string>()->value_name("FIGURE"),
+         "figure to write: .svg, .pdf or .png; the traces in the box and their rose");
+    plot::add_figure_options(options, 2);
+    options.add_options()("force", "replace files that are there");
+    return {.synopses = {"crackle joints CASE.toml [OPTIONS]"},
+            .description =
+                "Traces of joints in the box of a specimen, from [[joint_set]] and [[trace]] of a case, or of a file "
+                "that has nothing else and that cases include: what was asked for and what was reached (P10, P20, "
+                "P21, lengths, directions), and the blocks that they would cut out if all of them were open. The same "
+                "seed gives the same traces.",
+            .options = {{"options", options}},
+            .operand = "CASE.toml",
+            .examples = {{"crackle joints specimens/jointed/two_sets.toml", "amounts, directions, blocks"},
+                         {"crackle joints specimens/jointed/two_sets.toml -o traces.svg"},
+                         {"crackle joints specimens/jointed/two_sets.toml --seed 7 --traces traces.txt"}}};
+}
+
+int joints(const Invocation& given) {
+    const po::variables_map& values = given.values;
+    if (given.operands.size() != 1)
+        throw InputError(fmt::format("joints: found {} files, expected one: crackle joints CASE.toml (see --help)",
+                                     given.operands.size()));
+    const fs::path source = given.operands.front();
+    const plot::FigureLook look = plot::figure_look("joints", values);
+    TestCase test = CaseFiles(source).joints();
+    if (!test.jointed())
+        throw InputError(
+            fmt::format("{}: found no [[joint_set]] and no [[trace]], expected one; see crackle test "
+                        "--keys",
+                        source.string()));
+    if (values.contains("seed")) {
+        test.joints.seed = values["seed"].as<std::int64_t>();
+        if (test.joints.seed < 0)
+            throw InputError(fmt::format("--seed: found {}, expected a whole number >= 0", test.joints.seed));
+    }
+    const std::vector<fs::path> inputs = files_read(test);
+    plot::Format format = plot::Format::svg;
+    const std::string figure = values.contains("output") ? values["output"].as<std::string>() : "";
+    const std::string table = values.contains("traces") ? values["traces"].as<std::string>() : "";
+    if (!figure.empty()) {
+        format = plot::format_of_output("joints", figure);
+        refuse_replacing(figure, values.contains("force"), inputs);
+    }
+    if (!table.empty()) refuse_replacing(table, values.contains("force"), inputs);
+    const JointNetwork network = make_joints(test, box_of(test, values));
+    const JointReport report = report_joints(test, network);
+    if (!figure.empty()) draw(network, report, figure, look, format);
+    if (!table.empty()) replace_file(table, text_of(network));
+    if (values.contains("json")) {
+        std::cout << as_json(network, report).dump(2) << '\n';
+        return exit_done;
+    }
+    if (!given.messages.quiet()) print(network, report);
+    for (const std::string& notice : report.notices) fmt::print("notice: {}\n", notice);
+    return exit_done;
+}
+
+}  // namespace crackle::tools
