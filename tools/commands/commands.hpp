@@ -82,7 +82,8 @@ void print_version();  // crackle --version
 
 /// @throws InputError naming the option
 PackingRequest packing_request(const po::variables_map& values, Messages& messages);
-/// Polygons from the text of a packing or of a list of centres. @param name of it, for errors
+/// Polygons from the text of a packing or of a list of centres. @param name of it, for errors @param of_joints lines on
+/// the traces and on the mesh without them, where there are some
 Scene meshed_scene(const std::string& name, const std::string& text, const po::variables_map& values,
                    Messages& messages, MeshReport& report, std::vector<std::string>* of_joints = nullptr);
 /// Threads that are of use here, of those that are asked for.
