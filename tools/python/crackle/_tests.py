@@ -52,14 +52,15 @@ def pack(*, count: int | None = None, height_to_width: float | None = None, widt
 
 def mesh(particles: _engine.Particles | _Path | Sequence[Sequence[float]], *, kind: str | None = None,
          thick: float | None = None, inset: float | None = None, boundary: str | None = None, merge: bool = False,
-         domain: Sequence[float] | None = None, bounding_box: bool = False, density: float | None = None,
+         joints: _Path | None = None, domain: Sequence[float] | None = None, bounding_box: bool = False, density: float | None = None,
          normal_stiffness: float | None = None, shear_stiffness: float | None = None,
          friction_angle: float | None = None, output: _Path | None = None, force: bool = False) -> _engine.Particles:
     """Makes polygons of the centres of circles, as `crackle mesh`.
 
     particles: Particles, the path of a particle file, or a sequence of centres x, y (m; with domain = (x1, x2, y1, y2)
     or bounding_box). kind: "delaunay" or "voronoi"; thick: gap between facing edges, m; inset, m; boundary: "domain" or
-    "centres"; merge: give the place of cells that the inset destroys to neighbours.
+    "centres"; merge: give the place of cells that the inset destroys to neighbours; joints: a file of joints (`crackle
+    joints`), whose traces become edges.
 
     Returns Particles; with output the file is written, too.
     """
@@ -76,6 +77,7 @@ def mesh(particles: _engine.Particles | _Path | Sequence[Sequence[float]], *, ki
             raise InputError(f"centres: found a {type(particles).__name__}, expected Particles, a path, or pairs of "
                              "numbers x, y in m") from None
     options = dict(kind=kind, thick=thick, inset=inset, boundary=boundary, merge=merge,
+                   joints=None if joints is None else given_or_shipped(joints),
                    domain=None if domain is None else [float(one) for one in domain], bounding_box=bounding_box,
                    density=density, normal_stiffness=normal_stiffness, shear_stiffness=shear_stiffness,
                    friction_angle=friction_angle)
