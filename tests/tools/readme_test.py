@@ -144,7 +144,7 @@ OTHERS = {
     "sheared": (0.015, '[loading]\nkind = "direct_shear"\nnormal_stress = 1e6\nnormal_stiffness = 1e11\nmax_axial_strain = 0.003\n'),
     "sheared_unfailed": (0.015, '[loading]\nkind = "direct_shear"\nnormal_stress = 1e6\nnormal_stiffness = 1e11\nmax_axial_strain = 1e-5\n'),
     "unloaded": (0.015, '[loading]\nkind = "compression"\nunload_at_strain = [0.001]\nmax_axial_strain = 0.002\n'),
-    "squeezed": (0.015, '[loading]\nkind = "compression"\nmax_axial_strain = 0.004\n', "--verify"),
+    "squeezed_verified": (0.015, '[loading]\nkind = "compression"\nmax_axial_strain = 0.004\n', "--verify"),
     "heard": (0.06, '[loading]\nkind = "tension"\nmax_axial_strain = 0.001\n[output]\nemission = true\n'),
 }
 CONTAINERS = {"files.*", "crack_rose.*", "numerical_errors.*", "numerical_errors.companions", "numerical_errors.companions.*", "profile.phases", "profile.phases[]", "minerals[]", "validity[]", "cycles[]"}
