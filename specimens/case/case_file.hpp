@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Case files: everything one virtual test needs to know (test_case.hpp), read from one TOML file.
 //
-// Every parameter is declared once, in parameters.cpp: table, key, unit, default, range, sentence. The reader, the
+// Every parameter is declared once (declare_parameter.hpp): table, key, unit, default, range, sentence. The reader, the
 // error texts, `crackle test --keys` and the resolved case that a test leaves beside its results all come from that
 // declaration. A case may begin with include = "other.toml": the other file's values hold wherever the case is silent,
 // so that several tests share one specimen.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A case as data: everything one virtual test needs to know. case_file.hpp reads it, parameters.cpp declares its keys.
+// A case as data: everything one virtual test needs to know. case_file.hpp reads it, parameters.hpp declares its keys.
 //
 // Units: any consistent set, SI in what we ship. Strictly 2D: stiffnesses, stresses and moduli in N/m.
 // Tested by tests/specimens/case/case_file_test.cpp.
@@ -27,7 +27,7 @@ inline constexpr double default_damping_ratio = 0.2383941;  // ln(20)/(4π)
 /// Share of the height at each end that glued platens hold in tension, unless the case gives another.
 inline constexpr double default_grip = 0.1;
 
-/// One virtual test as the user wrote it, defaults filled in. Units and ranges: parameters.cpp.
+/// One virtual test as the user wrote it, defaults filled in. Units and ranges: parameters.hpp.
 struct TestCase {
     std::string title;
 

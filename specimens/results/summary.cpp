@@ -21,6 +21,7 @@
 #include "specimens/measures/shear_box.hpp"
 #include "specimens/measures/verdicts.hpp"
 #include "specimens/observers/profile_report.hpp"
+#include "specimens/results/notices.hpp"
 #include "specimens/results/numerical_errors.hpp"
 
 namespace crackle {
@@ -464,98 +465,6 @@ void numerical_errors(Writer& w, const TestSetup& setup, const TestState& state,
     w.put("peak_converged", judged ? Json(*errors->peak_converged) : Json(nullptr));
 }
 
-/// Those of the start, and what the curve turned out to resolve badly.
-std::vector<std::string> notices_of(const TestCase& test, const TestSetup& setup, const TestState& state,
-                                    const World& world) {
-    constexpr std::int64_t rows_that_resolve = 100;
-    constexpr double closing_error_to_mention = 2e-3;  // twice the most that the guide's rock leaves by default
-    constexpr double share_above_to_mention = 0.25;
-    std::vector<std::string> notices = setup.notices;
-    const FailureTracker& f = state.failure;
-    if (f.failed && f.peak_row < rows_that_resolve) {
-        notices.push_back(
-            fmt::format("only {} rows of the curve lie before the peak: peak and moduli are coarse; lower "
-                        "loading.max_axial_strain = {} towards {:.2g}",
-                        f.peak_row, test.loading.max_axial_strain, 10.0 * f.peak_strain));
-    }
-    if (f.failed && f.larger_after_peak()) {
-        notices.push_back(
-            fmt::format("the largest stress, {:.4g} {} at strain {:.4g}, comes after the peak of {:.4g} {} at {:.4g}, "
-                        "below which the stress had stayed by more than loading.strength_drop = {}: what is broken "
-                        "carries again; the strength is the peak",
-                        f.largest_stress, test.stress_unit(), f.strain_at_largest, f.peak_stress, test.stress_unit(),
-                        f.peak_strain, test.loading.strength_drop));
-    }
-    if (world.stepping.time_step > setup.stable_time_step) {
-        notices.push_back(
-            fmt::format("the time step of {:.3g} s lies above the stable bound of {:.3g} s: this shows the limit, its "
-                        "numbers are no results",
-                        world.stepping.time_step, setup.stable_time_step));
-    }
-    const CurveRow last = state.rows.empty() ? CurveRow{} : state.rows.back();
-    if (std::abs(last.energy_error) > closing_error_to_mention * std::abs(last.platen_work)) {
-        notices.push_back(
-            fmt::format("the energy balance misses {:.3g} of the platens' work: halve numerics.safety_factor, or load "
-                        "more slowly, and compare",
-                        last.energy_error / last.platen_work));
-    }
-    if (world.membrane.open > 0) {
-        notices.emplace_back(
-            "the specimen parted so far that no membrane could be laid about it: from there on the pressure acted "
-            "where "
-            "it had been");
-    }
-    const std::optional<Parting> parting = find_parting(setup, state.history);
-    if (f.failed && setup.uniaxial && !setup.compression && parting && parting->place != "gauge") {
-        notices.push_back(fmt::format(
-            "the specimen parted at its {}: {} of the {} bonds of the largest crack are a platen's; the strength is "
-            "not the rock's{}",
-            parting->place, parting->of_platen, parting->bonds,
-            parting->place == "platen" ? "; platens = \"glued\" hold it" : "; a deeper grip, or a longer specimen"));
-    }
-    if (const TestCase::Loading& loading = test.loading; loading.unloads()) {
-        const auto& asked = loading.unload_at_strain ? *loading.unload_at_strain : *loading.unload_at_stress;
-        if (state.path.unloaded < std::ssize(asked)) {
-            notices.push_back(fmt::format("{} of {} unloadings were come to before the test ended", state.path.unloaded,
-                                          asked.size()));
-        }
-    }
-    if (!test.loading.rate_tolerance) return notices;
-    const double travel = state.path.travel(last.axial_strain);
-    const double above = travel > 0.0 ? state.rate.strain_above / travel : 0.0;
-    if (above > share_above_to_mention) {
-        notices.push_back(
-            fmt::format("the inertia error lay above rate_tolerance = {} over {:.0f} % of the strain: breaks set the "
-                        "specimen moving faster than it can be waited for; --verify shows what half the rate changes",
-                        *test.loading.rate_tolerance, 100.0 * above));
-    }
-    if (viscous_share(test, state) > *test.loading.rate_tolerance) {
-        notices.push_back(
-            fmt::format("the dashpots bear {:.2g} of the largest stress when loading begins, more than rate_tolerance "
-                        "= {}: lower it, or the damping",
-                        viscous_share(test, state), *test.loading.rate_tolerance));
-    }
-    return notices;
-}
-
-/// What the companions show of the peak, in words; empty where they agree, or have not run.
-std::string notice_of(const FailureTracker& failure, const NumericalErrors& errors) {
-    for (const Companion& c : errors.companions) {
-        if (c.ended_by == ended_by_instability)
-            return fmt::format("the companion {} became unstable: no error is stated where it enters", c.name);
-    }
-    if (!failure.failed) return "the specimen has not failed: the errors are those of the largest stress so far";
-    if (*errors.peak_converged) return "";
-    const auto changes = [](const NumberError& e) {
-        return fmt::format("{:.2g} % at half the step and {:.2g} % at half the rate", 100.0 * e.time_step,
-                           100.0 * e.rate);
-    };
-    return fmt::format(
-        "the peak jumps between branches: it moves by {}, its strain by {}; report the stated error with it, or the "
-        "mean of several packings",
-        changes(errors.peak_stress), changes(errors.peak_strain));
-}
-
 void frames(Writer& w, const TestState& state) {
     const auto name = [](std::int64_t row) { return "frames/" + particles_file(row); };
     const auto& list = state.frames;
@@ -592,9 +501,9 @@ nlohmann::ordered_json make_summary(const TestCase& test, const TestSetup& setup
     minerals(w, setup);
     frames(w, state);
     w.put("out_of_plane_thickness", thickness ? Json(*thickness) : Json(nullptr));
-    w.put("notices", notices_of(test, setup, state, world));
+    w.put("notices", notices_of(test, setup, state, world, viscous_share(test, state)));
     if (errors != nullptr) {
-        const std::string notice = notice_of(state.failure, *errors);
+        const std::string notice = notice_of_companions(state.failure, *errors);
         if (!notice.empty()) json["notices"].push_back(notice);
     }
     w.put("version", CRACKLE_VERSION);

@@ -17,6 +17,28 @@ inline TestCase joints_of(const std::string& text) {
     return CaseFiles(folder / "joints.toml").joints();
 }
 
+/// A case of triangles that joints are added to.
+inline const std::string rock = R"([packing]
+width = 0.5
+height = 1.0
+radius_min = 0.01
+radius_max = 0.02
+mean_overlap = 1e-5
+[material]
+density = 2500.0
+normal_stiffness = 1e7
+shear_stiffness = 1e6
+friction_angle = 30.0
+[mesh]
+kind = "delaunay"
+thick = 1e-3
+[bond]
+thick = 1.1e-3
+[loading]
+kind = "compression"
+max_axial_strain = 0.01
+)";
+
 inline Domain box(double width, double height, double x = 0.0, double y = 0.0) { return {x, x + width, y, y + height}; }
 
 inline double total_length(const JointNetwork& network) {

@@ -74,25 +74,7 @@ TEST(JointRefusals, ARefusalNamesFileAndLine) {
 
 TEST(ResolvedJoints, AreReadAgain) {
     const testing::ScratchFolder folder;
-    std::ofstream(folder / "joints.toml") << R"([packing]
-count = 60
-radius_min = 0.01
-radius_max = 0.02
-mean_overlap = 1e-5
-[material]
-density = 2500.0
-normal_stiffness = 1e7
-shear_stiffness = 1e6
-friction_angle = 30.0
-[mesh]
-kind = "delaunay"
-thick = 1e-3
-[bond]
-thick = 1.1e-3
-[loading]
-kind = "compression"
-max_axial_strain = 0.01
-[joints]
+    std::ofstream(folder / "joints.toml") << testing::rock + R"([joints]
 seed = 5
 section_trend = 20.0
 [[joint_set]]

@@ -13,26 +13,7 @@
 namespace crackle {
 namespace {
 
-const char* const rock = R"([packing]
-width = 0.5
-height = 1.0
-radius_min = 0.01
-radius_max = 0.02
-mean_overlap = 1e-5
-[material]
-density = 2500.0
-normal_stiffness = 1e7
-shear_stiffness = 1e6
-friction_angle = 30.0
-[mesh]
-kind = "delaunay"
-thick = 1e-3
-[bond]
-thick = 1.1e-3
-[loading]
-kind = "compression"
-max_axial_strain = 0.01
-)";
+using testing::rock;
 
 TestCase case_of(const std::string& text) {
     const testing::ScratchFolder folder;
@@ -45,8 +26,7 @@ TEST(JointedSpecimen, HasItsTracesAsFacesAndSaysSo) {
     TestHooks hooks;
     hooks.stage = [&](const std::string& line) { stages.push_back(line); };
     const Specimen specimen = make_specimen(
-        case_of(std::string(rock) +
-                "[[joint_set]]\nname = \"bedding\"\nangle = 45.0\nspacing = 0.3\nthrough = [0.25, 0.5]\n"),
+        case_of(rock + "[[joint_set]]\nname = \"bedding\"\nangle = 45.0\nspacing = 0.3\nthrough = [0.25, 0.5]\n"),
         hooks);
     double area = 0.0;
     for (const Body& body : specimen.scene.bodies) area += mass_properties(specimen.scene, body).mass / 2500.0;
@@ -64,8 +44,8 @@ TEST(JointedSpecimen, HasItsTracesAsFacesAndSaysSo) {
 
 TEST(JointedSpecimen, ErrorsNameTracesByTheirSource) {
     const std::string text = testing::refusal([] {
-        make_specimen(case_of(std::string(rock) + "[[trace]]\nname = \"north\"\npoints = [0.0, 0.5, 0.5, 0.5]\n"
-                                                  "[[trace]]\nname = \"south\"\npoints = [0.0, 0.5001, 0.5, 0.5001]\n"),
+        make_specimen(case_of(rock + "[[trace]]\nname = \"north\"\npoints = [0.0, 0.5, 0.5, 0.5]\n"
+                                     "[[trace]]\nname = \"south\"\npoints = [0.0, 0.5001, 0.5, 0.5001]\n"),
                       TestHooks{});
     });
     EXPECT_NE(text.find("is of north, from (0, 0.5) to (0.5, 0.5)"), std::string::npos);
