@@ -149,15 +149,6 @@ void set_strengths(World& world, const Bonding& bonding) {
     }
 }
 
-/// The exact stable step of the points that touch, and what a derived step goes back to.
-void find_exact_step(World& world) {
-    const CriticalStep exact = critical_step(world, ClosedPoints::touching);
-    world.stepping.exact_step = exact.step;
-    world.stepping.exact_step_proved = exact.proved;
-    world.stepping.step_goal =
-        world.stepping.automatic_step && world.bonds.initial > 0 ? world.stepping.safety_factor * exact.step : 0.0;
-}
-
 }  // namespace
 
 void set_thickness(World& world, double thick) {
@@ -226,29 +217,45 @@ std::int64_t bond_pairs(World& world, std::span<const BodyPair> pairs, double ga
     }
     std::ranges::sort(asked);
     refresh_neighbours(world);
-    std::vector<PointIndex> fresh;
-    std::int64_t interfaces = 0;
+    struct Fresh {
+        PointIndex point, begin, end;  // among those of its pair
+        bool alone;                    // no point of the pair has a bond yet
+        double overlap;
+    };
+    std::vector<Fresh> fresh;
     const PointIndex walls = world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
     for (PointIndex begin = 0, end = 0; begin < walls; begin = end) {
         end = points_between(world, begin).second;
         const ContactPoint pair = world.points.contact[begin];
         if (!std::ranges::binary_search(asked, ordered(pair.body_i, pair.body_j))) continue;
-        bool had_none = true;
-        const std::size_t before = fresh.size();
+        bool alone = true;
+        for (PointIndex k = begin; k < end; ++k) alone = alone && !bonded(world, k);
         for (PointIndex k = begin; k < end; ++k) {
-            had_none = had_none && !bonded(world, k);
             const double overlap = overlap_of(world, k);
             if (bonded(world, k) || overlap + gap <= 0.0) continue;
-            world.points.shear_force[k] = 0.0;
-            world.points.bond_overlap[k] = overlap;
-            world.points.state[k].flags = point_bonded | point_touching;
-            fresh.push_back(k);
+            if (!alone && world.settings.own_shares()) {
+                throw InputError(fmt::format(
+                    "bond: found bodies {} and {} with bonds between them, expected none: these share their face among "
+                    "themselves; bond pairs whose bonds have all broken",
+                    world.bodies.info(pair.body_i).id, world.bodies.info(pair.body_j).id));
+            }
+            fresh.push_back({k, begin, end, alone, overlap});
         }
-        if (fresh.size() == before) continue;
-        interfaces += had_none ? 1 : 0;
-        if (world.settings.own_shares()) share_pair(world, {}, begin, end);
     }
     if (fresh.empty()) return 0;
+    std::int64_t interfaces = 0;
+    for (const Fresh& one : fresh) {
+        world.points.shear_force[one.point] = 0.0;
+        world.points.bond_overlap[one.point] = one.overlap;
+        world.points.state[one.point].flags = point_bonded | point_touching;
+    }
+    PointIndex last = walls;  // pair counted last, by its first point
+    for (const Fresh& one : fresh) {
+        if (one.begin == last) continue;
+        last = one.begin;
+        interfaces += one.alone ? 1 : 0;
+        if (world.settings.own_shares()) share_pair(world, {}, one.begin, one.end);
+    }
     find_point_properties(world);
     world.bonds.made = true;
     world.bonds.initial += static_cast<std::int64_t>(fresh.size());
@@ -257,12 +264,12 @@ std::int64_t bond_pairs(World& world, std::span<const BodyPair> pairs, double ga
         if (remembered == Remembered::always || remembered == Remembered::own_shares || !keeps(world, remembered))
             return;
         values.resize(world.points.size());  // there are none of some before the world's first bonds
-        for (const PointIndex k : fresh) values[k] = T{};
+        for (const Fresh& one : fresh) values[one.point] = T{};
     });
-    find_exact_step(world);
-    evaluate_step_bound(world);
     restart_account(world);
     velocities_changed(world);
+    find_exact_step(world);
+    evaluate_step_bound(world);
     return static_cast<std::int64_t>(fresh.size());
 }
 

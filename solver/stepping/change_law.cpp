@@ -9,7 +9,6 @@
 
 #include "solver/base/correctly_rounded.hpp"
 #include "solver/base/errors.hpp"
-#include "solver/linear/critical_step.hpp"
 #include "solver/stepping/time_step.hpp"
 
 namespace crackle {
@@ -75,6 +74,11 @@ void change_law(World& world, std::size_t a, std::size_t b, const std::string& n
     if (a >= materials || b >= materials)
         throw InputError(fmt::format("{}: found materials {} and {}, expected 1 to {}", name, a + 1, b + 1, materials));
     const std::size_t pair = pair_number(a, b);
+    if (name == "shear_stiffness" && value == 0.0 && settings.laws[pair].shear_damping_ratio_term > 0.0) {
+        throw InputError(fmt::format(
+            "{}: found 0, expected > 0 where contacts have a damping ratio: nothing would be left to keep it by",
+            name));
+    }
     ContactLaw changed = settings.laws[pair];
     enter(settings, changed, name, value, false);
     constexpr double rounding = 1e-12;
@@ -87,17 +91,12 @@ void change_law(World& world, std::size_t a, std::size_t b, const std::string& n
     settings.laws[pair] = changed;
     enter(settings, settings.laws[settings.pair_count() + pair], name, value, true);
     if (a == b) enter(settings, settings.laws[2 * settings.pair_count() + a], name, value, false);
-    if (name.ends_with("stiffness")) {
-        if (world.bonds.made) {
-            const CriticalStep exact = critical_step(world, ClosedPoints::touching);
-            world.stepping.exact_step = exact.step;
-            world.stepping.exact_step_proved = exact.proved;
-            if (world.stepping.step_goal > 0.0) world.stepping.step_goal = world.stepping.safety_factor * exact.step;
-        }
-        evaluate_step_bound(world);
-    }
     restart_account(world);
     velocities_changed(world);
+    if (name.ends_with("stiffness")) {
+        if (world.bonds.made) find_exact_step(world);
+        evaluate_step_bound(world);
+    }
 }
 
 }  // namespace crackle

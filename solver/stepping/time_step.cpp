@@ -22,6 +22,14 @@ void evaluate_step_bound(World& world) {
     keep_step_below_bound(world);
 }
 
+void find_exact_step(World& world) {
+    const CriticalStep exact = critical_step(world, ClosedPoints::touching);
+    world.stepping.exact_step = exact.step;
+    world.stepping.exact_step_proved = exact.proved;
+    world.stepping.step_goal =
+        world.stepping.automatic_step && world.bonds.initial > 0 ? world.stepping.safety_factor * exact.step : 0.0;
+}
+
 void count_new_points(World& world) {
     const PhaseTimer timer(world.workers.profile, Phase::step_bound);
     if (!lower_step_bound(world)) evaluate_step_bound(world);

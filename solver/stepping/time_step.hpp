@@ -14,6 +14,8 @@ void refresh_neighbours(World& world);
 /// StepControl::step_bound of the points that carry load now (without bonds: of all listed ones), and the step kept
 /// below. @throws UnstableRun as above
 void evaluate_step_bound(World& world);
+/// The exact stable step of the points that touch, and what a derived step goes back to among bonds.
+void find_exact_step(World& world);
 /// Lowers StepControl::step_bound by the points that came to carry load in the last force pass, and the coming steps
 /// with it. @throws UnstableRun as above
 void count_new_points(World& world);

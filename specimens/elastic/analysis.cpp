@@ -120,10 +120,10 @@ ElasticAnalysis analyse_elastic(const World& world, const TestSetup& setup, cons
     result.time_step = world.stepping.time_step;
     result.free = find_free_motions(world, bodies_of_parts(setup));
     const std::int64_t all_free = result.free.count;
-    // Walls, which nothing holds along x, are none of the specimen.
-    result.free.count -= std::ssize(result.free.bodies);
-    std::erase_if(result.free.bodies, [&](BodyIndex b) { return setup.is_platen(b); });
-    result.free.count += std::ssize(result.free.bodies);
+    // Walls, which no bond holds along x, are none of the specimen: one free motion each.
+    result.free.count -= static_cast<std::int64_t>(std::erase_if(result.free.bodies, [&](BodyIndex b) {
+        return std::ranges::any_of(setup.parts, [&](const SetupPart& part) { return part.wall && part.body == b; });
+    }));
     for (const BodyIndex b : result.free.bodies) result.free_ids.push_back(world.bodies.info(b).id);
     if (modes > 0) {
         for (const VibrationMode& mode : lowest_modes(world, modes, all_free))

@@ -53,8 +53,9 @@ struct EmissionRule {
     }
 };
 
-/// N/m, of the bonds between particles were all of these to move with one pure shear, none of them turning: no less
-/// than the specimen's own (Voigt's bound). Over the area of what is tested.
+/// N/m, of the bonds between particles were all of these to move with one pure shear, none of them turning, over the
+/// area of what is tested: but for the platens' bonds, which are left out, no less than the specimen's own (Voigt's
+/// bound).
 double mean_field_shear_modulus(const World& world, const TestSetup& setup);
 
 /// G = E/(2 (1 + ν)), as it is in two dimensions, or the mean field's where these are not known.

@@ -15,8 +15,8 @@
 #include "solver/base/threads_to_be_had.hpp"
 #include "specimens/loading/load_specimen.hpp"
 #include "specimens/loading/prepare.hpp"
-#include "specimens/measures/crack_thresholds.hpp"
 #include "specimens/measures/cycles.hpp"
+#include "specimens/results/summary.hpp"
 
 namespace crackle {
 namespace {
@@ -71,15 +71,6 @@ double post_peak_difference(const VirtualTest& test, const VirtualTest& other) {
     return count > 0 ? sum / static_cast<double>(count) / test.state.failure.peak_stress : 0.0;
 }
 
-bool cracks_by_compression(const TestSetup& setup) { return setup.compression && setup.uniaxial; }
-
-CrackThresholds thresholds_of(const VirtualTest& test) {
-    if (!cracks_by_compression(test.setup)) return {};
-    const FirstLoading first = first_loading(test.state.rows, test.state.failure.peak_row);
-    return find_crack_thresholds(first.rows, first.peak_row, test.state.youngs_modulus, test.state.poissons_ratio,
-                                 test.setup.confining_pressure);
-}
-
 /// Dashpots of the first law, N s/m where given as such, sqrt(N/m) where by ratio.
 double damping_of(const World& world) {
     if (world.settings.laws.empty()) return undefined;  // it became unstable before there was a world
@@ -94,8 +85,7 @@ Companion what_it_did(const Plan& plan, const VirtualTest& test, const VirtualTe
     c.ended_by = other.state.ended_by;
     c.steps = other.world.stepping.steps;
     c.time_step = other.world.stepping.time / static_cast<double>(c.steps);
-    if (!other.state.rows.empty())
-        c.axial_strain_rate = other.state.rows.back().axial_strain / other.state.rows.back().time;
+    if (!other.state.rows.empty()) c.axial_strain_rate = other.state.mean_rate();
     c.damping = damping_of(other.world) / damping_of(test.world);
     return c;
 }
@@ -122,7 +112,8 @@ std::optional<Companion> run_one(const Plan& plan, const VirtualTest& test, cons
     done.peak_stress = other.state.failure.peak_stress;
     done.peak_strain = other.state.failure.peak_strain;
     done.post_peak_difference = post_peak_difference(test, other);
-    const CrackThresholds cracks = thresholds_of(other);
+    const CrackThresholds cracks =
+        crack_thresholds_of(other.description, other.setup, other.state).value_or(CrackThresholds{});
     done.crack_initiation_stress = cracks.count_break;
     done.crack_damage_stress = cracks.damage;
     return done;
@@ -136,8 +127,9 @@ double resolved_stress(const VirtualTest& test) {
     const CurveRow& before = test.state.rows[static_cast<std::size_t>(f.peak_row - 1)];
     return std::abs(f.peak_stress - before.axial_stress) / f.peak_stress;
 }
-/// What the row that first comes to a stress rose by, over it.
+/// What the row that first comes to a stress rose by, over it; undefined as the stress is.
 double resolved_before_peak(const VirtualTest& test, double stress) {
+    if (std::isnan(stress)) return undefined;
     const std::vector<CurveRow>& rows = test.state.rows;
     const auto at = std::ranges::find_if(rows, [&](const CurveRow& row) { return row.axial_stress >= stress; });
     if (at == rows.begin() || at == rows.end()) return 0.0;
@@ -216,13 +208,12 @@ std::optional<NumericalErrors> run_companions(const VirtualTest& test, const Tes
     const FailureTracker& f = test.state.failure;
     errors.peak_stress = error_of(f.peak_stress, resolved_stress(test), errors.companions, &Companion::peak_stress);
     errors.peak_strain = error_of(f.peak_strain, resolved_strain(test), errors.companions, &Companion::peak_strain);
-    if (cracks_by_compression(test.setup)) {
-        const CrackThresholds own = thresholds_of(test);
+    if (const std::optional<CrackThresholds> own = crack_thresholds_of(test.description, test.setup, test.state)) {
         const auto error = [&](double stress, double Companion::*value) {
             return error_of(stress, resolved_before_peak(test, stress), errors.companions, value);
         };
-        errors.crack_initiation_stress = error(own.count_break, &Companion::crack_initiation_stress);
-        errors.crack_damage_stress = error(own.damage, &Companion::crack_damage_stress);
+        errors.crack_initiation_stress = error(own->count_break, &Companion::crack_initiation_stress);
+        errors.crack_damage_stress = error(own->damage, &Companion::crack_damage_stress);
     }
     if (f.failed) errors.peak_converged = on_one_branch(errors.peak_stress, errors.peak_strain);
     return errors;

@@ -24,6 +24,7 @@ constexpr int most_rounds = 100, steps_of_relaxation = 2000;
 constexpr double most_left_by_a_solution = 0.5;  // of the force that was left before
 // Parts are brought to their force in the unloaded specimen: so near, from a first way of this share of a particle.
 constexpr double near_enough = 1e-3, first_way = 1e-5, farthest_way = 0.25;
+constexpr int most_tries = 100;  // of doublings and halvings: digits end before
 
 /// Of each body of one world its number in another.
 std::vector<BodyIndex> numbers_in(const World& other, const World& world) {
@@ -152,7 +153,11 @@ class Confinement {
             ways.push_back({part.body, part.wall, 0.0, low ? 1.0 : -1.0, force, first_way * particle_});
             ways.back().start = place(ways.back());
         }
-        while (!std::ranges::all_of(ways, &Way::done)) {
+        for (int n = 0; !std::ranges::all_of(ways, &Way::done); ++n) {
+            world_.workers.hear();
+            const auto late = std::ranges::find(ways, false, &Way::done);
+            if (n == most_tries || late->way > farthest_way * particle_)
+                refuse_part(late->wall, late->way, late->force);
             for (const Way& one : ways) place(one) = one.start + one.inwards * one.way;
             bodies_moved(world_);
             compute_forces(world_);
@@ -163,8 +168,6 @@ class Confinement {
                 if (one.done) continue;
                 (left > 0.0 ? one.too_little : one.enough) = one.way;
                 one.way = one.enough > 0.0 ? 0.5 * (one.too_little + one.enough) : 2.0 * one.way;
-                if (one.way > farthest_way * particle_)
-                    refuse({one.way, left}, " (a wall or platen goes through particles)");
             }
         }
     }
@@ -244,6 +247,14 @@ class Confinement {
                         "was left, expected at most {:g}, and {} bonds had broken{}; lower the pressure",
                         test_.description.at("confinement.pressure"), pressure_, test_.description.stress_unit(),
                         left.force, most_unbalanced, world_.bonds.broken, cause));
+    }
+
+    [[noreturn]] void refuse_part(bool wall, double way, double force) const {
+        throw InputError(fmt::format(
+            "{}: found no place of the {} where the specimen bears its {:.4g} N: {:.3g} m from where it touches, "
+            "expected less than a quarter of a particle, {:.3g} m; lower the pressure",
+            test_.description.at("confinement.pressure"), wall ? "walls" : "platens", force, way,
+            farthest_way * particle_));
     }
 
     VirtualTest& test_;

@@ -38,6 +38,7 @@ void set_platen_speed(VirtualTest& test, double speed) {
     if (std::ranges::none_of(setup.notices, [](const std::string& text) { return text.starts_with(own_speed); }))
         setup.notices.push_back(fmt::format("{}{:.6g} on", own_speed, strain));
     setup.rate_rule.tolerance = 0.0;
+    path.own_from = std::min(path.own_from, path.travel(strain));
     path.change_speed(speed / setup.length, std::numeric_limits<double>::infinity(), strain);
     change_velocity(test.world, setup.top, setup.axis, setup.compression ? -speed : speed);
 }

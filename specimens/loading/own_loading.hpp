@@ -11,7 +11,8 @@ namespace crackle {
 double platen_speed(const VirtualTest& test);
 
 /// Sets it from the coming step on. Loading by tolerance ends with it: the speed is the caller's, and so is the error
-/// by inertia, which the summary states as ever; a notice says from which strain on. Rows follow the way gone back and
+/// by inertia. Of that the summary has the platens' out-of-balance at the peak; its share above the tolerance is of the
+/// strain until then, and the mean rate that of the way gone. A notice says from which strain on. Rows follow the way gone back and
 /// forth. Velocities that jump send a wave: change them in steps that are small against the stress wave's transit.
 /// @throws InputError where the speed is no number, and where the case itself turns the platen round
 void set_platen_speed(VirtualTest& test, double speed);

@@ -31,8 +31,12 @@ std::vector<BodyMotion> elastic_motion(const VirtualTest& test, const std::vecto
         if (elastic[b]) motion[b] = test.small_strain->moduli.solution.displacement[b];
     }
     // Where it is not bonded the driving part is none of the solution's, and the others stay.
-    for (const Prescribed& part : prescribed_parts(setup, setup.length))
-        if (!elastic[part.body] || setup.uniaxial) motion[part.body] = part.motion;
+    // Walls give way as the solution has it.
+    const std::vector<Prescribed> parts = prescribed_parts(setup, setup.length);
+    for (std::size_t k = 0; k < parts.size(); ++k) {
+        const BodyIndex body = parts[k].body;
+        if (!elastic[body] || (setup.uniaxial && !setup.parts[k].wall)) motion[body] = parts[k].motion;
+    }
     for (BodyMotion& way : motion) way = {sense * way.x, sense * way.y, sense * way.rotation};
     return motion;
 }

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <optional>
@@ -59,6 +60,14 @@ std::vector<std::string> notices_of(const TestCase& test, const TestSetup& setup
             parting->place, parting->of_platen, parting->bonds,
             parting->place == "platen" ? "; platens = \"glued\" hold it" : "; a deeper grip, or a longer specimen"));
     }
+    const auto deepest = std::ranges::min_element(state.rows, {}, &CurveRow::lateral_strain);
+    if (setup.normal_spring > 0.0 && deepest != state.rows.end() &&
+        setup.normal_force + setup.normal_spring * deepest->lateral_strain * setup.height < 0.0) {
+        notices.push_back(fmt::format(
+            "the upper box sank by {:.3g} m, and its spring drew it up: the normal stress was below 0; give "
+            "more of it, or less normal_stiffness",
+            -deepest->lateral_strain * setup.height));
+    }
     if (const TestCase::Loading& loading = test.loading; loading.unloads()) {
         const auto& asked = loading.unload_at_strain ? *loading.unload_at_strain : *loading.unload_at_stress;
         if (state.path.unloaded < std::ssize(asked)) {
@@ -67,8 +76,7 @@ std::vector<std::string> notices_of(const TestCase& test, const TestSetup& setup
         }
     }
     if (!test.loading.rate_tolerance) return notices;
-    const double travel = state.path.travel(last.axial_strain);
-    const double above = travel > 0.0 ? state.rate.strain_above / travel : 0.0;
+    const double above = state.share_above_tolerance();
     if (above > share_above_to_mention) {
         notices.push_back(
             fmt::format("the inertia error lay above rate_tolerance = {} over {:.0f} % of the strain: breaks set the "

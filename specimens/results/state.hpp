@@ -4,6 +4,7 @@
 // Tested by tests/specimens/results/files_test.cpp.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <string>
@@ -65,6 +66,15 @@ struct TestState {
     FileMark curve, events, slips, ae;              ///< the files at the checkpoint
     double wall_seconds = 0.0, step_seconds = 0.0;  ///< spent before this process
     std::string command;                            ///< that began the test
+
+    /// Strain gone through, back and forth, up to the last row.
+    double way() const { return rows.empty() ? 0.0 : path.travel(rows.back().axial_strain); }
+    /// 1/s, of that; not a number before the first step.
+    double mean_rate() const {
+        return rows.empty() ? std::numeric_limits<double>::quiet_NaN() : way() / rows.back().time;
+    }
+    /// Of the strain that passed by tolerance the share with an error above it; not a number before the first step.
+    double share_above_tolerance() const { return rate.strain_above / std::min(way(), path.own_from); }
 
     template <class Self, class Visit>
     static constexpr void fields(Self& s, Visit&& visit) {

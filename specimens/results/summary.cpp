@@ -13,9 +13,7 @@
 
 #include "specimens/emission/b_value.hpp"
 #include "specimens/measures/crack_rose.hpp"
-#include "specimens/measures/crack_thresholds.hpp"
 #include "specimens/measures/curve_analysis.hpp"
-#include "specimens/measures/cycles.hpp"
 #include "specimens/measures/fragment_sizes.hpp"
 #include "specimens/measures/parting.hpp"
 #include "specimens/measures/shear_box.hpp"
@@ -184,11 +182,11 @@ void confinement(Writer& w, const TestSetup& setup, const TestState& state, cons
 }
 
 /// Stresses at which cracks begin and join, of a compression.
-void cracking(Writer& w, const TestSetup& setup, const TestState& state, const FirstLoading& first) {
-    if (!setup.compression || !setup.uniaxial) return;
+void cracking(Writer& w, const TestCase& test, const TestSetup& setup, const TestState& state) {
+    const std::optional<CrackThresholds> known = crack_thresholds_of(test, setup, state);
+    if (!known) return;
+    const CrackThresholds& t = *known;
     const FailureTracker& f = state.failure;
-    const CrackThresholds t = find_crack_thresholds(first.rows, first.peak_row, state.youngs_modulus,
-                                                    state.poissons_ratio, setup.confining_pressure);
     w.stress("crack_initiation_stress", t.count_break);
     w.put("crack_initiation_interval", {finite_or_null(t.low), finite_or_null(t.high)});
     w.put("crack_initiation_over_peak", finite_or_null(t.count_break / f.peak_stress));
@@ -372,12 +370,13 @@ void numerics(Writer& w, const TestCase& test, const TestSetup& setup, const Tes
     if (test.loading.rate_tolerance) {
         const RateState& rate = state.rate;
         w.put("rate_tolerance", *test.loading.rate_tolerance);
-        w.put("axial_strain_rate", last.axial_strain / last.time);
+        w.put("axial_strain_rate", finite_or_null(state.mean_rate()));
         w.put("axial_strain_rate_range", {rate.slowest, rate.fastest});
-        w.put("strain_share_above_tolerance", rate.strain_above / state.path.travel(last.axial_strain));
+        w.put("strain_share_above_tolerance", finite_or_null(state.share_above_tolerance()));
         w.put("wave_transit_time", setup.rate_rule.transit_time);
     } else {
-        w.put("axial_strain_rate", *test.loading.axial_strain_rate, 1);
+        w.put("axial_strain_rate",
+              finite_or_null(state.path.by_caller() ? state.mean_rate() : *test.loading.axial_strain_rate), 1);
     }
     w.put("viscous_stress_share", finite_or_null(viscous_share(test, state)));
     w.put("axial_strain_end", last.axial_strain);
@@ -476,19 +475,31 @@ void frames(Writer& w, const TestState& state) {
 
 }  // namespace
 
+FirstLoading judged_rows(const TestCase& test, const TestState& state) {
+    return test.loading.unloads() ? first_loading(state.rows, state.failure.peak_row)
+                                  : FirstLoading{state.rows, state.failure.peak_row};
+}
+
+std::optional<CrackThresholds> crack_thresholds_of(const TestCase& test, const TestSetup& setup,
+                                                   const TestState& state) {
+    if (!setup.compression || !setup.uniaxial) return std::nullopt;
+    const FirstLoading first = judged_rows(test, state);
+    return find_crack_thresholds(first.rows, first.peak_row, state.youngs_modulus, state.poissons_ratio,
+                                 setup.confining_pressure);
+}
+
 nlohmann::ordered_json make_summary(const TestCase& test, const TestSetup& setup, const TestState& state,
                                     const World& world, const TestTiming& timing, const NumericalErrors* errors) {
     Json json, units;
     const std::optional<double>& thickness = test.output.out_of_plane_thickness;
     Writer w{json, units, thickness.value_or(1.0), test.area_units()};
     describe(w, test, setup, state);
-    const FirstLoading first = test.loading.unloads() ? first_loading(state.rows, state.failure.peak_row)
-                                                      : FirstLoading{state.rows, state.failure.peak_row};
+    const FirstLoading first = judged_rows(test, state);
     strength(w, setup, state, first);
     apparatus(w, setup, state, first);
     validity(w, setup, state, first);
     confinement(w, setup, state, world);
-    cracking(w, setup, state, first);
+    cracking(w, test, setup, state);
     cycles(w, test, setup, state);
     damage(w, setup, state, world);
     directions(w, setup, state, world);

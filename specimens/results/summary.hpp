@@ -7,9 +7,12 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <vector>
 
 #include "specimens/case/case_file.hpp"
+#include "specimens/measures/crack_thresholds.hpp"
+#include "specimens/measures/cycles.hpp"
 #include "specimens/observers/quantity.hpp"
 #include "specimens/results/state.hpp"
 #include "specimens/setup/setup.hpp"
@@ -43,6 +46,12 @@ const std::vector<SummaryKey>& summary_keys();
 inline nlohmann::ordered_json finite_or_null(double value) {
     return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
 }
+
+/// The rows that peak, moduli and thresholds are read from: those of the first loading where the case unloads.
+FirstLoading judged_rows(const TestCase& test, const TestState& state);
+/// Of a compression between platens; of others nothing is known.
+std::optional<CrackThresholds> crack_thresholds_of(const TestCase& test, const TestSetup& setup,
+                                                   const TestState& state);
 
 /// @param errors from the test's companions, if they were run
 nlohmann::ordered_json make_summary(const TestCase& test, const TestSetup& setup, const TestState& state,

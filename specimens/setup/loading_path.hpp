@@ -26,12 +26,14 @@ struct LoadingPath {
     double stress_at_turn = 0.0;  // N/m, where it last did
     double lateral = std::numeric_limits<double>::quiet_NaN();   ///< strain, smoothed: lateral_control.hpp
     double lateral_target = 0.0;                                 // lateral_control.hpp
+    double own_from = std::numeric_limits<double>::infinity();   ///< way gone when a caller took over the speed
     double farthest = -std::numeric_limits<double>::infinity();  ///< strain of the rows so far
 
     /// Strain gone through, back and forth: the strain itself where nothing turns.
     double travel(double strain) const {
         return travelled + (std::signbit(speed) ? turned_at - strain : strain - turned_at);
     }
+    bool by_caller() const { return std::isfinite(own_from); }
     /// Takes the coming speed, as near to what is wanted as the change allows. @param strain now
     void change_speed(double wanted, double most_change, double strain);
 
@@ -46,6 +48,7 @@ struct LoadingPath {
         visit("stress_at_turn", s.stress_at_turn);
         visit("lateral", s.lateral);
         visit("lateral_target", s.lateral_target);
+        visit("own_from", s.own_from);
         visit("farthest", s.farthest);
     }
 };

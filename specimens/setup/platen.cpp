@@ -104,8 +104,6 @@ void add_parts(Scene& scene, const Specimen& specimen, const TestCase& test, dou
     }
 }
 
-}  // namespace
-
 /// Blocks beside the specimen, from beyond the lower platen to beyond the upper one, that the pressure drives.
 /// @param sides of the particles alone
 void add_walls(Scene& scene, const Specimen& specimen, const TestCase& test, double thick, const Platens& platens,
@@ -129,6 +127,8 @@ void add_walls(Scene& scene, const Specimen& specimen, const TestCase& test, dou
     add(platens.bottom_id + 2, sides.high + thick, 1.0);
     scene.driven_bodies_touch = false;
 }
+
+}  // namespace
 
 Platens add_platens(Scene& scene, const Specimen& specimen, const TestCase& test, double thick) {
     const TestCase::Loading& loading = test.loading;

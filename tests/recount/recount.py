@@ -18,7 +18,7 @@ from frames import recount_frame, recount_places
 from history import holds_every_step, recount_history
 from kinds import recount_kind
 from loading_by_tolerance import by_tolerance
-from measures import recount_measures, recount_rose
+from measures import first, recount_measures, recount_rose
 from model import Model, rounding
 from peaks import find_fall
 from results import Results, Unreadable
@@ -207,7 +207,7 @@ def recount_given(r, model):
         r.true("time_step_bound: not above the stable step", r.summary["time_step_bound"] <= stable * (1 + 1e-9))
         r.keys.add("time_step_bound")
     errors = r.summary.get("numerical_errors") or {}
-    for name in ("peak_stress", "peak_strain"):
+    for name in ("peak_stress", "peak_strain", "crack_initiation_stress", "crack_damage_stress"):
         if name in errors and r.summary["energy_closing_error"] is not None:
             r.key(f"numerical_errors.{name}.energy_closing", abs(r.summary["energy_closing_error"]))
 
@@ -218,6 +218,10 @@ def recount_lengths(r):
         figure = f"files.{name}.bytes"
         r.compare(figure, stated["bytes"], (r.results.folder / name).stat().st_size, 0)
         r.keys.add(figure)
+
+
+def number(value):
+    return math.nan if value is None else value
 
 
 def recount_errors(r):
@@ -245,8 +249,9 @@ def recount_errors(r):
         if run["damping"] is not None:  # the test has some
             r.compare(label + "damping over the test's", run["damping"], damping, 1e-12)
     peak = {"peak_stress": r.summary["peak_stress"], "peak_strain": r.summary["peak_strain"]}
-    runs = errors["companions"]
-    for name, value in peak.items():
+    thresholds = {name: number(r.summary[name]) for name in ("crack_initiation_stress", "crack_damage_stress") if name in errors}
+    runs = {run: {name: number(own[name]) for name in {**peak, **thresholds}} for run, own in errors["companions"].items()}
+    for name, value in {**peak, **thresholds}.items():
         half_step, half_rate = runs["half_time_step"][name], runs["half_rate"][name]
         spread = np.std([value, half_step, half_rate], ddof=1)
         step, rate = abs(half_step - value) / value, abs(half_rate - value) / value
@@ -255,9 +260,10 @@ def recount_errors(r):
         r.key(f"numerical_errors.{name}.damping",
               max(abs(runs[k][name] - value) / value for k in ("half_damping", "double_damping")))
         resolution = errors[name]["resolution"]
+        column = r.curve["axial_strain" if name == "peak_strain" else "axial_stress"]
+        row = r.peak if name in peak else first(column >= value)  # of a threshold the row that first comes to it
         if r.peak:
-            row, column = r.peak, r.curve["axial_stress" if name == "peak_stress" else "axial_strain"]
-            r.key(f"numerical_errors.{name}.resolution", abs(column[row] - column[row - 1]) / value)
+            r.key(f"numerical_errors.{name}.resolution", abs(column[row] - column[row - 1]) / value if row else math.nan if math.isnan(value) else 0.0)
         stated = math.hypot(resolution, max(3 * rate, 2.92 * math.sqrt(2) * spread / value))
         r.key(f"numerical_errors.{name}.stated", stated, 1e-3)  # 2.92 stands for 2.91999
     for part in ("time_step", "rate", "damping", "resolution"):
@@ -285,6 +291,10 @@ def recount(folder):
         r.key("confining_side", r.results.key("confinement", "side", "membrane"))
         if r.summary["confining_side"] == "membrane":
             r.key("membrane.work", r.curve["confinement_work"][-1], 0.0)
+        else:  # walls are no bodies of the model: the curve is all that is recounted
+            recount_packing(r)
+            recount_lengths(r)
+            return r
     recount_packing(r)
     recount_cells(r)
     if r.results.key("numerics", "contact_law", "rounded") == "rounded" or r.results.polygons is None:

@@ -135,8 +135,9 @@ class Recount(unittest.TestCase):
         self.agrees(run("voronoi_pulled", rock + voronoi + pulled + rate + output), 150)
 
     def test_circles_and_cells_under_a_pressure(self):
-        for name, mesh in (("confined", ""), ("confined_cells", voronoi)):
-            text = rock + mesh + squeezed.replace('"compression"', '"biaxial"') + "[confinement]\npressure = 2e3\n" + output
+        for name, mesh, side in (("confined", "", ""), ("confined_cells", voronoi, ""), ("walls", "", 'side = "walls"\n'),
+                                 ("walls_cells", voronoi, 'side = "walls"\n')):
+            text = rock + mesh + squeezed.replace('"compression"', '"biaxial"') + "[confinement]\npressure = 2e3\n" + side + output
             self.assertIn("biaxial", text)
             self.agrees(run(name, text), 200)
 
@@ -146,14 +147,16 @@ class Recount(unittest.TestCase):
         for kind, width, height, keys, shape in (
                 ("brazilian", 0.6, 0.6, "half_angle = 12.0\n", ""), ("bending", 1.3, 0.25, "", ""),
                 ("bending", 1.3, 0.25, "", "[shape]\nnotch = 0.1\n"), ("scb", 0.8, 0.4, "span = 0.6\n", ""),
-                ("direct_shear", 0.6, 0.4, "normal_stress = 1e6\n", "")):
+                ("direct_shear", 0.6, 0.4, "normal_stress = 1e6\n", ""),
+                ("direct_shear", 0.6, 0.4, "normal_stress = 1e6\nnormal_stiffness = 1e9\n", "")):
             loading = f'[loading]\nkind = "{kind}"\nmax_axial_strain = 0.01\n' + keys
             text = box.format(width, height) + area + strengths + cells + cohesive + shape + loading + output
             with self.subTest(kind=kind, shape=shape):
-                folder = run(kind + ("_notched" if shape else ""), text)
+                folder = run(kind + ("_notched" if shape else "_sprung" if "stiffness" in keys else ""), text)
                 self.agrees(folder, 40)
                 r = recount(folder)
                 self.assertLessEqual({"stress_section", "strain_length", "valid"}, r.keys)
+                self.assertEqual("stiffness" in keys, "normal_stress_end" in r.keys)
                 notched = shape or kind == "scb"
                 self.assertEqual(bool(notched), any(key.startswith("fracture_toughness") for key in r.keys))
 
@@ -163,6 +166,15 @@ class Recount(unittest.TestCase):
 
     def test_triangles_between_frictional_platens(self):
         self.agrees(run("triangles", rock + triangles + squeezed + friction + output), 100)
+
+    def test_errors_of_crack_initiation(self):
+        """Of a specimen that breaks often enough to have one."""
+        shipped = Path(__file__).parents[2] / "specimens/guide_rock/delaunay_compression.toml"
+        folder = run("verified_triangles", f'include = "{shipped}"\n[packing]\ncount = 40\n' + output, "--verify")
+        r = recount(folder)
+        self.assertIsNotNone(r.summary["crack_initiation_stress"])
+        self.agrees(folder, 250)
+        self.assertLessEqual({f"numerical_errors.crack_initiation_stress.{part}" for part in ("rate", "time_step", "stated")}, r.keys)
 
     def test_triangles_pulled_by_tolerance(self):
         self.agrees(run("triangles_pulled", rock + triangles + pulled + output), 150)

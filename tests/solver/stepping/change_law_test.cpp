@@ -96,6 +96,44 @@ TEST(BondPairs, GapsAreBondedAsFarAsAsked) {
               std::string::npos);
 }
 
+/// Two squares face to face, of which one is held; a face has four points.
+World two_squares() {
+    Scene scene;
+    scene.materials = {undamped_rock(stiffness, 27.0)};
+    scene.materials[0].tensile_strength = 20.0;
+    scene.materials[0].cohesion = 50.0;
+    scene.bond_law = BondLaw::coulomb;
+    scene.units = StiffnessUnits::area;
+    scene.thick = 1.1e-3;
+    scene.domain = {-1.0, 1.0, -1.0, 1.0, {false, false, false, false}};
+    const auto add = [&](int id, double low) {
+        scene.add_chain_body(id, 0, {{0.0, low}, {0.1, low}, {0.1, low + 0.1}, {0.0, low + 0.1}}, true);
+    };
+    add(4, 0.0);
+    add(9, 0.101);
+    return build_world(scene);
+}
+
+TEST(BondPairs, OfAFaceShareItAndLeaveTheBondsThatItHasAlone) {
+    World world = two_squares();
+    ASSERT_EQ(bond_pairs(world, {&both, 1}, 0.0), 4);
+    double shares = 0.0;
+    for (const float share : world.points.strength_share) shares += share;
+    // Outset by half the gap of 1e-3 m at either end, as before a mesh is inset.
+    EXPECT_TRUE(agrees("length of the face, m", shares, 0.101, 1e-6));
+    for (PointIndex k = 0; k < world.points.size(); ++k) {
+        if ((world.points.state[k].flags & point_bonded) == 0) continue;
+        world.points.state[k].flags = point_touching;  // as if it had broken
+        break;
+    }
+    const Array<float> before = world.points.strength_share;
+    EXPECT_NE(refusal([&] {
+                  bond_pairs(world, {&both, 1}, 0.0);
+              }).find("bodies 4 and 9 with bonds between them"),
+              std::string::npos);
+    for (std::size_t k = 0; k < before.size(); ++k) EXPECT_EQ(world.points.strength_share[k], before[k]);
+}
+
 TEST(ChangeLaw, IsTheLawOfAWorldBuiltWithIt) {
     World changed = parting_pair(BondLaw::coulomb, 0.0, true);
     bond_pairs(changed, {&both, 1}, 0.0);
@@ -145,6 +183,7 @@ TEST(ChangeLaw, RefusesWhatNoLawCanBe) {
     says(world, 0, "normal_stiffness", 0.0, "> 0");
     says(world, 0, "normal_stiffness", std::nan(""), "found nan");
     says(world, 0, "shear_stiffness", -1.0, ">= 0");
+    says(world, 0, "shear_stiffness", 0.0, "a damping ratio");
     says(world, 0, "friction_angle", 90.0, "< 90");
     says(world, 0, "cohesion", 1.0, "back-tension");
     says(world, 1, "friction_angle", 20.0, "materials 1 and 2, expected 1 to 1");
