@@ -13,7 +13,8 @@ double platen_speed(const VirtualTest& test);
 /// Sets it from the coming step on. Loading by tolerance ends with it: the speed is the caller's, and so is the error
 /// by inertia, which the summary states as ever; a notice says from which strain on. Rows follow the way gone back and
 /// forth. Velocities that jump send a wave: change them in steps that are small against the stress wave's transit.
-/// @throws InputError where the speed is no number, and where the case itself turns the platen round
+/// @throws InputError where the speed is no number, where the case itself turns the platen round, and where the part is
+/// not driven at a velocity any more
 void set_platen_speed(VirtualTest& test, double speed);
 
 }  // namespace crackle
