@@ -207,6 +207,11 @@ std::int64_t bond_all(World& world, const Bonding& bonding) {
 }
 
 std::int64_t bond_pairs(World& world, std::span<const BodyPair> pairs, double gap) {
+    if (gap > 0.0 && world.settings.bond_law == BondLaw::back_tension)
+        throw InputError(fmt::format(
+            "gap: found {:g} m under back-tension, expected 0, for a bond there is as strong as its contact overlaps; "
+            "bond across gaps with bond.law = \"coulomb\"",
+            gap));
     const auto ordered = [](BodyIndex i, BodyIndex j) { return std::pair(std::min(i, j), std::max(i, j)); };
     std::vector<std::pair<BodyIndex, BodyIndex>> asked;
     for (const BodyPair& pair : pairs) {

@@ -37,8 +37,9 @@ std::int64_t bond_all(World& world, double thick);
 /// Bonds the points of these pairs of bodies that have no bond, where the overlap is more than -gap: as bond_all()
 /// does, by back-tension as strong as they overlap, under BondLaw::coulomb with the laws' own strengths. What their
 /// springs have stored until then is gone: the account of energy begins again. @return points bonded
-/// @throws InputError for a pair of one body, or one with bonds that share its face (Settings::own_shares());
-/// UnstableRun where a given time step is too large for them
+/// @throws InputError for a pair of one body, one with bonds that share its face (Settings::own_shares()), and a gap >
+/// 0 under back-tension, whose bonds would have a strength < 0; UnstableRun where a given time step is too large for
+/// them
 std::int64_t bond_pairs(World& world, std::span<const BodyPair> pairs, double gap);
 /// After bonds have been entered in the points (flags, bond_overlap), by bond_all() or a reader of back-tensions:
 /// counts them, clears what was remembered of the time before, and starts the account of energy again.

@@ -78,6 +78,12 @@ void set_control(World& world, BodyIndex body, const DofControl (&dof)[3], std::
     world.bodies.forces_clear = false;
 }
 
+bool driven_at_velocity(const World& world, BodyIndex body, int dof) {
+    return std::ranges::any_of(world.bodies.controls, [&](const ControlState& control) {
+        return control.body == body && control.dof[dof].drive == Drive::velocity;
+    });
+}
+
 void change_velocity(World& world, BodyIndex body, int dof, double velocity) {
     for (ControlState& control : world.bodies.controls) {
         if (control.body != body) continue;

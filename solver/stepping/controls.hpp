@@ -15,6 +15,8 @@ namespace crackle {
 void build_controls(World& world, const Scene& scene, const std::vector<BodyIndex>& internal_of);
 /// Drives a body again from the present position on (replacing what drove it before).
 void set_control(World& world, BodyIndex body, const DofControl (&dof)[3], std::int64_t ramp_steps);
+/// Whether the last control of a body has Drive::velocity in a degree of freedom: 0 x, 1 y, 2 rotation.
+bool driven_at_velocity(const World& world, BodyIndex body, int dof);
 /// Changes the prescribed velocity of a driven degree of freedom from the coming drift on; what that adds to the body's
 /// kinetic energy is displacement work. @param dof 0 x, 1 y, 2 rotation; driven by Drive::velocity
 void change_velocity(World& world, BodyIndex body, int dof, double velocity);

@@ -33,6 +33,11 @@ void set_platen_speed(VirtualTest& test, double speed) {
             loading.unloads() ? "a list of unloadings" : "lateral strain"));
     }
     TestSetup& setup = test.setup;
+    if (!driven_at_velocity(test.world, setup.top, setup.axis)) {
+        throw InputError(
+            "platen speed: found one set while the driving part moves by a force or freely along the axis, expected it "
+            "to be driven at a velocity; drive it so first");
+    }
     LoadingPath& path = test.state.path;
     const double strain = setup.axial_strain(test.world);
     if (std::ranges::none_of(setup.notices, [](const std::string& text) { return text.starts_with(own_speed); }))

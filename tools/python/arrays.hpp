@@ -51,16 +51,28 @@ class DtypeParts {
     py::list names_, formats_, offsets_;
 };
 
-/// Made once a type: numpy is loaded with the first.
+/// Loads numpy, before anything that pybind11 makes of it once: loading gives up the interpreter's lock, and a thread
+/// that waited for a `static` being made would keep it.
+inline void need_numpy() {
+    static bool there = false;  // as all below guarded by the interpreter's lock
+    if (there) return;
+    py::module_::import("numpy");
+    there = true;
+}
+
+/// Made once a type.
 template <class T>
 py::object dtype_of() {
+    need_numpy();
     if constexpr (HasFields<T>) {
-        static const auto* const made = [] {
+        static py::object* made = nullptr;  // stays: the interpreter may end before statics do
+        if (made == nullptr) {
             const T record{};
             DtypeParts parts(&record);
             T::fields(record, parts);
-            return new py::object(parts.dtype(sizeof(T)));  // stays: the interpreter may end before statics do
-        }();
+            auto dtype = std::make_unique<py::object>(parts.dtype(sizeof(T)));
+            if (made == nullptr) made = dtype.release();  // another thread may have had its turn meanwhile
+        }
         return *made;
     } else if constexpr (std::is_enum_v<T>) {
         return py::dtype::of<std::underlying_type_t<T>>();

@@ -190,6 +190,12 @@ void bind_particles(py::module_& module) {
         },
         py::arg("path"));
     module.def(
+        "refuse_replacing",
+        [](const std::string& output, bool force, const std::vector<std::string>& inputs) {
+            refuse_replacing(output, force, std::vector<std::filesystem::path>(inputs.begin(), inputs.end()));
+        },
+        py::arg("output"), py::arg("force"), py::arg("inputs"));
+    module.def(
         "read_text", [](const std::string& path) { return read_text(path); }, py::arg("path"));
 }
 

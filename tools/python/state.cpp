@@ -95,6 +95,7 @@ VirtualTest& State::test() const {
 World& State::world_with_forces() {
     World& found = world();
     if (!found.stepping.forces_current) {
+        refuse_threads_after_fork(found.workers.threads);
         settle();
         compute_forces(found);
     }
@@ -106,6 +107,14 @@ VirtualTest& State::driven() const {
     if (found.setup.parts.empty())
         throw InputError("world: found particles without platens, expected a world made from a case");
     return found;
+}
+
+void State::stop() {
+    static_cast<void>(test());
+    if (own_)
+        throw InputError(
+            "stop: found a world that Python steps, expected the state of a test in its callback; take no more steps");
+    stop_asked_ = true;
 }
 
 void State::over() {
@@ -222,7 +231,10 @@ void bind_state(py::module_& module) {
         .def(
             "state_hash", [](const State& s) { return fmt::format("{:016x}", hash_state(s.world())); },
             "Of the complete state: equal for equal bytes.")
-        .def("stop", &State::stop, "Ends the test after this callback: complete, its last row the present moment.");
+        .def("stop", &State::stop,
+             "Ends the test after this callback: complete, its last row the present moment. Raises InputError of a "
+             "World, "
+             "RuntimeError after the callback.");
 }
 
 }  // namespace crackle::python

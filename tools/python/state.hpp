@@ -41,7 +41,8 @@ class State {
     void settle() { loans_.settle(); }
     void over();
 
-    void stop() { stop_asked_ = true; }
+    /// Ends the test after this look. @throws InputError of a test of its own, std::runtime_error as test()
+    void stop();
     bool stop_asked() const { return stop_asked_; }
 
   protected:

@@ -119,7 +119,9 @@ void bind_worlds(py::module_& module) {
              "UnstableRun where energies run away.")
         .def("add_bonds", &add_bonds, py::arg("pairs"), py::arg("gap") = 0.0,
              "Bonds the contact points without a bond between pairs of ids where the overlap is more than -gap (m), as "
-             "the world's law bonds: returns how many. The account of energy begins again.")
+             "the world's law bonds: returns how many. A gap > 0 needs bond.law = \"coulomb\". The account of energy "
+             "begins "
+             "again.")
         .def("set_property", &set_property, py::arg("name"), py::arg("value"),
              py::arg("materials") = std::pair<int, int>(1, 1),
              "Changes normal_stiffness, shear_stiffness (N/m), friction_angle, residual_friction_angle (degrees), "

@@ -134,6 +134,16 @@ TEST(BondPairs, OfAFaceShareItAndLeaveTheBondsThatItHasAlone) {
     for (std::size_t k = 0; k < before.size(); ++k) EXPECT_EQ(world.points.strength_share[k], before[k]);
 }
 
+TEST(BondPairs, RefuseAGapUnderBackTension) {
+    World world = parting_pair(BondLaw::back_tension, 3.0 * overlap);
+    EXPECT_NE(refusal([&] {
+                  bond_pairs(world, {&both, 1}, 2.1 * overlap);
+              }).find("bond.law = \"coulomb\""),
+              std::string::npos);
+    EXPECT_EQ(world.bonds.initial, 0);
+    EXPECT_EQ(bond_pairs(world, {&both, 1}, 0.0), 0) << "do not touch";
+}
+
 TEST(ChangeLaw, IsTheLawOfAWorldBuiltWithIt) {
     World changed = parting_pair(BondLaw::coulomb, 0.0, true);
     bond_pairs(changed, {&both, 1}, 0.0);

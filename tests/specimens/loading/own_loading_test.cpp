@@ -10,6 +10,7 @@
 #include <limits>
 #include <vector>
 
+#include "solver/stepping/controls.hpp"
 #include "solver/world/state_hash.hpp"
 #include "specimens/loading/load_specimen.hpp"
 #include "specimens/loading/prepare.hpp"
@@ -144,6 +145,22 @@ TEST_F(OwnLoading, RefusesASpeedWhereTheCaseTurnsThePlaten) {
     EXPECT_NE(testing::refusal([&] { set_platen_speed(test, 0.1); }).find("list of unloadings"), std::string::npos);
     VirtualTest free = prepared(brief());
     EXPECT_NE(testing::refusal([&] { set_platen_speed(free, std::nan("")); }).find("found nan"), std::string::npos);
+}
+
+TEST_F(OwnLoading, RefusesASpeedOfAPartThatIsNotDrivenAtOne) {
+    VirtualTest test = prepared(brief());
+    const double speed = platen_speed(test);
+    const DofControl still{Drive::velocity, 0.0};
+    for (const DofControl& along : {DofControl{}, DofControl{Drive::force, 10.0}}) {
+        const DofControl dof[3] = {along, along, still};
+        set_control(test.world, test.setup.top, dof, 0);
+        EXPECT_NE(testing::refusal([&] { set_platen_speed(test, speed); }).find("driven at a velocity"),
+                  std::string::npos);
+    }
+    const DofControl dof[3] = {still, still, still};
+    set_control(test.world, test.setup.top, dof, 0);
+    set_platen_speed(test, speed);
+    EXPECT_EQ(platen_speed(test), speed);
 }
 
 }  // namespace

@@ -72,12 +72,22 @@ class Cases(InScratch):
         self.assertIsInstance(error, ValueError)
         self.assertEqual(str(pickle.loads(pickle.dumps(error))), str(error))
 
+    def test_a_path_with_an_equals_sign(self):
+        Path("seed=1").mkdir()
+        for path in ("seed=1/case.toml", "seed=1/case"):
+            Path(path).write_text(toml(CASE), encoding="utf-8")
+            self.assertEqual(crackle.read_case(path).resolved(), crackle.read_case(CASE).resolved())
+        with self.assertRaises(crackle.InputError) as refused:
+            crackle.read_case("seed=2/case.toml")
+        self.assertIn("seed=2/case.toml: found no such file", str(refused.exception))
+        self.assertEqual(crackle.read_case('include = "seed=1/case.toml"').title, CASE["title"])
+
     def test_what_no_case_can_be(self):
         for wrong, words in ((5, "found a int"), ({"packing": {"count": object()}}, "packing.count: found a object"),
                              ({"packing": {"count": 2**70}}, "64 bits"), ({1: {}}, "found a key 1"),
                              ({"material": {"density": math.nan}}, "material.density: found nan"),
                              ("a = [", "case:1: not valid TOML"), ({"packing": 5}, "packing"), ({}, "case: "),
-                             ("no_such.toml", "found no such file"), ([], "found a list"),
+                             ("no_such.toml", "found no such file"), ("", "case: found an empty text"), ([], "found a list"),
                              ({"packing": {"count": {"a": {"b": 1}}}}, "packing.count: found a table")):
             with self.assertRaises(crackle.InputError, msg=wrong) as refused:
                 crackle.read_case(wrong)

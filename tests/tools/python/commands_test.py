@@ -92,6 +92,34 @@ class Particles(InScratch):
             with self.assertRaises(crackle.InputError):
                 crackle.mesh(wrong, kind="voronoi", thick=0.0)
 
+    def test_what_is_there_is_judged_before_the_work_and_inputs_stay(self):
+        Path("curve.csv").write_text("size,passing_by_mass\n0.02,0\n0.04,100\n", encoding="utf-8")
+        sieved = dict(count=20, sieve="curve.csv", mean_overlap=1e-5)
+
+        def worked(kind, text, share):
+            raise AssertionError("packed first")
+        Path("out.dat").touch()
+        with self.assertRaises(crackle.InputError) as refused:
+            crackle.pack(**sieved, output="out.dat", progress=worked)
+        self.assertIn("--force", str(refused.exception))
+        with self.assertRaises(crackle.InputError) as refused:
+            crackle.pack(**sieved, output="curve.csv", force=True)
+        self.assertIn("an input of the same command", str(refused.exception))
+        packed = crackle.pack(**sieved, output="in.dat")
+        Path("joints.toml").write_text('[[trace]]\nfile = "traces.txt"\n', encoding="utf-8")
+        Path("traces.txt").write_text("-0.02 0.05 0.02 0.06\n", encoding="utf-8")
+        for particles, joints, output in (("in.dat", None, "in.dat"), ("in.dat", None, "./in.dat"),
+                                          (packed, "joints.toml", "joints.toml"), ("in.dat", "joints.toml", "joints.toml"),
+                                          ([[0.0, 1.0]], "joints.toml", "joints.toml")):
+            before = Path(output).read_bytes()
+            with self.assertRaises(crackle.InputError) as refused:
+                crackle.mesh(particles, kind="delaunay", thick=1e-4, joints=joints, output=output, force=True)
+            self.assertIn("an input of the same command", str(refused.exception))
+            self.assertEqual(Path(output).read_bytes(), before)
+        with self.assertRaises(crackle.InputError) as refused:
+            crackle.mesh("in.dat", kind="none", thick=1e-4, output="out.dat")
+        self.assertIn("found there already", str(refused.exception))
+
     def test_ctrl_c_is_heard_while_packing(self):
         def raise_it(kind, text, share):
             raise KeyboardInterrupt

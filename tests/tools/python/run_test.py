@@ -2,10 +2,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tests run from Python are the command line's to the byte; callbacks see, stop and drive them; what goes wrong in
 between ends them with what was written kept."""
+import gc
 import os
 import signal
 import subprocess
 import sys
+import tempfile
 import threading
 import types
 import unittest
@@ -33,8 +35,12 @@ class SameBytes(InScratch):
         self.assert_same_results("by_program", "by_dict")
 
     def test_of_several_threads(self):
-        self.run_by_program()
-        crackle.test(CASE, "by_python", threads=2)
+        # As many bodies as two threads are given work for.
+        case = small(packing={"count": 4000, "radius_min": 0.00163, "radius_max": 0.00326, "mean_overlap": 1e-5},
+                     loading={"axial_strain_rate": 0.2, "max_axial_strain": 2e-5})
+        self.run_by_program(case=case)
+        result = crackle.test(case, "by_python", threads=2)
+        self.assertEqual(result.summary["threads"], min(2, len(os.sched_getaffinity(0))))
         self.assert_same_results("by_program", "by_python")
 
     def test_of_a_test_that_is_looked_at(self):
@@ -77,6 +83,29 @@ class SameBytes(InScratch):
         del result
         self.assertFalse(folder.exists())
         self.assertGreater(curve.axial_stress.max(), 0.0)
+
+    def test_in_a_folder_that_stays_where_the_test_does_not_end(self):
+        os.environ["TMPDIR"], tempfile.tempdir = os.getcwd(), None
+        self.addCleanup(setattr, tempfile, "tempdir", None)
+        self.addCleanup(os.environ.pop, "TMPDIR")
+        self.run_by_program()
+
+        def stop_half_way(state):
+            if state.axial_strain > 0.0003:
+                raise KeyboardInterrupt
+        with self.assertRaises(KeyboardInterrupt) as raised:
+            crackle.test(CASE, call=stop_half_way)
+        folder, = Path().glob("crackle-*/test")
+        self.assertIn(str(folder.resolve()), raised.exception.__notes__[0])
+        self.assertTrue(crackle.read(folder).summary["interrupted"])
+        self.assertFalse(crackle.resume(folder).summary["interrupted"])
+        self.assert_same_results("by_program", folder)
+        # Of one that has not begun nothing stays.
+        with self.assertRaises(crackle.InputError) as refused:
+            crackle.test(small(loading={"axial_strain_rate": 1e-12}))
+        self.assertFalse(hasattr(refused.exception, "__notes__"))
+        gc.collect()
+        self.assertEqual(list(Path().glob("crackle-*/test")), [folder])
 
 
 class Callbacks(InScratch):
@@ -182,7 +211,8 @@ class Callbacks(InScratch):
     def test_a_state_kept_beyond_its_callback_says_so(self):
         kept = []
         crackle.test(CASE, call=kept.append)
-        for use in (lambda s: s.bodies, lambda s: s.axial_strain, lambda s: s.row(), lambda s: s.contacts()):
+        for use in (lambda s: s.bodies, lambda s: s.axial_strain, lambda s: s.row(), lambda s: s.contacts(),
+                    lambda s: s.stop()):
             with self.assertRaises(RuntimeError) as refused:
                 use(kept[0])
             self.assertIn("the moment is over", str(refused.exception))
@@ -202,8 +232,15 @@ class Callbacks(InScratch):
             with self.assertRaises(ValueError):
                 view[0] = view[0]
 
+    def test_whole_numbers_of_numpy(self):
+        steps = []
+        crackle.test(CASE, every=numpy.int64(500), threads=numpy.int32(1), call=lambda state: steps.append(state.steps))
+        self.assertEqual(set(numpy.diff(steps)), {500})
+
     def test_wrong_arguments(self):
-        for wrong in (dict(every=0), dict(every=-5), dict(every="often"), dict(threads=0), dict(threads="two")):
+        for wrong in (dict(every=0), dict(every=-5), dict(every="often"), dict(every=True), dict(every=1.5),
+                      dict(every=numpy.array([5, 6])), dict(every=2**70), dict(threads=0), dict(threads="two"),
+                      dict(threads=True), dict(threads=numpy.float64(2.0)), dict(threads=2**40)):
             with self.assertRaises(crackle.InputError, msg=wrong):
                 crackle.test(CASE, call=lambda state: None, **wrong)
         with self.assertRaises(crackle.InputError) as refused:
@@ -324,7 +361,7 @@ world = crackle.World(case)
 try:
     print("running", flush=True)
     while True:  # a signal between the calls is heard as well
-        world.step(10**6)
+        world.step(10**9)
 except KeyboardInterrupt:
     before = world.steps
     world.step(10)
@@ -357,17 +394,20 @@ except KeyboardInterrupt:
 
     @unittest.skipUnless(hasattr(os, "fork"), "no fork")
     def test_a_forked_process_with_threads_is_refused_not_hung(self):
-        world = crackle.World(small(packing={"count": 300}), threads=2)
-        world.step(10)
-        asked = world.threads
-        child = os.fork()
-        if child == 0:
-            try:
-                world.step(10)
-                os._exit(0 if asked == 1 else 1)
-            except crackle.InputError as refused:
-                os._exit(0 if "spawn" in str(refused) else 2)
-        self.assertEqual(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), 0)
+        for use in (lambda world: world.step(10), lambda world: world.row(), lambda world: world.forces,
+                    lambda world: world.contacts()):
+            world = crackle.World(small(packing={"count": 300}), threads=2)
+            world.step(10)
+            asked = world.threads
+            child = os.fork()
+            if child == 0:
+                signal.alarm(30)  # ends one that hangs
+                try:
+                    use(world)
+                    os._exit(0 if asked == 1 else 1)
+                except crackle.InputError as refused:
+                    os._exit(0 if "spawn" in str(refused) else 2)
+            self.assertEqual(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]), 0)
 
 
 if __name__ == "__main__":

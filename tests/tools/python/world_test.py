@@ -3,9 +3,12 @@
 """Worlds that Python steps: the same motion as the program's, arrays over the engine's memory, bonds and laws changed
 while it runs, and no way to crash it."""
 import gc
+import subprocess
+import sys
 import threading
 import time
 import unittest
+from pathlib import Path
 
 import numpy
 
@@ -143,10 +146,33 @@ class Arrays(InScratch):
         numpy.testing.assert_allclose(radii[i] + radii[j] - apart, contacts["overlap"][circles], atol=1e-14)
         self.assertEqual(world.index(int(names["id"][3])), 3)
 
+    def test_the_first_arrays_of_several_threads(self):
+        # numpy is loaded with the first array, which gives up the interpreter's lock.
+        done = subprocess.run([sys.executable, "-c", f"""
+import sys, threading
+sys.path.insert(0, {str(Path(__file__).parent)!r})
+import crackle
+from small import CASE
+worlds = [crackle.World(CASE) for _ in range(4)]
+all_there = threading.Barrier(len(worlds))
+def look(world):
+    all_there.wait()
+    world.bodies
+    world.row()
+assert "numpy" not in sys.modules
+threads = [threading.Thread(target=look, args=(world,)) for world in worlds]
+for thread in threads:
+    thread.start()
+for thread in threads:
+    thread.join()
+print("looked")
+"""], capture_output=True, text=True, check=False, timeout=60)
+        self.assertEqual((done.returncode, done.stdout), (0, "looked\n"), done.stderr)
+
 
 class Changes(InScratch):
-    def pulled_apart(self, **law):
-        """Two of the discs of a packing, bonded, the rest free of bonds, pulled apart; @return breaks"""
+    def unbonded(self):
+        """@return world of a packing's discs, ids of the two that overlap most, their contact"""
         particles = crackle.pack(count=40, radius_min=0.01, radius_max=0.02, mean_overlap=1e-4)
         world = crackle.World(particles, walls=False)
         contacts = world.contacts()
@@ -154,8 +180,12 @@ class Changes(InScratch):
         i, j = int(deepest["id_i"]), int(deepest["id_j"])
         return world, i, j, deepest
 
+    def all_pairs(self, world):
+        ids = sorted(int(one) for one in world.names["id"])
+        return [(a, b) for a in ids for b in ids if a < b]
+
     def test_an_added_bond_holds_and_breaks_at_its_back_tension(self):
-        world, i, j, contact = self.pulled_apart()
+        world, i, j, contact = self.unbonded()
         self.assertEqual(world.add_bond(i, j), 1)
         self.assertEqual(world.add_bond(i, j), 0, "has one already")
         self.assertEqual((world.bonds_initial, world.bonds_broken), (1, 0))
@@ -181,13 +211,29 @@ class Changes(InScratch):
         self.assertAlmostEqual(world.events["strength"][0], stiffness * contact["overlap"], delta=1e-9)
         self.assertEqual({world.events["body_i"][0], world.events["body_j"][0]}, {i, j})
 
-    def test_a_gap_is_bonded_where_it_is_asked_for(self):
-        world, i, j, contact = self.pulled_apart()
-        all_ids = [int(one) for one in world.names["id"]]
+    def test_a_bond_as_strong_as_it_overlaps_spans_no_gap(self):
+        world, *_ = self.unbonded()
         touching = len(world.contacts())
-        pairs = [(a, b) for a in all_ids for b in all_ids if a < b]
-        self.assertEqual(world.add_bonds(pairs), touching)
-        self.assertGreater(world.add_bonds(pairs, gap=2e-3), 0)
+        with self.assertRaises(crackle.InputError) as refused:
+            world.add_bonds(self.all_pairs(world), gap=2e-3)
+        self.assertEqual(refused.exception.key, "gap")
+        self.assertIn('bond.law = "coulomb"', refused.exception.remedy)
+        self.assertEqual(world.bonds_initial, 0)
+        self.assertEqual(world.add_bonds(self.all_pairs(world)), touching)
+        world.step(1)
+        self.assertEqual(world.bonds_broken, 0)
+
+    def test_a_gap_is_bonded_where_it_is_asked_for(self):
+        world = crackle.World(small(material={"units": "area", "normal_stiffness": None, "shear_stiffness": None,
+                                              "contact_modulus": 2e10, "stiffness_ratio": 2.5, "tensile_strength": 1e7,
+                                              "cohesion": 5e7}, bond={"law": "coulomb"}))
+        before = world.bonds_initial
+        added = world.add_bonds(self.all_pairs(world), gap=2e-3)
+        self.assertGreater(added, 0)
+        self.assertEqual(world.bonds_initial, before + added)
+        self.assertLess(world.contacts()["bond_overlap"].min(), 0.0)
+        world.step(1)
+        self.assertEqual(world.bonds_broken, 0)
 
     def test_a_stiffer_law_makes_a_shorter_step(self):
         world = crackle.World(CASE)
@@ -237,11 +283,28 @@ class Changes(InScratch):
         self.assertEqual(world.state_hash(), hash_before)
 
     def test_particles_have_no_platens(self):
-        world, *_ = self.pulled_apart()
+        world, *_ = self.unbonded()
         for use in (lambda: world.platen_speed, lambda: world.row(), lambda: world.axial_strain, lambda: world.platens):
             with self.assertRaises(crackle.InputError) as refused:
                 use()
             self.assertIn("without platens", str(refused.exception))
+
+    def test_a_platen_that_is_not_driven_at_a_speed_takes_none(self):
+        world = crackle.World(CASE)
+        speed, platen = world.platen_speed, world.platens[-1]
+        for drive in (None, ("force", 0.0)):
+            world.drive(platen, 0.0, drive, 0.0)
+            with self.assertRaises(crackle.InputError) as refused:
+                world.platen_speed = speed
+            self.assertIn("driven at a velocity", str(refused.exception))
+        world.drive(platen, 0.0, 0.0, 0.0)
+        world.platen_speed = speed
+        self.assertEqual(world.platen_speed, speed)
+
+    def test_a_world_has_no_test_to_stop(self):
+        with self.assertRaises(crackle.InputError) as refused:
+            crackle.World(CASE).stop()
+        self.assertEqual(refused.exception.key, "stop")
 
     def test_a_world_that_goes_wrong_says_so(self):
         world = crackle.World(CASE)

@@ -61,10 +61,15 @@ def _plain(value, name):
     raise InputError(f"case: {name}: found a {type(value).__name__}, expected a number, a text, a list or a table")
 
 
+def _is_text(case):
+    """Whether it is TOML: paths may have "=" in them, too."""
+    return "\n" in case or ("=" in case and not case.endswith(".toml") and not os.path.exists(case))
+
+
 def read_case(case):
     """The case, read and checked.
 
-    case: a dict of tables (None leaves a key out), a TOML text, or the path of a file. Keys, units and defaults are
+    case: a dict of tables (None leaves a key out), a TOML text (with a line's end or "="), or the path of a file. Keys, units and defaults are
     those of `crackle test --keys`. An `include` of a dict or text is relative to the present folder; shipped cases are
     found as "specimens/...". Raises InputError with where, key, found and expected.
     """
@@ -75,7 +80,9 @@ def read_case(case):
         if isinstance(tables.get("include"), str):
             tables["include"] = given_or_shipped(tables["include"])
         return _engine.read_case_text(json.dumps(tables, ensure_ascii=False), "case", True)
-    if isinstance(case, str) and ("\n" in case or "=" in case):
+    if isinstance(case, str) and not case:
+        raise InputError("case: found an empty text, expected a dict, a TOML text or the path of a file")
+    if isinstance(case, str) and _is_text(case):
         return _engine.read_case_text(case, "case", False)
     if isinstance(case, (str, os.PathLike)):
         return _engine.read_case_file(given_or_shipped(case))

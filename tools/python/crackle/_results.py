@@ -82,7 +82,11 @@ class Temporary:
         import tempfile
 
         self.name = tempfile.mkdtemp(prefix="crackle-")
-        weakref.finalize(self, shutil.rmtree, self.name, ignore_errors=True)
+        self._removal = weakref.finalize(self, shutil.rmtree, self.name, ignore_errors=True)
+
+    def keep(self):
+        """The folder stays."""
+        self._removal.detach()
 
 
 class Recording:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import operator
 import os
 from typing import TYPE_CHECKING, Any
 
@@ -43,6 +44,7 @@ def pack(*, count: int | None = None, height_to_width: float | None = None, widt
                    sieve=sieve, mean_overlap=mean_overlap, void_ratio=void_ratio, seed=seed, threads=threads,
                    density=density, normal_stiffness=normal_stiffness, shear_stiffness=shear_stiffness,
                    friction_angle=friction_angle)
+    _refuse_replacing(output, force, sieve)
     with reporting(progress) as report:
         made = _engine.pack(words_of(options), report)
     if output is not None:
@@ -64,20 +66,24 @@ def mesh(particles: _engine.Particles | _Path | Sequence[Sequence[float]], *, ki
 
     Returns Particles; with output the file is written, too.
     """
+    if joints is not None:
+        joints = given_or_shipped(joints)
     if isinstance(particles, _engine.Particles):
+        _refuse_replacing(output, force, joints)
         name, text = "particles", particles.text()
     elif isinstance(particles, (str, os.PathLike)):
         name = given_or_shipped(particles)
+        _refuse_replacing(output, force, name, joints)
         text = _engine.read_text(name)
     else:
+        _refuse_replacing(output, force, joints)
         name = "centres"
         try:
             text = "".join(f"{float(x)!r} {float(y)!r}\n" for x, y in particles)
         except (TypeError, ValueError):
             raise InputError(f"centres: found a {type(particles).__name__}, expected Particles, a path, or pairs of "
                              "numbers x, y in m") from None
-    options = dict(kind=kind, thick=thick, inset=inset, boundary=boundary, merge=merge,
-                   joints=None if joints is None else given_or_shipped(joints),
+    options = dict(kind=kind, thick=thick, inset=inset, boundary=boundary, merge=merge, joints=joints,
                    domain=None if domain is None else [float(one) for one in domain], bounding_box=bounding_box,
                    density=density, normal_stiffness=normal_stiffness, shear_stiffness=shear_stiffness,
                    friction_angle=friction_angle)
@@ -85,6 +91,12 @@ def mesh(particles: _engine.Particles | _Path | Sequence[Sequence[float]], *, ki
     if output is not None:
         made.write(os.fspath(output), force)
     return made
+
+
+def _refuse_replacing(output, force, *inputs):
+    """Before the work: output is there and not to be replaced, or is one of the inputs."""
+    if output is not None:
+        _engine.refuse_replacing(os.fspath(output), bool(force), [os.fspath(one) for one in inputs if one is not None])
 
 
 class Elastic(dict):
@@ -118,17 +130,24 @@ def check(case: _Case, *, threads: int | None = None, progress: _Progress = None
 def _threads(threads):
     if threads is None:
         return 0
-    if isinstance(threads, bool) or not isinstance(threads, int) or threads < 1:
-        raise InputError(f"threads: found {threads!r}, expected a whole number >= 1")
-    return threads
+    return _number("threads", threads, 2**31, "a whole number >= 1")
 
 
 def _every(every):
-    if every in ("row", "rows"):
+    if isinstance(every, str) and every in ("row", "rows"):
         return 0
-    if isinstance(every, bool) or not isinstance(every, int) or every < 1:
-        raise InputError(f"every: found {every!r}, expected \"row\" or a number of steps >= 1")
-    return every
+    return _number("every", every, 2**63, "\"row\" or a number of steps >= 1")
+
+
+def _number(name, value, beyond, expected):
+    """A whole number >= 1 that the engine's type holds, of numpy as well."""
+    try:
+        number = 0 if isinstance(value, bool) else operator.index(value)
+    except TypeError:
+        number = 0
+    if not 1 <= number < beyond:
+        raise InputError(f"{name}: found {value!r}, expected {expected}")
+    return number
 
 
 def _options(folder, force=False, verify=False, profile=False, long=False, allow_unstable=False, threads=None):
@@ -146,12 +165,12 @@ def test(case: _Case, output: _Path | None = None, *, force: bool = False, verif
     """Runs one virtual test, as `crackle test CASE -o OUT`, to the same bytes.
 
     case: a dict, a TOML text or the path of a file. output: folder for the results; None: a folder that goes with the
-    Result. force: replace results that are there; verify: run the companions, too, for the errors of strength and
+    Result, but stays where the test is not run to its end (a note of the exception names it). force: replace results that are there; verify: run the companions, too, for the errors of strength and
     strain; profile: time the phases of a step; threads: no result depends on them; long: run it although it takes more
     than a day; allow_unstable: accept a time step above the stable bound.
 
-    call: is called with the State of the test at every row, or every so many steps: every = "row" or a number. It may
-    read arrays, set state.platen_speed, and end the test by state.stop(). What it raises ends the test as Ctrl-C does:
+    call: is called with the State of the test at every judged row (of those, curve.csv has output.curve_rows), or every
+    so many steps: every = "row" or a number; not at the row by which the test ends of itself. It may read arrays, set state.platen_speed, and end the test by state.stop(). What it raises ends the test as Ctrl-C does:
     what was written is kept, and `resume` goes on.
 
     Returns Result. Raises InputError, UnstableRun (results up to there are kept), KeyboardInterrupt.
@@ -164,8 +183,15 @@ def test(case: _Case, output: _Path | None = None, *, force: bool = False, verif
         output = os.path.join(temporary.name, "test")
     options = _options(output, force, verify, profile, long, allow_unstable, threads)
     options.command = "crackle.test"
-    with reporting(progress) as report:
-        folder, _, _ = _engine.run_test(asked, options, report, call, every)
+    try:
+        with reporting(progress) as report:
+            folder, _, _ = _engine.run_test(asked, options, report, call, every)
+    except BaseException as error:
+        if temporary is not None and os.path.isfile(os.path.join(output, "case.toml")):  # the run had begun
+            temporary.keep()
+            error.add_note(f"what was written is kept in {output}: crackle.read reads it, crackle.resume goes on with a "
+                           "test that was interrupted")
+        raise
     return Result(folder, temporary=temporary)
 
 
