@@ -79,6 +79,8 @@ class SetDrawing {
           source_(source),
           width_(box.x2 - box.x1),
           height_(box.y2 - box.y1),
+          diagonal_(norm({width_, height_})),
+          centre_{0.5 * (box.x1 + box.x2), 0.5 * (box.y1 + box.y2)},
           scan_line_(set_.scan_line ? *set_.scan_line * radians : directions.mean() + 0.5 * std::numbers::pi) {
         const auto seed = static_cast<std::uint64_t>(test.joints.seed);
         std::seed_seq mixed{static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32U),
@@ -148,7 +150,7 @@ class SetDrawing {
             const Vec2 start = trace.points.front();
             end = start + share * (end - start);
             reached_ = asked_;
-            if (!(norm(end - start) > least_share * norm({width_, height_}))) return;  // nothing is missing
+            if (!(norm(end - start) > least_share * diagonal_)) return;  // nothing is missing
         } else {
             reached_ += more;
         }
@@ -182,8 +184,7 @@ class SetDrawing {
     void line(Vec2 through, double angle) {
         const Vec2 along = unit(angle);
         // Beyond the box either way, wherever on the line the point is.
-        const Vec2 centre{0.5 * (box_.x1 + box_.x2), 0.5 * (box_.y1 + box_.y2)};
-        const double middle = dot(centre - through, along), reach = norm({width_, height_});
+        const double middle = dot(centre_ - through, along), reach = diagonal_;
         if (set_.length == "persistent") {
             take_part(through + (middle - reach) * along, through + (middle + reach) * along,
                       std::numeric_limits<double>::infinity());
@@ -206,44 +207,56 @@ class SetDrawing {
         }
     }
 
+    /// Of the box, seen along a direction.
+    double half_width_across(Vec2 along) const {
+        return 0.5 * (std::abs(along.y) * width_ + std::abs(along.x) * height_);
+    }
+
     void lines_anywhere() {
         asked_ = asked();
-        const double widest = norm({width_, height_});
-        const Vec2 centre{0.5 * (box_.x1 + box_.x2), 0.5 * (box_.y1 + box_.y2)};
         while (!full()) {
             const double angle = directions_.draw(generator_);
             const Vec2 along = unit(angle);
-            const double across = std::abs(along.y) * width_ + std::abs(along.x) * height_;
-            const double offset = uniform_number(generator_, -0.5 * widest, 0.5 * widest);
-            if (std::abs(offset) < 0.5 * across) line(centre + offset * perpendicular(along), angle);
+            const double offset = uniform_number(generator_, -0.5 * diagonal_, 0.5 * diagonal_);
+            if (std::abs(offset) < half_width_across(along)) line(centre_ + offset * perpendicular(along), angle);
         }
     }
 
     void lines_at_spacing() {
         const LengthLaw law = spacing_law(set_);
         const Vec2 along = unit(directions_.mean()), normal = perpendicular(along);
-        const Vec2 centre{0.5 * (box_.x1 + box_.x2), 0.5 * (box_.y1 + box_.y2)};
-        // Lines that deviate reach the box from further off.
-        const double across = std::abs(along.y) * width_ + std::abs(along.x) * height_;
-        const double reach = 0.5 * (directions_.single() ? across : norm({width_, height_}));
-        if (2.0 * reach / *set_.spacing > static_cast<double>(most_traces_of_a_set))
-            throw InputError(fmt::format("{}: found {} m, expected at most {} lines in the box; make it larger",
-                                         at("spacing"), *set_.spacing, most_traces_of_a_set));
-        const auto place = [&](double offset) { line(centre + offset * normal, directions_.draw(generator_)); };
+        // Of lines that deviate from the mean by d those that meet the box lie up to 1/cos d further off.
+        const double half_width = directions_.single() ? half_width_across(along) : 0.5 * diagonal_;
+        const double reach = half_width * directions_.stretch();
+        const auto refuse_beyond = [&](double length, double most, const char* lines) {
+            if (length / *set_.spacing > most)
+                throw InputError(fmt::format("{}: found {} m, expected at most {:.0f} lines {}; make it larger",
+                                             at("spacing"), *set_.spacing, most, lines));
+        };
+        refuse_beyond(2.0 * half_width, most_traces_of_a_set, "in the box");
+        refuse_beyond(2.0 * reach, most_lines, "beside the box, which may meet it by their scatter");
+        const auto place = [&](double offset) {
+            const double angle = directions_.draw(generator_);
+            const Vec2 through = centre_ + offset * normal;
+            if (!directions_.single() &&
+                std::abs(cross(unit(angle), through - centre_)) > half_width_across(unit(angle)))
+                return;
+            line(through, angle);
+        };
         if (!set_.through) {
             double offset = -reach - (settling_cycles + uniform_number(generator_)) * law.mean();
             for (; offset <= reach; offset += law.draw(generator_))
                 if (offset >= -reach) place(offset);
             return;
         }
-        const double first = dot(Vec2{(*set_.through)[0], (*set_.through)[1]} - centre, normal);
-        // From that line up, then down; those beyond the box's far side are walked through alike.
-        const double furthest = std::abs(first) + reach;
-        if (furthest / *set_.spacing > static_cast<double>(most_traces_of_a_set))
+        const double first = dot(Vec2{(*set_.through)[0], (*set_.through)[1]} - centre_, normal);
+        if ((std::abs(first) + half_width) / *set_.spacing > static_cast<double>(most_traces_of_a_set))
             throw InputError(
                 fmt::format("{}: found a point more than {} spacings away from the box, expected it "
                             "nearer; choose one inside",
                             at("through"), most_traces_of_a_set));
+        // From that line up, then down; those beyond the box's far side are walked through alike.
+        const double furthest = std::abs(first) + reach;
         double offset = 0.0;
         for (; offset <= furthest; offset += law.draw(generator_))
             if (std::abs(first + offset) <= reach) place(first + offset);
@@ -252,6 +265,7 @@ class SetDrawing {
     }
 
     static constexpr double settling_cycles = 20.0;
+    static constexpr double most_lines = 1e7;    // seconds of drawing
     static constexpr double least_share = 1e-9;  // of the box's diagonal: a trace shorter than that is rounding
 
     const TestCase& test_;
@@ -260,7 +274,9 @@ class SetDrawing {
     const OrientationLaw& directions_;
     Domain box_;
     std::size_t source_;
-    double width_, height_, scan_line_;
+    double width_, height_, diagonal_;
+    Vec2 centre_;
+    double scan_line_;
     std::mt19937_64 generator_;
     std::vector<JointTrace> traces_;
     double asked_ = 0.0, reached_ = 0.0;

@@ -37,6 +37,8 @@ struct JointNetwork {
 /// Traces of their own are placed as if midpoints were strewn over the whole plane (Poisson), so that the box's rim is
 /// no different from its middle: the longest of all lengths says how far off a midpoint may be, and lengths are drawn
 /// in strata, each with its own longest (a factor of 2 in the share of longer ones), for a law without an end has none.
+/// Lines at a spacing that scatter about their mean direction are drawn from so far off that P10 across that lacks at
+/// most one in a thousand (OrientationLaw::stretch).
 /// @throws InputError for a file that cannot be read, a plane without a trace, an amount beyond 100,000 traces
 JointNetwork make_joints(const TestCase& test, const Domain& box);
 

@@ -27,16 +27,38 @@ std::string traces_named(const JointNetwork& network, std::span<const int> trace
     return text.empty() ? text : text + ")";
 }
 
-std::vector<std::string> jointed_mesh_text(const Mesh& with, const Mesh& without) {
+namespace {
+
+/// The shape of cells, beside that of the same centres' without traces where these have a mesh.
+std::string shape_text(const Mesh& with, const std::vector<CellCentre>& centres, const Domain& domain,
+                       const MeshRequest& without_traces) {
+    const MeshQuality shape = quality_of(with);
+    try {
+        const MeshQuality plain =
+            quality_of(make_mesh(centres, {domain.x1, domain.x2, domain.y1, domain.y2}, without_traces));
+        return fmt::format(
+            "cells beside those without joints: least angle {:.3g} ({:.3g}) degrees, smallest over mean area "
+            "{:.2g} ({:.2g}), shortest over mean edge {:.2g} ({:.2g})",
+            shape.smallest_angle, plain.smallest_angle, shape.smallest_area, plain.smallest_area, shape.shortest_edge,
+            plain.shortest_edge);
+    } catch (const MeshError&) {  // centres that made way for traces are in it
+        return fmt::format(
+            "cells: least angle {:.3g} degrees, smallest over mean area {:.2g}, shortest over mean edge {:.2g}; the "
+            "same centres have no mesh without joints to compare",
+            shape.smallest_angle, shape.smallest_area, shape.shortest_edge);
+    }
+}
+
+}  // namespace
+
+std::vector<std::string> jointed_mesh_text(const Mesh& with, const std::vector<CellCentre>& centres,
+                                           const Domain& domain, MeshRequest request) {
     const MeshReport& report = with.report;
-    const MeshQuality shape = quality_of(with), plain = quality_of(without);
+    request.traces.clear();
     std::vector<std::string> lines{
         fmt::format("joints: {:.6g} m of traces are {} edges of cells; {} centres made way, {} points were added",
                     report.trace_length, report.trace_edges, report.centres_left, report.points_added),
-        fmt::format("cells beside those without joints: least angle {:.3g} ({:.3g}) degrees, smallest over mean area "
-                    "{:.2g} ({:.2g}), shortest over mean edge {:.2g} ({:.2g})",
-                    shape.smallest_angle, plain.smallest_angle, shape.smallest_area, plain.smallest_area,
-                    shape.shortest_edge, plain.shortest_edge)};
+        shape_text(with, centres, domain, request)};
     if (report.ends_moved > 0)
         lines.push_back(
             fmt::format("joints: {} ends that lay within {} of the mean spacing of another trace or a wall "

@@ -19,7 +19,9 @@ std::vector<std::vector<Point>> mesh_traces(const JointNetwork& network);
 std::string traces_named(const JointNetwork& network, std::span<const int> traces);
 
 /// Lines for people: edges on traces, what had to move, and the shape of the cells beside that of a mesh without
-/// traces.
-std::vector<std::string> jointed_mesh_text(const Mesh& with, const Mesh& without);
+/// traces, which some centres do not have.
+/// @param centres, domain, request  that the mesh was made of
+std::vector<std::string> jointed_mesh_text(const Mesh& with, const std::vector<CellCentre>& centres,
+                                           const Domain& domain, MeshRequest request);
 
 }  // namespace crackle

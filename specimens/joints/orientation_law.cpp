@@ -118,6 +118,36 @@ double OrientationLaw::draw(std::mt19937_64& generator) const {
     return mean_;
 }
 
+/// At most such a share of lines deviates from the mean by an angle d whose cosine is less.
+///     von Mises  2 asin(c) e^(-2κ(1 - c²)) over ∫ e^(-κ(1 - cos ψ)) dψ from 0 to π, ψ = 2d, which is at least
+///                e^(-1/2) min(π, 1/√κ)
+///     Fisher     normals outside of the cone δ about the mean one, sin δ = sin γ sin d, γ between that and the
+///                section's normal: e^(-K(1 - cos δ)), over the mean weight, which is at least sin γ K/(3 + K)
+double OrientationLaw::share_beyond(double cosine) const {
+    if (kind_ == Kind::von_mises) {
+        const double least = std::min(pi, 1.0 / std::sqrt(spread_)) * cr::exp(-0.5);
+        return 2.0 * cr::asin(cosine) * cr::exp(-2.0 * spread_ * (1.0 - cosine * cosine)) / least;
+    }
+    const double sine_of_mean = norm(cross(normal_, cross(section_.along_x, section_.along_y)));
+    const double sine = sine_of_mean * std::sqrt(1.0 - cosine * cosine);
+    const double lack = sine * sine / (1.0 + std::sqrt(1.0 - std::min(sine * sine, 1.0)));
+    return cr::exp(-spread_ * lack) * (3.0 + spread_) / (spread_ * sine_of_mean);
+}
+
+double OrientationLaw::stretch() const {
+    constexpr double beyond_it = 1e-3, largest = 1024.0;
+    if (kind_ == Kind::fixed) return 1.0;
+    if (kind_ == Kind::uniform) return spread_ < 0.5 * pi ? std::min(1.0 / cr::cos(spread_), largest) : largest;
+    // The density falls all the way from the mean to 90 degrees from it: an inner part of the rest holds less of it
+    // than its angle. At 1024, asin(1/1024)/90 degrees is less than one in a thousand.
+    double stretch = 1.0;
+    for (double share = 1.0; share > beyond_it && stretch < largest; stretch *= 2.0) {
+        const double narrower = cr::asin(0.5 / stretch) / cr::asin(1.0 / stretch);
+        share = std::min(share * narrower, share_beyond(0.5 / stretch));
+    }
+    return stretch;
+}
+
 double fitted_kappa(double resultant, std::size_t count) {
     constexpr double none = std::numeric_limits<double>::quiet_NaN();
     if (count < 2 || std::isnan(resultant)) return none;

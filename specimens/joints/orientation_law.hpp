@@ -44,6 +44,9 @@ class OrientationLaw {
     bool single() const { return kind_ == Kind::fixed; }
     /// rad
     double draw(std::mt19937_64& generator) const;
+    /// 1/cos of an angle from the mean that at most one line in a thousand exceeds: so many times further off than
+    /// lines of the mean direction do lines beside each other still meet a disc. 1 to 1024, for parallel lines 1.
+    double stretch() const;
 
   private:
     enum class Kind : std::uint8_t { fixed, uniform, von_mises, fisher };
@@ -53,6 +56,7 @@ class OrientationLaw {
     Vec3 normal_, aside_, across_;
     Section section_;
 
+    double share_beyond(double cosine) const;
     double draw_von_mises(std::mt19937_64& generator) const;
     double draw_fisher(std::mt19937_64& generator) const;
 };

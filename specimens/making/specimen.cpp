@@ -363,9 +363,7 @@ void mesh_specimen(Specimen& specimen, const TestCase& test, const TestHooks& ho
     try {
         mesh = make_mesh(centres, rectangle(circles.domain), request);
         if (!request.traces.empty()) {
-            request.traces.clear();
-            for (const std::string& line :
-                 jointed_mesh_text(mesh, make_mesh(centres, rectangle(circles.domain), request)))
+            for (const std::string& line : jointed_mesh_text(mesh, centres, circles.domain, request))
                 hooks.report_stage(line);
             specimen.notices.emplace_back(
                 "joints are faces of the mesh with the rock's own properties: they change it by being straight, "

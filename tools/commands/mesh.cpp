@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 #include <sstream>
 #include <string>
 
@@ -174,22 +174,27 @@ MeshRequest request_of(const po::variables_map& values) {
     return request;
 }
 
-fs::path output_path(const po::variables_map& values, MeshKind kind, const fs::path& input, const fs::path& joints) {
+/// Of the option --joints.
+std::optional<TestCase> joints_case(const po::variables_map& values) {
+    if (!values.contains("joints")) return std::nullopt;
+    const fs::path file = values["joints"].as<std::string>();
+    TestCase test = CaseFiles(file).joints();
+    if (!test.jointed())
+        throw InputError(fmt::format("{}: found no [[joint_set]] and no [[trace]], expected one", file.string()));
+    return test;
+}
+
+fs::path output_path(const po::variables_map& values, MeshKind kind, const fs::path& input) {
     const char* usual = kind == MeshKind::delaunay ? "in_gm_tri.dat" : "in_gm_volo.dat";
     fs::path path = values.contains("output") ? values["output"].as<std::string>() : std::string(usual);
     if (fs::is_directory(path)) path /= usual;
-    refuse_replacing(path, values.contains("force"), std::array{input, joints});
+    std::vector<fs::path> inputs{input};
+    if (const auto joints = joints_case(values)) {
+        const std::vector<fs::path> files = files_read(*joints);
+        inputs.insert(inputs.end(), files.begin(), files.end());
+    }
+    refuse_replacing(path, values.contains("force"), inputs);
     return path;
-}
-
-/// The traces of a file of joints, in the source's domain.
-JointNetwork joints_of(const po::variables_map& values, const Domain& domain) {
-    if (!values.contains("joints")) return {};
-    const fs::path file = values["joints"].as<std::string>();
-    const TestCase test = CaseFiles(file).joints();
-    if (!test.jointed())
-        throw InputError(fmt::format("{}: found no [[joint_set]] and no [[trace]], expected one", file.string()));
-    return make_joints(test, domain);
 }
 
 void print_report(const MeshReport& report, const Domain& domain, const MeshRequest& request, const fs::path& output) {
@@ -216,14 +221,14 @@ Scene meshed_scene(const std::string& name, const std::string& text, const po::v
         looks_like_centre_list(text) ? centres_of_list(name, text, values) : centres_of_deck(name, text, values);
     messages.detail(fmt::format("read {} centres from {}, {} bytes", source.centres.size(), name, text.size()));
     messages.progress().step(1.0, fmt::format("meshing {} centres", source.centres.size()));
-    const JointNetwork joints = joints_of(values, source.scene.domain);
+    JointNetwork joints;
+    if (const auto test = joints_case(values)) joints = make_joints(*test, source.scene.domain);
     request.traces = mesh_traces(joints);
     const Mesh made = mesh_source(source, request, joints);
     if (of_joints != nullptr) {
         *of_joints = joints.notices;
         if (!request.traces.empty()) {
-            request.traces.clear();
-            const auto more = jointed_mesh_text(made, mesh_source(source, request, joints));
+            const auto more = jointed_mesh_text(made, source.centres, source.scene.domain, request);
             of_joints->insert(of_joints->end(), more.begin(), more.end());
         }
     }
@@ -281,8 +286,7 @@ int mesh(const Invocation& given) {
     }
     const MeshRequest request = request_of(values);
     const std::string& name = given.operands.front();
-    const fs::path output =
-        output_path(values, request.kind, name, values.contains("joints") ? values["joints"].as<std::string>() : name);
+    const fs::path output = output_path(values, request.kind, name);
     Messages& messages = given.messages;
     messages.progress().begin("reading " + name, 3.0, "");
     MeshReport report;

@@ -135,6 +135,24 @@ TEST(JointNetwork, DistancesBetweenLinesFollowTheirLaw) {
     }
 }
 
+// Σ l cos d over the area, d from the mean direction: of lines through equal offsets it is 1/spacing, whatever their
+// scatter, if none that meets the box is left out. Each adds x <= sqrt(2) m, so that the sum's variance is at most
+// sqrt(2) times the sum.
+TEST(JointNetwork, LinesAtASpacingThatScatterHaveItsFrequencyAcrossTheirMean) {
+    const double spacing = 5e-5;
+    for (const double deviation : {60.0, 85.0}) {
+        for (const char* through : {"", "through = [0.3, 0.9]\n"}) {
+            const TestCase test = joints_of(
+                set_of(fmt::format("orientation = \"uniform\"\nangle = 20.0\nangle_deviation = {}\nspacing = {}\n{}",
+                                   deviation, spacing, through)));
+            double across = 0.0;
+            for (const JointTrace& t : make_joints(test, box(1.0, 1.0)).traces)
+                across += length_across(t, 110.0 * degree);
+            EXPECT_TRUE(agrees("P10", across, 1.0 / spacing, 4.0 * std::sqrt(std::sqrt(2.0) * spacing)));
+        }
+    }
+}
+
 TEST(JointNetwork, GapsLeaveThePersistence) {
     const JointNetwork network = make_joints(
         joints_of(set_of("angle = 0.0\nlength = \"gaps\"\nlength_mean = 0.3\nlength_deviation = 0.1\ngap_mean = 0.1\n"

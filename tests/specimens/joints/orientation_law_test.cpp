@@ -92,6 +92,25 @@ TEST(OrientationLaw, KappaIsRecovered) {
     }
 }
 
+TEST(OrientationLaw, FewLinesLieBeyondTheStretch) {
+    const Section section = Section::vertical(80.0 * degree);
+    std::vector<OrientationLaw> laws{OrientationLaw::uniform(0.3, 0.5 * std::numbers::pi)};
+    for (const double kappa : {1e-3, 0.5, 2.0, 10.0, 1e6}) laws.push_back(OrientationLaw::von_mises(0.3, kappa));
+    for (const double k : {1e-3, 3.0, 20.0, 1e6}) {
+        laws.push_back(OrientationLaw::fisher(50.0 * degree, 45.0 * degree, k, section));
+        laws.push_back(OrientationLaw::fisher(85.0 * degree, 165.0 * degree, k, section));  // 15 degrees from it
+    }
+    for (const OrientationLaw& law : laws) {
+        double beyond = 0.0;
+        for (const double angle : drawn(law, 27))
+            beyond += std::abs(std::cos(from_mean(angle, law.mean()))) < 1.0 / law.stretch() ? 1.0 : 0.0;
+        EXPECT_LE(beyond / draws, 1e-3 + 4.0 * std::sqrt(1e-3 / draws)) << law.stretch();
+    }
+    EXPECT_EQ(OrientationLaw::fixed(0.3).stretch(), 1.0);
+    EXPECT_TRUE(agrees("all lines within", OrientationLaw::uniform(0.3, 60.0 * degree).stretch(), 2.0, 1e-12));
+    EXPECT_LE(OrientationLaw::von_mises(0.3, 10.0).stretch(), 4.0) << "no more lines than it takes";
+}
+
 TEST(OrientationLaw, FittedKappaSolvesTheLikelihoodEquation) {
     for (const double kappa : {0.01, 1.0, 10.0, 500.0}) {
         const double resultant = boost::math::cyl_bessel_i(1, kappa) / boost::math::cyl_bessel_i(0, kappa);

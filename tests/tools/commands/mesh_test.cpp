@@ -110,6 +110,60 @@ TEST_F(CrackleMesh, LeavesAnExistingFileAlone) {
     EXPECT_EQ(read_geometry(scratch_ / "mine.dat").bodies.size(), 2U);
 }
 
+TEST_F(CrackleMesh, FollowsTheTracesOfAFileOfJoints) {
+    write_packing();
+    write("joints.toml", "[[trace]]\nname = \"fault\"\npoints = [0.0, 0.73, 1.0, 1.21]\n");
+    for (const char* kind : {"delaunay", "voronoi"}) {
+        const Answer answer =
+            call(fmt::format("in_gm.dat --kind {} --thick 0 --joints joints.toml -o cells.dat", kind));
+        ASSERT_EQ(answer.code, 0) << answer.err;
+        EXPECT_NE(answer.out.find("joints: 1.10923 m of traces are "), std::string::npos) << answer.out;
+        const Scene scene = read_geometry(scratch_ / "cells.dat");
+        const auto above = [](Vec2 p) { return p.y - 0.73 - 0.48 * p.x; };
+        double on_trace = 0.0;
+        for (const Body& body : scene.bodies) {
+            bool over = false, under = false;
+            for (std::size_t k = body.first_vertex; k < body.first_vertex + body.vertex_count; ++k) {
+                const double side = above(scene.vertices[k]);
+                over = over || side > 1e-9;
+                under = under || side < -1e-9;
+                on_trace += std::abs(side) <= 1e-9 ? 1.0 : 0.0;
+            }
+            EXPECT_FALSE(over && under) << "body " << body.id << " lies on both sides of the trace";
+        }
+        EXPECT_GT(on_trace, 10.0);
+        ASSERT_TRUE(std::filesystem::remove(scratch_ / "cells.dat"));
+    }
+}
+
+TEST_F(CrackleMesh, DestroysNoFileThatItsJointsAreReadFrom) {
+    write_packing();
+    write("survey.txt", "0 0.73 1 1.21\n");
+    write("joints.toml", "[[trace]]\nfile = \"survey.txt\"\n");
+    const std::string words = "in_gm.dat --kind delaunay --thick 0 --joints joints.toml --force -o ";
+    for (const char* input : {"survey.txt", "joints.toml", "in_gm.dat"})
+        expect_refused(words + input, "found an input of the same command");
+    write("empty.toml", "");
+    expect_refused("in_gm.dat --kind delaunay --thick 0 --joints empty.toml", "empty.toml: found no [[joint_set]]");
+    expect_refused("in_gm.dat --kind delaunay --thick 0 --joints absent.toml", "absent.toml");
+}
+
+// Centres near a trace make way for it: with it cells may stand that are destroyed without.
+TEST_F(CrackleMesh, MeshesAlongJointsWhatHasNoMeshWithout) {
+    std::string seeds = "0.5 0.5\n0.5 0.50001\n";
+    for (int k = 0; k < 100; ++k)
+        if (k != 44 && k != 45 && k != 54 && k != 55)
+            seeds += fmt::format("{} {}\n", 0.05 + 0.1 * (k % 10), 0.05 + 0.1 * (k / 10) + 0.01 * (k % 3));
+    write("seeds.txt", seeds);
+    write("joints.toml", "[[trace]]\npoints = [0.0, 0.5, 1.0, 0.5]\n");
+    const std::string words = "seeds.txt --kind delaunay --thick 1e-3 --domain 0 1 0 1 -o ";
+    expect_refused(words + "without.dat", "seeds.txt:");
+    const Answer answer = call(words + "with.dat --joints joints.toml");
+    ASSERT_EQ(answer.code, 0) << answer.err;
+    EXPECT_NE(answer.out.find("; the same centres have no mesh without joints to compare"), std::string::npos)
+        << answer.out;
+}
+
 TEST_F(CrackleMesh, RefusesBadInputInOneMessage) {
     write_packing();
     const std::string cells = " --kind voronoi --thick 1e-3";
