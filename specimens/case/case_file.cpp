@@ -177,12 +177,15 @@ void take_file(TestCase& test, const fs::path& file, const toml::table& content)
             take_list(test, file, *list, node);
             continue;
         }
-        const toml::table* inner = node.as_table();
-        if (inner == nullptr) {
+        const TableDescription* table = key.empty() ? nullptr : find_table(key);
+        if (table == nullptr) {
             take_value(test, line_of(file, node), "", key, node);
             continue;
         }
-        if (find_table(key) == nullptr) refuse_unknown(line_of(file, node), "", key);
+        const toml::table* inner = node.as_table();
+        if (inner == nullptr)
+            throw InputError(fmt::format("{}: {}: found {}, expected a table of keys; write {} above them",
+                                         line_of(file, node), key, kind_name(node), table->heading()));
         test.table_present[key] = true;
         test.position[key] = line_of(file, node);
         for (const auto& [inner_name, inner_node] : *inner) {

@@ -17,22 +17,24 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// What a JSON value is in TOML. @param name of it, for errors
-std::unique_ptr<toml::node> node_of(const Json& value, const std::string& name) {
+/// What a JSON value is in TOML. @param where, key of it, for errors
+std::unique_ptr<toml::node> node_of(const Json& value, const std::string& where, const std::string& key = {}) {
     if (value.is_boolean()) return std::make_unique<toml::value<bool>>(value.get<bool>());
     if (value.is_number_integer()) return std::make_unique<toml::value<std::int64_t>>(value.get<std::int64_t>());
     if (value.is_number_float()) return std::make_unique<toml::value<double>>(value.get<double>());
     if (value.is_string()) return std::make_unique<toml::value<std::string>>(value.get<std::string>());
     if (value.is_array()) {
         auto list = std::make_unique<toml::array>();
-        for (const Json& one : value) list->push_back(std::move(*node_of(one, name)));
+        for (const Json& one : value)
+            list->push_back(std::move(*node_of(one, where, fmt::format("{}[{}]", key, list->size() + 1))));
         return list;
     }
     if (!value.is_object())
-        throw InputError(fmt::format("{}: found {}, expected a value; leave the key out", name, value.type_name()));
+        throw InputError(
+            fmt::format("{}: {}: found {}, expected a value; leave it out", where, key, value.type_name()));
     auto table = std::make_unique<toml::table>();
-    for (const auto& [key, inner] : value.items())
-        table->insert(key, std::move(*node_of(inner, fmt::format("{}: {}", name, key))));
+    for (const auto& [name, inner] : value.items())
+        table->insert(name, std::move(*node_of(inner, where, key.empty() ? name : key + "." + name)));
     return table;
 }
 

@@ -7,7 +7,12 @@
 #include <boost/program_options/errors.hpp>
 #include <boost/program_options/parsers.hpp>
 #include <boost/program_options/positional_options.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
 #include <iostream>
+#include <typeinfo>
+#include <vector>
 
 #include "solver/base/errors.hpp"
 #include "tools/terminal/terminal.hpp"
@@ -119,8 +124,29 @@ std::size_t distance(const std::string& a, const std::string& b) {
     return row[b.size()];
 }
 
+/// What an option takes, in words; empty: any text.
+std::string kind_of_value(const po::option_description& option) {
+    const auto* const typed = dynamic_cast<const po::typed_value_base*>(option.semantic().get());
+    if (typed == nullptr) return {};
+    const std::type_info& type = typed->value_type();
+    if (type == typeid(double)) return ", expected a number";
+    const std::initializer_list<const std::type_info*> whole{
+        &typeid(int),         &typeid(std::int64_t),     &typeid(std::uint64_t),
+        &typeid(std::size_t), &typeid(std::vector<int>), &typeid(std::vector<std::int64_t>)};
+    const auto is_it = [&](const std::type_info* one) { return *one == type; };
+    return std::ranges::any_of(whole, is_it) ? ", expected a whole number" : "";
+}
+
 /// The parser's complaint in our words.
 std::string complaint(const po::error& error, const CommandLine& line) {
+    if (const auto* const invalid = dynamic_cast<const po::invalid_option_value*>(&error)) {
+        std::string expected;
+        for (const OptionSection& section : line.options) {
+            for (const auto& option : section.options.options())
+                if ("--" + option->long_name() == invalid->get_option_name()) expected = kind_of_value(*option);
+        }
+        return error.what() + expected;
+    }
     const auto* const unknown = dynamic_cast<const po::unknown_option*>(&error);
     if (unknown == nullptr) return error.what();
     Arguments known;

@@ -150,7 +150,14 @@ TEST_F(CaseFile, TablesInJsonAreTheSameCase) {
     };
     EXPECT_EQ(says("{\"packing\": {\"count\": 0.5}}").substr(0, 30), "mine: packing.count: found 0.5");
     EXPECT_EQ(says("{\"packing\": {\"count\": null}}"),
-              "mine: packing: count: found null, expected a value; leave the key out");
+              "mine: packing.count: found null, expected a value; leave it out");
+    EXPECT_EQ(says("{\"loading\": {\"unload_at_strain\": [1, null]}}"),
+              "mine: loading.unload_at_strain[2]: found null, expected a value; leave it out");
+    EXPECT_EQ(says("{\"packing\": 3}"),
+              "mine: packing: found a whole number, expected a table of keys; write [packing] above them");
+    EXPECT_EQ(says("{\"packing\": [{}]}"),
+              "mine: packing: found an array, expected a table of keys; write [packing] above them");
+    EXPECT_EQ(says("{\"title\": {}}"), "mine: title: found a table, expected a text in quotes");
     EXPECT_EQ(says("[1]"), "mine: found array, expected tables of keys");
     EXPECT_EQ(says("{"), "mine: found no JSON, expected tables of keys");
 }

@@ -206,6 +206,9 @@ TEST_F(CommandLines, WordsThatAreNearlyRightAreGuessed) {
     EXPECT_NE(command.err.find("did you mean test?"), std::string::npos) << command.err;
     expect_refused("pack --cuont 3", "did you mean --count?");
     expect_refused("doctor --frobnicate", "unrecognised option '--frobnicate' (see crackle doctor --help)");
+    expect_refused("pack --count=50.0",
+                   "the argument ('50.0') for option '--count' is invalid, expected a whole number");
+    expect_refused("pack --width wide", "the argument ('wide') for option '--width' is invalid, expected a number");
     expect_refused("doctor now", "found 'now', expected options alone");
     expect_refused("run one two", "found 'two', expected one DIR");
     expect_refused("doctor -q -v", "found --quiet and --verbose, expected one of them");
