@@ -31,7 +31,8 @@ if __name__ == "__main__":
 
     crackle.test(CASE, every=500, call=look)
     for strain, broken, anisotropy, angle in seen[:: max(1, len(seen) // 6)]:
-        print(f"strain {strain:.2e}  {broken:4d} broken  anisotropy {anisotropy:.3f}  major axis at {angle:.0f} degrees")
+        print(f"strain {strain:.2e}  {broken:4d} broken  anisotropy {anisotropy:.3f}  "
+              f"major axis at {angle:.0f} degrees")
 
 #> strain 0.00e+00     0 broken  anisotropy 0.149  major axis at 90 degrees
 #> strain 9.55e-04     4 broken  anisotropy 0.128  major axis at 93 degrees

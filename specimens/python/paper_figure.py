@@ -27,7 +27,8 @@ if __name__ == "__main__":
     left.plot(1e3 * curve.axial_strain, 1e-6 * curve.axial_stress, "k", linewidth=0.8)
     left.set(xlabel="axial strain, 10$^{-3}$", ylabel="axial stress, MPa")
     breaks = left.twinx()
-    breaks.step([0.0, *1e3 * events.axial_strain], range(len(events.axial_strain) + 1), "C3", where="post", linewidth=0.8)
+    breaks.step([0.0, *1e3 * events.axial_strain], range(len(events.axial_strain) + 1), "C3", where="post",
+                linewidth=0.8)
     breaks.set_ylabel("bonds broken", color="C3")
     breaks.set_ylim(0)
     left.set_ylim(0)

@@ -38,6 +38,7 @@ struct Called {
 const std::vector<Called>& called() {
     static const std::vector<Called> all{{"pack", tools::describe_pack, tools::pack},
                                          {"mesh", tools::describe_mesh, tools::mesh},
+                                         {"joints", tools::describe_joints, tools::joints},
                                          {"test", tools::describe_test, tools::test},
                                          {"elastic", tools::describe_elastic, tools::elastic},
                                          {"campaign", tools::describe_campaign, tools::campaign},
@@ -100,11 +101,7 @@ py::tuple run_command(const std::string& name, const tools::Arguments& words) {
     Interrupts interrupts;
     const OneCommand output(interrupts);
     int code = 0;
-    {
-        const py::gil_scoped_release free;
-        code = asked.run({parsed.values, parsed.operands, words, messages});
-    }
-    interrupts.rethrow();
+    run_free(interrupts, [&] { code = asked.run({parsed.values, parsed.operands, words, messages}); });
     return py::make_tuple(code, output.printed());
 }
 
@@ -118,19 +115,14 @@ py::tuple elastic(const TestCase& description, double strain, int modes, const p
     const TestHooks hooks = reporting_hooks(report, interrupts);
     auto analysis = std::make_shared<ElasticAnalysis>();
     std::string json;
-    try {
-        const py::gil_scoped_release free;
+    run_free(interrupts, [&] {
         const auto start = std::chrono::steady_clock::now();
         const VirtualTest test = bond_test(tools::elastic_case(description, notices), hooks);
         *analysis = analyse_elastic(test.world, test.setup, moduli_of(test), strain, modes);
         const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
         notices.insert(notices.end(), test.setup.notices.begin(), test.setup.notices.end());
         json = tools::elastic_as_json(test, *analysis, seconds - test.specimen_seconds).dump();
-    } catch (const TestInterrupted&) {
-        interrupts.rethrow();
-        throw;
-    }
-    interrupts.rethrow();
+    });
     return py::make_tuple(json, view_of(analysis->bonds, analysis), notices);
 }
 
@@ -142,14 +134,7 @@ std::string check(TestCase description, int threads, const py::object& report) {
     Interrupts interrupts;
     const TestHooks hooks = reporting_hooks(report, interrupts);
     std::string json;
-    try {
-        const py::gil_scoped_release free;
-        json = tools::check_as_json(check_test(description, hooks)).dump();
-    } catch (const TestInterrupted&) {
-        interrupts.rethrow();
-        throw;
-    }
-    interrupts.rethrow();
+    run_free(interrupts, [&] { json = tools::check_as_json(check_test(description, hooks)).dump(); });
     return json;
 }
 

@@ -10,6 +10,8 @@
 #include <memory>
 #include <thread>
 
+#include "specimens/making/hooks.hpp"
+
 namespace crackle::python {
 
 /// Made by the thread that calls the engine, with the interpreter's lock held.
@@ -35,5 +37,18 @@ class Interrupts {
     std::atomic<bool> over_{false};
     std::unique_ptr<pybind11::error_already_set> error_;
 };
+
+/// Does work with the interpreter's lock free, then throws what a signal or a callback has raised meanwhile.
+template <class Work>
+void run_free(Interrupts& interrupts, const Work& work) {
+    try {
+        const pybind11::gil_scoped_release free;
+        work();
+    } catch (const TestInterrupted&) {
+        interrupts.rethrow();
+        throw;
+    }
+    interrupts.rethrow();
+}
 
 }  // namespace crackle::python

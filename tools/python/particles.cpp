@@ -77,15 +77,11 @@ std::shared_ptr<Particles> pack(const tools::Arguments& words, const py::object&
         if (interrupts.heard()) throw TestInterrupted();
     };
     auto made = std::make_shared<Particles>();
-    try {
-        const py::gil_scoped_release free;
+    run_free(interrupts, [&] {
         Packing packing = make_packing(request, progress);
         made->scene = std::move(packing.scene);
         made->packing = packing.report;
-    } catch (const TestInterrupted&) {
-        interrupts.rethrow();
-        throw;
-    }
+    });
     return made;
 }
 

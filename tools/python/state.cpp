@@ -2,6 +2,7 @@
 #include "tools/python/state.hpp"
 
 #include <fmt/format.h>
+#include <pybind11/stl.h>
 #include <unistd.h>
 
 #include <stdexcept>
@@ -129,8 +130,7 @@ void OwnWorld::step(std::int64_t count) {
     settle();
     Interrupts interrupts;
     const Stepping stepping(*this);
-    {
-        const py::gil_scoped_release free;
+    run_free(interrupts, [&] {
         for (std::int64_t k = 0; k < count; ++k) {
             if (k % steps_between_questions == 0 && interrupts.heard()) break;
             if (stepped.stepping.steps % steps_between_health_checks == 0) {
@@ -139,8 +139,7 @@ void OwnWorld::step(std::int64_t count) {
             }
             crackle::step(stepped);
         }
-    }
-    interrupts.rethrow();
+    });
 }
 
 void bind_state(py::module_& module) {
@@ -207,7 +206,8 @@ void bind_state(py::module_& module) {
             "bond_overlap (m), bonded, touching, sliding, slid.")
         .def_property_readonly(
             "rows", [](State& s) { return s.lend(s.test().state.rows); },
-            "View, shape (rows,): the curve so far, all judged rows; of a world none.")
+            "View, shape (rows,): the curve so far, all judged rows; of a world none. Its records keep the whole view: "
+            "for one row that is kept take row(), or a record's copy().")
         .def_property_readonly(
             "events", [](State& s) { return s.lend(s.world().bonds.events); },
             "View, shape (events,): breaks since the last call; of a world all so far.")
@@ -217,6 +217,9 @@ void bind_state(py::module_& module) {
             "laws", [](State& s) { return s.lend(s.world().settings.laws); },
             "View of the contact laws: of material pairs (1,1), (1,2), (2,2), (1,3)..., then the "
             "same with bonds that cannot break, then of materials against walls.")
+        .def_property_readonly(
+            "notices", [](const State& s) { return s.test().setup.notices; },
+            "What to know of the specimen and of how it is loaded: a list of texts, as in a summary.")
         .def_property_readonly(
             "platens",
             [](const State& s) {

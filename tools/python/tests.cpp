@@ -3,6 +3,7 @@
 // Tested by tests/tools/python/run_test.py.
 #include <fmt/format.h>
 #include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
 
 #include <string>
 
@@ -16,13 +17,6 @@
 
 namespace crackle::python {
 namespace {
-
-struct Asked {
-    std::string folder;
-    bool force = false, verify = false, profile = false, endless = false, allow_unstable = false;
-    int threads = 0;
-    std::string command;
-};
 
 /// Calls `call` with the moment. What it raises interrupts the test.
 std::function<AfterLook(VirtualTest&)> caller_of(const py::object& call, std::int64_t every, Interrupts& interrupts) {
@@ -48,20 +42,6 @@ std::function<AfterLook(VirtualTest&)> caller_of(const py::object& call, std::in
     };
 }
 
-TestOptions options_of(const Asked& asked) {
-    TestOptions options;
-    options.folder = asked.folder;
-    options.force = asked.force;
-    options.verify = asked.verify;
-    options.profile = asked.profile;
-    options.endless = asked.endless;
-    options.command = asked.command;
-    if (asked.threads < 0)
-        throw InputError(fmt::format("crackle test: threads: found {}, expected a whole number >= 1", asked.threads));
-    options.threads = asked.threads;
-    return options;
-}
-
 /// Runs `work` with hooks. @return folder, whether the companions were interrupted, whether nothing was left to do
 template <class Work>
 py::tuple run(const py::object& report, const py::object& call, std::int64_t every, const Work& work) {
@@ -73,52 +53,43 @@ py::tuple run(const py::object& report, const py::object& call, std::int64_t eve
         hooks.look_every = every;
     }
     TestOutcome outcome;
-    try {
-        const py::gil_scoped_release free;
-        outcome = work(hooks);
-    } catch (const TestInterrupted&) {
-        interrupts.rethrow();
-        throw;
-    }
-    interrupts.rethrow();
+    run_free(interrupts, [&] { outcome = work(hooks); });
     return py::make_tuple(outcome.folder.string(), outcome.unverified, outcome.was_finished);
 }
 
 }  // namespace
 
 void bind_tests(py::module_& module) {
-    py::class_<Asked>(module, "TestOptions")
+    py::class_<TestOptions>(module, "TestOptions")
         .def(py::init<>())
-        .def_readwrite("folder", &Asked::folder)
-        .def_readwrite("force", &Asked::force)
-        .def_readwrite("verify", &Asked::verify)
-        .def_readwrite("profile", &Asked::profile)
-        .def_readwrite("endless", &Asked::endless)
-        .def_readwrite("allow_unstable", &Asked::allow_unstable)
-        .def_readwrite("threads", &Asked::threads)
-        .def_readwrite("command", &Asked::command);
+        .def_readwrite("folder", &TestOptions::folder)
+        .def_readwrite("force", &TestOptions::force)
+        .def_readwrite("verify", &TestOptions::verify)
+        .def_readwrite("profile", &TestOptions::profile)
+        .def_readwrite("threads", &TestOptions::threads)
+        .def_readwrite("endless", &TestOptions::endless)
+        .def_readwrite("command", &TestOptions::command);
     module.def(
         "run_test",
-        [](TestCase description, const Asked& asked, const py::object& report, const py::object& call,
-           std::int64_t every) {
-            TestOptions options = options_of(asked);
-            if (asked.allow_unstable) description.numerics.allow_unstable = true;
-            if (asked.verify && !call.is_none())
+        [](TestCase description, TestOptions options, bool allow_unstable, const py::object& report,
+           const py::object& call, std::int64_t every) {
+            if (allow_unstable) description.numerics.allow_unstable = true;
+            if (options.verify && !call.is_none())
                 throw InputError(
                     "crackle test: found verify with a callback, expected one of them: companions run "
                     "without it");
-            const std::int64_t threads = asked.threads > 0 ? asked.threads : description.numerics.threads;
+            const std::int64_t threads = options.threads > 0 ? options.threads : description.numerics.threads;
             tools::limit_threads(options, threads);
             refuse_threads_after_fork(static_cast<int>(std::min<std::int64_t>(threads, options.most_threads)));
             return run(report, call, every,
                        [&](const TestHooks& hooks) { return run_test(description, options, hooks); });
         },
-        py::arg("case"), py::arg("options"), py::arg("report"), py::arg("call"), py::arg("every"));
+        py::arg("case"), py::arg("options"), py::arg("allow_unstable"), py::arg("report"), py::arg("call"),
+        py::arg("every"));
     module.def(
         "resume_test",
-        [](const Asked& asked, const py::object& report, const py::object& call, std::int64_t every) {
-            TestOptions options = options_of(asked);
-            tools::limit_threads(options, asked.threads > 0 ? asked.threads : options.most_threads);
+        [](TestOptions options, const py::object& report, const py::object& call, std::int64_t every) {
+            tools::limit_threads(options, options.threads > 0 ? options.threads : options.most_threads);
             refuse_threads_after_fork(options.most_threads);
             return run(report, call, every, [&](const TestHooks& hooks) { return resume_test(options, hooks); });
         },

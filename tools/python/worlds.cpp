@@ -41,14 +41,7 @@ Shared world_of_case(TestCase description, int threads, const py::object& report
     auto test = std::make_shared<VirtualTest>();
     const int asked = static_cast<int>(description.numerics.threads);
     refuse_threads_after_fork(asked);
-    try {
-        const py::gil_scoped_release free;
-        *test = prepare_test(description, hooks);
-    } catch (const TestInterrupted&) {
-        interrupts.rethrow();
-        throw;
-    }
-    interrupts.rethrow();
+    run_free(interrupts, [&] { *test = prepare_test(description, hooks); });
     use_threads(test->world, asked);
     return std::make_shared<OwnWorld>(std::move(test));
 }
@@ -85,17 +78,21 @@ void set_property(State& state, const std::string& name, double value, std::pair
 /// A velocity, nothing (free), or ("force", value).
 DofControl drive_of(const char* name, const py::object& asked) {
     if (asked.is_none()) return {};
-    if (py::isinstance<py::tuple>(asked)) {
-        const auto pair = asked.cast<std::pair<std::string, double>>();
-        if (pair.first != "force" || !std::isfinite(pair.second))
-            throw InputError(fmt::format("{}: found ('{:.20}', {}), expected ('force', a number in N or N m)", name,
-                                         pair.first, pair.second));
-        return {Drive::force, pair.second};
+    std::pair<std::string, double> given{"velocity", 0.0};
+    try {
+        if (py::isinstance<py::tuple>(asked) || py::isinstance<py::list>(asked))
+            given = asked.cast<std::pair<std::string, double>>();
+        else
+            given.second = asked.cast<double>();
+    } catch (const py::cast_error&) {
+        given.first.clear();
     }
-    const auto velocity = asked.cast<double>();
-    if (!std::isfinite(velocity))
-        throw InputError(fmt::format("{}: found {}, expected a velocity in m/s or rad/s", name, velocity));
-    return {Drive::velocity, velocity};
+    const bool force = given.first == "force";
+    if ((!force && given.first != "velocity") || !std::isfinite(given.second))
+        throw InputError(fmt::format(
+            "{}: found {:.60}, expected a velocity in m/s or rad/s, ('force', a number in N or N m), or None", name,
+            std::string(py::repr(asked))));
+    return {force ? Drive::force : Drive::velocity, given.second};
 }
 
 void drive(State& state, int id, const py::object& x, const py::object& y, const py::object& rotation) {
@@ -124,9 +121,10 @@ void bind_worlds(py::module_& module) {
              "again.")
         .def("set_property", &set_property, py::arg("name"), py::arg("value"),
              py::arg("materials") = std::pair<int, int>(1, 1),
-             "Changes normal_stiffness, shear_stiffness (N/m), friction_angle, residual_friction_angle (degrees), "
-             "tensile_strength or cohesion (N) of contacts between two materials, numbers from 1. The stable step is "
-             "found again, the account of energy begins again.")
+             "Changes normal_stiffness, shear_stiffness (N/m; Pa with material.units = \"area\"), friction_angle, "
+             "residual_friction_angle (degrees), tensile_strength or cohesion (N; Pa) of contacts between two "
+             "materials, "
+             "numbers from 1. The stable step is found again, the account of energy begins again.")
         .def("drive", &drive, py::arg("id"), py::arg("x") = py::none(), py::arg("y") = py::none(),
              py::arg("rotation") = py::none(),
              "Drives a body from now on: in x, y and rotation each at a velocity (m/s, rad/s), by ('force', value) (N, "

@@ -31,8 +31,9 @@ class Cases(InScratch):
         self.assertEqual(crackle.read_case(case).resolved(), crackle.read_case(CASE).resolved())
 
     def test_lists_of_tables(self):
-        case = small(material={"units": "area", "normal_stiffness": None, "shear_stiffness": None, "contact_modulus": 2e10,
-                               "stiffness_ratio": 2.5, "tensile_strength": 1e7, "cohesion": 5e7},
+        case = small(material={"units": "area", "normal_stiffness": None, "shear_stiffness": None,
+                               "contact_modulus": 2e10, "stiffness_ratio": 2.5, "tensile_strength": 1e7,
+                               "cohesion": 5e7},
                      bond={"law": "coulomb"}, mineral=None)
         case["mineral"] = [{"name": "quartz", "area_share": 0.3}, {"name": "feldspar", "contact_modulus": 1e10}]
         self.assertIn("quartz", crackle.read_case(case).resolved())
@@ -82,12 +83,39 @@ class Cases(InScratch):
         self.assertIn("seed=2/case.toml: found no such file", str(refused.exception))
         self.assertEqual(crackle.read_case('include = "seed=1/case.toml"').title, CASE["title"])
 
+    def test_parts_of_other_messages(self):
+        crackle.test(small(loading={"max_axial_strain": 1e-5}), "done")
+        parts = ("where", "key", "found", "expected", "remedy")
+        for raised, *expected in (
+                (lambda: crackle.read_case("no.toml"), "no.toml", None, "no such file", "a case file",
+                 "check the path"),
+                (lambda: crackle.read("nothing"), "nothing", None, "no such file or folder",
+                 "the folder of a test or of a deck, or a particle file", None),
+                (lambda: crackle.read_case("a = ["), "case:1", None,
+                 "not valid TOML: Error while parsing array: encountered end-of-file", None, None),
+                (lambda: crackle.test(CASE, "done"), "done", None, "results", "an empty or new folder",
+                 "--force replaces them, --resume goes on with them"),
+                (lambda: crackle.test(CASE, "/proc/none/out"), "/proc/none/out", None,
+                 "cannot be written (No such file or directory)", "a writable folder with free space", None),
+                (lambda: crackle.pack(count=50.5), "crackle pack", "--count", "50.5", "a whole number",
+                 "see crackle pack --help"),
+                (lambda: crackle.read_case(small(loading={"unload_at_strain": [None]})), "case",
+                 "loading.unload_at_strain[1]", "null", "a value", "leave it out"),
+                (lambda: crackle.read_case({"packing": 3}), "case", "packing", "a whole number", "a table of keys",
+                 "write [packing] above them"),
+                (lambda: crackle.test(CASE, every=0), None, "every", "0", "\"row\" or a number of steps >= 1", None)):
+            with self.assertRaises(crackle.InputError) as refused:
+                raised()
+            self.assertEqual([getattr(refused.exception, part) for part in parts], expected, str(refused.exception))
+
     def test_what_no_case_can_be(self):
-        for wrong, words in ((5, "found a int"), ({"packing": {"count": object()}}, "packing.count: found a object"),
+        for wrong, words in ((5, "found a int"),
+                             ({"packing": {"count": object()}}, "packing.count: found a object"),
                              ({"packing": {"count": 2**70}}, "64 bits"), ({1: {}}, "found a key 1"),
                              ({"material": {"density": math.nan}}, "material.density: found nan"),
                              ("a = [", "case:1: not valid TOML"), ({"packing": 5}, "packing"), ({}, "case: "),
-                             ("no_such.toml", "found no such file"), ("", "case: found an empty text"), ([], "found a list"),
+                             ("no_such.toml", "found no such file"), ("", "case: found an empty text"),
+                             ([], "found a list"),
                              ({"packing": {"count": {"a": {"b": 1}}}}, "packing.count: found a table")):
             with self.assertRaises(crackle.InputError, msg=wrong) as refused:
                 crackle.read_case(wrong)
@@ -100,7 +128,8 @@ class Cases(InScratch):
 class Importing(unittest.TestCase):
     def test_importing_loads_no_numpy(self):
         # What makes an import slow; a notebook that only reads a summary need not wait for it.
-        told = subprocess.run([sys.executable, "-c", "import crackle, sys; print('numpy' in sys.modules, 'IPython' in sys.modules)"],
+        script = "import crackle, sys; print('numpy' in sys.modules, 'IPython' in sys.modules)"
+        told = subprocess.run([sys.executable, "-c", script],
                               capture_output=True, text=True, check=True, env=os.environ).stdout
         self.assertEqual(told.split(), ["False", "False"])
 

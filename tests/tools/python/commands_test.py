@@ -11,7 +11,7 @@ import numpy
 
 import crackle
 from crackle import _engine
-from small import CASE, InScratch, program, small, toml
+from small import CASE, TOP, InScratch, program, small, toml
 
 PACKING = dict(count=60, radius_min=0.01333, radius_max=0.02667, mean_overlap=7.74e-5)
 WORDS = ("--count", 60, "--radius-min", 0.01333, "--radius-max", 0.02667, "--mean-overlap", 7.74e-5)
@@ -23,14 +23,16 @@ class Options(unittest.TestCase):
     """A keyword for each option, so that neither grows without the other."""
 
     def test_keywords_are_the_options(self):
-        others = {"pack": set(), "mesh": set(), "elastic": {"bonds", "force"}, "test": {"resume", "check"}, "campaign": set(),
-                  "calibrate": set(), "envelope": set(), "plot": {"guide", "format"}, "report": set()}
+        others = {"pack": set(), "mesh": set(), "joints": set(), "elastic": {"bonds", "force"},
+                  "test": {"resume", "check"}, "campaign": set(), "calibrate": set(), "envelope": set(),
+                  "plot": {"guide", "format"}, "report": set()}
         for command, left_out in others.items():
             options = {option[0] for option in _engine.options(command)} - OF_A_TERMINAL - left_out
             parameters = inspect.signature(getattr(crackle, command)).parameters
             keywords = {name.replace("_", "-") for name, parameter in parameters.items()
                         if parameter.kind is not parameter.VAR_POSITIONAL} - {"progress", "call", "every"}
-            operand = {"mesh": "particles", "elastic": "case", "test": "case", "campaign": "plan", "calibrate": "rock"}
+            operand = {"mesh": "particles", "joints": "case", "elastic": "case", "test": "case", "campaign": "plan",
+                       "calibrate": "rock"}
             self.assertEqual(keywords - {operand.get(command)}, options, command)
 
     def test_an_unknown_keyword_is_refused(self):
@@ -62,7 +64,8 @@ class Particles(InScratch):
     def test_a_mesh_is_the_programs(self):
         packed = crackle.pack(**PACKING, output="in.dat")
         for kind in ("voronoi", "delaunay"):
-            self.assertEqual(program("mesh", "in.dat", "--kind", kind, "--thick", 1e-3, "-o", f"{kind}.dat", "-q").returncode, 0)
+            words = ("--kind", kind, "--thick", 1e-3, "-o", f"{kind}.dat", "-q")
+            self.assertEqual(program("mesh", "in.dat", *words).returncode, 0)
             made = crackle.mesh(packed, kind=kind, thick=1e-3)
             self.assertEqual(made.text(), Path(f"{kind}.dat").read_text())
             self.assertEqual(crackle.mesh("in.dat", kind=kind, thick=1e-3).text(), made.text())
@@ -79,7 +82,8 @@ class Particles(InScratch):
 
     def test_refusals_are_the_programs(self):
         for options, words in ((dict(count=5, radius_min=0.1), ("--count", 5, "--radius-min", 0.1)),
-                               (dict(count=60, radius_min=0.1, radius_max=0.2), ("--count", 60, "--radius-min", 0.1, "--radius-max", 0.2)),
+                               (dict(count=60, radius_min=0.1, radius_max=0.2),
+                                ("--count", 60, "--radius-min", 0.1, "--radius-max", 0.2)),
                                ({**PACKING, "seed": -1}, (*WORDS, "--seed=-1"))):
             with self.assertRaises(crackle.InputError) as refused:
                 crackle.pack(**options)
@@ -109,7 +113,8 @@ class Particles(InScratch):
         Path("joints.toml").write_text('[[trace]]\nfile = "traces.txt"\n', encoding="utf-8")
         Path("traces.txt").write_text("-0.02 0.05 0.02 0.06\n", encoding="utf-8")
         for particles, joints, output in (("in.dat", None, "in.dat"), ("in.dat", None, "./in.dat"),
-                                          (packed, "joints.toml", "joints.toml"), ("in.dat", "joints.toml", "joints.toml"),
+                                          (packed, "joints.toml", "joints.toml"),
+                                          ("in.dat", "joints.toml", "joints.toml"),
                                           ([[0.0, 1.0]], "joints.toml", "joints.toml")):
             before = Path(output).read_bytes()
             with self.assertRaises(crackle.InputError) as refused:
@@ -135,13 +140,27 @@ class Solutions(InScratch):
         self.assertEqual({**found, "seconds": 0}, {**told, "seconds": 0})
         self.assertEqual(len(found.bonds), told["bonds"])
         first = found.bonds[numpy.argmin(found.bonds["break_strain"])]
-        self.assertEqual({first["body_i"], first["body_j"]}, {told["first_break"]["body_i"], told["first_break"]["body_j"]})
+        self.assertEqual({first["body_i"], first["body_j"]},
+                         {told["first_break"]["body_i"], told["first_break"]["body_j"]})
         self.assertEqual(found.notices, [])
         confined = small(loading={"kind": "biaxial"}, confinement={"pressure": 100.0})
         self.assertIn("without confining pressure", crackle.elastic(confined).notices[0])
         for wrong in (dict(strain=0.0), dict(strain=float("nan")), dict(modes=-1)):
             with self.assertRaises(crackle.InputError):
                 crackle.elastic(CASE, **wrong)
+
+    def test_joints_are_the_programs(self):
+        case = str(TOP / "specimens" / "jointed" / "two_sets.toml")
+        told = program("joints", case, "--json", "--seed", 7, "--traces", "by_program.txt")
+        self.assertEqual(told.returncode, 0, told.stderr)
+        found = crackle.joints("specimens/jointed/two_sets.toml", seed=7, traces="by_python.txt", output="map.svg")
+        self.assertEqual(found, json.loads(told.stdout))
+        self.assertGreater(found["blocks"], 1)
+        self.assertEqual(Path("by_python.txt").read_bytes(), Path("by_program.txt").read_bytes())
+        self.assertIn("<svg", Path("map.svg").read_text())
+        with self.assertRaises(crackle.InputError) as refused:
+            crackle.joints("specimens/jointed/two_sets.toml", output="map.svg")
+        self.assertIn("found there already", str(refused.exception))
 
     def test_check_is_the_programs(self):
         Path("case.toml").write_text(toml(CASE), encoding="utf-8")
@@ -185,7 +204,8 @@ class Tables(InScratch):
     def test_an_envelope_is_the_programs(self):
         for seed in (1, 2):
             for pressure in (0, 500, 1500):
-                case = {"include": "specimens/guide_rock/circles_compression.toml", "packing": {"seed": seed, "count": 100},
+                case = {"include": "specimens/guide_rock/circles_compression.toml",
+                        "packing": {"seed": seed, "count": 100},
                         "loading": {"axial_strain_rate": 0.1, "max_axial_strain": 0.03},
                         "output": {"frames": 1, "curve_rows": 200}}
                 if pressure > 0:

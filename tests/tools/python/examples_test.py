@@ -17,8 +17,8 @@ class Examples(InScratch):
         self.assertEqual(len(EXAMPLES), 5)
 
     def run_of(self, name):
-        if name == "paper_figure.py" and subprocess.run([sys.executable, "-c", "import matplotlib"], capture_output=True,
-                                                        check=False).returncode != 0:
+        import_it = [sys.executable, "-c", "import matplotlib"]
+        if name == "paper_figure.py" and subprocess.run(import_it, capture_output=True, check=False).returncode != 0:
             self.skipTest("no matplotlib (tools/install_packages test)")
         script = TOP / "specimens" / "python" / name
         done = subprocess.run([sys.executable, script], capture_output=True, text=True, check=False, env=os.environ)

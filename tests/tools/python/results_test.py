@@ -54,7 +54,8 @@ class Results(InScratch):
         moved = end.uy[cells.platen]
         strain = recording.frames[-1]["axial_strain"]
         # Single precision of the points in a frame.
-        numpy.testing.assert_allclose(moved.max() - moved.min(), strain * self.result.summary["initial_height"], rtol=1e-3)
+        numpy.testing.assert_allclose(moved.max() - moved.min(), strain * self.result.summary["initial_height"],
+                                      rtol=1e-3)
         self.assertEqual((end.bond_state == 2).sum(), self.result.summary["bonds_broken"])
         self.assertEqual(len(recording.bonds.i), self.result.summary["bonds_initial"])
         with self.assertRaises(IndexError):
@@ -77,7 +78,9 @@ class Results(InScratch):
 
     def test_figures_are_the_programs(self):
         crackle.plot(self.result, output="by_python.svg", what="curve", width=90)
-        self.assertEqual(program("plot", self.result.folder, "-o", "by_program.svg", "--what", "curve", "--width", 90).returncode, 0)
+        words = ("-o", "by_program.svg", "--what", "curve", "--width", 90)
+        self.assertEqual(program("plot", self.result.folder, *words).returncode, 0)
+
         def drawn(text):  # cairo counts its surfaces
             return re.sub(r"(surface|glyph|clip|image|source|mask)-?[0-9]+(-[0-9]+)?", r"\1", text)
         by_program = drawn(Path("by_program.svg").read_text())

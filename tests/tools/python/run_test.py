@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tests run from Python are the command line's to the byte; callbacks see, stop and drive them; what goes wrong in
 between ends them with what was written kept."""
+import contextlib
 import gc
+import io
 import os
 import signal
 import subprocess
@@ -313,14 +315,20 @@ crackle.test(small(packing={{"count": 300}}))
         fake, display = types.ModuleType("IPython"), types.ModuleType("IPython.display")
         fake.get_ipython = ZMQInteractiveShell
         display.HTML = str
+        told = io.StringIO()
         display.display = lambda shown, display_id: Handle()
         sys.modules.update({"IPython": fake, "IPython.display": display})
+        fast = small(packing={"count": 300}, loading={"axial_strain_rate": 0.02})  # of which there is a notice
         try:
-            crackle.test(small(packing={"count": 300}))
+            with contextlib.redirect_stderr(told):
+                result = crackle.test(fast)
         finally:
             del sys.modules["IPython"], sys.modules["IPython.display"]
         self.assertTrue(any("unbalanced by" in text for text in updates))
         self.assertEqual(updates[-1], "")
+        notices = result.summary["notices"]
+        self.assertGreater(len(notices), 0)
+        self.assertEqual(told.getvalue().splitlines(), [f"notice: {text}" for text in notices])
 
 
 class Interrupts(InScratch):
@@ -335,7 +343,9 @@ print("begun", flush=True)
 
     def interrupted(self, body):
         script = self.LONG + body
-        process = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        process = subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, stderr=subprocess.PIPE,
+                                   text=True)
+        self.addCleanup(process.kill)
         for line in process.stdout:
             if line.startswith("running"):
                 break

@@ -42,7 +42,8 @@ def toml(case):
 
 
 def program(*words):
-    return subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, check=False, stdin=subprocess.DEVNULL)
+    return subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, check=False,
+                          stdin=subprocess.DEVNULL)
 
 
 class InScratch(unittest.TestCase):
@@ -63,4 +64,5 @@ class InScratch(unittest.TestCase):
         frames = sorted(path.name for path in (Path(one) / "frames").iterdir())
         self.assertEqual(frames, sorted(path.name for path in (Path(other) / "frames").iterdir()))
         for name in frames:
-            self.assertEqual((Path(one) / "frames" / name).read_bytes(), (Path(other) / "frames" / name).read_bytes(), name)
+            written, same = (Path(folder) / "frames" / name for folder in (one, other))
+            self.assertEqual(written.read_bytes(), same.read_bytes(), name)

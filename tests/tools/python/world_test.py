@@ -272,7 +272,8 @@ class Changes(InScratch):
             self.assertIn(words, str(refused.exception))
         hash_before = world.state_hash()
         for wrong in (lambda: world.add_bond(10**6, 1), lambda: world.add_bond(1, 1), lambda: world.drive(10**6, 0.0),
-                      lambda: world.drive(1, float("inf")), lambda: world.drive(1, ("push", 1.0)), lambda: world.step(-1),
+                      lambda: world.drive(1, float("inf")), lambda: world.drive(1, ("push", 1.0)),
+                      lambda: world.step(-1),
                       lambda: world.add_bonds([(1, 2)], gap=-1.0), lambda: world.index(-7),
                       lambda: setattr(world, "threads", 0), lambda: setattr(world, "platen_speed", float("nan"))):
             with self.assertRaises(crackle.InputError):
@@ -281,6 +282,23 @@ class Changes(InScratch):
             with self.assertRaises(TypeError):
                 wrong()
         self.assertEqual(world.state_hash(), hash_before)
+
+    def test_a_drive_that_is_none_is_named(self):
+        world = crackle.World(CASE)
+        before = world.state_hash()
+        for wrong in (["push", 1.0], ["force"], ("force", "much"), "fast", (1, 2), {}, ("force", float("nan"))):
+            with self.assertRaises(crackle.InputError, msg=wrong) as refused:
+                world.drive(1, 0.0, wrong)
+            self.assertEqual((refused.exception.key, refused.exception.found), ("y", repr(wrong)))
+        self.assertEqual(world.state_hash(), before)
+        world.drive(1, ["force", 1.0], ("force", 2.0), None)
+
+    def test_notices_of_the_specimen_are_there(self):
+        world = crackle.World(CASE)
+        self.assertEqual(len(world.notices), 1)
+        self.assertIn("inertia and dashpots bear part of the stress", world.notices[0])
+        world.platen_speed = 0.5 * world.platen_speed
+        self.assertIn("the caller's from strain 0 on", world.notices[-1])
 
     def test_particles_have_no_platens(self):
         world, *_ = self.unbonded()

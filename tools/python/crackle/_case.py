@@ -69,9 +69,9 @@ def _is_text(case):
 def read_case(case):
     """The case, read and checked.
 
-    case: a dict of tables (None leaves a key out), a TOML text (with a line's end or "="), or the path of a file. Keys, units and defaults are
-    those of `crackle test --keys`. An `include` of a dict or text is relative to the present folder; shipped cases are
-    found as "specimens/...". Raises InputError with where, key, found and expected.
+    case: a dict of tables (None leaves a key out), a TOML text (with a line's end or "="), or the path of a file. Keys,
+    units and defaults are those of `crackle test --keys`. An `include` of a dict or text is relative to the present
+    folder; shipped cases are found as "specimens/...". Raises InputError with where, key, found and expected.
     """
     if isinstance(case, _engine.Case):
         return case

@@ -6,7 +6,7 @@ from ._errors import InputError
 
 
 def words_of(options):
-    """The words of options: {"radius_min": 0.01, "force": True} is --radius-min 0.01 --force. None and False: left out."""
+    """The words of options: {"radius_min": 0.01, "force": True} is --radius-min 0.01 --force. None, False: left out."""
     words = []
     for name, value in options.items():
         option = "--" + name.rstrip("_").replace("_", "-")

@@ -2,25 +2,41 @@
 """Failures, with the messages of the command line."""
 import re
 
-_PARTS = re.compile(
-    r"(?:(?P<where>[^:\n]+(?::\d+)?): )?(?:(?P<key>[^:\n]+): )?found (?P<found>.*?)"
-    r"(?:, expected (?P<expected>[^;]*))?(?:; (?P<remedy>.*))?", re.DOTALL)
+_END = r"(?:, expected (?P<expected>[^;]*))?(?:; (?P<remedy>.*))?"
+_FORMS = (
+    # where: key: found X
+    re.compile(r"(?:(?P<where>[^:\n]+(?::\d+)?): )?(?:(?P<key>[^:\n]+): )?found (?P<found>.*?)" + _END, re.DOTALL),
+    # of the command line's parser
+    re.compile(r"(?P<where>[^:\n]+): the argument \('(?P<found>.*)'\) for option '(?P<key>[^'\n]+)' is invalid"
+               r"(?:, expected (?P<expected>.*))?(?: \((?P<remedy>see [^()]*)\))", re.DOTALL),
+    # where: what is wrong with it
+    re.compile(r"(?P<where>[^:\n]+(?::\d+)?): (?P<key>)(?P<found>.*?)" + _END, re.DOTALL),
+)
+# A beginning alone is a place, not a key: by its look, or by what was found there.
+_PLACE = re.compile(r".*(:\d+|/.*|\.(toml|dat|csv|json|txt|svg|pdf|png|html|sqlite))|case|centres|particles", re.DOTALL)
+_OF_A_PLACE = re.compile(r"(no such (file|folder)|results|there already|an input of the same command|a folder|a file)"
+                         r"\b.*", re.DOTALL)
 
 
 class InputError(ValueError):
     """Input that cannot be used. The text is the command line's: «file:line: key: found X, expected Y; what to do».
 
     Its parts are attributes, None where the text has no such part: where ("case.toml:14"; of a case given as a dict
-    "case"), key ("material.cohesion"), found, expected, remedy.
+    "case"), key ("material.cohesion", "--count"), found, expected, remedy.
     """
 
     def _part(self, name):
-        match = _PARTS.fullmatch(str(self))
-        if match is None:
+        for form in _FORMS:
+            match = form.fullmatch(str(self))
+            if match is not None:
+                break
+        else:
             return None
-        parts = match.groupdict()
-        if parts["key"] is None and parts["where"] is not None:  # one beginning alone: a key, or an option
-            parts["key"], parts["where"] = parts["where"], None
+        parts = {part: text or None for part, text in match.groupdict().items()}
+        alone = parts["where"] if parts["key"] is None else None  # one beginning: a place, a key, or an option
+        if alone is not None and form is _FORMS[0]:
+            if not (_PLACE.fullmatch(alone) or _OF_A_PLACE.fullmatch(parts["found"])):
+                parts["key"], parts["where"] = alone, None
         return parts[name]
 
     where = property(lambda self: self._part("where"), doc="file and line, or what stands for the file")

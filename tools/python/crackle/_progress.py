@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""How far long work is: a line on a terminal, a bar in a notebook, nothing elsewhere."""
+"""How far long work is, and notices: a line on a terminal, a bar in a notebook, nothing elsewhere."""
 import html
 import os
 import sys
@@ -14,14 +14,18 @@ def _in_notebook():
     return shell is not None and type(shell).__name__ == "ZMQInteractiveShell"
 
 
+def _tell_notice(text):
+    if text.startswith("notice: "):
+        print(text, file=sys.stderr)
+
+
 class _Line:
     """A line on stderr that is written over, gone in the end."""
 
     def __call__(self, kind, text, share):
         if kind == "stage":
             self.close()
-            if text.startswith("notice: "):
-                print(text, file=sys.stderr)
+            _tell_notice(text)
             return
         if kind in ("work", "progress"):
             columns = os.get_terminal_size(sys.stderr.fileno()).columns - 1 if sys.stderr.isatty() else 79
@@ -43,6 +47,8 @@ class _Bar:
         self._display = display(HTML(""), display_id=True)
 
     def __call__(self, kind, text, share):
+        if kind == "stage":
+            _tell_notice(text)
         if kind not in ("work", "progress"):
             return
         bar = f'<progress value="{share:.4f}" max="1" style="width:12em"></progress>{_ROOM}' if share == share else ""

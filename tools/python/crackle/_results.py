@@ -92,8 +92,8 @@ class Temporary:
 class Recording:
     """Particles in motion: cells, their bonds, and frame by frame where they are and what acts.
 
-    cells: dict of arrays, shape (cells,): id, material, x, y (m, in the first frame), radius (m, 0 of polygons), platen;
-    outline: a list of arrays of corners x, y (m).
+    cells: dict of arrays, shape (cells,): id, material, x, y (m, in the first frame), radius (m, 0 of polygons),
+    platen; outline: a list of arrays of corners x, y (m).
     bonds: dict of arrays, shape (bonds,): i, j (indices of cells), x, y (m).
     frames: list of dicts: time (s), axial_strain, axial_stress, step, roles ("start", "peak", "end"), file.
     """

@@ -54,9 +54,10 @@ def pack(*, count: int | None = None, height_to_width: float | None = None, widt
 
 def mesh(particles: _engine.Particles | _Path | Sequence[Sequence[float]], *, kind: str | None = None,
          thick: float | None = None, inset: float | None = None, boundary: str | None = None, merge: bool = False,
-         joints: _Path | None = None, domain: Sequence[float] | None = None, bounding_box: bool = False, density: float | None = None,
-         normal_stiffness: float | None = None, shear_stiffness: float | None = None,
-         friction_angle: float | None = None, output: _Path | None = None, force: bool = False) -> _engine.Particles:
+         joints: _Path | None = None, domain: Sequence[float] | None = None, bounding_box: bool = False,
+         density: float | None = None, normal_stiffness: float | None = None,
+         shear_stiffness: float | None = None, friction_angle: float | None = None, output: _Path | None = None,
+         force: bool = False) -> _engine.Particles:
     """Makes polygons of the centres of circles, as `crackle mesh`.
 
     particles: Particles, the path of a particle file, or a sequence of centres x, y (m; with domain = (x1, x2, y1, y2)
@@ -91,6 +92,22 @@ def mesh(particles: _engine.Particles | _Path | Sequence[Sequence[float]], *, ki
     if output is not None:
         made.write(os.fspath(output), force)
     return made
+
+
+def joints(case: _Path, *, seed: int | None = None, box_width: float | None = None, box_height: float | None = None,
+           traces: _Path | None = None, output: _Path | None = None, columns: int | None = None,
+           width: float | None = None, font: str | None = None, font_size: float | None = None, dpi: int | None = None,
+           title: str | None = None, force: bool = False) -> dict[str, Any]:
+    """Traces of joints in the box of a specimen, asked for and reached, as `crackle joints --json`.
+
+    case: a file of joints, or of a case that has some; seed: in place of joints.seed; box_width, box_height: of the
+    box, m, where the case has none. traces: a file to write, a trace a line (x1 y1 x2 y2 ..., m); output: a figure to
+    write, .svg, .pdf or .png, width in mm. Returns a dict, its own units within.
+    """
+    options = dict(seed=seed, box_width=box_width, box_height=box_height, traces=traces, output=output, columns=columns,
+                   width=width, font=font, font_size=font_size, dpi=dpi, title=title, force=force, json=True)
+    _, text = _run("joints", [given_or_shipped(case)], options)
+    return json.loads(text)
 
 
 def _refuse_replacing(output, force, *inputs):
@@ -150,11 +167,11 @@ def _number(name, value, beyond, expected):
     return number
 
 
-def _options(folder, force=False, verify=False, profile=False, long=False, allow_unstable=False, threads=None):
+def _options(folder, force=False, verify=False, profile=False, long=False, threads=None):
     options = _engine.TestOptions()
     options.folder = os.fspath(folder)
     options.force, options.verify, options.profile = bool(force), bool(verify), bool(profile)
-    options.endless, options.allow_unstable, options.threads = bool(long), bool(allow_unstable), _threads(threads)
+    options.endless, options.threads = bool(long), _threads(threads)
     return options
 
 
@@ -165,13 +182,15 @@ def test(case: _Case, output: _Path | None = None, *, force: bool = False, verif
     """Runs one virtual test, as `crackle test CASE -o OUT`, to the same bytes.
 
     case: a dict, a TOML text or the path of a file. output: folder for the results; None: a folder that goes with the
-    Result, but stays where the test is not run to its end (a note of the exception names it). force: replace results that are there; verify: run the companions, too, for the errors of strength and
-    strain; profile: time the phases of a step; threads: no result depends on them; long: run it although it takes more
-    than a day; allow_unstable: accept a time step above the stable bound.
+    Result, but stays where the test is not run to its end (a note of the exception names it). force: replace results
+    that are there; verify: run the companions, too, for the errors of strength and strain; profile: time the phases of
+    a step; threads: no result depends on them; long: run it although it takes more than a day; allow_unstable: accept a
+    time step above the stable bound.
 
-    call: is called with the State of the test at every judged row (of those, curve.csv has output.curve_rows), or every
-    so many steps: every = "row" or a number; not at the row by which the test ends of itself. It may read arrays, set state.platen_speed, and end the test by state.stop(). What it raises ends the test as Ctrl-C does:
-    what was written is kept, and `resume` goes on.
+    call: is called with the State of the test at every judged row (curve.csv has output.curve_rows of them), or every
+    so many steps: every = "row" or a number; not at the row by which the test ends of itself. It may read arrays, set
+    state.platen_speed, and end the test by state.stop(). What it raises ends the test as Ctrl-C does: what was written
+    is kept, and `resume` goes on.
 
     Returns Result. Raises InputError, UnstableRun (results up to there are kept), KeyboardInterrupt.
     """
@@ -181,16 +200,16 @@ def test(case: _Case, output: _Path | None = None, *, force: bool = False, verif
     if output is None:
         temporary = Temporary()
         output = os.path.join(temporary.name, "test")
-    options = _options(output, force, verify, profile, long, allow_unstable, threads)
+    options = _options(output, force, verify, profile, long, threads)
     options.command = "crackle.test"
     try:
         with reporting(progress) as report:
-            folder, _, _ = _engine.run_test(asked, options, report, call, every)
+            folder, _, _ = _engine.run_test(asked, options, bool(allow_unstable), report, call, every)
     except BaseException as error:
         if temporary is not None and os.path.isfile(os.path.join(output, "case.toml")):  # the run had begun
             temporary.keep()
-            error.add_note(f"what was written is kept in {output}: crackle.read reads it, crackle.resume goes on with a "
-                           "test that was interrupted")
+            error.add_note(f"what was written is kept in {output}: crackle.read reads it, crackle.resume goes on "
+                           "with a test that was interrupted")
         raise
     return Result(folder, temporary=temporary)
 
@@ -198,8 +217,9 @@ def test(case: _Case, output: _Path | None = None, *, force: bool = False, verif
 def resume(folder: _Path, *, verify: bool = False, threads: int | None = None, long: bool = False,
            every: int | str = "row", call: Callable[[_engine.State], Any] | None = None,
            progress: _Progress = None) -> Result:
-    """Goes on with a test that was interrupted, as `crackle test --resume OUT`; keywords as of test(). Returns Result."""
-    options = _options(folder, False, verify, False, long, False, threads)
+    """Goes on with a test that was interrupted, as `crackle test --resume OUT`; keywords as of test(). Returns
+    Result."""
+    options = _options(folder, False, verify, False, long, threads)
     with reporting(progress) as report:
         folder, _, _ = _engine.resume_test(options, report, call, _every(every))
     return Result(folder)
