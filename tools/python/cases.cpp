@@ -5,6 +5,8 @@
 
 #include <filesystem>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "specimens/case/case_file.hpp"
 #include "tools/python/parts.hpp"
@@ -36,6 +38,15 @@ void bind_cases(py::module_& module) {
             return read_case(CaseText{name, text, json});
         },
         py::arg("text"), py::arg("name"), py::arg("json"));
+    module.def(
+        "files_of_joints",
+        [](const std::string& path) {
+            std::vector<std::string> all;
+            for (const std::filesystem::path& file : files_read(CaseFiles(std::filesystem::path(path)).joints()))
+                all.push_back(file.string());
+            return all;
+        },
+        py::arg("path"), "All files that are read for the joints of a file, it among them.");
     module.def("case_keys", [] {
         std::ostringstream text;
         describe_case_keys(text);

@@ -115,6 +115,7 @@ class Particles(InScratch):
         for particles, joints, output in (("in.dat", None, "in.dat"), ("in.dat", None, "./in.dat"),
                                           (packed, "joints.toml", "joints.toml"),
                                           ("in.dat", "joints.toml", "joints.toml"),
+                                          (packed, "joints.toml", "traces.txt"),
                                           ([[0.0, 1.0]], "joints.toml", "joints.toml")):
             before = Path(output).read_bytes()
             with self.assertRaises(crackle.InputError) as refused:

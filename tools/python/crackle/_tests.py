@@ -67,17 +67,19 @@ def mesh(particles: _engine.Particles | _Path | Sequence[Sequence[float]], *, ki
 
     Returns Particles; with output the file is written, too.
     """
+    inputs = []
     if joints is not None:
         joints = given_or_shipped(joints)
+        inputs = _engine.files_of_joints(joints) if output is not None else []
     if isinstance(particles, _engine.Particles):
-        _refuse_replacing(output, force, joints)
+        _refuse_replacing(output, force, *inputs)
         name, text = "particles", particles.text()
     elif isinstance(particles, (str, os.PathLike)):
         name = given_or_shipped(particles)
-        _refuse_replacing(output, force, name, joints)
+        _refuse_replacing(output, force, name, *inputs)
         text = _engine.read_text(name)
     else:
-        _refuse_replacing(output, force, joints)
+        _refuse_replacing(output, force, *inputs)
         name = "centres"
         try:
             text = "".join(f"{float(x)!r} {float(y)!r}\n" for x, y in particles)
