@@ -9,7 +9,6 @@
 
 #include "mesher/trace_graph.hpp"
 #include "solver/base/correctly_rounded.hpp"
-#include "solver/base/errors.hpp"
 #include "specimens/joints/drawn_sets.hpp"
 #include "specimens/joints/mesh_traces.hpp"
 
@@ -97,7 +96,8 @@ void count_blocks(JointReport& report, const JointNetwork& network) {
     try {
         areas = parted_areas(trace_graph({box.x1, box.x2, box.y1, box.y2}, lines, reach));
     } catch (const MeshError& error) {
-        throw InputError(fmt::format("joints: {}", error.what()));
+        report.notices.push_back(fmt::format("blocks are not counted: {}", error.what()));
+        return;
     }
     std::sort(areas.begin(), areas.end());
     report.blocks = areas.size();

@@ -42,9 +42,10 @@ struct SourceReport {
 struct JointReport {
     std::vector<SourceReport> sources;
     SourceReport all;
-    std::size_t blocks = 0;      ///< parts of the box that traces part from each other
-    double largest_block = 0.0;  ///< share of the box's area
-    double median_block = 0.0;   ///< share; of blocks by number
+    /// Parts of the box that traces part from each other; none where traces meet too often to count them.
+    std::optional<std::size_t> blocks;
+    double largest_block = SourceReport::none;  ///< share of the box's area
+    double median_block = SourceReport::none;   ///< share; of blocks by number
     std::vector<std::string> notices;
 };
 

@@ -38,6 +38,18 @@ TEST(JointReport, TwoCrossingSetsCutRectangles) {
     EXPECT_TRUE(std::isnan(report.sources[0].p20));
 }
 
+TEST(JointReport, BlocksOfTooManyCrossingsAreNotCountedAndTheRestIsReported) {
+    const JointReport report = report_of(
+        "[[joint_set]]\nname = \"a\"\nangle = 0.0\nspacing = 4e-4\n"
+        "[[joint_set]]\nname = \"b\"\nangle = 90.0\nspacing = 4e-4\n",
+        box(1.0, 1.0));
+    EXPECT_FALSE(report.blocks);
+    EXPECT_TRUE(std::isnan(report.largest_block));
+    ASSERT_EQ(report.notices.size(), 1U);
+    EXPECT_TRUE(report.notices[0].starts_with("blocks are not counted: found more than")) << report.notices[0];
+    EXPECT_TRUE(agrees("P10 of a", report.sources[0].p10, 2500.0, 1e-9));
+}
+
 TEST(JointReport, TracesThatEndInTheRockCutNothing) {
     const JointReport report =
         report_of("[[trace]]\npoints = [0.2, 0.2, 0.8, 0.3, 0.7, 0.9]\n[[trace]]\npoints = [0.0, 0.5, 0.6, 0.5]\n",
