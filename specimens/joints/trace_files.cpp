@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <unordered_set>
 
 #include "solver/base/errors.hpp"
 #include "solver/files/read_file.hpp"
@@ -138,9 +139,8 @@ class CsvTraces {
             trace_ = trace;
             begun_ = lines_.line();
             // Points of a trace that comes again would belong to the middle of it.
-            if (std::find(seen_.begin(), seen_.end(), trace) != seen_.end())
+            if (!seen_.insert(trace).second)
                 lines_.refuse(fmt::format("trace {:.40} again after another", trace), "its points one after another");
-            seen_.push_back(trace);
         }
         points_.push_back({number("x"), number("y")});
     }
@@ -150,7 +150,8 @@ class CsvTraces {
     }
 
     Lines lines_;
-    std::vector<std::string_view> columns_, fields_, seen_;
+    std::vector<std::string_view> columns_, fields_;
+    std::unordered_set<std::string_view> seen_;
     std::string_view trace_;
     int begun_ = 0;
     std::vector<Vec2> points_;

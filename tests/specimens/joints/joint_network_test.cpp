@@ -242,6 +242,32 @@ TEST(JointNetwork, ATraceThatLeavesTheBoxAndComesBackIsTwo) {
     EXPECT_TRUE(clipped({{-1.0, 1.0}, {0.0, 1.0}}, box(1.0, 1.0)).empty()) << "touches a corner";
 }
 
+TEST(JointNetwork, LengthsThatWouldBeDrawnWithoutEndAreRefused) {
+    const auto refused = [](const std::string& keys) {
+        return refusal([&] { make_joints(joints_of(set_of("angle = 30.0\n" + keys)), box(1.0, 1.0)); });
+    };
+    const std::string fixed = "length = \"fixed\"\nlength_mean = ", power_law = "length = \"power_law\"\n";
+    for (const char* far : {"1e6\nnumber = 1000\n", "1e5\np20 = 50.0\n", "1e9\np21 = 50.0\n"})
+        EXPECT_NE(refused(fixed + far).find("joint_set[1].length_mean: found 1"), std::string::npos);
+    EXPECT_NE(refused(power_law + "length_min = 0.1\nlength_max = 1e9\nlength_exponent = 1.0\nnumber = 100\n")
+                  .find("joint_set[1].length_max: found 1000000000 m, expected lengths nearer"),
+              std::string::npos);
+    for (const char* amount : {"number = 5\n", "p20 = 5.0\n"})
+        EXPECT_NE(refused(fixed + "1e-20\n" + amount).find("joint_set[1].length_mean: found 1e-20 m"),
+                  std::string::npos);
+    EXPECT_NE(refused(power_law + "length_min = 1e-12\nlength_max = 0.1\nlength_exponent = 3.0\nnumber = 100\n")
+                  .find("joint_set[1].length_min: found 1e-12 m"),
+              std::string::npos);
+    const std::string gaps = "length = \"gaps\"\nnumber = 5\nlength_mean = ";
+    EXPECT_NE(refused(gaps + "1e-20\ngap_mean = 0.1\n").find("joint_set[1].length_mean: found 1e-20 m"),
+              std::string::npos);
+    EXPECT_NE(refused(gaps + "0.1\ngap_mean = 1e9\n").find("joint_set[1].gap_mean: found"), std::string::npos);
+    // A hundred times the box is drawn.
+    EXPECT_EQ(
+        make_joints(joints_of(set_of("angle = 30.0\n" + fixed + "100.0\nnumber = 50\n")), box(1.0, 1.0)).traces.size(),
+        50U);
+}
+
 TEST(JointNetwork, WhatCannotBeDrawnIsRefused) {
     const auto refused = [](const std::string& text) {
         return refusal([&] { make_joints(joints_of(text), box(1.0, 1.0)); });
