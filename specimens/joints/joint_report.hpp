@@ -36,7 +36,7 @@ struct SourceReport {
     double longest = 0.0;                                                         ///< m, in the box
     double direction = none;                                                      ///< degrees 0 to 180, mean by length
     double kappa = none;  ///< of an axial von Mises law fitted to the traces' directions, each counted once
-    Rose rose;            ///< straight parts, by length
+    Rose rose;            ///< straight parts, by length; the first bin is centred on 0
 };
 
 struct JointReport {

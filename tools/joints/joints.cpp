@@ -92,7 +92,7 @@ Json as_json(const JointNetwork& network, const JointReport& report) {
               {"mean_length", "m, of traces with their midpoint in the box, before that cut them"},
               {"longest", "m, in the box"},
               {"kappa", "-, of an axial von Mises law fitted to the traces, each counted once"},
-              {"rose", "m of traces in each 10 degrees from 0 to 180"},
+              {"rose", "m of traces within 5 degrees of 0, 10, ... 170"},
               {"largest_block, median_block", "-, shares of the box's area, as if all traces were open"}}}};
 }
 
@@ -206,8 +206,10 @@ int joints(const Invocation& given) {
         std::cout << as_json(network, report).dump(2) << '\n';
         return exit_done;
     }
-    if (!given.messages.quiet()) print(network, report);
-    for (const std::string& notice : report.notices) fmt::print("notice: {}\n", notice);
+    if (!given.messages.quiet()) {
+        print(network, report);
+        for (const std::string& notice : report.notices) fmt::print("notice: {}\n", notice);
+    }
     return exit_done;
 }
 
