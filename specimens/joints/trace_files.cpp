@@ -45,7 +45,8 @@ class Lines {
         double value = 0.0;
         const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
         if (error != std::errc{} || end != digits.data() + digits.size() || !is_a_size(value))
-            refuse(fmt::format("'{:.40}'", word), fmt::format("a finite number for {}", what));
+            refuse(fmt::format("'{:.40}'", word),
+                   fmt::format("a number for {}, 0 or of a size from 1e-30 to 1e30", what));
         return value;
     }
     const std::string& name() const { return name_; }
