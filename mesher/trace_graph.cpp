@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <numeric>
@@ -22,7 +23,7 @@ namespace {
 // Places nearer than this share of the largest coordinate are one: crossings of three lines at a point differ by some
 // rounding errors.
 constexpr double same_place_share = 1e-13;
-constexpr std::size_t most_crossings = 5'000'000;
+constexpr std::size_t most_pairs = 5'000'000;
 
 Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
 double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
@@ -48,23 +49,89 @@ std::optional<std::pair<double, double>> lines_meet(const Piece& s, const Piece&
     return std::pair{cross(between, e) / sine, cross(between, d) / sine};
 }
 
-/// Which pieces come near each other: by their boxes, swept along x.
+/// A lower bound of the distance of two pieces: that of their extents along the normal of either.
+bool lie_apart(const Piece& s, const Piece& t, double reach) {
+    const auto beside = [reach](const Piece& line, const Piece& other) {
+        const Point d = line.b - line.a;
+        const double from = cross(d, other.a - line.a), to = cross(d, other.b - line.a);
+        const double room = reach * std::sqrt(dot(d, d));
+        return std::min(from, to) > room || std::max(from, to) < -room;
+    };
+    return beside(s, t) || beside(t, s);
+}
+
+/// The direction square to the mean one of the pieces, by length: parallel ones are narrow along it.
+Point across_most(const std::vector<Piece>& pieces) {
+    double cosine = 0.0, sine = 0.0;
+    for (const Piece& s : pieces) {
+        const Point d = s.b - s.a;
+        const double length = std::sqrt(dot(d, d));
+        cosine += (d.x * d.x - d.y * d.y) / length;
+        sine += 2.0 * d.x * d.y / length;
+    }
+    const double size = std::sqrt(cosine * cosine + sine * sine);
+    if (!(size > 0.0)) return {1.0, 0.0};
+    const double half_cosine = std::sqrt(0.5 * (1.0 + std::min(cosine / size, 1.0)));
+    const double half_sine = std::sqrt(0.5 * (1.0 + std::min(-cosine / size, 1.0)));
+    return {sine < 0.0 ? half_sine : -half_sine, half_cosine};
+}
+
+/// Which pieces come near each other: swept along x and, where there most are not, along the direction across most of
+/// them. Calls use(i, j), i < j, from left to right.
+/// @throws MeshError for more than most_pairs
 template <class Use>
 void each_near_pair(const std::vector<Piece>& pieces, double reach, Use use) {
-    std::vector<std::size_t> order(pieces.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
-    const auto left = [&](std::size_t k) { return std::min(pieces[k].a.x, pieces[k].b.x); };
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) { return left(i) < left(j); });
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        const Piece& s = pieces[order[i]];
-        const double right = std::max(s.a.x, s.b.x) + reach;
-        const auto [low, high] = std::minmax(s.a.y, s.b.y);
-        for (std::size_t j = i + 1; j < order.size() && left(order[j]) <= right; ++j) {
-            const Piece& t = pieces[order[j]];
-            if (std::max(t.a.y, t.b.y) < low - reach || std::min(t.a.y, t.b.y) > high + reach) continue;
-            use(std::min(order[i], order[j]), std::max(order[i], order[j]));
+    struct Extent {
+        double low, high;
+    };
+    const auto extents_along = [&](Point axis) {
+        std::vector<Extent> extents;
+        extents.reserve(pieces.size());
+        for (const Piece& s : pieces) {
+            const double from = dot(s.a, axis), to = dot(s.b, axis);
+            extents.push_back({std::min(from, to), std::max(from, to)});
+        }
+        return extents;
+    };
+    const auto sum_of = [](const std::vector<Extent>& extents) {
+        return std::accumulate(extents.begin(), extents.end(), 0.0,
+                               [](double sum, Extent e) { return sum + e.high - e.low; });
+    };
+    const auto order_of = [](const std::vector<Extent>& extents) {
+        std::vector<std::uint32_t> order(extents.size());
+        std::iota(order.begin(), order.end(), 0U);
+        std::stable_sort(order.begin(), order.end(),
+                         [&](std::uint32_t i, std::uint32_t j) { return extents[i].low < extents[j].low; });
+        return order;
+    };
+    const std::vector<Extent> by_x = extents_along({1.0, 0.0}), by_y = extents_along({0.0, 1.0});
+    const std::vector<std::uint32_t> from_left = order_of(by_x);
+    std::vector<std::uint32_t> place(pieces.size());
+    for (std::uint32_t k = 0; k < from_left.size(); ++k) place[from_left[k]] = k;
+
+    const double room = 1.001 * reach;  // rounding keeps no pair out
+    const std::vector<Extent> oblique = extents_along(across_most(pieces));
+    const std::vector<Extent>& swept = sum_of(oblique) < sum_of(by_x) ? oblique : by_x;
+    const std::vector<std::uint32_t> order = order_of(swept);
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;  // by their places from the left
+    const auto apart = [room](Extent s, Extent t) { return s.high + room < t.low || t.high + room < s.low; };
+    for (std::size_t a = 0; a < order.size(); ++a) {
+        const std::uint32_t i = order[a];
+        for (std::size_t b = a + 1; b < order.size() && swept[order[b]].low <= swept[i].high + room; ++b) {
+            const std::uint32_t j = order[b];
+            if (apart(by_x[i], by_x[j]) || apart(by_y[i], by_y[j]) || lie_apart(pieces[i], pieces[j], room)) continue;
+            if (pairs.size() == most_pairs)
+                throw MeshError(
+                    fmt::format("found more than {} places where traces meet or come within {:.3g} m of each other, "
+                                "expected fewer; lower their amount",
+                                most_pairs, reach));
+            pairs.emplace_back(std::minmax(place[i], place[j]));
         }
     }
+    std::sort(pairs.begin(), pairs.end());
+    for (const auto& [first, second] : pairs)
+        use(std::size_t{std::min(from_left[first], from_left[second])},
+            std::size_t{std::max(from_left[first], from_left[second])});
 }
 
 class GraphMaker {
@@ -140,16 +207,8 @@ class GraphMaker {
 
     void cut() {
         cuts_.resize(pieces_.size());
-        std::size_t count = 0;
         for (std::size_t k = 0; k < pieces_.size(); ++k) cuts_[k] = {{0.0, pieces_[k].a}, {1.0, pieces_[k].b}};
-        each_near_pair(pieces_, same_place_, [&](std::size_t i, std::size_t j) {
-            cut(i, j);
-            if (++count > most_crossings)
-                throw MeshError(
-                    fmt::format("found more than {} traces near each other, expected fewer; lower their "
-                                "amount",
-                                most_crossings));
-        });
+        each_near_pair(pieces_, same_place_, [&](std::size_t i, std::size_t j) { cut(i, j); });
     }
 
     /// @return whether an end of piece j lies on piece i, which is cut there then

@@ -174,6 +174,10 @@ class JointCheck {
             if (t.points->size() < 4 || t.points->size() % 2 != 0)
                 refuse(of_trace(k, "points"), fmt::format("{} numbers", t.points->size()),
                        "x and y of two points or more", "correct it");
+            const std::vector<double>& p = *t.points;
+            bool apart = false;
+            for (std::size_t n = 2; n < p.size(); n += 2) apart = apart || p[n] != p[0] || p[n + 1] != p[1];
+            if (!apart) refuse(of_trace(k, "points"), "a trace of one place", "two or more", "correct it");
         }
         if (t.offset && t.offset->size() != 2)
             refuse(of_trace(k, "offset"), fmt::format("{} numbers", t.offset->size()), "two, x and y", "correct it");

@@ -60,6 +60,9 @@ class LengthStrata {
         return {std::min(law_.exceeded_by(share), longest_[k]), longest_[k]};
     }
 
+    /// Draws for one midpoint in an area of 1 m2.
+    double draws_of_a_midpoint() const { return sum_; }
+
   private:
     static constexpr std::size_t count = 50;  // of what is longer there is one in 1e15
     const LengthLaw& law_;
@@ -165,10 +168,40 @@ class SetDrawing {
         take({{part->first, part->second}, source_, whole_length, centred});
     }
 
+    /// @throws InputError for traces that rounding makes points, of which none would ever count
+    void refuse_points(const char* key, double found, double typical) const {
+        if (!(typical >= least_share * diagonal_))
+            throw InputError(fmt::format(
+                "{}: found {} m, expected lengths of at least {:.3g} m, a share of {} of the box's diagonal, "
+                "for half of the traces; make them longer",
+                at(key), found, least_share * diagonal_, least_share));
+    }
+
+    /// @throws InputError for midpoints strewn so far that hardly one of their traces meets the box
+    void refuse_endless(const char* key, double found, const LengthLaw& law, const LengthStrata& strata) const {
+        // Midpoints in the whole plane, per area; seen along any scan line a trace is at most its length.
+        const double area = width_ * height_, mean = law.mean();
+        const double density = set_.number ? asked_ / (area + mean * (width_ + height_))
+                               : set_.p20  ? asked_ / area
+                                           : asked_ / (area * mean);
+        const double draws = density * strata.draws_of_a_midpoint();
+        if (!(draws <= most_drawn))
+            throw InputError(fmt::format(
+                "{}: found {} m, expected lengths nearer to those of the box, {:.4g} m by {:.4g} m: {:.2g} "
+                "midpoints would have to be drawn for those that meet it, at most {:.0e} are; make the traces "
+                "shorter, or ask for fewer",
+                at(key), found, width_, height_, draws, most_drawn));
+    }
+
     void midpoints() {
         asked_ = asked();
         const LengthLaw law = length_law(set_);
         const LengthStrata strata(law, width_, height_);
+        const bool power_law = set_.length == "power_law";
+        refuse_points(power_law ? "length_min" : "length_mean", power_law ? *set_.length_min : *set_.length_mean,
+                      law.exceeded_by(0.5));
+        refuse_endless(power_law ? "length_max" : "length_mean", power_law ? *set_.length_max : *set_.length_mean, law,
+                       strata);
         while (!full()) {
             const auto [length, longest] = strata.draw(generator_);
             const Vec2 half = 0.5 * length * unit(directions_.draw(generator_));
@@ -193,6 +226,12 @@ class SetDrawing {
         const LengthLaw joint = spread_law(*set_.length_mean, set_.length_deviation),
                         gap = spread_law(*set_.gap_mean, set_.gap_deviation);
         const double cycle = joint.mean() + gap.mean();
+        refuse_points("length_mean", joint.mean(), joint.mean());
+        if (gap.mean() > most_gap_share * diagonal_)
+            throw InputError(
+                fmt::format("{}: found {} m, expected at most {:.4g} m, {} diagonals of the box: hardly a line would "
+                            "have a joint in it; make the gaps shorter",
+                            at("gap_mean"), gap.mean(), most_gap_share * diagonal_, most_gap_share));
         if (2.0 * reach / cycle > static_cast<double>(most_traces_of_a_set))
             throw InputError(
                 fmt::format("{}: found {} m and gaps of {} m, expected at most {} of them along the box; "
@@ -234,7 +273,7 @@ class SetDrawing {
                                              at("spacing"), *set_.spacing, most, lines));
         };
         refuse_beyond(2.0 * half_width, most_traces_of_a_set, "in the box");
-        refuse_beyond(2.0 * reach, most_lines, "beside the box, which may meet it by their scatter");
+        refuse_beyond(2.0 * reach, most_drawn, "beside the box, which may meet it by their scatter");
         const auto place = [&](double offset) {
             const double angle = directions_.draw(generator_);
             const Vec2 through = centre_ + offset * normal;
@@ -265,7 +304,8 @@ class SetDrawing {
     }
 
     static constexpr double settling_cycles = 20.0;
-    static constexpr double most_lines = 1e7;    // seconds of drawing
+    static constexpr double most_gap_share = 1e3;
+    static constexpr double most_drawn = 1e7;    // seconds of drawing
     static constexpr double least_share = 1e-9;  // of the box's diagonal: a trace shorter than that is rounding
 
     const TestCase& test_;

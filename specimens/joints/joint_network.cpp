@@ -64,11 +64,12 @@ void take_measured(JointNetwork& network, const TestCase& test, std::size_t numb
         const auto pieces = clipped(points, network.box);
         if (pieces.empty()) ++outside;
         const double whole = length_of(points);
-        bool centred = holds(network.box, midpoint_of(points));
-        for (const std::vector<Vec2>& piece : pieces) {
-            network.traces.push_back({piece, source, whole, centred});
-            centred = false;  // of the first piece alone
-        }
+        const bool centred = holds(network.box, midpoint_of(points));
+        // Counted once, with the piece that is left out last.
+        const auto longest = std::max_element(pieces.begin(), pieces.end(),
+                                              [](const auto& a, const auto& b) { return length_of(a) < length_of(b); });
+        for (auto piece = pieces.begin(); piece != pieces.end(); ++piece)
+            network.traces.push_back({*piece, source, whole, centred && piece == longest});
     }
     if (outside == traces.size()) {
         throw InputError(

@@ -9,7 +9,6 @@
 
 #include "mesher/trace_graph.hpp"
 #include "solver/base/correctly_rounded.hpp"
-#include "solver/base/errors.hpp"
 #include "specimens/joints/drawn_sets.hpp"
 #include "specimens/joints/mesh_traces.hpp"
 
@@ -20,12 +19,12 @@ constexpr double degrees = 180.0 / std::numbers::pi;
 
 double angle_of(Vec2 direction) { return correctly_rounded::atan2(direction.y, direction.x); }
 
-/// To [0, 180).
-double as_line(double angle) { return angle - 180.0 * std::floor(angle / 180.0); }
-
 /// Sums over traces, source by source.
 class Sums {
   public:
+    // Edges between multiples of 10 degrees, which are what people give: rounding puts parallel traces in one bin.
+    Sums() { by_length_.begins = -0.5 * rose_bin_width; }
+
     void add(const JointTrace& trace) {
         traces_.push_back(&trace);
         for (std::size_t k = 0; k + 1 < trace.points.size(); ++k) {
@@ -59,7 +58,7 @@ class Sums {
         if (centred_ > 0) r.mean_length = whole_lengths_ / static_cast<double>(centred_);
         if (std::isnan(scan_line)) scan_line = r.direction / degrees + 0.5 * std::numbers::pi;
         if (std::isnan(scan_line)) return r;
-        r.scan_line = as_line(scan_line * degrees);
+        r.scan_line = line_direction(scan_line * degrees);
         r.p10 = 0.0;
         for (const JointTrace* trace : traces_) r.p10 += length_across(*trace, scan_line) / area;
         return r;
@@ -73,7 +72,7 @@ class Sums {
 };
 
 void add_what_was_asked(SourceReport& r, const TestCase::JointSet& set, double direction) {
-    r.direction_asked = as_line(direction * degrees);
+    r.direction_asked = line_direction(direction * degrees);
     if (set.kappa) r.kappa_asked = *set.kappa;
     double persistence = 1.0;
     if (set.length == "gaps") {
@@ -97,7 +96,8 @@ void count_blocks(JointReport& report, const JointNetwork& network) {
     try {
         areas = parted_areas(trace_graph({box.x1, box.x2, box.y1, box.y2}, lines, reach));
     } catch (const MeshError& error) {
-        throw InputError(fmt::format("joints: {}", error.what()));
+        report.notices.push_back(fmt::format("blocks are not counted: {}", error.what()));
+        return;
     }
     std::sort(areas.begin(), areas.end());
     report.blocks = areas.size();

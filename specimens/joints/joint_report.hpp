@@ -36,15 +36,16 @@ struct SourceReport {
     double longest = 0.0;                                                         ///< m, in the box
     double direction = none;                                                      ///< degrees 0 to 180, mean by length
     double kappa = none;  ///< of an axial von Mises law fitted to the traces' directions, each counted once
-    Rose rose;            ///< straight parts, by length
+    Rose rose;            ///< straight parts, by length; the first bin is centred on 0
 };
 
 struct JointReport {
     std::vector<SourceReport> sources;
     SourceReport all;
-    std::size_t blocks = 0;      ///< parts of the box that traces part from each other
-    double largest_block = 0.0;  ///< share of the box's area
-    double median_block = 0.0;   ///< share; of blocks by number
+    /// Parts of the box that traces part from each other; none where traces meet too often to count them.
+    std::optional<std::size_t> blocks;
+    double largest_block = SourceReport::none;  ///< share of the box's area
+    double median_block = SourceReport::none;   ///< share; of blocks by number
     std::vector<std::string> notices;
 };
 

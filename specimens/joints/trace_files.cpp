@@ -8,6 +8,7 @@
 #include <charconv>
 #include <cmath>
 #include <optional>
+#include <unordered_set>
 
 #include "solver/base/errors.hpp"
 #include "solver/files/read_file.hpp"
@@ -44,7 +45,8 @@ class Lines {
         double value = 0.0;
         const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
         if (error != std::errc{} || end != digits.data() + digits.size() || !is_a_size(value))
-            refuse(fmt::format("'{:.40}'", word), fmt::format("a finite number for {}", what));
+            refuse(fmt::format("'{:.40}'", word),
+                   fmt::format("a number for {}, 0 or of a size from 1e-30 to 1e30", what));
         return value;
     }
     const std::string& name() const { return name_; }
@@ -138,9 +140,8 @@ class CsvTraces {
             trace_ = trace;
             begun_ = lines_.line();
             // Points of a trace that comes again would belong to the middle of it.
-            if (std::find(seen_.begin(), seen_.end(), trace) != seen_.end())
+            if (!seen_.insert(trace).second)
                 lines_.refuse(fmt::format("trace {:.40} again after another", trace), "its points one after another");
-            seen_.push_back(trace);
         }
         points_.push_back({number("x"), number("y")});
     }
@@ -150,7 +151,8 @@ class CsvTraces {
     }
 
     Lines lines_;
-    std::vector<std::string_view> columns_, fields_, seen_;
+    std::vector<std::string_view> columns_, fields_;
+    std::unordered_set<std::string_view> seen_;
     std::string_view trace_;
     int begun_ = 0;
     std::vector<Vec2> points_;

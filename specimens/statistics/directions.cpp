@@ -13,16 +13,15 @@ namespace {
 constexpr double degrees = 180.0 / std::numbers::pi;
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
 
-/// To [0, 180).
-double turned_back(double angle) {
+}  // namespace
+
+double line_direction(double angle) {
     const double within = angle - 180.0 * std::floor(angle / 180.0);
     return within < 180.0 ? within : 0.0;
 }
 
-}  // namespace
-
 void Rose::add(double angle, double line_weight) {
-    const auto bin = static_cast<std::size_t>(turned_back(angle * degrees) / rose_bin_width);
+    const auto bin = static_cast<std::size_t>(line_direction(angle * degrees - begins) / rose_bin_width);
     weights[std::min(bin, rose_bins - 1)] += line_weight;
     ++count;
     weight += line_weight;
@@ -32,7 +31,7 @@ void Rose::add(double angle, double line_weight) {
 }
 
 double Rose::mean_direction() const {
-    return count == 0 ? none : turned_back(0.5 * degrees * correctly_rounded::atan2(sine, cosine));
+    return count == 0 ? none : line_direction(0.5 * degrees * correctly_rounded::atan2(sine, cosine));
 }
 
 double Rose::resultant() const { return count == 0 ? none : std::sqrt(cosine * cosine + sine * sine) / weight; }

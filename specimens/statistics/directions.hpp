@@ -12,9 +12,13 @@ namespace crackle {
 inline constexpr std::size_t rose_bins = 18;
 inline constexpr double rose_bin_width = 10.0;  // degrees
 
+/// Of a line, to [0, 180). @param angle degrees
+double line_direction(double angle);
+
 /// Lines by direction, weighted.
 struct Rose {
-    std::array<double, rose_bins> weights{};  ///< by bins from 0 to 180 degrees, counter-clockwise from the x axis
+    std::array<double, rose_bins> weights{};  ///< by bins once round 180 degrees, counter-clockwise from the x axis
+    double begins = 0.0;                      ///< degrees, edge of the first bin
     std::size_t count = 0;
     double weight = 0.0;              ///< of all
     double cosine = 0.0, sine = 0.0;  ///< weighted sums at twice the angle

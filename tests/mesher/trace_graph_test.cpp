@@ -104,6 +104,36 @@ TEST(TraceGraph, CoincidentTracesAreOne) {
     EXPECT_EQ(length_of(graph, 1), 0.0);
 }
 
+// All of their boxes overlap, but none of the traces meets another one.
+TEST(TraceGraph, ManyParallelTracesMeetTheWallsAlone) {
+    constexpr int count = 20'000;
+    Lines traces;
+    for (int k = 1; k <= count; ++k) {
+        const double offset = 2.0 * k / (count + 1) - 1.0;
+        traces.push_back({{std::max(0.0, -offset), std::max(0.0, offset)},
+                          {std::min(1.0, 1.0 - offset), std::min(1.0, 1.0 + offset)}});
+    }
+    const TraceGraph graph = trace_graph(unit_box, traces, 1e-5);
+    EXPECT_EQ(graph.nodes.size(), 2U * count + 4U);
+    EXPECT_EQ(parted_areas(graph).size(), count + 1U);
+}
+
+TEST(TraceGraph, MoreCrossingsThanMemoryIsMeantForAreRefused) {
+    Lines traces;
+    for (int k = 0; k < 2300; ++k) {
+        const double at = (k + 0.5) / 2300;
+        traces.push_back({{0.0, at}, {1.0, at}});
+        traces.push_back({{at, 0.0}, {at, 1.0}});
+    }
+    try {
+        trace_graph(unit_box, traces, 0.0);
+        ADD_FAILURE() << "accepted";
+    } catch (const MeshError& error) {
+        EXPECT_NE(std::string(error.what()).find("found more than 5000000 places where traces meet"), std::string::npos)
+            << error.what();
+    }
+}
+
 TEST(TraceGraph, ThreeTracesThroughAPointHaveOneNodeThere) {
     Lines traces;
     for (const double angle : {0.3, 1.1, 2.0})

@@ -116,7 +116,8 @@ Panel trace_rose(const JointNetwork& network, const JointReport& report) {
         canvas.circle(centre, radius, nullptr, &faint, 0.4);
         for (const double turn : {0.0, 180.0}) {
             for (std::size_t bin = 0; bin < rose_bins; ++bin) {
-                const double first = radians * (turn + rose_bin_width * static_cast<double>(bin));
+                const double first =
+                    radians * (turn + report.all.rose.begins + rose_bin_width * static_cast<double>(bin));
                 double below = 0.0;
                 for (std::size_t k = 0; k < report.sources.size(); ++k) {
                     const double weight = report.sources[k].rose.weights[bin];

@@ -80,9 +80,9 @@ Json as_json(const JointNetwork& network, const JointReport& report) {
             {"height", network.box.y2 - network.box.y1},
             {"sources", sources},
             {"all", json_of(report.all)},
-            {"blocks", report.blocks},
-            {"largest_block", report.largest_block},
-            {"median_block", report.median_block},
+            {"blocks", report.blocks ? Json(*report.blocks) : Json()},
+            {"largest_block", finite_or_null(report.largest_block)},
+            {"median_block", finite_or_null(report.median_block)},
             {"notices", report.notices},
             {"units",
              {{"p10", "1/m, crossings per length of all lines along scan_line"},
@@ -92,7 +92,7 @@ Json as_json(const JointNetwork& network, const JointReport& report) {
               {"mean_length", "m, of traces with their midpoint in the box, before that cut them"},
               {"longest", "m, in the box"},
               {"kappa", "-, of an axial von Mises law fitted to the traces, each counted once"},
-              {"rose", "m of traces in each 10 degrees from 0 to 180"},
+              {"rose", "m of traces within 5 degrees of 0, 10, ... 170"},
               {"largest_block, median_block", "-, shares of the box's area, as if all traces were open"}}}};
 }
 
@@ -121,8 +121,12 @@ void print(const JointNetwork& network, const JointReport& report) {
     fmt::print("box {:.6g} m x {:.6g} m\n", network.box.x2 - network.box.x1, network.box.y2 - network.box.y1);
     for (const SourceReport& r : report.sources) print(r);
     if (report.sources.size() > 1) print(report.all);
+    if (!report.blocks) {
+        fmt::print("blocks         -\n");
+        return;
+    }
     fmt::print("blocks         {} if all were open; the largest has {:.3g} of the area, the median one {:.3g}\n",
-               report.blocks, report.largest_block, report.median_block);
+               *report.blocks, report.largest_block, report.median_block);
 }
 
 void draw(const JointNetwork& network, const JointReport& report, const fs::path& output, const plot::FigureLook& look,
@@ -202,8 +206,10 @@ int joints(const Invocation& given) {
         std::cout << as_json(network, report).dump(2) << '\n';
         return exit_done;
     }
-    if (!given.messages.quiet()) print(network, report);
-    for (const std::string& notice : report.notices) fmt::print("notice: {}\n", notice);
+    if (!given.messages.quiet()) {
+        print(network, report);
+        for (const std::string& notice : report.notices) fmt::print("notice: {}\n", notice);
+    }
     return exit_done;
 }
 

@@ -115,6 +115,39 @@ TEST(JointNetwork, LinesAtAFixedSpacingLieThroughThePoint) {
     EXPECT_LE(places.size(), 9U);
 }
 
+// Where lines and, along each, joints begin is drawn: over many seeds all places of a cycle come alike. A mean of n
+// phases, uniform in [0, 1), errs by 1/sqrt(12 n).
+TEST(JointNetwork, LinesAndTheJointsAlongThemBeginAnywhere) {
+    constexpr int seeds = 400;
+    double across = 0.0, along = 0.0, lines = 0.0, squares_across = 0.0, squares_along = 0.0;
+    for (int seed = 0; seed < seeds; ++seed) {
+        const JointNetwork network = make_joints(
+            joints_of(fmt::format("[joints]\nseed = {}\n", seed) +
+                      set_of("angle = 0.0\nlength = \"gaps\"\nlength_mean = 0.3\ngap_mean = 0.1\nspacing = 0.5\n")),
+            box(2.0, 2.0));
+        double last = -1.0;
+        for (const JointTrace& t : network.traces) {
+            const Vec2 end = t.points.back();
+            if (end.y == last || end.x == 2.0) continue;  // the first end in the box, of each line
+            const double phase = end.x / 0.4 - std::floor(end.x / 0.4);
+            along += phase;
+            squares_along += phase * phase;
+            lines += 1.0;
+            if (last < 0.0) {
+                const double first = end.y / 0.5 - std::floor(end.y / 0.5);
+                across += first;
+                squares_across += first * first;
+            }
+            last = end.y;
+        }
+    }
+    EXPECT_TRUE(within("mean place of lines", across / seeds, 0.5, 4.0 / std::sqrt(12.0 * seeds)));
+    EXPECT_TRUE(within("mean place of joints", along / lines, 0.5, 4.0 / std::sqrt(12.0 * lines)));
+    // Of squares the mean is 1/3, the variance 1/5 - 1/9.
+    EXPECT_TRUE(within("mean square, lines", squares_across / seeds, 1.0 / 3.0, 4.0 * std::sqrt(4.0 / 45.0 / seeds)));
+    EXPECT_TRUE(within("mean square, joints", squares_along / lines, 1.0 / 3.0, 4.0 * std::sqrt(4.0 / 45.0 / lines)));
+}
+
 TEST(JointNetwork, DistancesBetweenLinesFollowTheirLaw) {
     for (const auto& [law, mean_square] :
          {std::pair{"spacing_law = \"uniform\"\nspacing_deviation = 0.01\n", 0.01 * 0.01 / 3.0},
@@ -234,12 +267,61 @@ TEST(JointNetwork, ShortTracesAreLeftOutAndSaidSo) {
     EXPECT_EQ(network.notices[0], "1 traces shorter than 0.3 m are left out, 0.2 m in all");
 }
 
+TEST(JointNetwork, ATraceInPiecesIsCountedOnceWithTheLongest) {
+    const std::string trace = "[[trace]]\npoints = [0.95, 0.4, 1.05, 0.4, 1.05, 0.5, 0.1, 0.5]\n";
+    for (const char* shortest : {"", "[joints]\nshortest = 0.3\n"}) {
+        const JointNetwork network = make_joints(joints_of(shortest + trace), box(1.0, 1.0));
+        ASSERT_FALSE(network.traces.empty());
+        for (const JointTrace& t : network.traces) EXPECT_EQ(t.centred, t.length() > 0.5) << t.length();
+        EXPECT_TRUE(agrees("whole length", network.traces.back().whole_length, 1.15, 1e-12));
+    }
+}
+
+// 1 m of the trace lies left of the box, 0.2 m below it; halfway along is at x = 0.1.
+TEST(JointNetwork, TheMidpointOfATraceLiesHalfwayAlongIt) {
+    for (const auto& [points, centred] : {std::pair{"[-1.0, 0.5, 1.0, 0.5, 1.0, 0.3]", true},
+                                          {"[-1.0, 0.5, 0.9, 0.5]", false},
+                                          {"[0.9, 0.9, 0.9, 3.0, 3.0, 3.0]", false},
+                                          {"[3.0, 3.0, 0.9, 3.0, 0.9, 0.9, 0.1, 0.9, 0.1, 5.0]", true}}) {
+        const JointNetwork network =
+            make_joints(joints_of(fmt::format("[[trace]]\npoints = {}\n", points)), box(1.0, 1.0));
+        ASSERT_EQ(network.traces.size(), 1U);
+        EXPECT_EQ(network.traces[0].centred, centred) << points;
+    }
+}
+
 TEST(JointNetwork, ATraceThatLeavesTheBoxAndComesBackIsTwo) {
     const auto pieces = clipped({{0.5, 0.5}, {1.5, 0.5}, {1.5, 0.8}, {0.5, 0.8}, {0.2, 0.9}}, box(1.0, 1.0));
     ASSERT_EQ(pieces.size(), 2U);
     EXPECT_EQ(pieces[0], (std::vector<Vec2>{{0.5, 0.5}, {1.0, 0.5}}));
     EXPECT_EQ(pieces[1], (std::vector<Vec2>{{1.0, 0.8}, {0.5, 0.8}, {0.2, 0.9}}));
     EXPECT_TRUE(clipped({{-1.0, 1.0}, {0.0, 1.0}}, box(1.0, 1.0)).empty()) << "touches a corner";
+}
+
+TEST(JointNetwork, LengthsThatWouldBeDrawnWithoutEndAreRefused) {
+    const auto refused = [](const std::string& keys) {
+        return refusal([&] { make_joints(joints_of(set_of("angle = 30.0\n" + keys)), box(1.0, 1.0)); });
+    };
+    const std::string fixed = "length = \"fixed\"\nlength_mean = ", power_law = "length = \"power_law\"\n";
+    for (const char* far : {"1e6\nnumber = 1000\n", "1e5\np20 = 50.0\n", "1e9\np21 = 50.0\n"})
+        EXPECT_NE(refused(fixed + far).find("joint_set[1].length_mean: found 1"), std::string::npos);
+    EXPECT_NE(refused(power_law + "length_min = 0.1\nlength_max = 1e9\nlength_exponent = 1.0\nnumber = 100\n")
+                  .find("joint_set[1].length_max: found 1000000000 m, expected lengths nearer"),
+              std::string::npos);
+    for (const char* amount : {"number = 5\n", "p20 = 5.0\n"})
+        EXPECT_NE(refused(fixed + "1e-20\n" + amount).find("joint_set[1].length_mean: found 1e-20 m"),
+                  std::string::npos);
+    EXPECT_NE(refused(power_law + "length_min = 1e-12\nlength_max = 0.1\nlength_exponent = 3.0\nnumber = 100\n")
+                  .find("joint_set[1].length_min: found 1e-12 m"),
+              std::string::npos);
+    const std::string gaps = "length = \"gaps\"\nnumber = 5\nlength_mean = ";
+    EXPECT_NE(refused(gaps + "1e-20\ngap_mean = 0.1\n").find("joint_set[1].length_mean: found 1e-20 m"),
+              std::string::npos);
+    EXPECT_NE(refused(gaps + "0.1\ngap_mean = 1e9\n").find("joint_set[1].gap_mean: found"), std::string::npos);
+    // A hundred times the box is drawn.
+    EXPECT_EQ(
+        make_joints(joints_of(set_of("angle = 30.0\n" + fixed + "100.0\nnumber = 50\n")), box(1.0, 1.0)).traces.size(),
+        50U);
 }
 
 TEST(JointNetwork, WhatCannotBeDrawnIsRefused) {

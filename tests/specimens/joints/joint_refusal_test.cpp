@@ -60,6 +60,8 @@ TEST(JointRefusals, NamesAndTracesAreChecked) {
              {"[[trace]]\nname = \"t\"\n", "trace[1]: found neither points nor a file"},
              {"[[trace]]\npoints = [0.0, 0.0, 1.0, 1.0]\nfile = \"f\"\n", "trace[1]: found points and a file"},
              {"[[trace]]\npoints = [0.0, 0.0, 1.0]\n", "found 3 numbers, expected x and y of two points"},
+             {"[[trace]]\npoints = [0.5, 0.25, 0.5, 0.25, 0.5, 0.25]\n",
+              "trace[1].points: found a trace of one place, expected two or more"},
              {"[[trace]]\npoints = [0.0, 0.0, 1.0, 1.0]\nscale = 2.0\n", "only a file has it"},
              {"[[trace]]\nfile = \"f\"\noffset = [1.0]\n", "trace[1].offset: found 1 numbers"},
          }) {

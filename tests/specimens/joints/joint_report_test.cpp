@@ -5,6 +5,7 @@
 #include "specimens/joints/joint_report.hpp"
 
 #include <cmath>
+#include <numbers>
 
 #include "tests/specimens/joints/cases.hpp"
 #include "tests/support/claim.hpp"
@@ -16,6 +17,8 @@ using testing::agrees;
 using testing::box;
 using testing::joints_of;
 using testing::within;
+
+constexpr double degree = std::numbers::pi / 180.0;
 
 JointReport report_of(const std::string& text, const Domain& domain) {
     const TestCase test = joints_of(text);
@@ -36,6 +39,18 @@ TEST(JointReport, TwoCrossingSetsCutRectangles) {
     EXPECT_TRUE(agrees("direction of b", report.sources[1].direction, 90.0, 1e-9));
     EXPECT_TRUE(std::isinf(report.sources[0].kappa));
     EXPECT_TRUE(std::isnan(report.sources[0].p20));
+}
+
+TEST(JointReport, BlocksOfTooManyCrossingsAreNotCountedAndTheRestIsReported) {
+    const JointReport report = report_of(
+        "[[joint_set]]\nname = \"a\"\nangle = 0.0\nspacing = 4e-4\n"
+        "[[joint_set]]\nname = \"b\"\nangle = 90.0\nspacing = 4e-4\n",
+        box(1.0, 1.0));
+    EXPECT_FALSE(report.blocks);
+    EXPECT_TRUE(std::isnan(report.largest_block));
+    ASSERT_EQ(report.notices.size(), 1U);
+    EXPECT_TRUE(report.notices[0].starts_with("blocks are not counted: found more than")) << report.notices[0];
+    EXPECT_TRUE(agrees("P10 of a", report.sources[0].p10, 2500.0, 1e-9));
 }
 
 TEST(JointReport, TracesThatEndInTheRockCutNothing) {
@@ -59,6 +74,99 @@ TEST(JointReport, AnEndWithinTheDigitsOfASurveyMeetsTheOtherTrace) {
     const JointReport report = report_of(
         "[[trace]]\npoints = [0.0, 0.5, 1.0, 0.5]\n[[trace]]\npoints = [0.4, 0.0, 0.4, 0.49995]\n", box(1.0, 1.0));
     EXPECT_EQ(report.blocks, 3U);
+}
+
+TEST(JointReport, ParallelTracesAreOnePetal) {
+    for (int angle = -180; angle < 360; angle += 10) {
+        const JointReport report =
+            report_of(fmt::format("[[joint_set]]\nname = \"a\"\nangle = {}\nspacing = 0.05\n", angle), box(1.0, 2.0));
+        const Rose& rose = report.sources[0].rose;
+        const auto bin = static_cast<std::size_t>((angle + 360) % 180 / 10);
+        EXPECT_EQ(rose.weights[bin], rose.weight) << angle;
+    }
+}
+
+/// Of a set of nearly parallel planes in a section.
+SourceReport planes_in(const char* section, double trend, double dip, double dip_direction) {
+    return report_of(fmt::format("[joints]\nsection = \"{}\"\nsection_trend = {}\n[[joint_set]]\nname = \"a\"\n"
+                                 "orientation = \"fisher\"\ndip = {}\ndip_direction = {}\nfisher_k = 1e6\n"
+                                 "length = \"fixed\"\nlength_mean = 0.1\nnumber = 200\n",
+                                 section, trend, dip, dip_direction),
+                     box(1.0, 1.0))
+        .sources[0];
+}
+
+// Down along +x, which points to the trend, a plane dips by tan α = tan(dip) cos(dip direction - trend); seen from
+// above its trace is its strike, square to the dip direction. K = 1e6 scatters planes by 0.06 degrees, a trace in a
+// section at 50 degrees to the dip by at most 1/sin(angle between plane and section) of it.
+TEST(JointReport, TracesOfPlanesHaveTheirApparentDipInAnySection) {
+    for (const double dip_direction : {70.0, 100.0, 250.0}) {
+        const double turn = (dip_direction - 40.0) * degree;
+        const double apparent = std::atan(std::tan(35.0 * degree) * std::cos(turn)) / degree;
+        const SourceReport vertical = planes_in("vertical", 40.0, 35.0, dip_direction);
+        EXPECT_TRUE(within("direction asked", vertical.direction_asked, line_direction(-apparent), 1e-9));
+        EXPECT_TRUE(within("direction", vertical.direction, line_direction(-apparent), 0.1));
+        // From +x, which points to the trend: clockwise by dip direction - trend, and a quarter turn on.
+        const double strike = line_direction(90.0 - (dip_direction - 40.0));
+        const SourceReport horizontal = planes_in("horizontal", 40.0, 35.0, dip_direction);
+        EXPECT_TRUE(within("direction asked, from above", horizontal.direction_asked, strike, 1e-9));
+        EXPECT_TRUE(within("direction, from above", horizontal.direction, strike, 0.1));
+    }
+}
+
+// A box of 2 m by 1.5 m, so that no amount is its own area times the number. Of the traces the first has its midpoint
+// beyond the box, which also cuts the second.
+TEST(JointReport, AmountsOfMeasuredTracesAreThoseCountedByHand) {
+    const JointReport report = report_of(
+        "[[trace]]\nname = \"out\"\npoints = [1.5, 0.5, 3.5, 0.5]\n"
+        "[[trace]]\nname = \"cut\"\npoints = [-0.4, 1.0, 1.0, 1.0]\n"
+        "[[trace]]\nname = \"whole\"\npoints = [0.5, 0.2, 0.5, 0.6]\n",
+        box(2.0, 1.5));
+    EXPECT_EQ(report.sources[0].p20, 0.0);
+    EXPECT_TRUE(std::isnan(report.sources[0].mean_length));
+    EXPECT_TRUE(agrees("P20 of one", report.sources[1].p20, 1.0 / 3.0, 1e-12));
+    EXPECT_TRUE(agrees("its length before the cut", report.sources[1].mean_length, 1.4, 1e-12));
+    EXPECT_TRUE(agrees("longest", report.sources[1].longest, 1.0, 1e-12));
+    EXPECT_TRUE(agrees("P20", report.all.p20, 2.0 / 3.0, 1e-12));
+    EXPECT_TRUE(agrees("mean length", report.all.mean_length, 0.9, 1e-12));
+    EXPECT_TRUE(agrees("P21", report.all.p21, 1.9 / 3.0, 1e-12));
+    // Their mean direction is 0 degrees, by 1.5 m to 0.4 m: a line along y crosses the first two.
+    EXPECT_TRUE(agrees("scan line", report.all.scan_line, 90.0, 1e-12));
+    EXPECT_TRUE(agrees("P10", report.all.p10, 1.5 / 3.0, 1e-12));
+    EXPECT_TRUE(agrees("scan line across the third", line_direction(report.sources[2].scan_line + 90.0), 90.0, 1e-12));
+    EXPECT_TRUE(agrees("P10 of the third", report.sources[2].p10, 0.4 / 3.0, 1e-12));
+}
+
+TEST(JointReport, AScanLineGivenIsTheOneCounted) {
+    const SourceReport a =
+        report_of("[[joint_set]]\nname = \"a\"\nangle = 20.0\np10 = 8.0\nscan_line = 50.0\n", box(2.0, 1.5)).sources[0];
+    EXPECT_TRUE(agrees("scan line", a.scan_line, 50.0, 1e-12));
+    EXPECT_TRUE(agrees("P10 along it", a.p10, 8.0, 1e-9));
+    EXPECT_TRUE(agrees("P21, by the angle between", a.p21 * 0.5, 8.0, 1e-9));
+    ASSERT_TRUE(a.amount);
+    EXPECT_EQ(a.amount->value, 8.0);
+    EXPECT_TRUE(agrees("reached", a.amount->reached, 8.0, 1e-9));
+}
+
+TEST(JointReport, WithoutAScanLineP10IsThatSquareToTheMean) {
+    const SourceReport a =
+        report_of("[[joint_set]]\nname = \"a\"\nangle = 20.0\np10 = 8.0\n", box(2.0, 1.5)).sources[0];
+    EXPECT_TRUE(agrees("scan line", a.scan_line, 110.0, 1e-12));
+    EXPECT_TRUE(agrees("P10", a.p10, 8.0, 1e-9));
+    EXPECT_TRUE(agrees("P21 of parallel traces", a.p21, 8.0, 1e-9));
+}
+
+TEST(JointReport, GapsTakeTheirShareOfTheFrequencyOfLines) {
+    const SourceReport a = report_of(
+                               "[[joint_set]]\nname = \"a\"\nangle = 20.0\nlength = \"gaps\"\nlength_mean = 0.3\n"
+                               "gap_mean = 0.1\nspacing = 0.02\n",
+                               box(10.0, 10.0))
+                               .sources[0];
+    ASSERT_TRUE(a.amount);
+    EXPECT_EQ(a.amount->key, "p10");
+    EXPECT_TRUE(agrees("P10 asked", a.amount->value, 0.75 / 0.02, 1e-12));
+    // Random phases of some 600 lines of 25 cycles each: an end of a line errs by less than a cycle.
+    EXPECT_TRUE(agrees("P10", a.p10, 0.75 / 0.02, 0.01));
 }
 
 TEST(JointReport, KappaAndMeanLengthOfANetworkAreRecovered) {

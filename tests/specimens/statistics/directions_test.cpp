@@ -32,6 +32,20 @@ TEST(Rose, OfLinesOnEitherSideOfTheHorizontalHasAHorizontalMean) {
     EXPECT_EQ(rose.count, 3u);
 }
 
+TEST(Rose, BinsBeginWhereItSays) {
+    Rose from_zero, centred;
+    centred.begins = -5.0;
+    for (const double angle : {-4.0, 4.0, 6.0, 176.0}) {
+        from_zero.add(angle * std::numbers::pi / 180.0, 1.0);
+        centred.add(angle * std::numbers::pi / 180.0, 1.0);
+    }
+    EXPECT_EQ(from_zero.weights[0], 2.0);
+    EXPECT_EQ(from_zero.weights[17], 2.0);
+    EXPECT_EQ(centred.weights[0], 3.0);
+    EXPECT_EQ(centred.weights[1], 1.0);
+    EXPECT_EQ(from_zero.mean_direction(), centred.mean_direction());
+}
+
 TEST(Rose, MeanTurnsWithTheLines) {
     for (const double turn : {0.0, 37.0, 90.0, 133.0, 179.0}) {
         Rose rose;

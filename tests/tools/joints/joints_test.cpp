@@ -30,7 +30,11 @@ TEST_F(CrackleJoints, ReportsWhatWasAskedBesideWhatWasReached) {
     for (const char* text : {"box 1 m x 2 m", "bedding", "cross joints", "P21          4 (asked 4) m/m2", "(asked 30)",
                              "P10          ", "(asked 5)", "blocks "})
         EXPECT_NE(answer.out.find(text), std::string::npos) << text << '\n' << answer.out;
-    EXPECT_EQ(call("joints.toml -q").out, "");
+    write("short.toml",
+          "[packing]\nwidth = 1.0\nheight = 2.0\n[joints]\nshortest = 0.3\n[[trace]]\npoints = [0.0, 0.0, 0.1, 0.1]\n"
+          "[[trace]]\npoints = [0.0, 1.0, 0.9, 1.1]\n");
+    EXPECT_NE(call("short.toml").out.find("notice: 1 traces shorter than 0.3 m"), std::string::npos);
+    for (const char* file : {"joints.toml", "short.toml"}) EXPECT_EQ(call(fmt::format("{} -q", file)).out, "");
 }
 
 TEST_F(CrackleJoints, JsonHasTheSameAndTheTableIsReadAgain) {
