@@ -34,7 +34,7 @@ std::unique_ptr<toml::node> node_of(const Json& value, const std::string& where,
             fmt::format("{}: {}: found {}, expected a value; leave it out", where, key, value.type_name()));
     auto table = std::make_unique<toml::table>();
     for (const auto& [name, inner] : value.items())
-        table->insert(name, std::move(*node_of(inner, where, key.empty() ? name : key + "." + name)));
+        table->insert(name, std::move(*node_of(inner, where, key.empty() ? name : fmt::format("{}.{}", key, name))));
     return table;
 }
 
