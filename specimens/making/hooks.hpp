@@ -40,7 +40,7 @@ struct TestHooks {
     std::function<void(const std::string&)> detail;     ///< what only some want to know of a stage, likewise
     std::function<void(const std::string&)> working;    ///< what is being done before loading, often
     std::function<void(const TestProgress&)> progress;  ///< a few times a second
-    std::function<bool()> interrupted;  ///< asked by any thread; once true it stays so
+    std::function<bool()> interrupted;                  ///< asked by any thread; once true it stays so
     std::function<void(const std::string& name, const Scene&)> made;  ///< circles, then polygons, as they are tested
 
     /// Looks at the test while it is loaded, where the forces of the moment are known and nothing has moved yet: at
