@@ -259,7 +259,7 @@ def recount_errors(r):
         r.key(f"numerical_errors.{name}.rate", rate)
         r.key(f"numerical_errors.{name}.damping",
               max(abs(runs[k][name] - value) / value for k in ("half_damping", "double_damping")))
-        resolution = errors[name]["resolution"]
+        resolution = number(errors[name]["resolution"])
         column = r.curve["axial_strain" if name == "peak_strain" else "axial_stress"]
         row = r.peak if name in peak else first(column >= value)  # of a threshold the row that first comes to it
         if r.peak:

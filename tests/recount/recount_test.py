@@ -139,7 +139,7 @@ class Recount(unittest.TestCase):
                                  ("walls_cells", voronoi, 'side = "walls"\n')):
             text = rock + mesh + squeezed.replace('"compression"', '"biaxial"') + "[confinement]\npressure = 2e3\n" + side + output
             self.assertIn("biaxial", text)
-            self.agrees(run(name, text), 200)
+            self.agrees(run(name, text), 80 if side else 200)  # walls are no bodies of the recount's model
 
     def test_cells_that_are_not_between_platens(self):
         """What section, length and toughness are is computed by other formulas' code; bonds and frames are not."""
