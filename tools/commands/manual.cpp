@@ -20,7 +20,7 @@ struct Term {
     const char* text;
 };
 
-constexpr Term files[] = {
+constexpr Term result_files[] = {
     {"case.toml", "the case with every value in the open, and the hashes of its inputs; it can be run again"},
     {"curve.csv", "one row an observed step: strain, stress, energies"},
     {"events.csv", "one row a broken bonded point"},
@@ -141,7 +141,7 @@ std::string manual_page() {
             out += command_text(fmt::format("{} {}", command.name, study.name), study.describe());
     }
     out += ".SH FILES\nWhat\n.B crackle test\nleaves in its folder OUT:\n";
-    for (const Term& file : files) out += tagged(fmt::format("\\fI{}\\fR", literal(file.name)), file.text);
+    for (const Term& file : result_files) out += tagged(fmt::format("\\fI{}\\fR", literal(file.name)), file.text);
     out += ".SH ENVIRONMENT\n";
     for (const Term& variable : variables)
         out += tagged(fmt::format("\\fB{}\\fR", literal(variable.name)), variable.text);
