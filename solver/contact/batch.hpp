@@ -337,7 +337,10 @@ CRACKLE_INLINE LaneBits fail(const World& world, PointIndex k, const Law<Lanes>&
 /// The law of the points of a batch with their shares.
 template <ContactFeatures F>
 CRACKLE_INLINE Law<Lanes> law_of_batch(const World& world, PointIndex k, const BatchLaw& law) {
-    if constexpr (F.own_shares)
+    if constexpr (F.own_shear)
+        return law.law.with_shares(load_floats(&world.points.stiffness_share[k]),
+                                   load_floats(&world.points.shear_root[k]));
+    else if constexpr (F.own_shares)
         return law.law.with_share(load_floats(&world.points.stiffness_share[k]));
     else
         return law.law;

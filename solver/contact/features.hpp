@@ -13,6 +13,7 @@ struct ContactFeatures {
     bool consistent = false;  // first and last steps of contacts by opening.hpp
     bool own_shares = false;  // of stiffness and strength
     bool coulomb = false;     // bonds by coulomb_bond.hpp; these have friction and own_shares, too
+    bool own_shear = false;   // shares of shear stiffness, across joints; these have coulomb, too
 };
 
 }  // namespace crackle

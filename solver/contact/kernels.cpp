@@ -73,10 +73,13 @@ inline PushBounds<double> push_bounds(const World& world, const ContactPoint& po
 /// Law of a point, with its share where it has one.
 template <ContactFeatures F>
 inline Law<double> law_for(const World& world, PointIndex k) {
-    if constexpr (F.own_shares)
-        return law_of_point(world, k);
+    const Law<double> law(world.settings.laws[world.points.state[k].law]);
+    if constexpr (F.own_shear)
+        return law.with_shares(world.points.stiffness_share[k], world.points.shear_root[k]);
+    else if constexpr (F.own_shares)
+        return law.with_share(world.points.stiffness_share[k]);
     else
-        return Law<double>(world.settings.laws[world.points.state[k].law]);
+        return law;
 }
 
 /// A coulomb bond breaks: what is left of its forces acts. record_breaks() writes that into the point.
@@ -326,23 +329,25 @@ void geometry_block(World& world, const PointBlock& block) {
 }
 
 /// The sets of features that kernels are compiled for: any of the first five, and what coulomb bonds can have.
-constexpr std::size_t plain_sets = 32, all_sets = plain_sets + 4;
+constexpr std::size_t plain_sets = 32, all_sets = plain_sets + 8;
 
 constexpr ContactFeatures features_numbered(std::size_t number) {
     const auto has = [&](std::size_t bit) { return (number & bit) != 0; };
-    if (number >= plain_sets) return {true, has(1), true, has(2), true, true};
-    return {has(1), has(2), has(4), has(8), has(16), false};
+    if (number >= plain_sets) return {true, has(1), true, has(2), true, true, has(4)};
+    return {has(1), has(2), has(4), has(8), has(16), false, false};
 }
 
 constexpr std::size_t number_of(const ContactFeatures& f) {
-    if (f.coulomb) return plain_sets + (f.damping ? 1u : 0u) + (f.consistent ? 2u : 0u);
+    if (f.coulomb) return plain_sets + (f.damping ? 1u : 0u) + (f.consistent ? 2u : 0u) + (f.own_shear ? 4u : 0u);
     return (f.friction ? 1u : 0u) + (f.damping ? 2u : 0u) + (f.bonds ? 4u : 0u) + (f.consistent ? 8u : 0u) +
            (f.own_shares ? 16u : 0u);
 }
 
 /// What a kind can have: the guide's segments know of no others.
 constexpr ContactFeatures features_for(PointKind kind, ContactFeatures f) {
-    if (by_guide(kind)) f.consistent = f.own_shares = f.coulomb = false;
+    if (by_guide(kind)) f.consistent = f.own_shares = f.coulomb = f.own_shear = false;
+    // Only outlines have joints: others' shares of shear stiffness are 1.
+    if (kind != PointKind::element_outline) f.own_shear = false;
     return f;
 }
 

@@ -44,6 +44,14 @@ struct Law {
         return own;
     }
 
+    /// The same with a shear stiffness of their own, too. @param root Points::shear_root
+    CRACKLE_INLINE Law with_shares(const Number& share, const Number& root) const {
+        Law own = with_share(share);
+        own.shear_stiffness *= root * root;
+        own.shear_damping_ratio_term *= root;
+        return own;
+    }
+
     CRACKLE_INLINE void follow_stiffness() {
         limit_stiffness = friction * normal_stiffness;
         half_stiffness = 0.5 * normal_stiffness;

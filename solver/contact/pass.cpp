@@ -13,7 +13,8 @@ ContactFeatures features_of(const World& world) {
                              world.bonds.made,
                              !world.points.opening.empty(),
                              world.settings.own_shares(),
-                             world.bonds.made && world.settings.bond_law == BondLaw::coulomb};
+                             world.bonds.made && world.settings.bond_law == BondLaw::coulomb,
+                             !world.points.shear_root.empty()};
     features.friction = features.coulomb || world.bonds.held > 0;
     const std::size_t pairs = world.settings.pair_count();
     for (std::size_t number = 0; number < world.settings.laws.size(); ++number) {

@@ -52,7 +52,9 @@ inline RelativeMotion<double> motion_of_point(const World& world, const ContactP
 /// Law of a point with its share of stiffness.
 inline Law<double> law_of_point(const World& world, PointIndex k) {
     const Law<double> law(world.settings.laws[world.points.state[k].law]);
-    return world.points.stiffness_share.empty() ? law : law.with_share(world.points.stiffness_share[k]);
+    if (world.points.stiffness_share.empty()) return law;
+    const double share = world.points.stiffness_share[k];
+    return world.points.shear_root.empty() ? law.with_share(share) : law.with_shares(share, world.points.shear_root[k]);
 }
 
 /// Of a bonded point.

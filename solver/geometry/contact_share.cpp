@@ -115,7 +115,8 @@ ContactShare share_of_contact(const World& world, PointKind kind, const ContactP
 }
 
 std::optional<ContactShare> share_of_face(const World& world, BodyIndex i, BodyIndex j, double gap) {
-    if (world.bodies.info(i).id > world.bodies.info(j).id) std::swap(i, j);
+    const bool swapped = world.bodies.info(i).id > world.bodies.info(j).id;
+    if (swapped) std::swap(i, j);
     const std::vector<OutsetEdge> edges_i = outset_edges(corners_of(world, i), 0.5 * gap),
                                   edges_j = outset_edges(corners_of(world, j), 0.5 * gap);
     ContactShare share;
@@ -126,12 +127,15 @@ std::optional<ContactShare> share_of_face(const World& world, BodyIndex i, BodyI
             const double length = facing_length(a, b, gap);
             if (length <= share.length) continue;
             share.length = length;
+            share.edge_i = static_cast<std::uint32_t>(&a - edges_i.data());
+            share.edge_j = static_cast<std::uint32_t>(&b - edges_j.data());
             const OutsetEdge& of_held = held(world, i) ? a : b;
             outwards = {of_held.along.y, -of_held.along.x};
             on_face = of_held.start;
         }
     }
     if (share.length == 0.0) return std::nullopt;
+    if (swapped) std::swap(share.edge_i, share.edge_j);
     const Vec2 centre_i = centre_of(world, i), centre_j = centre_of(world, j);
     share.distance = held(world, i)   ? std::abs(dot(centre_j - on_face, outwards))
                      : held(world, j) ? std::abs(dot(centre_i - on_face, outwards))

@@ -15,6 +15,7 @@
 // tests/solver/geometry/contact_share_test.cpp.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 
 #include "solver/world/world.hpp"
@@ -22,8 +23,9 @@
 namespace crackle {
 
 struct ContactShare {
-    double length = 0.0;    // m
-    double distance = 0.0;  // m
+    double length = 0.0;                   // m
+    double distance = 0.0;                 // m
+    std::uint32_t edge_i = 0, edge_j = 0;  ///< of a face: the two bodies' edges, by the corners they begin at
     double stiffness() const { return length / distance; }
 };
 

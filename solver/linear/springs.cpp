@@ -12,9 +12,9 @@ namespace {
 bool closed(const World& world, const PointView& view, ClosedPoints which) {
     switch (which) {
         case ClosedPoints::bonded:
-            return world.bonds.made ? view.bonded : view.touching;
+            return world.bonds.made ? view.bonded || view.closed_joint : view.touching;
         case ClosedPoints::touching:
-            return view.touching;
+            return view.touching || view.closed_joint;
         case ClosedPoints::listed:
             break;
     }

@@ -38,7 +38,7 @@ struct Spring {
 
 /// Which points are taken for closed.
 enum class ClosedPoints {
-    bonded,    ///< bonded ones; touching ones in a world without bonds. Walls left out.
+    bonded,    ///< bonded ones, and closed joints; touching ones in a world without bonds. Walls left out.
     touching,  ///< all that carry load now, walls included
     listed,    ///< all that may come to carry load before the neighbour list is rebuilt
 };

@@ -408,7 +408,9 @@ void find_step_bound(World& world) {
                                                     : -world.list.widest_skin;
     const auto counts = [&](PointIndex k, double overlap) {
         std::uint16_t& flags = world.points.state[k].flags;
-        const bool counted = (flags & point_bonded) != 0 || overlap > least_overlap;
+        // Faces of open joints and of those that dilate touch at gaps, too.
+        const bool counted =
+            (flags & point_bonded) != 0 || overlap > std::min(least_overlap, world.points.bond_overlap[k]);
         flags = static_cast<std::uint16_t>(counted ? flags | point_counted : flags & ~point_counted);
         return counted;
     };

@@ -75,6 +75,7 @@ PointView view_point(const World& world, PointIndex k) {
                                                 : closing_gradient(view.normal, view.arm_i, view.arm_j);
     view.position = {body.x + g.aix, body.y + g.aiy};
     view.bonded = (world.points.state[k].flags & point_bonded) != 0;
+    view.closed_joint = (world.points.state[k].flags & point_closed) != 0;
     view.touching = view.bonded || g.overlap > world.points.bond_overlap[k];
     view.sliding = (world.points.state[k].flags & point_sliding) != 0;
     view.slid = (world.points.state[k].flags & point_slid) != 0;

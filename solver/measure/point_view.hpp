@@ -29,7 +29,8 @@ struct PointView {
     /// opposite, the directions in which the force works; under the guide's it differs from them.
     std::array<double, 6> overlap_gradient;
     bool bonded, touching, sliding, slid;
-    bool sticks;  // its shear spring can act
+    bool sticks;        // its shear spring can act
+    bool closed_joint;  // of an open joint whose faces touch from the start
 };
 
 PointView view_point(const World& world, PointIndex point);

@@ -9,7 +9,9 @@
 #include <utility>
 
 #include "solver/base/errors.hpp"
+#include "solver/contact/joint_law.hpp"
 #include "solver/contact/pass.hpp"
+#include "solver/geometry/across_joint.hpp"
 #include "solver/geometry/contact_share.hpp"
 #include "solver/geometry/geometry.hpp"
 #include "solver/world/point_order.hpp"
@@ -192,6 +194,16 @@ void carry_over(Array<T>& values, const std::vector<PointIndex>& old, bool kept 
     values = std::move(now);
 }
 
+/// Faces of an open joint lie apart; contacts across it are without force so far.
+void open_new_contacts(World& world, const std::vector<PointIndex>& old) {
+    if (std::ranges::none_of(world.settings.joints, [](const Joint& joint) { return joint.aperture > 0.0; })) return;
+    const PointIndex walls = world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
+    for (PointIndex k = 0; k < walls; ++k) {
+        const auto [i, j] = world.points.contact.pairs[k];
+        if (old[k] == no_point) world.points.bond_overlap[k] = rest_overlap_between(world, i, j);
+    }
+}
+
 /// The defects of points that left the list go to another of their bodies' points: written off, it would pile up,
 /// for such points are more often left with a debt than with a credit.
 void pass_on_defects(World& world) {
@@ -218,20 +230,55 @@ double root_effective_mass(const World& world, BodyIndex i, BodyIndex j) {
     return sum > 0.0 ? 1.0 / std::sqrt(sum) : 0.0;
 }
 
+/// Of a point between two bodies where there are joints: that of the joint across which it was bonded, or of the one
+/// that parts its bodies.
+std::size_t jointed_law(const World& world, PointIndex k, BodyIndex i, BodyIndex j) {
+    const PointState& state = world.points.state[k];
+    const std::size_t rock = law_between(world, i, j);
+    if ((state.flags & (point_bonded | point_had_bond)) != 0)
+        return state.law >= world.settings.first_joint_law() ? state.law : rock;
+    const std::int32_t joint = joint_between(world, i, j);
+    return joint == no_joint ? rock : world.settings.joint_law(rock, joint);
+}
+
 /// Of each point the pair of materials and the effective mass.
 void find_pairs(World& world) {
     const PointIndex walls = world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
+    const bool jointed = !world.settings.joints.empty();
     world.points.root_mass.resize(world.points.size());
     for (PointIndex k = 0; k < world.points.size(); ++k) {
         const auto [i, j] = world.points.contact.pairs[k];
         const bool held = (world.points.state[k].flags & point_held) != 0;
         const std::size_t law = k >= walls ? law_with_wall(world, i)
                                 : held     ? held_law_between(world, i, j)
+                                : jointed  ? jointed_law(world, k, i, j)
                                            : law_between(world, i, j);
         world.points.state[k].law = static_cast<std::uint16_t>(law);
         world.points.root_mass[k] =
             k < walls ? root_effective_mass(world, i, j) : std::sqrt(world.bodies.inertia[i].mass);
     }
+}
+
+/// In StiffnessUnits::area, of a contact without a bond.
+template <PointKind K>
+float contact_stiffness_share(const World& world, PointIndex k) {
+    const ContactShare contact = share_of_contact(world, K, world.points.contact[k]);
+    return static_cast<float>(contact.stiffness() * series_shares(world, k, contact.distance).normal);
+}
+
+/// Points::shear_root of points that have none yet, contacts without a bond.
+void find_shear_roots(World& world) {
+    if (world.points.shear_root.empty()) return;
+    visit_kinds(world.points.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
+        for (PointIndex k = begin; k < end; ++k) {
+            float& root = world.points.shear_root[k];
+            if (root != 0.0F) continue;
+            root = 1.0F;
+            if (world.points.state[k].law < world.settings.first_joint_law()) continue;
+            const double distance = share_of_contact(world, K, world.points.contact[k]).distance;
+            root = static_cast<float>(series_shares(world, k, distance).root_of_shear());
+        }
+    });
 }
 
 /// Of points that have none yet, the shares of a contact without a bond; and of each its part in the effective mass.
@@ -241,9 +288,7 @@ void find_shares(World& world) {
     visit_kinds(world.points.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
         for (PointIndex k = begin; k < end; ++k) {
             float& share = world.points.stiffness_share[k];
-            if (share == 0.0F)
-                share = by_area ? static_cast<float>(share_of_contact(world, K, world.points.contact[k]).stiffness())
-                                : 1.0F;
+            if (share == 0.0F) share = by_area ? contact_stiffness_share<K>(world, k) : 1.0F;
             world.points.root_mass[k] *= std::sqrt(static_cast<double>(share));
         }
     });
@@ -261,6 +306,7 @@ void refuse_more_than_countable(std::size_t points) {
 void find_point_properties(World& world) {
     find_pairs(world);
     find_shares(world);
+    find_shear_roots(world);
 }
 
 void exchange_points(World& world, PointLists& lists) {
@@ -284,6 +330,7 @@ void exchange_points(World& world, PointLists& lists) {
     });
     world.points.kind_begin = kind_begin;
     world.points.fours_end = fours_end;
+    open_new_contacts(world, next.old);
     find_point_properties(world);
     if (consistent) pass_on_defects(world);
     world.points.force.assign(world.points.keep_forces ? world.points.size() : 0, PointForce{});

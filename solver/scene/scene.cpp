@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <ranges>
 #include <set>
 #include <span>
 #include <unordered_set>
@@ -173,6 +174,72 @@ void validate_pairs(const Scene& scene) {
     }
 }
 
+/// Smallest friction angles of what has faces on traces, degrees.
+struct SmallestAngles {
+    double bonded = 90.0, residual = 90.0;
+};
+
+void validate_joint(const Scene& scene, const Joint& joint, const std::string& name, const SmallestAngles& rock) {
+    const auto in_quadrant = [&](const char* what, double angle, double most) {
+        if (!(angle >= 0.0 && angle <= most && angle < 90.0))
+            refuse(name + what, angle, fmt::format("degrees from 0 to {:g}", std::min(most, 90.0)));
+    };
+    require_not_negative(name + "strength factor", joint.strength_factor, "-");
+    if (joint.tensile_strength) require_not_negative(name + "tensile strength", *joint.tensile_strength, "Pa");
+    if (joint.cohesion) require_not_negative(name + "cohesion", *joint.cohesion, "Pa");
+    if (joint.normal_stiffness) require_positive(name + "normal stiffness", *joint.normal_stiffness, "Pa/m");
+    if (joint.shear_stiffness) require_positive(name + "shear stiffness", *joint.shear_stiffness, "Pa/m");
+    if (joint.friction_angle) in_quadrant("friction angle", *joint.friction_angle, 90.0);
+    if (joint.residual_friction_angle)
+        in_quadrant("residual friction angle", *joint.residual_friction_angle,
+                    joint.friction_angle.value_or(rock.bonded));
+    // With more a joint that slides would give away energy.
+    const double slides_at = joint.friction_angle.value_or(rock.residual);
+    in_quadrant("dilation angle", joint.dilation_angle, joint.residual_friction_angle.value_or(slides_at));
+    if (!(joint.dilation_slip > 0.0)) refuse(name + "dilation slip", joint.dilation_slip, "a length > 0 in m");
+    require_not_negative(name + "aperture", joint.aperture, "m");
+    if (joint.aperture > 0.0 && joint.bonded) refuse(name + "aperture", joint.aperture, "0 of a bonded joint");
+    if (joint.aperture > scene.thick)
+        refuse(name + "aperture", joint.aperture,
+               fmt::format("at most the thickness, {} m, by which the faces lie apart", scene.thick));
+}
+
+void validate_joints(const Scene& scene) {
+    if (scene.joints.empty() && scene.edge_sides.empty()) return;
+    if (scene.bond_law != BondLaw::coulomb || scene.units != StiffnessUnits::area) {
+        if (!scene.joints.empty())
+            throw InputError("joints: found them with another law, expected coulomb bonds in area units");
+    }
+    const auto joints = static_cast<std::int32_t>(scene.joints.size());
+    if (std::ranges::any_of(scene.trace_joints, [&](std::int32_t j) { return j < -1 || j >= joints; }))
+        throw InputError(fmt::format("traces: found a joint that there is not, expected one of {}, or -1", joints));
+    const auto sides = 2 * static_cast<TraceSide>(scene.trace_joints.size());
+    if ((!scene.edge_sides.empty() && scene.edge_sides.size() != scene.vertices.size()) ||
+        std::ranges::any_of(scene.edge_sides, [&](TraceSide s) { return s < no_side || s >= sides; }))
+        throw InputError(fmt::format(
+            "edges: found {} sides of traces for {} vertices, or one of a trace that there is not, expected one each",
+            scene.edge_sides.size(), scene.vertices.size()));
+    SmallestAngles smallest;
+    for (const Body& body : scene.bodies) {
+        const auto on_trace = [&](std::uint32_t v) { return scene.edge_sides[v] != no_side; };
+        const auto vertices = std::views::iota(body.first_vertex, body.first_vertex + body.vertex_count);
+        if (scene.edge_sides.empty() || std::ranges::none_of(vertices, on_trace)) continue;
+        const Material& rock = scene.materials[static_cast<std::size_t>(body.material)];
+        smallest.bonded = std::min(smallest.bonded, rock.friction_angle);
+        smallest.residual = std::min(smallest.residual, rock.residual_friction_angle);
+    }
+    for (std::size_t k = 0; k < scene.joints.size(); ++k)
+        validate_joint(scene, scene.joints[k], fmt::format("joint {}: ", k + 1), smallest);
+}
+
+/// Turns the outline of a body round.
+void turn_round(Scene& scene, const Body& body, std::span<Vec2> corners) {
+    std::ranges::reverse(corners);
+    if (scene.edge_sides.size() != scene.vertices.size()) return;  // validate_joints() refuses it
+    // The edge from a corner is now the one that led to it.
+    std::ranges::reverse(std::span(scene.edge_sides).subspan(body.first_vertex, corners.size() - 1));
+}
+
 void validate_chain(Scene& scene, const Body& body) {
     const std::string name = fmt::format("body {}: ", body.id);
     const std::span<Vec2> corners(scene.vertices.data() + body.first_vertex, body.vertex_count);
@@ -198,7 +265,7 @@ void validate_chain(Scene& scene, const Body& body) {
     // Below this the centroid of a sliver has lost half its digits.
     if (std::abs(area) < 1e-10 * perimeter * perimeter)
         refuse(name + "area of the closed chain", area, "more than 1e-10 of its perimeter squared");
-    if (area < 0.0) std::reverse(corners.begin(), corners.end());
+    if (area < 0.0) turn_round(scene, body, corners);
     for (std::size_t a = 0; a < edges; ++a) {
         for (std::size_t b = a + 2; b < edges; ++b) {
             if (a == 0 && b + 1 == edges) continue;
@@ -330,6 +397,7 @@ std::uint32_t Scene::add_chain_body(int id, int material, const std::vector<Vec2
     body.vertex_count = static_cast<std::uint32_t>(outline.size());
     body.closed = closed;
     vertices.insert(vertices.end(), outline.begin(), outline.end());
+    if (!edge_sides.empty()) edge_sides.resize(vertices.size(), no_side);
     bodies.push_back(body);
     return static_cast<std::uint32_t>(bodies.size() - 1);
 }
@@ -392,6 +460,7 @@ void validate(Scene& scene) {
             throw InputError(fmt::format("body {}: found its number twice, expected unique numbers", body.id));
         validate_body(scene, body);
     }
+    validate_joints(scene);
     for (const Control& control : scene.controls) {
         if (control.body < 0 || static_cast<std::size_t>(control.body) >= scene.bodies.size()) {
             refuse("controlled body", control.body, fmt::format("an index below {}", scene.bodies.size()));

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "solver/base/vec2.hpp"
+#include "solver/scene/joint.hpp"
 
 namespace crackle {
 
@@ -208,6 +209,10 @@ struct Scene {
     std::vector<Body> bodies;
     std::vector<CircleElement> circles;
     std::vector<Vec2> vertices;
+    /// By vertex: on which side of a trace the edge to the body's next vertex lies; empty without joints.
+    std::vector<TraceSide> edge_sides;
+    std::vector<Joint> joints;
+    std::vector<std::int32_t> trace_joints;  ///< by trace: into joints; -1: as the rock
     std::vector<Control> controls;
     Domain domain;
     bool driven_bodies_touch = true;  ///< false: bodies with a control pass through each other

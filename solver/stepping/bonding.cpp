@@ -14,7 +14,9 @@
 #include "solver/base/errors.hpp"
 #include "solver/geometry/contact_share.hpp"
 
+#include "solver/contact/joint_law.hpp"
 #include "solver/contact/pass.hpp"
+#include "solver/geometry/across_joint.hpp"
 #include "solver/linear/critical_step.hpp"
 #include "solver/measure/point_view.hpp"
 #include "solver/neighbours/exchange.hpp"
@@ -58,16 +60,28 @@ void widen_skin(World& world, const Bonding& bonding) {
     world.list.valid = false;
 }
 
+/// What bonding finds, and does not clear.
+bool of_shares(Remembered remembered) {
+    return remembered == Remembered::own_shares || remembered == Remembered::own_shear;
+}
+
 bool bonded(const World& world, PointIndex k) { return (world.points.state[k].flags & point_bonded) != 0; }
 /// Bonded, or left without a bond where there would have been one.
 bool of_face(const World& world, PointIndex k) {
     return (world.points.state[k].flags & (point_bonded | point_had_bond)) != 0;
 }
 
+/// m, by which the overlap without force of a point that is left open is beyond that at which it lies.
+double aperture_of(const World& world, PointIndex k) {
+    const std::size_t law = world.points.state[k].law;
+    return bonded(world, k) || law < world.settings.first_joint_law() ? 0.0 : world.settings.joint_of_law(law).aperture;
+}
+
 /// Of one bonded point of a pair; of a face divided equally among its points. In StiffnessUnits::point 1.
 struct PointShare {
     double stiffness = 1.0;
-    double length = 1.0;  // m
+    double length = 1.0;      // m
+    double shear_root = 1.0;  // Points::shear_root
 };
 
 /// @param face of the pair of a polygon and another, if they have one @param count of its bonded points
@@ -77,7 +91,14 @@ PointShare share_of_point(const World& world, PointIndex k, const std::optional<
     const double points = face ? static_cast<double>(count) : 1.0;
     const ContactShare share =
         face ? *face : share_of_contact(world, view_point(world, k).kind, world.points.contact[k]);
-    return {share.stiffness() / points, share.length / points};
+    const SeriesShares left = series_shares(world, k, share.distance);
+    return {share.stiffness() / points * left.normal, share.length / points, left.root_of_shear()};
+}
+
+/// Points get a share of shear stiffness of their own with the world's first bonds.
+void begin_shear_roots(World& world) {
+    if (world.settings.own_shear() && world.points.shear_root.empty())
+        world.points.shear_root.assign(world.points.size(), 0.0F);
 }
 
 /// Shares of the bonded points of one pair, which are all from begin to end; that of strength with the random factor of
@@ -89,7 +110,7 @@ void share_pair(World& world, const Bonding& bonding, PointIndex begin, PointInd
     for (PointIndex k = begin; k < end; ++k) {
         if (!of_face(world, k)) continue;
         ++count;
-        gap = std::min(gap, world.settings.thick - world.points.bond_overlap[k]);
+        gap = std::min(gap, world.settings.thick - (world.points.bond_overlap[k] - aperture_of(world, k)));
     }
     const ContactPoint pair = world.points.contact[begin];
     std::optional<ContactShare> face;
@@ -101,6 +122,7 @@ void share_pair(World& world, const Bonding& bonding, PointIndex begin, PointInd
         const PointShare share = share_of_point(world, k, face, count);
         world.points.stiffness_share[k] = static_cast<float>(share.stiffness);
         world.points.strength_share[k] = static_cast<float>(share.length * factor);
+        if (!world.points.shear_root.empty()) world.points.shear_root[k] = static_cast<float>(share.shear_root);
     }
 }
 
@@ -138,8 +160,10 @@ void set_strengths(World& world, const Bonding& bonding) {
             if (bonding.cohesion_factor) law.cohesion = *bonding.cohesion_factor * mean;
         }
     }
+    derive_joint_laws(world.settings);
     constexpr double rounding = 1e-12;
-    for (std::size_t number = 0; number < pairs; ++number) {
+    for (std::size_t number = 0; number < world.settings.laws.size(); ++number) {
+        if (number >= pairs && number < world.settings.first_joint_law()) continue;
         const ContactLaw& law = world.settings.laws[number];
         if (!(law.bond_friction * law.tensile_strength > law.cohesion * (1.0 + rounding))) continue;
         throw InputError(fmt::format(
@@ -147,6 +171,40 @@ void set_strengths(World& world, const Bonding& bonding) {
             "{:.6g}, expected at most that; give more cohesion, or less tensile strength",
             law.tensile_strength, law.cohesion / law.bond_friction));
     }
+}
+
+/// The joint across which each point between bodies would be bonded; empty without joints.
+std::vector<std::int32_t> joints_of_points(const World& world, const Bonding& bonding) {
+    std::vector<std::int32_t> joints;
+    if (world.settings.joints.empty()) return joints;
+    joints.resize(world.points.size(), no_joint);
+    const PointIndex walls = world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
+    for (PointIndex begin = 0, end = 0; begin < walls; begin = end) {
+        end = points_between(world, begin).second;
+        double gap = std::numeric_limits<double>::infinity();
+        for (PointIndex k = begin; k < end; ++k) {
+            const PointView view = view_point(world, k);
+            if (view.overlap + largest_gap(world, view, bonding) > 0.0)
+                gap = std::min(gap, world.settings.thick - view.overlap);
+        }
+        if (!std::isfinite(gap)) continue;
+        const ContactPoint pair = world.points.contact[begin];
+        const std::int32_t joint = joint_of_face(world, pair.body_i, pair.body_j, gap);
+        for (PointIndex k = begin; k < end; ++k) joints[k] = joint;
+    }
+    return joints;
+}
+
+/// Of the thickness: rounding. Corners that overhang lie farther apart, and would bear at a slant.
+constexpr double facing_share = 1e-6;
+
+/// Leaves a point of an open joint without a bond, at the overlap at which its faces touch; one that overhangs is as
+/// any contact that is met later.
+void open_point(World& world, PointIndex k, const Joint& joint, double overlap, bool pressed) {
+    if (overlap < -facing_share * world.settings.thick) return;
+    world.points.bond_overlap[k] = overlap + joint.aperture;
+    const bool closed = pressed && joint.aperture == 0.0;
+    world.points.state[k].flags = static_cast<std::uint16_t>(point_had_bond | (closed ? point_closed : 0));
 }
 
 }  // namespace
@@ -174,6 +232,8 @@ std::int64_t bond_all(World& world, const Bonding& bonding) {
     const double skin = world.list.skin;
     widen_skin(world, bonding);
     refresh_neighbours(world);
+    const std::vector<std::int32_t> joints = joints_of_points(world, bonding);
+    begin_shear_roots(world);
     std::int64_t bonds = 0;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
         world.points.shear_force[k] = 0.0;
@@ -181,7 +241,19 @@ std::int64_t bond_all(World& world, const Bonding& bonding) {
         world.points.bond_overlap[k] = 0.0;
         if (k >= world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)]) continue;
         const PointView view = view_point(world, k);
+        if (!joints.empty()) world.points.bond_overlap[k] = rest_overlap_between(world, view.body_i, view.body_j);
         if (view.overlap + largest_gap(world, view, bonding) <= 0.0) continue;
+        if (!joints.empty()) {
+            const std::size_t rock = law_between(world, view.body_i, view.body_j);
+            const bool of_joint = joints[k] != no_joint;
+            world.points.state[k].law =
+                static_cast<std::uint16_t>(of_joint ? world.settings.joint_law(rock, joints[k]) : rock);
+            if (of_joint && !world.settings.joint_of_law(world.points.state[k].law).bonded) {
+                open_point(world, k, world.settings.joint_of_law(world.points.state[k].law), view.overlap,
+                           bonding.pressed);
+                continue;
+            }
+        }
         if (bonding.leaves && bonding.leaves(view.body_i, view.body_j)) {
             // As where a bond has broken: without force as they lie, and they may push and rub.
             world.points.bond_overlap[k] = std::max(view.overlap, 0.0);
@@ -248,6 +320,7 @@ std::int64_t bond_pairs(World& world, std::span<const BodyPair> pairs, double ga
         }
     }
     if (fresh.empty()) return 0;
+    begin_shear_roots(world);
     std::int64_t interfaces = 0;
     for (const Fresh& one : fresh) {
         world.points.shear_force[one.point] = 0.0;
@@ -266,8 +339,7 @@ std::int64_t bond_pairs(World& world, std::span<const BodyPair> pairs, double ga
     world.bonds.initial += static_cast<std::int64_t>(fresh.size());
     world.bonds.interfaces_initial += interfaces;
     visit_remembered(world.points, [&]<class T>(Array<T>& values, Remembered remembered) {
-        if (remembered == Remembered::always || remembered == Remembered::own_shares || !keeps(world, remembered))
-            return;
+        if (remembered == Remembered::always || of_shares(remembered) || !keeps(world, remembered)) return;
         values.resize(world.points.size());  // there are none of some before the world's first bonds
         for (const Fresh& one : fresh) values[one.point] = T{};
     });
@@ -291,7 +363,7 @@ void finish_bonding(World& world) {
     world.bonds.broken = world.bonds.broken_after_sliding = 0;
     world.bonds.interfaces_lost = 0;
     visit_remembered(world.points, [&]<class T>(Array<T>& values, Remembered remembered) {
-        if (remembered != Remembered::always && remembered != Remembered::own_shares)
+        if (remembered != Remembered::always && !of_shares(remembered))
             values.assign(keeps(world, remembered) ? world.points.size() : 0, T{});
     });
     world.bonds.events.clear();

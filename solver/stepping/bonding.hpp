@@ -27,10 +27,13 @@ struct Bonding {
     /// Whether two bodies are left without bonds, as if theirs had broken, under BondLaw::coulomb; none where not
     /// given.
     std::function<bool(BodyIndex i, BodyIndex j)> leaves;
+    /// Whether linear solutions take open joints without an aperture for closed and sticking, as under pressure.
+    bool pressed = true;
 };
 
 /// Bonds points between bodies, by back-tension those of overlap δ > 0; each gets δ0 = δ and loses its shear spring.
-/// Walls stay unbonded. Sets the segment thickness first. @return points bonded.
+/// Walls stay unbonded, as do the faces of open joints, which may push and rub from where they lie, once an aperture
+/// has closed. Sets the segment thickness first. @return points bonded.
 /// @throws InputError where the strengths that result have μT > C, and factors that no mean overlap makes a strength of
 std::int64_t bond_all(World& world, const Bonding& bonding);
 std::int64_t bond_all(World& world, double thick);

@@ -13,6 +13,7 @@
 
 #include "solver/base/correctly_rounded.hpp"
 #include "solver/base/errors.hpp"
+#include "solver/contact/joint_law.hpp"
 #include "solver/linear/step_bound.hpp"
 #include "solver/measure/outside.hpp"
 #include "solver/scene/convex_pieces.hpp"
@@ -128,6 +129,11 @@ void add_elements(World& world, const Scene& scene, const Body& body, const Mass
         const Vec2 offset = circle.centre - properties.centroid;
         world.bodies.elements.push_back({offset.x, offset.y, circle.radius, scene.thick});
         shape.reach = std::max(shape.reach, norm(offset) + circle.radius);
+    }
+    if (!scene.edge_sides.empty()) {
+        world.bodies.element_sides.resize(world.bodies.elements.size(), no_side);
+        const auto own = std::span(scene.edge_sides).subspan(body.first_vertex, body.vertex_count);
+        world.bodies.element_sides.insert(world.bodies.element_sides.end(), own.begin(), own.end());
     }
     std::vector<Vec2> frame;
     for (std::uint32_t k = 0; k < body.vertex_count; ++k) {
@@ -254,8 +260,14 @@ void build_laws(World& world, const Scene& scene) {
     }
     // A domain wall has the touching body's own stiffness, damping and friction.
     for (const Material& a : materials) settings.laws.push_back(law_between(a, a, {}, settings));
+    derive_joint_laws(settings);
     if (world.settings.laws.size() > std::numeric_limits<std::uint16_t>::max()) {
-        throw InputError(fmt::format("materials: found {}, expected at most 255", world.settings.materials.size()));
+        throw InputError(
+            settings.joints.empty()
+                ? fmt::format("materials: found {}, expected at most 255", settings.materials.size())
+                : fmt::format("joints: found {} of {} materials, {} contact laws, expected at most {}; take fewer",
+                              settings.joints.size(), settings.materials.size(), settings.laws.size(),
+                              std::numeric_limits<std::uint16_t>::max()));
     }
 }
 
@@ -308,6 +320,8 @@ World build_world(Scene scene) {
     validate(scene);
     World world;
     world.settings.materials = scene.materials;
+    world.settings.joints = scene.joints;
+    world.settings.trace_joints = scene.trace_joints;
     world.settings.domain = scene.domain;
     world.settings.thick = scene.thick;
     world.settings.segment_law = scene.segment_law;
@@ -340,6 +354,7 @@ World build_world(Scene scene) {
     world.bodies.names.shrink_to_fit();
     world.bodies.shapes.shrink_to_fit();
     world.bodies.elements.shrink_to_fit();
+    world.bodies.element_sides.shrink_to_fit();
     world.bodies.pieces.shrink_to_fit();
     world.bodies.edges.shrink_to_fit();
     if (world.settings.integrator == Integrator::consistent) {

@@ -9,6 +9,7 @@
 
 #include "solver/base/correctly_rounded.hpp"
 #include "solver/base/errors.hpp"
+#include "solver/contact/joint_law.hpp"
 #include "solver/stepping/time_step.hpp"
 
 namespace crackle {
@@ -91,6 +92,7 @@ void change_law(World& world, std::size_t a, std::size_t b, const std::string& n
     settings.laws[pair] = changed;
     enter(settings, settings.laws[settings.pair_count() + pair], name, value, true);
     if (a == b) enter(settings, settings.laws[2 * settings.pair_count() + a], name, value, false);
+    derive_joint_laws(settings);
     restart_account(world);
     velocities_changed(world);
     if (name.ends_with("stiffness")) {

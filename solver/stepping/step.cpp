@@ -16,6 +16,7 @@
 #include "solver/membrane/press.hpp"
 #include "solver/membrane/wrap.hpp"
 #include "solver/stepping/controls.hpp"
+#include "solver/stepping/dilation.hpp"
 #include "solver/stepping/motion.hpp"
 #include "solver/stepping/record_breaks.hpp"
 #include "solver/stepping/record_slips.hpp"
@@ -80,10 +81,12 @@ void update_neighbours(World& world) {
     refresh_neighbours(world);
 }
 
-/// Who does which points, and sums of forces that can be added to: what a membrane presses comes first.
+/// Who does which points, how far joints have opened as they slid, and sums of forces that can be added to: what a
+/// membrane presses comes first.
 void prepare_forces(World& world) {
     plan_sweep(world);
     clear_forces(world);
+    if (world.settings.dilates()) dilate_joints(world);
     if (world.membrane.present()) {
         update_membrane(world);
         press_membrane(world);

@@ -224,6 +224,8 @@ struct Bodies {
     Array<BodyName> names;
     Array<BodyShape> shapes;  // of clumps and chains, in the order of the bodies
     Array<Element> elements;  // of clumps and chains
+    /// By element: on which side of a trace the edge to the outline's next corner lies. Empty without joints.
+    Array<TraceSide> element_sides;
     Array<Piece> pieces;
     Array<Edge> edges;
     bool convex_outlines = true;  // every outline is one convex piece
@@ -269,6 +271,7 @@ struct Bodies {
         visit("names", s.names);
         visit("shapes", s.shapes);
         visit("elements", s.elements);
+        visit("element_sides", s.element_sides);
         visit("pieces", s.pieces);
         visit("edges", s.edges);
         visit("convex_outlines", s.convex_outlines);

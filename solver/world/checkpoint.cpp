@@ -29,7 +29,7 @@
 namespace crackle {
 
 // Raise when a field of a group is added, removed or moved.
-constexpr std::uint32_t checkpoint_version = 21;
+constexpr std::uint32_t checkpoint_version = 22;
 constexpr std::uint64_t checkpoint_magic = 0x454c4b4341524321ULL;  // "!CRACKLE"
 
 template <class Archive>
@@ -103,7 +103,8 @@ bool bodies_are_whole(const World& world) {
     if (b.inertia.size() != n || b.force.size() != n || b.names.size() != n || list.size_rank.size() != n ||
         !may_be_absent(b.last_force) || !may_be_absent(b.push_bound) || !may_be_absent(list.own_half_skins) ||
         !may_be_absent(list.reference) || !may_be_absent(world.account.opening_defects) ||
-        !(b.segments.empty() || b.segments.size() == b.elements.size()))
+        !(b.segments.empty() || b.segments.size() == b.elements.size()) ||
+        !(b.element_sides.empty() || b.element_sides.size() == b.elements.size()))
         return false;
     if (list.valid && (list.reference.size() != n || list.reference_angles.size() != b.shapes.size())) return false;
     if (world.settings.integrator == Integrator::consistent &&
@@ -125,6 +126,8 @@ bool bodies_are_whole(const World& world) {
            std::ranges::all_of(b.edges,
                                [n](const Edge& edge) { return edge.outline_of == no_body || edge.outline_of < n; }) &&
            std::ranges::all_of(b.controls, [n](const ControlState& control) { return control.body < n; }) &&
+           std::ranges::all_of(b.element_sides, [traces = std::ssize(world.settings.trace_joints)](
+                                                    TraceSide side) { return side >= no_side && side < 2 * traces; }) &&
            std::ranges::all_of(list.size_rank, [n](std::uint32_t rank) { return rank < n; });
 }
 
@@ -174,9 +177,12 @@ bool membrane_is_whole(const World& world) {
 }  // namespace
 
 void require_whole(const World& world, const std::string& name) {
-    const std::size_t materials = world.settings.materials.size(), laws = 2 * world.settings.pair_count() + materials;
-    if (world.stepping.steps >= 0 && world.stepping.steps <= most_steps && world.settings.laws.size() == laws &&
-        bodies_are_whole(world) && points_are_whole(world) && membrane_is_whole(world))
+    const Settings& settings = world.settings;
+    const std::size_t laws = settings.first_joint_law() + settings.joints.size() * settings.pair_count();
+    const auto is_joint = [&](std::int32_t joint) { return joint >= -1 && joint < std::ssize(settings.joints); };
+    if (std::ranges::all_of(settings.trace_joints, is_joint) && world.stepping.steps >= 0 &&
+        world.stepping.steps <= most_steps && settings.laws.size() == laws && bodies_are_whole(world) &&
+        points_are_whole(world) && membrane_is_whole(world))
         return;
     throw InputError(
         fmt::format("{}: found parts that do not belong together, expected a checkpoint as crackle wrote it", name));

@@ -43,7 +43,8 @@ enum PointFlag : std::uint16_t {
     point_held = 64,         // its bond cannot break
     point_had_bond = 128,    // was bonded and has properties of its own left: a rest overlap, shares
     point_slip_noted = 256,  // its first slip is in Bonds::slips
-    point_unsettled = 512    // its OpeningMemory::extra_force is not 0
+    point_unsettled = 512,   // its OpeningMemory::extra_force is not 0
+    point_closed = 1024      // of an open joint whose faces touch from the start: linear solutions take it for a bond
 };
 
 /// What meets at one contact point.
@@ -202,6 +203,8 @@ enum class Remembered : std::uint8_t {
     when_consistent,   // Integrator::consistent
     by_half_strength,  // Bonds::made, of BondLaw::back_tension
     own_shares,        // Settings::own_shares()
+    own_shear,         // Settings::own_shear(), of a world with bonds
+    when_dilating,     // Settings::dilates()
 };
 
 struct Points {
@@ -219,6 +222,11 @@ struct Points {
     /// length over the distance of centroids, and its length (geometry/contact_share.hpp). Floats: no digit is lost
     /// that a rock would have. Empty where all are 1.
     Array<float> stiffness_share, strength_share;
+    /// Root of what a point has of the law's shear stiffness beyond its stiffness_share: 1 but across a joint with
+    /// stiffnesses. Empty where all are 1.
+    Array<float> shear_root;
+    /// m, that a contact across a joint has slid, added up while it dilates; its bond_overlap is less by tan ψ of that.
+    Array<double> slip;
     // Dashpot forces of the last force pass, N: their work is taken by the trapezoidal rule. Floats, like strong
     // forces: they are reported, no motion follows from them, and they are much of what is moved.
     Array<float> normal_dashpot, shear_dashpot;
@@ -245,6 +253,8 @@ struct Points {
         visit("bond_overlap", s.bond_overlap, Remembered::always);
         visit("stiffness_share", s.stiffness_share, Remembered::own_shares);
         visit("strength_share", s.strength_share, Remembered::own_shares);
+        visit("shear_root", s.shear_root, Remembered::own_shear);
+        visit("slip", s.slip, Remembered::when_dilating);
         visit("normal_dashpot", s.normal_dashpot, Remembered::since_bonding);
         visit("shear_dashpot", s.shear_dashpot, Remembered::since_bonding);
         visit("spring_work", s.spring_work, Remembered::by_guide_law);

@@ -3,7 +3,9 @@
 // Tested by tests/solver/world/world_test.cpp.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <vector>
 
 #include "solver/scene/scene.hpp"
@@ -24,7 +26,7 @@ struct ContactLaw {
     // Of BondLaw::coulomb; infinite where a bond cannot break.
     double tensile_strength, cohesion;  // N
     double bond_friction;               // μ of the bond's envelope
-    double unused = 0.0;
+    double dilation = 0.0;              // tan ψ of a joint
 
     template <class Self, class Visit>
     static constexpr void fields(Self& s, Visit&& visit) {
@@ -39,7 +41,7 @@ struct ContactLaw {
         visit("tensile_strength", s.tensile_strength);
         visit("cohesion", s.cohesion);
         visit("bond_friction", s.bond_friction);
-        visit("unused", s.unused);
+        visit("dilation", s.dilation);
     }
 };
 
@@ -59,13 +61,27 @@ struct Settings {
     StiffnessUnits units = StiffnessUnits::point;
     IntactOptions intact;
     std::vector<Material> materials;
+    std::vector<Joint> joints;
+    std::vector<std::int32_t> trace_joints;  ///< by trace: into joints; -1: as the rock
     /// By pair_number(): of material pairs, then of the same where a bond cannot break, then of materials against
-    /// walls.
+    /// walls, then of material pairs across each joint.
     std::vector<ContactLaw> laws;
 
     /// Whether points have a share of stiffness and strength of their own.
     bool own_shares() const { return bond_law == BondLaw::coulomb || units == StiffnessUnits::area; }
     std::size_t pair_count() const { return materials.size() * (materials.size() + 1) / 2; }
+    std::size_t first_joint_law() const { return 2 * pair_count() + materials.size(); }
+    /// Of two materials across a joint, into laws.
+    std::size_t joint_law(std::size_t pair, std::int32_t joint) const {
+        return first_joint_law() + static_cast<std::size_t>(joint) * pair_count() + pair;
+    }
+    /// Of a law of a joint.
+    const Joint& joint_of_law(std::size_t law) const { return joints[(law - first_joint_law()) / pair_count()]; }
+    /// Whether points have a share of shear stiffness of their own.
+    bool own_shear() const { return std::ranges::any_of(joints, &Joint::has_stiffness); }
+    bool dilates() const {
+        return std::ranges::any_of(joints, [](const Joint& joint) { return joint.dilation_angle > 0.0; });
+    }
 
     template <class Self, class Visit>
     static constexpr void fields(Self& s, Visit&& visit) {
@@ -79,6 +95,8 @@ struct Settings {
         visit("units", s.units);
         visit("intact", s.intact);
         visit("materials", s.materials);
+        visit("joints", s.joints);
+        visit("trace_joints", s.trace_joints);
         visit("laws", s.laws);
     }
 };

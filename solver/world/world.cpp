@@ -20,6 +20,10 @@ bool keeps(const World& world, Remembered remembered) {
             return world.settings.integrator == Integrator::consistent;
         case Remembered::own_shares:
             return world.settings.own_shares();
+        case Remembered::own_shear:
+            return world.bonds.made && world.settings.own_shear();
+        case Remembered::when_dilating:
+            return world.settings.dilates();
         case Remembered::by_half_strength:
             break;
     }

@@ -75,6 +75,11 @@ inline ContactLaw law_of(const World& world, PointIndex k) {
     law.shear_stiffness *= share;
     law.tensile_strength *= strength;
     law.cohesion *= strength;
+    if (!world.points.shear_root.empty()) {
+        const double root = world.points.shear_root[k];
+        law.shear_stiffness *= root * root;
+        law.shear_damping_ratio_term *= root;
+    }
     return law;
 }
 

@@ -6,6 +6,7 @@
 
 #include "solver/stepping/step.hpp"
 #include "solver/world/checkpoint.hpp"
+#include "tests/support/jointed_cells.hpp"
 #include "tests/verification/bursting_specimens.hpp"
 
 namespace crackle {
@@ -51,6 +52,50 @@ TEST(Determinism, HoldsUnderTheConsistentIntegratorToo) {
     World one = discs, other = plain;
     for (int n = 0; n < 500; ++n) step(one), step(other);
     EXPECT_NE(one.bodies.state[0].x, other.bodies.state[0].x);
+}
+
+/// Joints of every kind: bonded and weak, open with an aperture, dilating, with stiffnesses of their own. The rows
+/// slide over each other and meet others, the whole flies apart.
+World sliding_jointed_cells(int columns, int rows, Integrator integrator) {
+    JointedCells cells;
+    cells.columns = columns, cells.rows = rows;
+    cells.integrator = integrator;
+    cells.joints.resize(3);
+    cells.joints[0].strength_factor = 1e-2;
+    cells.joints[0].friction_angle = 20.0;
+    cells.joints[0].dilation_angle = 8.0;
+    cells.joints[0].dilation_slip = 1e-4;
+    cells.joints[0].normal_stiffness = 1e11;
+    cells.joints[0].shear_stiffness = 2e10;
+    cells.joints[1].bonded = false;
+    cells.joints[1].friction_angle = 25.0;
+    cells.joints[1].dilation_angle = 5.0;
+    cells.joints[2].bonded = false;
+    cells.joints[2].aperture = 5e-6;
+    cells.above_row = {{rows / 4, 0}, {rows / 2, 1}};
+    cells.right_of_column = {{columns / 2, 2}};
+    World world = jointed_world(cells);
+    verification::shake(world, 20.0, 5);
+    for (BodyState& body : world.bodies.state) {
+        const double height = body.y / (cells.size * rows) - 0.5, width = body.x / (cells.size * columns) - 0.5;
+        body.vx += 4.0 * height - 0.5 * width;
+        body.vy += 1.5 * height;
+    }
+    return world;
+}
+
+TEST(Determinism, HoldsAcrossJoints) {
+    for (const Integrator integrator : {Integrator::leapfrog, Integrator::consistent}) {
+        check_threads(sliding_jointed_cells(16, 16, integrator), 800, 2, 20);
+        check_restarts(sliding_jointed_cells(8, 8, integrator), 800, 25);
+        World world = sliding_jointed_cells(8, 8, integrator), one_by_one = world;
+        one_by_one.workers.one_by_one = true;
+        for (int n = 0; n < 800; ++n) step(world), step(one_by_one);
+        EXPECT_TRUE(save_world(world) == save_world(one_by_one)) << "points in lanes";
+        double opened = 0.0;
+        for (const double slip : world.points.slip) opened = std::max(opened, slip);
+        EXPECT_GT(opened, 0.0) << "none has dilated";
+    }
 }
 
 TEST(Events, AreTheDifferenceOfTheBondSets) {

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "solver/geometry/across_joint.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+#include <span>
+
+#include "solver/geometry/contact_share.hpp"
+
+namespace crackle {
+namespace {
+
+/// Sides of traces that a body lies on, by its edges; nothing of one without outline.
+std::span<const TraceSide> sides_of(const World& world, BodyIndex b) {
+    const BodyInfo info = world.bodies.info(b);
+    if (world.bodies.element_sides.empty() || info.piece_count == 0) return {};
+    return std::span(world.bodies.element_sides).subspan(info.first_element, info.element_count);
+}
+
+bool on_trace(std::span<const TraceSide> sides) {
+    return std::ranges::any_of(sides, [](TraceSide side) { return side != no_side; });
+}
+
+std::int32_t joint_of_trace(const World& world, std::int32_t trace) {
+    return world.settings.trace_joints[static_cast<std::size_t>(trace)];
+}
+
+/// The first trace that parts two bodies; none where none does.
+std::optional<std::int32_t> trace_between(const World& world, BodyIndex i, BodyIndex j) {
+    std::optional<std::int32_t> first;
+    const std::span<const TraceSide> own = sides_of(world, i);
+    if (!on_trace(own)) return first;
+    const std::span<const TraceSide> others = sides_of(world, j);
+    for (const TraceSide side : own) {
+        if (side == no_side || std::ranges::find(others, across(side)) == others.end()) continue;
+        first = std::min(first.value_or(std::numeric_limits<std::int32_t>::max()), trace_of(side));
+    }
+    return first;
+}
+
+}  // namespace
+
+std::int32_t joint_between(const World& world, BodyIndex i, BodyIndex j) {
+    const std::optional<std::int32_t> trace = trace_between(world, i, j);
+    return trace ? joint_of_trace(world, *trace) : no_joint;
+}
+
+std::int32_t joint_of_face(const World& world, BodyIndex i, BodyIndex j, double gap) {
+    if (!on_trace(sides_of(world, i)) && !on_trace(sides_of(world, j))) return no_joint;
+    if (const std::optional<std::int32_t> trace = trace_between(world, i, j)) return joint_of_trace(world, *trace);
+    const BodyInfo a = world.bodies.info(i), b = world.bodies.info(j);
+    if (a.piece_count == 0 || b.piece_count == 0) return no_joint;
+    const std::optional<ContactShare> face = share_of_face(world, i, j, gap);
+    if (!face) return no_joint;
+    const TraceSide side = std::max(sides_of(world, i)[face->edge_i], sides_of(world, j)[face->edge_j]);
+    return side == no_side ? no_joint : joint_of_trace(world, trace_of(side));
+}
+
+double rest_overlap_between(const World& world, BodyIndex i, BodyIndex j) {
+    const std::int32_t joint = joint_between(world, i, j);
+    return joint == no_joint ? 0.0 : world.settings.joints[static_cast<std::size_t>(joint)].aperture;
+}
+
+}  // namespace crackle
