@@ -6,11 +6,14 @@
 
 #include <algorithm>
 #include <initializer_list>
+#include <numbers>
 #include <set>
 #include <string>
 #include <vector>
 
+#include "solver/base/correctly_rounded.hpp"
 #include "solver/base/errors.hpp"
+#include "specimens/case/joint_keys.hpp"
 #include "specimens/case/parameters.hpp"
 
 namespace crackle {
@@ -68,6 +71,7 @@ class JointCheck {
         if (!fisher && written("joints.section_trend"))
             refuse("joints.section_trend", "a value", "none", "only orientation = \"fisher\" has planes to cut");
         for (std::size_t k = 0; k < test_.trace.size(); ++k) trace(k);
+        for (const JointTable& table : joint_tables(test_)) mechanics(table);
     }
 
   private:
@@ -183,12 +187,114 @@ class JointCheck {
             refuse(of_trace(k, "offset"), fmt::format("{} numbers", t.offset->size()), "two, x and y", "correct it");
     }
 
+    /// Which keys of a joint's mechanics go together.
+    void mechanics(const JointTable& table) const {
+        const TestCase::JointKeys& own = *table.keys;
+        const auto key = [&](const char* name) { return table.label + "." + name; };
+        if (own.open()) {
+            for (const char* name : {"strength_factor", "tensile_strength", "cohesion", "residual_friction_angle"})
+                exclude(key(name), "an open joint has no bonds; its faces have friction_angle");
+        } else if (own.aperture) {
+            refuse(key("aperture"), fmt::format("{} m", *own.aperture), "none of a bonded joint",
+                   "write bonded = false, or remove it");
+        }
+        if (own.tensile_strength && own.cohesion)
+            exclude(key("strength_factor"), "tensile_strength and cohesion stand in its place");
+        if (own.friction_angle && own.residual_friction_angle && *own.residual_friction_angle > *own.friction_angle)
+            refuse(key("residual_friction_angle"), fmt::format("{} deg", *own.residual_friction_angle),
+                   fmt::format("at most friction_angle, {} deg", *own.friction_angle), "a broken bond is no rougher");
+        if (own.dilation_slip && own.dilation_angle.value_or(0.0) == 0.0)
+            refuse(key("dilation_slip"), "a value", "none without dilation_angle", "add that, or remove it");
+    }
+
     const TestCase& test_;
+};
+
+/// The mechanics of joints against the rock's.
+class JointAgainstRock {
+  public:
+    JointAgainstRock(const TestCase& test, const JointTable& table) : test_(test), table_(table), own_(*table.keys) {}
+
+    void run() const {
+        laws();
+        std::vector<TestCase::MaterialKeys> rocks;
+        for (std::size_t k = 0; k < test_.mineral.size(); ++k) rocks.push_back(mineral_material(test_, k));
+        if (rocks.empty()) rocks.push_back(test_.material);
+        for (const TestCase::MaterialKeys& rock : rocks) {
+            friction(rock);
+            if (!own_.open()) strengths(rock);
+        }
+        if (own_.aperture && test_.mesh.thick) aperture_within(*test_.mesh.thick);
+    }
+
+    void aperture_within(double gap) const {
+        if (own_.aperture.value_or(0.0) > gap)
+            refuse("aperture", fmt::format("{} m", *own_.aperture),
+                   fmt::format("at most the gap of the mesh, {:.6g} m", gap),
+                   "the faces lie no farther apart; lower it or raise mesh.thick");
+    }
+
+  private:
+    [[noreturn]] void refuse(const char* name, const std::string& found, const std::string& expected,
+                             const std::string& remedy) const {
+        throw InputError(
+            fmt::format("{}: found {}, expected {}; {}", test_.at(table_.label + "." + name), found, expected, remedy));
+    }
+
+    /// Without faces that have a length, and bonds with strengths of their own, there is nothing to change.
+    void laws() const {
+        if (test_.coulomb_bonds() && test_.area_units()) return;
+        for (const Parameter& p : joint_mechanics_keys()) {
+            if (!test_.position.contains(table_.label + "." + p.key)) continue;
+            refuse(p.key.c_str(),
+                   test_.coulomb_bonds() ? "a value with units = \"" + test_.material.units + "\""
+                                         : "a value with bond.law = \"" + test_.bond.law + "\"",
+                   "bond.law = \"coulomb\" and material.units = \"area\" with it", "change these, or remove it");
+        }
+    }
+
+    void friction(const TestCase::MaterialKeys& rock) const {
+        const double peak = own_.friction_angle.value_or(*rock.friction_angle);
+        if (own_.residual_friction_angle && *own_.residual_friction_angle > peak)
+            refuse("residual_friction_angle", fmt::format("{} deg", *own_.residual_friction_angle),
+                   fmt::format("at most the rock's friction_angle, {} deg", peak), "give its own beside it");
+        const double slides_at = own_.residual_friction_angle ? *own_.residual_friction_angle
+                                 : own_.friction_angle        ? *own_.friction_angle
+                                                       : rock.residual_friction_angle.value_or(*rock.friction_angle);
+        if (own_.dilation_angle.value_or(0.0) > slides_at)
+            refuse("dilation_angle", fmt::format("{} deg", *own_.dilation_angle),
+                   fmt::format("at most the friction angle that it slides at, {} deg", slides_at),
+                   "with more it would give energy away");
+    }
+
+    void strengths(const TestCase::MaterialKeys& rock) const {
+        if (!rock.tensile_strength || !rock.cohesion) return;
+        const double factor = own_.strength_factor.value_or(1.0);
+        const double tensile = own_.tensile_strength.value_or(factor * *rock.tensile_strength),
+                     cohesion = own_.cohesion.value_or(factor * *rock.cohesion);
+        const double angle = own_.friction_angle.value_or(*rock.friction_angle);
+        const double friction = correctly_rounded::tan(angle * std::numbers::pi / 180.0);
+        if (!(friction * tensile > cohesion * (1.0 + 1e-12))) return;
+        refuse(own_.tensile_strength ? "tensile_strength"
+               : own_.cohesion       ? "cohesion"
+                                     : "friction_angle",
+               fmt::format("a tensile strength of {:.6g} Pa", tensile),
+               fmt::format("at most its cohesion over tan(friction_angle), {:.6g} Pa", cohesion / friction),
+               "the apex of its bonds' envelope would cut it off; give less tensile_strength or more cohesion");
+    }
+
+    const TestCase& test_;
+    const JointTable& table_;
+    const TestCase::JointKeys& own_;
 };
 
 }  // namespace
 
 void check_joints(const TestCase& test) { JointCheck(test).run(); }
+
+void check_apertures(const TestCase& test, double gap) {
+    for (const JointTable& table : joint_tables(test)) JointAgainstRock(test, table).aperture_within(gap);
+}
 
 void check_jointed_specimen(const TestCase& test) {
     if (!test.jointed()) return;
@@ -206,6 +312,8 @@ void check_jointed_specimen(const TestCase& test) {
         refuse("mesh.merge_destroyed", "true", "false with kind = \"voronoi\"");
     if (!test.uniaxial())
         refuse("loading.kind", fmt::format("\"{}\"", test.loading.kind), "\"compression\", \"tension\" or \"biaxial\"");
+    for (const JointTable& table : joint_tables(test))
+        if (!table.keys->as_rock()) JointAgainstRock(test, table).run();
 }
 
 }  // namespace crackle

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <utility>
 
+#include "specimens/case/joint_keys.hpp"
 #include "specimens/case/loading_keys.hpp"
 #include "specimens/case/specimen_keys.hpp"
 
@@ -56,6 +57,7 @@ const std::vector<Parameter>& case_parameters() {
     static const std::vector<Parameter> all = [] {
         std::vector<Parameter> declared = specimen_keys();
         std::ranges::move(loading_keys(), std::back_inserter(declared));
+        std::ranges::move(joint_mechanics_keys(), std::back_inserter(declared));
         add_minerals_keys(declared);
         return declared;
     }();

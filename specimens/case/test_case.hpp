@@ -100,6 +100,25 @@ struct TestCase {
         std::optional<double> shortest;       // m
     } joints;
 
+    /// What a joint does in place of the rock; where nothing is given it is as the rock.
+    struct JointKeys {
+        std::optional<bool> bonded;                     // true if not given
+        std::optional<double> strength_factor;          // -
+        std::optional<double> tensile_strength;         // Pa
+        std::optional<double> cohesion;                 // Pa
+        std::optional<double> friction_angle;           // degrees
+        std::optional<double> residual_friction_angle;  // degrees
+        std::optional<double> normal_stiffness;         // Pa/m
+        std::optional<double> shear_stiffness;          // Pa/m
+        std::optional<double> dilation_angle;           // degrees
+        std::optional<double> dilation_slip;            // m
+        std::optional<double> aperture;                 // m
+
+        friend bool operator==(const JointKeys&, const JointKeys&) = default;
+        bool open() const { return bonded && !*bonded; }
+        bool as_rock() const { return *this == JointKeys{}; }
+    };
+
     /// Joints drawn by laws (specimens/joints). Which keys go together: case/joint_checks.cpp.
     struct JointSet {
         std::string name;
@@ -118,6 +137,7 @@ struct TestCase {
         std::optional<std::string> spacing_law;               // "fixed" if not given
         std::optional<double> spacing_deviation;              // m
         std::optional<std::vector<double>> through;           // m, x and y
+        JointKeys own;
     };
     std::vector<JointSet> joint_set;
 
@@ -129,6 +149,7 @@ struct TestCase {
         std::optional<std::string> layer;           ///< of a DXF file
         std::optional<double> scale;                // m a unit of the file
         std::optional<std::vector<double>> offset;  // m, x and y
+        JointKeys own;
     };
     std::vector<Trace> trace;
     bool jointed() const { return !joint_set.empty() || !trace.empty(); }

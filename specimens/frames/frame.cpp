@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <stdexcept>
 
 #include "solver/geometry/geometry.hpp"
@@ -30,6 +31,7 @@ struct Target {
 void take_loose(const TestSetup& setup, const LooseContacts& loose, const auto& target) {
     Frame& frame = target.frame;
     frame.loose.contacts.clear();
+    frame.joint_forces.clear();
     for (std::size_t kind = 0; kind < point_kinds; ++kind) {
         for (PointIndex k = loose.kind_begin[kind]; k < loose.kind_begin[kind + 1]; ++k) {
             const LooseContact& contact = loose.contacts[k];
@@ -39,6 +41,7 @@ void take_loose(const TestSetup& setup, const LooseContacts& loose, const auto& 
             } else {
                 target.shear_force[bond] = contact.shear_force;
                 target.states[bond] = ContactState::broken_touching;
+                if (!std::isnan(contact.joint_force)) frame.joint_forces.push_back({bond, contact.joint_force});
             }
         }
         frame.loose.kind_begin[kind + 1] = static_cast<PointIndex>(frame.loose.contacts.size());
@@ -97,7 +100,8 @@ void take_frame(const World& world, const TestSetup& setup, const ContactHistory
 }
 
 void FrameOnDisc::put(const Frame& frame) {
-    rest_ = {frame.row, frame.axial_strain, frame.axial_stress, frame.time, {}, {}, {}, frame.loose, frame.cracks};
+    rest_ = {frame.row, frame.axial_strain, frame.axial_stress, frame.time,        {}, {},
+             {},        frame.loose,        frame.cracks,       frame.joint_forces};
     const auto copy = [](const auto& values, auto& to) {
         to.resize(values.size());
         for (std::size_t k = 0; k < values.size(); ++k) to[k] = values[k];

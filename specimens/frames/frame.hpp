@@ -26,8 +26,19 @@ enum class ContactState : std::uint8_t {
 
 inline bool holds(ContactState state) { return state <= ContactState::bonded_slid; }
 
-/// A moment of a test: 48 bytes a body, 9 a bond, 32 a contact without one.
+/// A moment of a test: 48 bytes a body, 9 a bond, 40 a contact without one.
 struct Frame {
+    /// Of a bond across a joint that broke and touches: LooseContact::joint_force.
+    struct JointForce {
+        PointIndex bond;
+        double normal;
+
+        template <class Self, class Visit>
+        static constexpr void fields(Self& s, Visit&& visit) {
+            visit("bond", s.bond);
+            visit("normal", s.normal);
+        }
+    };
     struct Body {
         double x, y, angle;    // m, rad
         double vx, vy, omega;  // m/s, rad/s
@@ -44,11 +55,12 @@ struct Frame {
     };
     std::int64_t row = -1;  ///< of the curve; -1: no frame
     double axial_strain = 0.0, axial_stress = 0.0, time = 0.0;
-    std::vector<Body> bodies;          ///< as in the world
-    std::vector<double> shear_force;   ///< N, elastic, as TestSetup::bonds; 0 of broken ones that do not touch
-    std::vector<ContactState> states;  ///< likewise
-    LooseContacts loose;               ///< of points that were never bonded
-    std::uint64_t cracks = 0;          ///< so many have come first in ContactHistory::cracks
+    std::vector<Body> bodies;              ///< as in the world
+    std::vector<double> shear_force;       ///< N, elastic, as TestSetup::bonds; 0 of broken ones that do not touch
+    std::vector<ContactState> states;      ///< likewise
+    LooseContacts loose;                   ///< of points that were never bonded
+    std::uint64_t cracks = 0;              ///< so many have come first in ContactHistory::cracks
+    std::vector<JointForce> joint_forces;  ///< by kind and in the order of keys
 
     template <class Self, class Visit>
     static constexpr void fields(Self& s, Visit&& visit) {
@@ -61,6 +73,7 @@ struct Frame {
         visit("states", s.states);
         visit("loose", s.loose);
         visit("cracks", s.cracks);
+        visit("joint_forces", s.joint_forces);
     }
 };
 

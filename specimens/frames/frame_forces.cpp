@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "specimens/frames/frame_forces.hpp"
 
+#include <cmath>
+
 #include "solver/geometry/contact_share.hpp"
 
 namespace crackle {
@@ -32,19 +34,30 @@ FrameForces find_forces(const PlacedFrame& placed) {
     FrameForces forces;
     forces.normal.reserve(setup.bonds.size() + frame.loose.contacts.size());
     forces.stress.resize(frame.bodies.size());
-    const auto add = [&]<PointKind K>(const ContactPoint& point, double rest_overlap, double share, double shear) {
+    const auto geometry = [&]<PointKind K>(const ContactPoint& point) {
         std::uint32_t feature = point.feature_j;
-        const ContactGeometry g =
-            contact_geometry<K>(world, point, placed.body(point.body_i), placed.body(point.body_j), feature);
-        const ContactLaw& law = world.settings.laws[law_between(world, point.body_i, point.body_j)];
-        const double normal = share * law.normal_stiffness * (g.overlap - rest_overlap);
+        return contact_geometry<K>(world, point, placed.body(point.body_i), placed.body(point.body_j), feature);
+    };
+    const auto add_force = [&](const ContactPoint& point, const ContactGeometry& g, double normal, double shear) {
         forces.normal.push_back(normal);
         add_contact(forces.stress, point, g, normal, shear);
     };
+    const auto add = [&]<PointKind K>(const ContactPoint& point, double rest_overlap, double share, double shear) {
+        const ContactGeometry g = geometry.template operator()<K>(point);
+        const ContactLaw& law = world.settings.laws[law_between(world, point.body_i, point.body_j)];
+        add_force(point, g, share * law.normal_stiffness * (g.overlap - rest_overlap), shear);
+    };
+    auto of_joint = frame.joint_forces.begin();
     visit_kinds(setup.bond_kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
         for (PointIndex k = begin; k < end; ++k) {
             if (frame.states[k] == ContactState::broken) {
                 forces.normal.push_back(0.0);
+                continue;
+            }
+            if (of_joint != frame.joint_forces.end() && of_joint->bond == k) {
+                const ContactPoint point = setup.bonds.at<K>(k);
+                add_force(point, geometry.template operator()<K>(point), of_joint->normal, frame.shear_force[k]);
+                ++of_joint;
                 continue;
             }
             add.template operator()<K>(setup.bonds.at<K>(k),
@@ -55,6 +68,11 @@ FrameForces find_forces(const PlacedFrame& placed) {
     visit_kinds(frame.loose.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
         for (PointIndex k = begin; k < end; ++k) {
             const LooseContact& contact = frame.loose.contacts[k];
+            if (!std::isnan(contact.joint_force)) {
+                add_force(contact.point, geometry.template operator()<K>(contact.point), contact.joint_force,
+                          contact.shear_force);
+                continue;
+            }
             const double share = world.settings.units == StiffnessUnits::area
                                      ? static_cast<float>(share_of_contact(world, K, contact.point).stiffness())
                                      : 1.0;

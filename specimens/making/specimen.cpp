@@ -15,7 +15,9 @@
 #include "mesher/mesher.hpp"
 #include "solver/base/errors.hpp"
 #include "solver/demseg/geometry.hpp"
+#include "specimens/case/joint_checks.hpp"
 #include "specimens/case/parameters.hpp"
+#include "specimens/joints/joint_faces.hpp"
 #include "specimens/joints/joint_network.hpp"
 #include "specimens/joints/mesh_traces.hpp"
 #include "specimens/making/cell_bodies.hpp"
@@ -365,9 +367,11 @@ void mesh_specimen(Specimen& specimen, const TestCase& test, const TestHooks& ho
         if (!request.traces.empty()) {
             for (const std::string& line : jointed_mesh_text(mesh, centres, circles.domain, request))
                 hooks.report_stage(line);
-            specimen.notices.emplace_back(
-                "joints are faces of the mesh with the rock's own properties: they change it by being straight, "
-                "Voronoi cells by their even rows, too");
+            if (const std::string as_rock = sources_as_rock(joints, test); !as_rock.empty())
+                specimen.notices.push_back(
+                    "joints without mechanics (" + as_rock +
+                    ") are faces of the mesh with the rock's own properties: they change it by being straight, Voronoi "
+                    "cells by their even rows, too");
         }
     } catch (const MeshError& error) {
         throw InputError(
@@ -382,6 +386,10 @@ void mesh_specimen(Specimen& specimen, const TestCase& test, const TestHooks& ho
     specimen.right_ids.clear();
     const bool domain_boundary = request.kind == MeshKind::voronoi || request.boundary == Boundary::domain;
     add_cell_bodies(scene, mesh, materials);
+    if (!request.traces.empty()) {
+        check_apertures(test, specimen.mesh_thick);
+        set_joints(scene, mesh, joints, test);
+    }
     int id = 0;
     for (const Cell& cell : mesh.cells) {
         ++id;

@@ -26,6 +26,18 @@ void note_break(const TestSetup& setup, const BreakEvent& event, ContactHistory&
     history.cracks.push_back({event.time, event.energy, event.strength, event.orientation, bond, event.shear_mode});
 }
 
+namespace {
+
+/// LooseContact::joint_force.
+template <PointKind K>
+double joint_force(const World& world, PointIndex k) {
+    if (world.points.state[k].law < world.settings.first_joint_law()) return std::numeric_limits<double>::quiet_NaN();
+    const double overlap = overlap_at<K>(world, world.points.contact[k]);
+    return law_of(world, k).normal_stiffness * std::max(0.0, overlap - world.points.bond_overlap[k]);
+}
+
+}  // namespace
+
 void look_at_contacts(const World& world, ContactHistory& history) {
     LooseContacts now;
     visit_kinds(world.points.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
@@ -36,7 +48,8 @@ void look_at_contacts(const World& world, ContactHistory& history) {
         const std::size_t first = now.contacts.size();
         for (PointIndex k = begin; k < end && K != PointKind::element_wall; ++k) {
             if ((world.points.state[k].flags & (point_touching | point_bonded)) == point_touching)
-                now.contacts.push_back({world.points.contact[k], world.points.shear_force[k], world.stepping.time});
+                now.contacts.push_back({world.points.contact[k], world.points.shear_force[k], world.stepping.time,
+                                        joint_force<K>(world, k)});
         }
         const auto found = now.contacts.begin() + static_cast<std::ptrdiff_t>(first);
         if (K == PointKind::element_outline) std::sort(found, now.contacts.end(), less);  // listed in two runs

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "solver/world/world.hpp"
@@ -40,12 +41,16 @@ struct LooseContact {
     ContactPoint point;
     double shear_force = 0.0;  // N, elastic, when last looked at
     double since = 0.0;        // s, of the row that saw it first
+    /// N, elastic, when last looked at, across a joint, where overlap without force and stiffness are the point's own;
+    /// elsewhere not a number: the places of the bodies say it.
+    double joint_force = std::numeric_limits<double>::quiet_NaN();
 
     template <class Self, class Visit>
     static constexpr void fields(Self& s, Visit&& visit) {
         visit("point", s.point);
         visit("shear_force", s.shear_force);
         visit("since", s.since);
+        visit("joint_force", s.joint_force);
     }
 };
 

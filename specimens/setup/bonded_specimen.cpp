@@ -104,6 +104,7 @@ BondedSpecimen bond_specimen(const Specimen& specimen, const TestCase& test, con
     bonded.world.workers.while_solving = std::move(while_solving);
     forget_point_forces(bonded.world);  // platens give the stress, the curve's rows the energy of springs
     Bonding bonding = bonding_of(specimen, test, thick);
+    bonding.pressed = loading.kind != "tension";
     if (loading.platens == "glued")
         bonding.holds = grips_of(bonded.world, specimen, bonded.platens, loading.grip.value_or(0.0));
     if (specimen.shape.notch && specimen.polygons) bonding.leaves = parted_by(bonded.world, *specimen.shape.notch);

@@ -45,9 +45,14 @@ double face_width(const World& world, const SetupPart& part) {
     return most->x - least->x;
 }
 
-bool connected(const TestSetup& setup, std::size_t bodies) {
-    boost::disjoint_sets_with_storage<> pieces(bodies);
+/// Open joints that touch under pressure hold, too.
+bool connected(const World& world, const TestSetup& setup) {
+    boost::disjoint_sets_with_storage<> pieces(world.bodies.size());
     for (const BodyPair& bond : setup.bonds.pairs) pieces.union_set(bond.body_i, bond.body_j);
+    for (PointIndex k = 0; k < world.points.size(); ++k) {
+        if ((world.points.state[k].flags & point_closed) == 0) continue;
+        pieces.union_set(world.points.contact.pairs[k].body_i, world.points.contact.pairs[k].body_j);
+    }
     return std::ranges::all_of(setup.parts, [&](const SetupPart& part) {
         return part.wall || pieces.find_set(part.body) == pieces.find_set(setup.top);
     });
@@ -85,7 +90,7 @@ void check_platen_hold(const World& world, const TestSetup& setup, const Platens
                         test.at("bond.thick"), hold.bonds, hold.length(), setup.width, lower ? "lower" : "upper",
                         lower ? platens.bottom_y : platens.top_y));
     }
-    if (!connected(setup, world.bodies.size())) {
+    if (!connected(world, setup)) {
         throw InputError(fmt::format(
             "{}: found {} bonds, none of which join the lower and the upper platen, expected a specimen in one "
             "piece; polygons bond where bond.thick is larger than the gap between them",

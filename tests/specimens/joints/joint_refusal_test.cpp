@@ -69,6 +69,81 @@ TEST(JointRefusals, NamesAndTracesAreChecked) {
     }
 }
 
+TEST(JointRefusals, MechanicsOfAJointGoTogether) {
+    const std::string set = "angle = 0.0\nspacing = 0.1\n";
+    for (const auto& [keys, says] : {
+             std::pair{"bonded = false\nstrength_factor = 0.5\n", "joint_set[1].strength_factor: found a value"},
+             {"bonded = false\ncohesion = 1e6\n", "an open joint has no bonds"},
+             {"bonded = false\nfriction_angle = 30.0\nresidual_friction_angle = 20.0\n",
+              "its faces have friction_angle"},
+             {"aperture = 1e-4\n", "joint_set[1].aperture: found 0.0001 m, expected none of a bonded joint"},
+             {"tensile_strength = 1e5\ncohesion = 1e6\nstrength_factor = 0.5\n", "stand in its place"},
+             {"friction_angle = 20.0\nresidual_friction_angle = 25.0\n", "at most friction_angle, 20 deg"},
+             {"dilation_slip = 1e-3\n", "none without dilation_angle"},
+             {"normal_stiffness = 0.0\n", "expected a number > 0 in Pa/m"},
+             {"friction_angle = 90.0\n", "joint_set[1].friction_angle: found 90"},
+             {"bonded = 1\n", "joint_set[1].bonded: found 1"},
+         }) {
+        EXPECT_NE(of_set(set + keys).find(says), std::string::npos) << keys << says;
+    }
+    EXPECT_NE(refused("[[trace]]\npoints = [0.0, 0.0, 1.0, 1.0]\naperture = 1e-3\n").find("trace[1].aperture"),
+              std::string::npos);
+}
+
+/// A rock of its own strengths with a joint.
+std::string of_rock(const std::string& keys, const std::string& thick = "") {
+    const testing::ScratchFolder folder;
+    std::ofstream(folder / "case.toml") << R"([packing]
+width = 0.5
+height = 1.0
+radius_min = 0.01
+radius_max = 0.02
+mean_overlap = 1e-5
+[material]
+density = 2500.0
+units = "area"
+contact_modulus = 50e9
+stiffness_ratio = 2.5
+friction_angle = 40.0
+residual_friction_angle = 25.0
+tensile_strength = 5e6
+cohesion = 15e6
+[mesh]
+kind = "voronoi"
+)" << thick << "[bond]\nlaw = \"coulomb\"\n[loading]\nkind = \"compression\"\nmax_axial_strain = 0.01\n"
+                                        << "[[trace]]\npoints = [0.0, 0.5, 0.5, 0.6]\n"
+                                        << keys;
+    return testing::refusal([&] { read_case(folder / "case.toml"); });
+}
+
+TEST(JointRefusals, MechanicsGoWithTheRocks) {
+    for (const auto& [keys, says] : {
+             std::pair{"residual_friction_angle = 41.0\n", "at most the rock's friction_angle, 40 deg"},
+             {"dilation_angle = 26.0\n", "at most the friction angle that it slides at, 25 deg"},
+             {"dilation_angle = 26.0\nfriction_angle = 30.0\n", "accepted"},
+             {"cohesion = 1e6\n", "trace[1].cohesion: found a tensile strength of 5e+06 Pa"},
+             {"cohesion = 1e6\ntensile_strength = 0.0\n", "accepted"},
+             {"friction_angle = 80.0\n", "trace[1].friction_angle: found a tensile strength"},
+             {"strength_factor = 0.0\n", "accepted"},
+             {"bonded = false\nfriction_angle = 80.0\n", "accepted"},
+         }) {
+        EXPECT_NE(of_rock(keys).find(says), std::string::npos) << keys << says;
+    }
+    EXPECT_NE(of_rock("bonded = false\naperture = 1.1e-3\n", "thick = 1e-3\n")
+                  .find("trace[1].aperture: found 0.0011 m, expected at most the gap of the mesh, 0.001 m"),
+              std::string::npos);
+    EXPECT_EQ(of_rock("bonded = false\naperture = 0.9e-3\n", "thick = 1e-3\n"), "accepted");
+    const std::string other = testing::refusal([&] {
+        const testing::ScratchFolder folder;
+        std::ofstream(folder / "case.toml")
+            << testing::rock << "[[trace]]\npoints = [0.0, 0.5, 0.5, 0.6]\nbonded = false\n";
+        read_case(folder / "case.toml");
+    });
+    EXPECT_NE(other.find("trace[1].bonded: found a value with bond.law = \"back_tension\", expected bond.law = "
+                         "\"coulomb\" and material.units = \"area\""),
+              std::string::npos);
+}
+
 TEST(JointRefusals, ARefusalNamesFileAndLine) {
     EXPECT_NE(of_set("angle = 0.0\nkappa = 3.0\nspacing = 0.1\n").find("joints.toml:4: joint_set[1].kappa: found"),
               std::string::npos);

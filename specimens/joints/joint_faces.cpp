@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/joints/joint_faces.hpp"
+
+#include <cstddef>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "specimens/case/joint_keys.hpp"
+
+namespace crackle {
+namespace {
+
+/// m2, squared distance of a point from a straight part.
+double squared_distance(Vec2 p, Vec2 a, Vec2 b) {
+    const Vec2 along = b - a;
+    const double share = dot(p - a, along) / dot(along, along);
+    const Vec2 nearest = a + (share < 0.0 ? 0.0 : share > 1.0 ? 1.0 : share) * along;
+    return dot(p - nearest, p - nearest);
+}
+
+/// Of an edge on a trace, seen along its points: a cell, which lies to the left of its edges, lies to the left of the
+/// trace where they run the same way. Of a bent trace the part counts that is nearest to the edge's middle.
+TraceSide side_of(const JointTrace& trace, std::int32_t number, Vec2 from, Vec2 to) {
+    const Vec2 middle = 0.5 * (from + to);
+    double nearest = std::numeric_limits<double>::infinity();
+    bool along = true;
+    for (std::size_t k = 0; k + 1 < trace.points.size(); ++k) {
+        const double apart = squared_distance(middle, trace.points[k], trace.points[k + 1]);
+        if (apart >= nearest) continue;
+        nearest = apart;
+        along = dot(to - from, trace.points[k + 1] - trace.points[k]) > 0.0;
+    }
+    return 2 * number + (along ? 0 : 1);
+}
+
+}  // namespace
+
+Joint joint_of(const TestCase::JointKeys& keys) {
+    Joint joint;
+    joint.bonded = !keys.open();
+    joint.strength_factor = keys.strength_factor.value_or(1.0);
+    joint.tensile_strength = keys.tensile_strength;
+    joint.cohesion = keys.cohesion;
+    joint.friction_angle = keys.friction_angle;
+    joint.residual_friction_angle = keys.residual_friction_angle;
+    joint.normal_stiffness = keys.normal_stiffness;
+    joint.shear_stiffness = keys.shear_stiffness;
+    joint.dilation_angle = keys.dilation_angle.value_or(0.0);
+    if (keys.dilation_slip) joint.dilation_slip = *keys.dilation_slip;
+    joint.aperture = keys.aperture.value_or(0.0);
+    return joint;
+}
+
+void set_joints(Scene& scene, const Mesh& mesh, const JointNetwork& network, const TestCase& test) {
+    std::vector<std::int32_t> of_source;
+    for (const JointTable& table : joint_tables(test)) {
+        of_source.push_back(table.keys->as_rock() ? -1 : static_cast<std::int32_t>(scene.joints.size()));
+        if (!table.keys->as_rock()) scene.joints.push_back(joint_of(*table.keys));
+    }
+    for (const JointTrace& trace : network.traces) scene.trace_joints.push_back(of_source[trace.source]);
+    for (const Cell& cell : mesh.cells) {
+        const std::span<const Point> outline = mesh.outline(cell);
+        for (std::size_t k = 0; k < outline.size(); ++k) {
+            const int trace = mesh.edge_traces[cell.first_corner + k];
+            const Point from = outline[k], to = outline[k + 1 == outline.size() ? 0 : k + 1];
+            scene.edge_sides.push_back(trace < 0 ? no_side
+                                                 : side_of(network.traces[static_cast<std::size_t>(trace)], trace,
+                                                           {from.x, from.y}, {to.x, to.y}));
+        }
+    }
+}
+
+std::string sources_as_rock(const JointNetwork& network, const TestCase& test) {
+    const std::vector<JointTable> tables = joint_tables(test);
+    std::string names;
+    for (std::size_t k = 0; k < tables.size(); ++k)
+        if (tables[k].keys->as_rock()) names += (names.empty() ? "" : ", ") + network.sources[k].name;
+    return names;
+}
+
+}  // namespace crackle

@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The joints of a case on the faces of its mesh.
+
+#include "specimens/joints/joint_faces.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+
+#include "solver/geometry/across_joint.hpp"
+#include "solver/stepping/bonding.hpp"
+#include "solver/stepping/build_world.hpp"
+#include "specimens/making/specimen.hpp"
+#include "tests/specimens/joints/cases.hpp"
+
+namespace crackle {
+namespace {
+
+constexpr const char* area_rock = R"([packing]
+width = 0.3
+height = 0.5
+radius_min = 0.01
+radius_max = 0.02
+mean_overlap = 1e-5
+[material]
+density = 2500.0
+units = "area"
+contact_modulus = 50e9
+stiffness_ratio = 2.5
+friction_angle = 40.0
+tensile_strength = 5e6
+cohesion = 15e6
+[bond]
+law = "coulomb"
+[loading]
+kind = "compression"
+max_axial_strain = 0.01
+)";
+
+TestCase case_of(const std::string& text) {
+    const testing::ScratchFolder folder;
+    std::ofstream(folder / "case.toml") << text;
+    return read_case(folder / "case.toml");
+}
+
+std::string meshed(const char* kind) {
+    return std::string(area_rock) + "[mesh]\nkind = \"" + kind + "\"\nthick = 5e-4\n";
+}
+
+TEST(JointFaces, EveryFaceOnATraceHasOneBodyOnEitherSide) {
+    for (const char* kind : {"voronoi", "delaunay"}) {
+        const TestCase test = case_of(meshed(kind) +
+                                      "[[trace]]\npoints = [0.0, 0.1, 0.15, 0.2, 0.3, 0.42]\n"
+                                      "friction_angle = 20.0\n"
+                                      "[[trace]]\npoints = [0.2, 0.0, 0.1, 0.5]\n");
+        const Specimen specimen = make_specimen(test, {});
+        const Scene& scene = specimen.scene;
+        ASSERT_EQ(scene.edge_sides.size(), scene.vertices.size());
+        ASSERT_EQ(scene.joints.size(), 1u) << "the second trace is as the rock";
+        EXPECT_EQ(scene.trace_joints, (std::vector<std::int32_t>{0, -1}));
+        const std::vector<Vec2> bent{{0.0, 0.1}, {0.15, 0.2}, {0.3, 0.42}};
+        std::map<TraceSide, double> length;
+        for (const Body& body : scene.bodies) {
+            const Vec2 centre = mass_properties(scene, body).centroid;
+            for (std::uint32_t v = 0; v < body.vertex_count; ++v) {
+                const TraceSide side = scene.edge_sides[body.first_vertex + v];
+                if (side == no_side) continue;
+                const Vec2 from = scene.vertices[body.first_vertex + v],
+                           to = scene.vertices[body.first_vertex + (v + 1) % body.vertex_count];
+                length[side] += norm(to - from);
+                if (trace_of(side) != 0) continue;
+                const Vec2 middle = 0.5 * (from + to);
+                const std::size_t part = middle.x < 0.15 ? 0 : 1;
+                const bool left = cross(bent[part + 1] - bent[part], centre - bent[part]) > 0.0;
+                EXPECT_EQ(side, left ? 0 : 1) << kind << " body " << body.id;
+            }
+        }
+        const double whole[] = {norm(bent[1] - bent[0]) + norm(bent[2] - bent[1]), std::hypot(0.1, 0.5)};
+        for (const auto& [side, sum] : length) {
+            fmt::print("  {}: side {}: expected {:.4f} m, got {:.4f} less the insets\n", kind, side,
+                       whole[trace_of(side)], sum);
+            EXPECT_LT(sum, whole[trace_of(side)]);
+            EXPECT_GT(sum, 0.9 * whole[trace_of(side)]);
+        }
+        EXPECT_EQ(length.size(), 4u);
+    }
+}
+
+/// Points of every pair that has bonds across the joint and not: no bond leads past an open one.
+TEST(JointFaces, AnOpenTraceThroughTheSpecimenLeavesNoBondAcrossIt) {
+    for (const char* kind : {"voronoi", "delaunay"}) {
+        const TestCase test = case_of(meshed(kind) + "[[trace]]\npoints = [0.0, 0.15, 0.3, 0.35]\nbonded = false\n");
+        const Specimen specimen = make_specimen(test, {});
+        Scene scene = specimen.scene;
+        scene.thick = specimen.mesh_gap;
+        scene.bond_law = BondLaw::coulomb;
+        scene.units = StiffnessUnits::area;
+        scene.time_step = 0.0;
+        scene.domain.wall_present = {false, false, false, false};
+        Bonding bonding;
+        bonding.thick = scene.thick;
+        bonding.gap = 0.05 * scene.thick;
+        World world = build_world(scene);
+        bond_all(world, bonding);
+        const auto above = [&](BodyIndex b) {
+            const BodyState& body = world.bodies.state[b];
+            return cross({0.3, 0.2}, Vec2{body.x, body.y - 0.15}) > 0.0;
+        };
+        int left = 0, across_bonds = 0;
+        for (PointIndex k = 0; k < world.points.size(); ++k) {
+            const ContactPoint point = world.points.contact[k];
+            if (above(point.body_i) == above(point.body_j)) continue;
+            across_bonds += (world.points.state[k].flags & point_bonded) != 0 ? 1 : 0;
+            left += (world.points.state[k].flags & point_closed) != 0 ? 1 : 0;
+        }
+        fmt::print("  {}: {} points left open, {} bonds across\n", kind, left, across_bonds);
+        EXPECT_EQ(across_bonds, 0);
+        EXPECT_GT(left, 10);
+    }
+}
+
+TEST(JointFaces, KeysComeToAJoint) {
+    const TestCase test = case_of(meshed("voronoi") +
+                                  "[[trace]]\npoints = [0.0, 0.1, 0.3, 0.2]\nbonded = false\nfriction_angle = 20.0\n"
+                                  "normal_stiffness = 1e11\nshear_stiffness = 2e10\ndilation_angle = 5.0\n"
+                                  "dilation_slip = 1e-3\naperture = 1e-4\n"
+                                  "[[joint_set]]\nname = \"a\"\nangle = 0.0\nspacing = 0.1\nstrength_factor = 0.5\n"
+                                  "tensile_strength = 0.0\nresidual_friction_angle = 30.0\n");
+    const Joint set = joint_of(test.joint_set[0].own), trace = joint_of(test.trace[0].own);
+    EXPECT_TRUE(set.bonded);
+    EXPECT_EQ(set.strength_factor, 0.5);
+    EXPECT_EQ(set.tensile_strength, 0.0);
+    EXPECT_FALSE(set.cohesion);
+    EXPECT_EQ(set.residual_friction_angle, 30.0);
+    EXPECT_FALSE(trace.bonded);
+    EXPECT_EQ(trace.friction_angle, 20.0);
+    EXPECT_EQ(trace.normal_stiffness, 1e11);
+    EXPECT_EQ(trace.shear_stiffness, 2e10);
+    EXPECT_EQ(trace.dilation_angle, 5.0);
+    EXPECT_EQ(trace.dilation_slip, 1e-3);
+    EXPECT_EQ(trace.aperture, 1e-4);
+    EXPECT_EQ(joint_of({}), Joint{});
+}
+
+}  // namespace
+}  // namespace crackle
