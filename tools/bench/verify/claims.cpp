@@ -43,6 +43,9 @@ const std::vector<Claim>& claims() {
                  beam_claims(),
                  pressure_claims(),
                  joint_claims(),
+                 joint_face_claims(),
+                 joint_compliance_claims(),
+                 weakness_plane_claims(),
              }) {
             std::move(part.begin(), part.end(), std::back_inserter(list));
         }

@@ -35,5 +35,8 @@ std::vector<Claim> disc_claims();
 std::vector<Claim> beam_claims();
 std::vector<Claim> pressure_claims();
 std::vector<Claim> joint_claims();
+std::vector<Claim> joint_face_claims();
+std::vector<Claim> joint_compliance_claims();
+std::vector<Claim> weakness_plane_claims();
 
 }  // namespace crackle::verification

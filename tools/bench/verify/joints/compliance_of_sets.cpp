@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Elastic compliance of rocks with persistent sets of joints, by the sparse solve under uniform tractions.
+// Tested by tests/verification/claims_test.cpp.
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "specimens/elastic/compliance.hpp"
+#include "specimens/joints/joint_network.hpp"
+#include "tools/bench/verify/groups.hpp"
+#include "tools/bench/verify/joints/jointed_rock.hpp"
+#include "tools/bench/verify/rows.hpp"
+
+namespace crackle::verification {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180.0;
+
+/// 1/E along a direction, 1/Pa. @param angle rad from +x
+double softness_along(const Compliance& s, double angle) {
+    const double x = std::cos(angle), y = std::sin(angle);
+    const double stress[3] = {x * x, y * y, x * y}, measure[3] = {x * x, y * y, x * y};
+    double strain = 0.0;
+    for (std::size_t a = 0; a < 3; ++a)
+        for (std::size_t b = 0; b < 3; ++b) strain += measure[a] * s[a][b] * stress[b];
+    return strain;
+}
+
+Compliance compliance(const Specimen& specimen, bool welded) {
+    return compliance_of(bonded_rock(specimen, welded), specimen.scene.domain, 0.5 * specimen.mesh_gap);
+}
+
+TestCase::JointKeys stiffnesses(double normal, double shear) {
+    TestCase::JointKeys own;
+    own.normal_stiffness = normal;
+    own.shear_stiffness = shear;
+    return own;
+}
+
+std::vector<ClaimRow> persistent_set_adds_its_compliance() {
+    Rows rows;
+    constexpr int joints = 8;
+    constexpr double spacing = rock_height / joints, normal = 2e11, shear = 8e10;  // m, Pa/m
+    for (const char* kind : {"voronoi", "delaunay"}) {
+        for (const std::int64_t seed : {1, 2}) {
+            TestCase test = jointed_rock(kind, seed);
+            add_set(test, 0.0, spacing, {0.0, 0.5 * spacing}, stiffnesses(normal, shear));
+            const Specimen specimen = make_specimen(test, {});
+            const Compliance jointed = compliance(specimen, false), welded = compliance(specimen, true);
+            const std::string name = fmt::format("{}, packing {}: ", kind, seed);
+            for (const double t : {0.0, 30.0, 45.0, 60.0, 90.0}) {
+                const double c = std::cos(t * degree), s = std::sin(t * degree), along = (90.0 - t) * degree;
+                const double expected = softness_along(welded, along) + c * c * c * c / (normal * spacing) +
+                                        s * s * c * c / (shear * spacing);
+                rows.relative(name + fmt::format("E at {:.0f} degrees, Pa", t), 1.0 / softness_along(jointed, along),
+                              1.0 / expected, 0.01, "reference");
+            }
+            rows.relative(name + "G', Pa", 1.0 / jointed[2][2], 1.0 / (welded[2][2] + 1.0 / (shear * spacing)), 0.01,
+                          "reference");
+            rows.shown(name + "E without joints, Pa", 1.0 / welded[1][1]);
+        }
+    }
+    return rows.take();
+}
+
+std::vector<ClaimRow> persistent_sets_add_up() {
+    Rows rows;
+    for (const char* kind : {"voronoi", "delaunay"}) {
+        TestCase test = jointed_rock(kind, 3);
+        test.mesh.thick = 5e-5;  // crossings leave slender cells
+        // Beside crossings Voronoi cells need more room than triangles.
+        const std::size_t sets = test.mesh.kind == "voronoi" ? 2 : 3;
+        const double spacings[] = {0.15, 0.12, 0.16}, angles[] = {0.0, 60.0, 110.0};
+        const double normal[] = {2e11, 4e11, 6e11}, shear[] = {8e10, 2e11, 1e11};
+        for (std::size_t k = 0; k < sets; ++k)
+            add_set(test, angles[k], spacings[k], {0.31, 0.6 + 0.5 * spacings[k]}, stiffnesses(normal[k], shear[k]));
+        const Specimen specimen = make_specimen(test, {});
+        const Compliance jointed = compliance(specimen, false);
+        Compliance expected = compliance(specimen, true);
+        const JointNetwork network = make_joints(test, specimen.scene.domain);
+        for (std::size_t k = 0; k < sets; ++k) {
+            double length = 0.0;
+            for (const JointTrace& trace : network.traces) length += trace.source == k ? trace.length() : 0.0;
+            // A box cuts less or more of a set than its spacing says: what counts is the length that is there.
+            const Compliance own = compliance_of_set(angles[k] * degree, network.area() / length, normal[k], shear[k]);
+            for (std::size_t a = 0; a < 3; ++a)
+                for (std::size_t b = 0; b < 3; ++b) expected[a][b] += own[a][b];
+        }
+        const std::string name = fmt::format("{}: ", kind);
+        rows.relative(name + "E along x, Pa", 1.0 / jointed[0][0], 1.0 / expected[0][0], 0.02, "reference");
+        rows.relative(name + "E along y, Pa", 1.0 / jointed[1][1], 1.0 / expected[1][1], 0.02, "reference");
+        rows.relative(name + "G, Pa", 1.0 / jointed[2][2], 1.0 / expected[2][2], 0.02, "reference");
+    }
+    return rows.take();
+}
+
+}  // namespace
+
+std::vector<Claim> joint_compliance_claims() {
+    constexpr const char* group = "Joints";
+    return {
+        {.name = "persistent_set_adds_its_compliance",
+         .group = group,
+         .statement = "of one persistent set 1/E_a = 1/E + cos⁴t/(K_n S) + sin²t cos²t/(K_s S) and 1/G' = 1/G + "
+                      "1/(K_s S), t between load and the joints' normal",
+         .check = persistent_set_adds_its_compliance,
+         .note = "E and G are those of the same mesh with its traces welded, S the height over 8 joints; sparse solve "
+                 "under uniform tractions."},
+        {.name = "persistent_sets_add_up",
+         .group = group,
+         .statement =
+             "compliances of several persistent sets add to that of the rock, S + Σ Rᵀ diag(1/K_n S, 1/K_s S) R",
+         .check = persistent_sets_add_up,
+         .note = "Three sets that cross; S of a set is the area over the length of its traces."},
+    };
+}
+
+}  // namespace crackle::verification

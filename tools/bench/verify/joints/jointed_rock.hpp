@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A rock of cells with traces of joints, in area units with bonds of its own.
+// Tested by tests/verification/claims_test.cpp.
+#pragma once
+
+#include "solver/world/world.hpp"
+#include "specimens/case/case_file.hpp"
+#include "specimens/making/specimen.hpp"
+
+namespace crackle::verification {
+
+inline constexpr double rock_width = 0.6, rock_height = 1.2;    // m
+inline constexpr double rock_modulus = 50e9, rock_ratio = 2.5;  // Pa, contact modulus; k_n over k_s
+
+/// Some 500 circles of 15 to 25 mm radius, meshed. @param kind "voronoi" or "delaunay"
+TestCase jointed_rock(const char* kind, std::int64_t seed);
+
+/// Adds a persistent set at a fixed spacing. @param angle degrees from +x @param through m, a point on one trace
+void add_set(TestCase& test, double angle, double spacing, Vec2 through, const TestCase::JointKeys& own);
+
+/// Bonded without platens. @param welded  all traces are as the rock
+World bonded_rock(const Specimen& specimen, bool welded);
+
+}  // namespace crackle::verification
