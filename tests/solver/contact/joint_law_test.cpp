@@ -123,6 +123,7 @@ TEST(JointLaw, ScenesWithJointsThatCannotBeAreRefused) {
 TEST(JointLaw, ATurnedOutlineKeepsItsFacesOnTraces) {
     testing::JointedCells cells;
     cells.above_row = {{1, 0}};
+    cells.right_of_column = {{1, 0}};
     cells.joints.resize(1);
     cells.joints[0].strength_factor = 0.5;
     Scene scene = jointed_scene(cells);
@@ -147,10 +148,13 @@ TEST(JointLaw, ATurnedOutlineKeepsItsFacesOnTraces) {
     EXPECT_EQ(pairs_across(turned), pairs_across(straight));
     EXPECT_FALSE(pairs_across(turned).empty());
     for (std::size_t e = 0; e < turned.bodies.element_sides.size(); ++e) {
-        // The edge on the trace still is: its two ends have the same height.
-        if (turned.bodies.element_sides[e] == no_side) continue;
-        const std::size_t next = e % 4 == 3 ? e - 3 : e + 1;
-        EXPECT_NEAR(turned.bodies.elements[e].y, turned.bodies.elements[next].y, 1e-12);
+        // The edge on a trace still is: of cells above the level one the lower edge, left of the upright one the right.
+        const TraceSide side = turned.bodies.element_sides[e];
+        if (side == no_side) continue;
+        const Element &from = turned.bodies.elements[e], &to = turned.bodies.elements[e % 4 == 3 ? e - 3 : e + 1];
+        const double middle = trace_of(side) == 0 ? from.y + to.y : -from.x - to.x;
+        EXPECT_EQ(side % 2 == 0, middle < -1e-6) << e;
+        EXPECT_EQ(side % 2 == 1, middle > 1e-6) << e;
     }
 }
 
