@@ -106,6 +106,22 @@ TEST(JointedDelaunay, MergingNeverCrossesATrace) {
     EXPECT_GT(merged, 0);
 }
 
+TEST(JointedDelaunay, ATriangleBetweenTracesThatMergesWithNoneNamesThem) {
+    // By the tip of a wedge of 3 degrees an inset of 4 mm leaves nothing.
+    MeshRequest request = triangles_with({{{0.2, 1.0}, {0.8, 1.0}}, {{0.2, 1.0}, {0.8, 1.0 + 0.6 * 0.05}}}, 8e-3);
+    request.merge_destroyed = true;
+    try {
+        make_mesh(packing_like(5), jointed_box, request);
+        FAIL() << "meshed";
+    } catch (const MeshError& error) {
+        const std::string text = error.what();
+        fmt::print("  {}\n", text);
+        EXPECT_NE(text.find("convex with none"), std::string::npos);
+        EXPECT_EQ(error.traces, (std::vector<int>{0, 1}));
+        EXPECT_NE(text.find(" by traces 0, 1 destroyed"), std::string::npos);
+    }
+}
+
 TEST(JointedDelaunay, EndsNearOtherTracesMeetThem) {
     // A hundredth short of the other, and of the wall; spacing 0.05.
     const Mesh mesh =
