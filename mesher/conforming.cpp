@@ -212,7 +212,7 @@ class Conforming {
         return points;
     }
 
-    void insert_points(std::vector<ChosenPoint> points) {
+    void insert_points(const std::vector<ChosenPoint>& points) {
         using Placed = std::pair<Kernel::Point_2, PointInfo>;
         std::vector<Placed> order;
         order.reserve(points.size() + 2 * pieces_.size());

@@ -137,12 +137,12 @@ void Joiner::join(const std::vector<int>& destroyed) {
             const auto& c = mesh_.corners[static_cast<std::size_t>(key)];
             const Point at = mesh_.points[static_cast<std::size_t>(c[0])];
             std::vector<int> traces = traces_about(mesh_, static_cast<std::size_t>(key));
-            throw MeshError(
-                fmt::format("mesh: found triangle {} at ({:.9g}, {:.9g}){} destroyed by the inset and convex with none "
-                            "of its neighbours, expected one to merge it with; use a smaller thick or inset, or kind "
-                            "voronoi",
-                            key, at.x, at.y, in_words(traces)),
-                {}, std::move(traces));
+            const std::string text = fmt::format(
+                "mesh: found triangle {} at ({:.9g}, {:.9g}){} destroyed by the inset and convex with none "
+                "of its neighbours, expected one to merge it with; use a smaller thick or inset, or kind "
+                "voronoi",
+                key, at.x, at.y, in_words(traces));
+            throw MeshError(text, {}, std::move(traces));
         }
         const int lowest = std::min(key, best_other);
         polygons_.erase(key);

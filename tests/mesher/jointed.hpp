@@ -80,10 +80,10 @@ inline double length_of(const std::vector<Point>& line) {
     return sum;
 }
 
-inline const Rectangle box{0.0, 1.0, 0.0, 2.0};
+inline const Rectangle jointed_box{0.0, 1.0, 0.0, 2.0};
 
 inline std::vector<CellCentre> packing_like(std::uint64_t seed, int across = 20) {
-    return testing::lattice(across, 2 * across, box, 0.4, seed);
+    return testing::lattice(across, 2 * across, jointed_box, 0.4, seed);
 }
 
 struct NetworkCount {
@@ -98,7 +98,7 @@ inline NetworkCount mesh_random_networks(MeshKind kind, std::uint64_t networks) 
         std::mt19937_64 generator(seed);
         const auto number = [&] { return static_cast<double>(generator() >> 11) * 0x1.0p-53; };
         const int across = seed % 10 == 0 ? 12 : 8;
-        const auto centres = lattice(across, 2 * across, box, 0.4, seed);
+        const auto centres = lattice(across, 2 * across, jointed_box, 0.4, seed);
         Lines traces;
         const int count = seed % 50 == 0 ? 500 : 1 + static_cast<int>(seed % 7);
         for (int k = 0; k < count; ++k) {
@@ -112,12 +112,12 @@ inline NetworkCount mesh_random_networks(MeshKind kind, std::uint64_t networks) 
             if (seed % 5 == 4 && k == 0) traces.push_back({{0.5 * (a.x + b.x), 0.5 * (a.y + b.y)}, b});  // coincident
         }
         try {
-            const Mesh mesh = make_mesh(centres, box, with_traces(kind, traces));
+            const Mesh mesh = make_mesh(centres, jointed_box, with_traces(kind, traces));
             ++result.meshed;
             EXPECT_NEAR(sum_of_areas(mesh), 2.0, 2e-12) << seed;
             EXPECT_TRUE(convex_and_counter_clockwise(mesh, 2.0)) << seed;
-            const TraceGraph graph =
-                trace_graph(box, traces, trace_reach_share * std::sqrt(2.0 / static_cast<double>(centres.size())));
+            const TraceGraph graph = trace_graph(
+                jointed_box, traces, trace_reach_share * std::sqrt(2.0 / static_cast<double>(centres.size())));
             double expected = 0.0;
             for (const auto& edge : graph.edges)
                 if (edge.trace >= 0)

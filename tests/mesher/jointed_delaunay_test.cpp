@@ -13,23 +13,23 @@ namespace crackle {
 namespace {
 
 using testing::agrees;
-using testing::box;
 using testing::check;
 using testing::distance_from_line;
+using testing::jointed_box;
 using testing::length_of;
 using testing::Lines;
 using testing::packing_like;
 using testing::TraceCheck;
 using testing::within;
 
-MeshRequest with_traces(Lines traces, double gap = 0.0) {
+MeshRequest triangles_with(Lines traces, double gap = 0.0) {
     return testing::with_traces(MeshKind::delaunay, std::move(traces), gap);
 }
 
 TEST(JointedDelaunay, EveryTraceIsAChainOfEdgesOnItsLine) {
     const Lines traces{{{0.0, 0.3}, {1.0, 0.8}}, {{0.3, 0.0}, {0.6, 2.0}}, {{0.1, 1.2}, {0.5, 1.3}, {0.9, 1.7}}};
     for (const std::uint64_t seed : {1, 2, 3}) {
-        const Mesh mesh = make_mesh(packing_like(seed), box, with_traces(traces));
+        const Mesh mesh = make_mesh(packing_like(seed), jointed_box, triangles_with(traces));
         const TraceCheck found = check(mesh, traces);
         EXPECT_TRUE(within("distance of the edges from the trace", found.off_line, 0.0, 2e-12));
         double sum = 0.0;
@@ -48,9 +48,9 @@ TEST(JointedDelaunay, EveryTraceIsAChainOfEdgesOnItsLine) {
 
 TEST(JointedDelaunay, TrianglesFarFromTracesAreThoseWithoutThem) {
     const auto centres = packing_like(4);
-    MeshRequest plain = with_traces({});
-    const Mesh without = make_mesh(centres, box, plain);
-    const Mesh with = make_mesh(centres, box, with_traces({{{0.2, 0.2}, {0.8, 0.4}}}));
+    MeshRequest plain = triangles_with({});
+    const Mesh without = make_mesh(centres, jointed_box, plain);
+    const Mesh with = make_mesh(centres, jointed_box, triangles_with({{{0.2, 0.2}, {0.8, 0.4}}}));
     const auto set_of = [](const Mesh& mesh) {
         std::set<std::array<int, 3>> triangles;
         for (const Cell& cell : mesh.cells) {
@@ -69,8 +69,8 @@ TEST(JointedDelaunay, TrianglesFarFromTracesAreThoseWithoutThem) {
 TEST(JointedDelaunay, EdgesOfTheInsetMeshKnowTheirTrace) {
     const Lines traces{{{0.0, 0.3}, {1.0, 0.8}}, {{0.3, 0.0}, {0.6, 2.0}}};
     const auto centres = packing_like(5);
-    const Mesh whole = make_mesh(centres, box, with_traces(traces)),
-               apart = make_mesh(centres, box, with_traces(traces, 1e-3));
+    const Mesh whole = make_mesh(centres, jointed_box, triangles_with(traces)),
+               apart = make_mesh(centres, jointed_box, triangles_with(traces, 1e-3));
     ASSERT_EQ(whole.cells.size(), apart.cells.size());
     EXPECT_EQ(whole.edge_traces, apart.edge_traces);  // triangles keep their three edges
     EXPECT_EQ(apart.report.trace_edges,
@@ -89,12 +89,12 @@ TEST(JointedDelaunay, EdgesOfTheInsetMeshKnowTheirTrace) {
 
 TEST(JointedDelaunay, MergingNeverCrossesATrace) {
     const Lines traces{{{0.0, 0.3}, {1.0, 0.8}}, {{0.2, 0.0}, {0.9, 2.0}}};
-    MeshRequest request = with_traces(traces, 4e-4);
+    MeshRequest request = triangles_with(traces, 4e-4);
     request.merge_destroyed = true;
     std::int64_t merged = 0;
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
         try {
-            const Mesh mesh = make_mesh(testing::random_seeds(800, box, seed), box, request);
+            const Mesh mesh = make_mesh(testing::random_seeds(800, jointed_box, seed), jointed_box, request);
             merged += mesh.report.cells_destroyed;
             EXPECT_TRUE(agrees("length on traces", mesh.report.trace_length,
                                length_of(traces[0]) + length_of(traces[1]), 1e-12));
@@ -106,11 +106,27 @@ TEST(JointedDelaunay, MergingNeverCrossesATrace) {
     EXPECT_GT(merged, 0);
 }
 
+TEST(JointedDelaunay, ATriangleBetweenTracesThatMergesWithNoneNamesThem) {
+    // By the tip of a wedge of 3 degrees an inset of 4 mm leaves nothing.
+    MeshRequest request = triangles_with({{{0.2, 1.0}, {0.8, 1.0}}, {{0.2, 1.0}, {0.8, 1.0 + 0.6 * 0.05}}}, 8e-3);
+    request.merge_destroyed = true;
+    try {
+        make_mesh(packing_like(5), jointed_box, request);
+        FAIL() << "meshed";
+    } catch (const MeshError& error) {
+        const std::string text = error.what();
+        fmt::print("  {}\n", text);
+        EXPECT_NE(text.find("convex with none"), std::string::npos);
+        EXPECT_EQ(error.traces, (std::vector<int>{0, 1}));
+        EXPECT_NE(text.find(" by traces 0, 1 destroyed"), std::string::npos);
+    }
+}
+
 TEST(JointedDelaunay, EndsNearOtherTracesMeetThem) {
     // A hundredth short of the other, and of the wall; spacing 0.05.
     const Mesh mesh =
-        make_mesh(packing_like(6), box,
-                  with_traces({{{0.0, 1.0}, {1.0, 1.0}}, {{0.5, 0.5}, {0.5, 0.99}}, {{0.4, 1.5}, {0.992, 1.5}}}));
+        make_mesh(packing_like(6), jointed_box,
+                  triangles_with({{{0.0, 1.0}, {1.0, 1.0}}, {{0.5, 0.5}, {0.5, 0.99}}, {{0.4, 1.5}, {0.992, 1.5}}}));
     EXPECT_EQ(mesh.report.ends_moved, 2);
     EXPECT_TRUE(agrees("furthest", mesh.report.largest_move, 0.01, 1e-9));
     EXPECT_TRUE(agrees("length", mesh.report.trace_length, 1.0 + 0.5 + 0.6, 1e-12));
@@ -119,8 +135,8 @@ TEST(JointedDelaunay, EndsNearOtherTracesMeetThem) {
 TEST(JointedDelaunay, SameInputSameBytes) {
     const Lines traces{{{0.0, 0.3}, {1.0, 0.8}}, {{0.3, 0.0}, {0.6, 2.0}}, {{0.1, 1.2}, {0.9, 1.25}}};
     const auto centres = packing_like(7);
-    const Mesh once = make_mesh(centres, box, with_traces(traces)),
-               again = make_mesh(centres, box, with_traces(traces));
+    const Mesh once = make_mesh(centres, jointed_box, triangles_with(traces)),
+               again = make_mesh(centres, jointed_box, triangles_with(traces));
     EXPECT_EQ(once.corners, again.corners);
     EXPECT_EQ(once.edge_traces, again.edge_traces);
 }
@@ -134,25 +150,26 @@ TEST(JointedDelaunay, RandomNetworksAreMeshedOrRefusedByName) {
 TEST(JointedDelaunay, WhatCannotBeMeshedIsRefused) {
     const auto refusal = [](const MeshRequest& request) -> std::string {
         try {
-            make_mesh(packing_like(1), box, request);
+            make_mesh(packing_like(1), jointed_box, request);
         } catch (const MeshError& error) {
             fmt::print("  {}\n", error.what());
             return error.what();
         }
         return "accepted";
     };
-    MeshRequest request = with_traces({{{0.2, 0.2}, {0.8, 0.8}}});
+    MeshRequest request = triangles_with({{{0.2, 0.2}, {0.8, 0.8}}});
     request.boundary = Boundary::centres;
     EXPECT_NE(refusal(request).find("found 1 traces with triangles between centres alone"), std::string::npos);
-    EXPECT_NE(refusal(with_traces({{{0.2, 0.2}, {1.8, 0.8}}})).find("found trace 0 at (1.8, 0.8)"), std::string::npos);
-    EXPECT_NE(refusal(with_traces({{{0.2, 0.2}, {0.2, 0.2}}})).find("found trace 0 at"), std::string::npos);
-    EXPECT_NE(refusal(with_traces({{{0.1, 0.2}, {0.8, 0.2}}, {{0.1, 0.2005}, {0.8, 0.2005}}}))
+    EXPECT_NE(refusal(triangles_with({{{0.2, 0.2}, {1.8, 0.8}}})).find("found trace 0 at (1.8, 0.8)"),
+              std::string::npos);
+    EXPECT_NE(refusal(triangles_with({{{0.2, 0.2}, {0.2, 0.2}}})).find("found trace 0 at"), std::string::npos);
+    EXPECT_NE(refusal(triangles_with({{{0.1, 0.2}, {0.8, 0.2}}, {{0.1, 0.2005}, {0.8, 0.2005}}}))
                   .find("found trace 0 and trace 1 0.0005 apart"),
               std::string::npos);
-    EXPECT_NE(refusal(with_traces({{{0.1, 0.5}, {0.13, 0.5}}, {{0.1, 0.5}, {0.13, 0.5003}}}))
+    EXPECT_NE(refusal(triangles_with({{{0.1, 0.5}, {0.13, 0.5}}, {{0.1, 0.5}, {0.13, 0.5003}}}))
                   .find("meeting at less than a degree"),
               std::string::npos);
-    EXPECT_NE(refusal(with_traces({{{0.1, 0.0005}, {0.9, 0.0005}}})).find("and a wall"), std::string::npos);
+    EXPECT_NE(refusal(triangles_with({{{0.1, 0.0005}, {0.9, 0.0005}}})).find("and a wall"), std::string::npos);
 }
 
 }  // namespace

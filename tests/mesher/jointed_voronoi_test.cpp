@@ -9,16 +9,16 @@ namespace crackle {
 namespace {
 
 using testing::agrees;
-using testing::box;
 using testing::check;
 using testing::distance_from_line;
+using testing::jointed_box;
 using testing::length_of;
 using testing::Lines;
 using testing::packing_like;
 using testing::TraceCheck;
 using testing::within;
 
-MeshRequest with_traces(Lines traces, double gap = 0.0) {
+MeshRequest cells_with(Lines traces, double gap = 0.0) {
     return testing::with_traces(MeshKind::voronoi, std::move(traces), gap);
 }
 
@@ -30,7 +30,7 @@ TEST(JointedVoronoi, EveryTraceIsAChainOfEdgesOnItsLine) {
           Lines{{{0.1, 0.4}, {0.5, 0.9}, {0.9, 1.0}}, {{0.5, 0.9}, {0.4, 1.6}}},  // a bend, and a branch
           Lines{{{0.0, 0.3}, {1.0, 0.8}}, {{0.3, 0.0}, {0.6, 2.0}}, {{0.1, 1.2}, {0.5, 1.3}, {0.9, 1.7}}}}) {
         for (const std::uint64_t seed : {1, 2, 3}) {
-            const Mesh mesh = make_mesh(packing_like(seed), box, with_traces(traces));
+            const Mesh mesh = make_mesh(packing_like(seed), jointed_box, cells_with(traces));
             const TraceCheck found = check(mesh, traces);
             EXPECT_TRUE(within("distance of the edges from the trace", found.off_line, 0.0, 2e-12));
             for (std::size_t t = 0; t < traces.size(); ++t)
@@ -45,8 +45,8 @@ TEST(JointedVoronoi, EveryTraceIsAChainOfEdgesOnItsLine) {
 
 TEST(JointedVoronoi, CellsFarFromTracesAreThoseWithoutThem) {
     const auto centres = packing_like(4);
-    const Mesh without = make_mesh(centres, box, with_traces({})),
-               with = make_mesh(centres, box, with_traces({{{0.2, 0.2}, {0.8, 0.4}}}));
+    const Mesh without = make_mesh(centres, jointed_box, cells_with({})),
+               with = make_mesh(centres, jointed_box, cells_with({{{0.2, 0.2}, {0.8, 0.4}}}));
     std::set<std::vector<std::pair<double, double>>> cells;
     const auto corners_of = [](const Mesh& mesh, const Cell& cell) {
         std::vector<std::pair<double, double>> corners;
@@ -70,7 +70,7 @@ TEST(JointedVoronoi, CellsFarFromTracesAreThoseWithoutThem) {
 
 TEST(JointedVoronoi, CellsAlongATraceAreAboutAsLargeAsOthers) {
     const Mesh mesh =
-        make_mesh(packing_like(5), box, with_traces({{{0.2, 0.5}, {0.8, 0.9}}, {{0.3, 1.0}, {0.6, 0.4}}}));
+        make_mesh(packing_like(5), jointed_box, cells_with({{{0.2, 0.5}, {0.8, 0.9}}, {{0.3, 1.0}, {0.6, 0.4}}}));
     double least = 1e300, most = 0.0;
     for (const Cell& cell : mesh.cells) least = std::min(least, cell.area), most = std::max(most, cell.area);
     const double mean = 2.0 / static_cast<double>(mesh.cells.size());
@@ -80,9 +80,38 @@ TEST(JointedVoronoi, CellsAlongATraceAreAboutAsLargeAsOthers) {
     EXPECT_LT(most, 3.0 * mean);
 }
 
+TEST(JointedVoronoi, BesideATraceAloneLieThePackingsOwnSeedsAndTheirImages) {
+    const std::vector<Point> line{{0.2, 0.7}, {0.8, 1.1}};
+    const auto centres = packing_like(8);
+    const double spacing = std::sqrt(2.0 / static_cast<double>(centres.size()));
+    const TraceGraph graph = trace_graph(jointed_box, Lines{line}, 0.0);
+    const SeedSet set =
+        mirrored_seeds(centres, jointed_box, graph, spacing, std::vector<double>(graph.edges.size(), 1.0));
+    const double length = distance(line[0], line[1]);
+    const Point along{(line[1].x - line[0].x) / length, (line[1].y - line[0].y) / length};
+    int pairs = 0, own = 0;
+    for (std::size_t k = 0; k < set.places.size(); ++k) {
+        const Point p = set.places[k];
+        const double s = (p.x - line[0].x) * along.x + (p.y - line[0].y) * along.y,
+                     off = (p.y - line[0].y) * along.x - (p.x - line[0].x) * along.y;
+        if (set.added[k] == 0) continue;
+        if (off > 1e-9 && s > spacing && s < length - spacing) {
+            ++pairs;
+            own += distance(p, centres[static_cast<std::size_t>(set.centre[k])]) < 1e-12 ? 1 : 0;
+        }
+        const Point image{p.x + 2.0 * off * along.y, p.y - 2.0 * off * along.x};
+        EXPECT_TRUE(std::any_of(set.places.begin(), set.places.end(), [&](Point q) {
+            return distance(q, image) < 1e-12;
+        })) << k;
+    }
+    fmt::print("  {} of {} seeds beside the trace are the packing's own\n", own, pairs);
+    EXPECT_GE(pairs, static_cast<int>(length / spacing) - 2);
+    EXPECT_GE(own, 2 * pairs / 3);
+}
+
 TEST(JointedVoronoi, EdgesOfTheInsetMeshKnowTheirTrace) {
     const Lines traces{{{0.0, 0.3}, {1.0, 0.8}}, {{0.3, 0.0}, {0.6, 2.0}}};
-    const Mesh apart = make_mesh(packing_like(5), box, with_traces(traces, 1e-3));
+    const Mesh apart = make_mesh(packing_like(5), jointed_box, cells_with(traces, 1e-3));
     double length = 0.0;
     for (const Cell& cell : apart.cells) {
         const auto corners = apart.outline(cell);
@@ -103,8 +132,8 @@ TEST(JointedVoronoi, EdgesOfTheInsetMeshKnowTheirTrace) {
 TEST(JointedVoronoi, SameInputSameBytes) {
     const Lines traces{{{0.0, 0.3}, {1.0, 0.8}}, {{0.3, 0.0}, {0.6, 2.0}}, {{0.1, 1.2}, {0.9, 1.25}}};
     const auto centres = packing_like(7);
-    const Mesh once = make_mesh(centres, box, with_traces(traces)),
-               again = make_mesh(centres, box, with_traces(traces));
+    const Mesh once = make_mesh(centres, jointed_box, cells_with(traces)),
+               again = make_mesh(centres, jointed_box, cells_with(traces));
     EXPECT_EQ(once.corners, again.corners);
     EXPECT_EQ(once.edge_traces, again.edge_traces);
 }
@@ -116,9 +145,9 @@ TEST(JointedVoronoi, RandomNetworksAreMeshedOrRefusedByName) {
 }
 
 TEST(JointedVoronoi, MergingIsRefused) {
-    MeshRequest request = with_traces({{{0.2, 0.2}, {0.8, 0.4}}});
+    MeshRequest request = cells_with({{{0.2, 0.2}, {0.8, 0.4}}});
     request.merge_destroyed = true;
-    EXPECT_THROW(make_mesh(packing_like(1), box, request), MeshError);
+    EXPECT_THROW(make_mesh(packing_like(1), jointed_box, request), MeshError);
 }
 
 }  // namespace

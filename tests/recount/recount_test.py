@@ -21,6 +21,7 @@ from cases import (  # noqa: E402
     rate, rock, scattered, squeezed, strengths, triangles, voronoi, wedges
 )
 from differences import Differences  # noqa: E402
+from expected import figures_expected  # noqa: E402
 from recount import figures, recount  # noqa: E402
 from results import Results as read  # noqa: E402
 from results import Unreadable  # noqa: E402
@@ -28,27 +29,6 @@ from results import Unreadable  # noqa: E402
 program = os.environ.get("CRACKLE_PROGRAM", Path(__file__).parents[2] / "build/release/tools/crackle")
 scratch = Path(tempfile.mkdtemp(prefix="recount"))
 differences = Differences()
-
-# Figures of a test of circles squeezed at a rate with companions.
-figures_expected = """
-axial_strain_end axial_strain_rate bond_thick bonds_broken bonds_broken_after_sliding bonds_broken_in_shear
-bonds_broken_in_tension bonds_initial contacts_initial ended_by energy_closing_error failed initial_height
-initial_poissons_ratio initial_tangent_modulus initial_tangent_modulus_pa initial_tangent_window.bonds_broken
-initial_tangent_window.points_sliding initial_tangent_window.rows initial_tangent_window.strain_to initial_width
-interfaces_initial interfaces_lost kind mean_back_tension mean_back_tension_interface mean_bond_overlap
-numerical_errors.peak_strain.damping numerical_errors.peak_strain.energy_closing
-numerical_errors.peak_strain.rate numerical_errors.peak_strain.resolution numerical_errors.peak_strain.stated numerical_errors.peak_strain.time_step
-numerical_errors.peak_stress.damping numerical_errors.peak_stress.energy_closing numerical_errors.peak_stress.rate
-numerical_errors.peak_stress.resolution numerical_errors.peak_stress.stated numerical_errors.peak_stress.time_step out_of_plane_thickness packing.anisotropy
-packing.coordination packing.coordination_of_carrying packing.floating packing.mean_overlap packing.radius_scale
-area_strain_end area_strain_peak bonds_broken_in_shear_to_peak bonds_broken_in_tension_to_peak fragments
-largest_fragment_share largest_stress largest_stress_pa strain_at_largest_stress
-packing.stress_x packing.stress_y packing.unbalanced packing.void_ratio frame_end frame_peak frame_start particles
-particle_steps_per_second peak_converged peak_strain peak_stress peak_stress_pa platen_bottom_id platen_out_of_balance platen_top_id poissons_ratio seed simulated_time specimen
-stable_time_step steps tangent_50_poissons_ratio tangent_modulus_50 tangent_modulus_50_pa time_step time_step_bound
-time_step_mean time_step_over_stable bond_law material_units platens bonds_unbreakable grip failed_at largest_crack.bonds
-largest_crack.of_platen largest_crack.height gauge_modulus gauge_modulus_pa youngs_modulus youngs_modulus_pa
-"""
 
 
 def run(name, case, *options):

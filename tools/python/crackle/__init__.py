@@ -1,3 +1,4 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
 from ._case import case_keys, read_case
 from ._engine import Case, Particles, State
 from ._errors import InputError, OutputError, UnstableRun
