@@ -205,8 +205,10 @@ class RowWorker {
             hooks.keep_packing = [&](const TestCase& of, const PackingRequest& request, const auto& make) {
                 return packings_.get(of, request, make);
             };
+            TestCase test = plan_.test_of(plan_.rows[task.row]);
+            test.numerics.threads = 1;  // as of tests: a worker is one processor's, and a forked process has no others
             try {
-                packing_of(plan_.test_of(plan_.rows[task.row]), hooks);
+                packing_of(test, hooks);
             } catch (const OutputError&) {
                 throw;
             } catch (const std::exception&) {  // each of its tests will say why
