@@ -89,6 +89,8 @@ PackingRequest packing_request(const po::variables_map& values, Messages& messag
 Scene meshed_scene(const std::string& name, const std::string& text, const po::variables_map& values,
                    Messages& messages, MeshReport& report, std::vector<std::string>* of_joints = nullptr,
                    const std::function<bool()>& interrupted = {});
+/// What `crackle joints` does with the joints of a case. @param name of it, for errors
+int joints_of(TestCase test, const std::string& name, const Invocation& given);
 /// Threads that are of use here, of those that are asked for.
 void limit_threads(TestOptions& options, std::int64_t asked);
 /// How far a test is, as the program shows it.
