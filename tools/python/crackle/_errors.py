@@ -4,6 +4,15 @@ from __future__ import annotations
 
 import re
 
+
+def tell(error: BaseException, text: str) -> None:
+    """Adds a text to an exception: as its message where it is a bare Ctrl-C, for not every notebook shows notes."""
+    if isinstance(error, KeyboardInterrupt) and not error.args:
+        error.args = (text,)
+    else:
+        error.add_note(text)
+
+
 _END = r"(?:, expected (?P<expected>[^;]*))?(?:; (?P<remedy>.*))?"
 _FORMS = (
     # where: key: found X

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 from . import _engine
 from ._case import given_or_shipped, read_case, read_joints
 from ._commands import words_of
-from ._errors import InputError
+from ._errors import InputError, tell
 from ._progress import reporting
 from ._results import Calibration, Campaign, Result, Temporary, _run
 
@@ -187,7 +187,7 @@ def test(case: _Case, output: _Path | None = None, *, force: bool = False, verif
     """Runs one virtual test, as `crackle test CASE -o OUT`, to the same bytes.
 
     case: a dict, a TOML text or the path of a file. output: folder for the results; None: a folder that goes with the
-    Result, but stays where the test is not run to its end (a note of the exception names it). force: replace results
+    Result, but stays where the test is not run to its end (the exception names it). force: replace results
     that are there; verify: run the companions, too, for the errors of strength and strain; profile: time the phases of
     a step; threads: no result depends on them; long: run it although it takes more than a day; allow_unstable: accept a
     time step above the stable bound.
@@ -215,8 +215,8 @@ def test(case: _Case, output: _Path | None = None, *, force: bool = False, verif
         if temporary is not None and begun:
             temporary.keep()
         if begun and (temporary is not None or isinstance(error, KeyboardInterrupt)):
-            error.add_note(f"what was written is kept in {os.fspath(output)}: crackle.read reads it, crackle.resume "
-                           "goes on with a test that was interrupted")
+            tell(error, f"what was written is kept in {os.fspath(output)}: crackle.read reads it, crackle.resume goes "
+                        "on with a test that was interrupted")
         raise
     return Result(folder, temporary=temporary)
 
@@ -275,7 +275,7 @@ def _run_long(command, file, options, progress):
     except InputError:
         raise
     except BaseException as error:  # Ctrl-C, or what progress raised
-        error.add_note(f"what was run is kept in {options['output']}: the same call goes on")
+        tell(error, f"what was run is kept in {options['output']}: the same call goes on")
         raise
 
 
