@@ -29,7 +29,7 @@ class Options(unittest.TestCase):
     def test_keywords_are_the_options(self):
         others = {"pack": set(), "mesh": set(), "joints": set(), "elastic": {"bonds", "force"},
                   "test": {"resume", "check"}, "campaign": set(), "calibrate": set(), "envelope": set(),
-                  "plot": {"guide", "format"}, "report": set()}
+                  "plot": {"guide", "format"}, "report": set(), "view": set()}
         for command, left_out in others.items():
             options = {option[0] for option in _engine.options(command)} - OF_A_TERMINAL - left_out
             parameters = inspect.signature(getattr(crackle, command)).parameters

@@ -13,6 +13,7 @@ A case is a dict, a TOML text or the path of a file; `case_keys()` lists its key
     World                       a specimen that Python steps and loads itself
     campaign, calibrate         tables of tests on all processors; a rock's keys from its laboratory values
     envelope, plot, report      strength over confinement, figures, interactive pages
+    view                        pages to look at particles
     read, read_case             what the program has written, and cases
 
 help(crackle.test) and its likes tell of units, defaults and errors. What is wrong is an InputError, a run that goes
@@ -36,10 +37,10 @@ from ._engine import Case, Particles, State
 from ._errors import InputError, OutputError, UnstableRun
 from ._results import Calibration, Campaign, Recording, Result, Table, read
 from ._tests import (Elastic, calibrate, campaign, check, elastic, envelope, joints, mesh, pack, plot, report, resume,
-                     test)
+                     test, view)
 from ._world import World
 
 __all__ = ["Calibration", "Campaign", "Case", "Elastic", "InputError", "OutputError", "Particles", "Recording",
            "Result", "State", "Table", "UnstableRun", "World", "calibrate", "campaign", "case_keys", "check", "elastic",
-           "envelope", "joints", "mesh", "pack", "plot", "read", "read_case", "report", "resume", "test"]
+           "envelope", "joints", "mesh", "pack", "plot", "read", "read_case", "report", "resume", "test", "view"]
 setattr(test, "__test__", False)  # no test of pytest's

@@ -68,6 +68,16 @@ def _page_text(folder):
         return file.read()
 
 
+def _particles_page(particles):
+    """Of Particles, by `crackle view`."""
+    scratch = Temporary()
+    shown, output = os.path.join(scratch.name, "particles.dat"), os.path.join(scratch.name, "page.html")
+    particles.write(shown)
+    _run("view", [shown], {"output": output, "title": f"{len(particles)} bodies"})
+    with open(output, encoding="utf-8") as file:
+        return file.read()
+
+
 def _frame_of(page, height):
     return (f'<iframe srcdoc="{html.escape(page, quote=True)}" style="width:100%;height:{height}px;border:0"'
             ' sandbox="allow-scripts allow-downloads"></iframe>')
@@ -95,6 +105,9 @@ class Temporary:
         self._removal.detach()
 
 
+setattr(_engine.Particles, "_repr_html_", lambda self: _frame_of(_particles_page(self), 500))
+
+
 class Recording:
     """Particles in motion: cells, their bonds, and frame by frame where they are and what acts.
 
@@ -106,7 +119,8 @@ class Recording:
 
     def __init__(self, recording: _engine.Recording) -> None:
         self._recording = recording
-        self._cells = self._bonds = None
+        self._cells: Table | None = None
+        self._bonds: Table | None = None
 
     @property
     def cells(self) -> Table:
@@ -158,7 +172,7 @@ class Result:
         self._tables: dict[str, Table | None] = {}
         self._recording: Recording | None = None
 
-    def _table(self, name):
+    def _table(self, name: str) -> Any:
         if name not in self._tables:
             columns = getattr(self._results, name)
             self._tables[name] = None if columns is None else Table(columns)

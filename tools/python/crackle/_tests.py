@@ -280,7 +280,11 @@ def _run_long(command, file, options, progress):
 
 
 def _folder(one):
-    return one.folder if hasattr(one, "folder") else given_or_shipped(one)
+    if hasattr(one, "folder"):
+        return one.folder
+    if isinstance(one, (str, os.PathLike)):
+        return given_or_shipped(one)
+    raise InputError(f"results: found a {type(one).__name__}, expected Results, Campaigns or paths of folders")
 
 
 def envelope(*folders: _Results, output: _Path | None = None, columns: int | None = None, width: float | None = None,
@@ -314,6 +318,26 @@ def plot(*results: _Results, output: _Path, what: str | Sequence[str] | None = N
                    font_size=font_size, dpi=dpi, title=title, magnify=magnify, labels=many(labels), figure=many(figure),
                    test=many(test), measured=measured, force=force)
     _run("plot", [_folder(one) for one in results], options)
+
+
+def view(*particles: _engine.Particles | Result | _Path, output: _Path, title: str | None = None,
+         frames: int | None = None, seed: int | None = None, progress: _Progress = None) -> None:
+    """Writes a page to look at particles, moving or not, as `crackle view IN... -o view.html`.
+
+    particles: Particles, Results, or paths of particle files and of folders of tests and decks' runs. frames: show at
+    most so many of each, evenly chosen; seed: of the circles that a particle file of mode 0 leaves to chance.
+    """
+    options = dict(output=os.fspath(output), title=title, frames=frames, seed=seed)
+    scratch = Temporary()
+    shown = []
+    for number, one in enumerate(particles, 1):
+        if isinstance(one, _engine.Particles):
+            shown.append(os.path.join(scratch.name, f"particles_{number}.dat"))
+            one.write(shown[-1])
+        else:
+            shown.append(_folder(one))
+    with reporting(progress) as report_to:
+        _run("view", shown, options, report_to)
 
 
 def report(*results: _Results, output: _Path, title: str | None = None, frames: int | None = None,
