@@ -26,8 +26,8 @@ std::vector<Request> all_ways() {
     return {{"Voronoi", {}, 24},
             {"Delaunay", triangles, 34},
             {"Delaunay in an outline", outlined, 35},
-            {"Voronoi along traces", testing::with_traces(MeshKind::voronoi, lines), 25},
-            {"Delaunay along traces", testing::with_traces(MeshKind::delaunay, lines), 39}};
+            {"Voronoi along traces", testing::with_traces(MeshKind::voronoi, lines), 21},
+            {"Delaunay along traces", testing::with_traces(MeshKind::delaunay, lines), 36}};
 }
 
 /// The mesh, if it is made before question `last`; and how often was asked.
