@@ -22,6 +22,10 @@ constexpr double narrowest_share = 0.1;
 // angle; a wall mirrors the row itself.
 constexpr double passage_share = 0.4, fork_share = 0.5, wall_share = 0.7;
 constexpr double widest_half_angle = pi / 3.0;  // of a pair on a ring: three seeds about a tip
+// Where no other edge is as near, the packing's own seeds of one side are mirrored; none lies nearer to the trace, and
+// no place on it further from one.
+constexpr double clear_share = 2.0, least_offset_share = 0.3, bare_share = 0.95;
+constexpr double shortest_own_share = 2.0;  // of a stretch with own seeds
 
 struct Arm {
     double angle;  // rad, away from the node
@@ -68,8 +72,10 @@ class SeedPlacing {
 
     SeedSet make() {
         for (std::size_t n = 0; n < arms_.size(); ++n) place_ring(n);
+        std::vector<OwnStretch> own;
         for (std::size_t e = 0; e < graph_.edges.size(); ++e)
-            if (graph_.edges[e].trace >= 0) place_pairs(e);
+            if (graph_.edges[e].trace >= 0) place_rows(e, own);
+        mirror_own(own);
         return with_centres();
     }
 
@@ -181,34 +187,129 @@ class SeedPlacing {
         return least;
     }
 
-    /// Between the first pairs of both ends' rings.
-    void place_pairs(std::size_t e) {
+    /// An edge of the graph as a line with distances along it, and to its left.
+    struct Line {
+        Point start, along;
+        double length;
+        Point at(double s, double off = 0.0) const {
+            return {start.x + s * along.x - off * along.y, start.y + s * along.y + off * along.x};
+        }
+    };
+    Line line_of(std::size_t e) const {
+        const Point a = node(graph_.edges[e].from), b = node(graph_.edges[e].to);
+        const double length = distance(a, b);
+        return {a, {(b.x - a.x) / length, (b.y - a.y) / length}, length};
+    }
+    /// Part of an edge along which the packing's own seeds are mirrored.
+    struct OwnStretch {
+        std::size_t edge;
+        Line line;
+        double from, to;
+    };
+
+    /// Between the first pairs of both ends' rings: even rows where other edges are near.
+    void place_rows(std::size_t e, std::vector<OwnStretch>& own) {
         const TraceGraph::Edge& edge = graph_.edges[e];
         const NodeRing &first = rings_[static_cast<std::size_t>(edge.from)],
                        &last = rings_[static_cast<std::size_t>(edge.to)];
-        const Point a = node(edge.from), b = node(edge.to);
-        const double length = distance(a, b);
-        const Point along{(b.x - a.x) / length, (b.y - a.y) / length};
-        const double from = first.radius * direction_at(first.half_angle).x,
-                     to = length - last.radius * direction_at(last.half_angle).x;
-        const auto at = [&](double s) { return Point{a.x + s * along.x, a.y + s * along.y}; };
+        const Line line = line_of(e);
+        double from = first.radius * direction_at(first.half_angle).x;
+        const double to = line.length - last.radius * direction_at(last.half_angle).x;
+        const double step = 0.1 * spacing_;
+        double begin = -1.0;
+        const auto steps = static_cast<std::size_t>(std::ceil(std::max(1.0, (to - from) / step)));
+        const double start = from;
+        for (std::size_t k = 0; k <= steps; ++k) {
+            const double s = k == steps ? to : start + static_cast<double>(k) * step;
+            const bool clear = is_clear(e, line.at(s));
+            if (clear && begin < 0.0) begin = s;
+            if (begin < 0.0 || (clear && k < steps)) continue;
+            if (s - begin >= shortest_own_share * spacing_) {
+                own.push_back({e, line, begin, s});
+                if (begin > from) {
+                    place_even(e, line, from, begin);
+                    place_pair(line, begin, half_width(e, line.at(begin)));
+                }
+                if (s < to) place_pair(line, s, half_width(e, line.at(s)));
+                from = s;
+            }
+            begin = -1.0;
+        }
+        if (from < to) place_even(e, line, from, to);
+    }
+    /// No other edge is near, but what goes straight on.
+    bool is_clear(std::size_t edge, Point p) const {
+        if (shrink_[edge] < 1.0) return false;
+        bool clear = true;
+        edges_.each_near(p, [&](std::size_t other) {
+            if (other == edge || goes_on(edge, other)) return;
+            clear = clear && distance_to(edges_.segments()[other], p) >= clear_share * spacing_;
+        });
+        return clear;
+    }
+
+    void place_even(std::size_t e, const Line& line, double from, double to) {
         // Steps of a tenth of the spacing; a pair after each whole count of widths, which are made to fit.
         const auto steps = static_cast<std::size_t>(std::ceil(std::max(1.0, 20.0 * (to - from) / spacing_)));
         std::vector<double> count{0.0};
         const double step = (to - from) / static_cast<double>(steps);
         for (std::size_t k = 0; k < steps; ++k)
             count.push_back(count.back() +
-                            step / (2.0 * half_width(e, at(from + (static_cast<double>(k) + 0.5) * step))));
+                            step / (2.0 * half_width(e, line.at(from + (static_cast<double>(k) + 0.5) * step))));
         const auto pairs = std::max(1L, std::lround(count.back()));  // gaps between them
         std::size_t k = 0;
         for (long pair = 1; pair < pairs; ++pair) {
             const double wanted = count.back() * static_cast<double>(pair) / static_cast<double>(pairs);
             while (k + 1 < steps && count[k + 1] < wanted) ++k;
             const double s = from + step * (static_cast<double>(k) + (wanted - count[k]) / (count[k + 1] - count[k]));
-            const Point p = at(s);
-            const double off = half_width(e, p);
-            add({p.x - off * along.y, p.y + off * along.x});
-            add({p.x + off * along.y, p.y - off * along.x});
+            place_pair(line, s, half_width(e, line.at(s)));
+        }
+    }
+    void place_pair(const Line& line, double s, double off) {
+        add(line.at(s, off));
+        add(line.at(s, -off));
+    }
+
+    /// Seeds to the left of each stretch and their images; what lies too near to the line is moved off it, and where
+    /// the line is bare a pair is put in. Whatever the seeds, nearest to each place on the line are two mirrored ones.
+    void mirror_own(const std::vector<OwnStretch>& own) {
+        if (own.empty()) return;
+        std::vector<std::vector<std::size_t>> stretches(graph_.edges.size());
+        for (std::size_t k = 0; k < own.size(); ++k) stretches[own[k].edge].push_back(k);
+        struct Candidate {
+            double s, off;
+        };
+        std::vector<std::vector<Candidate>> candidates(own.size());
+        for (const CellCentre& centre : centres_) {
+            edges_.each_near(centre, [&](std::size_t e) {
+                for (const std::size_t k : stretches[e]) {
+                    const Line& line = own[k].line;
+                    const Point d{centre.x - line.start.x, centre.y - line.start.y};
+                    const double s = d.x * line.along.x + d.y * line.along.y,
+                                 off = d.y * line.along.x - d.x * line.along.y;
+                    if (s > own[k].from && s < own[k].to && off > 0.0 &&
+                        off < (half_width_share + kept_share) * spacing_)
+                        candidates[k].push_back({s, off});
+                }
+            });
+        }
+        PlaceGrid placed(spacing_);
+        for (const Point p : added_) placed.add(p);
+        const auto place = [&](const Line& line, double s, double off) {
+            if (placed.any_within(line.at(s, off), kept_share * spacing_)) return;
+            place_pair(line, s, off);
+            placed.add(line.at(s, off));
+            placed.add(line.at(s, -off));
+        };
+        const double least = least_offset_share * spacing_;
+        for (std::size_t k = 0; k < own.size(); ++k) {
+            const Line& line = own[k].line;
+            for (const Candidate& c : candidates[k])
+                if (c.off >= least) place(line, c.s, c.off);
+            for (const Candidate& c : candidates[k])
+                if (c.off < least) place(line, c.s, least);
+            for (double s = own[k].from; s < own[k].to; s += 0.1 * spacing_)
+                if (!placed.any_within(line.at(s), bare_share * spacing_)) place(line, s, half_width_share * spacing_);
         }
     }
 

@@ -3,7 +3,8 @@
 //
 // The Voronoi edge of two mirrored seeds lies on the trace. Four seeds of two neighbouring pairs lie on a circle about
 // a place on the trace; where it holds no other seed, both edges end there, so that a row of pairs makes a chain
-// of edges. About a node (a tip, a bend, a crossing, an end on a wall) the seeds lie on a circle, the same angle on
+// of edges. The pairs are the packing's own seeds of one side and their images; even rows where other traces or walls
+// are near. About a node (a tip, a bend, a crossing, an end on a wall) the seeds lie on a circle, the same angle on
 // either side of every trace: the chains end there exactly (as Abdelkader et al., ACM Trans. Graph. 39, 2020, in the
 // plane).
 // Tested by tests/mesher/jointed_voronoi_test.cpp.

@@ -1,7 +1,8 @@
 #!/usr/bin/env node
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Takes the pictures of specimens/gallery/README.md out of the report that tools/quickstart made, and its comparison with the guide.
-//   node tools/gallery.mjs [FOLDER] [GALLERY]    default out/guide_rock, specimens/gallery
+// Takes the pictures of specimens/gallery/README.md out of the report that tools/quickstart made, and its comparison with the guide;
+// where a report of the laboratory is given (specimens/laboratory/README.md), that of its specimens, too.
+//   node tools/gallery.mjs [FOLDER] [GALLERY] [LABORATORY]    default out/guide_rock, specimens/gallery, none
 // Needs tools/quickstart and tools/test run before.
 // The browser driver is the one that building the tests installs (tools/test), the browser Debian's Chromium.
 import {existsSync} from 'node:fs';
@@ -13,6 +14,7 @@ import {fileURLToPath, pathToFileURL} from 'node:url';
 const top = dirname(dirname(fileURLToPath(import.meta.url)));
 const results = resolve(process.argv[2] ?? join(top, 'out/guide_rock'));
 const gallery = resolve(process.argv[3] ?? join(top, 'specimens/gallery'));
+const laboratory = process.argv[4];
 const driver = join(top, 'build/release/tests/browser/package.json');
 if (!existsSync(driver)) {
     console.error(`${driver}: found no browser driver, expected the one of the tests; run tools/test first`);
@@ -21,15 +23,20 @@ if (!existsSync(driver)) {
 const {chromium} = createRequire(driver)('playwright-core');
 
 const browser = await chromium.launch({executablePath: process.env.CHROMIUM ?? '/usr/bin/chromium', args: ['--no-sandbox', '--use-gl=angle', '--use-angle=swiftshader', '--enable-unsafe-swiftshader']});
-try {
-    const page = await browser.newPage({viewport: {width: 1280, height: 900}, colorScheme: 'light'});
-    await page.goto(pathToFileURL(join(results, 'report.html')).href);
+/// Pictures of parts of a report: selectors and files.
+async function pictures(page, report, parts) {
+    await page.goto(pathToFileURL(report).href);
     await page.waitForSelector('html[data-ready="true"]');
-    await mkdir(gallery, {recursive: true});
-    for (const [part, name] of [['#curves', 'curves.png'], ['#specimens', 'specimens.png']]) {
+    for (const [part, name] of parts) {
         await page.locator(part).screenshot({path: join(gallery, name), animations: 'disabled'});
         console.log(join(gallery, name));
     }
+}
+try {
+    const page = await browser.newPage({viewport: {width: 1280, height: 900}, colorScheme: 'light'});
+    await mkdir(gallery, {recursive: true});
+    if (laboratory) await pictures(page, resolve(laboratory), [['#specimens', 'laboratory.png']]);
+    await pictures(page, join(results, 'report.html'), [['#curves', 'curves.png'], ['#specimens', 'specimens.png']]);
     // The viewer: all tests side by side at their peaks, stresses and forces.
     const viewer = page.locator('#viewer');
     for (const [name, value] of [['layout', 'side'], ['axis', 'share'], ['quantity', 'stress_y']]) await viewer.locator(`select.${name}`).selectOption(value);

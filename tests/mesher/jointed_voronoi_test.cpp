@@ -80,6 +80,35 @@ TEST(JointedVoronoi, CellsAlongATraceAreAboutAsLargeAsOthers) {
     EXPECT_LT(most, 3.0 * mean);
 }
 
+TEST(JointedVoronoi, BesideATraceAloneLieThePackingsOwnSeedsAndTheirImages) {
+    const std::vector<Point> line{{0.2, 0.7}, {0.8, 1.1}};
+    const auto centres = packing_like(8);
+    const double spacing = std::sqrt(2.0 / static_cast<double>(centres.size()));
+    const TraceGraph graph = trace_graph(jointed_box, Lines{line}, 0.0);
+    const SeedSet set =
+        mirrored_seeds(centres, jointed_box, graph, spacing, std::vector<double>(graph.edges.size(), 1.0));
+    const double length = distance(line[0], line[1]);
+    const Point along{(line[1].x - line[0].x) / length, (line[1].y - line[0].y) / length};
+    int pairs = 0, own = 0;
+    for (std::size_t k = 0; k < set.places.size(); ++k) {
+        const Point p = set.places[k];
+        const double s = (p.x - line[0].x) * along.x + (p.y - line[0].y) * along.y,
+                     off = (p.y - line[0].y) * along.x - (p.x - line[0].x) * along.y;
+        if (set.added[k] == 0) continue;
+        if (off > 1e-9 && s > spacing && s < length - spacing) {
+            ++pairs;
+            own += distance(p, centres[static_cast<std::size_t>(set.centre[k])]) < 1e-12 ? 1 : 0;
+        }
+        const Point image{p.x + 2.0 * off * along.y, p.y - 2.0 * off * along.x};
+        EXPECT_TRUE(std::any_of(set.places.begin(), set.places.end(), [&](Point q) {
+            return distance(q, image) < 1e-12;
+        })) << k;
+    }
+    fmt::print("  {} of {} seeds beside the trace are the packing's own\n", own, pairs);
+    EXPECT_GE(pairs, static_cast<int>(length / spacing) - 2);
+    EXPECT_GE(own, 2 * pairs / 3);
+}
+
 TEST(JointedVoronoi, EdgesOfTheInsetMeshKnowTheirTrace) {
     const Lines traces{{{0.0, 0.3}, {1.0, 0.8}}, {{0.3, 0.0}, {0.6, 2.0}}};
     const Mesh apart = make_mesh(packing_like(5), jointed_box, cells_with(traces, 1e-3));
