@@ -85,8 +85,8 @@ struct TracePiece : Segment {
 
 class Conforming {
   public:
-    Conforming(const Rectangle& domain, const TraceGraph& graph, double spacing)
-        : domain_(domain), graph_(graph), spacing_(spacing) {
+    Conforming(const Rectangle& domain, const TraceGraph& graph, double spacing, Patience& patience)
+        : domain_(domain), graph_(graph), patience_(patience), spacing_(spacing) {
         cut_into_pieces();
     }
 
@@ -198,7 +198,7 @@ class Conforming {
             for (const double y : {domain_.y1, domain_.y2})
                 points.push_back({{x, y}, {-1, from_traces({x, y}, grid) <= near_share * spacing_}});
         if (kept.empty()) return points;
-        const Triangles without = delaunay_triangles(kept, domain_, Boundary::domain);
+        const Triangles without = delaunay_triangles(kept, domain_, Boundary::domain, patience_);
         for (std::size_t k = 0; k < without.points.size(); ++k) {
             const Point p = without.points[k];
             const int centre = without.centre_of[k];
@@ -223,6 +223,7 @@ class Conforming {
         CGAL::spatial_sort(order.begin(), order.end(), CGAL::Spatial_sort_traits_adapter_2<Kernel, PlaceOf>());
         ConstrainedFace hint;
         for (const auto& [place, info] : order) {
+            patience_.piece();
             const std::size_t before = mesh_.number_of_vertices();
             const ConstrainedVertex v = mesh_.insert(place, hint);
             // A trace's point comes twice, and may be a corner.
@@ -257,7 +258,9 @@ class Conforming {
 
     void refine() {
         CGAL::Delaunay_mesher_2<Constrained, NearTraceCriteria> mesher(mesh_, NearTraceCriteria(smallest_squared_sine));
-        mesher.refine_mesh();
+        mesher.init();
+        // What refine_mesh() does, step by step.
+        while (mesher.step_by_step_refine_mesh()) patience_.piece();
     }
 
     /// The constrained edges from a to b, which refinement has split, are the trace's.
@@ -337,6 +340,7 @@ class Conforming {
 
     Rectangle domain_;
     const TraceGraph& graph_;
+    Patience& patience_;
     double spacing_;
     std::vector<TracePiece> pieces_;
     std::vector<std::pair<ConstrainedVertex, ConstrainedVertex>> ends_;  // of the pieces
@@ -348,8 +352,8 @@ class Conforming {
 }  // namespace
 
 ConformingTriangles conforming_triangles(std::span<const CellCentre> centres, const Rectangle& domain,
-                                         const TraceGraph& graph, double spacing) {
-    return Conforming(domain, graph, spacing).make(centres);
+                                         const TraceGraph& graph, double spacing, Patience& patience) {
+    return Conforming(domain, graph, spacing, patience).make(centres);
 }
 
 }  // namespace crackle

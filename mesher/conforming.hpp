@@ -24,6 +24,6 @@ struct ConformingTriangles {
 /// @param spacing  m, mean of the centres: about as long are the edges along a trace
 /// @throws MeshError naming traces that meet too close together for the domain's digits
 ConformingTriangles conforming_triangles(std::span<const CellCentre> centres, const Rectangle& domain,
-                                         const TraceGraph& graph, double spacing);
+                                         const TraceGraph& graph, double spacing, Patience& patience);
 
 }  // namespace crackle

@@ -22,10 +22,11 @@ constexpr double covered_share = 1e-9;  // of an edge's length that may be missi
 class JointedPartition {
   public:
     JointedPartition(std::span<const CellCentre> centres, const Rectangle& domain, const TraceGraph& graph,
-                     double spacing)
+                     double spacing, Patience& patience)
         : centres_(centres),
           domain_(domain),
           graph_(graph),
+          patience_(patience),
           spacing_(spacing),
           near_(on_trace_share * coordinate_scale(domain)),
           grid_(segments(), 0.5 * spacing),
@@ -37,11 +38,12 @@ class JointedPartition {
             if (graph_.edges[e].trace >= 0 && distance(s.a, s.b) < shortest_edge_share * spacing_) refuse(e);
         }
         while (true) {
+            patience_.ask();
             JointedCells made;
             made.seeds = mirrored_seeds(centres_, domain_, graph_, spacing_, shrink_);
             std::set<std::size_t> failing;
             try {
-                made.cells = voronoi_cells(made.seeds.places, domain_);
+                made.cells = voronoi_cells(made.seeds.places, domain_, patience_);
                 failing = mark_traces(made);
                 if (failing.empty()) return made;
             } catch (const MeshError& error) {
@@ -153,6 +155,7 @@ class JointedPartition {
     std::span<const CellCentre> centres_;
     Rectangle domain_;
     const TraceGraph& graph_;
+    Patience& patience_;
     double spacing_, near_;
     SegmentGrid grid_;
     std::vector<double> shrink_;  // by edge
@@ -161,8 +164,8 @@ class JointedPartition {
 }  // namespace
 
 JointedCells jointed_cells(std::span<const CellCentre> centres, const Rectangle& domain, const TraceGraph& graph,
-                           double spacing) {
-    return JointedPartition(centres, domain, graph, spacing).make();
+                           double spacing, Patience& patience) {
+    return JointedPartition(centres, domain, graph, spacing, patience).make();
 }
 
 }  // namespace crackle

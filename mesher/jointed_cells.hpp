@@ -22,6 +22,6 @@ struct JointedCells {
 /// @throws MeshError naming traces along which cells as small as a fifth of the spacing do not fit, and as
 /// voronoi_cells() does
 JointedCells jointed_cells(std::span<const CellCentre> centres, const Rectangle& domain, const TraceGraph& graph,
-                           double spacing);
+                           double spacing, Patience& patience);
 
 }  // namespace crackle

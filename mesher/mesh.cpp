@@ -201,17 +201,19 @@ std::vector<Cell> in_order_of_centres(const std::vector<Cell>& cells, const std:
 Mesh mesh_voronoi(std::span<const CellCentre> centres, const Rectangle& domain, const MeshRequest& request,
                   double depth) {
     const double scale = coordinate_scale(domain);
+    Patience patience(request.interrupted);
     Inset inset(depth, scale);
     std::vector<CellCentre> left(centres.begin(), centres.end());
     std::vector<int> centre_of(centres.size());
     std::iota(centre_of.begin(), centre_of.end(), 0);
     std::int64_t merged = 0;
     while (true) {
-        const VoronoiCells voronoi = voronoi_cells(left, domain);
+        const VoronoiCells voronoi = voronoi_cells(left, domain, patience);
         MeshBuilder builder(domain, voronoi.cells.size(), voronoi.corners.size());
         std::vector<VoronoiCells::Range> destroyed;
         Cutter cutter(request.outline);
         for (const VoronoiCells::Range& range : voronoi.cells) {
+            patience.piece();
             const auto before = cutter.of(voronoi.outline(range)), after = inset.of(before);
             if (after.empty()) {
                 destroyed.push_back(range);
@@ -250,8 +252,8 @@ Mesh mesh_voronoi(std::span<const CellCentre> centres, const Rectangle& domain, 
 }
 
 /// Triangles that fill a convex outline. Far walls, so that nothing is mirrored into the neighbourhood.
-Triangles triangles_within(std::span<const CellCentre> centres, const Rectangle& domain,
-                           std::span<const Point> outline) {
+Triangles triangles_within(std::span<const CellCentre> centres, const Rectangle& domain, std::span<const Point> outline,
+                           Patience& patience) {
     constexpr double wall_distance = 10.0;        // over the domain's size
     constexpr double left_out_share = 1.0 / 3.0;  // of the mean spacing
     const double spacing = std::sqrt(polygon_area(outline) / static_cast<double>(centres.size()));
@@ -273,7 +275,7 @@ Triangles triangles_within(std::span<const CellCentre> centres, const Rectangle&
     }
     const double far = wall_distance * std::max(domain.x2 - domain.x1, domain.y2 - domain.y1);
     Triangles triangles = delaunay_triangles(
-        points, {domain.x1 - far, domain.x2 + far, domain.y1 - far, domain.y2 + far}, Boundary::centres);
+        points, {domain.x1 - far, domain.x2 + far, domain.y1 - far, domain.y2 + far}, Boundary::centres, patience);
     for (int& of : triangles.centre_of) of = number[static_cast<std::size_t>(of)];
     return triangles;
 }
@@ -299,12 +301,14 @@ void report_traces(MeshReport& report, const TraceGraph& graph, std::size_t left
 Mesh mesh_jointed_voronoi(std::span<const CellCentre> centres, const Rectangle& domain, const MeshRequest& request,
                           double depth) {
     const double scale = coordinate_scale(domain);
+    Patience patience(request.interrupted);
     const TraceGraph graph = graph_of(centres, domain, request);
-    const JointedCells made = jointed_cells(centres, domain, graph, mean_spacing(centres, domain));
+    const JointedCells made = jointed_cells(centres, domain, graph, mean_spacing(centres, domain), patience);
     Inset inset(depth, scale);
     MeshBuilder builder(domain, made.cells.cells.size(), made.cells.corners.size());
     std::vector<VoronoiCells::Range> destroyed;
     for (const VoronoiCells::Range& range : made.cells.cells) {
+        patience.piece();
         const auto before = made.cells.outline(range), after = inset.of(before);
         if (after.empty()) {
             destroyed.push_back(range);
@@ -363,15 +367,17 @@ Mesh mesh_delaunay(std::span<const CellCentre> centres, const Rectangle& domain,
                    double depth) {
     const double scale = coordinate_scale(domain);
     const bool traced = !request.traces.empty();
+    Patience patience(request.interrupted);
     TraceGraph graph;
     ConformingTriangles made;
     if (traced) {
         graph = graph_of(centres, domain, request);
-        made = conforming_triangles(centres, domain, graph, mean_spacing(centres, domain));
+        made = conforming_triangles(centres, domain, graph, mean_spacing(centres, domain), patience);
     }
-    const Triangles triangles = traced                    ? std::move(made.triangles)
-                                : request.outline.empty() ? delaunay_triangles(centres, domain, request.boundary)
-                                                          : triangles_within(centres, domain, request.outline);
+    const Triangles triangles = traced ? std::move(made.triangles)
+                                : request.outline.empty()
+                                    ? delaunay_triangles(centres, domain, request.boundary, patience)
+                                    : triangles_within(centres, domain, request.outline, patience);
     if (triangles.corners.empty()) {
         throw MeshError(fmt::format(
             "mesh: found {} centre{} that form no triangle with a circumcentre in the domain, expected at least three "
@@ -393,6 +399,7 @@ Mesh mesh_delaunay(std::span<const CellCentre> centres, const Rectangle& domain,
     // Inset twice, to find the destroyed and to keep the rest: keeping outlines until all are known costs more.
     std::vector<int> destroyed;
     for (std::size_t t = 0; t < triangles.corners.size(); ++t) {
+        patience.piece();
         if (inset.of(outline(t)).empty()) destroyed.push_back(static_cast<int>(t));
     }
     if (!destroyed.empty() && !request.merge_destroyed) {
@@ -421,6 +428,7 @@ Mesh mesh_delaunay(std::span<const CellCentre> centres, const Rectangle& domain,
     auto next = joined.outlines.begin();
     std::vector<Point> before;
     for (std::size_t t = 0; t < triangles.corners.size(); ++t) {
+        patience.piece();
         if (!joined.joined[t]) {
             const auto alone = outline(t);
             const auto after = inset.of(alone);

@@ -12,6 +12,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <exception>
+#include <functional>
 #include <optional>
 #include <span>
 #include <stdexcept>
@@ -68,6 +70,8 @@ struct MeshRequest {
     /// Meshes that fill the domain have them, without an outline, and Voronoi cells without merging. An end as near to
     /// another trace or a wall as trace_reach_share of the mean spacing goes to it along its own line.
     std::vector<std::vector<Point>> traces;
+    /// Asked now and then, by the thread that meshes; true ends it by MeshInterrupted.
+    std::function<bool()> interrupted;
 };
 
 inline constexpr double trace_reach_share = 0.25;
@@ -142,9 +146,16 @@ class MeshError : public std::runtime_error {
     std::vector<int> centres, traces;
 };
 
+/// The caller does not want the mesh any more.
+class MeshInterrupted : public std::exception {
+  public:
+    const char* what() const noexcept override { return "interrupted while meshing"; }
+};
+
 /// Partitions `domain` and insets every cell. Same input, same bytes.
 /// @param centres  inside the domain or on its boundary, no two coincident
 /// @throws MeshError no, coincident, outside or NaN centres; no area; bad thick or inset; no triangle; a destroyed cell
+/// @throws MeshInterrupted
 /// Cost: two to three times CGAL's bare insertion of the centres (tests/benchmarks/meshing.cpp); as much again for each
 /// round in which Voronoi cells are merged.
 Mesh make_mesh(std::span<const CellCentre> centres, const Rectangle& domain, const MeshRequest& request);

@@ -100,8 +100,8 @@ WallsOfFace walls_of(FaceHandle face) {
 
 class Partition {
   public:
-    Partition(std::span<const CellCentre> centres, const Rectangle& domain)
-        : centres_(centres), domain_(domain), scale_(coordinate_scale(domain)) {
+    Partition(std::span<const CellCentre> centres, const Rectangle& domain, Patience& patience)
+        : centres_(centres), domain_(domain), patience_(patience), scale_(coordinate_scale(domain)) {
         insert_guards();
         insert_centres();
         mirror_where_needed();
@@ -137,6 +137,7 @@ class Partition {
 
     std::span<const CellCentre> centres_;
     Rectangle domain_;
+    Patience& patience_;
     double scale_;
     Triangulation triangulation_;
     std::vector<Image> images_;
@@ -162,6 +163,7 @@ void Partition::insert_centres() {
     CGAL::spatial_sort(order.begin(), order.end(), CGAL::Spatial_sort_traits_adapter_2<Kernel, PlaceOf>());
     FaceHandle hint = guards_.back()->face();
     for (const auto& [place, number] : order) {
+        patience_.piece();
         const std::size_t before = triangulation_.number_of_vertices();
         const VertexHandle v = triangulation_.insert(place, hint);
         if (triangulation_.number_of_vertices() == before) refuse_coincident(v->info().index, number);
@@ -295,6 +297,7 @@ void Partition::mirror_where_needed() {
     const double too_close = std::max(64.0 * relative_rounding * scale_, coincidence_share * spacing);
     std::vector<VertexHandle> to_mirror, touched;
     for (const FaceHandle face : triangulation_.finite_face_handles()) {
+        patience_.piece();
         refuse_near_coincident(face, too_close);
         place_dual(face, to_mirror);
     }
@@ -331,6 +334,7 @@ bool Partition::collect_cells(VoronoiCells& out, bool allow_zero_edges) const {
     std::vector<Point> polygon, scratch;
     for (const VertexHandle v : triangulation_.finite_vertex_handles()) {
         if (!is_centre(v)) continue;
+        patience_.piece();
         polygon.clear();
         bool outside = false;
         auto face = triangulation_.incident_faces(v);
@@ -497,12 +501,13 @@ Triangles Partition::triangles(Boundary boundary) {
 
 }  // namespace
 
-VoronoiCells voronoi_cells(std::span<const CellCentre> centres, const Rectangle& domain) {
-    return Partition(centres, domain).cells();
+VoronoiCells voronoi_cells(std::span<const CellCentre> centres, const Rectangle& domain, Patience& patience) {
+    return Partition(centres, domain, patience).cells();
 }
 
-Triangles delaunay_triangles(std::span<const CellCentre> centres, const Rectangle& domain, Boundary boundary) {
-    return Partition(centres, domain).triangles(boundary);
+Triangles delaunay_triangles(std::span<const CellCentre> centres, const Rectangle& domain, Boundary boundary,
+                             Patience& patience) {
+    return Partition(centres, domain, patience).triangles(boundary);
 }
 
 }  // namespace crackle

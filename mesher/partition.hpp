@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "mesher/mesher.hpp"
+#include "mesher/patience.hpp"
 
 namespace crackle {
 
@@ -37,10 +38,11 @@ struct Triangles {
 };
 
 /// @throws MeshError on coincident centres. The centres are finite and inside the domain.
-VoronoiCells voronoi_cells(std::span<const CellCentre> centres, const Rectangle& domain);
+VoronoiCells voronoi_cells(std::span<const CellCentre> centres, const Rectangle& domain, Patience& patience);
 
 /// @throws MeshError on coincident centres. The centres are finite and inside the domain.
-Triangles delaunay_triangles(std::span<const CellCentre> centres, const Rectangle& domain, Boundary boundary);
+Triangles delaunay_triangles(std::span<const CellCentre> centres, const Rectangle& domain, Boundary boundary,
+                             Patience& patience);
 
 /// Keeps the part of a convex polygon for which nx·x + ny·y >= offset. @param scratch working memory
 void clip(std::vector<Point>& polygon, double nx, double ny, double offset, std::vector<Point>& scratch);

@@ -287,14 +287,14 @@ class Calibration {
             reached.limit = std::max(target.tolerance, 2.0 * reached.fresh.standard_error / target.value);
             const bool within_reach = std::abs(expected[t]) <= std::max(space_.widths[t], 2.0 * polished_.errors[t]);
             if (!are_enough(figures.rows(), rock_.fresh))
-                reached.verdict = Verdict::unresolved;
+                reached.verdict = TargetVerdict::unresolved;
             else if (std::abs(reached.off) <= target.tolerance)
-                reached.verdict = Verdict::reached;
+                reached.verdict = TargetVerdict::reached;
             else if (!within_reach)  // whatever few packings that scatter widely allow
-                reached.verdict = at_rest ? Verdict::out_of_reach : Verdict::not_found;
+                reached.verdict = at_rest ? TargetVerdict::out_of_reach : TargetVerdict::not_found;
             else
-                reached.verdict =
-                    std::abs(reached.off) <= reached.limit ? Verdict::reached_within_error : Verdict::missed;
+                reached.verdict = std::abs(reached.off) <= reached.limit ? TargetVerdict::reached_within_error
+                                                                         : TargetVerdict::missed;
         }
     }
 
@@ -320,7 +320,7 @@ class Calibration {
         double most = 0.0;
         const VectorXd expected = expected_off();
         for (const Index t : space_.other_targets) {
-            if (outcome_.targets[static_cast<std::size_t>(t)].verdict != Verdict::out_of_reach) continue;
+            if (outcome_.targets[static_cast<std::size_t>(t)].verdict != TargetVerdict::out_of_reach) continue;
             if (std::abs(expected[t]) / space_.widths[t] <= most) continue;
             most = std::abs(expected[t]) / space_.widths[t];
             worst = t;
@@ -410,7 +410,7 @@ class Calibration {
 
 }  // namespace
 
-const char* name_of(Verdict verdict) {
+const char* name_of(TargetVerdict verdict) {
     constexpr std::array<const char*, 6> names{
         "reached", "reached within its error", "missed", "out of reach", "not found", "unresolved"};
     return names[static_cast<std::size_t>(verdict)];

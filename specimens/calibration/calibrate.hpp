@@ -52,7 +52,7 @@ struct FoundKey {
     bool at_bound = false;
 };
 
-enum class Verdict : std::uint8_t {
+enum class TargetVerdict : std::uint8_t {
     reached,               ///< the mean of fresh packings is within the tolerance
     reached_within_error,  ///< beyond it, within two standard errors
     missed,
@@ -60,16 +60,16 @@ enum class Verdict : std::uint8_t {
     not_found,     ///< the search ended on its way: another start may find it
     unresolved,    ///< too few fresh packings have the figures
 };
-const char* name_of(Verdict verdict);  ///< "reached", "out of reach", …
+const char* name_of(TargetVerdict verdict);  ///< "reached", "out of reach", …
 
 struct ReachedTarget {
     MeanFigure fresh;    ///< on packings that nothing was fitted to, of those that have all targets' figures
     MeanFigure polish;   ///< on those of the last correction, before it
     double off = 0.0;    ///< mean over target, less 1
     double limit = 0.0;  ///< tolerance, or two standard errors of the mean where these are more
-    Verdict verdict = Verdict::missed;
+    TargetVerdict verdict = TargetVerdict::missed;
 
-    bool reached() const { return verdict == Verdict::reached || verdict == Verdict::reached_within_error; }
+    bool reached() const { return verdict == TargetVerdict::reached || verdict == TargetVerdict::reached_within_error; }
 };
 
 /// One compromise between targets that cannot be reached together, measured on the fit packings.

@@ -18,7 +18,8 @@ namespace {
 
 using PlainJson = nlohmann::json;
 
-PlainJson moduli_of_case(const TestCase& test, PackingStore& packings) {
+PlainJson moduli_of_case(TestCase test, PackingStore& packings) {
+    test.numerics.threads = 1;  // a worker is one processor's, and a forked process has no others
     std::array<double, linear_figures> found{};
     found.fill(std::nan(""));
     TestHooks hooks;

@@ -73,7 +73,7 @@ void Measurements::measure(const std::vector<std::vector<double>>& points, Packi
 }
 
 void Measurements::read(const Plan& plan) {
-    const Ledger ledger = Ledger::read(ledger_file(options_.folder));
+    const CampaignLedger ledger = CampaignLedger::read(ledger_file(options_.folder));
     const LedgerTable results = ledger.results();
     const auto column = [&](const std::string& name) {
         return static_cast<std::size_t>(std::find(results.columns.begin(), results.columns.end(), name) -

@@ -44,12 +44,12 @@ std::string frontier_text(const Rock& rock, const CalibrationOutcome& outcome) {
     std::string text, names;
     for (std::size_t k = 0; k < rock.targets.size(); ++k) {
         const ReachedTarget& reached = outcome.targets[k];
-        if (reached.verdict == Verdict::not_found)
+        if (reached.verdict == TargetVerdict::not_found)
             text += fmt::format(
                 "\n{} = {:.4g} was not found: the search ended on its way, at {:.4g} ± {:.2g}; give "
                 "[[free]] another start\n",
                 target_name(rock, k), rock.targets[k].value, reached.fresh.mean, reached.fresh.standard_error);
-        if (reached.verdict != Verdict::out_of_reach) continue;
+        if (reached.verdict != TargetVerdict::out_of_reach) continue;
         const std::string bounds = keys_at_bounds(rock, outcome);
         text +=
             fmt::format("\n{} = {:.4g} is out of reach together with the other targets: nearest {:.4g} ± {:.2g}{}\n",

@@ -205,8 +205,10 @@ class RowWorker {
             hooks.keep_packing = [&](const TestCase& of, const PackingRequest& request, const auto& make) {
                 return packings_.get(of, request, make);
             };
+            TestCase test = plan_.test_of(plan_.rows[task.row]);
+            test.numerics.threads = 1;  // as of tests: a worker is one processor's, and a forked process has no others
             try {
-                packing_of(plan_.test_of(plan_.rows[task.row]), hooks);
+                packing_of(test, hooks);
             } catch (const OutputError&) {
                 throw;
             } catch (const std::exception&) {  // each of its tests will say why
@@ -288,7 +290,7 @@ CampaignOutcome run_campaign(const Plan& plan, const CampaignOptions& options, c
     make_folder(held);
     const FolderLock lock(held);
     const Tasks tasks = tasks_of(plan, options.shard, hooks.interrupted);
-    Ledger ledger = Ledger::open(file, options.shard.whole() ? Journal::beside : Journal::within);
+    CampaignLedger ledger = CampaignLedger::open(file, options.shard.whole() ? Journal::beside : Journal::within);
     ledger.set_plan(plan, tasks.identities);
 
     CampaignOutcome outcome;
@@ -297,7 +299,7 @@ CampaignOutcome run_campaign(const Plan& plan, const CampaignOptions& options, c
     std::map<std::string, std::string> ended = ledger.ended();
     if (!options.shard.whole() && is_file(ledger_file(options.folder))) {
         // What was gathered, or run here before, need not be run again.
-        for (const auto& [identity, state] : Ledger::read(ledger_file(options.folder)).ended())
+        for (const auto& [identity, state] : CampaignLedger::read(ledger_file(options.folder)).ended())
             if (state == row_done) ended[identity] = state;
     }
     std::vector<std::size_t> open;
@@ -389,12 +391,12 @@ Gathered gather_shards(const fs::path& folder) {
     Gathered gathered;
     const FolderLock lock(folder);
     // The folder may lie on a network file system.
-    Ledger ledger = Ledger::open(ledger_file(folder), Journal::within);
+    CampaignLedger ledger = CampaignLedger::open(ledger_file(folder), Journal::within);
     fs::path planned;
     std::string rows, others;
     for (const auto& [number, file] : files) {
         // Opened to be written: a share that was killed in the midst of a change takes it back by that.
-        const std::string own = Ledger::open(file, Journal::within).meta("rows");
+        const std::string own = CampaignLedger::open(file, Journal::within).meta("rows");
         const bool first = planned.empty() && !own.empty();
         if (first) {
             planned = file;

@@ -14,7 +14,7 @@ namespace crackle {
 namespace {
 
 /// Mean processor seconds of tests that are done, by what they are called.
-std::map<std::string, double> measured_seconds(const Ledger& ledger) {
+std::map<std::string, double> measured_seconds(const CampaignLedger& ledger) {
     std::map<std::string, double> seconds;
     const LedgerTable table = ledger.query(
         "SELECT point.test, avg(test.processor_seconds) FROM plan JOIN point ON point.number = plan.point JOIN test "
@@ -59,7 +59,7 @@ std::string clock_text(double seconds) {
 
 }  // namespace
 
-PlanEstimate estimate_plan(const Plan& plan, const Ledger* ledger, const TestHooks& hooks) {
+PlanEstimate estimate_plan(const Plan& plan, const CampaignLedger* ledger, const TestHooks& hooks) {
     const std::map<std::string, double> measured =
         ledger != nullptr ? measured_seconds(*ledger) : std::map<std::string, double>{};
     PlanEstimate estimate;

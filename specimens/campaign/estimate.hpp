@@ -27,7 +27,7 @@ struct PlanEstimate {
 };
 
 /// @param ledger of earlier runs of the plan, absent: none. @throws as check_test()
-PlanEstimate estimate_plan(const Plan& plan, const Ledger* ledger, const TestHooks& hooks = {});
+PlanEstimate estimate_plan(const Plan& plan, const CampaignLedger* ledger, const TestHooks& hooks = {});
 
 struct BatchRequest {
     std::filesystem::path program, plan, folder;  ///< absolute

@@ -87,7 +87,7 @@ void run(SQLite::Statement& statement) {
 
 /// Errors of SQLite name the file and say what they are about.
 template <class Work>
-auto Ledger::guarded(const Work& work) const {
+auto CampaignLedger::guarded(const Work& work) const {
     try {
         return work();
     } catch (const SQLite::Exception& error) {
@@ -120,13 +120,13 @@ auto Ledger::guarded(const Work& work) const {
     }
 }
 
-Ledger::Ledger(std::filesystem::path file, std::unique_ptr<SQLite::Database> database)
+CampaignLedger::CampaignLedger(std::filesystem::path file, std::unique_ptr<SQLite::Database> database)
     : file_(std::move(file)), database_(std::move(database)) {}
-Ledger::Ledger(Ledger&& other) noexcept = default;
-Ledger::~Ledger() = default;
+CampaignLedger::CampaignLedger(CampaignLedger&& other) noexcept = default;
+CampaignLedger::~CampaignLedger() = default;
 
-Ledger Ledger::open(const std::filesystem::path& file, Journal journal) {
-    Ledger ledger(file, nullptr);
+CampaignLedger CampaignLedger::open(const std::filesystem::path& file, Journal journal) {
+    CampaignLedger ledger(file, nullptr);
     ledger.guarded([&] {
         ledger.database_ = std::make_unique<SQLite::Database>(
             file.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, busy_milliseconds);
@@ -135,12 +135,12 @@ Ledger Ledger::open(const std::filesystem::path& file, Journal journal) {
     return ledger;
 }
 
-Ledger Ledger::read(const std::filesystem::path& file) {
+CampaignLedger CampaignLedger::read(const std::filesystem::path& file) {
     if (!is_file(file)) {
         throw InputError(fmt::format("{}: found no ledger, expected one that `crackle campaign` made; check the folder",
                                      file.string()));
     }
-    Ledger ledger(file, nullptr);
+    CampaignLedger ledger(file, nullptr);
     ledger.guarded([&] {
         ledger.database_ = std::make_unique<SQLite::Database>(file.string(), SQLite::OPEN_READONLY, busy_milliseconds);
         if (ledger.database_->execAndGet("PRAGMA application_id").getInt() != application_id)
@@ -150,7 +150,7 @@ Ledger Ledger::read(const std::filesystem::path& file) {
     return ledger;
 }
 
-void Ledger::make_tables(Journal journal) {
+void CampaignLedger::make_tables(Journal journal) {
     SQLite::Database& db = *database_;
     const int id = db.execAndGet("PRAGMA application_id").getInt();
     const bool empty = db.execAndGet("SELECT count(*) FROM sqlite_schema").getInt() == 0;
@@ -189,7 +189,7 @@ void Ledger::make_tables(Journal journal) {
     while (columns.executeStep()) figure_columns_.insert(columns.getColumn(0).getString());
 }
 
-void Ledger::make_views() {
+void CampaignLedger::make_views() {
     SQLite::Database& db = *database_;
     db.exec("DROP VIEW IF EXISTS results");
     db.exec("DROP VIEW IF EXISTS long");
@@ -227,7 +227,7 @@ void Ledger::make_views() {
                  : fmt::format("{}", fmt::join(parts, " UNION ALL "))));
 }
 
-void Ledger::set_plan(const Plan& plan, const std::vector<std::string>& identities) {
+void CampaignLedger::set_plan(const Plan& plan, const std::vector<std::string>& identities) {
     guarded([&] {
         SQLite::Database& db = *database_;
         SQLite::Transaction change(db);
@@ -281,7 +281,7 @@ void Ledger::set_plan(const Plan& plan, const std::vector<std::string>& identiti
     });
 }
 
-void Ledger::add_columns(const nlohmann::ordered_json& figures) {
+void CampaignLedger::add_columns(const nlohmann::ordered_json& figures) {
     bool added = false;
     for (const auto& [name, value] : figures.items()) {
         if (!figure_columns_.insert(name).second) continue;
@@ -291,7 +291,7 @@ void Ledger::add_columns(const nlohmann::ordered_json& figures) {
     if (added) make_views();
 }
 
-void Ledger::record(const RowResult& result, const std::string& host) {
+void CampaignLedger::record(const RowResult& result, const std::string& host) {
     guarded([&] {
         SQLite::Database& db = *database_;
         SQLite::Transaction change(db);
@@ -315,7 +315,7 @@ void Ledger::record(const RowResult& result, const std::string& host) {
     });
 }
 
-void Ledger::put_figures(const std::string& identity, const nlohmann::ordered_json& all) {
+void CampaignLedger::put_figures(const std::string& identity, const nlohmann::ordered_json& all) {
     if (all.empty()) return;
     add_columns(all);
     std::string names = "identity", places = "?";
@@ -336,7 +336,7 @@ void Ledger::put_figures(const std::string& identity, const nlohmann::ordered_js
     run(figures);
 }
 
-std::int64_t Ledger::gather(const std::filesystem::path& other, bool its_plan) {
+std::int64_t CampaignLedger::gather(const std::filesystem::path& other, bool its_plan) {
     return guarded([&] {
         SQLite::Database& db = *database_;
         db.exec("ATTACH DATABASE " + literal(other.string()) + " AS other");
@@ -373,7 +373,7 @@ std::int64_t Ledger::gather(const std::filesystem::path& other, bool its_plan) {
     });
 }
 
-std::map<std::string, std::string> Ledger::ended() const {
+std::map<std::string, std::string> CampaignLedger::ended() const {
     return guarded([&] {
         std::map<std::string, std::string> states;
         SQLite::Statement tests(*database_, "SELECT identity, state FROM test");
@@ -382,7 +382,7 @@ std::map<std::string, std::string> Ledger::ended() const {
     });
 }
 
-LedgerCounts Ledger::counts() const {
+LedgerCounts CampaignLedger::counts() const {
     return guarded([&] {
         SQLite::Statement all(*database_,
                               "SELECT (SELECT count(*) FROM plan), count(*), coalesce(sum(state = 'done'), 0), "
@@ -394,7 +394,7 @@ LedgerCounts Ledger::counts() const {
     });
 }
 
-std::string Ledger::meta(const std::string& key) const {
+std::string CampaignLedger::meta(const std::string& key) const {
     return guarded([&] {
         SQLite::Statement one(*database_, "SELECT value FROM meta WHERE key = ?");
         one.bind(1, key);
@@ -402,9 +402,9 @@ std::string Ledger::meta(const std::string& key) const {
     });
 }
 
-LedgerTable Ledger::results() const { return query("SELECT * FROM results"); }
+LedgerTable CampaignLedger::results() const { return query("SELECT * FROM results"); }
 
-LedgerTable Ledger::query(const std::string& sql) const {
+LedgerTable CampaignLedger::query(const std::string& sql) const {
     return guarded([&] {
         LedgerTable table;
         SQLite::Statement statement(*database_, sql);

@@ -57,15 +57,15 @@ enum class Journal : std::uint8_t {
              ///< again
 };
 
-class Ledger {
+class CampaignLedger {
   public:
     /// To be written, made where there is none. @throws InputError if it is none of ours, OutputError
-    static Ledger open(const std::filesystem::path& file, Journal journal = Journal::beside);
+    static CampaignLedger open(const std::filesystem::path& file, Journal journal = Journal::beside);
     /// To be read. @throws InputError if there is none
-    static Ledger read(const std::filesystem::path& file);
-    Ledger(Ledger&& other) noexcept;
-    Ledger& operator=(Ledger&&) = delete;
-    ~Ledger();
+    static CampaignLedger read(const std::filesystem::path& file);
+    CampaignLedger(CampaignLedger&& other) noexcept;
+    CampaignLedger& operator=(CampaignLedger&&) = delete;
+    ~CampaignLedger();
 
     /// Puts a plan in the place of the present one, at once or not at all; what was run stays.
     /// @param identities of plan.rows
@@ -87,7 +87,7 @@ class Ledger {
     LedgerTable query(const std::string& sql) const;
 
   private:
-    Ledger(std::filesystem::path file, std::unique_ptr<SQLite::Database> database);
+    CampaignLedger(std::filesystem::path file, std::unique_ptr<SQLite::Database> database);
 
     template <class Work>
     auto guarded(const Work& work) const;

@@ -196,7 +196,7 @@ struct LedgerRow {
 };
 
 void add_campaign(Collection& all, const fs::path& folder) {
-    const Ledger ledger = Ledger::read(ledger_file(folder));
+    const CampaignLedger ledger = CampaignLedger::read(ledger_file(folder));
     const std::string text = ledger.meta("rocks");
     if (text.empty()) {
         throw InputError(

@@ -95,13 +95,16 @@ std::vector<Point> outline_of(const Shape& shape) {
 }
 
 /// The cells of circles, without gaps between them.
-Mesh bare_cells(const TestCase& test, const Scene& circles, const Shape& shape = {}) {
+Mesh bare_cells(const TestCase& test, const Scene& circles, const Shape& shape = {}, const TestHooks& hooks = {}) {
     MeshRequest request;
+    request.interrupted = hooks.interrupted;
     request.outline = outline_of(shape);
     request.kind = mesh_kind(test);
     request.boundary = mesh_boundary(test);
     try {
         return make_mesh(centres_of(circles), rectangle(circles.domain), request);
+    } catch (const MeshInterrupted&) {
+        throw TestInterrupted();
     } catch (const MeshError& error) {
         throw InputError(fmt::format("{}: {}", test.at("mesh.kind"), error.what()));
     }
@@ -308,8 +311,9 @@ double area_of(const Shape& shape, const Domain& box) {
 /// The gap between cells of a case that gives none.
 double derived_mesh_thick(const TestCase& test, const Scene& circles, const Shape& shape, const TestHooks& hooks) {
     if (test.mesh.inset) return 2.0 * *test.mesh.inset;
-    const std::size_t cells =
-        mesh_kind(test) == MeshKind::voronoi ? circles.bodies.size() : bare_cells(test, circles, shape).cells.size();
+    const std::size_t cells = mesh_kind(test) == MeshKind::voronoi
+                                  ? circles.bodies.size()
+                                  : bare_cells(test, circles, shape, hooks).cells.size();
     const double thick = derived_gap(area_of(shape, circles.domain), static_cast<double>(cells));
     hooks.report_stage(
         fmt::format("mesh.thick = {:.4g} m by default: {} of the mean cell size", thick, derived_gap_share));
@@ -349,6 +353,7 @@ void mesh_specimen(Specimen& specimen, const TestCase& test, const TestHooks& ho
     MeshRequest request;
     request.kind = mesh_kind(test);
     request.boundary = mesh_boundary(test);
+    request.interrupted = hooks.interrupted;
     specimen.mesh_thick = test.mesh.thick ? *test.mesh.thick : derived_mesh_thick(test, circles, specimen.shape, hooks);
     request.mesh_gap = specimen.mesh_thick;
     request.outline = outline_of(specimen.shape);
@@ -373,6 +378,8 @@ void mesh_specimen(Specimen& specimen, const TestCase& test, const TestHooks& ho
                     ") are faces of the mesh with the rock's own properties: they change it by being straight, Voronoi "
                     "cells by their even rows, too");
         }
+    } catch (const MeshInterrupted&) {
+        throw TestInterrupted();
     } catch (const MeshError& error) {
         throw InputError(
             fmt::format("{}: {}{}", test.at("mesh.thick"), error.what(), traces_named(joints, error.traces)));

@@ -59,7 +59,7 @@ int main(int argc, char** argv) {
     options.folder = folder / "out";
     std::filesystem::create_directories(options.folder);
     {
-        Ledger ledger = Ledger::open(ledger_file(options.folder));
+        CampaignLedger ledger = CampaignLedger::open(ledger_file(options.folder));
         begun = Clock::now();
         ledger.set_plan(plan, identities);
         fmt::print("planned in {:.2f} s\n", seconds_since(begun));
@@ -83,7 +83,7 @@ int main(int argc, char** argv) {
     const CampaignOutcome again = run_campaign(plan, options);
     fmt::print("the same command finds {} left in {:.2f} s\n", again.progress.left, seconds_since(begun));
     begun = Clock::now();
-    const auto shown = summarise(Ledger::read(again.ledger).results(), {"peak_stress"});
+    const auto shown = summarise(CampaignLedger::read(again.ledger).results(), {"peak_stress"});
     fmt::print("{} points with their means in {:.2f} s\n", shown.size(), seconds_since(begun));
     std::filesystem::remove_all(folder);
     return 0;

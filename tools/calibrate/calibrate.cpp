@@ -126,7 +126,7 @@ int calibrate_rock(const Invocation& given) {
     } catch (const TestInterrupted&) {
         messages.make_room();
     }
-    report_error("interrupted; the same command goes on");
+    if (!messages.hosted()) report_error("interrupted; the same command goes on");
     return exit_interrupted;
 }
 

@@ -115,7 +115,8 @@ int campaign(const Invocation& given) {
         if (dry) {
             const std::filesystem::path file = ledger_file(folder);
             const bool known = !folder.empty() && is_file(file);
-            const std::optional<Ledger> ledger = known ? std::optional(Ledger::read(file)) : std::nullopt;
+            const std::optional<CampaignLedger> ledger =
+                known ? std::optional(CampaignLedger::read(file)) : std::nullopt;
             const PlanEstimate estimate = estimate_plan(plan, ledger ? &*ledger : nullptr, checking);
             messages.make_room();
             print_estimate(plan, estimate, workers);
@@ -150,7 +151,7 @@ int campaign(const Invocation& given) {
     } catch (const TestInterrupted&) {
         messages.make_room();
     }
-    report_error("interrupted; the same command goes on");
+    if (!messages.hosted()) report_error("interrupted; the same command goes on");
     return exit_interrupted;
 }
 

@@ -83,7 +83,8 @@ int campaign_submit(const Invocation& given) {
         throw InputError(fmt::format("crackle campaign submit: --workers: found {}, expected >= 1", request.workers));
     check_campaign_folder(request.folder);
     const fs::path file = ledger_file(request.folder);
-    const std::optional<Ledger> ledger = is_file(file) ? std::optional(Ledger::read(file)) : std::nullopt;
+    const std::optional<CampaignLedger> ledger =
+        is_file(file) ? std::optional(CampaignLedger::read(file)) : std::nullopt;
     request.seconds = estimate_plan(plan, ledger ? &*ledger : nullptr).seconds;
     const double worth = std::ceil(request.seconds / least_work_a_shard);
     constexpr int most_shards = 1000;  // of an array, as Slurm is shipped

@@ -70,7 +70,7 @@ CommandLine describe_campaign_show() {
 int campaign_show(const Invocation& given) {
     const po::variables_map& values = given.values;
     if (given.operands.empty()) throw InputError("crackle campaign show: found no DIR, expected a campaign's folder");
-    const Ledger ledger = Ledger::read(ledger_file(given.operands.front()));
+    const CampaignLedger ledger = CampaignLedger::read(ledger_file(given.operands.front()));
     if (values.contains("wrong")) {
         const LedgerTable wrong = ledger.query(
             "SELECT DISTINCT test.identity, test.state, test.message FROM plan JOIN test USING(identity) WHERE "

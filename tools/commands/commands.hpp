@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
@@ -83,9 +84,13 @@ void print_version();  // crackle --version
 /// @throws InputError naming the option
 PackingRequest packing_request(const po::variables_map& values, Messages& messages);
 /// Polygons from the text of a packing or of a list of centres. @param name of it, for errors @param of_joints lines on
-/// the traces and on the mesh without them, where there are some
+/// the traces and on the mesh without them, where there are some @param interrupted as of MeshRequest
+/// @throws TestInterrupted
 Scene meshed_scene(const std::string& name, const std::string& text, const po::variables_map& values,
-                   Messages& messages, MeshReport& report, std::vector<std::string>* of_joints = nullptr);
+                   Messages& messages, MeshReport& report, std::vector<std::string>* of_joints = nullptr,
+                   const std::function<bool()>& interrupted = {});
+/// What `crackle joints` does with the joints of a case. @param name of it, for errors
+int joints_of(TestCase test, const std::string& name, const Invocation& given);
 /// Threads that are of use here, of those that are asked for.
 void limit_threads(TestOptions& options, std::int64_t asked);
 /// How far a test is, as the program shows it.

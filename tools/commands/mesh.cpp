@@ -21,6 +21,7 @@
 #include "specimens/joints/joint_network.hpp"
 #include "specimens/joints/mesh_traces.hpp"
 #include "specimens/making/cell_bodies.hpp"
+#include "specimens/making/hooks.hpp"
 #include "tools/commands/centre_list.hpp"
 #include "tools/commands/commands.hpp"
 
@@ -215,8 +216,10 @@ void print_report(const MeshReport& report, const Domain& domain, const MeshRequ
 }  // namespace
 
 Scene meshed_scene(const std::string& name, const std::string& text, const po::variables_map& values,
-                   Messages& messages, MeshReport& report, std::vector<std::string>* of_joints) {
+                   Messages& messages, MeshReport& report, std::vector<std::string>* of_joints,
+                   const std::function<bool()>& interrupted) {
     MeshRequest request = request_of(values);
+    request.interrupted = interrupted;
     Source source =
         looks_like_centre_list(text) ? centres_of_list(name, text, values) : centres_of_deck(name, text, values);
     messages.detail(fmt::format("read {} centres from {}, {} bytes", source.centres.size(), name, text.size()));
@@ -224,13 +227,18 @@ Scene meshed_scene(const std::string& name, const std::string& text, const po::v
     JointNetwork joints;
     if (const auto test = joints_case(values)) joints = make_joints(*test, source.scene.domain);
     request.traces = mesh_traces(joints);
-    const Mesh made = mesh_source(source, request, joints);
-    if (of_joints != nullptr) {
-        *of_joints = joints.notices;
-        if (!request.traces.empty()) {
-            const auto more = jointed_mesh_text(made, source.centres, source.scene.domain, request);
-            of_joints->insert(of_joints->end(), more.begin(), more.end());
+    Mesh made;
+    try {
+        made = mesh_source(source, request, joints);
+        if (of_joints != nullptr) {
+            *of_joints = joints.notices;
+            if (!request.traces.empty()) {
+                const auto more = jointed_mesh_text(made, source.centres, source.scene.domain, request);
+                of_joints->insert(of_joints->end(), more.begin(), more.end());
+            }
         }
+    } catch (const MeshInterrupted&) {
+        throw TestInterrupted();
     }
     messages.detail(fmt::format("meshed {} cells of {} segments", made.report.cells, made.report.segments));
     report = made.report;

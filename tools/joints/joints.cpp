@@ -172,18 +172,19 @@ CommandLine describe_joints() {
 }
 
 int joints(const Invocation& given) {
-    const po::variables_map& values = given.values;
     if (given.operands.size() != 1)
         throw InputError(fmt::format("joints: found {} files, expected one: crackle joints CASE.toml (see --help)",
                                      given.operands.size()));
-    const fs::path source = given.operands.front();
+    const std::string& source = given.operands.front();
+    return joints_of(CaseFiles(fs::path(source)).joints(), source, given);
+}
+
+int joints_of(TestCase test, const std::string& name, const Invocation& given) {
+    const po::variables_map& values = given.values;
     const plot::FigureLook look = plot::figure_look("joints", values);
-    TestCase test = CaseFiles(source).joints();
     if (!test.jointed())
         throw InputError(
-            fmt::format("{}: found no [[joint_set]] and no [[trace]], expected one; see crackle test "
-                        "--keys",
-                        source.string()));
+            fmt::format("{}: found no [[joint_set]] and no [[trace]], expected one; see crackle test --keys", name));
     if (values.contains("seed")) {
         test.joints.seed = values["seed"].as<std::int64_t>();
         if (test.joints.seed < 0)

@@ -57,5 +57,5 @@ set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "gnuplot-nox, paraview, python3-crackl
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "crackle (= ${PROJECT_VERSION}), python3 (>= 3.11), python3 (<< 3.12), python3-numpy, fonts-dejavu-core")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-pandas, python3-matplotlib")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
-set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libfmt-dev, nlohmann-json3-dev, libssl-dev, libpugixml-dev, libsqlite3-dev, libsqlitecpp-dev, libnlopt-cxx-dev, libtomlplusplus-dev, zlib1g-dev, libcairo2-dev, libisal-dev, libxxhash-dev, libmpfr-dev, libgmp-dev, libeigen3-dev, pkg-config")
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libfmt-dev, nlohmann-json3-dev, libcereal-dev, libssl-dev, libpugixml-dev, libsqlite3-dev, libsqlitecpp-dev, libnlopt-cxx-dev, libtomlplusplus-dev, zlib1g-dev, libcairo2-dev, libisal-dev, libxxhash-dev, libmpfr-dev, libgmp-dev, libeigen3-dev, pkg-config")
 include(CPack)

@@ -17,9 +17,10 @@ namespace py = pybind11;
 
 void bind_cases(py::module_& module) {
     py::class_<TestCase>(module, "Case", "One virtual test as a case describes it, checked, defaults filled in.")
-        .def_readonly("title", &TestCase::title)
-        .def_property_readonly("kind", [](const TestCase& test) { return test.loading.kind; })
-        .def_property_readonly("stress_unit", &TestCase::stress_unit)
+        .def_readonly("title", &TestCase::title, "As the case names it.")
+        .def_property_readonly(
+            "kind", [](const TestCase& test) { return test.loading.kind; }, "loading.kind: \"tension\", say.")
+        .def_property_readonly("stress_unit", &TestCase::stress_unit, "\"Pa\" or \"N/m\".")
         .def(
             "resolved",
             [](const TestCase& test) {
@@ -38,6 +39,15 @@ void bind_cases(py::module_& module) {
             return read_case(CaseText{name, text, json});
         },
         py::arg("text"), py::arg("name"), py::arg("json"));
+    module.def(
+        "read_joints_file", [](const std::string& path) { return CaseFiles(std::filesystem::path(path)).joints(); },
+        py::arg("path"), "The joints of a file that need not be a whole case.");
+    module.def(
+        "read_joints_text",
+        [](const std::string& text, const std::string& name, bool json) {
+            return CaseFiles(CaseText{name, text, json}).joints();
+        },
+        py::arg("text"), py::arg("name"), py::arg("json"), "The same of a text.");
     module.def(
         "files_of_joints",
         [](const std::string& path) {

@@ -93,16 +93,26 @@ class OneCommand {
     std::streambuf* before_ = nullptr;
 };
 
-/// Runs a command that prints nothing but its result. @return its exit code and what it printed
-py::tuple run_command(const std::string& name, const tools::Arguments& words) {
-    const Called& asked = command(name);
-    const tools::ParsedWords parsed = tools::parse_words("crackle " + name, asked.describe(), words);
-    tools::Messages messages(tools::Loudness::quiet);
+/// Runs what a command that prints nothing but its result does. @return its exit code and what it printed
+template <class Run>
+py::tuple run_words(const std::string& name, const tools::Arguments& words, const py::object& report, const Run& run) {
+    const tools::ParsedWords parsed = tools::parse_words("crackle " + name, command(name).describe(), words);
     Interrupts interrupts;
+    tools::Messages messages(reporting_listener(report, interrupts));
     const OneCommand output(interrupts);
     int code = 0;
-    run_free(interrupts, [&] { code = asked.run({parsed.values, parsed.operands, words, messages}); });
+    run_free(interrupts, [&] { code = run({parsed.values, parsed.operands, words, messages}); });
     return py::make_tuple(code, output.printed());
+}
+
+py::tuple run_command(const std::string& name, const tools::Arguments& words, const py::object& report) {
+    return run_words(name, words, report, command(name).run);
+}
+
+/// Of a case that need not be a file.
+py::tuple run_joints(const TestCase& test, const std::string& name, const tools::Arguments& words) {
+    return run_words("joints", words, py::none(),
+                     [&](const tools::Invocation& given) { return tools::joints_of(test, name, given); });
 }
 
 /// @return JSON as text, all bonds, and notices
@@ -142,7 +152,8 @@ std::string check(TestCase description, int threads, const py::object& report) {
 
 void bind_commands(py::module_& module) {
     module.def("options", &options, py::arg("command"));
-    module.def("run_command", &run_command, py::arg("command"), py::arg("words"));
+    module.def("run_command", &run_command, py::arg("command"), py::arg("words"), py::arg("report"));
+    module.def("run_joints", &run_joints, py::arg("case"), py::arg("name"), py::arg("words"));
     module.def("elastic", &elastic, py::arg("case"), py::arg("strain"), py::arg("modes"), py::arg("report"));
     module.def("check", &check, py::arg("case"), py::arg("threads"), py::arg("report"));
 }

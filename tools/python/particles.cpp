@@ -85,16 +85,21 @@ std::shared_ptr<Particles> pack(const tools::Arguments& words, const py::object&
     return made;
 }
 
-std::shared_ptr<Particles> mesh(const std::string& name, const std::string& text, const tools::Arguments& words) {
+std::shared_ptr<Particles> mesh(const std::string& name, const std::string& text, const tools::Arguments& words,
+                                const py::object& report) {
     const tools::ParsedWords parsed = tools::parse_words("crackle mesh", tools::describe_mesh(), words);
-    tools::Messages messages(tools::Loudness::quiet);
+    Interrupts interrupts;
+    tools::Messages messages(reporting_listener(report, interrupts));
     auto made = std::make_shared<Particles>();
-    MeshReport report;
-    {
-        const py::gil_scoped_release free;
-        made->scene = tools::meshed_scene(name, text, parsed.values, messages, report);
-    }
-    made->mesh = report;
+    MeshReport of_mesh;
+    std::vector<std::string> of_joints;
+    run_free(interrupts, [&] {
+        messages.progress().begin("reading " + name, 3.0, "");
+        made->scene = tools::meshed_scene(name, text, parsed.values, messages, of_mesh, &of_joints,
+                                          [&] { return interrupts.heard(); });
+    });
+    made->mesh = of_mesh;
+    made->notices = of_joints;
     return made;
 }
 
@@ -128,6 +133,7 @@ py::dict facts(const Particles& particles) {
         all["cells_destroyed"] = m->cells_destroyed;
         all["area_before_inset"] = m->area_before_inset;
         all["area_after_inset"] = m->area_after_inset;
+        all["notices"] = particles.notices;
     }
     return all;
 }
@@ -176,7 +182,7 @@ void bind_particles(py::module_& module) {
                                p.scene.circles.size(), p.scene.vertices.size());
         });
     module.def("pack", &pack, py::arg("words"), py::arg("report"));
-    module.def("mesh", &mesh, py::arg("name"), py::arg("text"), py::arg("words"));
+    module.def("mesh", &mesh, py::arg("name"), py::arg("text"), py::arg("words"), py::arg("report"));
     module.def(
         "read_particles",
         [](const std::string& path) {

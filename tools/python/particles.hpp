@@ -3,6 +3,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "mesher/mesher.hpp"
 #include "solver/scene/scene.hpp"
@@ -14,6 +16,7 @@ struct Particles {
     Scene scene;
     std::optional<PackingReport> packing;  ///< where they were packed now
     std::optional<MeshReport> mesh;        ///< where they were meshed now
+    std::vector<std::string> notices;      ///< on the joints of that mesh
 };
 
 }  // namespace crackle::python

@@ -10,12 +10,17 @@
 
 #include "specimens/making/hooks.hpp"
 #include "tools/python/interrupts.hpp"
+#include "tools/terminal/messages.hpp"
 
 namespace crackle::python {
 
 /// Hooks that report and hear interrupts; what `report` raises ends the work as an interrupt does. All three are kept
 /// by reference.
 TestHooks reporting_hooks(const pybind11::object& report, Interrupts& interrupts);
+
+/// The same of what a command of the program prints beside its results; its notices are stages. Drawing its progress
+/// throws TestInterrupted where an interrupt was heard.
+tools::Listener reporting_listener(const pybind11::object& report, Interrupts& interrupts);
 
 /// Calls report() with the lock taken. @return whether it went without an exception
 bool call_report(const pybind11::object& report, Interrupts& interrupts, const char* kind, const std::string& text,

@@ -211,8 +211,10 @@ void bind_state(py::module_& module) {
         .def_property_readonly(
             "events", [](State& s) { return s.lend(s.world().bonds.events); },
             "View, shape (events,): breaks since the last call; of a world all so far.")
-        .def_property_readonly("bonds_broken", [](const State& s) { return s.world().bonds.broken; })
-        .def_property_readonly("bonds_initial", [](const State& s) { return s.world().bonds.initial; })
+        .def_property_readonly(
+            "bonds_broken", [](const State& s) { return s.world().bonds.broken; }, "Bonds that have broken so far.")
+        .def_property_readonly(
+            "bonds_initial", [](const State& s) { return s.world().bonds.initial; }, "Bonds that were made.")
         .def_property_readonly(
             "laws", [](State& s) { return s.lend(s.world().settings.laws); },
             "View of the contact laws: of material pairs (1,1), (1,2), (2,2), (1,3)..., then the "

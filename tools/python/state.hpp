@@ -28,6 +28,8 @@ class State {
     /// @throws std::runtime_error where the moment is over, or another thread is stepping
     VirtualTest& test() const;
     World& world() const { return test().world; }
+    /// Whether a thread is stepping it just now. With the lock.
+    bool is_stepped() const { return stepping_; }
     /// The same with the forces of the present places known.
     World& world_with_forces();
     /// The same of a specimen in an apparatus. @throws InputError where there is none

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -111,6 +112,13 @@ void bind_worlds(py::module_& module) {
     py::class_<OwnWorld, State, Shared>(module, "World")
         .def(py::init(&world_of_case), py::arg("case"), py::arg("threads"), py::arg("report"))
         .def(py::init(&world_of_particles), py::arg("particles"), py::arg("threads"), py::arg("walls"))
+        .def("__repr__",
+             [](const OwnWorld& s) -> std::string {
+                 if (s.is_stepped()) return "<crackle.World: another thread is stepping it>";
+                 const World& world = s.world();
+                 return fmt::format("<crackle.World: {} bodies, {} of {} bonds broken, {} steps>", world.bodies.size(),
+                                    world.bonds.broken, world.bonds.initial, world.stepping.steps);
+             })
         .def("step", &OwnWorld::step, py::arg("count") = 1,
              "Takes so many steps. The interpreter's lock is free meanwhile, Ctrl-C ends it between steps. Raises "
              "UnstableRun where energies run away.")

@@ -5,6 +5,7 @@
 
 #include <iostream>
 #include <string_view>
+#include <utility>
 
 #include "tools/terminal/terminal.hpp"
 
@@ -39,6 +40,14 @@ Messages::Messages(Loudness loudness)
       last_line_(begun_),
       progress_(loudness != Loudness::quiet) {}
 
+Messages::Messages(Listener listener)
+    : loudness_(Loudness::quiet),
+      hosted_(true),
+      listener_(std::move(listener)),
+      begun_(std::chrono::steady_clock::now()),
+      last_line_(begun_),
+      progress_(listener_.progress) {}
+
 void Messages::line(const std::string& text) {
     progress_.clear();
     if (verbose()) {
@@ -57,14 +66,17 @@ void Messages::line(const std::string& text) {
 }
 
 void Messages::stage(const std::string& text) {
+    if (listener_.stage) listener_.stage(text);
     if (!quiet()) line(text);
 }
 
 void Messages::detail(const std::string& text) {
+    if (listener_.detail) listener_.detail(text);
     if (verbose()) line(text);
 }
 
 void Messages::notice(const std::string& text) {
+    if (listener_.notice) listener_.notice(text);
     if (quiet()) return;
     progress_.clear();
     std::cerr << styled("crackle:", Style::notice, Stream::err) << ' ' << printable(text) << '\n';

@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "tools/terminal/progress.hpp"
@@ -13,11 +14,21 @@ namespace crackle::tools {
 
 enum class Loudness : std::uint8_t { quiet, usual, verbose };
 
+/// A host that has messages in place of a terminal, as Python does. Empty members hear nothing.
+struct Listener {
+    std::function<void(const std::string&)> stage, detail, notice;
+    std::function<void(const Progress&)> progress;
+};
+
 class Messages {
   public:
     explicit Messages(Loudness loudness);
+    /// Quiet: nothing is printed.
+    explicit Messages(Listener listener);
 
     bool quiet() const { return loudness_ == Loudness::quiet; }
+    /// Whether a host has them, which tells its user in its own way of an end that is no error.
+    bool hosted() const { return hosted_; }
     bool verbose() const { return loudness_ == Loudness::verbose; }
     ProgressLine& progress() { return progress_; }
 
@@ -35,6 +46,8 @@ class Messages {
     void line(const std::string& text);
 
     Loudness loudness_;
+    bool hosted_ = false;
+    Listener listener_;
     std::chrono::steady_clock::time_point begun_, last_line_;
     ProgressLine progress_;
 };

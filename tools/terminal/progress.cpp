@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <iostream>
+#include <utility>
 
 #include "tools/terminal/terminal.hpp"
 
@@ -49,10 +50,17 @@ std::string progress_text(const Progress& progress, std::size_t columns) {
 ProgressLine::ProgressLine(bool wanted)
     : shown_(wanted && is_terminal(Stream::err)), begun_(Clock::now()), drawn_(begun_ - between_redraws) {}
 
+ProgressLine::ProgressLine(std::function<void(const Progress&)> heard)
+    : shown_(heard != nullptr), heard_(std::move(heard)), begun_(Clock::now()), drawn_(begun_ - between_redraws) {}
+
 bool ProgressLine::due() const { return shown_ && Clock::now() - drawn_ >= between_redraws; }
 
 void ProgressLine::put(const Progress& progress) {
     drawn_ = Clock::now();
+    if (heard_) {
+        heard_(progress);
+        return;
+    }
     there_ = true;
     std::cerr << "\r\x1b[K" << progress_text(progress, terminal_columns() - 1) << std::flush;
 }

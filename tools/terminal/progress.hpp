@@ -4,6 +4,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <limits>
 #include <string>
 
@@ -28,6 +29,8 @@ class ProgressLine {
   public:
     /// @param wanted false: never shown, as where stderr is no terminal
     explicit ProgressLine(bool wanted);
+    /// Draws nothing: `heard` has it, as often as it would be drawn. Empty: never
+    explicit ProgressLine(std::function<void(const Progress&)> heard);
     ProgressLine(const ProgressLine&) = delete;
     ProgressLine& operator=(const ProgressLine&) = delete;
     ~ProgressLine() { clear(); }
@@ -54,6 +57,7 @@ class ProgressLine {
     void put(const Progress& progress);
 
     bool shown_;
+    std::function<void(const Progress&)> heard_;
     bool there_ = false;
     std::string what_;
     double all_ = 0.0;

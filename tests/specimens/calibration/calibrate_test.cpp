@@ -45,8 +45,8 @@ TEST_F(CalibrationTest, ElasticKeysComeFromTheLinearSolveOfTheSamePackings) {
     EXPECT_TRUE(outcome.frontier.empty());
     EXPECT_EQ(outcome.tests, 2 * 2 * 4) << "of both tests, one point on fit and on fresh packings: "
                                         << calibration_text(rock, outcome);
-    const LedgerTable seeds =
-        Ledger::read(folder_ / "out" / "fresh" / "campaign.sqlite").query("SELECT min(seed), max(seed) FROM plan");
+    const LedgerTable seeds = CampaignLedger::read(folder_ / "out" / "fresh" / "campaign.sqlite")
+                                  .query("SELECT min(seed), max(seed) FROM plan");
     EXPECT_EQ(std::get<double>(seeds.rows[0][0]), 5.0) << "fresh packings are none of those that it was fitted to";
     EXPECT_EQ(std::get<double>(seeds.rows[0][1]), 8.0);
 }

@@ -87,7 +87,7 @@ TEST_F(RecoveredRock, WhatIsOutOfReachIsToldWithItsFrontier) {
     const std::string text = calibration_text(rock, outcome);
     fmt::print("{}", text);
     EXPECT_FALSE(outcome.all_reached());
-    ASSERT_EQ(outcome.targets[outcome.frontier_of].verdict, Verdict::out_of_reach);
+    ASSERT_EQ(outcome.targets[outcome.frontier_of].verdict, TargetVerdict::out_of_reach);
     EXPECT_NE(text.find("is out of reach together with the other targets: nearest"), std::string::npos);
     ASSERT_GE(outcome.frontier.size(), 3U);
     const auto& first = outcome.frontier.front();

@@ -41,7 +41,7 @@ class CampaignTest : public ::testing::Test {
         return run_campaign(read_plan(folder_ / "plan.toml", companions), options);
     }
     std::string table(const std::string& folder) const {
-        return tests_csv(Ledger::read(ledger_file(folder_ / folder)).results());
+        return tests_csv(CampaignLedger::read(ledger_file(folder_ / folder)).results());
     }
 
     testing::ScratchFolder scratch_;
@@ -53,7 +53,7 @@ TEST_F(CampaignTest, GivesTheFiguresOfTheSameTestsRunAlone) {
     const CampaignOutcome outcome = run("out");
     EXPECT_EQ(outcome.progress.done, 8);
     EXPECT_EQ(outcome.run, 8);
-    const LedgerTable results = Ledger::read(outcome.ledger).results();
+    const LedgerTable results = CampaignLedger::read(outcome.ledger).results();
     ASSERT_EQ(results.rows.size(), plan.rows.size());
     std::size_t compared = 0;
     for (std::size_t k = 0; k < plan.rows.size(); ++k) {
@@ -80,7 +80,7 @@ TEST_F(CampaignTest, MakesEachPackingOnceAndTheSameOnesForAllPoints) {
     run("out");
     const auto files = std::distance(fs::directory_iterator(folder_ / "out/packings"), fs::directory_iterator());
     EXPECT_EQ(files, 2) << "two packings for eight tests, and nothing else";
-    const LedgerTable results = Ledger::read(ledger_file(folder_ / "out")).results();
+    const LedgerTable results = CampaignLedger::read(ledger_file(folder_ / "out")).results();
     const auto ratio = static_cast<std::size_t>(
         std::find(results.columns.begin(), results.columns.end(), "packing.void_ratio") - results.columns.begin());
     for (std::size_t k = 0; k < results.rows.size(); ++k)
@@ -172,7 +172,7 @@ TEST_F(CampaignTest, AnAxisOfAKeyThatIsAFigureTooKeepsBothApart) {
                "[[test]]\ncase = \"tension.toml\"\n[[axis]]\nkey = \"packing.mean_overlap\"\n"
                "values = [7e-5, 8e-5]\n");
     run("out");
-    const LedgerTable results = Ledger::read(ledger_file(folder_ / "out")).results();
+    const LedgerTable results = CampaignLedger::read(ledger_file(folder_ / "out")).results();
     for (const char* column : {"packing.mean_overlap", "packing.mean_overlap (reached)"})
         EXPECT_EQ(std::count(results.columns.begin(), results.columns.end(), column), 1) << column;
 }
@@ -200,7 +200,7 @@ TEST_F(CampaignTest, ARefusedCaseIsARowWithItsReason) {
     write_text(folder_ / "plan.toml", "[[test]]\ncase = \"tension.toml\"\n");
     const CampaignOutcome outcome = run("out");
     EXPECT_EQ(outcome.progress.gone_wrong, 1);
-    const LedgerTable wrong = Ledger::read(outcome.ledger).query("SELECT state, message, exit FROM test");
+    const LedgerTable wrong = CampaignLedger::read(outcome.ledger).query("SELECT state, message, exit FROM test");
     ASSERT_EQ(wrong.rows.size(), 1U);
     fmt::print("  {}: {}\n", std::get<std::string>(wrong.rows[0][0]), std::get<std::string>(wrong.rows[0][1]));
     EXPECT_EQ(std::get<std::string>(wrong.rows[0][0]), row_refused);
@@ -245,7 +245,7 @@ TEST_F(CampaignTest, KilledAtAnyMomentItGoesOnToTheSameTable) {
     const CampaignOutcome outcome = run("disturbed", 2);
     EXPECT_EQ(outcome.progress.done, 12);
     EXPECT_EQ(table("disturbed"), table("undisturbed"));
-    const LedgerTable tries = Ledger::read(outcome.ledger).query("SELECT max(tries), count(*) FROM test");
+    const LedgerTable tries = CampaignLedger::read(outcome.ledger).query("SELECT max(tries), count(*) FROM test");
     EXPECT_EQ(std::get<double>(tries.rows[0][0]), 1.0) << "no test has ended twice";
     EXPECT_EQ(std::get<double>(tries.rows[0][1]), 12.0);
 }
@@ -266,7 +266,7 @@ TEST_F(CampaignTest, AFolderThatCannotBeWrittenStopsItAndMarksNoTest) {
             EXPECT_NE(std::string(error.what()).find("; the same command goes on"), std::string::npos);
         }
         const LedgerTable wrong =
-            Ledger::read(ledger_file(folder_ / name)).query("SELECT count(*) FROM test WHERE state <> 'done'");
+            CampaignLedger::read(ledger_file(folder_ / name)).query("SELECT count(*) FROM test WHERE state <> 'done'");
         EXPECT_EQ(std::get<double>(wrong.rows[0][0]), 0.0) << keep;
         fs::remove(folder_ / name / place);
         EXPECT_EQ(run(name).progress.done, 4) << keep;
@@ -320,7 +320,7 @@ TEST_F(CampaignTest, RefusesAFolderOfSomethingElseAndAFileThatIsNoLedger) {
                "this is no database, and it is long enough to look at: no, it is not");
     EXPECT_THROW(run("other"), InputError);
     EXPECT_EQ(read_file(folder_ / "mine/thesis.tex"), "precious");
-    EXPECT_THROW(Ledger::read(folder_ / "nowhere.sqlite"), InputError);
+    EXPECT_THROW(CampaignLedger::read(folder_ / "nowhere.sqlite"), InputError);
 }
 
 TEST_F(CampaignTest, ADamagedPackingIsMadeAgain) {
@@ -341,7 +341,7 @@ TEST_F(CampaignTest, ADamagedPackingIsMadeAgain) {
 TEST_F(CampaignTest, PointsHaveTheMeansOfTheirPackings) {
     write_small_plan(folder_, 4);
     run("out");
-    const LedgerTable results = Ledger::read(ledger_file(folder_ / "out")).results();
+    const LedgerTable results = CampaignLedger::read(ledger_file(folder_ / "out")).results();
     const auto points = summarise(results, {"peak_stress", "youngs_modulus"});
     ASSERT_EQ(points.size(), 4U);
     EXPECT_EQ(points[0].at(), "material.friction_angle = 20");
@@ -361,7 +361,7 @@ TEST_F(CampaignTest, CompanionsGiveEveryMeanItsBias) {
     testing::write_packed_case(folder_ / "tension.toml");
     run("out", 2, {}, true);
     const auto points =
-        summarise(Ledger::read(ledger_file(folder_ / "out")).results(), {"peak_stress", "youngs_modulus"});
+        summarise(CampaignLedger::read(ledger_file(folder_ / "out")).results(), {"peak_stress", "youngs_modulus"});
     ASSERT_EQ(points.size(), 1U);
     EXPECT_EQ(points[0].planned, 3) << "companions are no packings of their own";
     EXPECT_EQ(points[0].figures.at("peak_stress").count, 3U);

@@ -26,7 +26,7 @@ TEST(Estimate, IsOfTheRightSizeBeforeAndOfTheMeasuredTestsAfterwards) {
     CampaignOptions options;
     options.folder = scratch / "out";
     const CampaignOutcome outcome = run_campaign(plan, options);
-    const Ledger ledger = Ledger::read(outcome.ledger);
+    const CampaignLedger ledger = CampaignLedger::read(outcome.ledger);
     const PlanEstimate after = estimate_plan(plan, &ledger);
     EXPECT_TRUE(after.kinds[0].measured && after.kinds[1].measured);
     EXPECT_TRUE(testing::agrees("all tests, as measured", after.seconds, outcome.processor_seconds, 1e-9));

@@ -228,7 +228,7 @@ class EnvelopeOfCampaign : public EnvelopeCommand {
                                        more, packings));
         const Plan plan = read_plan(folder_ / "plan.toml");
         std::filesystem::create_directories(folder_ / "out");
-        Ledger ledger = Ledger::open(ledger_file(folder_ / "out"));
+        CampaignLedger ledger = CampaignLedger::open(ledger_file(folder_ / "out"));
         FileHashes files;
         std::vector<std::string> identities;
         for (const PlanRow& row : plan.rows) identities.push_back(identity_of(plan.test_of(row), files));

@@ -1,18 +1,24 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Cases in Python are those of the command line: the same keys, defaults and refusals."""
+import ast
 import copy
+import inspect
 import math
 import os
 import pickle
+import re
+import shutil
 import subprocess
 import sys
+import tempfile
 import unittest
 from pathlib import Path
 
 import numpy
 
 import crackle
+from crackle import _engine
 from small import CASE, TOP, InScratch, program, small, toml
 
 
@@ -133,9 +139,77 @@ class Importing(unittest.TestCase):
                               capture_output=True, text=True, check=True, env=os.environ).stdout
         self.assertEqual(told.split(), ["False", "False"])
 
+    def test_another_python_is_told_which_is_expected(self):
+        package = Path(crackle.__file__).parent
+        with tempfile.TemporaryDirectory() as folder:
+            shutil.copytree(package, Path(folder) / "crackle", ignore=shutil.ignore_patterns("_engine*.so"))
+            (Path(folder) / "crackle" / "_engine.cpython-399-none.so").touch()
+            told = subprocess.run([sys.executable, "-c", "import crackle"], capture_output=True, text=True, check=False,
+                                  env=os.environ | {"PYTHONPATH": folder})
+        self.assertIn(f"ImportError: crackle: found {sys.executable}, ", told.stderr)
+        self.assertIn("the Python that _engine.cpython-399-none.so was built for", told.stderr)
+
     def test_all_names_are_documented(self):
+        self.assertIn("crackle.test(", crackle.__doc__)
         for name in crackle.__all__:
+            if inspect.isfunction(getattr(crackle, name)):
+                self.assertIn(name, crackle.__doc__)
             self.assertTrue(getattr(crackle, name).__doc__, name)
+            if inspect.isclass(getattr(crackle, name)):
+                for part, value in vars(getattr(crackle, name)).items():
+                    if not part.startswith("_") and (callable(value) or isinstance(value, property)):
+                        self.assertTrue(value.__doc__, f"{name}.{part}")
+
+
+class Stubs(unittest.TestCase):
+    """What editors complete by is what there is."""
+
+    @staticmethod
+    def arguments(function):
+        """Names, of a definition in the stubs."""
+        return [one.arg for one in function.args.args if one.arg != "self"]
+
+    def assert_same_arguments(self, name, stub, function):
+        told = re.match(r"\w+\((.*?)\) -> ", function.__doc__).group(1)
+        names = [one for one in re.findall(r"(?:^|, )(\w+): ", told) if one != "self"]
+        self.assertEqual(self.arguments(stub), names, name)
+
+    def test_name_what_the_engine_has(self):
+        stubs = ast.parse((Path(crackle.__file__).parent / "_engine.pyi").read_text(encoding="utf-8")).body
+        functions = {one.name: one for one in stubs if isinstance(one, ast.FunctionDef)}
+        classes = {one.name: one for one in stubs if isinstance(one, ast.ClassDef)}
+        there = {name: value for name, value in vars(_engine).items() if not name.startswith("_")}
+        self.assertEqual(sorted([*functions, *classes]), sorted(there))
+        for name, stub in functions.items():
+            self.assert_same_arguments(name, stub, there[name])
+        for name, stub in classes.items():
+            own = {part: value for part, value in vars(there[name]).items()
+                   if not part.startswith("_") or part == "__len__"}
+            told = {part.target.id if isinstance(part, ast.AnnAssign) else part.name: part for part in stub.body}
+            told.pop("__init__", None)
+            if name == "World":
+                own["stop"] = None  # never comes back, which the stub says
+            self.assertEqual(sorted(told), sorted(own), name)
+            for part, value in own.items():
+                method = isinstance(told[part], ast.FunctionDef) and not told[part].decorator_list
+                self.assertEqual(method, value is None or callable(value), f"{name}.{part}")
+                if method and value is not None and value.__doc__ and part != "__len__":
+                    self.assert_same_arguments(f"{name}.{part}", told[part], value)
+
+    def test_public_functions_are_annotated(self):
+        for name in crackle.__all__:
+            public = getattr(crackle, name)
+            for function in ([public] if inspect.isfunction(public) else
+                             [value.fget if isinstance(value, property) else value
+                              for part, value in vars(public).items() if part == "__init__" or not part.startswith("_")]
+                             if inspect.isclass(public) and public.__module__ != "crackle._engine" else []):
+                if not inspect.isfunction(function):
+                    continue
+                signature = inspect.signature(function)
+                missing = [one.name for one in signature.parameters.values()
+                           if one.name != "self" and one.annotation is inspect.Parameter.empty]
+                self.assertEqual(missing, [], f"{name}.{function.__name__}")
+                self.assertIsNot(signature.return_annotation, inspect.Signature.empty, f"{name}.{function.__name__}")
 
 
 if __name__ == "__main__":

@@ -3,7 +3,12 @@
 """Commands as functions: the same files and numbers as the command line's, the same options, the same refusals."""
 import inspect
 import json
+import os
+import re
+import signal
 import sqlite3
+import threading
+import time
 import unittest
 from pathlib import Path
 
@@ -11,7 +16,7 @@ import numpy
 
 import crackle
 from crackle import _engine
-from small import CASE, TOP, InScratch, program, small, toml
+from small import CASE, PLAN, ROCK_KEYS, ROCK_KINDS, TOP, InScratch, program, rock_case, small, toml, write_rock
 
 PACKING = dict(count=60, radius_min=0.01333, radius_max=0.02667, mean_overlap=7.74e-5)
 WORDS = ("--count", 60, "--radius-min", 0.01333, "--radius-max", 0.02667, "--mean-overlap", 7.74e-5)
@@ -25,7 +30,7 @@ class Options(unittest.TestCase):
     def test_keywords_are_the_options(self):
         others = {"pack": set(), "mesh": set(), "joints": set(), "elastic": {"bonds", "force"},
                   "test": {"resume", "check"}, "campaign": set(), "calibrate": set(), "envelope": set(),
-                  "plot": {"guide", "format"}, "report": set()}
+                  "plot": {"guide", "format"}, "report": set(), "view": set()}
         for command, left_out in others.items():
             options = {option[0] for option in _engine.options(command)} - OF_A_TERMINAL - left_out
             parameters = inspect.signature(getattr(crackle, command)).parameters
@@ -126,11 +131,51 @@ class Particles(InScratch):
             crackle.mesh("in.dat", kind="none", thick=1e-4, output="out.dat")
         self.assertIn("found there already", str(refused.exception))
 
+    def test_joints_of_a_mesh_are_told_of(self):
+        packed = crackle.pack(**PACKING, output="in.dat")
+        x1, x2, y1, y2 = packed.domain
+        Path("joints.toml").write_text('[[trace]]\nfile = "traces.txt"\n', encoding="utf-8")
+        Path("traces.txt").write_text(f"{x1!r} {0.4 * y2!r} {x2!r} {0.6 * y2!r}\n", encoding="utf-8")
+        words = ("--kind", "delaunay", "--thick", 1e-4, "--joints", "joints.toml")
+        told = program("mesh", "in.dat", *words, "-o", "mesh.dat")
+        self.assertEqual(told.returncode, 0, told.stderr)
+        made = crackle.mesh(packed, kind="delaunay", thick=1e-4, joints="joints.toml")
+        self.assertEqual(made.text(), Path("mesh.dat").read_text())
+        self.assertIn("m of traces are", made.facts["notices"][0])
+        self.assertEqual(told.stdout.splitlines()[-len(made.facts["notices"]):], made.facts["notices"])
+
     def test_ctrl_c_is_heard_while_packing(self):
         def raise_it(kind, text, share):
             raise KeyboardInterrupt
         with self.assertRaises(KeyboardInterrupt):
             crackle.pack(count=20000, radius_min=0.01, radius_max=0.02, mean_overlap=1e-5, progress=raise_it)
+
+    def test_ctrl_c_ends_meshing(self):
+        centres = numpy.random.default_rng(1).random((100_000, 2))
+        begun = []
+
+        def tell(kind, text, share):
+            if kind == "progress" and text.endswith("meshing 100000 centres"):
+                begun.append(time.process_time())
+
+        def seconds(**more):
+            """Of meshing."""
+            begun.clear()
+            try:
+                crackle.mesh(centres, kind="voronoi", thick=0.0, domain=(0, 1, 0, 1), **more)
+            finally:
+                spent = time.process_time() - begun[0]
+            return spent
+        whole = seconds(progress=tell)
+
+        def interrupt(kind, text, share):
+            tell(kind, text, share)
+            if begun:
+                threading.Timer(0.06, os.kill, (os.getpid(), signal.SIGINT)).start()
+        with self.assertRaises(KeyboardInterrupt):
+            seconds(progress=interrupt, output="mesh.dat")
+        self.assertLess(time.process_time() - begun[0], 0.6 * whole)
+        self.assertFalse(Path("mesh.dat").exists())
 
 
 class Solutions(InScratch):
@@ -159,6 +204,12 @@ class Solutions(InScratch):
         self.assertGreater(found["blocks"], 1)
         self.assertEqual(Path("by_python.txt").read_bytes(), Path("by_program.txt").read_bytes())
         self.assertIn("<svg", Path("map.svg").read_text())
+        of_dict = crackle.joints({"include": "specimens/jointed/two_sets.toml", "joints": {"seed": 7}})
+        self.assertEqual(of_dict, found)
+        for of_none in (CASE, toml(CASE)):
+            with self.assertRaises(crackle.InputError) as refused:
+                crackle.joints(of_none)
+            self.assertIn("case: found no [[joint_set]]", str(refused.exception))
         with self.assertRaises(crackle.InputError) as refused:
             crackle.joints("specimens/jointed/two_sets.toml", output="map.svg")
         self.assertIn("found there already", str(refused.exception))
@@ -170,19 +221,6 @@ class Solutions(InScratch):
         self.assertEqual(found.keys(), told.keys())
         for key in ("youngs_modulus", "bonds", "first_break", "strength_estimate", "time_step", "units"):
             self.assertEqual(found[key], told[key], key)
-
-
-PLAN = """
-title = "Two seeds"
-[[test]]
-name = "tension"
-case = "case.toml"
-[[axis]]
-key = "loading.axial_strain_rate"
-values = [0.02, 0.04]
-[packings]
-count = 2
-"""
 
 
 class Tables(InScratch):
@@ -199,8 +237,16 @@ class Tables(InScratch):
         self.assertEqual(sorted(results.peak_stress), sorted(row[0] for row in other))
         self.assertEqual(crackle.read("by_python").query("SELECT count(*) AS n FROM results").n, [4])
         self.assertIn("<svg", found.figure())
-        with self.assertRaises(crackle.InputError):
+        points = found.points("peak_stress", "bonds_broken")
+        self.assertEqual((points.figure, points.test), (["peak_stress", "bonds_broken"] * 2, ["tension"] * 4))
+        self.assertEqual(points["loading.axial_strain_rate"], [0.02, 0.02, 0.04, 0.04])
+        for point in (0, 2):
+            of_point = [stress for stress, rate in zip(results.peak_stress, results["loading.axial_strain_rate"])
+                        if rate == points["loading.axial_strain_rate"][point]]
+            self.assertAlmostEqual(points.mean[point], numpy.mean(of_point), delta=1e-9)
+        with self.assertRaises(crackle.InputError) as refused:
             crackle.campaign("none.toml", "by_python")
+        self.assertFalse(hasattr(refused.exception, "__notes__"))
 
     def test_an_envelope_is_the_programs(self):
         for seed in (1, 2):
@@ -222,6 +268,29 @@ class Tables(InScratch):
         with self.assertRaises(crackle.InputError) as refused:
             crackle.envelope(folders[0])
         self.assertEqual(f"crackle: {refused.exception}\n", program("envelope", folders[0], "--json").stderr)
+
+    def test_a_calibration_is_the_programs(self):
+        # What a laboratory would find of the known rock: the means of the packings that the search fits.
+        solved = [crackle.elastic(rock_case("compression") | {"packing": {**rock_case("compression")["packing"],
+                                                                          "seed": seed}}) for seed in range(1, 5)]
+        write_rock({figure: float(numpy.mean([one[figure] for one in solved]))
+                    for figure in ("youngs_modulus", "poissons_ratio")})
+        found = crackle.calibrate("rock.toml", "by_python", workers=2)
+        told = program("calibrate", "rock.toml", "-o", "by_program", "--workers", 2)
+        self.assertIn(told.returncode, (0, 1), told.stderr)
+        self.assertEqual(sorted(found.cases), sorted(ROCK_KINDS))
+        written = ["rock.toml", *(f"cases/{kind}.toml" for kind in ROCK_KINDS)]
+        for name in written:
+            self.assertEqual(Path("by_python", name).read_bytes(), Path("by_program", name).read_bytes(), name)
+        tables = [re.sub(r"\([^()]* of a processor\)", "", Path(folder, "calibration.txt").read_text())
+                  for folder in ("by_python", "by_program")]
+        self.assertEqual(*tables)
+        for key, value in ROCK_KEYS.items():
+            reached = next(one for one in found.outcome["keys"] if one["key"] == key)
+            self.assertAlmostEqual(reached["value"] / value, 1.0, delta=0.01, msg=key)
+        self.assertEqual(crackle.read_case(found.cases["tension"]).kind, "tension")
+        self.assertIn("<html", found.page())
+        self.assertEqual(crackle.read("by_python").outcome, found.outcome)
 
     def test_a_calibration_is_refused_as_the_program_does(self):
         Path("rock.toml").write_text("title = 'none'\n", encoding="utf-8")

@@ -92,6 +92,17 @@ class Results(InScratch):
         crackle.report(self.result, output="page.html", title="One test")
         self.assertIn("crackle report", Path("page.html").read_text()[:200])
 
+    def test_particles_show_themselves(self):
+        packed = crackle.pack(count=60, radius_min=0.01, radius_max=0.02, mean_overlap=1e-5)
+        meshed = crackle.mesh(packed, kind="voronoi", thick=1e-4)
+        for shown in (packed, meshed):
+            self.assertIn("iframe srcdoc", shown._repr_html_())
+        crackle.view(packed, meshed, self.result, output="view.html", title="Three")
+        self.assertIn('"title":"Three"', Path("view.html").read_text())
+        with self.assertRaises(crackle.InputError) as refused:
+            crackle.plot(packed, output="figure.svg")
+        self.assertIn("results: found a Particles", str(refused.exception))
+
     def test_what_is_read_is_what_lies_there(self):
         self.assertIsInstance(crackle.read(self.result.folder), crackle.Result)
         packed = crackle.pack(count=60, radius_min=0.01, radius_max=0.02, mean_overlap=1e-5, output="in_gm.dat")

@@ -18,7 +18,7 @@ from pathlib import Path
 import numpy
 
 import crackle
-from small import CASE, TOP, InScratch, program, small, toml
+from small import CASE, PLAN, TOP, InScratch, program, small, toml, write_rock
 
 
 class SameBytes(InScratch):
@@ -68,8 +68,9 @@ class SameBytes(InScratch):
         def stop_half_way(state):
             if state.axial_strain > 0.0003:
                 raise KeyboardInterrupt
-        with self.assertRaises(KeyboardInterrupt):
+        with self.assertRaises(KeyboardInterrupt) as raised:
             crackle.test(CASE, "by_python", call=stop_half_way)
+        self.assertIn("kept in by_python: crackle.read reads it, crackle.resume goes on", str(raised.exception))
         self.assertTrue(crackle.read("by_python").summary["interrupted"])
         result = crackle.resume("by_python")
         self.assertFalse(result.summary["interrupted"])
@@ -98,7 +99,7 @@ class SameBytes(InScratch):
         with self.assertRaises(KeyboardInterrupt) as raised:
             crackle.test(CASE, call=stop_half_way)
         folder, = Path().glob("crackle-*/test")
-        self.assertIn(str(folder.resolve()), raised.exception.__notes__[0])
+        self.assertIn(str(folder.resolve()), str(raised.exception))
         self.assertTrue(crackle.read(folder).summary["interrupted"])
         self.assertFalse(crackle.resume(folder).summary["interrupted"])
         self.assert_same_results("by_program", folder)
@@ -284,11 +285,12 @@ from small import small
 crackle.test(small(packing={{"count": 300}}))
 """
 
-    def test_a_terminal_shows_a_line_that_is_gone_in_the_end(self):
+    def on_a_terminal(self, script):
+        """What a terminal is sent while a script runs."""
         pid, terminal = os.forkpty()
         if pid == 0:
             os.environ["TERM"] = "xterm"
-            os.execv(sys.executable, [sys.executable, "-c", self.SCRIPT])
+            os.execv(sys.executable, [sys.executable, "-c", script])
         shown = b""
         try:
             while chunk := os.read(terminal, 4096):
@@ -296,8 +298,37 @@ crackle.test(small(packing={{"count": 300}}))
         except OSError:  # the other end is closed
             pass
         self.assertEqual(os.waitstatus_to_exitcode(os.waitpid(pid, 0)[1]), 0, shown)
-        self.assertIn(b"unbalanced by", shown)
         self.assertTrue(shown.endswith(b"\r\x1b[K"), shown[-80:])
+        return shown
+
+    def test_a_terminal_shows_a_line_that_is_gone_in_the_end(self):
+        self.assertIn(b"unbalanced by", self.on_a_terminal(self.SCRIPT))
+
+    def test_a_terminal_shows_how_far_tables_of_tests_are(self):
+        Path("case.toml").write_text(toml(small(loading={"max_axial_strain": 1e-4})), encoding="utf-8")
+        Path("plan.toml").write_text(PLAN, encoding="utf-8")
+        shown = self.on_a_terminal("import crackle; crackle.campaign('plan.toml', 'out', workers=1)")
+        self.assertIn(b"  0 %  ", shown)
+        self.assertIn(b"0 of 4 done, 0 gone wrong", shown)
+        write_rock({"youngs_modulus": 1.4e10, "poissons_ratio": 0.25})
+        shown = self.on_a_terminal("import crackle; crackle.calibrate('rock.toml', 'calibrated', workers=1)")
+        self.assertIn(b"round 1: its middle on 4 packings", shown)
+        self.assertIn(b"tests/s", shown)
+
+    def test_tables_of_tests_report_to_a_callable(self):
+        Path("case.toml").write_text(toml(small(loading={"max_axial_strain": 1e-4})), encoding="utf-8")
+        Path("plan.toml").write_text(PLAN, encoding="utf-8")
+        told = []
+        crackle.campaign("plan.toml", "out", workers=1, progress=lambda *one: told.append(one))
+        self.assertEqual(told[0][:2], ("stage", "4 tests of 2 points with 2 packings, 1 workers"))
+        shares = [share for kind, _, share in told if kind == "progress"]
+        self.assertEqual((shares[0], sorted(shares)), (0.0, shares))
+
+        def fail(kind, text, share):
+            raise ArithmeticError("of the report")
+        with self.assertRaises(ArithmeticError) as raised:
+            crackle.campaign("plan.toml", "again", workers=1, progress=fail)
+        self.assertIn("what was run is kept in again", raised.exception.__notes__[0])
 
     def test_a_pipe_shows_nothing(self):
         done = subprocess.run([sys.executable, "-c", self.SCRIPT], capture_output=True, check=False)
@@ -378,6 +409,45 @@ except KeyboardInterrupt:
     print("heard", world.steps - before, flush=True)
 """)
         self.assertEqual((code, out.splitlines()[-1]), (0, "heard 10"), err)
+
+    TELL = """
+def tell(kind, text, share):
+    if kind == "progress" and share > 0:
+        print("running", flush=True)
+"""
+
+    def test_ctrl_c_ends_a_campaign_that_the_same_call_goes_on_with(self):
+        Path("case.toml").write_text(toml(CASE), encoding="utf-8")
+        Path("plan.toml").write_text(PLAN.replace("count = 2", "count = 30"), encoding="utf-8")
+        code, out, err = self.interrupted(self.TELL + """
+try:
+    crackle.campaign("plan.toml", "out", workers=1, progress=tell)
+except KeyboardInterrupt as interrupt:
+    print("heard", interrupt, flush=True)
+""")
+        self.assertEqual(code, 0, err)
+        self.assertEqual(out.splitlines()[-1], "heard what was run is kept in out: the same call goes on")
+        self.assertEqual(err, "")
+        before = sum(state is not None for state in crackle.read("out").results.state)
+        self.assertGreater(before, 0)
+        self.assertLess(before, 60)
+        told = []
+        results = crackle.campaign("plan.toml", "out", workers=2, progress=lambda *one: told.append(one)).results
+        self.assertNotIn(None, results.state)
+        self.assertEqual(next(share for kind, _, share in told if kind == "progress"), before / 60)
+
+    def test_ctrl_c_ends_a_calibration_that_the_same_call_goes_on_with(self):
+        write_rock({"youngs_modulus": 1.4e10, "poissons_ratio": 0.25})
+        code, out, err = self.interrupted(self.TELL + """
+try:
+    crackle.calibrate("rock.toml", "out", workers=1, progress=tell)
+except KeyboardInterrupt as interrupt:
+    print("heard", interrupt, flush=True)
+""")
+        self.assertEqual(code, 0, err)
+        self.assertIn("heard what was run is kept in out", out.splitlines()[-1])
+        self.assertFalse(Path("out/calibration.json").exists())
+        self.assertEqual(len(crackle.calibrate("rock.toml", "out").outcome["keys"]), 2)
 
     def test_other_threads_run_while_a_test_does(self):
         ticks = []

@@ -31,6 +31,48 @@ def small(**tables):
     return case
 
 
+# Two rates on two packings.
+PLAN = """
+title = "Two seeds"
+[[test]]
+name = "tension"
+case = "case.toml"
+[[axis]]
+key = "loading.axial_strain_rate"
+values = [0.02, 0.04]
+[packings]
+count = 2
+"""
+
+# A rock of a hundred circles whose keys are known, and the kinds of its tests.
+ROCK_KEYS = {"material.contact_modulus": 2e10, "material.stiffness_ratio": 2.5}
+ROCK_KINDS = {"compression": 0.03, "tension": 0.008}
+
+
+def rock_case(kind):
+    return {"packing": {"count": 100, "radius_min": 1.0e-3, "radius_max": 1.66e-3, "mean_overlap": 2.0e-6},
+            "material": {"density": 2600.0, "units": "area", "contact_modulus": 2e10, "stiffness_ratio": 2.5,
+                         "friction_angle": 30.0, "residual_friction_angle": 20.0, "tensile_strength": 1e7,
+                         "cohesion": 2e7, "damping_ratio": 0.2},
+            "bond": {"law": "coulomb", "range": 0.1, "strength_distribution": "weibull", "strength_cv": 0.3,
+                     "strength_seed": 1},
+            "loading": {"kind": kind, "max_axial_strain": ROCK_KINDS[kind]}}
+
+
+def write_rock(targets):
+    """compression.toml, tension.toml, and rock.toml with targets of the compression and the elastic keys free."""
+    for kind in ROCK_KINDS:
+        Path(kind + ".toml").write_text(toml(rock_case(kind)), encoding="utf-8")
+    lines = ['title = "Circles"']
+    lines += [f'[[test]]\ncase = "{kind}.toml"' for kind in ROCK_KINDS]
+    lines += [f'[[target]]\ntest = "compression"\nfigure = "{figure}"\nvalue = {value!r}\ntolerance = 0.01'
+              for figure, value in targets.items()]
+    lines += ['[[free]]\nkey = "material.contact_modulus"\nfrom = 2e9\nto = 2e11',
+              '[[free]]\nkey = "material.stiffness_ratio"\nfrom = 1\nto = 10',
+              "[packings]\nfit = 4\npolish = 4\nfresh = 4"]
+    Path("rock.toml").write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
 def toml(case):
     lines = [f"{key} = {value!r}".replace("'", '"') for key, value in case.items() if not isinstance(value, dict)]
     for table, keys in case.items():

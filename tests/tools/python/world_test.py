@@ -295,6 +295,7 @@ class Changes(InScratch):
 
     def test_notices_of_the_specimen_are_there(self):
         world = crackle.World(CASE)
+        self.assertEqual(repr(world), "<crackle.World: 62 bodies, 0 of 97 bonds broken, 0 steps>")
         self.assertEqual(len(world.notices), 1)
         self.assertIn("inertia and dashpots bear part of the stress", world.notices[0])
         world.platen_speed = 0.5 * world.platen_speed
@@ -343,6 +344,7 @@ class Changes(InScratch):
                 world.bodies
             except RuntimeError as error:
                 self.assertIn("another thread is stepping", str(error))
+                self.assertIn("crackle.World: ", repr(world))
                 refused += 1
             time.sleep(0.001)
         thread.join()

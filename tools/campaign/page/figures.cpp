@@ -132,7 +132,7 @@ bool is_campaign(const fs::path& folder) { return is_folder(folder) && is_file(l
 
 CampaignRecord read_campaign(const fs::path& folder, const std::vector<std::string>& figures,
                              const std::vector<std::string>& tests) {
-    const Ledger ledger = Ledger::read(ledger_file(folder));
+    const CampaignLedger ledger = CampaignLedger::read(ledger_file(folder));
     CampaignRecord record;
     record.folder = folder;
     record.title = ledger.meta("title");

@@ -1,11 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Cases from dicts, TOML texts and files; where shipped files are."""
+from __future__ import annotations
+
 import json
 import math
 import os
+from typing import TYPE_CHECKING
 
 from . import _engine
 from ._errors import InputError
+
+if TYPE_CHECKING:
+    from ._tests import _Case, _Path
 
 
 def _shipped_folder():
@@ -21,7 +27,7 @@ def _shipped_folder():
     return None
 
 
-def given_or_shipped(path):
+def given_or_shipped(path: _Path) -> str:
     """The path; one that begins with "specimens/" and is not there leads to the shipped file of that name."""
     path = os.fspath(path)
     if os.path.exists(path) or not path.startswith("specimens/"):
@@ -66,29 +72,38 @@ def _is_text(case):
     return "\n" in case or ("=" in case and not case.endswith(".toml") and not os.path.exists(case))
 
 
-def read_case(case):
+def read_case(case: _Case) -> _engine.Case:
     """The case, read and checked.
 
     case: a dict of tables (None leaves a key out), a TOML text (with a line's end or "="), or the path of a file. Keys,
     units and defaults are those of `crackle test --keys`. An `include` of a dict or text is relative to the present
     folder; shipped cases are found as "specimens/...". Raises InputError with where, key, found and expected.
     """
+    return _read(case, _engine.read_case_text, _engine.read_case_file)
+
+
+def read_joints(case: _Case) -> _engine.Case:
+    """The joints of a case, or of what holds nothing else."""
+    return _read(case, _engine.read_joints_text, _engine.read_joints_file)
+
+
+def _read(case, of_text, of_file):
     if isinstance(case, _engine.Case):
         return case
     if isinstance(case, dict):
         tables = _plain(case, "")
         if isinstance(tables.get("include"), str):
             tables["include"] = given_or_shipped(tables["include"])
-        return _engine.read_case_text(json.dumps(tables, ensure_ascii=False), "case", True)
+        return of_text(json.dumps(tables, ensure_ascii=False), "case", True)
     if isinstance(case, str) and not case:
         raise InputError("case: found an empty text, expected a dict, a TOML text or the path of a file")
     if isinstance(case, str) and _is_text(case):
-        return _engine.read_case_text(case, "case", False)
+        return of_text(case, "case", False)
     if isinstance(case, (str, os.PathLike)):
-        return _engine.read_case_file(given_or_shipped(case))
+        return of_file(given_or_shipped(case))
     raise InputError(f"case: found a {type(case).__name__}, expected a dict, a TOML text or the path of a file")
 
 
-def case_keys():
+def case_keys() -> str:
     """All keys of a case with unit, default, range and a sentence: the text of `crackle test --keys`."""
     return _engine.case_keys()

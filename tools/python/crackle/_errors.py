@@ -1,6 +1,17 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Failures, with the messages of the command line."""
+from __future__ import annotations
+
 import re
+
+
+def tell(error: BaseException, text: str) -> None:
+    """Adds a text to an exception: as its message where it is a bare Ctrl-C, for not every notebook shows notes."""
+    if isinstance(error, KeyboardInterrupt) and not error.args:
+        error.args = (text,)
+    else:
+        error.add_note(text)
+
 
 _END = r"(?:, expected (?P<expected>[^;]*))?(?:; (?P<remedy>.*))?"
 _FORMS = (
@@ -25,7 +36,7 @@ class InputError(ValueError):
     "case"), key ("material.cohesion", "--count"), found, expected, remedy.
     """
 
-    def _part(self, name):
+    def _part(self, name: str) -> str | None:
         for form in _FORMS:
             match = form.fullmatch(str(self))
             if match is not None:
@@ -35,15 +46,34 @@ class InputError(ValueError):
         parts = {part: text or None for part, text in match.groupdict().items()}
         alone = parts["where"] if parts["key"] is None else None  # one beginning: a place, a key, or an option
         if alone is not None and form is _FORMS[0]:
-            if not (_PLACE.fullmatch(alone) or _OF_A_PLACE.fullmatch(parts["found"])):
+            if not (_PLACE.fullmatch(alone) or _OF_A_PLACE.fullmatch(parts["found"] or "")):
                 parts["key"], parts["where"] = alone, None
         return parts[name]
 
-    where = property(lambda self: self._part("where"), doc="file and line, or what stands for the file")
-    key = property(lambda self: self._part("key"), doc="the key or option")
-    found = property(lambda self: self._part("found"), doc="what was found")
-    expected = property(lambda self: self._part("expected"), doc="what was expected")
-    remedy = property(lambda self: self._part("remedy"), doc="what to do")
+    @property
+    def where(self) -> str | None:
+        """File and line, or what stands for the file."""
+        return self._part("where")
+
+    @property
+    def key(self) -> str | None:
+        """The key or option."""
+        return self._part("key")
+
+    @property
+    def found(self) -> str | None:
+        """What was found."""
+        return self._part("found")
+
+    @property
+    def expected(self) -> str | None:
+        """What was expected."""
+        return self._part("expected")
+
+    @property
+    def remedy(self) -> str | None:
+        """What to do."""
+        return self._part("remedy")
 
 
 class OutputError(InputError):
@@ -56,5 +86,5 @@ class UnstableRun(RuntimeError):
     Attributes: step (steps done), body (id). What was written until then is kept.
     """
 
-    step = None
-    body = None
+    step: int | None = None
+    body: int | None = None

@@ -28,8 +28,8 @@ class _Line:
             _tell_notice(text)
             return
         if kind in ("work", "progress"):
-            columns = os.get_terminal_size(sys.stderr.fileno()).columns - 1 if sys.stderr.isatty() else 79
-            sys.stderr.write("\r\x1b[K" + text[:columns])
+            columns = os.get_terminal_size(sys.stderr.fileno()).columns if sys.stderr.isatty() else 0
+            sys.stderr.write("\r\x1b[K" + text[:(columns or 80) - 1])  # of a terminal without a size 0
             sys.stderr.flush()
 
     def close(self):

@@ -1,14 +1,20 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Results in their folders: tests, campaigns, calibrations, decks' runs, particle files."""
+from __future__ import annotations
+
 import html
 import json
 import os
 import weakref
+from typing import TYPE_CHECKING, Any
 
 from . import _engine
 from ._case import given_or_shipped
 from ._commands import words_of
 from ._errors import InputError
+
+if TYPE_CHECKING:
+    from ._tests import _Path
 
 
 # What few calls need is imported by them: an import of crackle is to cost a tenth of a second at most.
@@ -17,7 +23,7 @@ from ._errors import InputError
 class Table(dict):
     """Columns by name, arrays of numpy or lists: table["axial_stress"], table.axial_stress; pandas.DataFrame(table)."""
 
-    def __getattr__(self, name):
+    def __getattr__(self, name: str) -> Any:
         try:
             return self[name]
         except KeyError:
@@ -41,8 +47,8 @@ class Table(dict):
         return f"<table><thead><tr>{names}</tr></thead><tbody>{body}</tbody></table>{rest}"
 
 
-def _run(command, operands, options):
-    return _engine.run_command(command, words_of(options) + ["--"] + [os.fspath(one) for one in operands])
+def _run(command, operands, options, report=None):
+    return _engine.run_command(command, words_of(options) + ["--"] + [os.fspath(one) for one in operands], report)
 
 
 def _figure_text(command, operands, options):
@@ -58,6 +64,16 @@ def _page_text(folder):
     scratch = Temporary()
     output = os.path.join(scratch.name, "page.html")
     _run("report", [folder], {"output": output})
+    with open(output, encoding="utf-8") as file:
+        return file.read()
+
+
+def _particles_page(particles):
+    """Of Particles, by `crackle view`."""
+    scratch = Temporary()
+    shown, output = os.path.join(scratch.name, "particles.dat"), os.path.join(scratch.name, "page.html")
+    particles.write(shown)
+    _run("view", [shown], {"output": output, "title": f"{len(particles)} bodies"})
     with open(output, encoding="utf-8") as file:
         return file.read()
 
@@ -89,6 +105,9 @@ class Temporary:
         self._removal.detach()
 
 
+setattr(_engine.Particles, "_repr_html_", lambda self: _frame_of(_particles_page(self), 500))
+
+
 class Recording:
     """Particles in motion: cells, their bonds, and frame by frame where they are and what acts.
 
@@ -98,27 +117,31 @@ class Recording:
     frames: list of dicts: time (s), axial_strain, axial_stress, step, roles ("start", "peak", "end"), file.
     """
 
-    def __init__(self, recording):
+    def __init__(self, recording: _engine.Recording) -> None:
         self._recording = recording
-        self._cells = self._bonds = None
+        self._cells: Table | None = None
+        self._bonds: Table | None = None
 
     @property
-    def cells(self):
+    def cells(self) -> Table:
+        """Columns, a row a cell."""
         if self._cells is None:
             self._cells = Table(self._recording.cells)
         return self._cells
 
     @property
-    def bonds(self):
+    def bonds(self) -> Table:
+        """Columns, a row a bond."""
         if self._bonds is None:
             self._bonds = Table(self._recording.bonds)
         return self._bonds
 
     @property
-    def frames(self):
+    def frames(self) -> list[dict[str, Any]]:
+        """What each frame is of."""
         return self._recording.frames
 
-    def frame(self, which):
+    def frame(self, which: int | str) -> Table:
         """Table of arrays of a frame, by number, or by role: "start", "peak", "end".
 
         By cell: ux, uy (m, since the first frame), angle (rad), vx, vy (m/s), rotation_rate (rad/s), stress_xx,
@@ -141,39 +164,53 @@ class Result:
     engine's memory, read-only; None where the test has none), recording (cells and frames).
     """
 
-    def __init__(self, folder, *, temporary=None):
+    def __init__(self, folder: _Path, *, temporary: Temporary | None = None) -> None:
         self.folder = os.fspath(folder)
         self._temporary = temporary  # the folder goes with this object
         self._results = _engine.read_results(self.folder)
-        self.summary = json.loads(self._results.summary)
-        self._tables = {}
-        self._recording = None
+        self.summary: dict[str, Any] = json.loads(self._results.summary)
+        self._tables: dict[str, Table | None] = {}
+        self._recording: Recording | None = None
 
-    def _table(self, name):
+    def _table(self, name: str) -> Any:
         if name not in self._tables:
             columns = getattr(self._results, name)
             self._tables[name] = None if columns is None else Table(columns)
         return self._tables[name]
 
-    curve = property(lambda self: self._table("curve"), doc="curve.csv: `crackle test --files` lists its columns")
-    events = property(lambda self: self._table("events"), doc="events.csv, `mode` 1 for shear, 0 for tension")
-    slips = property(lambda self: self._table("slips"), doc="slips.csv, or None")
-    emission = property(lambda self: self._table("emission"),
-                        doc="ae.csv, `type` 0 to 3 for opening, shear, closing, none; or None")
+    @property
+    def curve(self) -> Table:
+        """curve.csv: `crackle test --files` lists its columns with their units."""
+        return self._table("curve")
 
     @property
-    def recording(self):
+    def events(self) -> Table:
+        """events.csv, a row a bond break; `mode` 1 for shear, 0 for tension."""
+        return self._table("events")
+
+    @property
+    def slips(self) -> Table | None:
+        """slips.csv, or None."""
+        return self._table("slips")
+
+    @property
+    def emission(self) -> Table | None:
+        """ae.csv, `type` 0 to 3 for opening, shear, closing, none; or None."""
+        return self._table("emission")
+
+    @property
+    def recording(self) -> Recording:
         """Its cells and frames (Recording)."""
         if self._recording is None:
             self._recording = Recording(_engine.read_recording(self.folder))
         return self._recording
 
-    def figure(self, *what, **options):
+    def figure(self, *what: str, **options: Any) -> str:
         """Text of an SVG figure, by `crackle plot`: what = "curve", "ae", "emission", "strain", "specimen" (default:
         curve and specimen); options as of plot()."""
         return _figure_text("plot", [self.folder], {**options, "what": list(what) or ["curve", "specimen"]})
 
-    def page(self):
+    def page(self) -> str:
         """Text of the interactive page, by `crackle report`."""
         return _page_text(self.folder)
 
@@ -198,19 +235,43 @@ class Result:
         return f"<crackle.Result: {self._line()}>"
 
 
-class Campaign:
-    """A campaign's folder: results (Table, a row a test), points (Table, a row a point and figure)."""
+def _numbers(column):
+    """Of a column of texts, where all of it are numbers or nothing; else the texts."""
+    try:
+        return [float(one or "nan") for one in column]
+    except ValueError:
+        return column
 
-    def __init__(self, folder):
+
+class Campaign:
+    """A campaign's folder: results (Table, a row a test), points() (Table, a row a point and figure), query(sql)."""
+
+    def __init__(self, folder: _Path) -> None:
         self.folder = os.fspath(folder)
         self.ledger = os.path.join(self.folder, "campaign.sqlite")
 
     @property
-    def results(self):
+    def results(self) -> Table:
         """The view `results` of campaign.sqlite, a row a test."""
         return self.query("SELECT * FROM results")
 
-    def query(self, sql):
+    def points(self, *figures: str) -> Table:
+        """What the packings of each point say, by `crackle campaign show --csv`: a row a point and figure.
+
+        figures: of summary.json, by default modulus, Poisson's ratio, strength and its strain. Columns: test, the axes,
+        planned, done, gone_wrong, not_failed, figure, unit, packings, mean, standard_deviation, standard_error, low_95,
+        high_95, and with companions what step and rate shift the mean by; nan where there is no number.
+        """
+        import csv
+        import io
+
+        _, text = _run("campaign show", [self.folder], {"csv": True, "figure": list(figures) or None})
+        names, *rows = csv.reader(io.StringIO(text, newline=""))
+        texts = {"test", "figure", "unit"}
+        return Table({name: [row[k] for row in rows] if name in texts else _numbers([row[k] for row in rows])
+                      for k, name in enumerate(names)})
+
+    def query(self, sql: str) -> Table:
         """Table of what an SQL query of campaign.sqlite gives."""
         import sqlite3
 
@@ -220,11 +281,11 @@ class Campaign:
             rows = cursor.fetchall()
         return Table({name: [row[k] for row in rows] for k, name in enumerate(names)})
 
-    def figure(self, **options):
+    def figure(self, **options: Any) -> str:
         """Text of an SVG figure, by `crackle plot`; options as of plot()."""
         return _figure_text("plot", [self.folder], options)
 
-    def page(self):
+    def page(self) -> str:
         """Text of the page, by `crackle report`."""
         return _page_text(self.folder)
 
@@ -238,17 +299,18 @@ class Campaign:
 class Calibration:
     """A calibration's folder: outcome (dict: calibration.json), cases (paths by test)."""
 
-    def __init__(self, folder):
+    def __init__(self, folder: _Path) -> None:
         self.folder = os.fspath(folder)
         with open(os.path.join(self.folder, "calibration.json"), encoding="utf-8") as file:
-            self.outcome = json.load(file)
+            self.outcome: dict[str, Any] = json.load(file)
 
     @property
-    def cases(self):
+    def cases(self) -> dict[str, str]:
+        """Paths of the cases that it ends with, by test."""
         folder = os.path.join(self.folder, "cases")
         return {name[:-5]: os.path.join(folder, name) for name in sorted(os.listdir(folder)) if name.endswith(".toml")}
 
-    def page(self):
+    def page(self) -> str:
         """Text of calibration.html."""
         with open(os.path.join(self.folder, "calibration.html"), encoding="utf-8") as file:
             return file.read()
@@ -260,16 +322,16 @@ class Calibration:
         return f"<crackle.Calibration: {self.folder}>"
 
 
-def read(path):
+def read(path: _Path) -> Result | Campaign | Calibration | Recording | _engine.Particles:
     """What a path holds: Result of a test's folder, Campaign, Calibration, Recording of a deck's run, Particles of a
     particle file. Raises InputError where it is none."""
-    path = given_or_shipped(path)
-    if os.path.isfile(path):
-        return _engine.read_particles(path)
-    if os.path.isfile(os.path.join(path, "calibration.json")):
-        return Calibration(path)
-    if os.path.isfile(os.path.join(path, "campaign.sqlite")):
-        return Campaign(path)
-    if os.path.isfile(os.path.join(path, "summary.json")):
-        return Result(path)
-    return Recording(_engine.read_recording(path))
+    there = given_or_shipped(path)
+    if os.path.isfile(there):
+        return _engine.read_particles(there)
+    if os.path.isfile(os.path.join(there, "calibration.json")):
+        return Calibration(there)
+    if os.path.isfile(os.path.join(there, "campaign.sqlite")):
+        return Campaign(there)
+    if os.path.isfile(os.path.join(there, "summary.json")):
+        return Result(there)
+    return Recording(_engine.read_recording(there))

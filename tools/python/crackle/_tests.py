@@ -8,9 +8,9 @@ import os
 from typing import TYPE_CHECKING, Any
 
 from . import _engine
-from ._case import given_or_shipped, read_case
+from ._case import given_or_shipped, read_case, read_joints
 from ._commands import words_of
-from ._errors import InputError
+from ._errors import InputError, tell
 from ._progress import reporting
 from ._results import Calibration, Campaign, Result, Temporary, _run
 
@@ -57,7 +57,7 @@ def mesh(particles: _engine.Particles | _Path | Sequence[Sequence[float]], *, ki
          joints: _Path | None = None, domain: Sequence[float] | None = None, bounding_box: bool = False,
          density: float | None = None, normal_stiffness: float | None = None,
          shear_stiffness: float | None = None, friction_angle: float | None = None, output: _Path | None = None,
-         force: bool = False) -> _engine.Particles:
+         force: bool = False, progress: _Progress = None) -> _engine.Particles:
     """Makes polygons of the centres of circles, as `crackle mesh`.
 
     particles: Particles, the path of a particle file, or a sequence of centres x, y (m; with domain = (x1, x2, y1, y2)
@@ -67,7 +67,7 @@ def mesh(particles: _engine.Particles | _Path | Sequence[Sequence[float]], *, ki
 
     Returns Particles; with output the file is written, too.
     """
-    inputs = []
+    inputs: list[str] = []
     if joints is not None:
         joints = given_or_shipped(joints)
         inputs = _engine.files_of_joints(joints) if output is not None else []
@@ -90,25 +90,28 @@ def mesh(particles: _engine.Particles | _Path | Sequence[Sequence[float]], *, ki
                    domain=None if domain is None else [float(one) for one in domain], bounding_box=bounding_box,
                    density=density, normal_stiffness=normal_stiffness, shear_stiffness=shear_stiffness,
                    friction_angle=friction_angle)
-    made = _engine.mesh(name, text, words_of(options))
+    with reporting(progress) as report:
+        made = _engine.mesh(name, text, words_of(options), report)
     if output is not None:
         made.write(os.fspath(output), force)
     return made
 
 
-def joints(case: _Path, *, seed: int | None = None, box_width: float | None = None, box_height: float | None = None,
+def joints(case: _Case, *, seed: int | None = None, box_width: float | None = None, box_height: float | None = None,
            traces: _Path | None = None, output: _Path | None = None, columns: int | None = None,
            width: float | None = None, font: str | None = None, font_size: float | None = None, dpi: int | None = None,
            title: str | None = None, force: bool = False) -> dict[str, Any]:
     """Traces of joints in the box of a specimen, asked for and reached, as `crackle joints --json`.
 
-    case: a file of joints, or of a case that has some; seed: in place of joints.seed; box_width, box_height: of the
-    box, m, where the case has none. traces: a file to write, a trace a line (x1 y1 x2 y2 ..., m); output: a figure to
-    write, .svg, .pdf or .png, width in mm. Returns a dict, its own units within.
+    case: a case that has joints, or a dict, a TOML text or a file of nothing else; seed: in place of joints.seed;
+    box_width, box_height: of the box, m, where the case has none. traces: a file to write, a trace a line (x1 y1 x2 y2
+    ..., m); output: a figure to write, .svg, .pdf or .png, width in mm. Returns a dict, its own units within.
     """
     options = dict(seed=seed, box_width=box_width, box_height=box_height, traces=traces, output=output, columns=columns,
                    width=width, font=font, font_size=font_size, dpi=dpi, title=title, force=force, json=True)
-    _, text = _run("joints", [given_or_shipped(case)], options)
+    path = given_or_shipped(case) if isinstance(case, (str, os.PathLike)) else ""
+    name = path if os.path.exists(path) else "case"
+    _, text = _engine.run_joints(read_joints(case), name, words_of(options))
     return json.loads(text)
 
 
@@ -124,8 +127,8 @@ class Elastic(dict):
     for), break_strain, slip_strain (inf: never); notices: a list of what to know, such as what it leaves out of the
     case."""
 
-    bonds = None
-    notices = ()
+    bonds: Any = None
+    notices: Sequence[str] = ()
 
 
 def elastic(case: _Case, *, strain: float = 1e-4, modes: int = 0, progress: _Progress = None) -> Elastic:
@@ -184,7 +187,7 @@ def test(case: _Case, output: _Path | None = None, *, force: bool = False, verif
     """Runs one virtual test, as `crackle test CASE -o OUT`, to the same bytes.
 
     case: a dict, a TOML text or the path of a file. output: folder for the results; None: a folder that goes with the
-    Result, but stays where the test is not run to its end (a note of the exception names it). force: replace results
+    Result, but stays where the test is not run to its end (the exception names it). force: replace results
     that are there; verify: run the companions, too, for the errors of strength and strain; profile: time the phases of
     a step; threads: no result depends on them; long: run it although it takes more than a day; allow_unstable: accept a
     time step above the stable bound.
@@ -196,7 +199,7 @@ def test(case: _Case, output: _Path | None = None, *, force: bool = False, verif
 
     Returns Result. Raises InputError, UnstableRun (results up to there are kept), KeyboardInterrupt.
     """
-    every = _every(every)
+    steps = _every(every)
     asked = read_case(case)
     temporary = None
     if output is None:
@@ -206,12 +209,14 @@ def test(case: _Case, output: _Path | None = None, *, force: bool = False, verif
     options.command = "crackle.test"
     try:
         with reporting(progress) as report:
-            folder, _, _ = _engine.run_test(asked, options, bool(allow_unstable), report, call, every)
+            folder, _, _ = _engine.run_test(asked, options, bool(allow_unstable), report, call, steps)
     except BaseException as error:
-        if temporary is not None and os.path.isfile(os.path.join(output, "case.toml")):  # the run had begun
+        begun = os.path.isfile(os.path.join(output, "case.toml"))
+        if temporary is not None and begun:
             temporary.keep()
-            error.add_note(f"what was written is kept in {output}: crackle.read reads it, crackle.resume goes on "
-                           "with a test that was interrupted")
+        if begun and (temporary is not None or isinstance(error, KeyboardInterrupt)):
+            tell(error, f"what was written is kept in {os.fspath(output)}: crackle.read reads it, crackle.resume goes "
+                        "on with a test that was interrupted")
         raise
     return Result(folder, temporary=temporary)
 
@@ -228,29 +233,58 @@ def resume(folder: _Path, *, verify: bool = False, threads: int | None = None, l
 
 
 def campaign(plan: _Path, output: _Path, *, workers: int | None = None, verify: bool = False, retry: bool = False,
-             shard: str | tuple[int, int] | None = None, long: bool = False) -> Campaign:
+             shard: str | tuple[int, int] | None = None, long: bool = False, progress: _Progress = None) -> Campaign:
     """Runs a table of tests on several processors, as `crackle campaign PLAN -o DIR`. Stopped at any moment, the same
-    call goes on. shard: (I, N), share I of N. Returns Campaign."""
+    call goes on.
+
+    plan: path of a TOML file (`crackle campaign --keys` lists its keys). workers: processes that run tests; by default
+    one a processor. verify: run each test at half the step and half the rate, too; retry: run those again that have
+    gone wrong; shard: (I, N), run share I of N; long: run tests although they take more than a day.
+
+    Returns Campaign. Raises InputError, KeyboardInterrupt (what has been run is kept).
+    """
     if shard is not None and not isinstance(shard, str):
         shard = f"{shard[0]}/{shard[1]}"
     options = dict(output=os.fspath(output), workers=workers, verify=verify, retry=retry, shard=shard, long=long)
-    code, _ = _run("campaign", [given_or_shipped(plan)], options)
-    if code != 0:
-        raise KeyboardInterrupt(f"interrupted; the same call goes on in {output}")
+    _run_long("campaign", plan, options, progress)
     return Campaign(output)
 
 
-def calibrate(rock: _Path, output: _Path, *, workers: int | None = None, long: bool = False) -> Calibration:
+def calibrate(rock: _Path, output: _Path, *, workers: int | None = None, long: bool = False,
+              progress: _Progress = None) -> Calibration:
     """Finds the free keys of a rock from its laboratory values, as `crackle calibrate ROCK -o DIR`. Stopped at any
-    moment, the same call goes on. Returns Calibration, whether or not all targets were reached."""
-    code, _ = _run("calibrate", [given_or_shipped(rock)], dict(output=os.fspath(output), workers=workers, long=long))
-    if code not in (0, 1):
-        raise KeyboardInterrupt(f"interrupted; the same call goes on in {output}")
+    moment, the same call goes on.
+
+    rock: path of a TOML file (`crackle calibrate --keys` lists its keys). workers: processes that run tests; by default
+    one a processor. long: run tests although they take more than a day.
+
+    Returns Calibration, whether or not all targets were reached. Raises InputError, KeyboardInterrupt (what has been
+    run is kept).
+    """
+    _run_long("calibrate", rock, dict(output=os.fspath(output), workers=workers, long=long), progress)
     return Calibration(output)
 
 
+def _run_long(command, file, options, progress):
+    """A command that goes on where it was stopped."""
+    try:
+        with reporting(progress) as report:
+            code, _ = _run(command, [given_or_shipped(file)], options, report)
+        if code not in (0, 1):
+            raise KeyboardInterrupt
+    except InputError:
+        raise
+    except BaseException as error:  # Ctrl-C, or what progress raised
+        tell(error, f"what was run is kept in {options['output']}: the same call goes on")
+        raise
+
+
 def _folder(one):
-    return one.folder if hasattr(one, "folder") else given_or_shipped(one)
+    if hasattr(one, "folder"):
+        return one.folder
+    if isinstance(one, (str, os.PathLike)):
+        return given_or_shipped(one)
+    raise InputError(f"results: found a {type(one).__name__}, expected Results, Campaigns or paths of folders")
 
 
 def envelope(*folders: _Results, output: _Path | None = None, columns: int | None = None, width: float | None = None,
@@ -286,9 +320,35 @@ def plot(*results: _Results, output: _Path, what: str | Sequence[str] | None = N
     _run("plot", [_folder(one) for one in results], options)
 
 
+def view(*particles: _engine.Particles | Result | _Path, output: _Path, title: str | None = None,
+         frames: int | None = None, seed: int | None = None, progress: _Progress = None) -> None:
+    """Writes a page to look at particles, moving or not, as `crackle view IN... -o view.html`.
+
+    particles: Particles, Results, or paths of particle files and of folders of tests and decks' runs. frames: show at
+    most so many of each, evenly chosen; seed: of the circles that a particle file of mode 0 leaves to chance.
+    """
+    options = dict(output=os.fspath(output), title=title, frames=frames, seed=seed)
+    scratch = Temporary()
+    shown = []
+    for number, one in enumerate(particles, 1):
+        if isinstance(one, _engine.Particles):
+            shown.append(os.path.join(scratch.name, f"particles_{number}.dat"))
+            one.write(shown[-1])
+        else:
+            shown.append(_folder(one))
+    with reporting(progress) as report_to:
+        _run("view", shown, options, report_to)
+
+
 def report(*results: _Results, output: _Path, title: str | None = None, frames: int | None = None,
-           test: str | Sequence[str] | None = None, measured: _Path | None = None) -> None:
-    """Writes a self-contained page of results, as `crackle report OUT... -o report.html`."""
+           test: str | Sequence[str] | None = None, measured: _Path | None = None, progress: _Progress = None) -> None:
+    """Writes a self-contained page of results, as `crackle report OUT... -o report.html`.
+
+    results: Results or their folders, or one Campaign. frames: show at most so many of a test, evenly chosen; of a
+    campaign, test: those of its tests that are shown; measured: CSV file with axial_strain and axial_stress, drawn over
+    the curves of its test.
+    """
     options = dict(output=os.fspath(output), title=title, frames=frames, test=test, measured=measured)
-    _run("report", [_folder(one) for one in results], options)
+    with reporting(progress) as report_to:
+        _run("report", [_folder(one) for one in results], options, report_to)
 

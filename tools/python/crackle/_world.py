@@ -1,9 +1,16 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """A specimen in its apparatus, or loose particles, that Python steps and loads itself."""
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
 from . import _engine
 from ._case import read_case
 from ._progress import reporting
 from ._tests import _threads
+
+if TYPE_CHECKING:
+    from ._tests import _Case, _Progress
 
 
 class World(_engine.World):
@@ -16,7 +23,8 @@ class World(_engine.World):
     threads: of the steps; no result depends on them. Properties and methods: State. Raises InputError.
     """
 
-    def __init__(self, case, *, threads=None, walls=True, progress=None):
+    def __init__(self, case: _Case | _engine.Particles, *, threads: int | None = None, walls: bool = True,
+                 progress: _Progress = None) -> None:
         if isinstance(case, _engine.Particles):
             super().__init__(case, _threads(threads) or 1, bool(walls))
             return
@@ -24,6 +32,6 @@ class World(_engine.World):
         with reporting(progress) as report:
             super().__init__(asked, _threads(threads), report)
 
-    def add_bond(self, i, j, gap=0.0):
+    def add_bond(self, i: int, j: int, gap: float = 0.0) -> int:
         """Bonds the contact points between bodies of ids i and j, as add_bonds. Returns how many."""
         return self.add_bonds([(i, j)], gap)

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Whoever does not want a mesh any more is heard, wherever the making of it is.
+
+#include <functional>
+#include <optional>
+
+#include "mesher/patience.hpp"
+#include "tests/mesher/jointed.hpp"
+
+namespace crackle {
+namespace {
+
+struct Request {
+    const char* name;
+    MeshRequest request;
+    int questions;  // at least: each of 5000 centres is a piece where it is inserted, each triangle and cell where it
+                    // is looked at or cut, a thousand pieces a question
+};
+
+/// One of each way that a mesh is made.
+std::vector<Request> all_ways() {
+    MeshRequest triangles, outlined;
+    triangles.kind = outlined.kind = MeshKind::delaunay;
+    outlined.outline = {{0.0, 0.0}, {1.0, 0.0}, {1.0, 2.0}, {0.0, 2.0}};
+    const testing::Lines lines{{{0.1, 0.2}, {0.9, 1.7}}, {{0.2, 1.5}, {0.8, 0.4}}};
+    return {{"Voronoi", {}, 24},
+            {"Delaunay", triangles, 34},
+            {"Delaunay in an outline", outlined, 35},
+            {"Voronoi along traces", testing::with_traces(MeshKind::voronoi, lines), 21},
+            {"Delaunay along traces", testing::with_traces(MeshKind::delaunay, lines), 36}};
+}
+
+/// The mesh, if it is made before question `last`; and how often was asked.
+std::pair<std::optional<Mesh>, int> meshed(MeshRequest request, int last) {
+    int asked = 0;
+    request.interrupted = [&] { return ++asked >= last; };
+    try {
+        return {make_mesh(testing::packing_like(3, 50), testing::jointed_box, request), asked};
+    } catch (const MeshInterrupted&) {
+        return {std::nullopt, asked};
+    }
+}
+
+TEST(MeshInterrupt, IsHeardThroughoutAndChangesNothingWhereItDoesNotCome) {
+    constexpr int never = 1'000'000;
+    for (const Request& way : all_ways()) {
+        SCOPED_TRACE(way.name);
+        const auto [mesh, questions] = meshed(way.request, never);
+        ASSERT_TRUE(mesh.has_value());
+        const Mesh unasked = make_mesh(testing::packing_like(3, 50), testing::jointed_box, way.request);
+        EXPECT_EQ(mesh->corners, unasked.corners);
+        EXPECT_GE(questions, way.questions);
+        for (const int last : {1, questions / 2, questions}) {
+            const auto [none, asked] = meshed(way.request, last);
+            EXPECT_FALSE(none.has_value()) << "of question " << last;
+            EXPECT_EQ(asked, last) << "no more is asked once the answer was yes";
+        }
+    }
+}
+
+TEST(MeshInterrupt, OnePieceInAThousandAsks) {
+    int asked = 0;
+    const std::function<bool()> count = [&] { return ++asked > 1'000'000; }, none;
+    Patience patience(count), deaf(none);
+    for (int k = 0; k < 102'400; ++k) {
+        patience.piece();
+        deaf.piece();
+    }
+    EXPECT_EQ(asked, 100);
+}
+
+}  // namespace
+}  // namespace crackle
