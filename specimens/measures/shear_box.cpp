@@ -14,11 +14,11 @@ constexpr double peak_share = 0.1;  // of the strain at peak, on either side, th
 
 }  // namespace
 
-ShearBoxFigures measure_shear_box(std::span<const CurveRow> rows, std::int64_t peak_row, bool ended_by_strain,
+ShearBoxFigures measure_shear_box(std::span<const CurveRow> rows, std::int64_t peak_row, bool reached_its_strain,
                                   double height, double length) {
     ShearBoxFigures figures;
     if (rows.empty()) return figures;
-    if (ended_by_strain) {
+    if (reached_its_strain) {
         double sum = 0.0, count = 0.0;
         for (const CurveRow& row : rows) {
             if (row.axial_strain < (1.0 - end_share) * rows.back().axial_strain) continue;

@@ -17,9 +17,9 @@ struct ShearBoxFigures {
         std::numeric_limits<double>::quiet_NaN();  ///< degrees, atan of the rise's slope over the way
 };
 
-/// @param ended_by_strain whether the test went on to its largest strain @param height, length m, that the rise (the
+/// @param reached_its_strain whether the test went on to its largest strain @param height, length m, that the rise (the
 /// lateral strain) and the way (the axial strain) were taken over
-ShearBoxFigures measure_shear_box(std::span<const CurveRow> rows, std::int64_t peak_row, bool ended_by_strain,
+ShearBoxFigures measure_shear_box(std::span<const CurveRow> rows, std::int64_t peak_row, bool reached_its_strain,
                                   double height, double length);
 
 }  // namespace crackle

@@ -16,7 +16,7 @@
 namespace crackle::verification {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180.0;
+constexpr double per_degree = std::numbers::pi / 180.0;
 
 /// 1/E along a direction, 1/Pa. @param angle rad from +x
 double softness_along(const Compliance& s, double angle) {
@@ -51,7 +51,8 @@ std::vector<ClaimRow> persistent_set_adds_its_compliance() {
             const Compliance jointed = compliance(specimen, false), welded = compliance(specimen, true);
             const std::string name = fmt::format("{}, packing {}: ", kind, seed);
             for (const double t : {0.0, 30.0, 45.0, 60.0, 90.0}) {
-                const double c = std::cos(t * degree), s = std::sin(t * degree), along = (90.0 - t) * degree;
+                const double c = std::cos(t * per_degree), s = std::sin(t * per_degree),
+                             along = (90.0 - t) * per_degree;
                 const double expected = softness_along(welded, along) + c * c * c * c / (normal * spacing) +
                                         s * s * c * c / (shear * spacing);
                 rows.relative(name + fmt::format("E at {:.0f} degrees, Pa", t), 1.0 / softness_along(jointed, along),
@@ -84,7 +85,8 @@ std::vector<ClaimRow> persistent_sets_add_up() {
             double length = 0.0;
             for (const JointTrace& trace : network.traces) length += trace.source == k ? trace.length() : 0.0;
             // A box cuts less or more of a set than its spacing says: what counts is the length that is there.
-            const Compliance own = compliance_of_set(angles[k] * degree, network.area() / length, normal[k], shear[k]);
+            const Compliance own =
+                compliance_of_set(angles[k] * per_degree, network.area() / length, normal[k], shear[k]);
             for (std::size_t a = 0; a < 3; ++a)
                 for (std::size_t b = 0; b < 3; ++b) expected[a][b] += own[a][b];
         }

@@ -21,9 +21,9 @@
 namespace crackle::verification {
 namespace {
 
-constexpr double pressure = 5e6, friction = 25.0;        // Pa, degrees
-constexpr double rate = 0.05, strain_under_load = 3e-4;  // 1/s; at which the pressure is on
-constexpr double strain_at_most = 2e-3;                  // where nothing slips
+constexpr double pressure = 5e6, friction = 25.0;               // Pa, degrees
+constexpr double platen_rate = 0.05, strain_under_load = 3e-4;  // 1/s; at which the pressure is on
+constexpr double strain_at_most = 2e-3;                         // where nothing slips
 // Shares of the gap between cells that the faces have slid when stress is measured: corners have left the ends of the
 // faces that they bonded to, and not yet met the rounded ends of the next ones, on which they ride up.
 constexpr double wide_gap = 3e-3;  // m
@@ -94,7 +94,7 @@ void add_platens(Scene& scene, double gap) {
         scene.controls.push_back(hold);
     };
     add(lower_id, -depth, -0.5 * gap, 0.0);
-    add(upper_id, rock_height + 0.5 * gap, rock_height + depth, -rate * rock_height);
+    add(upper_id, rock_height + 0.5 * gap, rock_height + depth, -platen_rate * rock_height);
 }
 
 /// m, that the cells on the left of the trace have moved along it against those on its right. @param start places
