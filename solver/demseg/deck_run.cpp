@@ -278,9 +278,14 @@ void DeckRun::run(const std::function<bool(const World&)>& go_on) {
     } catch (const OutputError& error) {
         // Once the names are in the journal the next run brings the replacement to its end.
         if (outputs.renames().empty() || is_there(deck_journal(output_folder()))) throw;
-        remove_staged_outputs(output_folder());
+        std::string left;
+        try {
+            remove_staged_outputs(output_folder());
+        } catch (const InputError& cannot) {
+            left = fmt::format("; {}", cannot.what());  // the next run removes it
+        }
         throw OutputError(
-            fmt::format("{}; earlier outputs in {} are as they were", error.what(), output_folder().string()));
+            fmt::format("{}; earlier outputs in {} are as they were{}", error.what(), output_folder().string(), left));
     }
 }
 

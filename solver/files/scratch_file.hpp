@@ -14,7 +14,7 @@ namespace crackle {
 
 class ScratchFile {
   public:
-    /// @throws InputError if the folder takes no file
+    /// @throws InputError if the folder takes no file, or keeps its name
     explicit ScratchFile(std::filesystem::path folder);
     ScratchFile(const ScratchFile&) = delete;
     ScratchFile& operator=(const ScratchFile&) = delete;
@@ -24,10 +24,10 @@ class ScratchFile {
     void write(std::size_t at, std::span<const std::byte> bytes);
     /// What was never written reads as 0.
     void read(std::size_t at, std::span<std::byte> bytes) const;
+    /// A file system over a network may find only now that it has no room, and would read back zeros.
+    void bring_to_disc() const;
 
   private:
-    [[noreturn]] void refuse() const;
-
     std::filesystem::path folder_;
     int descriptor_;
 };
@@ -47,10 +47,15 @@ class ScratchArray {
         stretch_.clear();
     }
     void assign(std::size_t count, const T& value) {
+        generate(count, [&](std::size_t) { return value; });
+    }
+    /// Puts value(k) everywhere, one after the other: nothing is read.
+    template <class Value>
+    void generate(std::size_t count, Value&& value) {
         resize(count);
-        for (std::size_t k = 0; k < count; k += most) {
-            move_to(k, false);
-            std::ranges::fill(stretch_, value);
+        for (std::size_t begin = 0; begin < count; begin += most) {
+            move_to(begin, false);
+            for (std::size_t k = 0; k < stretch_.size(); ++k) stretch_[k] = value(begin + k);
         }
     }
     /// Valid until another element is asked for.
@@ -60,6 +65,7 @@ class ScratchArray {
     }
     std::vector<T> values() {
         write_stretch();
+        file_.bring_to_disc();
         std::vector<T> all(size_);
         file_.read(0, std::as_writable_bytes(std::span(all)));
         return all;

@@ -26,7 +26,8 @@ std::int32_t joint_of_trace(const World& world, std::int32_t trace) {
     return world.settings.trace_joints[static_cast<std::size_t>(trace)];
 }
 
-/// The first trace that parts two bodies; none where none does.
+}  // namespace
+
 std::optional<std::int32_t> trace_between(const World& world, BodyIndex i, BodyIndex j) {
     std::optional<std::int32_t> first;
     const std::span<const TraceSide> own = sides_of(world, i);
@@ -39,22 +40,25 @@ std::optional<std::int32_t> trace_between(const World& world, BodyIndex i, BodyI
     return first;
 }
 
-}  // namespace
-
 std::int32_t joint_between(const World& world, BodyIndex i, BodyIndex j) {
     const std::optional<std::int32_t> trace = trace_between(world, i, j);
     return trace ? joint_of_trace(world, *trace) : no_joint;
 }
 
-std::int32_t joint_of_face(const World& world, BodyIndex i, BodyIndex j, double gap) {
-    if (!on_trace(sides_of(world, i)) && !on_trace(sides_of(world, j))) return no_joint;
-    if (const std::optional<std::int32_t> trace = trace_between(world, i, j)) return joint_of_trace(world, *trace);
+std::optional<std::int32_t> trace_of_face(const World& world, BodyIndex i, BodyIndex j, double gap) {
+    if (!on_trace(sides_of(world, i)) && !on_trace(sides_of(world, j))) return std::nullopt;
+    if (const std::optional<std::int32_t> trace = trace_between(world, i, j)) return trace;
     const BodyInfo a = world.bodies.info(i), b = world.bodies.info(j);
-    if (a.piece_count == 0 || b.piece_count == 0) return no_joint;
+    if (a.piece_count == 0 || b.piece_count == 0) return std::nullopt;
     const std::optional<ContactShare> face = share_of_face(world, i, j, gap);
-    if (!face) return no_joint;
+    if (!face) return std::nullopt;
     const TraceSide side = std::max(sides_of(world, i)[face->edge_i], sides_of(world, j)[face->edge_j]);
-    return side == no_side ? no_joint : joint_of_trace(world, trace_of(side));
+    return side == no_side ? std::nullopt : std::optional(trace_of(side));
+}
+
+std::int32_t joint_of_face(const World& world, BodyIndex i, BodyIndex j, double gap) {
+    const std::optional<std::int32_t> trace = trace_of_face(world, i, j, gap);
+    return trace ? joint_of_trace(world, *trace) : no_joint;
 }
 
 double rest_overlap_between(const World& world, BodyIndex i, BodyIndex j) {

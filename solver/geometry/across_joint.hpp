@@ -12,12 +12,19 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
 #include "solver/world/world.hpp"
 
 namespace crackle {
 
 inline constexpr std::int32_t no_joint = -1;
+
+/// Of the traces that part two bodies the first, whatever its mechanics. Into Settings::trace_joints.
+std::optional<std::int32_t> trace_between(const World& world, BodyIndex i, BodyIndex j);
+
+/// The same of two bodies that lie against each other. @param gap between them, m
+std::optional<std::int32_t> trace_of_face(const World& world, BodyIndex i, BodyIndex j, double gap);
 
 /// Of the trace that parts two bodies, of several the first; no_joint where none does, or one that is as the rock.
 /// Into Settings::joints.

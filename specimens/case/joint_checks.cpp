@@ -253,17 +253,21 @@ class JointAgainstRock {
         }
     }
 
+    /// A rock's angle that stands in a particle file is not known here: the scene is looked at, too.
     void friction(const TestCase::MaterialKeys& rock) const {
-        const double peak = own_.friction_angle.value_or(*rock.friction_angle);
-        if (own_.residual_friction_angle && *own_.residual_friction_angle > peak)
+        const auto first = [](std::initializer_list<std::optional<double>> angles) {
+            const auto given = std::ranges::find_if(angles, [](const auto& angle) { return angle.has_value(); });
+            return given == angles.end() ? std::optional<double>() : *given;
+        };
+        const std::optional<double> peak = first({own_.friction_angle, rock.friction_angle});
+        if (peak && own_.residual_friction_angle && *own_.residual_friction_angle > *peak)
             refuse("residual_friction_angle", fmt::format("{} deg", *own_.residual_friction_angle),
-                   fmt::format("at most the rock's friction_angle, {} deg", peak), "give its own beside it");
-        const double slides_at = own_.residual_friction_angle ? *own_.residual_friction_angle
-                                 : own_.friction_angle        ? *own_.friction_angle
-                                                       : rock.residual_friction_angle.value_or(*rock.friction_angle);
-        if (own_.dilation_angle.value_or(0.0) > slides_at)
+                   fmt::format("at most the rock's friction_angle, {} deg", *peak), "give its own beside it");
+        const std::optional<double> slides_at = first(
+            {own_.residual_friction_angle, own_.friction_angle, rock.residual_friction_angle, rock.friction_angle});
+        if (slides_at && own_.dilation_angle.value_or(0.0) > *slides_at)
             refuse("dilation_angle", fmt::format("{} deg", *own_.dilation_angle),
-                   fmt::format("at most the friction angle that it slides at, {} deg", slides_at),
+                   fmt::format("at most the friction angle that it slides at, {} deg", *slides_at),
                    "with more it would give energy away");
     }
 

@@ -27,6 +27,16 @@ struct Target {
     States& states;
 };
 
+template <class T, class Value>
+void generate(std::vector<T>& values, std::size_t count, const Value& value) {
+    values.resize(count);
+    for (std::size_t k = 0; k < count; ++k) values[k] = value(k);
+}
+template <class T, class Value>
+void generate(ScratchArray<T>& values, std::size_t count, const Value& value) {
+    values.generate(count, value);
+}
+
 /// Points that touch without a bond: those that lost one to it, the others to the frame's own.
 void take_loose(const TestSetup& setup, const LooseContacts& loose, const auto& target) {
     Frame& frame = target.frame;
@@ -48,7 +58,7 @@ void take_loose(const TestSetup& setup, const LooseContacts& loose, const auto& 
     }
 }
 
-constexpr std::array<const char*, 3> pictures{"particles_", "contacts_", "cracks_"};
+constexpr std::array<const char*, 4> pictures{"particles_", "contacts_", "cracks_", "joints_"};
 
 std::string picture(std::size_t which, std::int64_t row) { return fmt::format("{}{:05}.vtp", pictures[which], row); }
 
@@ -60,11 +70,10 @@ void take(const World& world, const TestSetup& setup, const ContactHistory& hist
     frame.axial_stress = row.axial_stress;
     frame.time = row.time;
     frame.cracks = history.cracks.size();
-    target.bodies.resize(world.bodies.size());
-    for (BodyIndex b = 0; b < world.bodies.size(); ++b) {
+    generate(target.bodies, world.bodies.size(), [&](std::size_t b) -> Frame::Body {
         const BodyState& body = world.bodies.state[b];
-        target.bodies[b] = {body.x, body.y, body.angle, body.vx, body.vy, body.omega};
-    }
+        return {body.x, body.y, body.angle, body.vx, body.vy, body.omega};
+    });
     // Bonds are never made again: what the walk along the list does not meet is broken.
     const ContactList& bonds = setup.bonds;
     target.shear_force.assign(bonds.size(), 0.0);
@@ -103,8 +112,7 @@ void FrameOnDisc::put(const Frame& frame) {
     rest_ = {frame.row, frame.axial_strain, frame.axial_stress, frame.time,        {}, {},
              {},        frame.loose,        frame.cracks,       frame.joint_forces};
     const auto copy = [](const auto& values, auto& to) {
-        to.resize(values.size());
-        for (std::size_t k = 0; k < values.size(); ++k) to[k] = values[k];
+        to.generate(values.size(), [&](std::size_t k) { return values[k]; });
     };
     copy(frame.bodies, bodies_);
     copy(frame.shear_force, shear_force_);
@@ -128,6 +136,7 @@ std::int64_t default_frames(std::int64_t bodies, std::int64_t curve_rows) {
 std::string particles_file(std::int64_t row) { return picture(0, row); }
 std::string contacts_file(std::int64_t row) { return picture(1, row); }
 std::string cracks_file(std::int64_t row) { return picture(2, row); }
+std::string joints_file(std::int64_t row) { return picture(3, row); }
 
 bool is_picture(const std::string& name) {
     return name.ends_with(".vtp") &&

@@ -114,6 +114,7 @@ std::int64_t default_frames(std::int64_t bodies, std::int64_t curve_rows);
 std::string particles_file(std::int64_t row);  ///< "particles_00042.vtp"
 std::string contacts_file(std::int64_t row);
 std::string cracks_file(std::int64_t row);
+std::string joints_file(std::int64_t row);  ///< of jointed specimens
 /// Whether a file of that name in frames/ is one of these.
 bool is_picture(const std::string& name);
 

@@ -14,6 +14,7 @@
 #include "solver/geometry/geometry.hpp"
 #include "specimens/frames/crack_faces.hpp"
 #include "specimens/frames/fragments.hpp"
+#include "specimens/setup/trace_faces.hpp"
 
 namespace crackle {
 namespace {
@@ -63,6 +64,15 @@ constexpr Quantity arrays_of_cracks[]{
     {"opening", "m",
      "present gap between the surfaces along the normal: 0 as the bond's overlap is used up, negative where they are "
      "pressed together again"},
+    {"trace", "", "as in events.csv; of jointed specimens"},
+};
+constexpr Quantity arrays_of_joints[]{
+    {"body_i", "", "id of one body"},
+    {"body_j", "", "id of the other"},
+    {"trace", "", "number in `traces` of summary.json, from 0"},
+    {"state", "", "0 holds, 2 has lost all its bonds, 4 was never bonded, as of contacts"},
+    {"opening", "m", "since loading began, along the face's normal, what its springs give included"},
+    {"slip", "m", "likewise along the face, positive where the far side goes to the left"},
 };
 
 /// Corners of its face, of a part that holds or drives the specimen.
@@ -120,6 +130,18 @@ void write_indices(std::ostream& out, const char* name, std::size_t values, std:
                              : write_array<std::int64_t>(out, name, values, add);
 }
 
+/// Lines from each point of even number to the next.
+void write_pairs_as_lines(std::ostream& out, std::size_t lines) {
+    begin_element(out, "Lines");
+    write_indices(out, "connectivity", 2 * lines, 2 * lines, [&](const auto& add) {
+        for (std::size_t point = 0; point < 2 * lines; ++point) add(point);
+    });
+    write_indices(out, "offsets", lines, 2 * lines, [&](const auto& add) {
+        for (std::size_t line = 1; line <= lines; ++line) add(2 * line);
+    });
+    end_element(out, "Lines");
+}
+
 void write_head(std::ostream& out, const Frame& frame, const VtpCounts& counts) {
     write_vtp_head(out,
                    {{declared(fields_of_a_moment, "axial_strain").name, frame.axial_strain},
@@ -131,6 +153,7 @@ void write_head(std::ostream& out, const Frame& frame, const VtpCounts& counts) 
 const char* of_particles(std::string_view name) { return declared(arrays_of_particles, name).name; }
 const char* of_contacts(std::string_view name) { return declared(arrays_of_contacts, name).name; }
 const char* of_cracks(std::string_view name) { return declared(arrays_of_cracks, name).name; }
+const char* of_joints(std::string_view name) { return declared(arrays_of_joints, name).name; }
 
 constexpr std::int64_t most_kept = 2000;  // particles whose constant arrays are kept packed
 
@@ -140,6 +163,7 @@ std::span<const Quantity> frame_fields() { return fields_of_a_moment; }
 std::span<const Quantity> particle_arrays() { return arrays_of_particles; }
 std::span<const Quantity> contact_arrays() { return arrays_of_contacts; }
 std::span<const Quantity> crack_arrays() { return arrays_of_cracks; }
+std::span<const Quantity> joint_arrays() { return arrays_of_joints; }
 
 int circle_corners(std::int64_t particles) {
     constexpr std::int64_t most_seen_closely = 2000;
@@ -404,14 +428,7 @@ void FramePainter::write_cracks(std::ostream& out, const PlacedFrame& placed, st
             openings.push_back(face.opening);
         }
     });
-    begin_element(out, "Lines");
-    write_indices(out, "connectivity", 2 * cracks.size(), 2 * cracks.size(), [&](const auto& add) {
-        for (std::size_t point = 0; point < 2 * cracks.size(); ++point) add(point);
-    });
-    write_indices(out, "offsets", cracks.size(), 2 * cracks.size(), [&](const auto& add) {
-        for (std::size_t crack = 1; crack <= cracks.size(); ++crack) add(2 * crack);
-    });
-    end_element(out, "Lines");
+    write_pairs_as_lines(out, cracks.size());
     begin_element(out, "CellData");
     const auto write_values = [&]<class T>(const char* name, T, const auto& value_of) {
         write_array<T>(out, of_cracks(name), cracks.size(), [&](const auto& add) {
@@ -431,6 +448,57 @@ void FramePainter::write_cracks(std::ostream& out, const PlacedFrame& placed, st
     write_array<double>(out, of_cracks("opening"), cracks.size(), [&](const auto& add) {
         for (const double opening : openings) add(opening);
     });
+    if (!setup_.traces.empty())
+        write_values("trace", std::int32_t{}, [&](const Crack& crack) { return setup_.trace_of(crack.bond); });
+    end_element(out, "CellData");
+    write_vtp_end(out);
+}
+
+void FramePainter::write_joints(std::ostream& out, const PlacedFrame& placed) const {
+    const Frame& frame = placed.frame();
+    std::vector<std::int32_t> holding(setup_.trace_faces.size(), 0);  // bonds of each face
+    for (std::size_t bond = 0; bond < setup_.bond_faces.size(); ++bond)
+        if (setup_.bond_faces[bond] >= 0 && holds(frame.states[bond]))
+            ++holding[static_cast<std::size_t>(setup_.bond_faces[bond])];
+    struct Drawn {
+        const TraceFace* face;
+        FaceMotion motion;
+        ContactState state;
+    };
+    std::vector<Drawn> drawn;
+    const auto place = [&](BodyIndex b) {
+        const Frame::Body& body = frame.bodies[b];
+        return StartPlace{body.x, body.y, body.angle};
+    };
+    for (std::size_t k = 0; k < setup_.trace_faces.size(); ++k) {
+        const TraceFace& face = setup_.trace_faces[k];
+        if (face.length == 0.0) continue;
+        const ContactState state = face.bonds == 0   ? ContactState::loose
+                                   : holding[k] == 0 ? ContactState::broken
+                                                     : ContactState::bonded;
+        drawn.push_back({&face, motion_of(face, setup_, place(face.i), place(face.j)), state});
+    }
+    const std::size_t count = drawn.size();
+    write_head(out, frame, {2 * count, count, 0});
+    write_points(out, precision_, 2 * count, [&](const auto& add) {
+        for (const Drawn& one : drawn) {
+            add(one.motion.begin);
+            add(one.motion.end);
+        }
+    });
+    write_pairs_as_lines(out, count);
+    begin_element(out, "CellData");
+    const auto write_values = [&]<class T>(const char* name, T, const auto& value_of) {
+        write_array<T>(out, of_joints(name), count, [&](const auto& add) {
+            for (const Drawn& one : drawn) add(value_of(one));
+        });
+    };
+    write_values("body_i", std::int32_t{}, [&](const Drawn& one) { return world_.bodies.info(one.face->i).id; });
+    write_values("body_j", std::int32_t{}, [&](const Drawn& one) { return world_.bodies.info(one.face->j).id; });
+    write_values("trace", std::int32_t{}, [](const Drawn& one) { return one.face->trace; });
+    write_values("state", std::uint8_t{}, [](const Drawn& one) { return static_cast<std::uint8_t>(one.state); });
+    write_values("opening", double{}, [](const Drawn& one) { return one.motion.opening; });
+    write_values("slip", double{}, [](const Drawn& one) { return one.motion.slip; });
     end_element(out, "CellData");
     write_vtp_end(out);
 }

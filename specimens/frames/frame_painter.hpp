@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Frames as files for ParaView and the report: particles_, contacts_ and cracks_NNNNN.vtp, NNNNN the row of the curve
-// (from 0) in which they were taken, and frames.pvd over all of them (parts 0, 1, 2).
+// Frames as files for ParaView and the report: particles_, contacts_ and cracks_NNNNN.vtp, of jointed specimens
+// joints_, too, NNNNN the row of the curve (from 0) in which they were taken, and frames.pvd over all of them (parts 0
+// to 3).
 //
 // Particles: platens as lines, polygons by their corners, circles as regular polygons of the circle's own area: 24
 // corners up to 2,000 particles, 12 beyond, where they are looked at from farther away (outlines share 0.98 of what
@@ -9,6 +10,7 @@
 // Contacts: all bonds that loading began with, always in the same order and where they were held, then what else
 // touches at the moment; as lines centre-point-centre between circles and point-point between polygons.
 // Cracks: a line for each bonded point that has broken so far, in the order of events.csv, placed by crack_faces.hpp.
+// Joints: a line for each face on a trace, as long as that was when loading began; trace_faces.hpp.
 // Cell data and their units: particle_arrays() and its like below; forces and stresses are of springs only,
 // frame_forces.hpp; fragments, fragments.hpp; ages, contact_history.hpp.
 //
@@ -38,6 +40,7 @@ std::span<const Quantity> frame_fields();
 std::span<const Quantity> particle_arrays();
 std::span<const Quantity> contact_arrays();
 std::span<const Quantity> crack_arrays();
+std::span<const Quantity> joint_arrays();
 
 /// Corners of a circle drawn among so many particles.
 int circle_corners(std::int64_t particles);
@@ -58,6 +61,7 @@ class FramePainter {
     void write_contacts(std::ostream& out, const PlacedFrame& placed, const FrameForces& forces,
                         std::span<const Crack> cracks) const;
     void write_cracks(std::ostream& out, const PlacedFrame& placed, std::span<const Crack> cracks) const;
+    void write_joints(std::ostream& out, const PlacedFrame& placed) const;
 
   private:
     template <class Visit>

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "solver/base/vec2.hpp"
@@ -25,6 +26,18 @@ struct JointTrace {
     bool centred = false;  ///< its midpoint lies in the box, before the box cut it
 
     double length() const { return length_of(points); }
+};
+
+/// What remains of a trace once it is faces of a specimen.
+struct SpecimenTrace {
+    std::string source;   ///< name of the set, or of the [[trace]]
+    double length = 0.0;  ///< m, in the box
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("source", s.source);
+        visit("length", s.length);
+    }
 };
 
 }  // namespace crackle

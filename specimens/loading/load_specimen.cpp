@@ -166,7 +166,8 @@ class LoadingLoop {
             ++(event.shear_mode ? state_.breaks_in_shear : state_.breaks_in_tension);
             state_.breaks_after_sliding += event.slid ? 1 : 0;
             note_break(setup_, event, state_.history);
-            if (files_ != nullptr) files_->add_event(event, strain_);
+            if (files_ != nullptr)
+                files_->add_event(event, strain_, setup_.trace_of(state_.history.cracks.back().bond));
         }
         if (files_ != nullptr) {
             if (hooks_.look) unseen_.insert(unseen_.end(), world_.bonds.events.begin(), world_.bonds.events.end());
@@ -203,6 +204,7 @@ class LoadingLoop {
         if (new_peak) {
             state_.breaks_in_shear_to_peak = state_.breaks_in_shear;
             state_.breaks_in_tension_to_peak = state_.breaks_in_tension;
+            if (!setup_.traces.empty()) state_.traces_at_peak = trace_motions(world_, setup_, state_.history);
         }
         if (state_.failure.collapsed) {
             state_.ended_by = ended_by_failure;

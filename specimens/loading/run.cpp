@@ -41,8 +41,12 @@ std::ifstream open_file(const fs::path& path) {
     return in;
 }
 
-PointPrecision precision_of(const TestCase& test) {
-    return test.output.frame_precision == "double" ? PointPrecision::double_ : PointPrecision::single_;
+FileOptions file_options(const VirtualTest& test) {
+    const TestCase::Output& output = test.description.output;
+    return {.precision = output.frame_precision == "double" ? PointPrecision::double_ : PointPrecision::single_,
+            .slips = output.slips,
+            .pressed = test.description.pressed(),
+            .jointed = !test.setup.traces.empty()};
 }
 
 /// Of the threads asked for those that are of use.
@@ -213,8 +217,7 @@ TestOutcome run_test(const TestCase& description, const TestOptions& options, co
     recorded.mesh.thick = test.description.mesh.thick;
     const std::string text = resolved_case(recorded, folder.target());
     // Empty until loading: by that a test that has only begun is known.
-    TestFiles files(folder, sha256(text), test.state, precision_of(description), description.output.slips,
-                    description.pressed());
+    TestFiles files(folder, sha256(text), test.state, file_options(test));
     try {
         folder.write("case.toml", text, Durable::yes);  // first: by its contents a folder is known to be a test's
         specimen->write(folder);
@@ -260,8 +263,7 @@ TestOutcome resume_test(const TestOptions& options, const TestHooks& hooks) {
     if (!test.state.ended_by.empty()) return finished_test(test, options, hooks, folder);
     // That of the interrupt: curve and frames go beyond it from here.
     fs::remove(folder.path() / "summary.json", error);
-    TestFiles files(folder, checkpoint.case_hash, test.state, precision_of(test.description),
-                    test.description.output.slips, test.description.pressed());
+    TestFiles files(folder, checkpoint.case_hash, test.state, file_options(test));
     hooks.report_stage(fmt::format("resumed at step {}, axial strain {:.4g}", test.world.stepping.steps,
                                    test.setup.axial_strain(test.world)));
     return run_with_files(test, options, hooks, folder, files);

@@ -396,6 +396,8 @@ void mesh_specimen(Specimen& specimen, const TestCase& test, const TestHooks& ho
     if (!request.traces.empty()) {
         check_apertures(test, specimen.mesh_thick);
         set_joints(scene, mesh, joints, test);
+        for (const JointTrace& trace : joints.traces)
+            specimen.traces.push_back({joints.sources[trace.source].name, trace.length()});
     }
     int id = 0;
     for (const Cell& cell : mesh.cells) {

@@ -10,6 +10,7 @@
 
 #include "solver/scene/scene.hpp"
 #include "specimens/case/case_file.hpp"
+#include "specimens/joints/joint_trace.hpp"
 #include "specimens/kinds/test_kind.hpp"
 #include "specimens/making/hooks.hpp"
 #include "specimens/making/minerals.hpp"
@@ -30,6 +31,7 @@ struct Specimen {
     double mean_radius = 0.0;                             ///< m, of the circles (of the centres, where meshed)
     std::int64_t segments = 0;                            ///< edges of all polygons
     std::int64_t centres = 0;            ///< circles the polygons were meshed from; 0 if not meshed here
+    std::vector<SpecimenTrace> traces;   ///< by number
     std::vector<MineralShare> minerals;  ///< in the case's order; empty of a rock of one material
     int platen_material = 0;             ///< index into scene.materials: [material]'s
     /// Ids of the bodies on the side faces: circles that overlap the wall, polygons with an edge on the face; or of

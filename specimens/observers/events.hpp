@@ -3,6 +3,8 @@
 // Tested by tests/specimens/results/files_test.cpp.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,7 +15,8 @@ namespace crackle {
 
 struct EventColumn {
     Quantity what;
-    std::string (*text)(const BreakEvent&, double axial_strain);
+    std::string (*text)(const BreakEvent&, double axial_strain, std::int32_t trace);
+    bool jointed = false;  ///< only of specimens with traces of joints
 };
 /// In the order of the file.
 const std::vector<EventColumn>& event_columns();
@@ -27,7 +30,9 @@ const std::vector<SlipColumn>& slip_columns();
 std::string slips_header();
 std::string slip_line(const SlipEvent& event, double axial_strain);
 
-std::string events_header();  ///< with line end
-std::string event_line(const BreakEvent& event, double axial_strain);
+/// @param jointed whether the specimen has traces of joints
+std::string events_header(bool jointed);  ///< with line end
+/// @param trace number of that on which it broke, -1 of none; nothing of a specimen without traces
+std::string event_line(const BreakEvent& event, double axial_strain, std::optional<std::int32_t> trace);
 
 }  // namespace crackle

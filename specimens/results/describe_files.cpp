@@ -110,17 +110,18 @@ that stands here twice has the meaning that fits the test.
 constexpr const char* frames_text = R"(
 ## `frames/`
 
-Each moment is three files, named by its row of the judged curve (from 0, five digits or more), which `frames.pvd` lists as parts 0, 1 and 2 of a
-time series. They are VTK's XML PolyData (compressed, `.vtp`), with the moment as field data. Points are Float32 (Float64 with `output.frame_precision = "double"`), what was computed Float64.
+Each moment is three files, of a jointed specimen four, named by its row of the judged curve (from 0, five digits or more), which `frames.pvd` lists as
+parts 0 to 3 of a time series. They are VTK's XML PolyData (compressed, `.vtp`), with the moment as field data. Points are Float32 (Float64 with `output.frame_precision = "double"`), what was computed Float64.
 
 | file | holds |
 | --- | --- |
 | `particles_NNNNN.vtp` | platens as lines, polygons by their corners, circles as regular polygons of the circle's area (24 corners, 12 beyond 2000 particles); a clump's circles all have its values |
 | `contacts_NNNNN.vtp` | every bond that loading began with, in the same order in each file, then what else touches at the moment: as lines centre-point-centre between circles, from surface to surface between polygons |
 | `cracks_NNNNN.vtp` | a line for each bonded point broken so far, in the order of `events.csv`: its share of the face at which the bodies were held together, where they have carried it |
+| `joints_NNNNN.vtp` | a line for each face on a trace of joints, of a jointed specimen |
 | `frames.pvd` | the list of all of them, for ParaView |
 
-Field data of all three:
+Field data of all of them:
 )";
 
 }  // namespace
@@ -152,6 +153,8 @@ void describe_test_files(std::ostream& out) {
     print_table(out, "array", contact_arrays());
     out << "\nCell data of `cracks`:\n";
     print_table(out, "array", crack_arrays());
+    out << "\nCell data of `joints`:\n";
+    print_table(out, "array", joint_arrays());
 }
 
 }  // namespace crackle

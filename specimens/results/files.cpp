@@ -25,7 +25,8 @@ constexpr std::size_t most_waiting = 4, most_bodies_of_several = 20'000;
 void remove_unlisted_frames(const fs::path& frames, const TestState& state) {
     std::set<std::string> listed;
     for (const FrameEntry& entry : state.frames)
-        listed.insert({particles_file(entry.row), contacts_file(entry.row), cracks_file(entry.row)});
+        listed.insert(
+            {particles_file(entry.row), contacts_file(entry.row), cracks_file(entry.row), joints_file(entry.row)});
     std::vector<fs::path> unlisted;
     std::error_code error;
     for (const auto& file : fs::directory_iterator(frames, error)) {
@@ -37,33 +38,30 @@ void remove_unlisted_frames(const fs::path& frames, const TestState& state) {
 
 }  // namespace
 
-TestFiles::TestFiles(const OutputFolder& folder, std::string case_hash, TestState& state, PointPrecision precision,
-                     bool slips, bool pressed, std::size_t large_frame)
+TestFiles::TestFiles(const OutputFolder& folder, std::string case_hash, TestState& state, const FileOptions& options)
     : folder_(folder),
       case_hash_(std::move(case_hash)),
-      pressed_(pressed),
+      options_(options),
       curve_(folder.path() / "curve.csv", state.curve),
       events_(folder.path() / "events.csv", state.events),
-      precision_(precision),
-      large_frame_(large_frame),
       collection_due_(!state.frames.empty()) {
-    if (state.curve.bytes == 0) curve_.write(curve_header(pressed_));
-    if (state.events.bytes == 0) events_.write(events_header());
-    if (slips) slips_.emplace(folder.path() / "slips.csv", state.slips);
-    if (slips && state.slips.bytes == 0) slips_->write(slips_header());
+    if (state.curve.bytes == 0) curve_.write(curve_header(options_.pressed));
+    if (state.events.bytes == 0) events_.write(events_header(options_.jointed));
+    if (options.slips) slips_.emplace(folder.path() / "slips.csv", state.slips);
+    if (options.slips && state.slips.bytes == 0) slips_->write(slips_header());
     if (state.emission.rule.on()) ae_.emplace(folder.path() / "ae.csv", state.ae);
     if (ae_ && state.ae.bytes == 0) ae_->write(acoustic_header());
     remove_unlisted_frames(folder.path() / "frames", state);
-    if (state.peak_frame.bodies.size() < large_frame_) return;
+    if (state.peak_frame.bodies.size() < options_.large_frame) return;
     peak_on_disc_.emplace(folder.path());
     peak_on_disc_->put(state.peak_frame);
     state.peak_frame = {};
 }
 
-void TestFiles::add_row(const CurveRow& row) { curve_.write(curve_line(row, pressed_)); }
+void TestFiles::add_row(const CurveRow& row) { curve_.write(curve_line(row, options_.pressed)); }
 
-void TestFiles::add_event(const BreakEvent& event, double axial_strain) {
-    events_.write(event_line(event, axial_strain));
+void TestFiles::add_event(const BreakEvent& event, double axial_strain, std::int32_t trace) {
+    events_.write(event_line(event, axial_strain, options_.jointed ? std::optional(trace) : std::nullopt));
 }
 
 void TestFiles::add_slip(const SlipEvent& event, double axial_strain) {
@@ -84,7 +82,7 @@ void TestFiles::add_frame(const CurveRow& row, std::int64_t row_index, const Tes
 
 void TestFiles::keep_peak(const CurveRow& row, std::int64_t row_index, const TestSetup& setup, TestState& state,
                           const World& world) {
-    if (world.bodies.size() < large_frame_) {
+    if (world.bodies.size() < options_.large_frame) {
         take_frame(world, setup, state.history, row, row_index, state.peak_frame);
         return;
     }
@@ -105,7 +103,7 @@ bool TestFiles::list_frame(const FrameEntry& entry, const TestSetup& setup, Test
     state.frames.insert(later, entry);
     if (!painter_ || !painter_->paints(world, setup)) {
         background_.wait();
-        painter_.emplace(world, setup, precision_);
+        painter_.emplace(world, setup, options_.precision);
     }
     collection_due_ = true;
     background_.make_room(world.bodies.size() <= most_bodies_of_several ? most_waiting : 0);
@@ -133,6 +131,9 @@ void TestFiles::draw(Frame frame, const TestSetup& setup, const TestState& state
                       [&](std::ostream& out) { painter_->write_contacts(out, placed, forces, job->cracks); });
         folder_.write("frames/" + cracks_file(job->frame.row),
                       [&](std::ostream& out) { painter_->write_cracks(out, placed, job->cracks); });
+        if (options_.jointed)
+            folder_.write("frames/" + joints_file(job->frame.row),
+                          [&](std::ostream& out) { painter_->write_joints(out, placed); });
         if (!job->collection.empty()) folder_.write("frames/frames.pvd", job->collection);
     });
 }
@@ -143,6 +144,7 @@ std::string TestFiles::due_collection(const TestState& state) {
         entries.push_back({frame.time, 0, particles_file(frame.row)});
         entries.push_back({frame.time, 1, contacts_file(frame.row)});
         entries.push_back({frame.time, 2, cracks_file(frame.row)});
+        if (options_.jointed) entries.push_back({frame.time, 3, joints_file(frame.row)});
     }
     collection_due_ = false;
     collected_ = std::chrono::steady_clock::now();

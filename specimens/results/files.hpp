@@ -18,17 +18,22 @@ namespace crackle {
 /// Writes summary.json, which states these files (stated_files.hpp) and the checkpoint, if there is one.
 void write_summary(const OutputFolder& folder, nlohmann::ordered_json& summary, FileMarks files);
 
+struct FileOptions {
+    PointPrecision precision = PointPrecision::single_;  ///< of frames
+    bool slips = false;                                  ///< slips.csv is written
+    bool pressed = false, jointed = false;               ///< the curve, the events, have the columns of such a test
+    std::size_t large_frame = 200'000;  ///< bodies from which on the frame at the peak waits on the disc
+};
+
 class TestFiles {
   public:
     /// Begins from the start (state without rows) or goes on from the state, removing what came after it.
     /// ae.csv is written where the state says that emission is listened to.
-    /// @param slips whether slips.csv is written  @param pressed whether the curve has the columns of such a test
-    /// @param large_frame bodies from which on the frame at the peak waits on the disc
-    TestFiles(const OutputFolder& folder, std::string case_hash, TestState& state, PointPrecision precision,
-              bool slips = false, bool pressed = false, std::size_t large_frame = 200'000);
+    TestFiles(const OutputFolder& folder, std::string case_hash, TestState& state, const FileOptions& options);
 
     void add_row(const CurveRow& row);
-    void add_event(const BreakEvent& event, double axial_strain);
+    /// @param trace number of that on which it broke, or -1
+    void add_event(const BreakEvent& event, double axial_strain, std::int32_t trace);
     void add_slip(const SlipEvent& event, double axial_strain);
     void add_emission(const AcousticEvent& event, double thickness);
     /// Takes the present moment for a frame, as take_frame(). Lists it in state.frames, in the order of rows, and has
@@ -59,11 +64,9 @@ class TestFiles {
 
     const OutputFolder& folder_;
     std::string case_hash_;
-    bool pressed_;
+    FileOptions options_;
     GrowingFile curve_, events_;
     std::optional<GrowingFile> slips_, ae_;
-    PointPrecision precision_;
-    std::size_t large_frame_;
     std::optional<FrameOnDisc> peak_on_disc_;  // in place of TestState::peak_frame
     std::optional<FramePainter> painter_;      // once there is a frame
     bool collection_due_;                      // frames.pvd is not of the state

@@ -14,6 +14,7 @@
 #include <set>
 #include <sstream>
 #include <system_error>
+#include <utility>
 
 #include "solver/base/errors.hpp"
 #include "solver/files/read_file.hpp"
@@ -181,7 +182,7 @@ void move_staged(const fs::path& working, const fs::path& target, const std::set
     }
     bring_all_to_disc(target);  // else a loss of power may leave the old results, and nothing of the new ones
     remove_or_throw(working / staged_mark);
-    std::error_code not_empty;  // of files that are not ours
+    std::error_code not_empty;  // of files that are not ours, or that a network's file system keeps while they are open
     fs::remove(working, not_empty);
 }
 
@@ -309,6 +310,7 @@ OutputFolder::~OutputFolder() {
                                     [&](const char* name) { return fs::exists(working_ / name, ignored) || ignored; });
     if (staged() && empty) fs::remove(working_ / staged_mark, ignored);
     if (made_) fs::remove(working_, ignored);
+    if (!moved_from_.empty()) fs::remove(moved_from_, ignored);
 }
 
 void OutputFolder::write(const std::string& name, const std::string& bytes, Durable durable) const {
@@ -358,7 +360,7 @@ void OutputFolder::finish() {
     write(staged_mark, mark, Durable::yes);  // whoever finds it ends the move
     bring_all_to_disc(working_);             // nothing is moved before its name is on the disc
     move_staged(working_, target_, names);
-    working_ = target_;
+    moved_from_ = std::exchange(working_, target_);
     made_ = false;
 }
 

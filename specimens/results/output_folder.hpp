@@ -50,7 +50,7 @@ class OutputFolder {
 
     OutputFolder(OutputFolder&&) = default;
     OutputFolder& operator=(OutputFolder&&) = delete;
-    /// Removes what create() made, if nothing was written into it.
+    /// Removes what create() made, if nothing was written into it, and a folder that results were moved out of.
     ~OutputFolder();
 
     const std::filesystem::path& path() const { return working_; }   ///< where files are written now
@@ -74,6 +74,7 @@ class OutputFolder {
         : target_(std::move(target)), working_(std::move(working)) {}
 
     std::filesystem::path target_, working_;
+    std::filesystem::path moved_from_;  // may be there still
     bool made_ = false;
     std::vector<FolderLock> locks_;
 };

@@ -287,6 +287,68 @@ void damage(Writer& w, const TestSetup& setup, const TestState& state, const Wor
                   : Json(nullptr));
 }
 
+Json motion_of(const TraceMotion& motion) {
+    const auto mean = [&](double value) { return finite_or_null(motion.length > 0.0 ? value : NAN); };
+    return {{"failed_share", finite_or_null(motion.failed / motion.bonded)},
+            {"opening", mean(motion.opening)},
+            {"slip", mean(motion.slip)},
+            {"largest_opening", mean(motion.largest_opening)},
+            {"largest_slip", mean(motion.largest_slip)}};
+}
+
+/// What joints have come to: by source, and by trace.
+void joints(Writer& w, const TestSetup& setup, const TestState& state, const World& world) {
+    if (setup.traces.empty()) return;
+    const std::vector<Crack>& cracks = state.history.cracks;
+    const bool has_peak = state.failure.peak_row >= 0;
+    const auto to_peak = static_cast<std::size_t>(state.breaks_in_shear_to_peak + state.breaks_in_tension_to_peak);
+    const std::int64_t on_traces = breaks_on_traces(setup, state.history, cracks.size());
+    const std::int64_t on_traces_to_peak = breaks_on_traces(setup, state.history, to_peak);
+    w.put("bonds_broken_on_joints", on_traces);
+    w.put("bonds_broken_in_rock", std::ssize(cracks) - on_traces);
+    w.put("bonds_broken_on_joints_to_peak", on_traces_to_peak);
+    w.put("bonds_broken_in_rock_to_peak", static_cast<std::int64_t>(to_peak) - on_traces_to_peak);
+    struct Both {
+        TraceMotion peak, end;
+    };
+    const auto entry = [&](const std::string& source, double length, const Both& both) {
+        Json json{{"source", source},
+                  {"length", length},
+                  {"faces", both.end.faces},
+                  {"length_of_faces", both.end.length},
+                  {"bonded_share", finite_or_null(both.end.bonded / both.end.length)}};
+        json["at_peak"] = has_peak ? motion_of(both.peak) : Json(nullptr);
+        json["at_end"] = motion_of(both.end);
+        return json;
+    };
+    const std::vector<TraceMotion> at_end = trace_motions(world, setup, state.history);
+    Json traces = Json::array(), sources = Json::array();
+    std::vector<std::string> names;
+    for (std::size_t k = 0; k < setup.traces.size(); ++k) {
+        const SpecimenTrace& trace = setup.traces[k];
+        traces.push_back(
+            entry(trace.source, trace.length, {has_peak ? state.traces_at_peak[k] : TraceMotion{}, at_end[k]}));
+        if (std::ranges::find(names, trace.source) == names.end()) names.push_back(trace.source);
+    }
+    for (const std::string& name : names) {
+        Both both;
+        double length = 0.0;
+        std::int64_t count = 0;
+        for (std::size_t k = 0; k < setup.traces.size(); ++k) {
+            if (setup.traces[k].source != name) continue;
+            ++count;
+            length += setup.traces[k].length;
+            if (has_peak) both.peak.add(state.traces_at_peak[k]);
+            both.end.add(at_end[k]);
+        }
+        Json json = entry(name, length, both);
+        json["traces"] = count;
+        sources.push_back(json);
+    }
+    w.put("joints", sources);
+    w.put("traces", traces);
+}
+
 void acoustic_emission(Writer& w, const TestState& state) {
     const EmissionRule& rule = state.emission.rule;
     if (!rule.on()) {
@@ -503,6 +565,7 @@ nlohmann::ordered_json make_summary(const TestCase& test, const TestSetup& setup
     cycles(w, test, setup, state);
     damage(w, setup, state, world);
     directions(w, setup, state, world);
+    joints(w, setup, state, world);
     acoustic_emission(w, state);
     energies(w, state);
     counts(w, setup, world);

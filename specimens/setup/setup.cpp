@@ -11,6 +11,7 @@
 #include "solver/geometry/geometry.hpp"
 #include "solver/measure/point_view.hpp"
 #include "solver/world/point_order.hpp"
+#include "specimens/setup/trace_faces.hpp"
 
 namespace crackle {
 namespace {
@@ -217,6 +218,7 @@ TestSetup record_setup(const World& world, const Specimen& specimen, const Plate
     setup.notices = specimen.notices;
     setup.packing = specimen.packing;
     setup.minerals = specimen.minerals;
+    setup.traces = specimen.traces;
     setup.start.reserve(world.bodies.size());
     for (const BodyState& body : world.bodies.state) setup.start.push_back({body.x, body.y, body.angle});
     setup.left = gauge(world, specimen.left_ids, world.settings.domain, setup.uniaxial);
@@ -229,6 +231,7 @@ TestSetup record_setup(const World& world, const Specimen& specimen, const Plate
         setup.gauge_length = mean_x(world, setup.right) - mean_x(world, setup.left);
     }
     record_bonds(setup, world);
+    record_trace_faces(setup, world);
     if (setup.uniaxial) find_axial_gauge(setup, world, grip > 0.0 ? grip : outer_share);
     return setup;
 }

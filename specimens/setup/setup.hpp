@@ -41,6 +41,26 @@ struct SetupPart {
     }
 };
 
+/// A face of the mesh that lies on a trace, when loading began (trace_faces.hpp).
+struct TraceFace {
+    std::int32_t trace = 0;   ///< into TestSetup::traces
+    BodyIndex i = 0, j = 0;   ///< i before j
+    std::int32_t bonds = 0;   ///< bonded points; 0 of an open one
+    double length = 0.0;      // m
+    Vec2 middle{}, normal{};  // m; unit, from i to j
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("trace", s.trace);
+        visit("i", s.i);
+        visit("j", s.j);
+        visit("bonds", s.bonds);
+        visit("length", s.length);
+        visit("middle", s.middle);
+        visit("normal", s.normal);
+    }
+};
+
 struct TestSetup {
     std::string kind = "compression";
     bool uniaxial = true;     ///< stress and strain are those of the rock, TestKind
@@ -96,6 +116,16 @@ struct TestSetup {
     std::vector<std::pair<std::string, double>> packing;  ///< figures of the packing by name; empty for a particle file
 
     std::vector<MineralShare> minerals;  ///< empty of a rock of one material
+
+    std::vector<SpecimenTrace> traces;     ///< of joints, by number
+    std::vector<TraceFace> trace_faces;    ///< by bodies
+    std::vector<std::int32_t> bond_faces;  ///< of each bond, into trace_faces; -1: on none. Empty without traces
+
+    /// Of a bond; -1: it is through the rock.
+    std::int32_t trace_of(PointIndex bond) const {
+        const std::int32_t face = bond_faces.empty() ? -1 : bond_faces[bond];
+        return face < 0 ? -1 : trace_faces[static_cast<std::size_t>(face)].trace;
+    }
 
     /// m, of a bond: the overlap without force once it has broken.
     double rest_overlap(PointIndex bond) const { return coulomb_bonds ? std::max(bond_overlaps[bond], 0.0) : 0.0; }
@@ -177,6 +207,9 @@ struct TestSetup {
         visit("notices", s.notices);
         visit("packing", s.packing);
         visit("minerals", s.minerals);
+        visit("traces", s.traces);
+        visit("trace_faces", s.trace_faces);
+        visit("bond_faces", s.bond_faces);
     }
 };
 

@@ -93,6 +93,8 @@ Scene meshed_scene(const std::string& name, const std::string& text, const po::v
 int joints_of(TestCase test, const std::string& name, const Invocation& given);
 /// Threads that are of use here, of those that are asked for.
 void limit_threads(TestOptions& options, std::int64_t asked);
+/// Threads that a test that is gone on with asks for: the options', else its case's. @throws InputError
+std::int64_t threads_to_resume(const TestOptions& options);
 /// How far a test is, as the program shows it.
 Progress shown_progress(const TestProgress& test);
 /// What `crackle test --check --json` prints.

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "solver/base/errors.hpp"
+#include "solver/files/read_file.hpp"
 #include "specimens/loading/check.hpp"
 #include "specimens/loading/run.hpp"
 #include "specimens/observers/profile_report.hpp"
@@ -267,6 +268,12 @@ void limit_threads(TestOptions& options, std::int64_t asked) {
     options.most_threads_why = room.why;
 }
 
+std::int64_t threads_to_resume(const TestOptions& options) {
+    if (options.threads > 0) return options.threads;
+    const std::filesystem::path own_case = options.folder / "case.toml";  // elsewhere while results are being moved
+    return is_file(own_case) ? read_case(own_case).numerics.threads : options.most_threads;
+}
+
 nlohmann::ordered_json check_as_json(const TestCheck& check) {
     const VirtualTest& test = check.test;
     const std::string stress = test.description.stress_unit();
@@ -401,7 +408,7 @@ int test(const Invocation& given) {
     const TestHooks hooks = hooks_for(given.messages);
     TestOutcome outcome;
     if (resume) {
-        limit_threads(options, options.threads > 0 ? options.threads : options.most_threads);
+        limit_threads(options, threads_to_resume(options));
         outcome = resume_test(options, hooks);
     } else {
         TestCase description = read_case(given_or_shipped(given.operands.front()));

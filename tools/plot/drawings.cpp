@@ -13,6 +13,7 @@
 #include <unordered_map>
 
 #include "solver/base/errors.hpp"
+#include "specimens/frames/frame.hpp"
 #include "specimens/frames/read_frames.hpp"
 #include "tools/plot/axes.hpp"
 #include "tools/plot/panels.hpp"
@@ -22,7 +23,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const Colour grain = colour("#e3e0d9"), grain_edge = colour("#8d877b"), platen = colour("#4b5259");
+const Colour grain = colour("#e3e0d9"), grain_edge = colour("#8d877b"), platen = colour("#4b5259"),
+             joint_colour = colour("#2a7f62");
 
 struct Extent {
     double x1 = std::numeric_limits<double>::infinity(), x2 = -x1, y1 = x1, y2 = -x1;
@@ -40,10 +42,25 @@ struct Extent {
     double height() const { return y2 - y1; }
 };
 
-struct CrackLine {
+/// A crack, or a face on a trace of joints that has not lost its bonds, or never had any.
+struct FaceLine {
+    enum class Kind : std::uint8_t { tension, shear, joint };
+
     Vec2 from, to;
-    bool shear = false;
+    Kind kind = Kind::tension;
 };
+
+const Colour& colour_of(FaceLine::Kind kind) {
+    switch (kind) {
+        case FaceLine::Kind::tension:
+            return tension_colour;
+        case FaceLine::Kind::shear:
+            return shear_colour;
+        case FaceLine::Kind::joint:
+            break;
+    }
+    return joint_colour;
+}
 
 /// How a cell has moved since the first frame: place' = centre + displacement + R(angle) (place - centre).
 struct Motion {
@@ -71,36 +88,42 @@ std::optional<Vec2> held_place(const Motion& a, const Motion& b, Vec2 mean) {
     return (1.0 / square) * Vec2{cosine * rest.x + sine * rest.y, cosine * rest.y - sine * rest.x};
 }
 
-/// The cracks of a frame, where its test wrote them: each on both faces that the bond held together, as they have
+/// The cracks, or the joints, of a frame, where its test wrote them: each on both faces that met there, as they have
 /// moved. Frames hold the mean of the two, which lies in the open where fragments have parted.
-std::vector<CrackLine> cracks_of(const fs::path& folder, const FrameHead& head,
-                                 const std::unordered_map<int, DrawnBody>& bodies, double magnify) {
+/// @param picture "cracks_" or "joints_"
+std::vector<FaceLine> faces_of(const fs::path& folder, const FrameHead& head, const std::string& picture,
+                               const std::unordered_map<int, DrawnBody>& bodies, double magnify) {
     fs::path file = folder / head.file;
     std::string name = file.filename().string();
     const std::string from = "particles_";
     if (!name.starts_with(from)) return {};
-    file.replace_filename("cracks_" + name.substr(from.size()));
+    file.replace_filename(picture + name.substr(from.size()));
     if (!fs::exists(file)) return {};
     const PolyData data = read_polydata(file);
-    const auto mode = data.cell_data.find("mode");
+    const bool joints = picture == "joints_";
+    const auto word = data.cell_data.find(joints ? "state" : "mode");
     const std::vector<double>&body_i = cell_values(file, data, "body_i"), &body_j = cell_values(file, data, "body_j");
-    std::vector<CrackLine> cracks;
+    std::vector<FaceLine> lines;
     for (std::size_t k = 0; k < data.cells.size(); ++k) {
         const std::vector<std::size_t>& ends = data.cells[k].points;
-        const bool shear = mode != data.cell_data.end() && mode->second.at(k) != 0.0;
+        const double value = word != data.cell_data.end() ? word->second.at(k) : 0.0;
+        if (joints && value == static_cast<double>(ContactState::broken)) continue;  // the cracks show it
+        const FaceLine::Kind kind = joints         ? FaceLine::Kind::joint
+                                    : value != 0.0 ? FaceLine::Kind::shear
+                                                   : FaceLine::Kind::tension;
         const auto i = bodies.find(static_cast<int>(body_i[k])), j = bodies.find(static_cast<int>(body_j[k]));
         if (i == bodies.end() || j == bodies.end())
-            throw InputError(fmt::format("{}: crack {}: found bodies {} and {}, of which one is not drawn",
+            throw InputError(fmt::format("{}: line {}: found bodies {} and {}, of which one is not drawn",
                                          file.string(), k, body_i[k], body_j[k]));
         const auto begin = held_place(i->second.motion, j->second.motion, data.points.at(ends.front())),
                    end = held_place(i->second.motion, j->second.motion, data.points.at(ends.back()));
         if (!begin || !end) continue;
         for (const DrawnBody& body : {i->second, j->second}) {
             const Motion motion = body.motion.with(magnify);
-            if (body.shown) cracks.push_back({motion.of(*begin), motion.of(*end), shear});
+            if (body.shown) lines.push_back({motion.of(*begin), motion.of(*end), kind});
         }
     }
-    return cracks;
+    return lines;
 }
 
 /// A moment ready to be drawn.
@@ -108,7 +131,7 @@ struct Moment {
     std::vector<std::vector<Vec2>> outlines;  // of cells; one point of circles
     std::vector<bool> shown;                  // of cells
     const std::vector<RecordedCell>* cells = nullptr;
-    std::vector<CrackLine> cracks;
+    std::vector<FaceLine> faces;  // joints first: cracks are drawn over them
     std::vector<DrawnMark> marks;
     std::vector<std::string> caption;  // lines
     Extent extent;
@@ -199,7 +222,11 @@ Moment prepared(const DrawnMoment& drawn, const fs::path& folder, const DrawingS
     if (left_out > 0)
         moment.caption.push_back(fmt::format("{} {} farther out", left_out, left_out == 1 ? "particle" : "particles"));
     moment.marks = drawn.marks;
-    if (drawn.cracks) moment.cracks = cracks_of(folder, recording.frames[drawn.frame], bodies, style.magnify);
+    const FrameHead& head = recording.frames[drawn.frame];
+    moment.faces = faces_of(folder, head, "joints_", bodies, style.magnify);
+    if (!drawn.cracks) return moment;
+    const std::vector<FaceLine> cracks = faces_of(folder, head, "cracks_", bodies, style.magnify);
+    moment.faces.insert(moment.faces.end(), cracks.begin(), cracks.end());
     return moment;
 }
 
@@ -240,8 +267,7 @@ void draw_moment(Canvas& canvas, const Rect& place, const Moment& moment, const 
             canvas.polygon(on_sheet(moment.outlines[k]), &grain, &grain_edge, edge);
         }
     }
-    for (const CrackLine& line : moment.cracks)
-        canvas.line({at(line.from), at(line.to)}, line.shear ? shear_colour : tension_colour, crack);
+    for (const FaceLine& line : moment.faces) canvas.line({at(line.from), at(line.to)}, colour_of(line.kind), crack);
     const Colour rim = colour("#ffffff");
     for (const DrawnMark& mark : moment.marks) canvas.circle(at(mark.place), mark.radius, &mark.colour, &rim, 0.3);
     canvas.unclip();
@@ -254,7 +280,7 @@ double round_length(double most) {
 }
 
 struct Key {
-    bool tension = false, shear = false;
+    bool tension = false, shear = false, joint = false;
     double magnify = 1.0;
 };
 
@@ -271,6 +297,7 @@ void draw_key(Canvas& canvas, const Rect& place, const Key& key, double points_a
     std::vector<Item> items{{fmt::format("{:.6g} {}", length / unit.factor, unit.name), &ink, length * points_a_metre}};
     if (key.tension) items.push_back({"broken in tension", &tension_colour, 10.0});
     if (key.shear) items.push_back({"in shear", &shear_colour, 10.0});
+    if (key.joint) items.push_back({"joint", &joint_colour, 10.0});
     if (key.magnify != 1.0) items.push_back({fmt::format("displacements ×{:.6g}", key.magnify), nullptr, 0.0});
     double lines = 0.0, texts = 0.0;  // pt
     for (const Item& item : items) {
@@ -320,7 +347,11 @@ Panel drawings(const std::vector<DrawnMoment>& drawn, const std::vector<fs::path
     Key key;
     key.magnify = style.magnify;
     for (const Moment& moment : moments) {
-        for (const CrackLine& crack : moment.cracks) (crack.shear ? key.shear : key.tension) = true;
+        for (const FaceLine& line : moment.faces) {
+            key.tension = key.tension || line.kind == FaceLine::Kind::tension;
+            key.shear = key.shear || line.kind == FaceLine::Kind::shear;
+            key.joint = key.joint || line.kind == FaceLine::Kind::joint;
+        }
     }
     const double height = y2 - y1 + 2.0 * beyond;
     const auto scale_at = [widths, widest, gaps, height](double width) {

@@ -89,7 +89,7 @@ void bind_tests(py::module_& module) {
     module.def(
         "resume_test",
         [](TestOptions options, const py::object& report, const py::object& call, std::int64_t every) {
-            tools::limit_threads(options, options.threads > 0 ? options.threads : options.most_threads);
+            tools::limit_threads(options, tools::threads_to_resume(options));
             refuse_threads_after_fork(options.most_threads);
             return run(report, call, every, [&](const TestHooks& hooks) { return resume_test(options, hooks); });
         },

@@ -31,6 +31,16 @@ TEST(ScratchArray, HoldsWhatWasPutIntoItWhereverThatIs) {
     EXPECT_TRUE(std::filesystem::is_empty(scratch / "")) << "a file with a name";
 }
 
+TEST(ScratchArray, IsMadeOneAfterTheOther) {
+    const testing::ScratchFolder scratch;
+    ScratchArray<std::uint64_t> numbers(scratch / "");
+    std::vector<std::uint64_t> wanted;
+    numbers.generate(70'001, [&](std::size_t k) { return wanted.emplace_back(3 * k + 1); });
+    EXPECT_EQ(wanted.size(), 70'001U);
+    EXPECT_EQ(numbers.values(), wanted);
+    EXPECT_EQ(numbers[40'000], wanted[40'000]);
+}
+
 TEST(ScratchArray, OfNothingIsEmptyAndWhatWasNeverPutIsZero) {
     const testing::ScratchFolder scratch;
     ScratchArray<double> numbers(scratch / "");

@@ -85,7 +85,11 @@ class TestFolder : public ::testing::Test {
         sliding.rate = 0.1;
         sliding.max_strain = 0.03;
         sliding.output += "\nslips = true";
-        return {pulled, squeezed, discs, sliding};
+        SmallCase jointed = squeezed;
+        jointed.minerals =
+            "[[trace]]\npoints = [0.0, 0.1, 0.2355, 0.32]\nfriction_angle = 20.0\ncohesion = 1e4\n"
+            "tensile_strength = 1e3\ndilation_angle = 5.0\n[[trace]]\npoints = [0.05, 0.3, 0.15, 0.35]";
+        return {pulled, squeezed, discs, sliding, jointed};
     }
     /// Stops when asked for the nth time while it loads; the loop asks every 64 steps.
     static TestHooks stopping_at(int questions) {
@@ -444,6 +448,24 @@ TEST_F(TestFolder, IsNotMadeForACaseThatCannotBeTested) {
     wanted.numerics = "time_step = 1.0";
     refusal([&] { run_test(small_case(wanted), options("out")); });
     EXPECT_FALSE(fs::exists(scratch_ / "out"));
+}
+
+// A network's file system keeps a removed file under another name as long as it is open.
+TEST_F(TestFolder, OfStagedResultsGoesOnceNothingIsKeptInIt) {
+    fs::create_directories(scratch_ / "out");
+    for (const char* name : {"curve.csv", "summary.json"}) std::ofstream(scratch_ / "out" / name) << "1\n2\n";
+    const fs::path staged = scratch_ / "out.new", kept = staged / ".nfs0001";
+    {
+        OutputFolder folder = OutputFolder::create(scratch_ / "out", true, {});
+        ASSERT_EQ(folder.path(), staged);
+        folder.write("summary.json", "new");
+        std::ofstream(kept) << "open";
+        folder.finish();
+        EXPECT_EQ(read_file(scratch_ / "out/summary.json"), "new");
+        EXPECT_TRUE(is_there(kept)) << "a file of nobody's was removed";
+        fs::remove(kept);
+    }
+    EXPECT_FALSE(is_there(staged));
 }
 
 TEST_F(TestFolder, FullDiscIsOneErrorThatNamesTheFile) {

@@ -41,7 +41,7 @@ class PeakFrame : public ::testing::Test {
         const OutputFolder output = OutputFolder::create(folder, false, {});
         std::int64_t kept = -1;
         for (const bool first : {true, false}) {
-            TestFiles files(output, "", test.state, PointPrecision::single_, false, false, large_frame);
+            TestFiles files(output, "", test.state, {.large_frame = large_frame});
             EXPECT_EQ(test.state.peak_frame.bodies.empty(), first || large_frame == always);
             TestHooks hooks;
             hooks.interrupted = [&, looks = 0]() mutable {

@@ -287,7 +287,7 @@ void add_observers(const FeatureStudy& study, const std::string& kind, const Add
     const TimedSpecimen specimen{kind, study.count, 1, 4.0 * study.seconds};
     VirtualTest test = bond_timed_test(specimen, study.scratch / kind);
     OutputFolder output = OutputFolder::create(study.scratch / kind / "out", true, {});
-    TestFiles files(output, "", test.state, PointPrecision::single_);
+    TestFiles files(output, "", test.state, {});
     const auto load = [&](std::int64_t steps) {
         const std::int64_t end = test.world.stepping.steps + steps;
         const double begun = processor_seconds();

@@ -110,7 +110,7 @@ TimedTest time_test(const TimedSpecimen& specimen, const fs::path& folder, std::
     VirtualTest test = bond_timed_test(specimen, folder);
     test.world.workers.profile = profile;
     OutputFolder output = OutputFolder::create(folder / "out", true, {});
-    TestFiles files(output, "", test.state, PointPrecision::single_);
+    TestFiles files(output, "", test.state, {});
     const auto load_for = [&](double seconds) {
         std::optional<Clock::time_point> begun;  // by the first step, after the first checkpoint
         const std::int64_t end = test.world.stepping.steps + fewest_steps;

@@ -114,6 +114,30 @@ function eachCycle(name: string, figure: string, factor: number, unit: string, n
     return {name, note, cells: (tests) => ({unit, values: tests.map(read)})};
 }
 
+type Joint = Record<string, unknown> & {at_peak: Record<string, unknown> | null; at_end: Record<string, unknown>};
+
+/// What the traces of each set, or [[trace]], say of themselves, in their order.
+function eachJoint(name: string, read: (joint: Joint) => unknown, factor: number, unit: string, note?: string): Row {
+    const cell = (test: TestData): string | undefined => {
+        const joints = test.summary['joints'];
+        if (!Array.isArray(joints) || joints.length === 0) return undefined;
+        const values = (joints as Joint[]).map(read);
+        if (values.every((value) => value === null || value === undefined)) return undefined;
+        return values.map((value) => (typeof value === 'number' ? significant(value * factor, 3) : typeof value === 'string' ? value : missing)).join(', ');
+    };
+    return {name, ...(note ? {note} : {}), cells: (tests) => ({unit, values: tests.map(cell)})};
+}
+
+const jointMotions = (['peak', 'end'] as const).flatMap((moment) => {
+    const at = (figure: string) => (joint: Joint) => (moment === 'peak' ? joint.at_peak : joint.at_end)?.[figure];
+    return [
+        eachJoint(`Failed, at the ${moment}`, at('failed_share'), 100, '%', 'of the bonded length: faces that have lost all their bonds'),
+        eachJoint(`Mean opening, at the ${moment}`, at('opening'), 1e6, 'µm', 'since loading began, what the faces’ springs give included'),
+        eachJoint(`Mean slip, at the ${moment}`, at('slip'), 1e6, 'µm', 'likewise; positive where the far side goes to the left'),
+        eachJoint(`Largest slip, at the ${moment}`, at('largest_slip'), 1e6, 'µm', 'of one face'),
+    ];
+});
+
 /** A part of the relative error that the summary gives for one of its numbers; absent where it was not measured. */
 function errorOf(number: string, part: string): Read {
     return (test) => {
@@ -193,6 +217,15 @@ const groups: readonly {title: string; rows: readonly Row[]}[] = [
         plain('Rosin–Rammler exponent of fragments', (test) => numberIn(test, 'fragment_rosin_rammler', 'exponent')),
         strains('Area strain at peak', key('area_strain_peak'), 'axial less lateral strain, shortening and widening positive: positive where the area shrinks'),
         strains('Area strain at the end', key('area_strain_end')),
+    ]},
+    {title: 'Joints', rows: [
+        counts('Bonds broken on joints', key('bonds_broken_on_joints')),
+        counts('in the rock', key('bonds_broken_in_rock')),
+        counts('up to the peak on joints', key('bonds_broken_on_joints_to_peak')),
+        counts('up to the peak in the rock', key('bonds_broken_in_rock_to_peak')),
+        eachJoint('Joints', ({source}) => source, 1, '', 'a set, or a [[trace]]; their figures in this order'),
+        eachJoint('Length of traces', ({length}) => length, 1, 'm'),
+        ...jointMotions,
     ]},
     {title: 'Energy, of the platens’ work', rows: [
         ...(['peak', 'end'] as const).flatMap((moment) => ([['strain', 'stored'], ['friction', 'lost by sliding'], ['fracture', 'taken by breaks'], ['dashpot', 'lost in dashpots'], ['kinetic', 'of motion']] as const)

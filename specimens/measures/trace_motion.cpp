@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/measures/trace_motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <span>
+
+namespace crackle {
+
+void TraceMotion::add(const TraceMotion& other) {
+    const double both = length + other.length;
+    if (both > 0.0) {
+        opening = (length * opening + other.length * other.opening) / both;
+        slip = (length * slip + other.length * other.slip) / both;
+    }
+    largest_opening = faces == 0 ? other.largest_opening : std::max(largest_opening, other.largest_opening);
+    if (std::abs(other.largest_slip) > std::abs(largest_slip)) largest_slip = other.largest_slip;
+    faces += other.faces;
+    length = both;
+    bonded += other.bonded;
+    failed += other.failed;
+}
+
+std::vector<TraceMotion> trace_motions(const World& world, const TestSetup& setup, const ContactHistory& history) {
+    std::vector<std::int32_t> broken(setup.trace_faces.size(), 0);
+    if (!setup.traces.empty())
+        for (const Crack& crack : history.cracks)
+            if (const std::int32_t face = setup.bond_faces[crack.bond]; face >= 0)
+                ++broken[static_cast<std::size_t>(face)];
+    const auto place = [&](BodyIndex b) {
+        const BodyState& body = world.bodies.state[b];
+        return StartPlace{body.x, body.y, body.angle};
+    };
+    std::vector<TraceMotion> motions(setup.traces.size());
+    for (std::size_t k = 0; k < setup.trace_faces.size(); ++k) {
+        const TraceFace& face = setup.trace_faces[k];
+        if (face.length == 0.0) continue;
+        const FaceMotion moved = motion_of(face, setup, place(face.i), place(face.j));
+        motions[static_cast<std::size_t>(face.trace)].add(
+            {.faces = 1,
+             .length = face.length,
+             .bonded = face.bonds > 0 ? face.length : 0.0,
+             .failed = face.bonds > 0 && broken[k] == face.bonds ? face.length : 0.0,
+             .opening = moved.opening,
+             .slip = moved.slip,
+             .largest_opening = moved.opening,
+             .largest_slip = moved.slip});
+    }
+    return motions;
+}
+
+std::int64_t breaks_on_traces(const TestSetup& setup, const ContactHistory& history, std::size_t count) {
+    return std::ranges::count_if(std::span(history.cracks).first(count),
+                                 [&](const Crack& crack) { return setup.trace_of(crack.bond) >= 0; });
+}
+
+}  // namespace crackle

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/setup/trace_faces.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "solver/base/correctly_rounded.hpp"
+#include "solver/geometry/across_joint.hpp"
+#include "solver/geometry/contact_share.hpp"
+#include "solver/measure/point_view.hpp"
+
+namespace crackle {
+namespace {
+
+Vec2 turned(Vec2 v, double angle) {
+    const double c = correctly_rounded::cos(angle), s = correctly_rounded::sin(angle);
+    return c * v + s * perpendicular(v);
+}
+
+std::pair<BodyIndex, BodyIndex> ordered(BodyIndex i, BodyIndex j) { return {std::min(i, j), std::max(i, j)}; }
+
+/// Unit normal of a polygon's edge. Those of contacts slant where corners overhang.
+Vec2 outwards(const World& world, BodyIndex body, std::uint32_t edge) {
+    const std::vector<Vec2> corners = element_positions(world, body);
+    const Vec2 along = corners[(edge + 1) % corners.size()] - corners[edge];
+    return (-1.0 / norm(along)) * perpendicular(along);
+}
+
+/// The face of the pair whose points are all from begin to end; nothing where it is on no trace.
+std::optional<TraceFace> face_of(const World& world, PointIndex begin, PointIndex end) {
+    TraceFace face;
+    std::tie(face.i, face.j) = ordered(world.points.contact[begin].body_i, world.points.contact[begin].body_j);
+    double overlap = 0.0;  // m, the largest: corners overhang
+    std::int64_t points = 0;
+    Vec2 normal;
+    for (PointIndex k = begin; k < end; ++k) {
+        const std::uint16_t flags = world.points.state[k].flags;
+        if ((flags & (point_bonded | point_had_bond)) == 0) continue;
+        const PointView view = view_point(world, k);
+        overlap = points == 0 ? view.overlap : std::max(overlap, view.overlap);
+        ++points;
+        face.bonds += (flags & point_bonded) != 0 ? 1 : 0;
+        normal = normal + (view.body_i == face.i ? 1.0 : -1.0) * view.normal;
+        face.middle = face.middle + view.position;
+    }
+    if (points == 0) return std::nullopt;
+    const double gap = world.settings.thick - overlap;
+    const std::optional<std::int32_t> trace = trace_of_face(world, face.i, face.j, gap);
+    if (!trace) return std::nullopt;
+    const std::optional<ContactShare> share = share_of_face(world, face.i, face.j, gap);
+    face.trace = *trace;
+    face.length = share ? share->length : 0.0;  // corner to corner
+    face.normal = share ? outwards(world, face.i, share->edge_i) : (1.0 / norm(normal)) * normal;
+    face.middle = (1.0 / static_cast<double>(points)) * face.middle;
+    return face;
+}
+
+}  // namespace
+
+FaceMotion motion_of(const TraceFace& face, const TestSetup& setup, const StartPlace& i, const StartPlace& j) {
+    const StartPlace &start_i = setup.start[face.i], &start_j = setup.start[face.j];
+    const double turn_i = i.angle - start_i.angle, turn_j = j.angle - start_j.angle;
+    const auto on_i = [&](Vec2 p) { return Vec2{i.x, i.y} + turned(p - Vec2{start_i.x, start_i.y}, turn_i); };
+    const auto on_j = [&](Vec2 p) { return Vec2{j.x, j.y} + turned(p - Vec2{start_j.x, start_j.y}, turn_j); };
+    const auto mean = [&](Vec2 p) { return 0.5 * (on_i(p) + on_j(p)); };
+    const Vec2 apart = on_j(face.middle) - on_i(face.middle), normal = turned(face.normal, 0.5 * (turn_i + turn_j));
+    const Vec2 half = 0.5 * face.length * perpendicular(face.normal);
+    return {dot(apart, normal), dot(apart, perpendicular(normal)), mean(face.middle - half), mean(face.middle + half)};
+}
+
+void record_trace_faces(TestSetup& setup, const World& world) {
+    if (setup.traces.empty()) return;
+    const PointIndex walls = world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
+    for (PointIndex begin = 0, end = 0; begin < walls; begin = end) {
+        end = points_between(world, begin).second;
+        if (const std::optional<TraceFace> face = face_of(world, begin, end)) setup.trace_faces.push_back(*face);
+    }
+    const auto pair_of = [](const TraceFace& face) { return std::pair(face.i, face.j); };
+    std::ranges::sort(setup.trace_faces, {}, pair_of);
+    for (const BodyPair& bond : setup.bonds.pairs) {
+        const auto pair = ordered(bond.body_i, bond.body_j);
+        const auto found = std::ranges::lower_bound(setup.trace_faces, pair, {}, pair_of);
+        const bool on_trace = found != setup.trace_faces.end() && pair_of(*found) == pair;
+        setup.bond_faces.push_back(on_trace ? static_cast<std::int32_t>(found - setup.trace_faces.begin()) : -1);
+    }
+}
+
+}  // namespace crackle

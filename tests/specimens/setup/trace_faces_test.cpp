@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Faces on traces: all of a trace is faces, and they open and slip by what their two sides move apart, whatever both do
+// together.
+
+#include "specimens/setup/trace_faces.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "specimens/loading/prepare.hpp"
+#include "specimens/measures/trace_motion.hpp"
+#include "tests/support/deck_files.hpp"
+#include "tests/support/small_rock.hpp"
+
+namespace crackle {
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+/// A face between two bodies at (0, 0) and (1, 1), in the middle, its normal at 45 degrees.
+TestSetup one_face(BodyIndex i, BodyIndex j) {
+    TestSetup setup;
+    setup.traces.push_back({"one", 0.2});
+    setup.start.resize(2);
+    setup.start[i] = {0.0, 0.0, 0.3};
+    setup.start[j] = {1.0, 1.0, -0.1};
+    const double sign = i < j ? 1.0 : -1.0;
+    setup.trace_faces.push_back({.trace = 0,
+                                 .i = 0,
+                                 .j = 1,
+                                 .bonds = 2,
+                                 .length = 0.2,
+                                 .middle = {0.5, 0.5},
+                                 .normal = {sign * std::sqrt(0.5), sign * std::sqrt(0.5)}});
+    return setup;
+}
+
+TEST(TraceFaces, OpenAndSlipByWhatTheirSidesMoveApart) {
+    const double opening = 3e-3, slip = -2e-3;
+    const Vec2 normal{std::sqrt(0.5), std::sqrt(0.5)};
+    for (const auto& [lower, upper] : {std::pair<BodyIndex, BodyIndex>{0, 1}, {1, 0}}) {
+        const TestSetup setup = one_face(lower, upper);
+        for (const double turn : {0.0, 0.7, -2.0}) {  // of both, about the origin, and a shift
+            const Vec2 shift{0.4, -0.1};
+            const auto moved = [&](const StartPlace& start, Vec2 own) {
+                const double c = std::cos(turn), s = std::sin(turn);
+                const Vec2 p = Vec2{start.x, start.y} + own;
+                return StartPlace{c * p.x - s * p.y + shift.x, s * p.x + c * p.y + shift.y, start.angle + turn};
+            };
+            std::vector<StartPlace> now(2);
+            now[lower] = moved(setup.start[lower], {});
+            now[upper] = moved(setup.start[upper], opening * normal + slip * perpendicular(normal));
+            const FaceMotion face = motion_of(setup.trace_faces[0], setup, now[0], now[1]);
+            fmt::print("  turn {}: opening expected {} m, got {:.17g}; slip expected {}, got {:.17g}\n", turn, opening,
+                       face.opening, slip, face.slip);
+            EXPECT_NEAR(face.opening, opening, 1e-15);
+            EXPECT_NEAR(face.slip, slip, 1e-15);
+            EXPECT_NEAR(norm(face.end - face.begin), 0.2, 1e-15);
+        }
+    }
+}
+
+/// A body that rolls on a face drags its middle along: the turn of one body alone counts by half as turn of the face.
+TEST(TraceFaces, TurnWithTheMeanOfTheirBodies) {
+    const TestSetup setup = one_face(0, 1);
+    const double turn = 0.2;
+    const StartPlace i = setup.start[0];
+    const StartPlace j{1.0, 1.0, -0.1 + turn};
+    const FaceMotion face = motion_of(setup.trace_faces[0], setup, i, j);
+    // The middle lies at (-½, -½) from j, and turns about it: u = R(turn) a - a, a = (-½, -½).
+    const double a = std::sqrt(0.5);  // m, along the normal at 45 degrees, backwards
+    EXPECT_NEAR(face.opening, a * (std::cos(0.5 * turn) - std::cos(turn - 0.5 * turn)), 1e-15);
+    EXPECT_NEAR(face.slip, -a * (std::sin(0.5 * turn) + std::sin(0.5 * turn)), 1e-15);
+    EXPECT_NEAR(std::atan2((face.end - face.begin).y, (face.end - face.begin).x), 0.75 * pi + 0.5 * turn, 1e-14);
+}
+
+class JointedTest : public ::testing::Test {
+  protected:
+    /// Cells with a trace from side to side and another that ends within, one of them as the rock.
+    VirtualTest jointed(const std::string& of_first = "friction_angle = 20.0") const {
+        testing::SmallCase wanted;
+        wanted.kind = "compression";
+        wanted.mesh = "voronoi";
+        wanted.material =
+            "units = \"area\"\ncontact_modulus = 1e7\nstiffness_ratio = 2.5\ntensile_strength = 1.5e4\ncohesion = 5e4";
+        wanted.bond = "law = \"coulomb\"";
+        wanted.minerals =
+            "[[trace]]\npoints = [0.0, 0.15, 0.3, 0.3]\n" + of_first + "\n[[trace]]\npoints = [0.05, 0.3, 0.15, 0.4]";
+        return prepare_test(read_case(testing::write_small_case(scratch_ / "", wanted)));
+    }
+
+    testing::ScratchFolder scratch_;
+};
+
+TEST_F(JointedTest, AllOfATraceIsFacesWithBonds) {
+    const VirtualTest test = jointed();
+    const TestSetup& setup = test.setup;
+    ASSERT_EQ(setup.traces.size(), 2u);
+    EXPECT_NEAR(setup.traces[1].length, std::hypot(0.1, 0.1), 1e-12);
+    std::vector<double> lengths(2, 0.0);
+    std::int64_t bonds = 0;
+    for (const TraceFace& face : setup.trace_faces) {
+        lengths[static_cast<std::size_t>(face.trace)] += face.length;
+        bonds += face.bonds;
+        const Vec2 along = face.trace == 0 ? Vec2{0.3, 0.15} : Vec2{0.1, 0.1};
+        if (face.length > 0.0) {
+            EXPECT_LT(std::abs(dot(face.normal, (1.0 / norm(along)) * along)), 1e-9);
+        }
+    }
+    for (std::size_t k = 0; k < 2; ++k) {
+        fmt::print("  trace {}: expected {:.9f} m of faces, got {:.9f}\n", k, setup.traces[k].length, lengths[k]);
+        EXPECT_NEAR(lengths[k], setup.traces[k].length, 1e-9 * setup.traces[k].length);
+    }
+    ASSERT_EQ(setup.bond_faces.size(), setup.bonds.size());
+    const auto on_faces = std::ranges::count_if(setup.bond_faces, [](std::int32_t face) { return face >= 0; });
+    EXPECT_EQ(on_faces, bonds);
+    EXPECT_GT(bonds, 20);
+    EXPECT_LT(static_cast<std::size_t>(bonds), setup.bonds.size() / 2);
+}
+
+TEST_F(JointedTest, WhatAnUpperPartMovesIsTheTracesOpeningAndSlip) {
+    VirtualTest test = jointed();
+    const TestSetup& setup = test.setup;
+    const Vec2 along = (1.0 / std::hypot(0.3, 0.15)) * Vec2{0.3, 0.15}, up = perpendicular(along);
+    const double opening = 1e-4, right = 2e-4;  // m
+    for (BodyIndex b = 0; b < test.world.bodies.size(); ++b) {
+        BodyState& body = test.world.bodies.state[b];
+        if (cross(along, Vec2{body.x, body.y - 0.15}) <= 0.0) continue;
+        const Vec2 moved = opening * up + right * along;
+        body.x += moved.x, body.y += moved.y;
+    }
+    // All bonds of the first trace's first face and some of its second's.
+    ContactHistory history;
+    std::vector<std::size_t> faces;
+    for (std::size_t k = 0; k < setup.trace_faces.size() && faces.size() < 2; ++k)
+        if (setup.trace_faces[k].trace == 0 && setup.trace_faces[k].length > 0.0 && setup.trace_faces[k].bonds > 1)
+            faces.push_back(k);
+    bool spared = false;
+    for (PointIndex bond = 0; bond < setup.bonds.size(); ++bond) {
+        const auto face = static_cast<std::size_t>(setup.bond_faces[bond]);
+        if (face == faces[0] || (face == faces[1] && std::exchange(spared, true)))
+            history.cracks.push_back({.bond = bond});
+    }
+    const std::vector<TraceMotion> motions = trace_motions(test.world, setup, history);
+    ASSERT_EQ(motions.size(), 2u);
+    fmt::print("  opening expected {}, got {:.9g}; slip expected {}, got {:.9g}\n", opening, motions[0].opening, -right,
+               motions[0].slip);
+    EXPECT_NEAR(motions[0].opening, opening, 1e-9 * opening);
+    EXPECT_NEAR(motions[0].slip, -right, 1e-9 * right) << "the far side has gone to the right";
+    EXPECT_NEAR(motions[0].largest_slip, -right, 1e-9 * right);
+    EXPECT_NEAR(motions[1].opening, 0.0, 1e-16);
+    EXPECT_EQ(motions[1].failed, 0.0);
+    EXPECT_NEAR(motions[0].failed, setup.trace_faces[faces[0]].length, 1e-15);
+    EXPECT_NEAR(motions[0].bonded, motions[0].length, 1e-15);
+    EXPECT_EQ(breaks_on_traces(setup, history, history.cracks.size()), std::ssize(history.cracks));
+    TraceMotion both = motions[0];
+    both.add(motions[1]);
+    EXPECT_NEAR(both.opening, opening * motions[0].length / (motions[0].length + motions[1].length), 1e-9 * opening);
+    EXPECT_EQ(both.largest_slip, motions[0].largest_slip);
+}
+
+TEST_F(JointedTest, AnOpenTraceHasFacesWithoutBonds) {
+    const VirtualTest test = jointed("bonded = false");
+    double open = 0.0;
+    for (const TraceFace& face : test.setup.trace_faces) {
+        if (face.trace != 0) continue;
+        EXPECT_EQ(face.bonds, 0);
+        open += face.length;
+    }
+    EXPECT_NEAR(open, test.setup.traces[0].length, 1e-9 * open);
+    const std::vector<TraceMotion> motions = trace_motions(test.world, test.setup, {});
+    EXPECT_EQ(motions[0].bonded, 0.0);
+    EXPECT_NEAR(motions[0].opening, 0.0, 1e-16);
+}
+
+}  // namespace
+}  // namespace crackle
