@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 #include <utility>
 
@@ -76,10 +77,8 @@ std::function<bool(Vec2, BodyIndex, BodyIndex)> grips_of(const World& world, con
     };
 }
 
-}  // namespace
-
-BondedSpecimen bond_specimen(const Specimen& specimen, const TestCase& test, const TestCase::Loading& loading,
-                             std::function<void()> while_solving) {
+/// The bodies as they are bonded, without platens.
+Scene scene_of(const Specimen& specimen, const TestCase& test) {
     Scene scene = specimen.scene;
     scene.thick = test.bond.thick     ? *test.bond.thick
                   : specimen.polygons ? specimen.mesh_gap
@@ -95,6 +94,22 @@ BondedSpecimen bond_specimen(const Specimen& specimen, const TestCase& test, con
     scene.first_kick = FirstKick::half;
     scene.threads = static_cast<int>(test.numerics.threads);
     scene.intact = {test.numerics.intact, test.numerics.intact, test.numerics.intact};
+    return scene;
+}
+
+void bond(World& world, const TestCase& test, const Bonding& bonding) {
+    try {
+        bond_all(world, bonding);
+    } catch (const InputError& error) {
+        throw InputError(fmt::format("{}: {}", test.at("bond.law"), error.what()));
+    }
+}
+
+}  // namespace
+
+BondedSpecimen bond_specimen(const Specimen& specimen, const TestCase& test, const TestCase::Loading& loading,
+                             std::function<void()> while_solving) {
+    Scene scene = scene_of(specimen, test);
     BondedSpecimen bonded;
     TestCase asked = test;
     asked.loading = loading;
@@ -108,15 +123,21 @@ BondedSpecimen bond_specimen(const Specimen& specimen, const TestCase& test, con
     if (loading.platens == "glued")
         bonding.holds = grips_of(bonded.world, specimen, bonded.platens, loading.grip.value_or(0.0));
     if (specimen.shape.notch && specimen.polygons) bonding.leaves = parted_by(bonded.world, *specimen.shape.notch);
-    try {
-        bond_all(bonded.world, bonding);
-    } catch (const InputError& error) {
-        throw InputError(fmt::format("{}: {}", test.at("bond.law"), error.what()));
-    }
+    bond(bonded.world, test, bonding);
     apply_given_step(bonded.world, test);
     place_platens(bonded.world, bonded.platens);
     compute_forces(bonded.world);
     return bonded;
+}
+
+World bond_alone(const Specimen& specimen, const TestCase& test, Traces traces) {
+    Scene scene = scene_of(specimen, test);
+    scene.domain.wall_present = {false, false, false, false};
+    if (traces == Traces::as_rock) std::ranges::fill(scene.trace_joints, -1);
+    const double thick = scene.thick;
+    World world = build_world(std::move(scene));
+    bond(world, test, bonding_of(specimen, test, thick));
+    return world;
 }
 
 }  // namespace crackle

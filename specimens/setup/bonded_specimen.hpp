@@ -23,4 +23,9 @@ struct BondedSpecimen {
 BondedSpecimen bond_specimen(const Specimen& specimen, const TestCase& test, const TestCase::Loading& loading,
                              std::function<void()> while_solving = {});
 
+enum class Traces : bool { as_they_are, as_rock };
+
+/// The same without platens and walls. @param traces  whether joints keep their mechanics
+World bond_alone(const Specimen& specimen, const TestCase& test, Traces traces = Traces::as_they_are);
+
 }  // namespace crackle

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,7 @@
 namespace crackle {
 
 struct ElasticAnalysis;
+struct JointedCompliance;
 struct MeshReport;
 struct PackingRequest;
 struct Scene;
@@ -102,7 +104,8 @@ nlohmann::ordered_json check_as_json(const TestCheck& check);
 /// The case as the linear solution takes it; a notice of each thing that it leaves out.
 TestCase elastic_case(TestCase description, std::vector<std::string>& notices);
 /// What `crackle elastic --json` prints.
-nlohmann::ordered_json elastic_as_json(const VirtualTest& test, const ElasticAnalysis& analysis, double seconds);
+nlohmann::ordered_json elastic_as_json(const VirtualTest& test, const ElasticAnalysis& analysis,
+                                       const std::optional<JointedCompliance>& compliance, double seconds);
 
 // Exit codes of the program; exit_codes() explains them.
 inline constexpr int exit_done = 0;

@@ -13,6 +13,7 @@
 #include "solver/base/errors.hpp"
 #include "solver/files/replace_file.hpp"
 #include "specimens/elastic/analysis.hpp"
+#include "specimens/elastic/jointed_compliance.hpp"
 #include "specimens/loading/prepare.hpp"
 #include "specimens/results/summary.hpp"
 #include "tools/commands/commands.hpp"
@@ -97,7 +98,44 @@ TestCase elastic_case(TestCase description, std::vector<std::string>& notices) {
     return description;
 }
 
-nlohmann::ordered_json elastic_as_json(const VirtualTest& test, const ElasticAnalysis& a, double seconds) {
+namespace {
+
+Json moduli_along(const Compliance& s) {
+    return {{"x", 1.0 / s[0][0]}, {"y", 1.0 / s[1][1]}, {"shear", 1.0 / s[2][2]}};
+}
+
+Json compliance_as_json(const JointedCompliance& found) {
+    Json json{{"jointed", found.jointed},
+              {"welded", found.welded},
+              {"expected", found.expected ? Json(*found.expected) : Json(nullptr)},
+              {"moduli", {{"jointed", moduli_along(found.jointed)}, {"welded", moduli_along(found.welded)}}}};
+    if (found.expected)
+        json["moduli"]["expected"] = moduli_along(*found.expected);
+    else
+        json["no_expected"] = found.why_not;
+    return json;
+}
+
+void print(const JointedCompliance& found, const std::string& stress) {
+    const auto print_row = [&](const char* name, std::size_t k) {
+        fmt::print("    {:<8} {:>11.5g} {:>11.5g}", name, 1.0 / found.jointed[k][k], 1.0 / found.welded[k][k]);
+        if (found.expected) fmt::print(" {:>11.5g}", 1.0 / (*found.expected)[k][k]);
+        fmt::print("\n");
+    };
+    fmt::print("  of the rock without platens, {}; the whole tensor: --json\n", stress);
+    fmt::print("             with joints      welded{}\n", found.expected ? "   by theory" : "");
+    print_row("E along x", 0);
+    print_row("E along y", 1);
+    print_row("G", 2);
+    fmt::print("    {}\n", found.expected
+                               ? "by theory: the welded rock and what persistent joints add (Amadei and Goodman)"
+                               : "no theory beside it: " + found.why_not);
+}
+
+}  // namespace
+
+nlohmann::ordered_json elastic_as_json(const VirtualTest& test, const ElasticAnalysis& a,
+                                       const std::optional<JointedCompliance>& compliance, double seconds) {
     Json json{{"title", test.description.title},
               {"kind", test.description.loading.kind},
               {"platens", test.description.loading.platens},
@@ -120,6 +158,7 @@ nlohmann::ordered_json elastic_as_json(const VirtualTest& test, const ElasticAna
               {"residual", a.residual},
               {"seconds", seconds}};
     if (!a.frequencies.empty()) json["angular_frequencies"] = a.frequencies;
+    if (compliance) json["compliance"] = compliance_as_json(*compliance);
     const std::string stress = test.description.stress_unit();
     json["units"] = {
         {"youngs_modulus", stress +
@@ -137,6 +176,12 @@ nlohmann::ordered_json elastic_as_json(const VirtualTest& test, const ElasticAna
         {"zero_energy_modes", "motions that store no energy: floating particles, particles on one circle contact"},
         {"zero_energy_bodies", "ids of those that take part"},
         {"residual", "|f - Ku| over |f|, the numerical error of the solve"},
+        {"compliance", "1/(" + stress +
+                           "), of the jointed rock without platens, rows strain x, strain y, shear strain; columns "
+                           "stress x, stress y, shear stress, tensile positive; welded: its traces as the rock; "
+                           "expected: that and what "
+                           "persistent traces add (Amadei and Goodman); moduli: " +
+                           stress + ", along x, along y, in shear"},
         {"angular_frequencies", "rad/s, lowest modes that store energy, platens held"},
         {"seconds", "bonding, exact step, assembly, solves and eigenvalues, without making the specimen"}};
     return json;
@@ -157,7 +202,8 @@ CommandLine describe_elastic() {
         .description =
             "Makes and bonds the specimen of CASE.toml with its platens, assembles its sparse stiffness and solves "
             "it: small-strain Young's modulus and Poisson's ratio, the bond that breaks first (linear, no slip) and "
-            "the one that slips first, the exact stable time step, motions without energy. Takes no time step; "
+            "the one that slips first, the exact stable time step, motions without energy; of a jointed rock the "
+            "compliance, beside that of persistent sets. Takes no time step; "
             "writes nothing unless asked.",
         .options = {{"options", options}},
         .operand = "CASE.toml",
@@ -195,15 +241,19 @@ int elastic(const Invocation& given) {
     if (modes > 0) messages.progress().step(0.0, fmt::format("solving the linear system, {} modes", modes));
     const ElasticAnalysis analysis = analyse_elastic(test.world, test.setup, moduli_of(test), strain, modes);
     const double seconds = std::chrono::duration<double>(Clock::now() - start).count() - test.specimen_seconds;
+    TestHooks quietly = hooks;  // the same specimen again
+    quietly.stage = quietly.detail = {};
+    const std::optional<JointedCompliance> compliance = jointed_compliance(description, quietly);
     messages.make_room();
     messages.detail(fmt::format("solved for {} unknowns, residual {:.1e}", analysis.unknowns, analysis.residual));
     if (hooks.stage)
         for (const std::string& notice : test.setup.notices) hooks.stage("notice: " + notice);
     if (values.contains("bonds")) replace_file(values["bonds"].as<std::string>(), bonds_table(analysis));
     if (values.contains("json"))
-        std::cout << elastic_as_json(test, analysis, seconds).dump(2) << '\n';
+        std::cout << elastic_as_json(test, analysis, compliance, seconds).dump(2) << '\n';
     else
         print(test, analysis, seconds);
+    if (compliance && !values.contains("json")) print(*compliance, test.description.stress_unit());
     return exit_done;
 }
 

@@ -9,6 +9,7 @@
 
 #include "specimens/elastic/compliance.hpp"
 #include "specimens/joints/joint_network.hpp"
+#include "specimens/setup/bonded_specimen.hpp"
 #include "tools/bench/verify/groups.hpp"
 #include "tools/bench/verify/joints/jointed_rock.hpp"
 #include "tools/bench/verify/rows.hpp"
@@ -28,8 +29,8 @@ double softness_along(const Compliance& s, double angle) {
     return strain;
 }
 
-Compliance compliance(const Specimen& specimen, bool welded) {
-    return compliance_of(bonded_rock(specimen, welded), specimen.scene.domain, 0.5 * specimen.mesh_gap);
+Compliance compliance(const Specimen& specimen, const TestCase& test, Traces traces) {
+    return compliance_of(bond_alone(specimen, test, traces), specimen.scene.domain, 0.5 * specimen.mesh_gap);
 }
 
 TestCase::JointKeys stiffnesses(double normal, double shear) {
@@ -48,7 +49,8 @@ std::vector<ClaimRow> persistent_set_adds_its_compliance() {
             TestCase test = jointed_rock(kind, seed);
             add_set(test, 0.0, spacing, {0.0, 0.5 * spacing}, stiffnesses(normal, shear));
             const Specimen specimen = make_specimen(test, {});
-            const Compliance jointed = compliance(specimen, false), welded = compliance(specimen, true);
+            const Compliance jointed = compliance(specimen, test, Traces::as_they_are),
+                             welded = compliance(specimen, test, Traces::as_rock);
             const std::string name = fmt::format("{}, packing {}: ", kind, seed);
             for (const double t : {0.0, 30.0, 45.0, 60.0, 90.0}) {
                 const double c = std::cos(t * per_degree), s = std::sin(t * per_degree),
@@ -78,8 +80,8 @@ std::vector<ClaimRow> persistent_sets_add_up() {
         for (std::size_t k = 0; k < sets; ++k)
             add_set(test, angles[k], spacings[k], {0.31, 0.6 + 0.5 * spacings[k]}, stiffnesses(normal[k], shear[k]));
         const Specimen specimen = make_specimen(test, {});
-        const Compliance jointed = compliance(specimen, false);
-        Compliance expected = compliance(specimen, true);
+        const Compliance jointed = compliance(specimen, test, Traces::as_they_are);
+        Compliance expected = compliance(specimen, test, Traces::as_rock);
         const JointNetwork network = make_joints(test, specimen.scene.domain);
         for (std::size_t k = 0; k < sets; ++k) {
             double length = 0.0;

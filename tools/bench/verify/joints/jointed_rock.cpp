@@ -3,10 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-
-#include "solver/stepping/bonding.hpp"
-#include "solver/stepping/build_world.hpp"
 #include "tools/bench/verify/scenes/packed_case.hpp"
 
 namespace crackle::verification {
@@ -40,22 +36,6 @@ void add_set(TestCase& test, double angle, double spacing, Vec2 through, const T
     set.through = std::vector{through.x, through.y};
     set.own = own;
     test.joint_set.push_back(set);
-}
-
-World bonded_rock(const Specimen& specimen, bool welded) {
-    Scene scene = specimen.scene;
-    scene.thick = specimen.mesh_gap;
-    scene.bond_law = BondLaw::coulomb;
-    scene.units = StiffnessUnits::area;
-    scene.time_step = 0.0;
-    scene.domain.wall_present = {false, false, false, false};
-    if (welded) std::ranges::fill(scene.trace_joints, -1);
-    Bonding bonding;
-    bonding.thick = scene.thick;
-    bonding.gap = 0.05 * scene.thick;
-    World world = build_world(std::move(scene));
-    bond_all(world, bonding);
-    return world;
 }
 
 }  // namespace crackle::verification

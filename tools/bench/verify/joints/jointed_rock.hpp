@@ -18,7 +18,4 @@ TestCase jointed_rock(const char* kind, std::int64_t seed);
 /// Adds a persistent set at a fixed spacing. @param angle degrees from +x @param through m, a point on one trace
 void add_set(TestCase& test, double angle, double spacing, Vec2 through, const TestCase::JointKeys& own);
 
-/// Bonded without platens. @param welded  all traces are as the rock
-World bonded_rock(const Specimen& specimen, bool welded);
-
 }  // namespace crackle::verification

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/elastic/jointed_compliance.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "solver/base/correctly_rounded.hpp"
+#include "solver/base/errors.hpp"
+#include "specimens/case/joint_keys.hpp"
+#include "specimens/joints/joint_network.hpp"
+#include "specimens/making/specimen.hpp"
+#include "specimens/setup/bonded_specimen.hpp"
+
+namespace crackle {
+namespace {
+
+/// What keeps a formula of persistent joints from saying something of these; empty where nothing does.
+std::string not_persistent(const JointNetwork& network) {
+    for (const JointTrace& trace : network.traces) {
+        if (std::isinf(trace.whole_length)) continue;
+        return fmt::format("the traces of {} end within the box", network.sources[trace.source].name);
+    }
+    return network.traces.empty() ? "no trace is in the box" : "";
+}
+
+void add(Compliance& sum, const Compliance& other) {
+    for (std::size_t row = 0; row < 3; ++row)
+        for (std::size_t column = 0; column < 3; ++column) sum[row][column] += other[row][column];
+}
+
+}  // namespace
+
+std::optional<JointedCompliance> jointed_compliance(const TestCase& test, const TestHooks& hooks) {
+    if (!test.jointed()) return std::nullopt;
+    const Specimen specimen = make_specimen(test, hooks);
+    if (!specimen.shape.whole()) return std::nullopt;
+    const Domain& box = specimen.scene.domain;
+    const double inset = 0.5 * specimen.mesh_gap;
+    JointedCompliance found;
+    hooks.report_work("solving for the compliance");
+    found.jointed = compliance_of(bond_alone(specimen, test), box, inset);
+    found.welded = compliance_of(bond_alone(specimen, test, Traces::as_rock), box, inset);
+    const JointNetwork network = make_joints(test, box);
+    found.why_not = not_persistent(network);
+    if (!found.why_not.empty()) return found;
+    const std::vector<JointTable> tables = joint_tables(test);
+    found.expected = found.welded;
+    constexpr double rigid = std::numeric_limits<double>::infinity();
+    for (const JointTrace& trace : network.traces) {
+        const TestCase::JointKeys& keys = *tables[trace.source].keys;
+        const Vec2 along = trace.points.back() - trace.points.front();
+        add(*found.expected,
+            compliance_of_set(correctly_rounded::atan2(along.y, along.x), network.area() / trace.length(),
+                              keys.normal_stiffness.value_or(rigid), keys.shear_stiffness.value_or(rigid)));
+    }
+    return found;
+}
+
+}  // namespace crackle

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The compliance of a case's jointed specimen is there where it means something, with the theory of persistent sets
+// where all traces are persistent.
+
+#include "specimens/elastic/jointed_compliance.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/support/deck_files.hpp"
+
+namespace crackle {
+namespace {
+
+constexpr const char* rock = R"([packing]
+width = 0.5
+height = 1.0
+radius_min = 0.015
+radius_max = 0.025
+mean_overlap = 1e-5
+[material]
+density = 2500.0
+units = "area"
+contact_modulus = 50e9
+stiffness_ratio = 2.5
+friction_angle = 40.0
+tensile_strength = 5e6
+cohesion = 15e6
+[bond]
+law = "coulomb"
+[mesh]
+kind = "voronoi"
+thick = 5e-4
+[loading]
+kind = "compression"
+max_axial_strain = 0.01
+)";
+
+std::optional<JointedCompliance> compliance_of_case(const std::string& joints) {
+    const testing::ScratchFolder folder;
+    std::ofstream(folder / "case.toml") << rock << joints;
+    return jointed_compliance(read_case(folder / "case.toml"), {});
+}
+
+TEST(JointedCompliance, OfPersistentTracesIsThatOfTheTheory) {
+    const auto found = compliance_of_case(
+        "[[joint_set]]\nname = \"level\"\nangle = 0.0\nspacing = 0.125\nthrough = [0.25, 0.0625]\n"
+        "normal_stiffness = 2e11\nshear_stiffness = 8e10\n");
+    ASSERT_TRUE(found && found->expected) << (found ? found->why_not : "nothing");
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double got = found->jointed[k][k], wanted = (*found->expected)[k][k];
+        fmt::print("  S{0}{0}: expected {1:.6g} 1/Pa, got {2:.6g}, error {3:.2g}; welded {4:.6g}\n", k + 1, wanted, got,
+                   got / wanted - 1.0, found->welded[k][k]);
+        EXPECT_NEAR(got / wanted, 1.0, 0.01);
+    }
+    EXPECT_GT(found->jointed[1][1], 1.3 * found->welded[1][1]);
+    EXPECT_NEAR((*found->expected)[1][1] - found->welded[1][1], 1.0 / (2e11 * 0.125), 1e-9 / (2e11 * 0.125));
+}
+
+TEST(JointedCompliance, OfTracesThatEndHasNoTheoryAndOfNoneIsNone) {
+    const auto ends =
+        compliance_of_case("[[trace]]\nname = \"crack\"\npoints = [0.1, 0.5, 0.4, 0.5]\nnormal_stiffness = 1e10\n");
+    ASSERT_TRUE(ends);
+    EXPECT_FALSE(ends->expected);
+    EXPECT_EQ(ends->why_not, "the traces of crack end within the box");
+    EXPECT_GT(ends->jointed[1][1], 1.02 * ends->welded[1][1]);
+    EXPECT_NEAR(ends->jointed[0][0], ends->welded[0][0], 0.02 * ends->welded[0][0]);
+    EXPECT_FALSE(compliance_of_case(""));
+}
+
+}  // namespace
+}  // namespace crackle
