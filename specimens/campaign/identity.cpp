@@ -74,8 +74,8 @@ std::string identity_of(const TestCase& test, FileHashes& files) {
 }
 
 bool differs_within_a_rock(const std::string& key) {
-    constexpr std::array<std::string_view, 5> keys{"title", "packing.seed", "bond.strength_seed", "minerals.seed",
-                                                   "numerics.threads"};
+    constexpr std::array<std::string_view, 6> keys{"title",         "packing.seed", "bond.strength_seed",
+                                                   "minerals.seed", "joints.seed",  "numerics.threads"};
     constexpr std::array<std::string_view, 3> tables{"confinement.", "loading.", "output."};
     return std::ranges::find(keys, key) != keys.end() ||
            std::ranges::any_of(tables, [&](std::string_view table) { return key.starts_with(table); });

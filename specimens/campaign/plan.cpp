@@ -59,6 +59,7 @@ std::vector<std::string> seeds_of(const TestCase& test) {
     if (test.has_table("packing")) keys.emplace_back("packing.seed");
     if (test.bond.strength_distribution != "none") keys.emplace_back("bond.strength_seed");
     if (!test.mineral.empty() && test.minerals.assign == "random") keys.emplace_back("minerals.seed");
+    if (!test.joint_set.empty()) keys.emplace_back("joints.seed");
     return keys;
 }
 

@@ -147,7 +147,8 @@ StrengthTest read_test(const fs::path& folder, FileHashes& files) {
     if (made.mesh.thick && is_derived_gap(*made.mesh.thick, test.figures)) test.rock.erase("mesh.thick");
     if (made.particles.file) {
         const std::string hash = files.of(made.resolve_path("particles.file", *made.particles.file));
-        test.packing = fmt::format("{:.8}, {}, {}", hash, made.bond.strength_seed.value_or(0), made.minerals.seed);
+        test.packing = fmt::format("{:.8}, {}, {}, {}", hash, made.bond.strength_seed.value_or(0), made.minerals.seed,
+                                   made.joints.seed);
     } else {
         test.packing = fmt::format("{}", made.packing.seed);
     }

@@ -147,6 +147,16 @@ TEST_F(PlanTest, APackingsNumberIsTheSeedOfAllThatIsRandom) {
     EXPECT_EQ(second.bond.strength_seed, 6);
 }
 
+TEST_F(PlanTest, APackingsNumberIsTheSeedOfItsJointsToo) {
+    write_packed_case(folder_ / "jointed.toml", "tension",
+                      "[mesh]\nkind = \"voronoi\"\nthick = 1e-3\n[bond]\nthick = 1.1e-3\n"
+                      "[[joint_set]]\nname = \"bedding\"\nangle = 10.0\nspacing = 0.2\n");
+    const Plan plan = plan_of("[[test]]\ncase = \"jointed.toml\"\n[packings]\ncount = 2\nfirst_seed = 5\n");
+    EXPECT_EQ(plan.test_of(plan.rows[0]).joints.seed, 5);
+    EXPECT_EQ(plan.test_of(plan.rows[1]).joints.seed, 6);
+    EXPECT_EQ(plan.test_of(plan.rows[1]).packing.seed, 6);
+}
+
 TEST_F(PlanTest, ThoseThatAreShippedArePossible) {
     std::size_t count = 0;
     for (const auto& entry :
