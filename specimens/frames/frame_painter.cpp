@@ -14,7 +14,6 @@
 #include "solver/geometry/geometry.hpp"
 #include "specimens/frames/crack_faces.hpp"
 #include "specimens/frames/fragments.hpp"
-#include "specimens/setup/trace_faces.hpp"
 
 namespace crackle {
 namespace {
@@ -476,7 +475,7 @@ void FramePainter::write_joints(std::ostream& out, const PlacedFrame& placed) co
         const ContactState state = face.bonds == 0   ? ContactState::loose
                                    : holding[k] == 0 ? ContactState::broken
                                                      : ContactState::bonded;
-        drawn.push_back({&face, motion_of(face, setup_, place(face.i), place(face.j)), state});
+        drawn.push_back({&face, motion_of(face, setup_.start_of(face), {place(face.i), place(face.j)}), state});
     }
     const std::size_t count = drawn.size();
     write_head(out, frame, {2 * count, count, 0});

@@ -36,7 +36,7 @@ std::vector<TraceMotion> trace_motions(const World& world, const TestSetup& setu
     for (std::size_t k = 0; k < setup.trace_faces.size(); ++k) {
         const TraceFace& face = setup.trace_faces[k];
         if (face.length == 0.0) continue;
-        const FaceMotion moved = motion_of(face, setup, place(face.i), place(face.j));
+        const FaceMotion moved = motion_of(face, setup.start_of(face), {place(face.i), place(face.j)});
         motions[static_cast<std::size_t>(face.trace)].add(
             {.faces = 1,
              .length = face.length,

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "specimens/observers/contact_history.hpp"
-#include "specimens/setup/trace_faces.hpp"
+#include "specimens/setup/setup.hpp"
 
 namespace crackle {
 

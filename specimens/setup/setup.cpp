@@ -11,7 +11,6 @@
 #include "solver/geometry/geometry.hpp"
 #include "solver/measure/point_view.hpp"
 #include "solver/world/point_order.hpp"
-#include "specimens/setup/trace_faces.hpp"
 
 namespace crackle {
 namespace {
@@ -231,7 +230,10 @@ TestSetup record_setup(const World& world, const Specimen& specimen, const Plate
         setup.gauge_length = mean_x(world, setup.right) - mean_x(world, setup.left);
     }
     record_bonds(setup, world);
-    record_trace_faces(setup, world);
+    if (!setup.traces.empty()) {
+        setup.trace_faces = find_trace_faces(world);
+        setup.bond_faces = faces_of_bonds(setup.trace_faces, setup.bonds);
+    }
     if (setup.uniaxial) find_axial_gauge(setup, world, grip > 0.0 ? grip : outer_share);
     return setup;
 }

@@ -12,20 +12,9 @@
 #include "specimens/making/specimen.hpp"
 #include "specimens/setup/loading_rate.hpp"
 #include "specimens/setup/platen.hpp"
+#include "specimens/setup/trace_faces.hpp"
 
 namespace crackle {
-
-/// Where a body was when loading began; of a confined specimen, before the pressure was put on.
-struct StartPlace {
-    double x = 0.0, y = 0.0, angle = 0.0;
-
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("x", s.x);
-        visit("y", s.y);
-        visit("angle", s.angle);
-    }
-};
 
 /// A rigid body that holds or drives the specimen.
 struct SetupPart {
@@ -38,26 +27,6 @@ struct SetupPart {
         visit("body", s.body);
         visit("face", s.face);
         visit("wall", s.wall);
-    }
-};
-
-/// A face of the mesh that lies on a trace, when loading began (trace_faces.hpp).
-struct TraceFace {
-    std::int32_t trace = 0;   ///< into TestSetup::traces
-    BodyIndex i = 0, j = 0;   ///< i before j
-    std::int32_t bonds = 0;   ///< bonded points; 0 of an open one
-    double length = 0.0;      // m
-    Vec2 middle{}, normal{};  // m; unit, from i to j
-
-    template <class Self, class Visit>
-    static constexpr void fields(Self& s, Visit&& visit) {
-        visit("trace", s.trace);
-        visit("i", s.i);
-        visit("j", s.j);
-        visit("bonds", s.bonds);
-        visit("length", s.length);
-        visit("middle", s.middle);
-        visit("normal", s.normal);
     }
 };
 
@@ -121,6 +90,8 @@ struct TestSetup {
     std::vector<TraceFace> trace_faces;    ///< by bodies
     std::vector<std::int32_t> bond_faces;  ///< of each bond, into trace_faces; -1: on none. Empty without traces
 
+    /// Of the bodies of a face.
+    FacePlaces start_of(const TraceFace& face) const { return {start[face.i], start[face.j]}; }
     /// Of a bond; -1: it is through the rock.
     std::int32_t trace_of(PointIndex bond) const {
         const std::int32_t face = bond_faces.empty() ? -1 : bond_faces[bond];

@@ -23,6 +23,8 @@ Vec2 turned(Vec2 v, double angle) {
 
 std::pair<BodyIndex, BodyIndex> ordered(BodyIndex i, BodyIndex j) { return {std::min(i, j), std::max(i, j)}; }
 
+std::pair<BodyIndex, BodyIndex> pair_of(const TraceFace& face) { return {face.i, face.j}; }
+
 /// Unit normal of a polygon's edge. Those of contacts slant where corners overhang.
 Vec2 outwards(const World& world, BodyIndex body, std::uint32_t edge) {
     const std::vector<Vec2> corners = element_positions(world, body);
@@ -61,32 +63,40 @@ std::optional<TraceFace> face_of(const World& world, PointIndex begin, PointInde
 
 }  // namespace
 
-FaceMotion motion_of(const TraceFace& face, const TestSetup& setup, const StartPlace& i, const StartPlace& j) {
-    const StartPlace &start_i = setup.start[face.i], &start_j = setup.start[face.j];
-    const double turn_i = i.angle - start_i.angle, turn_j = j.angle - start_j.angle;
-    const auto on_i = [&](Vec2 p) { return Vec2{i.x, i.y} + turned(p - Vec2{start_i.x, start_i.y}, turn_i); };
-    const auto on_j = [&](Vec2 p) { return Vec2{j.x, j.y} + turned(p - Vec2{start_j.x, start_j.y}, turn_j); };
+FaceMotion motion_of(const TraceFace& face, const FacePlaces& start, const FacePlaces& now) {
+    const double turn_i = now.i.angle - start.i.angle, turn_j = now.j.angle - start.j.angle;
+    const auto carried = [](const StartPlace& from, const StartPlace& to, double turn, Vec2 p) {
+        return Vec2{to.x, to.y} + turned(p - Vec2{from.x, from.y}, turn);
+    };
+    const auto on_i = [&](Vec2 p) { return carried(start.i, now.i, turn_i, p); };
+    const auto on_j = [&](Vec2 p) { return carried(start.j, now.j, turn_j, p); };
     const auto mean = [&](Vec2 p) { return 0.5 * (on_i(p) + on_j(p)); };
     const Vec2 apart = on_j(face.middle) - on_i(face.middle), normal = turned(face.normal, 0.5 * (turn_i + turn_j));
     const Vec2 half = 0.5 * face.length * perpendicular(face.normal);
     return {dot(apart, normal), dot(apart, perpendicular(normal)), mean(face.middle - half), mean(face.middle + half)};
 }
 
-void record_trace_faces(TestSetup& setup, const World& world) {
-    if (setup.traces.empty()) return;
+std::vector<TraceFace> find_trace_faces(const World& world) {
+    std::vector<TraceFace> faces;
     const PointIndex walls = world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
     for (PointIndex begin = 0, end = 0; begin < walls; begin = end) {
         end = points_between(world, begin).second;
-        if (const std::optional<TraceFace> face = face_of(world, begin, end)) setup.trace_faces.push_back(*face);
+        if (const std::optional<TraceFace> face = face_of(world, begin, end)) faces.push_back(*face);
     }
-    const auto pair_of = [](const TraceFace& face) { return std::pair(face.i, face.j); };
-    std::ranges::sort(setup.trace_faces, {}, pair_of);
-    for (const BodyPair& bond : setup.bonds.pairs) {
+    std::ranges::sort(faces, {}, pair_of);
+    return faces;
+}
+
+std::vector<std::int32_t> faces_of_bonds(const std::vector<TraceFace>& faces, const ContactList& bonds) {
+    std::vector<std::int32_t> numbers;
+    numbers.reserve(bonds.size());
+    for (const BodyPair& bond : bonds.pairs) {
         const auto pair = ordered(bond.body_i, bond.body_j);
-        const auto found = std::ranges::lower_bound(setup.trace_faces, pair, {}, pair_of);
-        const bool on_trace = found != setup.trace_faces.end() && pair_of(*found) == pair;
-        setup.bond_faces.push_back(on_trace ? static_cast<std::int32_t>(found - setup.trace_faces.begin()) : -1);
+        const auto found = std::ranges::lower_bound(faces, pair, {}, pair_of);
+        const bool on_trace = found != faces.end() && pair_of(*found) == pair;
+        numbers.push_back(on_trace ? static_cast<std::int32_t>(found - faces.begin()) : -1);
     }
+    return numbers;
 }
 
 }  // namespace crackle

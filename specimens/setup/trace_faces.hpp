@@ -10,22 +10,61 @@
 // Tested by tests/specimens/setup/trace_faces_test.cpp.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "solver/base/vec2.hpp"
 #include "solver/world/world.hpp"
-#include "specimens/setup/setup.hpp"
 
 namespace crackle {
 
-/// A face on a trace, and where it is.
+/// Where a body was when loading began; of a confined specimen, before the pressure was put on.
+struct StartPlace {
+    double x = 0.0, y = 0.0, angle = 0.0;
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("x", s.x);
+        visit("y", s.y);
+        visit("angle", s.angle);
+    }
+};
+
+/// A face of a mesh that lies on a trace, when loading began.
+struct TraceFace {
+    std::int32_t trace = 0;   ///< into TestSetup::traces
+    BodyIndex i = 0, j = 0;   ///< i before j
+    std::int32_t bonds = 0;   ///< bonded points; 0 of an open one
+    double length = 0.0;      // m
+    Vec2 middle{}, normal{};  // m; unit, from i to j
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("trace", s.trace);
+        visit("i", s.i);
+        visit("j", s.j);
+        visit("bonds", s.bonds);
+        visit("length", s.length);
+        visit("middle", s.middle);
+        visit("normal", s.normal);
+    }
+};
+
+/// How it has moved, and where it is.
 struct FaceMotion {
     double opening = 0.0, slip = 0.0;  // m
     Vec2 begin, end;                   // m, means of where both bodies have carried its ends
 };
 
-/// @param i, j  places of its bodies now
-FaceMotion motion_of(const TraceFace& face, const TestSetup& setup, const StartPlace& i, const StartPlace& j);
+/// Places of the two bodies of a face.
+struct FacePlaces {
+    StartPlace i, j;
+};
+FaceMotion motion_of(const TraceFace& face, const FacePlaces& start, const FacePlaces& now);
 
-/// Finds setup.trace_faces and setup.bond_faces, of a specimen with traces. Needs setup.bonds and setup.start.
-void record_trace_faces(TestSetup& setup, const World& world);
+/// Of a world with bonds that lies as it was bonded, by bodies.
+std::vector<TraceFace> find_trace_faces(const World& world);
+/// For each bond the face that it holds, -1 of one on no trace.
+std::vector<std::int32_t> faces_of_bonds(const std::vector<TraceFace>& faces, const ContactList& bonds);
 
 }  // namespace crackle

@@ -85,7 +85,8 @@ class TestFolder : public ::testing::Test {
         sliding.rate = 0.1;
         sliding.max_strain = 0.03;
         sliding.output += "\nslips = true";
-        SmallCase jointed = squeezed;
+        SmallCase jointed = squeezed;  // slides on after a few hundred steps
+        jointed.rate = 0.03;
         jointed.minerals =
             "[[trace]]\npoints = [0.0, 0.1, 0.2355, 0.32]\nfriction_angle = 20.0\ncohesion = 1e4\n"
             "tensile_strength = 1e3\ndilation_angle = 5.0\n[[trace]]\npoints = [0.05, 0.3, 0.15, 0.35]";

@@ -54,7 +54,8 @@ TEST(TraceFaces, OpenAndSlipByWhatTheirSidesMoveApart) {
             std::vector<StartPlace> now(2);
             now[lower] = moved(setup.start[lower], {});
             now[upper] = moved(setup.start[upper], opening * normal + slip * perpendicular(normal));
-            const FaceMotion face = motion_of(setup.trace_faces[0], setup, now[0], now[1]);
+            const FaceMotion face =
+                motion_of(setup.trace_faces[0], setup.start_of(setup.trace_faces[0]), {now[0], now[1]});
             fmt::print("  turn {}: opening expected {} m, got {:.17g}; slip expected {}, got {:.17g}\n", turn, opening,
                        face.opening, slip, face.slip);
             EXPECT_NEAR(face.opening, opening, 1e-15);
@@ -70,7 +71,7 @@ TEST(TraceFaces, TurnWithTheMeanOfTheirBodies) {
     const double turn = 0.2;
     const StartPlace i = setup.start[0];
     const StartPlace j{1.0, 1.0, -0.1 + turn};
-    const FaceMotion face = motion_of(setup.trace_faces[0], setup, i, j);
+    const FaceMotion face = motion_of(setup.trace_faces[0], setup.start_of(setup.trace_faces[0]), {i, j});
     // The middle lies at (-½, -½) from j, and turns about it: u = R(turn) a - a, a = (-½, -½).
     const double a = std::sqrt(0.5);  // m, along the normal at 45 degrees, backwards
     EXPECT_NEAR(face.opening, a * (std::cos(0.5 * turn) - std::cos(turn - 0.5 * turn)), 1e-15);
