@@ -97,6 +97,7 @@ def declared(name):
     """A key of a summary by the wildcards of FILES.md."""
     name = re.sub(r"^numerical_errors\.companions\.\w+", "numerical_errors.companions.*", name)
     name = re.sub(r"^crack_rose\.\w+", "crack_rose.*", name)
+    name = re.sub(r"^traces\[\].*|^(joints\[\]\.at_end)\..*", lambda found: found[1] or "traces", name)
     name = re.sub(r"^files\.(curve\.csv|events\.csv|slips\.csv|ae\.csv|checkpoint)", "files.*", name)
     return re.sub(r"^numerical_errors\.(youngs_modulus|peak_stress|peak_strain|crack_\w+_stress)", "numerical_errors.*", name)
 
@@ -147,7 +148,10 @@ OTHERS = {
     "squeezed_verified": (0.015, '[loading]\nkind = "compression"\nmax_axial_strain = 0.004\n', "--verify"),
     "heard": (0.06, '[loading]\nkind = "tension"\nmax_axial_strain = 0.001\n[output]\nemission = true\n'),
 }
-CONTAINERS = {"files.*", "crack_rose.*", "numerical_errors.*", "numerical_errors.companions", "numerical_errors.companions.*", "profile.phases", "profile.phases[]", "minerals[]", "validity[]", "cycles[]"}
+CONTAINERS = {"files.*", "crack_rose.*", "numerical_errors.*", "numerical_errors.companions", "numerical_errors.companions.*", "profile.phases", "profile.phases[]", "minerals[]", "validity[]", "cycles[]", "joints[]"}
+
+
+JOINTED = "plane"  # made by a page's commands
 
 
 class Pages(unittest.TestCase):
@@ -228,7 +232,7 @@ class Pages(unittest.TestCase):
     def results(self):
         for done in (self.unfailed, *self.confined):
             self.assertEqual(done.returncode, 0, done.stderr)
-        return [self.folder / "out" / name for name in ("pulled", "squeezed", "verified", "unfailed", "granite", "confined", "confined_unfailed")]
+        return [self.folder / "out" / name for name in ("pulled", "squeezed", "verified", "unfailed", "granite", "confined", "confined_unfailed", JOINTED)]
 
     def test_files_are_those_of_a_test(self):
         for results in self.results():
@@ -246,6 +250,8 @@ class Pages(unittest.TestCase):
                 columns = table(FILES, f"## `{name}.csv`")
                 if name == "curve" and "confined" not in results.name:
                     columns.remove("confinement_work")
+                if name == "events" and results.name != JOINTED:
+                    columns.remove("trace")
                 self.assertEqual(columns, header.split(","))
 
     def test_keys_are_those_of_summaries(self):
@@ -258,10 +264,14 @@ class Pages(unittest.TestCase):
 
     def test_arrays_are_those_of_the_frames(self):
         for results in self.results():
-            for name in ("particles", "contacts", "cracks"):
+            jointed = results.name == JOINTED
+            for name in ("particles", "contacts", "cracks", *(["joints"] if jointed else [])):
                 poly = ElementTree.parse(min((results / "frames").glob(f"{name}_*.vtp"))).find("PolyData")
-                self.assertEqual(table(FILES, f"Cell data of `{name}`:"), [array.get("Name") for array in poly.find("Piece/CellData")])
-                self.assertEqual(table(FILES, "Field data of all three:"), [array.get("Name") for array in poly.find("FieldData")])
+                arrays = table(FILES, f"Cell data of `{name}`:")
+                if name == "cracks" and not jointed:
+                    arrays.remove("trace")
+                self.assertEqual(arrays, [array.get("Name") for array in poly.find("Piece/CellData")])
+                self.assertEqual(table(FILES, "Field data of all of them:"), [array.get("Name") for array in poly.find("FieldData")])
             patterns = [name.replace("NNNNN", "*") for name in table(FILES, "## `frames/`")]
             for file in (results / "frames").iterdir():
                 self.assertTrue(any(file.match(pattern) for pattern in patterns), f"{file.name}: not on the page")
