@@ -225,7 +225,7 @@ std::vector<SummaryKey> all_summary_keys() {
         {{"joints[].faces", "", "of the mesh, on its traces"}},
         {{"joints[].length_of_faces", "m", "", "what other traces that lie on these have is theirs"}},
         {{"joints[].bonded_share", "-", "of that length, when loading began"}},
-        {{"joints[].at_peak", "", "null while the peak is not known"}},
+        {{"joints[].at_peak", "", "at the peak, of a test that has not failed at the peak so far"}},
         {{"joints[].at_peak.failed_share", "-", "of the bonded length: faces that have lost all their bonds",
           "null of open joints"}},
         {{"joints[].at_peak.opening", "m",

@@ -176,14 +176,14 @@ nlohmann::ordered_json elastic_as_json(const VirtualTest& test, const ElasticAna
         {"zero_energy_modes", "motions that store no energy: floating particles, particles on one circle contact"},
         {"zero_energy_bodies", "ids of those that take part"},
         {"residual", "|f - Ku| over |f|, the numerical error of the solve"},
-        {"compliance", "1/(" + stress +
-                           "), of the jointed rock without platens, rows strain x, strain y, shear strain; columns "
-                           "stress x, stress y, shear stress, tensile positive; welded: its traces as the rock; "
-                           "expected: that and what "
-                           "persistent traces add (Amadei and Goodman); moduli: " +
-                           stress + ", along x, along y, in shear"},
         {"angular_frequencies", "rad/s, lowest modes that store energy, platens held"},
         {"seconds", "bonding, exact step, assembly, solves and eigenvalues, without making the specimen"}};
+    if (compliance)
+        json["units"]["compliance"] = fmt::format(
+            "1/({0}), of the jointed rock without platens, rows strain x, strain y, shear strain; columns stress x, "
+            "stress y, shear stress, tensile positive; welded: its traces as the rock; expected: that and what "
+            "persistent traces add (Amadei and Goodman); moduli: {0}, along x, along y, in shear",
+            stress);
     return json;
 }
 
