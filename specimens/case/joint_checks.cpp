@@ -272,12 +272,12 @@ class JointAgainstRock {
     }
 
     void strengths(const TestCase::MaterialKeys& rock) const {
-        if (!rock.tensile_strength || !rock.cohesion) return;
+        const std::optional<double> angle = own_.friction_angle ? own_.friction_angle : rock.friction_angle;
+        if (!rock.tensile_strength || !rock.cohesion || !angle) return;
         const double factor = own_.strength_factor.value_or(1.0);
         const double tensile = own_.tensile_strength.value_or(factor * *rock.tensile_strength),
                      cohesion = own_.cohesion.value_or(factor * *rock.cohesion);
-        const double angle = own_.friction_angle.value_or(*rock.friction_angle);
-        const double friction = correctly_rounded::tan(angle * std::numbers::pi / 180.0);
+        const double friction = correctly_rounded::tan(*angle * std::numbers::pi / 180.0);
         if (!(friction * tensile > cohesion * (1.0 + 1e-12))) return;
         refuse(own_.tensile_strength ? "tensile_strength"
                : own_.cohesion       ? "cohesion"

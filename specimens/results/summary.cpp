@@ -308,18 +308,14 @@ void joints(Writer& w, const TestSetup& setup, const TestState& state, const Wor
     w.put("bonds_broken_in_rock", std::ssize(cracks) - on_traces);
     w.put("bonds_broken_on_joints_to_peak", on_traces_to_peak);
     w.put("bonds_broken_in_rock_to_peak", static_cast<std::int64_t>(to_peak) - on_traces_to_peak);
-    struct Both {
-        TraceMotion peak, end;
-    };
-    const auto entry = [&](const std::string& source, double length, const Both& both) {
-        Json json{{"source", source},
-                  {"length", length},
-                  {"faces", both.end.faces},
-                  {"length_of_faces", both.end.length},
-                  {"bonded_share", finite_or_null(both.end.bonded / both.end.length)}};
-        json["at_peak"] = has_peak ? motion_of(both.peak) : Json(nullptr);
-        json["at_end"] = motion_of(both.end);
-        return json;
+    const auto entry = [&](const std::string& source, double length, const TraceMotion& peak, const TraceMotion& end) {
+        return Json{{"source", source},
+                    {"length", length},
+                    {"faces", end.faces},
+                    {"length_of_faces", end.length},
+                    {"bonded_share", finite_or_null(end.bonded / end.length)},
+                    {"at_peak", has_peak ? motion_of(peak) : Json(nullptr)},
+                    {"at_end", motion_of(end)}};
     };
     const std::vector<TraceMotion> at_end = trace_motions(world, setup, state.history);
     Json traces = Json::array(), sources = Json::array();
@@ -327,21 +323,21 @@ void joints(Writer& w, const TestSetup& setup, const TestState& state, const Wor
     for (std::size_t k = 0; k < setup.traces.size(); ++k) {
         const SpecimenTrace& trace = setup.traces[k];
         traces.push_back(
-            entry(trace.source, trace.length, {has_peak ? state.traces_at_peak[k] : TraceMotion{}, at_end[k]}));
+            entry(trace.source, trace.length, has_peak ? state.traces_at_peak[k] : TraceMotion{}, at_end[k]));
         if (std::ranges::find(names, trace.source) == names.end()) names.push_back(trace.source);
     }
     for (const std::string& name : names) {
-        Both both;
+        TraceMotion peak, end;
         double length = 0.0;
         std::int64_t count = 0;
         for (std::size_t k = 0; k < setup.traces.size(); ++k) {
             if (setup.traces[k].source != name) continue;
             ++count;
             length += setup.traces[k].length;
-            if (has_peak) both.peak.add(state.traces_at_peak[k]);
-            both.end.add(at_end[k]);
+            if (has_peak) peak.add(state.traces_at_peak[k]);
+            end.add(at_end[k]);
         }
-        Json json = entry(name, length, both);
+        Json json = entry(name, length, peak, end);
         json["traces"] = count;
         sources.push_back(json);
     }
