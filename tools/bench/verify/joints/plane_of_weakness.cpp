@@ -142,6 +142,7 @@ Slipped slip(const char* kind, std::int64_t seed, double beta) {
     bonding.leaves = [&](BodyIndex i, BodyIndex j) { return i == lower || i == upper || j == lower || j == upper; };
     bond_all(world, bonding);
     std::vector<double> loads;
+    loads.reserve(world.bodies.controls.size());
     for (const ControlState& control : world.bodies.controls) loads.push_back(control.dof[0].value);
     const Array<BodyState> start = world.bodies.state;
     const Vec2 along{std::sin(beta), std::cos(beta)};
