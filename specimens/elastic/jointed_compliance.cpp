@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "solver/base/correctly_rounded.hpp"
-#include "solver/base/errors.hpp"
 #include "specimens/case/joint_keys.hpp"
 #include "specimens/joints/joint_network.hpp"
 #include "specimens/making/specimen.hpp"

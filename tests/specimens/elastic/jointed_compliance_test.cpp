@@ -7,46 +7,19 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
-
-#include "tests/support/deck_files.hpp"
+#include "tests/specimens/joints/cases.hpp"
 
 namespace crackle {
 namespace {
 
-constexpr const char* rock = R"([packing]
-width = 0.5
-height = 1.0
-radius_min = 0.015
-radius_max = 0.025
-mean_overlap = 1e-5
-[material]
-density = 2500.0
-units = "area"
-contact_modulus = 50e9
-stiffness_ratio = 2.5
-friction_angle = 40.0
-tensile_strength = 5e6
-cohesion = 15e6
-[bond]
-law = "coulomb"
-[mesh]
-kind = "voronoi"
-thick = 5e-4
-[loading]
-kind = "compression"
-max_axial_strain = 0.01
-)";
-
 std::optional<JointedCompliance> compliance_of_case(const std::string& joints) {
-    const testing::ScratchFolder folder;
-    std::ofstream(folder / "case.toml") << rock << joints;
-    return jointed_compliance(read_case(folder / "case.toml"), {});
+    return jointed_compliance(
+        testing::case_of(testing::area_rock + "[mesh]\nkind = \"voronoi\"\nthick = 5e-4\n" + joints), {});
 }
 
 TEST(JointedCompliance, OfPersistentTracesIsThatOfTheTheory) {
     const auto found = compliance_of_case(
-        "[[joint_set]]\nname = \"level\"\nangle = 0.0\nspacing = 0.125\nthrough = [0.25, 0.0625]\n"
+        "[[joint_set]]\nname = \"level\"\nangle = 0.0\nspacing = 0.125\nthrough = [0.15, 0.0625]\n"
         "normal_stiffness = 2e11\nshear_stiffness = 8e10\n");
     ASSERT_TRUE(found && found->expected) << (found ? found->why_not : "nothing");
     for (std::size_t k = 0; k < 3; ++k) {
@@ -61,7 +34,7 @@ TEST(JointedCompliance, OfPersistentTracesIsThatOfTheTheory) {
 
 TEST(JointedCompliance, OfTracesThatEndHasNoTheoryAndOfNoneIsNone) {
     const auto ends =
-        compliance_of_case("[[trace]]\nname = \"crack\"\npoints = [0.1, 0.5, 0.4, 0.5]\nnormal_stiffness = 1e10\n");
+        compliance_of_case("[[trace]]\nname = \"crack\"\npoints = [0.05, 0.25, 0.25, 0.25]\nnormal_stiffness = 1e10\n");
     ASSERT_TRUE(ends);
     EXPECT_FALSE(ends->expected);
     EXPECT_EQ(ends->why_not, "the traces of crack end within the box");

@@ -39,6 +39,34 @@ kind = "compression"
 max_axial_strain = 0.01
 )";
 
+/// Another in area units, without a mesh.
+inline const std::string area_rock = R"([packing]
+width = 0.3
+height = 0.5
+radius_min = 0.01
+radius_max = 0.02
+mean_overlap = 1e-5
+[material]
+density = 2500.0
+units = "area"
+contact_modulus = 50e9
+stiffness_ratio = 2.5
+friction_angle = 40.0
+tensile_strength = 5e6
+cohesion = 15e6
+[bond]
+law = "coulomb"
+[loading]
+kind = "compression"
+max_axial_strain = 0.01
+)";
+
+inline TestCase case_of(const std::string& text) {
+    const ScratchFolder folder;
+    std::ofstream(folder / "case.toml") << text;
+    return read_case(folder / "case.toml");
+}
+
 inline Domain box(double width, double height, double x = 0.0, double y = 0.0) { return {x, x + width, y, y + height}; }
 
 inline double total_length(const JointNetwork& network) {

@@ -18,32 +18,8 @@
 namespace crackle {
 namespace {
 
-constexpr const char* area_rock = R"([packing]
-width = 0.3
-height = 0.5
-radius_min = 0.01
-radius_max = 0.02
-mean_overlap = 1e-5
-[material]
-density = 2500.0
-units = "area"
-contact_modulus = 50e9
-stiffness_ratio = 2.5
-friction_angle = 40.0
-tensile_strength = 5e6
-cohesion = 15e6
-[bond]
-law = "coulomb"
-[loading]
-kind = "compression"
-max_axial_strain = 0.01
-)";
-
-TestCase case_of(const std::string& text) {
-    const testing::ScratchFolder folder;
-    std::ofstream(folder / "case.toml") << text;
-    return read_case(folder / "case.toml");
-}
+using testing::area_rock;
+using testing::case_of;
 
 std::string meshed(const char* kind) {
     return std::string(area_rock) + "[mesh]\nkind = \"" + kind + "\"\nthick = 5e-4\n";

@@ -72,10 +72,9 @@ TEST(TraceFaces, TurnWithTheMeanOfTheirBodies) {
     const StartPlace i = setup.start[0];
     const StartPlace j{1.0, 1.0, -0.1 + turn};
     const FaceMotion face = motion_of(setup.trace_faces[0], setup.start_of(setup.trace_faces[0]), {i, j});
-    // The middle lies at (-½, -½) from j, and turns about it: u = R(turn) a - a, a = (-½, -½).
-    const double a = std::sqrt(0.5);  // m, along the normal at 45 degrees, backwards
-    EXPECT_NEAR(face.opening, a * (std::cos(0.5 * turn) - std::cos(turn - 0.5 * turn)), 1e-15);
-    EXPECT_NEAR(face.slip, -a * (std::sin(0.5 * turn) + std::sin(0.5 * turn)), 1e-15);
+    // The middle lies at a = (-½, -½) from j, and turns about it: R(turn) a - a is a chord, across the mean normal.
+    EXPECT_NEAR(face.opening, 0.0, 1e-15);
+    EXPECT_NEAR(face.slip, -2.0 * std::sqrt(0.5) * std::sin(0.5 * turn), 1e-15);
     EXPECT_NEAR(std::atan2((face.end - face.begin).y, (face.end - face.begin).x), 0.75 * pi + 0.5 * turn, 1e-14);
 }
 
