@@ -3,8 +3,6 @@
 
 #include "specimens/joints/mesh_traces.hpp"
 
-#include <fstream>
-
 #include "specimens/elastic/moduli.hpp"
 #include "specimens/loading/prepare.hpp"
 #include "specimens/making/specimen.hpp"
@@ -15,13 +13,8 @@
 namespace crackle {
 namespace {
 
+using testing::case_of;
 using testing::rock;
-
-TestCase case_of(const std::string& text) {
-    const testing::ScratchFolder folder;
-    std::ofstream(folder / "case.toml") << text;
-    return read_case(folder / "case.toml");
-}
 
 TEST(JointedSpecimen, HasItsTracesAsFacesAndSaysSo) {
     std::vector<std::string> stages;
