@@ -31,7 +31,7 @@ namespace crackle {
 namespace {
 
 // Shares of the spacing. A triangle on a piece one spacing long whose apex is 0.4 off has angles above 21 degrees.
-constexpr double left_out_share = 0.4;
+constexpr double left_out_seed_share = 0.4;
 constexpr double near_share = 1.3;  // within it triangles are looked at: the first row beside the trace
 // Passages narrower than that share, and angles below that sine (of a degree), would be filled with triangles as small.
 constexpr double narrowest_share = 0.02, least_sine = 0.0175;
@@ -44,15 +44,15 @@ struct PointInfo {
 };
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using VertexBase =
+using TracedVertexBase =
     CGAL::Triangulation_vertex_base_with_info_2<PointInfo, Kernel, CGAL::Delaunay_mesh_vertex_base_2<Kernel>>;
 struct FaceNumber {
     int value = -1;  // of the triangle; of what lies outside of the mesh -1
 };
-using FaceBase = CGAL::Triangulation_face_base_with_info_2<FaceNumber, Kernel, CGAL::Delaunay_mesh_face_base_2<Kernel>>;
-using Constrained =
-    CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
-                                               CGAL::Exact_predicates_tag>;
+using TracedFaceBase =
+    CGAL::Triangulation_face_base_with_info_2<FaceNumber, Kernel, CGAL::Delaunay_mesh_face_base_2<Kernel>>;
+using Constrained = CGAL::Constrained_Delaunay_triangulation_2<
+    Kernel, CGAL::Triangulation_data_structure_2<TracedVertexBase, TracedFaceBase>, CGAL::Exact_predicates_tag>;
 using ConstrainedVertex = Constrained::Vertex_handle;
 using ConstrainedFace = Constrained::Face_handle;
 
@@ -184,7 +184,7 @@ class Conforming {
     std::vector<ChosenPoint> chosen_points(std::span<const CellCentre> centres, const SegmentGrid& grid) {
         std::vector<CellCentre> kept;
         std::vector<int> number;
-        const double room = left_out_share * spacing_;
+        const double room = left_out_seed_share * spacing_;
         for (std::size_t k = 0; k < centres.size(); ++k) {
             if (from_traces(centres[k], grid) < room) {
                 ++out_.left_out;

@@ -21,9 +21,6 @@ constexpr double flattest_turn = 1e-12;
 // An inset with less than this share of the outline's area is the rounding of an empty one.
 constexpr double smallest_area_share = 1e-12;
 
-double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
-double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
-
 }  // namespace
 
 double polygon_area(std::span<const Point> outline) {

@@ -36,6 +36,10 @@ inline double distance(Point a, Point b) {
     return std::sqrt(x * x + y * y);
 }
 
+/// m2. Of places taken as vectors.
+inline double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
+inline double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
+
 /// Centre from which a cell grows: a circle centre of a packing.
 using CellCentre = Point;
 

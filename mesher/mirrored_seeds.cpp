@@ -16,7 +16,7 @@ constexpr double pi = std::numbers::pi;
 // Shares of the spacing: seeds of a pair lie a spacing apart; a given centre is kept as far off as one is from another.
 constexpr double half_width_share = 0.5, kept_share = 0.55;
 // Rows narrower than that share of a full one are not made: they do not cover the trace, which is then refused.
-constexpr double narrowest_share = 0.1;
+constexpr double narrowest_strip_share = 0.1;
 // Half a row's width over the distance to another trace: two rows d wide between them, and circles of radius √2 d about
 // places on the traces, which must not reach the other's seeds; to one that meets it at a node seeds lie by the ring's
 // angle; a wall mirrors the row itself.
@@ -115,7 +115,7 @@ class SeedPlacing {
                                                                : passage_share;
             least = std::min(least, share * distance_to(edges_.segments()[other], p));
         });
-        return std::max(least, narrowest_share * half_width_share * spacing_);
+        return std::max(least, narrowest_strip_share * half_width_share * spacing_);
     }
     bool meet(std::size_t edge, std::size_t other) const {
         const TraceGraph::Edge &s = graph_.edges[edge], &t = graph_.edges[other];

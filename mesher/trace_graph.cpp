@@ -26,8 +26,6 @@ constexpr double same_place_share = 1e-13;
 constexpr std::size_t most_pairs = 5'000'000;
 
 Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
-double cross(Point a, Point b) { return a.x * b.y - a.y * b.x; }
-double dot(Point a, Point b) { return a.x * b.x + a.y * b.y; }
 Point along(Point a, Point b, double share) { return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)}; }
 
 struct Piece {

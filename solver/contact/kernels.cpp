@@ -351,9 +351,19 @@ constexpr ContactFeatures features_for(PointKind kind, ContactFeatures f) {
     return f;
 }
 
+/// The set of features that stands for a numbered one: itself; for clang-tidy, which takes a second to read each
+/// kernel, the least and the largest sets alone.
+constexpr std::size_t compiled_for(std::size_t number) {
+#ifdef __clang_analyzer__
+    return number == 0 ? 0 : number < plain_sets ? plain_sets - 1 : all_sets - 1;
+#else
+    return number;
+#endif
+}
+
 template <PointKind K, std::size_t Number>
 constexpr ForceKernel kernel_of() {
-    constexpr ContactFeatures features = features_for(K, features_numbered(Number));
+    constexpr ContactFeatures features = features_for(K, features_numbered(compiled_for(Number)));
     if constexpr (in_batches<K>)
         return &force_block_in_batches<K, features>;
     else

@@ -22,21 +22,21 @@ namespace {
 
 constexpr std::size_t redrawn = 10'000;
 constexpr std::uint64_t bootstrap_seed = 1;
-constexpr double degrees = 180.0 / std::numbers::pi;
+constexpr double degrees_a_radian = 180.0 / std::numbers::pi;
 
 /// The tests at one confinement: least squares know no more of them than their mean.
 struct WeightedPoint {
     double confinement, strength;
     double weight;  // root of their number, over the mean strength there
 };
-using Points = std::vector<WeightedPoint>;
+using WeightedPoints = std::vector<WeightedPoint>;
 
 struct Line {
     double intercept, slope;
 };
 
 /// y = a + b x, each equation times its weight.
-Line weighted_line(const Points& points, auto&& x_of, auto&& y_of, auto&& weight_of) {
+Line weighted_line(const WeightedPoints& points, auto&& x_of, auto&& y_of, auto&& weight_of) {
     Eigen::Matrix2d normal = Eigen::Matrix2d::Zero();
     Eigen::Vector2d right = Eigen::Vector2d::Zero();
     for (const WeightedPoint& p : points) {
@@ -48,7 +48,7 @@ Line weighted_line(const Points& points, auto&& x_of, auto&& y_of, auto&& weight
     return {found[0], found[1]};
 }
 
-Line fit_mohr_coulomb(const Points& points) {
+Line fit_mohr_coulomb(const WeightedPoints& points) {
     return weighted_line(
         points, [](const WeightedPoint& p) { return p.confinement; }, [](const WeightedPoint& p) { return p.strength; },
         [](const WeightedPoint& p) { return p.weight; });
@@ -69,7 +69,7 @@ struct HoekBrownResiduals {
     using JacobianType = Eigen::MatrixXd;
     enum { InputsAtCompileTime = Eigen::Dynamic, ValuesAtCompileTime = Eigen::Dynamic };
 
-    const Points& points;
+    const WeightedPoints& points;
 
     int inputs() const { return 2; }
     int values() const { return static_cast<int>(points.size()); }
@@ -95,7 +95,7 @@ struct HoekBrownResiduals {
     }
 };
 
-HoekBrown fit_hoek_brown(const Points& points) {
+HoekBrown fit_hoek_brown(const WeightedPoints& points) {
     // (σ1 - σ3)² scatters by twice its size times that of σ1.
     const auto difference = [](const WeightedPoint& p) { return p.strength - p.confinement; };
     const Line start = weighted_line(
@@ -141,13 +141,13 @@ double pooled_variation(const std::vector<StrengthAt>& strengths) {
 }
 
 double friction_angle(double slope) {
-    return degrees * correctly_rounded::asin(std::clamp((slope - 1.0) / (slope + 1.0), -1.0, 1.0));
+    return degrees_a_radian * correctly_rounded::asin(std::clamp((slope - 1.0) / (slope + 1.0), -1.0, 1.0));
 }
 
 double cohesion(const Line& line) { return line.intercept / (2.0 * std::sqrt(line.slope)); }
 
 /// The six numbers, in the order of the envelope's members.
-std::array<double, 6> numbers_of(const Points& points) {
+std::array<double, 6> numbers_of(const WeightedPoints& points) {
     const Line line = fit_mohr_coulomb(points);
     const HoekBrown law = fit_hoek_brown(points);
     return {line.intercept, line.slope, friction_angle(line.slope), cohesion(line), law.strength, law.m};
@@ -156,7 +156,7 @@ std::array<double, 6> numbers_of(const Points& points) {
 }  // namespace
 
 FittedLaws fit_laws(std::span<const StrengthPoint> tests) {
-    Points points;
+    WeightedPoints points;
     for (const StrengthAt& at : by_confinement(tests))
         points.push_back({at.confinement, at.mean, std::sqrt(static_cast<double>(at.tests)) / at.mean});
     if (points.size() < fewest_confinements) {
@@ -202,7 +202,7 @@ StrengthEnvelope fit_envelope(std::span<const StrengthPoint> tests) {
             envelope.strengths.size(), packings.size(), fewest_confinements, fewest_packings));
     }
     envelope.variation = pooled_variation(envelope.strengths);
-    Points points;
+    WeightedPoints points;
     for (const StrengthAt& at : envelope.strengths)
         points.push_back({at.confinement, at.mean, std::sqrt(static_cast<double>(at.tests)) / at.mean});
     const std::array<FittedNumber*, 6> fitted{&envelope.strength,
@@ -239,7 +239,7 @@ StrengthEnvelope fit_envelope(std::span<const StrengthPoint> tests) {
                 sums[at].tests += own[at].tests;
             }
         }
-        Points again;
+        WeightedPoints again;
         for (std::size_t at = 0; at < sums.size(); ++at) {
             if (sums[at].tests == 0.0) continue;
             again.push_back({points[at].confinement, sums[at].strength / sums[at].tests,

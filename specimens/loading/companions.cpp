@@ -26,13 +26,13 @@ constexpr double convergence_index = 3.0;  // two grids, first order
 constexpr std::chrono::milliseconds between_questions{50};
 constexpr double undefined = std::numeric_limits<double>::quiet_NaN();
 
-struct Plan {
+struct CompanionPlan {
     std::string name;
     TestCase description;
 };
 
-std::vector<Plan> plans_for(const TestCase& asked, int threads) {
-    std::vector<Plan> plans;
+std::vector<CompanionPlan> plans_for(const TestCase& asked, int threads) {
+    std::vector<CompanionPlan> plans;
     const auto plan = [&](const char* name) -> TestCase& {
         plans.push_back({name, asked});
         plans.back().description.numerics.threads = threads;
@@ -79,7 +79,7 @@ double damping_of(const World& world) {
 }
 
 /// Read off its own world and rows, not off the plan: what was planned and not done would show.
-Companion what_it_did(const Plan& plan, const VirtualTest& test, const VirtualTest& other) {
+Companion what_it_did(const CompanionPlan& plan, const VirtualTest& test, const VirtualTest& other) {
     Companion c;
     c.name = plan.name;
     c.ended_by = other.state.ended_by;
@@ -91,7 +91,7 @@ Companion what_it_did(const Plan& plan, const VirtualTest& test, const VirtualTe
 }
 
 /// @return nothing if interrupted
-std::optional<Companion> run_one(const Plan& plan, const VirtualTest& test, const TestHooks& hooks) {
+std::optional<Companion> run_one(const CompanionPlan& plan, const VirtualTest& test, const TestHooks& hooks) {
     TestHooks quiet;
     quiet.interrupted = hooks.interrupted;
     VirtualTest other;
@@ -174,7 +174,7 @@ NumberError error_of(double asked, double resolution, const std::vector<Companio
 
 std::optional<NumericalErrors> run_companions(const VirtualTest& test, const TestHooks& hooks) {
     if (test.state.failure.peak_row < 0) return std::nullopt;
-    const std::vector<Plan> plans = plans_for(test.description, test.world.workers.threads);
+    const std::vector<CompanionPlan> plans = plans_for(test.description, test.world.workers.threads);
     if (hooks.stage) hooks.stage(fmt::format("verifying: {} companions of the test", plans.size()));
     std::vector<std::optional<Companion>> done(plans.size());
     const int threads = std::max(1, test.world.workers.threads);

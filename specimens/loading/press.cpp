@@ -17,7 +17,7 @@
 namespace crackle {
 namespace {
 
-constexpr int most_rounds = 50;
+constexpr int most_press_rounds = 50;
 
 /// Forces that are left on every body, the normal force among them.
 std::vector<BodyMotion> forces_left(const VirtualTest& test) {
@@ -60,7 +60,7 @@ void find_equilibrium(VirtualTest& test) {
             largest = std::max(largest, std::hypot(left[b].x, left[b].y) / of_particle);
         }
         if (largest <= most_unbalanced_pressed) break;
-        if (round == most_rounds || !std::isfinite(largest)) {
+        if (round == most_press_rounds || !std::isfinite(largest)) {
             throw InputError(
                 fmt::format("{}: found no equilibrium under {:g} {}: a force of {:.2g} of that on a particle was left, "
                             "expected at most "

@@ -14,7 +14,7 @@ namespace crackle {
 namespace {
 
 constexpr std::size_t bootstrap_means = 10'000;
-constexpr std::uint64_t bootstrap_seed = 1;
+constexpr std::uint64_t resampling_seed = 1;
 constexpr std::size_t fewest_of_bootstrap = 8, most_of_bootstrap = 200;
 constexpr double outside = 0.05;
 
@@ -51,7 +51,7 @@ MeanFigure mean_of(std::span<const double> values) {
     figure.high = figure.mean + t * figure.standard_error;
     if (values.size() < fewest_of_bootstrap || values.size() > most_of_bootstrap) return figure;
 
-    std::mt19937_64 generator(bootstrap_seed);
+    std::mt19937_64 generator(resampling_seed);
     std::vector<double> means(bootstrap_means);
     for (double& mean : means) {
         double drawn = 0.0;

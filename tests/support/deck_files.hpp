@@ -72,18 +72,18 @@ inline Rows read_rows(const std::filesystem::path& path) {
 }
 
 /// One moment of output.dat, cont.dat or cont2.dat.
-struct Frame {
+struct DeckFrame {
     double step, time;
     Rows rows;
 };
 
-inline std::vector<Frame> read_frames(const std::filesystem::path& path) {
+inline std::vector<DeckFrame> read_frames(const std::filesystem::path& path) {
     const Rows all = read_rows(path);
-    std::vector<Frame> frames;
+    std::vector<DeckFrame> frames;
     for (std::size_t k = 0; k < all.size();) {
         double count = 0.0;
         for (std::size_t c = 2; c < all[k].size(); ++c) count += all[k][c];
-        Frame frame{all[k][0], all[k][1], {}};
+        DeckFrame frame{all[k][0], all[k][1], {}};
         const std::size_t end = k + 1 + static_cast<std::size_t>(count);
         frame.rows.assign(all.begin() + static_cast<std::ptrdiff_t>(k + 1),
                           all.begin() + static_cast<std::ptrdiff_t>(end));

@@ -81,7 +81,7 @@ TEST(GuideCircle, BouncesBackToItsHeightForEver) {
     DeckOptions options = options_for("circle", scratch);
     DeckRun(options).run();
     Rows heights;
-    for (const Frame& frame : read_frames(options.output / "output.dat"))
+    for (const DeckFrame& frame : read_frames(options.output / "output.dat"))
         heights.push_back({frame.step, frame.rows[0][3]});
     const auto tops = peaks(heights, 1, 3.0);
     ASSERT_GE(tops.size(), 5u);
@@ -140,7 +140,7 @@ TEST(GuideControlledSegment, PushedByAForceStandsWhereTheGuidePrintsIt) {
 TEST(GuideControlledSegment, MovesByItsDisplacementLinearlyInTheStep) {
     const ScratchFolder scratch;
     const auto out = run_shipped("controlled_segment_displacement", scratch);
-    for (const Frame& frame : read_frames(out / "output.dat")) {
+    for (const DeckFrame& frame : read_frames(out / "output.dat")) {
         const auto& segment = frame.rows[1];
         ASSERT_EQ(segment[0], 2.0);
         ASSERT_NEAR(segment[1], -3.0 + 3.0 * frame.step / 20000.0, 1e-12);

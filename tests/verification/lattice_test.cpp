@@ -11,7 +11,7 @@
 #include "tests/support/claim.hpp"
 #include "tools/bench/verify/scenes/whole_world.hpp"
 
-namespace crackle {
+namespace crackle::lattice_test {
 namespace {
 
 constexpr double radius = 0.02, overlap = 8e-5, kn = 1e7;
@@ -29,4 +29,4 @@ TEST(TriangularLattice, BoundOfTheStepComesFromDoubledBlocks) {
 }
 
 }  // namespace
-}  // namespace crackle
+}  // namespace crackle::lattice_test

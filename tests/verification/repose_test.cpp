@@ -19,7 +19,7 @@ namespace {
 using namespace testing;
 
 /// Heights of the pile's surface in strips of width 8 between the left wall and the toe.
-std::map<int, double> surface(const Frame& frame) {
+std::map<int, double> surface(const DeckFrame& frame) {
     std::map<int, double> heights;
     for (const auto& row : frame.rows) {
         if (row[0] == 583.0 || row[2] > 80.0 || row[3] < 0.0) continue;

@@ -256,7 +256,7 @@ void plot_guide(const po::variables_map& given, const Look& look, Messages& mess
         }
         return drawings(drawn, folders, look.drawing);
     };
-    const auto curves = [&](const std::string& specimen) {
+    const auto both_curves = [&](const std::string& specimen) {
         return stress_strain({{&tests.at(specimen + "_tension").results, "tension", 0, true},
                               {&tests.at(specimen + "_compression").results, "compression", 0, false}});
     };
@@ -268,12 +268,12 @@ void plot_guide(const po::variables_map& given, const Look& look, Messages& mess
         {26,
          {row({at("circles_tension", "start", "packing"), at("circles_tension", "end", "end of tension"),
                at("circles_compression", "end", "end of compression")}),
-          curves("circles"), breaks({{&tests.at("circles_tension").results, "tension", 0, false}})}},
+          both_curves("circles"), breaks({{&tests.at("circles_tension").results, "tension", 0, false}})}},
         {27,
          {row({at("circles_tension", "start", "circles"), at("delaunay_tension", "start", "Delaunay"),
                at("voronoi_tension", "start", "Voronoi")})}},
-        {28, {loaded("delaunay"), curves("delaunay")}},
-        {29, {loaded("voronoi"), curves("voronoi")}}};
+        {28, {loaded("delaunay"), both_curves("delaunay")}},
+        {29, {loaded("voronoi"), both_curves("voronoi")}}};
     make_folder(output);
     for (const auto& [number, panels] : figures) {
         const fs::path file = file_of(number);

@@ -25,7 +25,7 @@
 namespace crackle::tools {
 namespace {
 
-std::string shown(const nlohmann::ordered_json& summary, const std::string& key) {
+std::string shown_value(const nlohmann::ordered_json& summary, const std::string& key) {
     const auto value = summary.find(key);
     if (value == summary.end() || value->is_null()) return "-";
     return value->is_number() ? fmt::format("{:.4g}", value->get<double>()) : value->dump();
@@ -34,7 +34,7 @@ std::string shown(const nlohmann::ordered_json& summary, const std::string& key)
 /// A stress or modulus, and the same in three dimensions where the case gives a thickness.
 std::string stress(const nlohmann::ordered_json& summary, const std::string& key) {
     const bool area = summary.value("material_units", "point") == "area";
-    std::string in_plane = shown(summary, key) + (area ? " Pa" : " N/m");
+    std::string in_plane = shown_value(summary, key) + (area ? " Pa" : " N/m");
     const auto converted = summary.find(key + converted_suffix);
     const bool thick = summary.contains("out_of_plane_thickness") && summary["out_of_plane_thickness"].is_number();
     if ((!thick && !area) || converted == summary.end() || !converted->is_number()) return in_plane;
@@ -48,10 +48,10 @@ void print_figures(const TestOutcome& outcome) {
     std::cout << fmt::format("{}, {}: {}\n", s.value("specimen", ""), s.value("kind", ""),
                              failed ? "failed" : "has not failed (ended by " + s.value("ended_by", "nothing") + ")");
     std::cout << fmt::format("  {} {} at strain {}\n", failed ? "strength" : "largest stress so far",
-                             stress(s, "peak_stress" + so_far), shown(s, "peak_strain" + so_far));
+                             stress(s, "peak_stress" + so_far), shown_value(s, "peak_strain" + so_far));
     if (failed && s.value("largest_stress", 0.0) > s.value("peak_stress", 0.0)) {
         std::cout << fmt::format("  largest stress {} at strain {}: after the peak, no strength\n",
-                                 stress(s, "largest_stress"), shown(s, "strain_at_largest_stress"));
+                                 stress(s, "largest_stress"), shown_value(s, "strain_at_largest_stress"));
     }
     if (s.contains("initial_tangent_modulus")) {
         std::cout << fmt::format("  modulus: small strain {}, initial tangent {}, at half the peak {}\n",
@@ -63,23 +63,24 @@ void print_figures(const TestOutcome& outcome) {
             std::cout << fmt::format("  not valid: {} is not so: {}\n", verdict["claim"].get<std::string>(),
                                      verdict["found"].get<std::string>());
     }
-    std::cout << fmt::format("  bonds broken: {} of {} ({} interfaces of {})\n", shown(s, "bonds_broken"),
-                             shown(s, "bonds_initial"), shown(s, "interfaces_lost"), shown(s, "interfaces_initial"));
+    std::cout << fmt::format("  bonds broken: {} of {} ({} interfaces of {})\n", shown_value(s, "bonds_broken"),
+                             shown_value(s, "bonds_initial"), shown_value(s, "interfaces_lost"),
+                             shown_value(s, "interfaces_initial"));
     std::cout << fmt::format("  errors: energy balance {} of the work, platens out of balance by {} of the peak\n",
-                             shown(s, "energy_closing_error"), shown(s, "platen_out_of_balance"));
+                             shown_value(s, "energy_closing_error"), shown_value(s, "platen_out_of_balance"));
     if (s.contains("peak_converged") && s["peak_converged"].is_boolean()) {
         const auto& e = s["numerical_errors"];
         std::cout << fmt::format(
-            "  stated errors: strength {}, its strain {}{} of their values; {}\n", shown(e["peak_stress"], "stated"),
-            shown(e["peak_strain"], "stated"),
+            "  stated errors: strength {}, its strain {}{} of their values; {}\n",
+            shown_value(e["peak_stress"], "stated"), shown_value(e["peak_strain"], "stated"),
             e.contains("crack_initiation_stress")
-                ? fmt::format(", crack initiation {}, damage {}", shown(e["crack_initiation_stress"], "stated"),
-                              shown(e["crack_damage_stress"], "stated"))
+                ? fmt::format(", crack initiation {}, damage {}", shown_value(e["crack_initiation_stress"], "stated"),
+                              shown_value(e["crack_damage_stress"], "stated"))
                 : "",
             s["peak_converged"].get<bool>() ? "the peak is converged" : "the peak jumps between branches");
     }
-    std::cout << fmt::format("  {} steps in {} s: {} particle-steps/s\n", shown(s, "steps"), shown(s, "step_seconds"),
-                             shown(s, "particle_steps_per_second"));
+    std::cout << fmt::format("  {} steps in {} s: {} particle-steps/s\n", shown_value(s, "steps"),
+                             shown_value(s, "step_seconds"), shown_value(s, "particle_steps_per_second"));
     if (s.contains("profile")) std::cout << profile_table(s["profile"]);
     for (const auto& notice : s.value("notices", nlohmann::ordered_json::array())) {
         std::cout << "  notice: " << notice.get<std::string>() << '\n';
@@ -106,8 +107,9 @@ TestHooks hooks_for(Messages& messages) {
 void report_details(Messages& messages, const TestOutcome& outcome) {
     if (!messages.verbose()) return;
     const auto& s = outcome.summary;
-    messages.detail(fmt::format("{} steps in {} s on {} threads; mean time step {} s", shown(s, "steps"),
-                                shown(s, "step_seconds"), shown(s, "threads"), shown(s, "time_step_mean")));
+    messages.detail(fmt::format("{} steps in {} s on {} threads; mean time step {} s", shown_value(s, "steps"),
+                                shown_value(s, "step_seconds"), shown_value(s, "threads"),
+                                shown_value(s, "time_step_mean")));
     std::uintmax_t count = 0, bytes = 0;
     std::error_code vanished;
     for (const auto& entry : std::filesystem::recursive_directory_iterator(outcome.folder, vanished)) {

@@ -16,7 +16,7 @@
 #include "specimens/making/materials.hpp"
 #include "tests/support/claim.hpp"
 
-namespace crackle {
+namespace crackle::coulomb_bond_test {
 namespace {
 
 using testing::agrees;
@@ -256,4 +256,4 @@ TEST(CoulombBond, StaysTheSameWhateverTheSkinOfTheList) {
 }
 
 }  // namespace
-}  // namespace crackle
+}  // namespace crackle::coulomb_bond_test

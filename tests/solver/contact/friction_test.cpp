@@ -9,7 +9,7 @@
 
 #include "tests/support/claim.hpp"
 
-namespace crackle {
+namespace crackle::friction_test {
 namespace {
 
 constexpr double k_n = 1e7, k_s = 2e6, mu = 0.5;
@@ -75,4 +75,4 @@ TEST(Friction, LanesHaveTheBytesOfOnePoint) {
 }
 
 }  // namespace
-}  // namespace crackle
+}  // namespace crackle::friction_test

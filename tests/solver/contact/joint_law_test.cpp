@@ -16,7 +16,7 @@
 #include "tests/support/jointed_cells.hpp"
 #include "tests/support/refusal.hpp"
 
-namespace crackle {
+namespace crackle::joint_law_test {
 namespace {
 
 double tangent_of_degrees(double angle) { return std::tan(angle * std::numbers::pi / 180.0); }
@@ -159,4 +159,4 @@ TEST(JointLaw, ATurnedOutlineKeepsItsFacesOnTraces) {
 }
 
 }  // namespace
-}  // namespace crackle
+}  // namespace crackle::joint_law_test

@@ -14,7 +14,7 @@
 #include "solver/world/world.hpp"
 #include "tests/support/claim.hpp"
 
-namespace crackle {
+namespace crackle::law_test {
 namespace {
 
 constexpr double gravity = 9.81, speed = 0.1;
@@ -135,4 +135,4 @@ TEST(TwoMaterials, DampedInDifferentWaysAreRefused) {
 }
 
 }  // namespace
-}  // namespace crackle
+}  // namespace crackle::law_test

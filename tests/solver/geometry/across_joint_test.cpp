@@ -11,7 +11,7 @@
 #include "solver/stepping/step.hpp"
 #include "tests/support/jointed_cells.hpp"
 
-namespace crackle {
+namespace crackle::across_joint_test {
 namespace {
 
 using testing::JointedCells;
@@ -153,4 +153,4 @@ TEST(AcrossJoint, LawsAreTheSameHoweverWideTheListsSkinIs) {
 }
 
 }  // namespace
-}  // namespace crackle
+}  // namespace crackle::across_joint_test

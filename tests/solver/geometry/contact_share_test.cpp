@@ -14,7 +14,7 @@
 #include "specimens/making/materials.hpp"
 #include "tests/support/claim.hpp"
 
-namespace crackle {
+namespace crackle::contact_share_test {
 namespace {
 
 using testing::agrees;
@@ -165,4 +165,4 @@ TEST(ContactShare, OfACornerMetLaterIsHalfTheEdgesThatMeetInIt) {
 }
 
 }  // namespace
-}  // namespace crackle
+}  // namespace crackle::contact_share_test

@@ -14,7 +14,7 @@
 #include "tests/support/claim.hpp"
 #include "tools/bench/verify/scenes/whole_world.hpp"
 
-namespace crackle {
+namespace crackle::guide_segments_test {
 namespace {
 
 using testing::agrees;
@@ -268,4 +268,4 @@ TEST(SegmentPairs, GradientOfTheOverlapIsThatOfDifferences) {
 }
 
 }  // namespace
-}  // namespace crackle
+}  // namespace crackle::guide_segments_test

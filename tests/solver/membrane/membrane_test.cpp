@@ -22,7 +22,7 @@
 #include "tests/support/same_bytes.hpp"
 #include "tools/bench/verify/scenes/whole_world.hpp"
 
-namespace crackle {
+namespace crackle::membrane_test {
 namespace {
 
 using testing::agrees;
@@ -245,4 +245,4 @@ TEST(Membrane, NeedsBodiesToLieOn) {
 }
 
 }  // namespace
-}  // namespace crackle
+}  // namespace crackle::membrane_test

@@ -20,7 +20,7 @@
 #include "tests/support/claim.hpp"
 #include "tests/support/refusal.hpp"
 
-namespace crackle {
+namespace crackle::change_law_test {
 namespace {
 
 using testing::agrees;
@@ -201,4 +201,4 @@ TEST(ChangeLaw, RefusesWhatNoLawCanBe) {
 }
 
 }  // namespace
-}  // namespace crackle
+}  // namespace crackle::change_law_test

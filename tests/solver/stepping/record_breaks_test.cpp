@@ -14,7 +14,7 @@
 #include "solver/stepping/step.hpp"
 #include "tests/support/claim.hpp"
 
-namespace crackle {
+namespace crackle::record_breaks_test {
 namespace {
 
 using testing::agrees;
@@ -132,4 +132,4 @@ TEST(BreakEvent, RemembersTheForcesOfTheLastStepAtHalfTheStrength) {
 }
 
 }  // namespace
-}  // namespace crackle
+}  // namespace crackle::record_breaks_test

@@ -12,7 +12,7 @@
 #include "specimens/making/materials.hpp"
 #include "tests/support/claim.hpp"
 
-namespace crackle {
+namespace crackle::record_slips_test {
 namespace {
 
 using testing::agrees;
@@ -76,4 +76,4 @@ TEST(RecordSlips, ChangesNoResult) {
 }
 
 }  // namespace
-}  // namespace crackle
+}  // namespace crackle::record_slips_test

@@ -22,7 +22,7 @@
 #include "tests/support/small_circles_rock.hpp"
 #include "tests/support/small_rock.hpp"
 
-namespace crackle {
+namespace crackle::listener_test {
 namespace {
 
 using testing::agrees;
@@ -271,4 +271,4 @@ TEST(EmissionOfATest, HoldsEveryBreakOnce) {
 }
 
 }  // namespace
-}  // namespace crackle
+}  // namespace crackle::listener_test

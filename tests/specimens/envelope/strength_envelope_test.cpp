@@ -14,7 +14,7 @@
 #include "specimens/statistics/random_numbers.hpp"
 #include "tests/support/claim.hpp"
 
-namespace crackle {
+namespace crackle::strength_envelope_test {
 namespace {
 
 using testing::agrees;
@@ -160,4 +160,4 @@ TEST(StrengthEnvelope, StatesMeansAndScatterOfEachConfinement) {
 }
 
 }  // namespace
-}  // namespace crackle
+}  // namespace crackle::strength_envelope_test

@@ -15,7 +15,7 @@
 #include "specimens/making/specimen.hpp"
 #include "tests/specimens/joints/cases.hpp"
 
-namespace crackle {
+namespace crackle::joint_faces_test {
 namespace {
 
 using testing::area_rock;
@@ -121,4 +121,4 @@ TEST(JointFaces, KeysComeToAJoint) {
 }
 
 }  // namespace
-}  // namespace crackle
+}  // namespace crackle::joint_faces_test

@@ -16,7 +16,7 @@
 #include "tests/support/claim.hpp"
 #include "tests/support/refusal.hpp"
 
-namespace crackle {
+namespace crackle::joint_network_test {
 namespace {
 
 using testing::agrees;
@@ -349,4 +349,4 @@ TEST(JointNetwork, WhatCannotBeDrawnIsRefused) {
 }
 
 }  // namespace
-}  // namespace crackle
+}  // namespace crackle::joint_network_test

@@ -10,7 +10,7 @@
 #include "tests/specimens/joints/cases.hpp"
 #include "tests/support/refusal.hpp"
 
-namespace crackle {
+namespace crackle::joint_refusal_test {
 namespace {
 
 std::string refused(const std::string& text) {
@@ -186,4 +186,4 @@ scale = 0.001
 }
 
 }  // namespace
-}  // namespace crackle
+}  // namespace crackle::joint_refusal_test

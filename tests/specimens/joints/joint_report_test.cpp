@@ -10,7 +10,7 @@
 #include "tests/specimens/joints/cases.hpp"
 #include "tests/support/claim.hpp"
 
-namespace crackle {
+namespace crackle::joint_report_test {
 namespace {
 
 using testing::agrees;
@@ -186,4 +186,4 @@ TEST(JointReport, KappaAndMeanLengthOfANetworkAreRecovered) {
 }
 
 }  // namespace
-}  // namespace crackle
+}  // namespace crackle::joint_report_test

@@ -10,7 +10,7 @@
 
 #include "tests/support/claim.hpp"
 
-namespace crackle {
+namespace crackle::length_law_test {
 namespace {
 
 using testing::agrees;
@@ -109,4 +109,4 @@ TEST(LengthLaw, PowerLawGoesOverIntoItsLimits) {
 }
 
 }  // namespace
-}  // namespace crackle
+}  // namespace crackle::length_law_test

@@ -10,7 +10,7 @@
 #include "tests/support/claim.hpp"
 #include "tests/support/refusal.hpp"
 
-namespace crackle {
+namespace crackle::mesh_traces_test {
 namespace {
 
 using testing::case_of;
@@ -110,4 +110,4 @@ TEST(JointedSpecimen, WhatCannotHaveJointsIsRefused) {
 }
 
 }  // namespace
-}  // namespace crackle
+}  // namespace crackle::mesh_traces_test

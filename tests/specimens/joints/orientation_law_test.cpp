@@ -17,7 +17,7 @@
 #include "tests/support/claim.hpp"
 #include "tests/support/refusal.hpp"
 
-namespace crackle {
+namespace crackle::orientation_law_test {
 namespace {
 
 using testing::agrees;
@@ -208,4 +208,4 @@ TEST(OrientationLaw, APlaneThatLiesInTheSectionIsRefused) {
 }
 
 }  // namespace
-}  // namespace crackle
+}  // namespace crackle::orientation_law_test

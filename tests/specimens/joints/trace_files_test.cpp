@@ -11,7 +11,7 @@
 
 #include "tests/support/refusal.hpp"
 
-namespace crackle {
+namespace crackle::trace_files_test {
 namespace {
 
 using testing::refusal;
@@ -104,4 +104,4 @@ TEST(TraceFiles, EveryBeginningOfADrawingIsReadOrRefused) {
 }
 
 }  // namespace
-}  // namespace crackle
+}  // namespace crackle::trace_files_test

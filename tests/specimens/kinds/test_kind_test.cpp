@@ -16,7 +16,7 @@
 #include "tests/support/claim.hpp"
 #include "tools/bench/verify/scenes/lattice_case.hpp"
 
-namespace crackle {
+namespace crackle::test_kind_test {
 namespace {
 
 using testing::within;
@@ -129,4 +129,4 @@ TEST(TestKinds, BadInputOfAKindIsRefusedByName) {
 }
 
 }  // namespace
-}  // namespace crackle
+}  // namespace crackle::test_kind_test

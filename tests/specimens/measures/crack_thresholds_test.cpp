@@ -13,7 +13,7 @@
 #include "specimens/statistics/random_numbers.hpp"
 #include "tests/support/claim.hpp"
 
-namespace crackle {
+namespace crackle::crack_thresholds_test {
 namespace {
 
 using testing::agrees;
@@ -96,4 +96,4 @@ TEST(CrackThresholds, ThatCannotBeReadAreNotNumbers) {
 }
 
 }  // namespace
-}  // namespace crackle
+}  // namespace crackle::crack_thresholds_test

@@ -12,7 +12,7 @@
 #include "specimens/statistics/random_numbers.hpp"
 #include "tests/support/claim.hpp"
 
-namespace crackle {
+namespace crackle::broken_stick_test {
 namespace {
 
 using testing::agrees;
@@ -99,4 +99,4 @@ TEST(BurstBreak, IsTheSameOfTheSameBursts) {
 }
 
 }  // namespace
-}  // namespace crackle
+}  // namespace crackle::broken_stick_test

@@ -12,7 +12,7 @@
 #include "specimens/statistics/random_numbers.hpp"
 #include "tests/support/claim.hpp"
 
-namespace crackle {
+namespace crackle::directions_test {
 namespace {
 
 using testing::agrees;
@@ -91,4 +91,4 @@ TEST(Rose, WithOneLongCrackAmongShortOnesIsOneLine) {
 }
 
 }  // namespace
-}  // namespace crackle
+}  // namespace crackle::directions_test

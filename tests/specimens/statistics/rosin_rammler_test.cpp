@@ -12,7 +12,7 @@
 #include "specimens/statistics/random_numbers.hpp"
 #include "tests/support/claim.hpp"
 
-namespace crackle {
+namespace crackle::rosin_rammler_test {
 namespace {
 
 using testing::agrees;
@@ -72,4 +72,4 @@ TEST(MedianSize, HasHalfOfTheAreaInSmallerPieces) {
 }
 
 }  // namespace
-}  // namespace crackle
+}  // namespace crackle::rosin_rammler_test

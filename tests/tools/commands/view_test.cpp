@@ -112,7 +112,7 @@ TEST_F(ViewCommand, MakesTheCirclesThatAParticleFileLeavesToChance) {
 TEST_F(ViewCommand, ADecksBodiesAreWhereItsOutputsSay) {
     ASSERT_EQ(crackle(fmt::format("run -q '{}' -o run --steps 2000", shipped_deck("clump").string())).code, 0);
     const PageContents shown = page("run");
-    const std::vector<testing::Frame> frames = testing::read_frames(folder_ / "run" / "output.dat");
+    const std::vector<testing::DeckFrame> frames = testing::read_frames(folder_ / "run" / "output.dat");
     ASSERT_EQ(shown.test()["frames"].size(), frames.size());
     const std::vector<double> x = shown.plain("cells.x"), y = shown.plain("cells.y");
     const double quantum = shown.coded("ux", 0).quantum;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double figure_width = 130.0;  // mm
 
-constexpr const char* style = R"(
+constexpr const char* page_style = R"(
 :root{color-scheme:light}
 body{font:15px/1.5 system-ui,"DejaVu Sans",sans-serif;color:#1d2125;background:#fff;max-width:1000px;margin:2rem auto;padding:0 1rem}
 h1{font-size:1.6rem;margin:0 0 .3rem}h2{font-size:1.15rem;margin:2.2rem 0 .6rem}
@@ -36,7 +36,7 @@ std::string page_head(const std::string& heading, const std::string& subtitle) {
         "<!DOCTYPE html>\n{}\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{}</title>"
         "<meta name=\"viewport\" content=\"width=device-width\"><style>{}</style></head><body>\n<h1>{}</h1>\n"
         "<p class=\"sub\">{}</p>\n",
-        report_mark, html(heading), style, html(heading), html(subtitle));
+        report_mark, html(heading), page_style, html(heading), html(subtitle));
 }
 
 // Pango's markup takes the letters that HTML does.

@@ -23,6 +23,7 @@
 #include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle::verification {
+namespace critical_step_scenes {
 namespace {
 
 constexpr double radius = 0.02, overlap = 8e-5, kn = 1e7;
@@ -136,8 +137,10 @@ std::vector<ClaimRow> one_disc_among_held_neighbours_overestimates() {
 }
 
 }  // namespace
+}  // namespace critical_step_scenes
 
 std::vector<Claim> critical_step_claims() {
+    using namespace critical_step_scenes;
     constexpr const char* group = "Critical step";
     return {
         {.name = "critical_step_of_a_spring_and_dashpot",

@@ -20,6 +20,7 @@
 #include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle::verification {
+namespace lattice_waves_scenes {
 namespace {
 
 constexpr double radius = 0.02, overlap = 8e-5, spacing = 2.0 * radius - overlap, kn = 1e7;
@@ -135,8 +136,10 @@ std::vector<ClaimRow> s_waves_of_the_triangular_lattice() {
 }
 
 }  // namespace
+}  // namespace lattice_waves_scenes
 
 std::vector<Claim> lattice_wave_claims() {
+    using namespace lattice_waves_scenes;
     constexpr const char* group = "Chains and lattices";
     return {
         {.name = "p_waves_of_the_triangular_lattice",

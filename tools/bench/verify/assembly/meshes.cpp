@@ -21,7 +21,7 @@ namespace crackle::verification {
 namespace {
 
 constexpr Rectangle domain{-0.3, 0.4, 0.1, 1.5};
-constexpr double thick = 1e-3, scale = 1.5;  // m; largest coordinate
+constexpr double seam = 1e-3, scale = 1.5;  // m; largest coordinate
 constexpr int columns = 14, seed_rows = 28;
 
 const char* name_of(MeshKind kind) { return kind == MeshKind::voronoi ? "Voronoi" : "Delaunay"; }
@@ -122,7 +122,7 @@ std::vector<ClaimRow> every_gap_equals_the_thickness() {
     for (const MeshKind kind : {MeshKind::voronoi, MeshKind::delaunay}) {
         const std::vector<CellCentre> centres = seeds_of(3);
         const Mesh whole = make_mesh(centres, domain, request_of(kind, 0.0));
-        const Mesh apart = make_mesh(centres, domain, request_of(kind, thick));
+        const Mesh apart = make_mesh(centres, domain, request_of(kind, seam));
         rows.exactly(fmt::format("{}: cells after the inset", name_of(kind)), static_cast<double>(apart.cells.size()),
                      static_cast<double>(whole.cells.size()));
         if (apart.cells.size() != whole.cells.size()) continue;
@@ -137,7 +137,7 @@ std::vector<ClaimRow> every_gap_equals_the_thickness() {
                 return;
             }
             ++gaps;
-            worst = std::max(worst, std::abs(left.distance + right.distance - thick));
+            worst = std::max(worst, std::abs(left.distance + right.distance - seam));
         });
         rows.at_least(fmt::format("{}: gaps between facing edges", name_of(kind)), gaps, 900.0, "seeds");
         rows.absolute(fmt::format("{}: largest departure of a gap from the thickness, m", name_of(kind)), worst, 0.0,
@@ -149,7 +149,7 @@ std::vector<ClaimRow> every_gap_equals_the_thickness() {
 
 std::vector<ClaimRow> no_cell_is_lost() {
     Rows rows;
-    for (const double gap : {0.0, thick}) {
+    for (const double gap : {0.0, seam}) {
         const std::vector<CellCentre> centres = seeds_of(4);
         const Mesh cells = make_mesh(centres, domain, request_of(MeshKind::voronoi, gap));
         int in_place = 0;

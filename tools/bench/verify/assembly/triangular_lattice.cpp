@@ -17,6 +17,7 @@
 #include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle::verification {
+namespace triangular_lattice_scenes {
 namespace {
 
 constexpr double radius = 0.02, overlap = 8e-5, spacing = 2.0 * radius - overlap, kn = 1e7;
@@ -107,8 +108,10 @@ std::vector<ClaimRow> stiffness_of_the_triangular_lattice() {
 }
 
 }  // namespace
+}  // namespace triangular_lattice_scenes
 
 std::vector<Claim> triangular_lattice_claims() {
+    using namespace triangular_lattice_scenes;
     constexpr const char* group = "Chains and lattices";
     return {
         {.name = "stiffness_of_the_triangular_lattice",

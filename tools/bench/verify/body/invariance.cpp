@@ -25,6 +25,7 @@
 #include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle::verification {
+namespace invariance_scenes {
 namespace {
 
 /// A few bonded discs and a few bonded polygons, moving, near two walls, with a driven disc.
@@ -263,8 +264,10 @@ std::vector<ClaimRow> physics_does_not_depend_on_the_units() {
 }
 
 }  // namespace
+}  // namespace invariance_scenes
 
 std::vector<Claim> invariance_claims() {
+    using namespace invariance_scenes;
     constexpr const char* group = "Conservation and symmetry";
     return {
         {.name = "physics_does_not_depend_on_order_and_numbers",

@@ -18,6 +18,7 @@
 #include "tools/bench/verify/rows.hpp"
 
 namespace crackle::verification {
+namespace one_body_scenes {
 namespace {
 
 constexpr double radius = 0.02, density = 2500.0;
@@ -298,8 +299,10 @@ std::vector<ClaimRow> two_discs_stacked_between_walls() {
 }
 
 }  // namespace
+}  // namespace one_body_scenes
 
 std::vector<Claim> one_body_claims() {
+    using namespace one_body_scenes;
     constexpr const char* group = "One and two bodies";
     return {
         {.name = "restitution_with_a_lagged_dashpot",

@@ -32,6 +32,7 @@
 #include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle::verification {
+namespace bundle_scenes {
 namespace {
 
 constexpr double radius = 0.02, pitch = 0.05, thick = 1e-3, overlap = 1e-4;  // m
@@ -178,8 +179,10 @@ std::vector<ClaimRow> small_bundles_have_the_strength_of_daniels() { return bund
 std::vector<ClaimRow> bundles_have_the_strength_of_daniels() { return bundles({100, 400, 1600}, 200); }
 
 }  // namespace
+}  // namespace bundle_scenes
 
 std::vector<Claim> bundle_claims() {
+    using namespace bundle_scenes;
     constexpr const char* group = "Bonds with strengths of their own";
     constexpr const char* statement =
         "N discs between two platens, bonds of Weibull strengths to one of them: the mean largest load is that of "

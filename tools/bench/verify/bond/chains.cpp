@@ -19,6 +19,7 @@
 #include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle::verification {
+namespace chains_scenes {
 namespace {
 
 constexpr double radius = 0.02, overlap = 8e-5, spacing = 2.0 * radius - overlap, kn = 1e7;
@@ -212,8 +213,10 @@ std::vector<ClaimRow> bonded_chain_pulled_breaks_at_its_back_tension() {
 }
 
 }  // namespace
+}  // namespace chains_scenes
 
 std::vector<Claim> chain_claims() {
+    using namespace chains_scenes;
     constexpr const char* group = "Chains and lattices";
     return {
         {.name = "chain_waves_have_the_dispersion_of_masses_on_springs",

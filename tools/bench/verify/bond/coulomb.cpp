@@ -23,6 +23,7 @@
 #include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle::verification {
+namespace coulomb_scenes {
 namespace {
 
 constexpr double radius = 0.02, overlap = 1e-7, kn = 1e7, ks = 0.25 * kn, time_step = 1e-5;
@@ -267,8 +268,10 @@ std::vector<ClaimRow> shear_breaks_under_pressure_close_the_account() {
 }
 
 }  // namespace
+}  // namespace coulomb_scenes
 
 std::vector<Claim> coulomb_bond_claims() {
+    using namespace coulomb_scenes;
     constexpr const char* group = "Bonds with strengths of their own";
     return {
         {.name = "coulomb_bond_breaks_on_its_envelope",

@@ -17,6 +17,7 @@
 #include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle::verification {
+namespace faces_scenes {
 namespace {
 
 constexpr double modulus = 3e9, stiffness_ratio = 4.0;  // Pa, -
@@ -96,8 +97,10 @@ std::vector<ClaimRow> face_turns_as_its_end_points_do() {
 }
 
 }  // namespace
+}  // namespace faces_scenes
 
 std::vector<Claim> face_claims() {
+    using namespace faces_scenes;
     constexpr const char* group = "Bonds with strengths of their own";
     return {
         {.name = "column_of_cells_has_the_contact_modulus",

@@ -22,6 +22,7 @@
 #include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle::verification {
+namespace lattice_strength_scenes {
 namespace {
 
 // So thin an overlap that the change of shape up to the break, δ0/2R = 2.5e-5, does not matter.
@@ -158,8 +159,10 @@ std::vector<ClaimRow> first_break_pulled_across_a_bond_row() {
 }
 
 }  // namespace
+}  // namespace lattice_strength_scenes
 
 std::vector<Claim> lattice_strength_claims() {
+    using namespace lattice_strength_scenes;
     constexpr const char* group = "Chains and lattices";
     return {
         {.name = "first_break_pulled_along_a_bond_row",

@@ -19,6 +19,7 @@
 #include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle::verification {
+namespace block_on_slope_scenes {
 namespace {
 
 constexpr double gravity = 9.81;
@@ -115,8 +116,10 @@ std::vector<ClaimRow> block_topples_past_its_edge() {
 }
 
 }  // namespace
+}  // namespace block_on_slope_scenes
 
 std::vector<Claim> block_on_slope_claims() {
+    using namespace block_on_slope_scenes;
     constexpr const char* group = "One and two bodies";
     return {
         {.name = "block_stays_on_a_slope_below_friction",

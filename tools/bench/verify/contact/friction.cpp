@@ -16,6 +16,7 @@
 #include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle::verification {
+namespace friction_scenes {
 namespace {
 
 constexpr double radius = 0.02, gravity = 9.81, kn = 1e7;
@@ -151,8 +152,10 @@ std::vector<ClaimRow> oblique_rebound_sliding_throughout() {
 }
 
 }  // namespace
+}  // namespace friction_scenes
 
 std::vector<Claim> friction_claims() {
+    using namespace friction_scenes;
     constexpr const char* group = "One and two bodies";
     return {
         {.name = "disc_sliding_on_a_flat_ends_rolling",

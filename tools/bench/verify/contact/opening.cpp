@@ -19,6 +19,7 @@
 #include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle::verification {
+namespace opening_scenes {
 namespace {
 
 constexpr double radius = 0.02, density = 2500.0, kn = 1e5, gravity = 9.81;
@@ -310,8 +311,10 @@ std::vector<ClaimRow> oblique_sliding_rebound_has_the_closed_form() {
 }
 
 }  // namespace
+}  // namespace opening_scenes
 
 std::vector<Claim> contact_opening_claims() {
+    using namespace opening_scenes;
     constexpr const char* group = "Contacts that open and close";
     return {
         {.name = "bouncing_disc_keeps_its_energy",

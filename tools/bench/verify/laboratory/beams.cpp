@@ -17,6 +17,7 @@
 #include "tools/bench/verify/scenes/lattice_case.hpp"
 
 namespace crackle::verification {
+namespace beams_scenes {
 namespace {
 
 const double row_height = std::sqrt(0.75) * LatticeCase::spacing;
@@ -88,8 +89,10 @@ std::vector<ClaimRow> notched_beam_sets_free_the_energy_of_its_stress_intensity(
 }
 
 }  // namespace
+}  // namespace beams_scenes
 
 std::vector<Claim> beam_claims() {
+    using namespace beams_scenes;
     constexpr const char* group = "Laboratory";
     return {
         {.name = "beam_bends_as_the_theory_of_elasticity_has_it",

@@ -12,6 +12,7 @@
 #include "tools/bench/verify/scenes/lattice_case.hpp"
 
 namespace crackle::verification {
+namespace disc_scenes {
 namespace {
 
 constexpr double alpha = 10.0 * std::numbers::pi / 180.0;  // half of the arc
@@ -117,8 +118,10 @@ std::vector<ClaimRow> glued_arcs_stretch_the_centre_less() {
 }
 
 }  // namespace
+}  // namespace disc_scenes
 
 std::vector<Claim> disc_claims() {
+    using namespace disc_scenes;
     constexpr const char* group = "Laboratory";
     return {
         {.name = "disc_under_even_pressure_has_hondros_stress",

@@ -17,6 +17,7 @@
 #include "tools/bench/verify/scenes/temporary_folder.hpp"
 
 namespace crackle::verification {
+namespace joint_scenes {
 namespace {
 
 constexpr double modulus = 50e9, ratio = 2.0, angle = 30.0;  // Pa, -, degrees
@@ -95,8 +96,10 @@ std::vector<ClaimRow> plane_joint_slips_at_its_friction_and_yields_by_its_shear_
 }
 
 }  // namespace
+}  // namespace joint_scenes
 
 std::vector<Claim> joint_claims() {
+    using namespace joint_scenes;
     return {
         {.name = "plane_joint_slips_at_its_friction_and_yields_by_its_shear_stiffness",
          .group = "Laboratory",

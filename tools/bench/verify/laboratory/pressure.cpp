@@ -10,6 +10,7 @@
 #include "tools/bench/verify/scenes/lattice_case.hpp"
 
 namespace crackle::verification {
+namespace pressure_scenes {
 namespace {
 
 /// Area lost over what a body of the moduli of the specimen's own linear solution would lose.
@@ -46,8 +47,10 @@ std::vector<ClaimRow> block_under_pressure_loses_the_area_of_its_moduli() {
 }
 
 }  // namespace
+}  // namespace pressure_scenes
 
 std::vector<Claim> pressure_claims() {
+    using namespace pressure_scenes;
     return {
         {.name = "block_under_pressure_loses_the_area_of_its_moduli",
          .group = "Laboratory",
