@@ -130,7 +130,8 @@ std::vector<Parameter> specimen_keys() {
 
         CRACKLE_KEY(joints, shortest, "m",
                     "Traces that have less in the box are left out, for a mesh whose grains are larger; amounts are "
-                    "reached before. None are if not given.")
+                    "reached before. If not given the mean spacing of the grains, and none where traces are "
+                    "drawn alone.")
             .above(0),
 
         CRACKLE_LIST_KEY(joint_set, name, "", "What reports, figures and results call it.").needed_with_table(),

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "solver/base/errors.hpp"
@@ -84,7 +85,8 @@ void take_measured(JointNetwork& network, const TestCase& test, std::size_t numb
                                               outside, traces.size()));
 }
 
-void leave_out_short(JointNetwork& network, double shortest) {
+/// @param why in words: what `shortest` is
+void leave_out_short(JointNetwork& network, double shortest, const char* why) {
     std::size_t count = 0;
     double length = 0.0;
     for (const JointTrace& trace : network.traces) {
@@ -94,13 +96,13 @@ void leave_out_short(JointNetwork& network, double shortest) {
     }
     std::erase_if(network.traces, [&](const JointTrace& trace) { return trace.length() < shortest; });
     if (count > 0)
-        network.notices.push_back(
-            fmt::format("{} traces shorter than {} m are left out, {:.4g} m in all", count, shortest, length));
+        network.notices.push_back(fmt::format("{} traces shorter than {:.4g} m ({}) are left out, {:.4g} m in all",
+                                              count, shortest, why, length));
 }
 
 }  // namespace
 
-JointNetwork make_joints(const TestCase& test, const Domain& box) {
+JointNetwork make_joints(const TestCase& test, const Domain& box, std::size_t centres) {
     JointNetwork network;
     network.box = box;
     for (std::size_t set = 0; set < test.joint_set.size(); ++set) {
@@ -113,7 +115,11 @@ JointNetwork make_joints(const TestCase& test, const Domain& box) {
         network.traces.insert(network.traces.end(), traces.begin(), traces.end());
     }
     for (std::size_t number = 0; number < test.trace.size(); ++number) take_measured(network, test, number);
-    if (test.joints.shortest) leave_out_short(network, *test.joints.shortest);
+    if (test.joints.shortest)
+        leave_out_short(network, *test.joints.shortest, "joints.shortest");
+    else if (centres > 0)
+        leave_out_short(network, std::sqrt(network.area() / static_cast<double>(centres)),
+                        "the mean spacing of the cells; joints.shortest says otherwise");
     return network;
 }
 

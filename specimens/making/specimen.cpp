@@ -361,7 +361,7 @@ void mesh_specimen(Specimen& specimen, const TestCase& test, const TestHooks& ho
     request.merge_destroyed = test.mesh.merge_destroyed;
     JointNetwork joints;
     if (test.jointed()) {
-        joints = make_joints(test, circles.domain);
+        joints = make_joints(test, circles.domain, centres.size());
         request.traces = mesh_traces(joints);
         specimen.notices.insert(specimen.notices.end(), joints.notices.begin(), joints.notices.end());
     }

@@ -225,7 +225,7 @@ Scene meshed_scene(const std::string& name, const std::string& text, const po::v
     messages.detail(fmt::format("read {} centres from {}, {} bytes", source.centres.size(), name, text.size()));
     messages.progress().step(1.0, fmt::format("meshing {} centres", source.centres.size()));
     JointNetwork joints;
-    if (const auto test = joints_case(values)) joints = make_joints(*test, source.scene.domain);
+    if (const auto test = joints_case(values)) joints = make_joints(*test, source.scene.domain, source.centres.size());
     request.traces = mesh_traces(joints);
     Mesh made;
     try {

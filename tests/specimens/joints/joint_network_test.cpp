@@ -264,7 +264,22 @@ TEST(JointNetwork, ShortTracesAreLeftOutAndSaidSo) {
     ASSERT_EQ(network.traces.size(), 1U);
     EXPECT_EQ(network.traces[0].source, 0U);
     ASSERT_EQ(network.notices.size(), 1U);
-    EXPECT_EQ(network.notices[0], "1 traces shorter than 0.3 m are left out, 0.2 m in all");
+    EXPECT_EQ(network.notices[0], "1 traces shorter than 0.3 m (joints.shortest) are left out, 0.2 m in all");
+}
+
+TEST(JointNetwork, ForAMeshTracesShorterThanItsSpacingAreLeftOut) {
+    const std::string traces = "[[trace]]\npoints = [0.5, 0.5, 0.62, 0.5]\n[[trace]]\npoints = [0.5, 0.2, 0.58, 0.2]\n";
+    // A spacing of 0.1.
+    const JointNetwork network = make_joints(joints_of(traces), box(1.0, 1.0), 100);
+    ASSERT_EQ(network.traces.size(), 1U);
+    EXPECT_EQ(network.traces[0].source, 0U);
+    ASSERT_EQ(network.notices.size(), 1U);
+    EXPECT_EQ(
+        network.notices[0],
+        "1 traces shorter than 0.1 m (the mean spacing of the cells; joints.shortest says otherwise) are left out, "
+        "0.08 m in all");
+    EXPECT_EQ(make_joints(joints_of("[joints]\nshortest = 0.01\n" + traces), box(1.0, 1.0), 100).traces.size(), 2U);
+    EXPECT_EQ(make_joints(joints_of(traces), box(1.0, 1.0)).traces.size(), 2U) << "drawn alone";
 }
 
 TEST(JointNetwork, ATraceInPiecesIsCountedOnceWithTheLongest) {

@@ -82,7 +82,8 @@ std::vector<ClaimRow> persistent_sets_add_up() {
         const Specimen specimen = make_specimen(test, {});
         const Compliance jointed = compliance(specimen, test, Traces::as_they_are);
         Compliance expected = compliance(specimen, test, Traces::as_rock);
-        const JointNetwork network = make_joints(test, specimen.scene.domain);
+        const JointNetwork network =
+            make_joints(test, specimen.scene.domain, static_cast<std::size_t>(specimen.centres));
         for (std::size_t k = 0; k < sets; ++k) {
             double length = 0.0;
             for (const JointTrace& trace : network.traces) length += trace.source == k ? trace.length() : 0.0;
