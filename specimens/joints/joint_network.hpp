@@ -39,8 +39,9 @@ struct JointNetwork {
 /// in strata, each with its own longest (a factor of 2 in the share of longer ones), for a law without an end has none.
 /// Lines at a spacing that scatter about their mean direction are drawn from so far off that P10 across that lacks at
 /// most one in a thousand (OrientationLaw::stretch).
-/// @param centres  of cells that will follow the traces, 0 where none will: without joints.shortest, traces shorter than
-/// the mean spacing of these are left out; walls cut traces that short, and cells beside them would set the time step
+/// @param centres  of cells that will follow the traces, 0 where none will: without joints.shortest, traces shorter
+/// than the mean spacing of these are left out; walls cut traces that short, and cells beside them would set the time
+/// step
 /// @throws InputError for a file that cannot be read, a plane without a trace, an amount beyond 100,000 traces
 JointNetwork make_joints(const TestCase& test, const Domain& box, std::size_t centres = 0);
 
