@@ -5,6 +5,7 @@
 
 #include <string>
 #include <system_error>
+#include <vector>
 
 #include "solver/base/errors.hpp"
 #include "solver/demseg/deck_state.hpp"
@@ -36,9 +37,12 @@ std::optional<fs::path> earlier_output(const fs::path& folder) {
     return std::nullopt;
 }
 
-void remove_staged_outputs(const fs::path& folder) {
-    for (const char* name : deck_output_names) {
-        const fs::path path = folder / (std::string(name) + staged_suffix);
+void remove_staged_files(const fs::path& folder) {
+    std::vector<std::string> names(deck_output_names.begin(), deck_output_names.end());
+    for (const char* name : deck_text_names) names.push_back(std::string("new_") + name);
+    names.emplace_back(state_name);
+    for (const std::string& name : names) {
+        const fs::path path = folder / (name + staged_suffix);
         std::error_code error;
         fs::remove(path, error);
         if (error) throw InputError(fmt::format("{}: cannot be removed ({})", path.string(), error.message()));

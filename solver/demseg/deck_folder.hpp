@@ -2,8 +2,8 @@
 // The folder that a deck run leaves its files in: which they are, and what of an earlier run is there.
 //
 // The files with which a run goes on are replaced together (file_set.hpp). Where a run takes the place of an earlier
-// one, its outputs are written under other names (staged_suffix) and get their own with its first such replacement:
-// until then all that the earlier run left is there as it was.
+// one, its outputs, too, are written under other names and get their own with its first such replacement: until then
+// all that the earlier run left is there as it was.
 // Tested by tests/solver/demseg/replaced_test.cpp.
 #pragma once
 
@@ -25,7 +25,7 @@ bool complete_deck_replacement(const std::filesystem::path& folder);
 /// DEMseg's users rename the text files alone.
 std::optional<std::filesystem::path> earlier_output(const std::filesystem::path& folder);
 
-/// Removes the outputs of a run that was stopped before they got their names. @throws InputError
-void remove_staged_outputs(const std::filesystem::path& folder);
+/// Removes the files of a run that was stopped before they got their names. @throws InputError
+void remove_staged_files(const std::filesystem::path& folder);
 
 }  // namespace crackle

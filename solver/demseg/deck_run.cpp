@@ -264,7 +264,7 @@ void DeckRun::run(const std::function<bool(const World&)>& go_on) {
     const FolderLock lock = lock_ ? *std::exchange(lock_, std::nullopt) : FolderLock(output_folder());
     complete_replacement(deck_journal(output_folder()));  // of a run that this one replaces
     refuse_existing_outputs();                            // another run may have been here since
-    remove_staged_outputs(output_folder());
+    remove_staged_files(output_folder());
     if (appends()) drop_rows_after(output_folder(), first_step_);
     const bool replaces = !appends() && earlier_output(output_folder());
     DeckOutputs outputs(output_folder(), mode(), replaces ? OutputNames::staged : OutputNames::own);
@@ -280,7 +280,7 @@ void DeckRun::run(const std::function<bool(const World&)>& go_on) {
         if (outputs.renames().empty() || is_there(deck_journal(output_folder()))) throw;
         std::string left;
         try {
-            remove_staged_outputs(output_folder());
+            remove_staged_files(output_folder());
         } catch (const InputError& cannot) {
             left = fmt::format("; {}", cannot.what());  // the next run removes it
         }
@@ -316,8 +316,8 @@ void DeckRun::step_to_end(DeckOutputs& outputs, const std::function<bool(const W
 }
 
 void DeckRun::save(const FileSet& files, DeckOutputs& outputs) const {
-    outputs.flush();
-    bring_all_to_disc(output_folder());  // whoever goes on from the files takes the rows before them for written
+    outputs
+        .flush();  // written before the journal: whoever goes on from the files takes the rows before them for written
     write_journal(deck_journal(output_folder()), files, outputs.renames());
     outputs.have_own_names();  // from here: whoever reads the folder or runs here renames them
     complete_replacement(deck_journal(output_folder()));

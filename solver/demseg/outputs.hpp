@@ -21,9 +21,7 @@ namespace crackle {
 inline constexpr std::array<const char*, 6> deck_output_names{"output.dat", "cont.dat",      "cont2.dat",
                                                               "energy.dat", "f-d_curve.dat", "velocity_y.dat"};
 
-/// Behind the name of an output of a run whose earlier outputs keep theirs until it can be gone on with.
-inline constexpr const char* staged_suffix = ".new";
-
+/// Staged: of a run that replaces another, whose outputs keep their names until the new run can be gone on with.
 enum class OutputNames : bool { own, staged };
 
 enum class OutputMode {

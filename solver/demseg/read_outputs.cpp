@@ -116,7 +116,7 @@ DeckFrames::Identities DeckFrames::whole_set(const std::filesystem::path& folder
     // Of a run that was stopped, or is saving just now and will be done in a moment. Others leave outputs alone.
     constexpr int most_tries = 50;
     constexpr std::chrono::milliseconds between_tries{100};
-    for (int tries = 1; renames_files(deck_journal(folder)); ++tries) {
+    for (int tries = 1; gives_name(deck_journal(folder), frame_files); ++tries) {
         try {
             complete_deck_replacement(folder);
         } catch (const OutputError&) {

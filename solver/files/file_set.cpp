@@ -1,17 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Layout of a journal: journal_mark, XXH3 (64 bits) of what follows, files and renames as cereal writes them. Journals
-// of the first layout have no renames.
+// Layout of a journal: journal_mark, XXH3 (64 bits) of what follows, renames as cereal writes them.
 #include "solver/files/file_set.hpp"
 
 #include <fmt/format.h>
 #include <xxhash.h>
 
+#include <algorithm>
 #include <cereal/archives/binary.hpp>
 #include <cereal/types/string.hpp>
 #include <cereal/types/utility.hpp>
 #include <cereal/types/vector.hpp>
+#include <cerrno>
 #include <cstdint>
 #include <cstring>
+#include <fstream>
 #include <sstream>
 #include <string_view>
 
@@ -25,18 +27,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view journal_mark = "CRKLSET2", journal_mark_without_renames = "CRKLSET1";
-static_assert(journal_mark.size() == journal_mark_without_renames.size());
-
-struct Replacement {
-    FileSet files;
-    Renames renames;
-};
+constexpr std::string_view journal_mark = "CRKLSET3";
 
 std::string damage(const fs::path& journal) {
     return fmt::format(
-        "{}: found a damaged journal, expected one that is whole; the files beside it may belong to two runs: remove "
-        "them with it and run again",
+        "{}: found a journal that is damaged or of another version, expected one that is whole; the files beside it "
+        "may "
+        "belong to two runs: remove them with it and run again",
         journal.string());
 }
 
@@ -46,58 +43,91 @@ bool is_name(const std::string& name) {
     return !name.empty() && name != "." && name != ".." && fs::path(name).filename() == name;
 }
 
-Replacement read_journal(const fs::path& journal) {
+Renames read_journal(const fs::path& journal) {
     const std::string text = read_file(journal);
     std::uint64_t hash = 0;
-    const bool with_renames = text.starts_with(journal_mark);
-    if (text.size() < journal_mark.size() + sizeof hash ||
-        !(with_renames || text.starts_with(journal_mark_without_renames)))
+    if (text.size() < journal_mark.size() + sizeof hash || !text.starts_with(journal_mark))
         throw InputError(damage(journal));
     std::memcpy(&hash, text.data() + journal_mark.size(), sizeof hash);
     const std::string packed = text.substr(journal_mark.size() + sizeof hash);
     if (hash != hash_of_set(packed)) throw InputError(damage(journal));
     std::istringstream in(packed);
-    Replacement all;
-    CheckedInput input(in, static_cast<std::streamoff>(packed.size()), damage(journal));
-    input(all.files);
-    if (with_renames) input(all.renames);
-    for (const auto& [name, contents] : all.files)
-        if (!is_name(name)) throw InputError(damage(journal));
-    for (const auto& [from, to] : all.renames)
+    Renames renames;
+    CheckedInput(in, static_cast<std::streamoff>(packed.size()), damage(journal))(renames);
+    for (const auto& [from, to] : renames)
         if (!is_name(from) || !is_name(to)) throw InputError(damage(journal));
-    return all;
+    return renames;
 }
 
-void rename_files(const fs::path& folder, const Renames& renames) {
-    for (const auto& [from, to] : renames) {
-        if (!is_there(folder / from)) continue;  // it has its name already
-        std::error_code error;
-        fs::rename(folder / from, folder / to, error);
-        if (error)
-            throw OutputError(fmt::format("{}: cannot be replaced ({})", (folder / to).string(), error.message()));
+/// Removed again unless they were kept.
+class StagedFiles {
+  public:
+    explicit StagedFiles(fs::path folder) : folder_(std::move(folder)) {}
+    StagedFiles(const StagedFiles&) = delete;
+    StagedFiles& operator=(const StagedFiles&) = delete;
+    ~StagedFiles() {
+        std::error_code ignored;  // the next who writes the set begins them anew
+        for (const auto& [from, to] : renames_) fs::remove(folder_ / from, ignored);
     }
-    if (!renames.empty()) bring_names_to_disc(folder);
-}
+
+    void write(const std::string& name, const std::string& contents) {
+        renames_.emplace_back(name + staged_suffix, name);
+        const fs::path path = folder_ / renames_.back().first;
+        errno = 0;
+        std::ofstream file(path, std::ios::binary | std::ios::trunc);
+        file.write(contents.data(), static_cast<std::streamsize>(contents.size()));
+        file.close();
+        if (!file) refuse_output(folder_ / name);
+    }
+    const Renames& renames() const { return renames_; }
+    void keep() { renames_.clear(); }
+
+  private:
+    fs::path folder_;
+    Renames renames_;
+};
 
 }  // namespace
 
 void write_journal(const fs::path& journal, const FileSet& files, const Renames& renames) {
+    StagedFiles staged(journal.parent_path());
+    for (const auto& [name, contents] : files) staged.write(name, contents);
+    bring_all_to_disc(journal.parent_path());
+    Renames all = staged.renames();
+    all.insert(all.end(), renames.begin(), renames.end());
     std::ostringstream out;
-    cereal::BinaryOutputArchive{out}(files, renames);
+    cereal::BinaryOutputArchive{out}(all);
     const std::string packed = std::move(out).str();
     const std::uint64_t hash = hash_of_set(packed);
     std::string text(journal_mark);
     text.append(reinterpret_cast<const char*>(&hash), sizeof hash);
-    replace_file(journal, text + packed);
+    try {
+        replace_file(journal, text + packed);
+    } catch (const OutputError&) {
+        if (is_there(journal)) staged.keep();  // its name alone may not be on the disc
+        throw;
+    }
+    staged.keep();
 }
 
-bool renames_files(const fs::path& journal) { return is_there(journal) && !read_journal(journal).renames.empty(); }
+bool gives_name(const fs::path& journal, std::span<const char* const> names) {
+    if (!is_there(journal)) return false;
+    const Renames renames = read_journal(journal);
+    return std::any_of(renames.begin(), renames.end(), [&](const auto& rename) {
+        return std::find(names.begin(), names.end(), rename.second) != names.end();
+    });
+}
 
 bool complete_replacement(const fs::path& journal) {
     if (!is_there(journal)) return false;
-    const Replacement all = read_journal(journal);
-    for (const auto& [name, contents] : all.files) replace_file(journal.parent_path() / name, contents);
-    rename_files(journal.parent_path(), all.renames);
+    for (const auto& [from, to] : read_journal(journal)) {
+        const fs::path staged = journal.parent_path() / from, path = journal.parent_path() / to;
+        if (!is_there(staged)) continue;  // it has its name already
+        std::error_code error;
+        fs::rename(staged, path, error);
+        if (error) throw OutputError(fmt::format("{}: cannot be replaced ({})", path.string(), error.message()));
+    }
+    bring_names_to_disc(journal.parent_path());
     std::error_code error;
     if (!fs::remove(journal, error)) refuse_output(journal);
     bring_names_to_disc(journal.parent_path());  // else a loss of power brings it back, over what is edited since

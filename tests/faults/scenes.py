@@ -32,7 +32,7 @@ checkpoint_interval = 1e-9
 """
 PACK = "pack --count 30 --radius-min 0.013 --radius-max 0.026 --mean-overlap 7.74e-5"
 NEW_FILES = [f"new_{name}" for name in ("in_gm.dat", "in_bc.dat", "in_cf.dat", "in_cf0.dat", "state.bin")]
-STAGED = ".dat.new"  # outputs of a deck that get their names with its first save
+STAGED = (".dat.new", ".bin.new")  # files of a deck that get their names with a save
 OUTPUTS = ("output.dat", "cont.dat", "cont2.dat", "energy.dat", "f-d_curve.dat", "velocity_y.dat")
 
 
@@ -44,7 +44,7 @@ def as_it_was(before, after, expected, results):
     """Whether earlier results are untouched, or the new ones in their place. @return what is wrong, or None"""
     for name in results:
         old = below(before, name)
-        now = {key: data for key, data in below(after, name).items() if not key.endswith((STAGED, ".tmp"))}
+        now = {key: data for key, data in below(after, name).items() if not key.endswith((*STAGED, ".tmp"))}
         if old and now not in (old, below(expected, name)):
             return f"{name} is neither the earlier one nor the new one"
     return None

@@ -17,6 +17,7 @@
 #include "solver/demseg/outputs.hpp"
 #include "solver/demseg/read_outputs.hpp"
 #include "solver/files/file_set.hpp"
+#include "solver/files/folder_lock.hpp"
 #include "solver/files/read_file.hpp"
 #include "solver/world/checkpoint.hpp"
 #include "tests/support/deck_files.hpp"
@@ -137,6 +138,15 @@ TEST_F(ReplacedDeck, StoppedWhileItGivesWayIsTheNewOneForWhoeverReadsIt) {
         EXPECT_EQ(DeckFrames(folder_).heads().back().step, new_steps) << renamed;
         EXPECT_TRUE(contents(folder_) == new_) << renamed;
     }
+}
+
+TEST_F(ReplacedDeck, IsReadWhileItsRunReplacesTheFilesToGoOnWith) {
+    FileSet files;
+    for (const char* name : next_files) files.emplace_back(name, new_.at(name));
+    const FolderLock running(folder_);
+    write_journal(deck_journal(folder_), files);
+    EXPECT_EQ(DeckFrames(folder_).heads().back().step, earlier_steps);
+    EXPECT_TRUE(fs::exists(deck_journal(folder_))) << "left to the run";
 }
 
 TEST_F(ReplacedDeck, KeepsItsFilesWhereTheNewRunIsUnstable) {

@@ -3,9 +3,7 @@
 #include "solver/files/file_set.hpp"
 
 #include <gtest/gtest.h>
-#include <xxhash.h>
 
-#include <cstdint>
 #include <fstream>
 #include <iterator>
 
@@ -58,11 +56,33 @@ TEST_F(Files, StoppedAfterAnyOfThemAreCompletedByTheNextReader) {
     for (std::size_t replaced = 0; replaced <= new_.size(); ++replaced) {
         for (const auto& [name, contents] : old_) write(name, contents);
         write_journal(journal(), new_);
-        for (std::size_t k = 0; k < replaced; ++k) write(new_[k].first, new_[k].second);
-        if (replaced < new_.size()) write(new_[replaced].first + ".tmp", "half");
+        for (const auto& [name, contents] : old_) EXPECT_EQ(read(name), contents) << "before it is completed";
+        for (std::size_t k = 0; k < replaced; ++k)
+            fs::rename(folder_ / (new_[k].first + staged_suffix), folder_ / new_[k].first);
         EXPECT_TRUE(complete_replacement(journal())) << replaced;
         expect_whole(new_);
     }
+}
+
+TEST_F(Files, OfWhichOneCannotBeWrittenStayAsTheyAre) {
+    for (const auto& [name, contents] : old_) write(name, contents);
+    fs::create_directories(folder_ / "c.bin.new" / "not empty");
+    EXPECT_THROW(write_journal(journal(), new_), OutputError);
+    fs::remove_all(folder_ / "c.bin.new");
+    expect_whole(old_);
+    fs::create_directories(folder_ / "set.journal.tmp" / "not empty");
+    EXPECT_THROW(write_journal(journal(), new_), OutputError);
+    fs::remove_all(folder_ / "set.journal.tmp");
+    expect_whole(old_);
+}
+
+TEST_F(Files, AreGivenTheNamesThatTheJournalSays) {
+    const char* const names[] = {"b.dat"};
+    EXPECT_FALSE(gives_name(journal(), names)) << "no journal";
+    write_journal(journal(), new_);
+    EXPECT_TRUE(gives_name(journal(), names));
+    const char* const others[] = {"b.dat.new", "d.dat"};
+    EXPECT_FALSE(gives_name(journal(), others));
 }
 
 TEST_F(Files, WrittenUnderOtherNamesGetTheirsWithTheSet) {
@@ -84,16 +104,6 @@ TEST_F(Files, WrittenUnderOtherNamesGetTheirsWithTheSet) {
     }
 }
 
-TEST_F(Files, OfAJournalOfTheFirstLayoutAreReplaced) {
-    write_journal(journal(), old_);
-    // The same without renames: the number of them, 0, is the last word.
-    const std::string text = read("set.journal"), packed = text.substr(16, text.size() - 16 - 8);
-    const std::uint64_t hash = XXH3_64bits(packed.data(), packed.size());
-    write("set.journal", "CRKLSET1" + std::string(reinterpret_cast<const char*>(&hash), sizeof hash) + packed);
-    EXPECT_TRUE(complete_replacement(journal()));
-    expect_whole(old_);
-}
-
 TEST_F(Files, OfADamagedJournalStayAsTheyAre) {
     for (const auto& [name, contents] : old_) write(name, contents);
     write_journal(journal(), new_);
@@ -106,14 +116,17 @@ TEST_F(Files, OfADamagedJournalStayAsTheyAre) {
         write("set.journal", whole.substr(0, at));
         EXPECT_THROW(complete_replacement(journal()), InputError) << at;
     }
+    write("set.journal", "CRKLSET2" + whole.substr(8));
+    EXPECT_THROW(complete_replacement(journal()), InputError) << "of another version";
     fs::remove(journal());
+    for (const auto& [name, contents] : new_) fs::remove(folder_ / (name + staged_suffix));
     expect_whole(old_);
 }
 
 TEST_F(Files, OfAJournalThatNamesOtherFoldersAreRefused) {
     write("inside.dat", "x");
-    for (const Renames& renames : {Renames{}, {{"inside.dat", "../outside.dat"}}, {{"../set/inside.dat", "a.dat"}}}) {
-        write_journal(journal(), {{renames.empty() ? "../outside.dat" : "b.dat", "x"}}, renames);
+    for (const Renames& renames : {Renames{{"inside.dat", "../outside.dat"}}, {{"../set/inside.dat", "a.dat"}}}) {
+        write_journal(journal(), {}, renames);
         EXPECT_THROW(complete_replacement(journal()), InputError);
     }
     EXPECT_FALSE(fs::exists(folder_.parent_path() / "outside.dat"));
