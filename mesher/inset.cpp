@@ -46,7 +46,7 @@ void Inset::measure_edges() {
 }
 
 // A corner within rounding of the line between its neighbours, or turning the wrong way by rounding.
-void Inset::drop_flat_corners(std::vector<Point>& polygon) const {
+void Inset::drop_flat_corners(std::vector<Point>& polygon, std::vector<char>& kept) const {
     bool changed = true;
     while (changed && polygon.size() >= 3) {
         changed = false;
@@ -58,9 +58,11 @@ void Inset::drop_flat_corners(std::vector<Point>& polygon) const {
             const double turn = cross(in, out);
             const double chord = distance(a, c);
             const bool straight_on = dot(in, out) > 0.0;
+            if (straight_on && lengths > 0.0 && !kept.empty() && kept[k] != 0) continue;
             if (lengths == 0.0 || (straight_on && (turn <= flattest_turn * lengths ||
                                                    turn <= 4.0 * relative_rounding * scale_ * chord))) {
                 polygon.erase(polygon.begin() + static_cast<std::ptrdiff_t>(k));
+                if (!kept.empty()) kept.erase(kept.begin() + static_cast<std::ptrdiff_t>(k));
                 changed = true;
                 --k;
             }
@@ -81,8 +83,11 @@ bool Inset::straightforward() {
         const std::size_t before = k == 0 ? count - 1 : k - 1;
         const Point t1 = direction_[before], t2 = direction_[k];
         const double sine = cross(t1, t2), cosine = dot(t1, t2);
-        if (sine <= flattest_turn && cosine > 0.0) return false;
-        if (sine * std::min(length_[before], length_[k]) <= 16.0 * relative_rounding * scale_) return false;
+        const double straight_within = 16.0 * relative_rounding * scale_;
+        const bool flat =
+            (sine <= flattest_turn && cosine > 0.0) || sine * std::min(length_[before], length_[k]) <= straight_within;
+        const bool stays = flat && !kept_.empty() && kept_[k] != 0 && cosine > 0.0;
+        if (flat && !stays) return false;
         Point move;
         double lost;
         if (cosine > 0.0) {  // (t2 - t1)/sine = (n1 + n2)/(1 + cosine), n the inward normals: no small difference
@@ -94,6 +99,7 @@ bool Inset::straightforward() {
             move = {share * (t2.x - t1.x), share * (t2.y - t1.y)};
             lost = share * (1.0 - cosine);
         }
+        if (stays) move = {move.x + straight_within * t2.y, move.y - straight_within * t2.x};
         result_[k] = {outline_[k].x + move.x, outline_[k].y + move.y};
         if (k == 0) {
             lost_at_first = lost;
@@ -106,7 +112,7 @@ bool Inset::straightforward() {
 }
 
 void Inset::by_half_planes() {
-    drop_flat_corners(outline_);
+    drop_flat_corners(outline_, kept_);
     result_.clear();
     if (outline_.size() < 3) return;
     measure_edges();
@@ -123,12 +129,14 @@ void Inset::by_half_planes() {
     const auto near = [shortest](Point a, Point b) { return distance(a, b) <= shortest; };
     result_.erase(std::unique(result_.begin(), result_.end(), near), result_.end());
     while (result_.size() > 1 && near(result_.front(), result_.back())) result_.pop_back();
-    drop_flat_corners(result_);
+    none_.clear();
+    drop_flat_corners(result_, none_);
     if (result_.size() < 3 || polygon_area(result_) <= smallest_area_share * area) result_.clear();
 }
 
-std::span<const Point> Inset::of(std::span<const Point> outline) {
+std::span<const Point> Inset::of(std::span<const Point> outline, std::span<const char> kept) {
     outline_.assign(outline.begin(), outline.end());
+    kept_.assign(kept.begin(), kept.end());
     result_.clear();
     if (outline_.size() < 3) return result_;
     measure_edges();

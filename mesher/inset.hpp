@@ -19,18 +19,23 @@ class Inset {
     /// @param outline  convex, counter-clockwise, m
     /// @return the points that are at least `depth` inside every edge, convex and counter-clockwise; empty if there are
     ///         none. Edges may vanish. Valid until the next call.
-    std::span<const Point> of(std::span<const Point> outline);
+    std::span<const Point> of(std::span<const Point> outline) { return of(outline, {}); }
+    /// @param kept  by corner: whether it stays one although the outline goes straight on there, as where a trace ends
+    /// on an edge; it then stands out by 16 relative_rounding of the scale. Not where edges vanish.
+    std::span<const Point> of(std::span<const Point> outline, std::span<const char> kept);
 
   private:
     bool straightforward();
     void by_half_planes();
-    void drop_flat_corners(std::vector<Point>& polygon) const;
+    /// @param kept  by corner, or empty
+    void drop_flat_corners(std::vector<Point>& polygon, std::vector<char>& kept) const;
     void measure_edges();
 
     double depth_, scale_;
     std::vector<Point> outline_, result_, scratch_;
     std::vector<Point> direction_;  // of edge k, from corner k to k + 1, unit
     std::vector<double> length_;
+    std::vector<char> kept_, none_;  // by corner of the outline
 };
 
 /// Radius of the largest disc inside a convex polygon, m: the inset that destroys it.

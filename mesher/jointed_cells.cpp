@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 
+#include "mesher/inset.hpp"
 #include "mesher/place_grid.hpp"
 
 namespace crackle {
@@ -30,24 +32,27 @@ class JointedPartition {
           spacing_(spacing),
           near_(on_trace_share * coordinate_scale(domain)),
           grid_(segments(), 0.5 * spacing),
-          shrink_(graph.edges.size(), 1.0) {}
+          shrink_(graph.edges.size(), 1.0),
+          cuts_(graph.edges.size(), 0) {}
 
     JointedCells make() {
         for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
             const Segment& s = grid_.segments()[e];
-            if (graph_.edges[e].trace >= 0 && distance(s.a, s.b) < shortest_edge_share * spacing_) refuse(e);
+            if (graph_.edges[e].trace >= 0 && distance(s.a, s.b) < shortest_edge_share * spacing_) cuts_[e] = 1;
         }
         while (true) {
             patience_.ask();
+            refuse_crowds();
             JointedCells made;
-            made.seeds = mirrored_seeds(centres_, domain_, graph_, spacing_, shrink_);
+            made.seeds = seeds_of_rows();
             std::set<std::size_t> failing;
             try {
-                made.cells = voronoi_cells(made.seeds.places, domain_, patience_);
+                made.traced.cells = voronoi_cells(made.seeds.places, domain_, patience_);
                 failing = mark_traces(made);
-                if (failing.empty()) return made;
+                if (failing.empty()) return without_small_cells(std::move(made));
             } catch (const MeshError& error) {
                 failing = edges_at(made.seeds, error);
+                if (failing.empty() && error.centres.empty()) throw;
                 if (failing.empty()) throw of_given(made.seeds, error);
             }
             shrink(failing);
@@ -64,31 +69,122 @@ class JointedPartition {
         return all;
     }
 
+    bool has_rows(std::size_t e) const { return graph_.edges[e].trace >= 0 && cuts_[e] == 0; }
+
+    /// Along the edges that do not cut.
+    SeedSet seeds_of_rows() const {
+        TraceGraph rows = graph_;
+        rows.edges.clear();
+        std::vector<double> shrink;
+        for (std::size_t e = 0; e < graph_.edges.size(); ++e) {
+            if (cuts_[e] != 0) continue;
+            rows.edges.push_back(graph_.edges[e]);
+            shrink.push_back(shrink_[e]);
+        }
+        return mirrored_seeds(centres_, domain_, rows, spacing_, shrink);
+    }
+
+    /// Rows of cells narrower than a piece may be make the time step small: the traces there cut, where that is better.
+    JointedCells without_small_cells(JointedCells made) {
+        const std::set<std::size_t> small = edges_of_small_cells(made);
+        if (small.empty()) return with_cuts(std::move(made));
+        JointedPartition cutting(*this);
+        for (const std::size_t e : small) cutting.cuts_[e] = 1;
+        try {
+            return cutting.make();
+        } catch (const MeshError&) {  // of pieces smaller still
+            return with_cuts(std::move(made));
+        }
+    }
+    /// On whose rows cells are smaller than a piece may be.
+    std::set<std::size_t> edges_of_small_cells(const JointedCells& made) const {
+        std::set<std::size_t> edges;
+        const VoronoiCells& cells = made.traced.cells;
+        for (const VoronoiCells::Range& cell : cells.cells) {
+            const auto outline = cells.outline(cell);
+            if (polygon_area(outline) >= smallest_piece_share * spacing_ * spacing_) continue;
+            for (std::size_t k = 0; k < outline.size(); ++k) {
+                if (made.traced.traces[cell.first + k] < 0) continue;
+                each_trace_under(outline[k], outline[k + 1 == outline.size() ? 0 : k + 1],
+                                 [&](std::size_t e, double) { edges.insert(e); });
+            }
+        }
+        return edges;
+    }
+
+    JointedCells with_cuts(JointedCells made) {
+        std::vector<std::size_t> cut_by;
+        for (std::size_t e = 0; e < cuts_.size(); ++e)
+            if (cuts_[e] != 0) cut_by.push_back(e);
+        if (cut_by.empty()) return made;
+        made.traced = cut_cells(made.traced, domain_, graph_, cut_by, spacing_, patience_);
+        number_pieces(made);
+        return made;
+    }
+    /// So many cuts of a cell that its pieces are smaller than asked.
+    void refuse_crowds() const {
+        Squares squares(spacing_);
+        for (std::size_t e = 0; e < cuts_.size(); ++e) {
+            if (cuts_[e] == 0) continue;
+            const Segment& s = grid_.segments()[e];
+            const std::int64_t i = squares.index(0.5 * (s.a.x + s.b.x)), j = squares.index(0.5 * (s.a.y + s.b.y));
+            squares.add(i, j, e);
+            if (static_cast<double>(squares.at(i, j).size()) > 1.0 / smallest_piece_share) refuse(e);
+        }
+    }
+    /// A seed a cell, in the order of the seeds that they grew from.
+    static void number_pieces(JointedCells& made) {
+        auto& cells = made.traced.cells.cells;
+        std::vector<std::size_t> order(cells.size());
+        std::iota(order.begin(), order.end(), std::size_t{0});
+        std::stable_sort(order.begin(), order.end(),
+                         [&](std::size_t a, std::size_t b) { return cells[a].centre < cells[b].centre; });
+        SeedSet numbered;
+        numbered.left_out = made.seeds.left_out;
+        for (const std::size_t k : order) {
+            const auto seed = static_cast<std::size_t>(cells[k].centre);
+            cells[k].centre = static_cast<int>(numbered.places.size());
+            numbered.places.push_back(made.seeds.places[seed]);
+            numbered.centre.push_back(made.seeds.centre[seed]);
+            numbered.added.push_back(made.seeds.added[seed]);
+        }
+        made.seeds = std::move(numbered);
+    }
+
+    /// Calls use(edge of the graph, length) where the edge between two corners lies on a trace.
+    template <class Use>
+    void each_trace_under(Point a, Point b, Use use) const {
+        grid_.each_near({0.5 * (a.x + b.x), 0.5 * (a.y + b.y)}, [&](std::size_t e) {
+            const Segment& s = grid_.segments()[e];
+            if (graph_.edges[e].trace >= 0 && distance_to(s, a) <= near_ && distance_to(s, b) <= near_)
+                use(e, distance(a, b));
+        });
+    }
+    bool is_covered(std::size_t e, double covered) const {
+        const double length = distance(grid_.segments()[e].a, grid_.segments()[e].b);
+        return std::abs(covered - length) <= covered_share * length + 4.0 * near_;
+    }
+
     /// @return edges of the graph that cells do not cover
     std::set<std::size_t> mark_traces(JointedCells& made) const {
-        made.traces.assign(made.cells.corners.size(), -1);
+        const VoronoiCells& cells = made.traced.cells;
+        made.traced.traces.assign(cells.corners.size(), -1);
         std::vector<double> covered(graph_.edges.size(), 0.0);
-        for (const VoronoiCells::Range& cell : made.cells.cells) {
+        for (const VoronoiCells::Range& cell : cells.cells) {
             if (made.seeds.added[static_cast<std::size_t>(cell.centre)] == 0) continue;
-            const auto outline = made.cells.outline(cell);
+            const auto outline = cells.outline(cell);
             for (std::size_t k = 0; k < outline.size(); ++k) {
-                const Point a = outline[k], b = outline[k + 1 == outline.size() ? 0 : k + 1];
-                grid_.each_near({0.5 * (a.x + b.x), 0.5 * (a.y + b.y)}, [&](std::size_t e) {
-                    if (graph_.edges[e].trace < 0) return;
-                    const Segment& s = grid_.segments()[e];
-                    if (distance_to(s, a) > near_ || distance_to(s, b) > near_) return;
-                    made.traces[cell.first + k] = graph_.edges[e].trace;
-                    covered[e] += 0.5 * distance(a, b);
-                });
+                each_trace_under(outline[k], outline[k + 1 == outline.size() ? 0 : k + 1],
+                                 [&](std::size_t e, double length) {
+                                     if (!has_rows(e)) return;
+                                     made.traced.traces[cell.first + k] = graph_.edges[e].trace;
+                                     covered[e] += 0.5 * length;
+                                 });
             }
         }
         std::set<std::size_t> failing;
-        for (std::size_t e = 0; e < covered.size(); ++e) {
-            if (graph_.edges[e].trace < 0) continue;
-            const Segment& s = grid_.segments()[e];
-            const double length = distance(s.a, s.b);
-            if (std::abs(covered[e] - length) > covered_share * length + 4.0 * near_) failing.insert(e);
-        }
+        for (std::size_t e = 0; e < covered.size(); ++e)
+            if (has_rows(e) && !is_covered(e, covered[e])) failing.insert(e);
         return failing;
     }
 
@@ -99,7 +195,7 @@ class JointedPartition {
             const auto number = static_cast<std::size_t>(seed);
             if (seeds.added[number] == 0) continue;
             grid_.each_near(seeds.places[number], [&](std::size_t e) {
-                if (graph_.edges[e].trace >= 0) failing.insert(e);
+                if (has_rows(e)) failing.insert(e);
             });
         }
         return failing;
@@ -120,7 +216,7 @@ class JointedPartition {
     void shrink(const std::set<std::size_t>& failing) {
         std::set<int> nodes;
         for (const std::size_t e : failing) {
-            if (shrink_[e] * shrink_factor < least_shrink) refuse(e);
+            if (shrink_[e] * shrink_factor < least_shrink) cuts_[e] = 1;
             shrink_[e] *= shrink_factor;
             nodes.insert(graph_.edges[e].from);
             nodes.insert(graph_.edges[e].to);
@@ -145,10 +241,10 @@ class JointedPartition {
         named.insert(named.end(), others.begin(), others.end());
         throw MeshError(
             fmt::format("mesh: found trace {} from ({:.9g}, {:.9g}) to ({:.9g}, {:.9g}) with {} other trace{} "
-                        "within {:.3g}, expected room for cells of {} of the mean spacing beside it; remove "
-                        "one, move it, make the particles smaller, or take Delaunay triangles",
-                        trace, s.a.x, s.a.y, s.b.x, s.b.y, others.size(), others.size() == 1 ? "" : "s", 0.5 * spacing_,
-                        least_shrink),
+                        "within {:.3g}, expected one that cells can follow; remove one, move it, make the particles "
+                        "smaller, or take Delaunay triangles",
+                        trace, s.a.x, s.a.y, s.b.x, s.b.y, others.size(), others.size() == 1 ? "" : "s",
+                        0.5 * spacing_),
             {}, std::move(named));
     }
 
@@ -159,6 +255,7 @@ class JointedPartition {
     double spacing_, near_;
     SegmentGrid grid_;
     std::vector<double> shrink_;  // by edge
+    std::vector<char> cuts_;      // whether an edge has no rows and cuts
 };
 
 }  // namespace

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Voronoi cells of a rectangle whose edges follow traces: seeds along traces (mirrored_seeds.hpp), smaller where the
-// edges of the cells do not yet cover a trace, until they do.
-// Tested by tests/mesher/jointed_voronoi_test.cpp.
+// edges of the cells do not yet cover a trace, until they do. Where cells as small as a fifth of the spacing do not
+// fit, the trace has no seeds of its own and cuts the cells that it meets (cut_cells.hpp). Tested by
+// tests/mesher/jointed_voronoi_test.cpp.
 #pragma once
 
 #include <span>
 #include <vector>
 
+#include "mesher/cut_cells.hpp"
 #include "mesher/mirrored_seeds.hpp"
 #include "mesher/partition.hpp"
 #include "mesher/trace_graph.hpp"
@@ -14,13 +16,11 @@
 namespace crackle {
 
 struct JointedCells {
-    SeedSet seeds;
-    VoronoiCells cells;       ///< of the seeds, by their number
-    std::vector<int> traces;  ///< by corner of the cells: on the edge to the cell's next corner; -1: none
+    SeedSet seeds;       ///< pieces of cut cells have one each
+    TracedCells traced;  ///< of the seeds, by their number
 };
 
-/// @throws MeshError naming traces along which cells as small as a fifth of the spacing do not fit, and as
-/// voronoi_cells() does
+/// @throws MeshError naming traces that cells cannot follow, and as voronoi_cells() does
 JointedCells jointed_cells(std::span<const CellCentre> centres, const Rectangle& domain, const TraceGraph& graph,
                            double spacing, Patience& patience);
 

@@ -298,6 +298,14 @@ void report_traces(MeshReport& report, const TraceGraph& graph, std::size_t left
     report.points_added = static_cast<std::int64_t>(added);
 }
 
+/// Corners between edges of which one lies on a trace and the other does not, or on another.
+std::span<const char> ends_of_traces(std::span<const int> traces, std::vector<char>& kept) {
+    kept.resize(traces.size());
+    for (std::size_t k = 0; k < traces.size(); ++k)
+        kept[k] = traces[k] != traces[k == 0 ? traces.size() - 1 : k - 1] ? 1 : 0;
+    return kept;
+}
+
 Mesh mesh_jointed_voronoi(std::span<const CellCentre> centres, const Rectangle& domain, const MeshRequest& request,
                           double depth) {
     const double scale = coordinate_scale(domain);
@@ -305,33 +313,41 @@ Mesh mesh_jointed_voronoi(std::span<const CellCentre> centres, const Rectangle& 
     const TraceGraph graph = graph_of(centres, domain, request);
     const JointedCells made = jointed_cells(centres, domain, graph, mean_spacing(centres, domain), patience);
     Inset inset(depth, scale);
-    MeshBuilder builder(domain, made.cells.cells.size(), made.cells.corners.size());
+    std::vector<char> kept;
+    MeshBuilder builder(domain, made.traced.cells.cells.size(), made.traced.cells.corners.size());
     std::vector<VoronoiCells::Range> destroyed;
-    for (const VoronoiCells::Range& range : made.cells.cells) {
+    for (const VoronoiCells::Range& range : made.traced.cells.cells) {
         patience.piece();
-        const auto before = made.cells.outline(range), after = inset.of(before);
+        const auto before = made.traced.cells.outline(range);
+        const auto traces = std::span(made.traced.traces).subspan(range.first, range.count);
+        const auto after = inset.of(before, ends_of_traces(traces, kept));
         if (after.empty()) {
             destroyed.push_back(range);
             continue;
         }
-        builder.add(before, after, std::span(made.traces).subspan(range.first, range.count)).centre = range.centre;
+        builder.add(before, after, traces).centre = range.centre;
     }
     if (!destroyed.empty()) {
-        const auto worst = *std::ranges::min_element(
-            destroyed, {}, [&](const VoronoiCells::Range& cell) { return slenderness(made.cells.outline(cell)); });
+        const auto worst = *std::ranges::min_element(destroyed, {}, [&](const VoronoiCells::Range& cell) {
+            return slenderness(made.traced.cells.outline(cell));
+        });
         const auto number = static_cast<std::size_t>(worst.centre);
         std::set<int> named;
         for (std::size_t k = 0; k < worst.count; ++k)
-            if (const int trace = made.traces[worst.first + k]; trace >= 0) named.insert(trace);
+            if (const int trace = made.traced.traces[worst.first + k]; trace >= 0) named.insert(trace);
         const std::vector<int> traces(named.begin(), named.end());
         refuse_destroyed(fmt::format("the cell at {}{}", place(made.seeds.places[number]), in_words(traces)),
-                         made.cells.outline(worst), depth, scale, destroyed.size(), {made.seeds.centre[number]},
+                         made.traced.cells.outline(worst), depth, scale, destroyed.size(), {made.seeds.centre[number]},
                          traces);
     }
     Mesh mesh = builder.finish();
     mesh.cells = in_order_of_centres(mesh.cells, made.seeds.centre);
     report_traces(mesh.report, graph, made.seeds.left_out,
                   static_cast<std::size_t>(std::count(made.seeds.added.begin(), made.seeds.added.end(), 1)));
+    mesh.report.ends_moved += static_cast<std::int64_t>(made.traced.ends_moved);
+    mesh.report.largest_move = std::max(mesh.report.largest_move, made.traced.largest_move);
+    mesh.report.cells_cut = static_cast<std::int64_t>(made.traced.cut);
+    mesh.report.pieces_joined = static_cast<std::int64_t>(made.traced.joined);
     return mesh;
 }
 

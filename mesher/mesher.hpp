@@ -72,13 +72,16 @@ struct MeshRequest {
     std::vector<Point> outline;
     /// Traces of joints, points one after another, in the domain or on its boundary: edges of the cells follow them.
     /// Meshes that fill the domain have them, without an outline, and Voronoi cells without merging. An end as near to
-    /// another trace or a wall as trace_reach_share of the mean spacing goes to it along its own line.
+    /// another trace or a wall as trace_reach_share of the mean spacing goes to it along its own line. Where
+    /// traces are too close for Voronoi cells of their own they cut cells, which are cut whole; a tip that would leave
+    /// less than 0.15 of a cut on either side of it moves.
     std::vector<std::vector<Point>> traces;
     /// Asked now and then, by the thread that meshes; true ends it by MeshInterrupted.
     std::function<bool()> interrupted;
 };
 
 inline constexpr double trace_reach_share = 0.25;
+inline constexpr double smallest_piece_share = 0.05;  ///< of the mean cell
 
 /// Sides of the domain, as bits of Cell::sides.
 enum SideBit : std::uint8_t { side_left = 1, side_right = 2, side_bottom = 4, side_top = 8 };
@@ -117,6 +120,9 @@ struct MeshReport {
     double coincident = 0.0;        ///< m along which traces lie on others, whose edges are the first one's
     std::int64_t centres_left = 0;  ///< centres that made way for traces
     std::int64_t points_added = 0;  ///< corners inside that no centre is
+    // Of Voronoi cells, where traces are too close for cells of their own:
+    std::int64_t cells_cut = 0;      ///< by traces
+    std::int64_t pieces_joined = 0;  ///< smaller than smallest_piece_share of the mean cell, joined to a neighbour
 };
 
 struct Mesh {

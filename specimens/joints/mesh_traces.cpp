@@ -59,10 +59,15 @@ std::vector<std::string> jointed_mesh_text(const Mesh& with, const std::vector<C
         fmt::format("joints: {:.6g} m of traces are {} edges of cells; {} centres made way, {} points were added",
                     report.trace_length, report.trace_edges, report.centres_left, report.points_added),
         shape_text(with, centres, domain, request)};
+    if (report.cells_cut > 0)
+        lines.push_back(
+            fmt::format("joints: {} cells were cut by traces too close for cells of their own; {} pieces "
+                        "smaller than {} of the mean cell joined a neighbour",
+                        report.cells_cut, report.pieces_joined, smallest_piece_share));
     if (report.ends_moved > 0)
         lines.push_back(
-            fmt::format("joints: {} ends that lay within {} of the mean spacing of another trace or a wall "
-                        "meet it now, by at most {:.3g} m",
+            fmt::format("joints: {} ends that lay within {} of the mean spacing of another trace, a wall or, where "
+                        "they cut cells, the outline of one meet it now, by at most {:.3g} m",
                         report.ends_moved, trace_reach_share, report.largest_move));
     if (report.coincident > 0.0)
         lines.push_back(fmt::format("joints: {:.3g} m of traces lie on others, whose edges are the first one's",

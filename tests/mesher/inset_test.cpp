@@ -67,6 +67,22 @@ TEST(Inset, StraightCornerIsNone) {
     EXPECT_TRUE(agrees("area", testing::area_of(result), 0.64, 1e-14));
 }
 
+TEST(Inset, StraightCornerThatIsKeptIsOneAndConvex) {
+    // A trace ends in the middle of the lower edge; the one above is none, and is dropped.
+    const std::vector<Point> square{{0, 0}, {0.5, 0}, {1, 0}, {1, 1}, {0.5, 1}, {0, 1}};
+    const std::vector<char> kept{0, 1, 0, 0, 0, 0};
+    for (const double depth : {0.0, 0.125}) {
+        Inset work(depth, 1.0);
+        const auto result = work.of(square, kept);
+        ASSERT_EQ(result.size(), 5U) << depth;
+        EXPECT_TRUE(within("place along the edge", result[1].x, 0.5, 1e-12));
+        EXPECT_TRUE(within("place off it", result[1].y, depth, 1e-14));
+        const Point in{result[1].x - result[0].x, result[1].y - result[0].y},
+            out{result[2].x - result[1].x, result[2].y - result[1].y};
+        EXPECT_GT(cross(in, out), 0.0) << "the solver takes it for convex";
+    }
+}
+
 TEST(Inset, EveryPointIsAtLeastTheDepthFromEveryEdge) {
     testing::Dice dice(5);
     for (int trial = 0; trial < 300; ++trial) {

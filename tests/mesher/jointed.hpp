@@ -35,12 +35,14 @@ struct TraceCheck {
     std::map<int, double> length;   // by trace, each edge once
     double off_line = 0.0;          // largest distance of a corner from its trace
     bool paired = true;             // each edge once on either side
+    double between_sides = 0.0;     // largest difference of the lengths on either side of a trace
     double smallest_angle = 180.0;  // degrees, of cells with a corner on a trace
 };
 
 inline TraceCheck check(const Mesh& mesh, const Lines& traces) {
     TraceCheck result;
     std::map<std::pair<std::pair<double, double>, std::pair<double, double>>, int> seen;
+    std::map<int, double> difference;
     std::set<std::pair<double, double>> on_trace;
     for (const Cell& cell : mesh.cells) {
         const auto corners = mesh.outline(cell);
@@ -55,12 +57,16 @@ inline TraceCheck check(const Mesh& mesh, const Lines& traces) {
                                              distance_from_line(line[part], line[part + 1], b)));
             result.off_line = std::max(result.off_line, off);
             result.length[trace] += 0.5 * distance(a, b);
+            const Point along{line.back().x - line.front().x, line.back().y - line.front().y};
+            difference[trace] += (b.x - a.x) * along.x + (b.y - a.y) * along.y > 0.0 ? distance(a, b) : -distance(a, b);
             seen[std::minmax(std::pair{a.x, a.y}, std::pair{b.x, b.y})] += 1;
             on_trace.insert({a.x, a.y});
             on_trace.insert({b.x, b.y});
         }
     }
     for (const auto& [edge, count] : seen) result.paired = result.paired && count == 2;
+    for (const auto& [trace, length] : difference)
+        result.between_sides = std::max(result.between_sides, std::abs(length));
     for (const Cell& cell : mesh.cells) {
         const auto c = mesh.outline(cell);
         if (std::none_of(c.begin(), c.end(), [&](Point p) { return on_trace.contains({p.x, p.y}); })) continue;
@@ -87,7 +93,7 @@ inline std::vector<CellCentre> packing_like(std::uint64_t seed, int across = 20)
 }
 
 struct NetworkCount {
-    int meshed = 0, refused = 0;
+    int meshed = 0, refused = 0, cut = 0;
 };
 
 /// Networks of few and of many traces, with small angles, traces a thousandth of a cell apart, ends on the walls and
@@ -123,17 +129,27 @@ inline NetworkCount mesh_random_networks(MeshKind kind, std::uint64_t networks) 
                 if (edge.trace >= 0)
                     expected += distance(graph.nodes[static_cast<std::size_t>(edge.from)],
                                          graph.nodes[static_cast<std::size_t>(edge.to)]);
-            EXPECT_NEAR(mesh.report.trace_length, expected, 1e-9 * expected) << seed;
+            // Where cells are cut, tips move.
+            const double moved = mesh.report.cells_cut == 0
+                                     ? 0.0
+                                     : static_cast<double>(mesh.report.ends_moved) * mesh.report.largest_move;
+            EXPECT_NEAR(mesh.report.trace_length, expected, 1e-9 * expected + moved) << seed;
             const TraceCheck found = check(mesh, traces);
             EXPECT_LE(found.off_line, 2e-12) << seed;
-            EXPECT_TRUE(found.paired) << seed;
+            if (mesh.report.cells_cut == 0) {
+                EXPECT_TRUE(found.paired) << seed;
+            } else {
+                ++result.cut;
+                EXPECT_LE(found.between_sides, 1e-9) << seed;
+            }
         } catch (const MeshError& error) {
             ++result.refused;
             EXPECT_FALSE(error.traces.empty()) << seed << ' ' << error.what();
             EXPECT_NE(std::string(error.what()).find("trace"), std::string::npos) << error.what();
         }
     }
-    fmt::print("  {} networks meshed, {} refused\n", result.meshed, result.refused);
+    fmt::print("  {} networks meshed, {} of them with cells cut, {} refused\n", result.meshed, result.cut,
+               result.refused);
     return result;
 }
 

@@ -1,0 +1,647 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "mesher/cut_cells.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "mesher/inset.hpp"
+#include "mesher/place_grid.hpp"
+
+namespace crackle {
+namespace {
+
+// Corners as near to a trace go onto it, and to one that is there already as near.
+constexpr double onto_trace_share = 0.25, onto_corner_share = 0.08;  // of the spacing
+// Of the largest coordinate: what lies on a line.
+constexpr double on_line_share = 1e-12;
+// Of a cut: what is shorter of it, on the trace or beyond its tip, is no face of its own.
+constexpr double least_face_share = 0.15;
+// Least sine of the turn at a corner that was moved.
+constexpr double least_turn_if_moved = 1e-3;
+
+struct Loop {
+    std::vector<int> corners;  // counter-clockwise
+    std::vector<int> traces;   // by the edge to the next
+    int centre = -1;
+
+    std::size_t size() const { return corners.size(); }
+    std::size_t next(std::size_t k) const { return k + 1 == corners.size() ? 0 : k + 1; }
+    std::size_t before(std::size_t k) const { return k == 0 ? corners.size() - 1 : k - 1; }
+};
+
+/// An edge of the graph as a line: distances along it, and to its left.
+struct Line {
+    Point start, along;
+    double length;
+    int from, to;                                  // corners at its nodes
+    std::vector<std::pair<double, double>> trace;  // parts of the line on which its trace lies, in order
+
+    double at(Point p) const { return (p.x - start.x) * along.x + (p.y - start.y) * along.y; }
+    double off(Point p) const { return (p.y - start.y) * along.x - (p.x - start.x) * along.y; }
+    Point foot(Point p) const {
+        const double s = at(p);
+        return {start.x + s * along.x, start.y + s * along.y};
+    }
+    /// Length of the trace between two places.
+    double covered(double first, double last) const {
+        double sum = 0.0;
+        for (const auto& [from_here, to_here] : trace)
+            sum += std::max(0.0, std::min(last, to_here) - std::max(first, from_here));
+        return sum;
+    }
+};
+
+class CellCutter {
+  public:
+    CellCutter(const TracedCells& whole, const Rectangle& domain, const TraceGraph& graph,
+               std::span<const std::size_t> cut_by, double spacing, Patience& patience)
+        : domain_(domain),
+          graph_(graph),
+          cut_by_(cut_by.begin(), cut_by.end()),
+          patience_(patience),
+          spacing_(spacing),
+          near_(on_line_share * coordinate_scale(domain)),
+          cells_at_(spacing),
+          nodes_at_(spacing) {
+        take(whole);
+        for (std::size_t e = 0; e < graph.edges.size(); ++e)
+            if (graph.edges[e].trace >= 0) of_trace_[graph.edges[e].trace].push_back(e);
+    }
+
+    TracedCells make() {
+        for (const std::size_t e : cut_by_) lines_.push_back(line_of(e));
+        for (const Line& line : lines_) {
+            for (const int node : {line.from, line.to}) {
+                nodes_at_.add(nodes_at_.index(place(node).x), nodes_at_.index(place(node).y),
+                              static_cast<std::size_t>(node));
+                insert_node(node);
+            }
+        }
+        put_corners_onto_traces();
+        for (const Line& line : lines_)
+            for (const int node : {line.from, line.to}) insert_node(node);
+        for (std::size_t k = 0; k < lines_.size(); ++k) mark(lines_[k], graph_.edges[cut_by_[k]].trace);
+        for (std::size_t k = 0; k < lines_.size(); ++k) {
+            patience_.ask();
+            cut(lines_[k], graph_.edges[cut_by_[k]].trace);
+        }
+        join_small_pieces();
+        return result();
+    }
+
+  private:
+    void take(const TracedCells& whole) {
+        for (const VoronoiCells::Range& cell : whole.cells.cells) {
+            Loop loop;
+            loop.centre = cell.centre;
+            const auto outline = whole.cells.outline(cell);
+            for (std::size_t k = 0; k < outline.size(); ++k) {
+                const int corner = corner_at(outline[k]);
+                if (!loop.corners.empty() && loop.corners.back() == corner) continue;
+                loop.corners.push_back(corner);
+                loop.traces.push_back(whole.traces[cell.first + k]);
+            }
+            add(std::move(loop));
+        }
+    }
+    int corner_at(Point p) {
+        const auto [found, is_new] = numbers_.try_emplace({p.x, p.y}, static_cast<int>(places_.size()));
+        if (is_new) {
+            places_.push_back(p);
+            around_.emplace_back();
+        }
+        return found->second;
+    }
+    Point place(int corner) const { return places_[static_cast<std::size_t>(corner)]; }
+    std::set<int>& around(int corner) { return around_[static_cast<std::size_t>(corner)]; }
+    Loop& loop(int cell) { return loops_[static_cast<std::size_t>(cell)]; }
+
+    int add(Loop made) {
+        const int number = static_cast<int>(loops_.size());
+        for (const int corner : made.corners) around(corner).insert(number);
+        loops_.push_back(std::move(made));
+        each_square(box_of(loops_.back()),
+                    [&](std::int64_t i, std::int64_t j) { cells_at_.add(i, j, static_cast<std::size_t>(number)); });
+        return number;
+    }
+    using Box = std::pair<Point, Point>;
+    /// Its corners may be moved out of it.
+    Box box_of(const Loop& l) const {
+        const double margin = onto_trace_share * spacing_;
+        Box box{place(l.corners[0]), place(l.corners[0])};
+        for (const int corner : l.corners) {
+            const Point p = place(corner);
+            box.first = {std::min(box.first.x, p.x), std::min(box.first.y, p.y)};
+            box.second = {std::max(box.second.x, p.x), std::max(box.second.y, p.y)};
+        }
+        return {{box.first.x - margin, box.first.y - margin}, {box.second.x + margin, box.second.y + margin}};
+    }
+    static Box box_of(Point a, Point b) {
+        return {{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}};
+    }
+    template <class Use>
+    void each_square(const Box& box, Use use) const {
+        for (std::int64_t i = cells_at_.index(box.first.x); i <= cells_at_.index(box.second.x); ++i)
+            for (std::int64_t j = cells_at_.index(box.first.y); j <= cells_at_.index(box.second.y); ++j) use(i, j);
+    }
+    /// That may reach into it, in the order of their numbers.
+    std::set<int> cells_near(const Box& box) const {
+        std::set<int> cells;
+        each_square(box, [&](std::int64_t i, std::int64_t j) {
+            for (const std::size_t cell : cells_at_.at(i, j)) cells.insert(static_cast<int>(cell));
+        });
+        return cells;
+    }
+    void replace(int cell, Loop made) {
+        for (const int corner : loop(cell).corners) around(corner).erase(cell);
+        for (const int corner : made.corners) around(corner).insert(cell);
+        loop(cell) = std::move(made);
+    }
+
+    /// Of cells that meet at a node that is their corner, but for rounding.
+    int node_at(Point p) {
+        for (const int cell : cells_near({p, p}))
+            for (const int corner : loop(cell).corners)
+                if (distance(place(corner), p) <= near_) return corner;
+        return corner_at(p);
+    }
+    Line line_of(std::size_t e) {
+        const TraceGraph::Edge& edge = graph_.edges[e];
+        const Point a = graph_.nodes[static_cast<std::size_t>(edge.from)],
+                    b = graph_.nodes[static_cast<std::size_t>(edge.to)];
+        const double length = distance(a, b);
+        Line line{a, {(b.x - a.x) / length, (b.y - a.y) / length}, length, node_at(a), node_at(b), {}};
+        for (const std::size_t other : of_trace_[edge.trace]) {
+            const Point c = graph_.nodes[static_cast<std::size_t>(graph_.edges[other].from)],
+                        d = graph_.nodes[static_cast<std::size_t>(graph_.edges[other].to)];
+            if (std::max(std::abs(line.off(c)), std::abs(line.off(d))) > near_) continue;
+            line.trace.push_back(std::minmax(line.at(c), line.at(d)));
+        }
+        std::sort(line.trace.begin(), line.trace.end());
+        return line;
+    }
+
+    /// A node that lies on an edge of cells becomes a corner of these.
+    void insert_node(int node) {
+        if (!around(node).empty()) return;
+        const Point p = place(node);
+        for (const int cell : cells_near({p, p})) {
+            const Loop& l = loop(cell);
+            for (std::size_t k = 0; k < l.size(); ++k) {
+                if (distance_to({place(l.corners[k]), place(l.corners[l.next(k)])}, p) > near_) continue;
+                insert_into(l.corners[k], l.corners[l.next(k)], node);
+                return;
+            }
+        }
+    }
+    /// Into the edge between two corners, of all cells that have it.
+    void insert_into(int u, int v, int corner) {
+        const std::set<int> cells = around(u);
+        for (const int cell : cells) {
+            Loop made = loop(cell);
+            for (std::size_t k = 0; k < made.size(); ++k) {
+                const int a = made.corners[k], b = made.corners[made.next(k)];
+                if (!((a == u && b == v) || (a == v && b == u))) continue;
+                const auto at = static_cast<std::ptrdiff_t>(k) + 1;
+                made.corners.insert(made.corners.begin() + at, corner);
+                made.traces.insert(made.traces.begin() + at, made.traces[k]);
+                replace(cell, std::move(made));
+                break;
+            }
+        }
+    }
+
+    bool on_trace(int corner) {
+        for (const int cell : around(corner)) {
+            const Loop& l = loop(cell);
+            for (std::size_t k = 0; k < l.size(); ++k)
+                if ((l.corners[k] == corner || l.corners[l.next(k)] == corner) && l.traces[k] >= 0) return true;
+        }
+        return false;
+    }
+
+    struct Move {
+        double away;
+        int corner;
+        std::size_t line;
+        bool operator<(const Move& other) const {
+            return std::tie(away, corner, line) < std::tie(other.away, other.corner, other.line);
+        }
+    };
+
+    /// Nearest ones first: those further off find them in place.
+    void put_corners_onto_traces() {
+        std::vector<Segment> segments;
+        for (const Line& line : lines_) segments.push_back({place(line.from), place(line.to)});
+        const double reach = onto_trace_share * spacing_;
+        const SegmentGrid grid(segments, reach);
+        std::set<int> fixed;
+        for (const Line& line : lines_) fixed.insert({line.from, line.to});
+        std::vector<Move> moves;
+        for (std::size_t c = 0; c < places_.size(); ++c) {
+            const int corner = static_cast<int>(c);
+            if (fixed.contains(corner) || around(corner).empty() || on_trace(corner)) continue;
+            std::optional<Move> best;
+            grid.each_near(places_[c], [&](std::size_t k) {
+                const double away = distance_to(segments[k], places_[c]);
+                const Move move{away, corner, k};
+                if (away <= reach && (!best || move < *best)) best = move;
+            });
+            if (best) moves.push_back(*best);
+        }
+        std::sort(moves.begin(), moves.end());
+        std::vector<std::vector<int>> on(lines_.size());  // corners that lie on the line
+        for (std::size_t k = 0; k < lines_.size(); ++k) on[k] = {lines_[k].from, lines_[k].to};
+        for (const Move& move : moves) {
+            patience_.piece();
+            const Line& line = lines_[move.line];
+            const Point p = place(move.corner);
+            const double s = std::clamp(line.at(p), 0.0, line.length);
+            Point target{line.start.x + s * line.along.x, line.start.y + s * line.along.y};
+            const int taken = nearest_of(on[move.line], target);
+            if (distance(place(taken), target) < onto_corner_share * spacing_) {
+                put_together(move.corner, taken);
+                continue;
+            }
+            const unsigned walls = sides_at(p, domain_);
+            if (walls != 0) continue;  // stays on its wall
+            if (move_to(move.corner, target)) on[move.line].push_back(move.corner);
+        }
+    }
+    int nearest_of(const std::vector<int>& corners, Point p) const {
+        return *std::min_element(corners.begin(), corners.end(),
+                                 [&](int a, int b) { return distance(place(a), p) < distance(place(b), p); });
+    }
+    bool move_to(int corner, Point target) {
+        const Point before = place(corner);
+        places_[static_cast<std::size_t>(corner)] = target;
+        for (const int cell : around(corner)) {
+            if (convex(loop(cell))) continue;
+            places_[static_cast<std::size_t>(corner)] = before;
+            return false;
+        }
+        return true;
+    }
+    /// A corner takes the place of another and is it from then on; neither leaves its wall.
+    void put_together(int corner, int onto) {
+        const unsigned walls = sides_at(place(corner), domain_);
+        if ((walls & ~sides_at(place(onto), domain_)) != 0) return;
+        std::map<int, Loop> changed;
+        for (const int cell : around(corner)) {
+            Loop made = loop(cell);
+            std::replace(made.corners.begin(), made.corners.end(), corner, onto);
+            for (std::size_t k = 0; k < made.size() && made.size() > 2; ++k) {
+                if (made.corners[k] != made.corners[made.next(k)]) continue;
+                made.corners.erase(made.corners.begin() + static_cast<std::ptrdiff_t>(k));
+                made.traces.erase(made.traces.begin() + static_cast<std::ptrdiff_t>(k));
+                --k;
+            }
+            const std::set<int> distinct(made.corners.begin(), made.corners.end());
+            if (made.size() < 3 || distinct.size() != made.size() || !convex(made)) return;
+            changed.emplace(cell, std::move(made));
+        }
+        const bool joined = std::any_of(changed.begin(), changed.end(),
+                                        [&](const auto& cell) { return around(onto).contains(cell.first); });
+        if (around(onto).empty() ? !surrounded(changed, onto) : !joined) return;
+        for (auto& [cell, made] : changed) replace(cell, std::move(made));
+    }
+    /// A node within a cell becomes a corner: only if the cell whose inside it was is among those changed.
+    bool surrounded(const std::map<int, Loop>& changed, int onto) {
+        for (const int cell : cells_near({place(onto), place(onto)}))
+            if (inside(loop(cell), place(onto))) return changed.contains(cell);
+        return true;
+    }
+    bool inside(const Loop& l, Point p) const {
+        for (std::size_t k = 0; k < l.size(); ++k)
+            if (turn(place(l.corners[k]), place(l.corners[l.next(k)]), p) < 0.0) return false;
+        return true;
+    }
+
+    static double turn(Point a, Point b, Point c) {
+        return cross(Point{b.x - a.x, b.y - a.y}, Point{c.x - b.x, c.y - b.y});
+    }
+    /// Flat corners aside, which lie on the line between the two beside them.
+    bool convex(const Loop& l) const {
+        double turned_forward = 0.0;
+        for (std::size_t k = 0; k < l.size(); ++k) {
+            const Point a = place(l.corners[l.before(k)]), b = place(l.corners[k]), c = place(l.corners[l.next(k)]);
+            const double lengths = distance(a, b) * distance(b, c), turned = turn(a, b, c);
+            const bool ahead = dot(Point{b.x - a.x, b.y - a.y}, Point{c.x - b.x, c.y - b.y}) > 0.0;
+            const bool flat = ahead && std::abs(turned) <= near_ * distance(a, c);
+            if (lengths == 0.0 || (!flat && turned < least_turn_if_moved * lengths)) return false;
+            turned_forward += turned;
+        }
+        return turned_forward > 0.0;
+    }
+
+    /// Cells that the open edge enters, by its line.
+    void cut(const Line& line, int trace) {
+        for (const int cell : cells_near(box_of(place(line.from), place(line.to)))) {
+            patience_.piece();
+            const std::optional<std::pair<int, int>> ends = ends_of_cut(cell, line);
+            if (!ends) continue;
+            split(cell, ends->first, ends->second);
+            mark_cut(line, ends->first, ends->second, trace);
+        }
+    }
+    /// Corners of the cell between which the line cuts it, put in where there are none.
+    std::optional<std::pair<int, int>> ends_of_cut(int cell, const Line& line) {
+        struct End {
+            double along;
+            int corner;  // -1: to be put in
+            int u, v;    // between these
+            Point place;
+        };
+        std::vector<End> ends;
+        const Loop& l = loop(cell);
+        double lowest = 0.0, highest = 0.0;
+        for (std::size_t k = 0; k < l.size(); ++k) {
+            const int u = l.corners[k], v = l.corners[l.next(k)];
+            const Point a = place(u), b = place(v);
+            const double before = line.off(a), after = line.off(b);
+            lowest = std::min(lowest, before);
+            highest = std::max(highest, before);
+            if (std::abs(before) <= near_) {
+                ends.push_back({line.at(a), u, u, u, a});
+            } else if (std::abs(after) > near_ && (before < 0.0) != (after < 0.0)) {
+                const double share = before / (before - after);
+                const Point p = on_wall_of(a, b, line.foot({a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)}));
+                ends.push_back({line.at(p), -1, u, v, p});
+            }
+        }
+        if (lowest >= -near_ || highest <= near_ || ends.size() < 2) return std::nullopt;
+        const auto by_along = [](const End& a, const End& b) { return a.along < b.along; };
+        const End first = *std::min_element(ends.begin(), ends.end(), by_along),
+                  last = *std::max_element(ends.begin(), ends.end(), by_along);
+        if (std::min(last.along, line.length) - std::max(first.along, 0.0) <= 4.0 * near_) return std::nullopt;
+        if (!enters(l, line, first.along, last.along)) return std::nullopt;
+        const auto corner_of = [&](const End& end) {
+            if (end.corner >= 0) return end.corner;
+            const int corner = corner_at(end.place);
+            insert_into(end.u, end.v, corner);
+            return corner;
+        };
+        const int from = corner_of(first), to = corner_of(last);
+        return std::pair{from, to};
+    }
+    /// A tip that hardly enters a cell, or whose cut would leave a small piece, moves back to the cell's outline.
+    bool enters(const Loop& l, const Line& line, double first, double last) {
+        const double covered = line.covered(first, last), length = last - first;
+        if (length - covered <= near_) return true;  // no tip
+        const bool in =
+            covered >= least_face_share * length && smaller_part(l, line) >= smallest_piece_share * spacing_ * spacing_;
+        if (!in) moved_by(covered);
+        return in;
+    }
+    double smaller_part(const Loop& l, const Line& line) const {
+        std::vector<Point> left, scratch;
+        for (const int corner : l.corners) left.push_back(place(corner));
+        const double nx = -line.along.y, ny = line.along.x;
+        clip(left, nx, ny, nx * line.start.x + ny * line.start.y, scratch);
+        const double part = polygon_area(left);
+        return std::min(part, area(l) - part);
+    }
+    void moved_by(double length) {
+        ++moved_;
+        largest_move_ = std::max(largest_move_, length);
+    }
+    /// Exactly on the wall where both are.
+    Point on_wall_of(Point a, Point b, Point p) const {
+        const unsigned walls = sides_at(a, domain_) & sides_at(b, domain_);
+        if ((walls & (side_left | side_right)) != 0) p.x = a.x;
+        if ((walls & (side_bottom | side_top)) != 0) p.y = a.y;
+        return p;
+    }
+    void split(int cell, int from, int to) {
+        const Loop l = loop(cell);
+        const auto index = [&](int corner) {
+            return static_cast<std::size_t>(std::find(l.corners.begin(), l.corners.end(), corner) - l.corners.begin());
+        };
+        const auto part = [&](std::size_t begin, std::size_t end) {
+            Loop made;
+            made.centre = l.centre;
+            for (std::size_t k = begin; k != end; k = l.next(k)) {
+                made.corners.push_back(l.corners[k]);
+                made.traces.push_back(l.traces[k]);
+            }
+            made.corners.push_back(l.corners[end]);
+            made.traces.push_back(-1);
+            return made;
+        };
+        Loop one = part(index(from), index(to)), other = part(index(to), index(from));
+        replace(cell, std::move(one));
+        const int piece = add(std::move(other));
+        ++cut_;
+        pieces_.insert({cell, piece});
+    }
+    /// The trace along a cut: the whole of it but for what lies far beyond a tip, where the node becomes a corner.
+    void mark_cut(const Line& line, int from, int to, int trace) {
+        const double first = line.at(place(from)), last = line.at(place(to)), length = last - first;
+        std::vector<std::pair<double, double>> parts;  // of the cut that are the trace's
+        for (auto [begin, end] : line.trace) {
+            begin = std::max(begin, first);
+            end = std::min(end, last);
+            if (end - begin <= near_) continue;
+            if (parts.empty() || begin - parts.back().second > near_)
+                parts.emplace_back(begin, end);
+            else
+                parts.back().second = std::max(end, parts.back().second);
+        }
+        if (parts.empty()) return;
+        if (const double bare = parts.front().first - first; bare > near_ && bare < least_face_share * length) {
+            parts.front().first = first;
+            moved_by(bare);
+        }
+        if (const double bare = last - parts.back().second; bare > near_ && bare < least_face_share * length) {
+            parts.back().second = last;
+            moved_by(bare);
+        }
+        each_square(box_of(place(from), place(to)), [&](std::int64_t i, std::int64_t j) {
+            for (const std::size_t number : nodes_at_.at(i, j)) {
+                const int node = static_cast<int>(number);
+                if (!around(node).empty() || distance_to({place(from), place(to)}, place(node)) > near_) continue;
+                insert_into_cut(from, to, node);
+            }
+        });
+        for (const int cell : cells_near(box_of(place(from), place(to)))) {
+            Loop& l = loop(cell);
+            for (std::size_t k = 0; k < l.size(); ++k) {
+                const Point a = place(l.corners[k]), b = place(l.corners[l.next(k)]);
+                if (l.traces[k] >= 0 || std::max(std::abs(line.off(a)), std::abs(line.off(b))) > near_) continue;
+                const double middle = 0.5 * (line.at(a) + line.at(b));
+                for (const auto& [begin, end] : parts)
+                    if (middle > begin && middle < end) l.traces[k] = trace;
+            }
+        }
+    }
+    /// Between whichever of the corners along a cut it lies.
+    void insert_into_cut(int from, int to, int node) {
+        const std::set<int> cells = around(from);
+        for (const int cell : cells) {
+            const Loop& l = loop(cell);
+            for (std::size_t k = 0; k < l.size(); ++k) {
+                const int u = l.corners[k], v = l.corners[l.next(k)];
+                if (distance_to({place(from), place(to)}, place(u)) > near_ ||
+                    distance_to({place(from), place(to)}, place(v)) > near_ ||
+                    distance_to({place(u), place(v)}, place(node)) > near_)
+                    continue;
+                insert_into(u, v, node);
+                return;
+            }
+        }
+    }
+
+    /// Edges that lie on a trace before anything is cut.
+    void mark(const Line& line, int trace) {
+        const Segment s{place(line.from), place(line.to)};
+        for (const int cell : cells_near(box_of(s.a, s.b))) {
+            Loop& l = loop(cell);
+            for (std::size_t k = 0; k < l.size(); ++k) {
+                const Point a = place(l.corners[k]), b = place(l.corners[l.next(k)]);
+                if (l.traces[k] < 0 && distance_to(s, a) <= near_ && distance_to(s, b) <= near_) l.traces[k] = trace;
+            }
+        }
+    }
+
+    double area(const Loop& l) const {
+        std::vector<Point> outline;
+        for (const int corner : l.corners) outline.push_back(place(corner));
+        return polygon_area(outline);
+    }
+    void join_small_pieces() {
+        const double least = smallest_piece_share * spacing_ * spacing_;
+        std::vector<int> small;
+        for (const int piece : pieces_)
+            if (area(loop(piece)) < least) small.push_back(piece);
+        for (int piece : small) {
+            while (!loop(piece).corners.empty() && area(loop(piece)) < least) {
+                patience_.piece();
+                const int into = join(piece);
+                if (into < 0) refuse(piece, area(loop(piece)));
+                piece = into;
+            }
+        }
+    }
+    [[noreturn]] void refuse(int piece, double piece_area) {
+        std::set<int> named;
+        for (const int corner : loop(piece).corners)
+            for (const int cell : around(corner))
+                for (const int trace : loop(cell).traces)
+                    if (trace >= 0) named.insert(trace);
+        std::vector<int> traces(named.begin(), named.end());
+        const Point at = place(loop(piece).corners[0]);
+        const std::string text = fmt::format(
+            "mesh: found traces {} so near to each other, or a tip so near to a wall, that they cut off a piece of "
+            "{:.2g} "
+            "of the mean cell at ({:.9g}, {:.9g}), expected pieces of at least {} of it; remove one, move it, make the "
+            "particles smaller, or take Delaunay triangles",
+            fmt::join(traces, ", "), piece_area / (spacing_ * spacing_), at.x, at.y, smallest_piece_share);
+        throw MeshError(text, {}, std::move(traces));
+    }
+    /// To the neighbour across the longest edge that is no trace.
+    /// @return the union, -1: there is none
+    int join(int piece) {
+        const Loop l = loop(piece);
+        double longest = 0.0;
+        Loop best;
+        int best_cell = -1;
+        for (std::size_t k = 0; k < l.size(); ++k) {
+            const int u = l.corners[k], v = l.corners[l.next(k)];
+            const double length = distance(place(u), place(v));
+            if (l.traces[k] >= 0 || length <= longest) continue;
+            for (const int cell : around(u)) {
+                if (cell == piece || !around(v).contains(cell)) continue;
+                Loop both = together(l, loop(cell));
+                if (both.size() < 3 || !convex(both)) continue;
+                best = std::move(both);
+                best_cell = cell;
+                longest = length;
+            }
+        }
+        if (best_cell < 0) return -1;
+        best.centre = loop(best_cell).centre;
+        replace(best_cell, std::move(best));
+        replace(piece, {});
+        ++joined_;
+        return best_cell;
+    }
+    /// The union across the edges that both have, which follow each other; empty where one of these is a trace.
+    static Loop together(const Loop& a, const Loop& b) {
+        std::map<std::pair<int, int>, std::size_t> of_b;
+        for (std::size_t k = 0; k < b.size(); ++k) of_b[{b.corners[b.next(k)], b.corners[k]}] = k;
+        std::vector<char> shared(a.size(), 0);
+        for (std::size_t k = 0; k < a.size(); ++k) {
+            const auto found = of_b.find({a.corners[k], a.corners[a.next(k)]});
+            if (found == of_b.end()) continue;
+            if (a.traces[k] >= 0) return {};
+            shared[k] = 1;
+        }
+        Loop made;
+        for (std::size_t k = 0; k < a.size(); ++k) {
+            if (shared[a.before(k)] == 0 || shared[k] != 0) continue;  // the first edge behind the shared ones
+            if (!made.corners.empty()) return {};                      // shared twice
+            std::size_t i = k;
+            for (; shared[i] == 0; i = a.next(i)) {
+                made.corners.push_back(a.corners[i]);
+                made.traces.push_back(a.traces[i]);
+            }
+            const int turning = a.corners[i], end = a.corners[k];
+            auto j =
+                static_cast<std::size_t>(std::find(b.corners.begin(), b.corners.end(), turning) - b.corners.begin());
+            for (; b.corners[j] != end; j = b.next(j)) {
+                made.corners.push_back(b.corners[j]);
+                made.traces.push_back(b.traces[j]);
+            }
+        }
+        return made;
+    }
+
+    TracedCells result() {
+        TracedCells made;
+        for (const Loop& l : loops_) {
+            if (l.corners.empty()) continue;
+            made.cells.cells.push_back({static_cast<std::uint32_t>(made.cells.corners.size()),
+                                        static_cast<std::uint32_t>(l.size()), l.centre});
+            for (const int corner : l.corners) made.cells.corners.push_back(place(corner));
+            made.traces.insert(made.traces.end(), l.traces.begin(), l.traces.end());
+        }
+        made.cut = cut_;
+        made.joined = joined_;
+        made.ends_moved = moved_;
+        made.largest_move = largest_move_;
+        return made;
+    }
+
+    Rectangle domain_;
+    const TraceGraph& graph_;
+    std::vector<std::size_t> cut_by_;
+    Patience& patience_;
+    double spacing_, near_;
+    std::map<int, std::vector<std::size_t>> of_trace_;  // edges of the graph
+    std::vector<Line> lines_;
+    std::vector<Point> places_;  // by corner
+    std::map<std::pair<double, double>, int> numbers_;
+    std::vector<std::set<int>> around_;  // cells, by corner
+    std::vector<Loop> loops_;
+    Squares cells_at_, nodes_at_;
+    std::set<int> pieces_;
+    double largest_move_ = 0.0;
+    std::size_t moved_ = 0, cut_ = 0, joined_ = 0;
+};
+
+}  // namespace
+
+TracedCells cut_cells(const TracedCells& whole, const Rectangle& domain, const TraceGraph& graph,
+                      std::span<const std::size_t> cut_by, double spacing, Patience& patience) {
+    return CellCutter(whole, domain, graph, cut_by, spacing, patience).make();
+}
+
+}  // namespace crackle

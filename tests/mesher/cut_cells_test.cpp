@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Voronoi cells cut by traces that are too close for cells of their own: edges on both sides of every trace, whole
+// pieces that are not too small, tips where they were asked or reported.
+
+#include "mesher/cut_cells.hpp"
+
+#include "tests/mesher/jointed.hpp"
+
+namespace crackle::cut_cells_test {
+namespace {
+
+using testing::agrees;
+using testing::check;
+using testing::jointed_box;
+using testing::length_of;
+using testing::Lines;
+using testing::packing_like;
+using testing::TraceCheck;
+using testing::within;
+
+constexpr double spacing = 0.05;  // of packing_like()
+
+MeshRequest cells_with(const Lines& traces, double gap = 0.0) {
+    return testing::with_traces(MeshKind::voronoi, traces, gap);
+}
+/// Side by side, along a diagonal, some cells of it.
+Lines two_apart(double apart) {
+    return {{{0.303, 0.6}, {0.703, 0.9}},
+            {{0.303 - 0.6 * apart, 0.6 + 0.8 * apart}, {0.703 - 0.6 * apart, 0.9 + 0.8 * apart}}};
+}
+
+TEST(CutCells, HaveEdgesOnBothSidesOfTracesHalfACellApart) {
+    for (const std::uint64_t seed : {1, 2, 3, 4}) {
+        const Lines traces = two_apart(0.5 * spacing);
+        const Mesh mesh = make_mesh(packing_like(seed), jointed_box, cells_with(traces));
+        const TraceCheck found = check(mesh, traces);
+        EXPECT_TRUE(within("distance of the edges from the traces", found.off_line, 0.0, 2e-12));
+        EXPECT_TRUE(within("one side's length less the other's", found.between_sides, 0.0, 1e-9));
+        EXPECT_TRUE(agrees("areas", testing::sum_of_areas(mesh), 2.0, 1e-12));
+        EXPECT_TRUE(testing::convex_and_counter_clockwise(mesh, 2.0));
+    }
+}
+
+TEST(CutCells, OfCrowdedTracesAreCountedAndNotTooSmall) {
+    int cut = 0;
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        // A third crosses both at a small angle.
+        Lines traces = two_apart(0.2 * spacing);
+        traces.push_back({{0.3, 0.55}, {0.7, 1.0}});
+        try {
+            const Mesh mesh = make_mesh(packing_like(seed), jointed_box, cells_with(traces));
+            if (mesh.report.cells_cut == 0) continue;
+            ++cut;
+            double least = 1e300;
+            for (const Cell& cell : mesh.cells) least = std::min(least, cell.area);
+            EXPECT_GT(least, 0.02 * spacing * spacing)
+                << "rows of cells, where there are some, are at least a fifth wide";
+            double asked = 0.0;
+            for (const auto& trace : traces) asked += length_of(trace);
+            EXPECT_TRUE(within("length on traces", mesh.report.trace_length, asked,
+                               1e-9 + static_cast<double>(mesh.report.ends_moved) * mesh.report.largest_move));
+        } catch (const MeshError& error) {
+            EXPECT_FALSE(error.traces.empty()) << error.what();
+        }
+    }
+    EXPECT_GE(cut, 3);
+}
+
+TEST(CutCells, LetMostNetworksOfShortTracesBeMeshed) {
+    int meshed = 0, cut = 0;
+    for (std::uint64_t seed = 1; seed <= 50; ++seed) {
+        std::mt19937_64 generator(seed);
+        const auto number = [&] { return static_cast<double>(generator() >> 11) * 0x1.0p-53; };
+        Lines traces;
+        while (traces.size() < 20) {  // four cells long, ten to the area
+            const Point middle{0.1 + 0.8 * number(), 0.1 + 1.8 * number()};
+            const double turn = 3.14159 * number(), x = 2.0 * spacing * std::cos(turn),
+                         y = 2.0 * spacing * std::sin(turn);
+            traces.push_back({{middle.x - x, middle.y - y}, {middle.x + x, middle.y + y}});
+        }
+        try {
+            const Mesh mesh = make_mesh(packing_like(seed), jointed_box, cells_with(traces, 0.02 * spacing));
+            ++meshed;
+            if (mesh.report.cells_cut > 0) ++cut;
+        } catch (const MeshError& error) {
+            EXPECT_FALSE(error.traces.empty()) << error.what();
+        }
+    }
+    fmt::print("  {} of 50 meshed, {} of them with cells cut\n", meshed, cut);
+    EXPECT_GE(meshed, 30);
+    EXPECT_GE(cut, 5);
+}
+
+TEST(CutCells, AreRefusedByNameWhereTracesAreAThousandthOfACellApart) {
+    try {
+        make_mesh(packing_like(1), jointed_box, cells_with(two_apart(1e-3 * spacing)));
+        ADD_FAILURE() << "meshed";
+    } catch (const MeshError& error) {
+        EXPECT_EQ(error.traces, (std::vector<int>{0, 1})) << error.what();
+        EXPECT_NE(std::string(error.what()).find("cut off a piece of"), std::string::npos) << error.what();
+    }
+}
+
+TEST(CutCells, AreTheSameBytesForTheSameInput) {
+    const auto centres = packing_like(3);
+    const Mesh once = make_mesh(centres, jointed_box, cells_with(two_apart(0.5 * spacing))),
+               again = make_mesh(centres, jointed_box, cells_with(two_apart(0.5 * spacing)));
+    EXPECT_EQ(once.corners, again.corners);
+    EXPECT_EQ(once.edge_traces, again.edge_traces);
+}
+
+}  // namespace
+}  // namespace crackle::cut_cells_test
