@@ -11,6 +11,7 @@
 #include "solver/contact/batch.hpp"
 #include "solver/contact/coulomb_bond.hpp"
 #include "solver/contact/dashpot.hpp"
+#include "solver/contact/flat_face_motion.hpp"
 #include "solver/contact/friction.hpp"
 #include "solver/contact/law.hpp"
 #include "solver/contact/opening.hpp"
@@ -71,19 +72,35 @@ inline PushBounds<double> push_bounds(const World& world, const ContactPoint& po
 }
 
 /// Law of a point, with its share where it has one.
-template <ContactFeatures F>
+template <PointKind K, ContactFeatures F>
 inline Law<double> law_for(const World& world, PointIndex k) {
     const Law<double> law(world.settings.laws[world.points.state[k].law]);
-    if constexpr (F.own_shear)
-        return law.with_shares(world.points.stiffness_share[k], world.points.shear_root[k]);
-    else if constexpr (F.own_shares)
-        return law.with_share(world.points.stiffness_share[k]);
-    else
-        return law;
+    [[maybe_unused]] const auto share = [&]() -> double {
+        if constexpr (K == PointKind::face_face) return share_of_stiffness(world, k);
+        return world.points.stiffness_share[k];
+    };
+    const auto own = [&] {
+        if constexpr (F.own_shear)
+            return law.with_shares(share(), world.points.shear_root[k]);
+        else if constexpr (F.own_shares)
+            return law.with_share(share());
+        else
+            return law;
+    };
+    Law<double> found = own();
+    if constexpr (K == PointKind::face_face)  // none where they lap no more
+        found.has_shear_spring = found.shear_stiffness > 0.0;
+    return found;
+}
+
+template <PointKind K>
+inline double root_mass_for(const World& world, PointIndex k) {
+    if constexpr (K == PointKind::face_face) return root_mass_of(world, k);
+    return world.points.root_mass[k];
 }
 
 /// A coulomb bond breaks: what is left of its forces acts. record_breaks() writes that into the point.
-template <ContactFeatures F>
+template <PointKind K, ContactFeatures F>
 inline PointForce break_point(World& world, PointIndex k, PointIndex place, const Law<double>& law,
                               const ContactGeometry& g, const PointMotion& motion, BlockLosses& loss) {
     const double dt = world.stepping.drift;
@@ -94,7 +111,7 @@ inline PointForce break_point(World& world, PointIndex k, PointIndex place, cons
     double normal = broken.normal;
     if constexpr (F.damping) {
         const bool touches = normal > 0.0;
-        const double damper = touches ? normal_damping(law, world.points.root_mass[k]) * motion.closing : 0.0;
+        const double damper = touches ? normal_damping(law, root_mass_for<K>(world, k)) * motion.closing : 0.0;
         loss.dashpot[place % BlockLosses::places] +=
             dashpot_loss<double>(dt, world.points.normal_dashpot[k] + damper, motion.closing,
                                  world.points.shear_dashpot[k], motion.slipping);
@@ -114,11 +131,14 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
     const ContactPoint point = point_of<K>(world, k);
     PointState& state = world.points.state[k];
     const auto g = geometry_of_point<K>(world, k);
-    const Law<double> law = law_for<F>(world, k);
     bool bonded = false;
     if constexpr (F.bonds) bonded = (state.flags & point_bonded) != 0;
+    if constexpr (K == PointKind::face_face) loss.law -= follow_faces(world, k, point, g);
+    const Law<double> law = law_for<K, F>(world, k);
     double overlap = g.overlap;  // m, of a point without a bond beyond the one without force
     if constexpr (F.coulomb) overlap -= world.points.bond_overlap[k];
+    if constexpr (K == PointKind::face_face)
+        if (world.points.lap[k] == 0.0) overlap = std::min(overlap, 0.0);
 
     const bool held_before = bonded || (state.flags & point_touching) != 0;
     if (!held_before && overlap <= 0.0) {
@@ -131,7 +151,7 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
     if constexpr (F.coulomb) {
         const PointMotion motion{overlap, closing, slipping};
         if (bonded && bond_fails(world, k, law, motion)) {
-            out = break_point<F>(world, k, place, law, with_arms(g), motion, loss);
+            out = break_point<K, F>(world, k, place, law, with_arms(g), motion, loss);
             return;
         }
     }
@@ -172,6 +192,7 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
             // The event needs the springs as they were; record_breaks() releases the point.
         } else {
             release<F>(world, k, law, loss, slipping * dt);
+            if constexpr (K == PointKind::face_face) part_faces(world, k);
         }
         out = {0.0, 0.0, 0.0, 0.0};
         return;
@@ -181,7 +202,7 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
     double compression = overlap;  // m, what Coulomb's limit goes by
     if constexpr (F.consistent) {
         if (!bonded) {
-            if constexpr (F.damping) coming.dashpot = normal_damping(law, world.points.root_mass[k]) * closing;
+            if constexpr (F.damping) coming.dashpot = normal_damping(law, root_mass_for<K>(world, k)) * closing;
             double& last = world.points.last_normal[k];
             if (!touched || !stays_closed(law.normal_stiffness, overlap, closing, last, coming.dashpot,
                                           push_bounds<K>(world, point), kick, world.stepping.time_step)) {
@@ -229,8 +250,8 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
         }
     }
     if constexpr (F.damping) {
-        const double normal_damper = normal_damping(law, world.points.root_mass[k]) * closing;
-        const double shear_damper = shear_dashpot(law, world.points.root_mass[k], slipping, compression, sliding);
+        const double normal_damper = normal_damping(law, root_mass_for<K>(world, k)) * closing;
+        const double shear_damper = shear_dashpot(law, root_mass_for<K>(world, k), slipping, compression, sliding);
         loss.dashpot[place % BlockLosses::places] +=
             dashpot_loss(dt, world.points.normal_dashpot[k] + normal_damper, closing,
                          world.points.shear_dashpot[k] + shear_damper, slipping);
@@ -346,8 +367,10 @@ constexpr std::size_t number_of(const ContactFeatures& f) {
 /// What a kind can have: the guide's segments know of no others.
 constexpr ContactFeatures features_for(PointKind kind, ContactFeatures f) {
     if (by_guide(kind)) f.consistent = f.own_shares = f.coulomb = f.own_shear = false;
-    // Only outlines have joints: others' shares of shear stiffness are 1.
-    if (kind != PointKind::element_outline) f.own_shear = false;
+    // Only outlines and flat faces have joints: others' shares of shear stiffness are 1.
+    if (kind != PointKind::element_outline && kind != PointKind::face_face) f.own_shear = false;
+    // Joints are of coulomb bonds; before there are any, nothing of a bond is found.
+    if (kind == PointKind::face_face) return {true, f.damping, true, false, true, true, f.own_shear};
     return f;
 }
 
@@ -379,6 +402,7 @@ constexpr std::array<std::array<ForceKernel, all_sets>, point_kinds> kernels{
     kernels_of<PointKind::circle_circle>(std::make_index_sequence<all_sets>{}),
     kernels_of<PointKind::element_element>(std::make_index_sequence<all_sets>{}),
     kernels_of<PointKind::element_outline>(std::make_index_sequence<all_sets>{}),
+    kernels_of<PointKind::face_face>(std::make_index_sequence<all_sets>{}),
     kernels_of<PointKind::disc_segment>(std::make_index_sequence<all_sets>{}),
     kernels_of<PointKind::segment_segment>(std::make_index_sequence<all_sets>{}),
     kernels_of<PointKind::element_wall>(std::make_index_sequence<all_sets>{}),
@@ -386,8 +410,9 @@ constexpr std::array<std::array<ForceKernel, all_sets>, point_kinds> kernels{
 
 constexpr std::array<GeometryKernel, point_kinds> geometry_kernels{
     &geometry_block<PointKind::circle_circle>,   &geometry_block<PointKind::element_element>,
-    &geometry_block<PointKind::element_outline>, &geometry_block<PointKind::disc_segment>,
-    &geometry_block<PointKind::segment_segment>, &geometry_block<PointKind::element_wall>,
+    &geometry_block<PointKind::element_outline>, &geometry_block<PointKind::face_face>,
+    &geometry_block<PointKind::disc_segment>,    &geometry_block<PointKind::segment_segment>,
+    &geometry_block<PointKind::element_wall>,
 };
 
 }  // namespace

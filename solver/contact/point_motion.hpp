@@ -26,6 +26,8 @@ inline auto geometry_of_point(World& world, PointIndex k) {
     const ContactPoint point = point_of<K>(world, k);
     if constexpr (K == PointKind::circle_circle) {
         return single_circles_contact(world.bodies.state[point.body_i], world.bodies.state[point.body_j]);
+    } else if constexpr (K == PointKind::face_face) {
+        return flat_face_contact(world, point);
     } else {
         return contact_geometry<K>(world, point, world.points.contact.parts[k - world.points.kind_begin[1]].feature_j);
     }
@@ -53,7 +55,7 @@ inline RelativeMotion<double> motion_of_point(const World& world, const ContactP
 inline Law<double> law_of_point(const World& world, PointIndex k) {
     const Law<double> law(world.settings.laws[world.points.state[k].law]);
     if (world.points.stiffness_share.empty()) return law;
-    const double share = world.points.stiffness_share[k];
+    const double share = share_of_stiffness(world, k);
     return world.points.shear_root.empty() ? law.with_share(share) : law.with_shares(share, world.points.shear_root[k]);
 }
 

@@ -26,9 +26,18 @@ std::int32_t joint_of_trace(const World& world, std::int32_t trace) {
     return world.settings.trace_joints[static_cast<std::size_t>(trace)];
 }
 
+/// The first part of a trace on opposite sides of which two circles have flat faces, by its trace.
+std::optional<std::int32_t> trace_between_circles(const World& world, BodyIndex i, BodyIndex j) {
+    for (const FlatFace& own : world.bodies.flat_faces_of(i))
+        for (const FlatFace& other : world.bodies.flat_faces_of(j))
+            if (own.piece == other.piece && own.side != other.side) return trace_of(own.side);
+    return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<std::int32_t> trace_between(const World& world, BodyIndex i, BodyIndex j) {
+    if (!world.bodies.flat_faces.empty()) return trace_between_circles(world, i, j);
     std::optional<std::int32_t> first;
     const std::span<const TraceSide> own = sides_of(world, i);
     if (!on_trace(own)) return first;
@@ -59,6 +68,10 @@ std::optional<std::int32_t> trace_of_face(const World& world, BodyIndex i, BodyI
 std::int32_t joint_of_face(const World& world, BodyIndex i, BodyIndex j, double gap) {
     const std::optional<std::int32_t> trace = trace_of_face(world, i, j, gap);
     return trace ? joint_of_trace(world, *trace) : no_joint;
+}
+
+std::int32_t joint_of_flat_faces(const World& world, const ContactPoint& point) {
+    return joint_of_trace(world, trace_of(world.bodies.flat_faces[point.element_i].side));
 }
 
 double rest_overlap_between(const World& world, BodyIndex i, BodyIndex j) {

@@ -105,8 +105,13 @@ double length_of(const World& world, BodyIndex b, std::uint32_t element) {
 
 ContactShare share_of_contact(const World& world, PointKind kind, const ContactPoint& point) {
     ContactShare share;
-    share.length = length_of(world, point.body_i, point.element_i);
     share.distance = equivalent_radius(world, point.body_i);
+    if (kind == PointKind::face_face) {
+        share.length = 1.0;
+        share.distance += equivalent_radius(world, point.body_j);
+        return share;
+    }
+    share.length = length_of(world, point.body_i, point.element_i);
     if (kind == PointKind::element_wall) return share;
     share.distance += equivalent_radius(world, point.body_j);
     const bool circles = kind == PointKind::circle_circle || kind == PointKind::element_element;

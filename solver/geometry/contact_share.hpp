@@ -6,6 +6,7 @@
 // the size of its grains; with a stiffness in Pa/m it would fall with it.
 //
 //   two circles          L = 2 min(r_i, r_j), ℓ = r_i + r_j; against a body that is held ℓ = r
+//   flat faces           of circles across a joint: ℓ = r_i + r_j, L a metre; times the length over which they lap
 //   face to face         L the part in which two outset edges face each other: the edges before the mesh was inset;
 //                        ℓ the distance of the centroids, against a body that is held from its face
 //   corner, later met    L half the two edges that meet in it, ℓ = the sum of both bodies' √(area/π); of a body that is

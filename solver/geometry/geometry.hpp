@@ -6,13 +6,15 @@
 //     δ = r_a + r_b - d         circle-circle: both radii; circle-outline: r and thick; vertex-outline: thick/2 twice
 // the normal n = -∇d points from i to j, and the force acts midway between the two surfaces, at x + n(r_a - δ/2).
 // This is the «rounded» law: d is C¹ outside a convex outline, so the force derives from ½k_n δ². The guide's law has
-// kinds of its own, by guide_segments.hpp. Source: solver/MODEL.md 3.
+// kinds of its own, by guide_segments.hpp, and so have circles across a joint, by flat_faces.hpp. Source:
+// solver/MODEL.md 3.
 #pragma once
 
 #include <array>
 #include <cstdint>
 
 #include "solver/geometry/circle_geometry.hpp"
+#include "solver/geometry/flat_faces.hpp"
 #include "solver/geometry/guide_segments.hpp"
 #include "solver/geometry/outline_geometry.hpp"
 #include "solver/world/world.hpp"
@@ -83,6 +85,9 @@ inline ContactGeometry contact_geometry(const World& world, const ContactPoint& 
                                                   cosine * wx + sine * wy, cosine * wy - sine * wx);
         feature = facing.edge;
         return outline_contact<double>({oi.x, oi.y, wx, wy, a.radius, a.radius + a.target_reach, cosine, sine}, facing);
+    } else if constexpr (K == PointKind::face_face) {
+        return flat_face_contact(world.bodies.flat_faces[point.element_i], world.bodies.flat_faces[point.feature_j], i,
+                                 j);
     } else if constexpr (by_guide(K)) {
         DiscResultant resultant;
         const auto visit = [&](auto&& add) { visit_discs<K>(world, point, i, j, add); };
@@ -157,10 +162,11 @@ inline void visit_kinds(const std::array<PointIndex, point_kinds + 1>& kind_begi
     of_kind.template operator()<PointKind::circle_circle>();
     of_kind.template operator()<PointKind::element_element>();
     of_kind.template operator()<PointKind::element_outline>();
+    of_kind.template operator()<PointKind::face_face>();
     of_kind.template operator()<PointKind::disc_segment>();
     of_kind.template operator()<PointKind::segment_segment>();
     of_kind.template operator()<PointKind::element_wall>();
-    static_assert(point_kinds == 6);
+    static_assert(point_kinds == 7);
 }
 
 }  // namespace crackle

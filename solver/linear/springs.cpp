@@ -75,7 +75,7 @@ std::vector<Spring> springs_of(const World& world, ClosedPoints which) {
         const PointView v = view_point(world, k);
         if (!closed(world, v, which)) continue;
         const ContactLaw law = law_of(world, k);
-        const double root_mass = world.points.root_mass[k];
+        const double root_mass = root_mass_of(world, k);
         const auto add = [&](bool shear, double stiffness, double damping, const OverlapGradient& push,
                              const OverlapGradient& gradient) {
             if (stiffness == 0.0 && damping == 0.0) return;

@@ -194,14 +194,33 @@ void add_row(Block& block, const Roots& roots, const Spring& row, bool second, d
     block.add(share * row.stiffness, roots.x * row.push[d], roots.y * row.push[d + 1], roots.r * row.push[d + 2]);
 }
 
+/// Law of a point and its root mass while the list lasts: faces that slide can come to lap farther.
+struct LongestLap {
+    ContactLaw law;
+    double root_mass;  // sqrt(kg)
+};
+
+LongestLap longest_lap(const World& world, PointIndex k) {
+    constexpr auto kind = static_cast<std::size_t>(PointKind::face_face);
+    const bool faces = k >= world.points.kind_begin[kind] && k < world.points.kind_begin[kind + 1];
+    if (!faces || (world.points.state[k].flags & point_bonded) != 0) return {law_of(world, k), root_mass_of(world, k)};
+    const ContactPoint point = world.points.contact[k];
+    const FlatFace &i = world.bodies.flat_faces[point.element_i], &j = world.bodies.flat_faces[point.feature_j];
+    const double skin = world.list.half_skin_of(point.body_i) + world.list.half_skin_of(point.body_j);
+    const double now = std::max(world.points.lap[k], flat_face_contact(world, point).lap());
+    const double lap = std::min({now + skin, i.to - i.from, j.to - j.from});
+    return {law_with(world, k, world.points.stiffness_share[k] * lap), world.points.root_mass[k] * std::sqrt(lap)};
+}
+
 /// Adds a point's share to body b, one of its two.
 void add_point(BodyBlocks& blocks, const World& world, const std::vector<double>& weights, PointIndex k, BodyIndex b,
                const Roots& roots, const PointArms& arms) {
     const BodyPair& point = world.points.contact.pairs[k];
     const bool first = b == point.body_i;
     const double partner = first && with_wall(world, k) ? 0.0 : weights[first ? point.body_j : point.body_i];
-    add_side(blocks, side_of(roots, arms.normal, first ? arms.arm_i : arms.arm_j), law_of(world, k),
-             world.points.root_mass[k], share_of(weights[b], partner), !has_rows(world, k));
+    const LongestLap most = longest_lap(world, k);
+    add_side(blocks, side_of(roots, arms.normal, first ? arms.arm_i : arms.arm_j), most.law, most.root_mass,
+             share_of(weights[b], partner), !has_rows(world, k));
 }
 
 /// What a body without points is stable with: the first thing it meets, a circle head-on or a corner at the longest

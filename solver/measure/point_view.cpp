@@ -29,6 +29,8 @@ ContactGeometry geometry_of(const World& world, PointKind kind, const ContactPoi
             return contact_geometry<PointKind::element_element>(world, point, feature);
         case PointKind::element_outline:
             return contact_geometry<PointKind::element_outline>(world, point, feature);
+        case PointKind::face_face:
+            return contact_geometry<PointKind::face_face>(world, point, feature);
         case PointKind::disc_segment:
             return contact_geometry<PointKind::disc_segment>(world, point, feature);
         case PointKind::segment_segment:

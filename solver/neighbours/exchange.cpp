@@ -109,8 +109,10 @@ MergedList merge_lists(World& world, PointKind kind, Array<ContactPoint> found) 
     std::vector<KeptPoint> kept;
     OldPoints old(world, kind);
     const auto pass_unlisted = [&] {
-        // One that touched a step ago has its last force to settle, however far it has gone.
-        const bool settles = consistent && !by_guide(kind) && flagged(old.at(), point_touching) && !closed;
+        // One that touched a step ago has its last force to settle, however far it has gone. Flat faces that their
+        // circles have turned touch over a gap.
+        const bool settles = (consistent ? !by_guide(kind) : kind == PointKind::face_face) &&
+                             flagged(old.at(), point_touching) && !closed;
         if (flagged(old.at(), point_bonded) || (flagged(old.at(), point_had_bond) && !closed) || settles) {
             kept.push_back({count, old.at()});
         } else {
@@ -208,7 +210,7 @@ void open_new_contacts(World& world, const std::vector<PointIndex>& old) {
 /// for such points are more often left with a debt than with a credit.
 void pass_on_defects(World& world) {
     for (std::size_t kind = 0; kind < point_kinds; ++kind) {
-        if (by_guide(static_cast<PointKind>(kind))) continue;
+        if (!has_opening(static_cast<PointKind>(kind))) continue;
         for (PointIndex k = world.points.kind_begin[kind]; k < world.points.kind_begin[kind + 1]; ++k) {
             if ((world.points.state[k].flags & point_bonded) != 0) continue;
             const auto take = [&](BodyIndex b) {
@@ -237,7 +239,9 @@ std::size_t jointed_law(const World& world, PointIndex k, BodyIndex i, BodyIndex
     const std::size_t rock = law_between(world, i, j);
     if ((state.flags & (point_bonded | point_had_bond)) != 0)
         return state.law >= world.settings.first_joint_law() ? state.law : rock;
-    const std::int32_t joint = joint_between(world, i, j);
+    constexpr auto flat = static_cast<std::size_t>(PointKind::face_face);
+    const bool faces = k >= world.points.kind_begin[flat] && k < world.points.kind_begin[flat + 1];
+    const std::int32_t joint = faces ? joint_of_flat_faces(world, world.points.contact[k]) : joint_between(world, i, j);
     return joint == no_joint ? rock : world.settings.joint_law(rock, joint);
 }
 
@@ -264,6 +268,21 @@ template <PointKind K>
 float contact_stiffness_share(const World& world, PointIndex k) {
     const ContactShare contact = share_of_contact(world, K, world.points.contact[k]);
     return static_cast<float>(contact.stiffness() * series_shares(world, k, contact.distance).normal);
+}
+
+/// Points::lap of points that neither hold nor touch: where faces do, their last force went by it.
+void find_laps(World& world) {
+    if (world.points.lap.empty()) return;
+    visit_kinds(world.points.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
+        for (PointIndex k = begin; k < end; ++k) {
+            if constexpr (K == PointKind::face_face) {
+                if ((world.points.state[k].flags & (point_bonded | point_touching)) == 0)
+                    world.points.lap[k] = flat_face_contact(world, world.points.contact[k]).lap();
+            } else {
+                world.points.lap[k] = 1.0;
+            }
+        }
+    });
 }
 
 /// Points::shear_root of points that have none yet, contacts without a bond.
@@ -305,6 +324,7 @@ void refuse_more_than_countable(std::size_t points) {
 
 void find_point_properties(World& world) {
     find_pairs(world);
+    find_laps(world);
     find_shares(world);
     find_shear_roots(world);
 }

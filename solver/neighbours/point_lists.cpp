@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
+#include "solver/geometry/across_joint.hpp"
 #include "solver/geometry/geometry.hpp"
 #include "solver/neighbours/near_pairs.hpp"
+#include "solver/world/point_order.hpp"
 
 namespace crackle {
 namespace {
@@ -19,7 +22,9 @@ ContactPoint new_point(BodyIndex i, BodyIndex j, std::uint32_t element, std::uin
     return point;
 }
 
+/// Circles on opposite sides of a joint meet by their flat faces alone.
 void add_single_circles(const World& world, BodyIndex i, BodyIndex j, PointLists& lists) {
+    if (!world.bodies.flat_faces.empty() && trace_between(world, i, j)) return;
     const BodyState &a = world.bodies.state[i], &b = world.bodies.state[j];
     if (norm(centre_of(b) - centre_of(a)) > a.shape[0] + b.shape[0] + skin_between(world, i, j)) return;
     lists[static_cast<std::size_t>(PointKind::circle_circle)].push_back(new_point(i, j, own_circle, own_circle));
@@ -157,6 +162,48 @@ bool pass_through(const World& world, BodyIndex i, BodyIndex j) {
     return driven(i) && driven(j);
 }
 
+/// A face of a circle along its part of a trace, now.
+struct FaceNow {
+    std::uint32_t piece;
+    bool right;
+    double from, to;  // m
+    std::uint32_t face;
+};
+
+/// By part of a trace, and along it.
+std::vector<FaceNow> faces_now(const World& world) {
+    std::vector<FaceNow> faces;
+    faces.reserve(world.bodies.flat_faces.size());
+    for (const FlatFace& face : world.bodies.flat_faces) {
+        const BodyState& body = world.bodies.state[face.body];
+        const double at = body.x * face.along_x + body.y * face.along_y, half = world.list.half_skin_of(face.body);
+        faces.push_back({face.piece, (face.side & 1) != 0, at + face.from - half, at + face.to + half,
+                         static_cast<std::uint32_t>(&face - world.bodies.flat_faces.data())});
+    }
+    std::ranges::sort(faces, {}, [](const FaceNow& f) { return std::tuple(f.piece, f.from, f.face); });
+    return faces;
+}
+
+/// Flat faces that lap, or could before the list is built again, and are as near.
+void add_face_points(const World& world, PointLists& lists) {
+    auto& list = lists[static_cast<std::size_t>(PointKind::face_face)];
+    const auto meet = [&](std::uint32_t one, std::uint32_t other) {
+        const BodyIndex a = world.bodies.flat_faces[one].body, b = world.bodies.flat_faces[other].body;
+        if (both_held(world, a, b) || pass_through(world, a, b)) return;
+        const ContactPoint point = a < b ? new_point(a, b, one, other) : new_point(b, a, other, one);
+        if (flat_face_contact(world, point).closed > -skin_between(world, a, b)) list.push_back(point);
+    };
+    const std::vector<FaceNow> faces = faces_now(world);
+    std::vector<FaceNow> open[2];  // of either side, those that reach to where the sweep is
+    for (const FaceNow& face : faces) {
+        const auto behind = [&](const FaceNow& other) { return other.piece != face.piece || other.to < face.from; };
+        for (std::vector<FaceNow>& side : open) std::erase_if(side, behind);
+        for (const FaceNow& other : open[face.right ? 0 : 1]) meet(face.face, other.face);
+        open[face.right ? 1 : 0].push_back(face);
+    }
+    std::ranges::sort(list, {}, [](const ContactPoint& point) { return key_of(PointKind::face_face, point); });
+}
+
 }  // namespace
 
 PointLists list_points(const World& world, const std::vector<std::uint64_t>& pairs) {
@@ -181,6 +228,7 @@ PointLists list_points(const World& world, const std::vector<std::uint64_t>& pai
         if (chain_j) add_outline_points(world, i, j, lists);
         if (chain_i) add_outline_points(world, j, i, lists);
     }
+    if (!world.bodies.flat_faces.empty()) add_face_points(world, lists);
     for (std::size_t b = 0; b < world.bodies.size(); ++b) add_wall_points(world, static_cast<BodyIndex>(b), lists);
     return lists;
 }

@@ -4,13 +4,16 @@
 //     1/k_n = 1/k_n,face + 1/(K_n L),   1/k_s = 1/k_s,face + 1/(K_s L)       L length of the face, K stiffness a length
 //
 // so that K -> infinity with full strength is the intact face. Strengths and friction stand in place of the rock's.
-// Under BondLaw::coulomb in StiffnessUnits::area, polygons. Source: solver/MODEL.md 5.3.
+// Under BondLaw::coulomb in StiffnessUnits::area. Polygons have faces on traces; circles get flat ones
+// (geometry/flat_faces.hpp), whose stiffness is that of a face as long as they lap. Source: solver/MODEL.md 5.3, 5.4.
 // Tested by tests/solver/contact/joint_law_test.cpp.
 #pragma once
 
 #include <cstdint>
 #include <limits>
 #include <optional>
+
+#include "solver/base/vec2.hpp"
 
 namespace crackle {
 
@@ -54,5 +57,13 @@ using TraceSide = std::int32_t;
 inline constexpr TraceSide no_side = -1;
 constexpr TraceSide across(TraceSide side) { return side ^ 1; }
 constexpr std::int32_t trace_of(TraceSide side) { return side / 2; }
+
+/// A straight part of a trace among circles. Parts of a bent one follow each other, each from where the last one ends.
+struct TracePiece {
+    std::int32_t trace = 0;
+    Vec2 from, to;  // m
+    /// Whether the trace leaves the specimen there: circles in front of what would follow lie on its sides, too.
+    bool from_outside = false, to_outside = false;
+};
 
 }  // namespace crackle

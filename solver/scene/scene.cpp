@@ -179,6 +179,12 @@ struct SmallestAngles {
     double bonded = 90.0, residual = 90.0;
 };
 
+/// How far the faces of joints lie apart at most, m: in a mesh by its gap, of circles by the radius of the smallest.
+double farthest_apart(const Scene& scene) {
+    if (scene.trace_pieces.empty()) return scene.thick;
+    return std::ranges::min(scene.circles, {}, &CircleElement::radius).radius;
+}
+
 void validate_joint(const Scene& scene, const Joint& joint, const std::string& name, const SmallestAngles& rock) {
     const auto in_quadrant = [&](const char* what, double angle, double most) {
         if (!(angle >= 0.0 && angle <= most && angle < 90.0))
@@ -199,13 +205,38 @@ void validate_joint(const Scene& scene, const Joint& joint, const std::string& n
     if (!(joint.dilation_slip > 0.0)) refuse(name + "dilation slip", joint.dilation_slip, "a length > 0 in m");
     require_not_negative(name + "aperture", joint.aperture, "m");
     if (joint.aperture > 0.0 && joint.bonded) refuse(name + "aperture", joint.aperture, "0 of a bonded joint");
-    if (joint.aperture > scene.thick)
+    if (joint.aperture > farthest_apart(scene))
         refuse(name + "aperture", joint.aperture,
-               fmt::format("at most the thickness, {} m, by which the faces lie apart", scene.thick));
+               scene.trace_pieces.empty()
+                   ? fmt::format("at most the thickness, {} m, by which the faces lie apart", scene.thick)
+                   : fmt::format("at most the radius of the smallest circle, {:.6g} m", farthest_apart(scene)));
+}
+
+/// Traces among circles.
+void validate_pieces(const Scene& scene) {
+    if (scene.trace_pieces.empty()) return;
+    const auto traces = std::ssize(scene.trace_joints);
+    for (const TracePiece& piece : scene.trace_pieces) {
+        const bool known = piece.trace >= 0 && piece.trace < traces;
+        for (const double number : {piece.from.x, piece.from.y, piece.to.x, piece.to.y})
+            require_finite("trace: place", number);
+        if (!known || !(norm(piece.to - piece.from) > 0.0))
+            throw InputError(
+                fmt::format("traces: found a part of trace {} from ({}, {}) to ({}, {}), expected a length > 0 and one "
+                            "of {} traces",
+                            piece.trace, piece.from.x, piece.from.y, piece.to.x, piece.to.y, traces));
+    }
+    const bool circles = std::ranges::any_of(scene.bodies, [](const Body& body) { return body.circle_count == 1; });
+    const auto clump = std::ranges::find_if(scene.bodies, [](const Body& body) { return body.circle_count > 1; });
+    if (clump != scene.bodies.end())
+        throw InputError(fmt::format(
+            "joints: found body {}, a clump, expected single circles: only these have faces on traces", clump->id));
+    if (!circles) throw InputError("joints: found traces among circles, and no circle, expected one");
 }
 
 void validate_joints(const Scene& scene) {
-    if (scene.joints.empty() && scene.edge_sides.empty()) return;
+    if (scene.joints.empty() && scene.edge_sides.empty() && scene.trace_pieces.empty()) return;
+    validate_pieces(scene);
     if (scene.bond_law != BondLaw::coulomb || scene.units != StiffnessUnits::area) {
         if (!scene.joints.empty())
             throw InputError("joints: found them with another law, expected coulomb bonds in area units");
@@ -223,7 +254,8 @@ void validate_joints(const Scene& scene) {
     for (const Body& body : scene.bodies) {
         const auto on_trace = [&](std::uint32_t v) { return scene.edge_sides[v] != no_side; };
         const auto vertices = std::views::iota(body.first_vertex, body.first_vertex + body.vertex_count);
-        if (scene.edge_sides.empty() || std::ranges::none_of(vertices, on_trace)) continue;
+        const bool circle = !scene.trace_pieces.empty() && body.circle_count == 1;
+        if (!circle && (scene.edge_sides.empty() || std::ranges::none_of(vertices, on_trace))) continue;
         const Material& rock = scene.materials[static_cast<std::size_t>(body.material)];
         smallest.bonded = std::min(smallest.bonded, rock.friction_angle);
         smallest.residual = std::min(smallest.residual, rock.residual_friction_angle);

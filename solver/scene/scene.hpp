@@ -211,6 +211,7 @@ struct Scene {
     std::vector<Vec2> vertices;
     /// By vertex: on which side of a trace the edge to the body's next vertex lies; empty without joints.
     std::vector<TraceSide> edge_sides;
+    std::vector<TracePiece> trace_pieces;  ///< of traces among circles; polygons have edge_sides
     std::vector<Joint> joints;
     std::vector<std::int32_t> trace_joints;  ///< by trace: into joints; -1: as the rock
     std::vector<Control> controls;

@@ -41,8 +41,15 @@ std::int64_t count_interfaces(const World& world) {
     return std::distance(pairs.begin(), std::unique(pairs.begin(), pairs.end()));
 }
 
+/// Of the mean radius: rounding. Flat faces lie flush; of ones that hardly lap nothing would be left as they slide.
+constexpr double flush_share = 1e-9, least_lap_share = 0.01;
+
 /// m, at which a point is still bonded.
-double largest_gap(const World& world, const PointView& view, const Bonding& bonding) {
+double largest_gap(const World& world, PointIndex k, const PointView& view, const Bonding& bonding) {
+    if (view.kind == PointKind::face_face) {
+        const double radii = world.bodies.state[view.body_i].shape[0] + world.bodies.state[view.body_j].shape[0];
+        return world.points.lap[k] > least_lap_share * 0.5 * radii ? flush_share * radii : -radii;
+    }
     if (view.kind != PointKind::circle_circle) return bonding.gap;
     const double radii = world.bodies.state[view.body_i].shape[0] + world.bodies.state[view.body_j].shape[0];
     return bonding.range * 0.5 * radii;
@@ -62,7 +69,8 @@ void widen_skin(World& world, const Bonding& bonding) {
 
 /// What bonding finds, and does not clear.
 bool of_shares(Remembered remembered) {
-    return remembered == Remembered::own_shares || remembered == Remembered::own_shear;
+    return remembered == Remembered::own_shares || remembered == Remembered::own_shear ||
+           remembered == Remembered::between_faces;
 }
 
 bool bonded(const World& world, PointIndex k) { return (world.points.state[k].flags & point_bonded) != 0; }
@@ -92,7 +100,8 @@ PointShare share_of_point(const World& world, PointIndex k, const std::optional<
     const ContactShare share =
         face ? *face : share_of_contact(world, view_point(world, k).kind, world.points.contact[k]);
     const SeriesShares left = series_shares(world, k, share.distance);
-    return {share.stiffness() / points * left.normal, share.length / points, left.root_of_shear()};
+    const double lap = world.points.lap.empty() ? 1.0 : world.points.lap[k];
+    return {share.stiffness() / points * left.normal, share.length * lap / points, left.root_of_shear()};
 }
 
 /// Points get a share of shear stiffness of their own with the world's first bonds.
@@ -173,6 +182,13 @@ void set_strengths(World& world, const Bonding& bonding) {
     }
 }
 
+/// Laps of flat faces as they lie.
+void take_laps(World& world) {
+    constexpr auto kind = static_cast<std::size_t>(PointKind::face_face);
+    for (PointIndex k = world.points.kind_begin[kind]; k < world.points.kind_begin[kind + 1]; ++k)
+        world.points.lap[k] = flat_face_contact(world, world.points.contact[k]).lap();
+}
+
 /// The joint across which each point between bodies would be bonded; empty without joints.
 std::vector<std::int32_t> joints_of_points(const World& world, const Bonding& bonding) {
     std::vector<std::int32_t> joints;
@@ -184,13 +200,15 @@ std::vector<std::int32_t> joints_of_points(const World& world, const Bonding& bo
         double gap = std::numeric_limits<double>::infinity();
         for (PointIndex k = begin; k < end; ++k) {
             const PointView view = view_point(world, k);
-            if (view.overlap + largest_gap(world, view, bonding) > 0.0)
+            if (view.overlap + largest_gap(world, k, view, bonding) > 0.0)
                 gap = std::min(gap, world.settings.thick - view.overlap);
         }
         if (!std::isfinite(gap)) continue;
         const ContactPoint pair = world.points.contact[begin];
-        const std::int32_t joint = joint_of_face(world, pair.body_i, pair.body_j, gap);
-        for (PointIndex k = begin; k < end; ++k) joints[k] = joint;
+        const bool flat = view_point(world, begin).kind == PointKind::face_face;
+        const std::int32_t joint = flat ? no_joint : joint_of_face(world, pair.body_i, pair.body_j, gap);
+        for (PointIndex k = begin; k < end; ++k)
+            joints[k] = flat ? joint_of_flat_faces(world, world.points.contact[k]) : joint;
     }
     return joints;
 }
@@ -200,8 +218,9 @@ constexpr double facing_share = 1e-6;
 
 /// Leaves a point of an open joint without a bond, at the overlap at which its faces touch; one that overhangs is as
 /// any contact that is met later.
-void open_point(World& world, PointIndex k, const Joint& joint, double overlap, bool pressed) {
-    if (overlap < -facing_share * world.settings.thick) return;
+void open_point(World& world, PointIndex k, const Joint& joint, const PointView& view, bool pressed) {
+    const double overlap = view.overlap;
+    if (view.kind != PointKind::face_face && overlap < -facing_share * world.settings.thick) return;
     world.points.bond_overlap[k] = overlap + joint.aperture;
     const bool closed = pressed && joint.aperture == 0.0;
     world.points.state[k].flags = static_cast<std::uint16_t>(point_had_bond | (closed ? point_closed : 0));
@@ -232,6 +251,7 @@ std::int64_t bond_all(World& world, const Bonding& bonding) {
     const double skin = world.list.skin;
     widen_skin(world, bonding);
     refresh_neighbours(world);
+    take_laps(world);
     const std::vector<std::int32_t> joints = joints_of_points(world, bonding);
     begin_shear_roots(world);
     std::int64_t bonds = 0;
@@ -242,15 +262,14 @@ std::int64_t bond_all(World& world, const Bonding& bonding) {
         if (k >= world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)]) continue;
         const PointView view = view_point(world, k);
         if (!joints.empty()) world.points.bond_overlap[k] = rest_overlap_between(world, view.body_i, view.body_j);
-        if (view.overlap + largest_gap(world, view, bonding) <= 0.0) continue;
+        if (view.overlap + largest_gap(world, k, view, bonding) <= 0.0) continue;
         if (!joints.empty()) {
             const std::size_t rock = law_between(world, view.body_i, view.body_j);
             const bool of_joint = joints[k] != no_joint;
             world.points.state[k].law =
                 static_cast<std::uint16_t>(of_joint ? world.settings.joint_law(rock, joints[k]) : rock);
             if (of_joint && !world.settings.joint_of_law(world.points.state[k].law).bonded) {
-                open_point(world, k, world.settings.joint_of_law(world.points.state[k].law), view.overlap,
-                           bonding.pressed);
+                open_point(world, k, world.settings.joint_of_law(world.points.state[k].law), view, bonding.pressed);
                 continue;
             }
         }

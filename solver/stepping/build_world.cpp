@@ -14,6 +14,7 @@
 #include "solver/base/correctly_rounded.hpp"
 #include "solver/base/errors.hpp"
 #include "solver/contact/joint_law.hpp"
+#include "solver/geometry/flat_faces.hpp"
 #include "solver/linear/step_bound.hpp"
 #include "solver/measure/outside.hpp"
 #include "solver/scene/convex_pieces.hpp"
@@ -349,6 +350,7 @@ World build_world(Scene scene) {
         add_body(world, scene, scene.bodies[order[k]], properties[order[k]]);
     }
     mark_outlines(world);
+    if (!scene.trace_pieces.empty()) lay_flat_faces(world, scene.trace_pieces);
     world.bodies.state.shrink_to_fit();
     world.bodies.inertia.shrink_to_fit();
     world.bodies.names.shrink_to_fit();

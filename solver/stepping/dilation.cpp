@@ -8,19 +8,18 @@
 namespace crackle {
 namespace {
 
-constexpr auto outlines = static_cast<std::size_t>(PointKind::element_outline);
-
 /// Lets one contact slide and open. @param tangent of the dilation angle
+template <PointKind K>
 void dilate(World& world, PointIndex k, const Joint& joint, double tangent) {
     const double left = joint.dilation_slip - world.points.slip[k];  // m
     if (!(left > 0.0)) return;
-    const ContactPoint point = point_of<PointKind::element_outline>(world, k);
-    const ContactGeometry g = geometry_of_point<PointKind::element_outline>(world, k);
+    const ContactPoint point = point_of<K>(world, k);
+    const auto g = geometry_of_point<K>(world, k);
     double& rest = world.points.bond_overlap[k];
     const double overlap = g.overlap - rest;
     if (!(overlap > 0.0)) return;
     const Law<double> law = law_of_point(world, k);
-    const RelativeMotion<double> motion = motion_of_point<PointKind::element_outline>(world, point, g);
+    const RelativeMotion<double> motion = motion_of_point<K>(world, point, g);
     const double dt = world.stepping.drift;
     const ShearTrial<double> trial = try_shear_within(law, world.points.shear_force[k], motion.slipping * dt,
                                                       law.friction * spring_force(law, overlap));
@@ -37,17 +36,24 @@ void dilate(World& world, PointIndex k, const Joint& joint, double tangent) {
     if (!world.points.last_overlap.empty()) world.points.last_overlap[k].value += opening;
 }
 
-}  // namespace
-
-void dilate_joints(World& world) {
+template <PointKind K>
+void dilate_points(World& world) {
     const Settings& settings = world.settings;
     const std::size_t first = settings.first_joint_law();
-    for (PointIndex k = world.points.kind_begin[outlines]; k < world.points.kind_begin[outlines + 1]; ++k) {
+    constexpr auto kind = static_cast<std::size_t>(K);
+    for (PointIndex k = world.points.kind_begin[kind]; k < world.points.kind_begin[kind + 1]; ++k) {
         const PointState& state = world.points.state[k];
         if (state.law < first || (state.flags & (point_bonded | point_touching)) != point_touching) continue;
         const double tangent = settings.laws[state.law].dilation;
-        if (tangent > 0.0) dilate(world, k, settings.joint_of_law(state.law), tangent);
+        if (tangent > 0.0) dilate<K>(world, k, settings.joint_of_law(state.law), tangent);
     }
+}
+
+}  // namespace
+
+void dilate_joints(World& world) {
+    dilate_points<PointKind::element_outline>(world);
+    dilate_points<PointKind::face_face>(world);
 }
 
 }  // namespace crackle

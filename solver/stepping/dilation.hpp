@@ -9,7 +9,8 @@
 // that it has then. Slips are added up whatever their direction: asperities are ridden up, not down. What the normal
 // spring gains, p tan ψ times the mean of its force before and after the step, comes out of what the slider takes,
 // which stays >= 0 as ψ is at most the friction angle. ψ dilation angle, δ0 overlap without force, m.
-// A contact that a corner comes to on the face of another body begins anew.
+// A contact that a corner comes to on the face of another body, or two flat faces of circles that come to lap, begins
+// anew.
 // Source: solver/MODEL.md 5.3. Tested by tests/verification/claims_test.cpp.
 #pragma once
 

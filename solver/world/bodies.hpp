@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "solver/base/array.hpp"
@@ -135,6 +136,29 @@ struct Element {
     }
 };
 
+/// The part of a trace that a single circle stands for, before one side of it (geometry/flat_faces.hpp). It moves with
+/// the circle's centre and does not turn.
+struct FlatFace {
+    BodyIndex body;
+    std::uint32_t piece;      // of the trace's straight parts, numbered over all traces
+    TraceSide side;           // that the circle lies on
+    double from, to;          // m, its ends along the piece, from the circle's centre
+    double height;            // m, of the circle's centre above it
+    double along_x, along_y;  // unit direction of the piece
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("body", s.body);
+        visit("piece", s.piece);
+        visit("side", s.side);
+        visit("from", s.from);
+        visit("to", s.to);
+        visit("height", s.height);
+        visit("along_x", s.along_x);
+        visit("along_y", s.along_y);
+    }
+};
+
 /// A convex closed outline, or one open segment, in the body frame.
 struct Piece {
     std::uint32_t first_edge, edge_count;  // into Bodies::edges
@@ -226,6 +250,9 @@ struct Bodies {
     Array<Element> elements;  // of clumps and chains
     /// By element: on which side of a trace the edge to the outline's next corner lies. Empty without joints.
     Array<TraceSide> element_sides;
+    /// Of circles at traces, by body; those of a body from first_flat_face on. Both empty without such joints.
+    Array<FlatFace> flat_faces;
+    Array<std::uint32_t> first_flat_face;
     Array<Piece> pieces;
     Array<Edge> edges;
     bool convex_outlines = true;  // every outline is one convex piece
@@ -233,6 +260,12 @@ struct Bodies {
     std::vector<ControlState> controls;
 
     std::size_t size() const { return state.size(); }
+
+    /// Of a body.
+    std::span<const FlatFace> flat_faces_of(std::size_t b) const {
+        if (first_flat_face.empty()) return {};
+        return std::span(flat_faces).subspan(first_flat_face[b], first_flat_face[b + 1] - first_flat_face[b]);
+    }
 
     BodyInfo info(std::size_t b) const {
         const BodyName& name = names[b];
@@ -272,6 +305,8 @@ struct Bodies {
         visit("shapes", s.shapes);
         visit("elements", s.elements);
         visit("element_sides", s.element_sides);
+        visit("flat_faces", s.flat_faces);
+        visit("first_flat_face", s.first_flat_face);
         visit("pieces", s.pieces);
         visit("edges", s.edges);
         visit("convex_outlines", s.convex_outlines);

@@ -29,7 +29,7 @@
 namespace crackle {
 
 // Raise when a field of a group is added, removed or moved.
-constexpr std::uint32_t checkpoint_version = 22;
+constexpr std::uint32_t checkpoint_version = 23;
 constexpr std::uint64_t checkpoint_magic = 0x454c4b4341524321ULL;  // "!CRACKLE"
 
 template <class Archive>
@@ -95,6 +95,17 @@ constexpr std::int64_t most_steps = 1'000'000'000'000'000;  // sums of a few sta
 /// Whether a range of `count` from `first` on lies within an array.
 bool within(std::size_t first, std::size_t count, std::size_t size) { return first <= size && count <= size - first; }
 
+bool flat_faces_are_whole(const World& world) {
+    const Bodies& b = world.bodies;
+    if (b.flat_faces.empty()) return b.first_flat_face.empty();
+    const auto traces = std::ssize(world.settings.trace_joints);
+    return b.first_flat_face.size() == b.size() + 1 && b.first_flat_face.front() == 0 &&
+           b.first_flat_face.back() == b.flat_faces.size() && std::ranges::is_sorted(b.first_flat_face) &&
+           std::ranges::all_of(b.flat_faces, [&](const FlatFace& face) {
+               return face.body < b.size() && face.side >= 0 && face.side < 2 * traces;
+           });
+}
+
 bool bodies_are_whole(const World& world) {
     const Bodies& b = world.bodies;
     const std::size_t n = b.size();
@@ -128,6 +139,7 @@ bool bodies_are_whole(const World& world) {
            std::ranges::all_of(b.controls, [n](const ControlState& control) { return control.body < n; }) &&
            std::ranges::all_of(b.element_sides, [traces = std::ssize(world.settings.trace_joints)](
                                                     TraceSide side) { return side >= no_side && side < 2 * traces; }) &&
+           flat_faces_are_whole(world) &&
            std::ranges::all_of(list.size_rank, [n](std::uint32_t rank) { return rank < n; });
 }
 
@@ -148,7 +160,13 @@ bool points_are_whole(const World& world) {
                                                           : element < world.bodies.elements.size();
     };
     const auto point_is_whole = [&](PointKind kind, const ContactPoint& point) {
-        if (point.body_i >= n || !is_element(point.body_i, point.element_i)) return false;
+        const auto is_face = [&](BodyIndex body, std::uint32_t face) {
+            return face < world.bodies.flat_faces.size() && world.bodies.flat_faces[face].body == body;
+        };
+        if (point.body_i >= n) return false;
+        if (kind == PointKind::face_face)
+            return is_face(point.body_i, point.element_i) && is_face(point.body_j, point.feature_j);
+        if (!is_element(point.body_i, point.element_i)) return false;
         if (kind == PointKind::element_wall) return point.body_j < world.settings.domain.wall_present.size();
         if (point.body_j >= n) return false;
         if (kind == PointKind::element_outline) return point.feature_j < world.bodies.edges.size();

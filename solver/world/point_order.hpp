@@ -12,7 +12,9 @@
 namespace crackle {
 
 /// Whether feature_j names a part of j; of outlines it is the edge faced last, of others nothing.
-constexpr bool names_feature(PointKind kind) { return kind == PointKind::element_element || by_guide(kind); }
+constexpr bool names_feature(PointKind kind) {
+    return kind == PointKind::element_element || kind == PointKind::face_face || by_guide(kind);
+}
 
 /// Order of the points of a kind: pair, which of the two owns the element, element, partner's circle or segment.
 struct PointKey {

@@ -21,17 +21,22 @@ enum class PointKind : std::uint8_t {
     circle_circle = 0,    // two single circles
     element_element = 1,  // circles of which at least one belongs to a clump
     element_outline = 2,  // circle or vertex of body_i against the outline of body_j
+    face_face = 3,        // flat faces element_i and feature_j of two single circles across a joint
     // The guide's law only (geometry/guide_segments.hpp); a segment goes by the element it begins at.
-    disc_segment = 3,     // circle of body_i against segment feature_j of body_j
-    segment_segment = 4,  // segments element_i of body_i and feature_j of body_j
-    element_wall = 5,  // circle or vertex of body_i against a domain wall (body_j = Wall); feature_j = 1: a bare vertex
+    disc_segment = 4,     // circle of body_i against segment feature_j of body_j
+    segment_segment = 5,  // segments element_i of body_i and feature_j of body_j
+    element_wall = 6,  // circle or vertex of body_i against a domain wall (body_j = Wall); feature_j = 1: a bare vertex
 };
-inline constexpr int point_kinds = 6;
+inline constexpr int point_kinds = 7;
 
 /// Points whose force does not derive from a potential of the overlap.
 constexpr bool by_guide(PointKind kind) {
     return kind == PointKind::disc_segment || kind == PointKind::segment_segment;
 }
+
+/// Points whose opening and closing the consistent integrator looks after (contact/opening.hpp): those whose force has
+/// a potential of the overlap alone.
+constexpr bool has_opening(PointKind kind) { return !by_guide(kind) && kind != PointKind::face_face; }
 
 enum PointFlag : std::uint16_t {
     point_touching = 1,  // overlap > 0 or bonded, in the last force pass
@@ -51,9 +56,9 @@ enum PointFlag : std::uint16_t {
 struct ContactPoint {
     BodyIndex body_i;
     BodyIndex body_j;         // Wall number for element_wall
-    std::uint32_t element_i;  // for element_of()
-    std::uint32_t
-        feature_j;  // circle and segment kinds: element of j; outline: edge last faced (a hint, never physics)
+    std::uint32_t element_i;  // for element_of(); face_face: into Bodies::flat_faces
+    std::uint32_t feature_j;  // circle and segment kinds: element of j; outline: edge last faced (a hint, never
+                              // physics); face_face: into Bodies::flat_faces
 
     template <class Self, class Visit>
     static constexpr void fields(Self& s, Visit&& visit) {
@@ -205,6 +210,7 @@ enum class Remembered : std::uint8_t {
     own_shares,        // Settings::own_shares()
     own_shear,         // Settings::own_shear(), of a world with bonds
     when_dilating,     // Settings::dilates()
+    between_faces,     // with flat faces
 };
 
 struct Points {
@@ -227,6 +233,9 @@ struct Points {
     Array<float> shear_root;
     /// m, that a contact across a joint has slid, added up while it dilates; its bond_overlap is less by tan ψ of that.
     Array<double> slip;
+    /// m, over which the flat faces of a point of face_face lapped in the last force pass, of a bonded one when it was
+    /// bonded: its stiffness_share is that of a metre. 1 of other kinds.
+    Array<double> lap;
     // Dashpot forces of the last force pass, N: their work is taken by the trapezoidal rule. Floats, like strong
     // forces: they are reported, no motion follows from them, and they are much of what is moved.
     Array<float> normal_dashpot, shear_dashpot;
@@ -255,6 +264,7 @@ struct Points {
         visit("strength_share", s.strength_share, Remembered::own_shares);
         visit("shear_root", s.shear_root, Remembered::own_shear);
         visit("slip", s.slip, Remembered::when_dilating);
+        visit("lap", s.lap, Remembered::between_faces);
         visit("normal_dashpot", s.normal_dashpot, Remembered::since_bonding);
         visit("shear_dashpot", s.shear_dashpot, Remembered::since_bonding);
         visit("spring_work", s.spring_work, Remembered::by_guide_law);

@@ -24,6 +24,8 @@ bool keeps(const World& world, Remembered remembered) {
             return world.bonds.made && world.settings.own_shear();
         case Remembered::when_dilating:
             return world.settings.dilates();
+        case Remembered::between_faces:
+            return !world.bodies.flat_faces.empty();
         case Remembered::by_half_strength:
             break;
     }

@@ -6,6 +6,7 @@
 // number of threads.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 
 #include "solver/world/bodies.hpp"
@@ -66,11 +67,22 @@ inline std::size_t law_with_wall(const World& world, BodyIndex i) {
     return 2 * world.settings.pair_count() + world.bodies.names[i].material;
 }
 
-/// Law of a point with its own share of stiffness and strength.
-inline ContactLaw law_of(const World& world, PointIndex k) {
+/// Of the stiffness of a law, of a world with shares.
+inline double share_of_stiffness(const World& world, PointIndex k) {
+    const double share = world.points.stiffness_share[k];
+    return world.points.lap.empty() ? share : share * world.points.lap[k];
+}
+
+/// What damping ratios go by, sqrt(kg): Points::root_mass, of flat faces that of a metre.
+inline double root_mass_of(const World& world, PointIndex k) {
+    const double root = world.points.root_mass[k];
+    return world.points.lap.empty() ? root : root * std::sqrt(world.points.lap[k]);
+}
+
+/// Law of a point with its own share of strength. @param share of stiffness
+inline ContactLaw law_with(const World& world, PointIndex k, double share) {
     ContactLaw law = world.settings.laws[world.points.state[k].law];
-    if (world.points.stiffness_share.empty()) return law;
-    const double share = world.points.stiffness_share[k], strength = world.points.strength_share[k];
+    const double strength = world.points.strength_share[k];
     law.normal_stiffness *= share;
     law.shear_stiffness *= share;
     law.tensile_strength *= strength;
@@ -81,6 +93,12 @@ inline ContactLaw law_of(const World& world, PointIndex k) {
         law.shear_damping_ratio_term *= root;
     }
     return law;
+}
+
+/// Law of a point with its own share of stiffness and strength.
+inline ContactLaw law_of(const World& world, PointIndex k) {
+    if (world.points.stiffness_share.empty()) return world.settings.laws[world.points.state[k].law];
+    return law_with(world, k, share_of_stiffness(world, k));
 }
 
 /// Whether this world keeps the arrays of points that are `remembered` so.

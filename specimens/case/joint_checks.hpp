@@ -10,11 +10,12 @@ namespace crackle {
 /// @throws InputError «file:line: key: found X, expected Y; what to do»
 void check_joints(const TestCase& test);
 
-/// Whether a test can have joints: a mesh that fills the box, between platens; and whether their mechanics go with the
-/// rock's. @throws InputError
+/// Whether a test can have joints: circles, or a mesh that fills the box, between platens; and whether their mechanics
+/// go with the rock's. @throws InputError
 void check_jointed_specimen(const TestCase& test);
 
-/// Whether joints' apertures close within the gap of a mesh, m, where that is derived. @throws InputError
+/// Whether joints' apertures close within the gap of a mesh, m, where that is derived, or among circles within the
+/// smallest radius. @throws InputError
 void check_apertures(const TestCase& test, double gap);
 
 }  // namespace crackle

@@ -58,7 +58,8 @@ void add_mechanics(std::vector<Parameter>& all, const char* table, List list) {
         key(&Keys::dilation_slip, "dilation_slip", "m", "Slip after which they open no farther; none if not given.")
             .above(0));
     all.push_back(key(&Keys::aperture, "aperture", "m",
-                      "Of an open joint: way that its faces close without force; at most the gap of the mesh.")
+                      "Of an open joint: way that its faces close without force; at most the gap of the mesh, among "
+                      "circles the radius of the smallest.")
                       .above(0));
 }
 

@@ -129,7 +129,7 @@ std::vector<Parameter> specimen_keys() {
             .below(360),
 
         CRACKLE_KEY(joints, shortest, "m",
-                    "Traces that have less in the box are left out, for a mesh whose grains are larger; amounts are "
+                    "Traces that have less in the box are left out, for grains that are larger; amounts are "
                     "reached before. If not given the mean spacing of the grains, and none where traces are "
                     "drawn alone.")
             .above(0),

@@ -29,13 +29,35 @@ struct Side {
     double outwards;       // 1 or -1
 };
 
-/// The faces of bodies on a side, grown to meet each other and the corners: before the inset they did.
+/// Bonds of each body that linear solutions know.
+std::vector<int> bonds_of_bodies(const World& world) {
+    std::vector<int> bonds(world.bodies.size(), 0);
+    const PointIndex walls = world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
+    for (PointIndex k = 0; k < walls; ++k) {
+        if ((world.points.state[k].flags & (point_bonded | point_closed)) == 0) continue;
+        ++bonds[world.points.contact.pairs[k].body_i];
+        ++bonds[world.points.contact.pairs[k].body_j];
+    }
+    return bonds;
+}
+
+/// The faces of bodies on a side, grown to meet each other and the corners: before the inset they did. Of a circle that
+/// reaches the side it is as wide as that, unless it hangs on one bond and could bear nothing.
 std::vector<OuterFace> faces_on(const World& world, const Side& side, double inset) {
     const double near = inset + 1e-6 * (side.high - side.low);
     std::vector<OuterFace> faces;
+    const std::vector<int> bonds = bonds_of_bodies(world);
     for (BodyIndex b = 0; b < world.bodies.size(); ++b) {
         const std::vector<Vec2> corners = element_positions(world, b);
         OuterFace face{b, side.high, side.low, {}, {}};
+        if (const BodyInfo info = world.bodies.info(b); info.single_circle) {
+            const Vec2 centre = corners.front();
+            if (std::abs((side.upright ? centre.x : centre.y) - side.at) > info.reach + near) continue;
+            if (bonds[b] < 2) continue;
+            const double along = side.upright ? centre.y : centre.x;
+            faces.push_back({b, along - info.reach, along + info.reach, {}, {}});
+            continue;
+        }
         int count = 0;
         for (const Vec2 corner : corners) {
             if (std::abs((side.upright ? corner.x : corner.y) - side.at) > near) continue;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Compliance of a bonded rectangle of polygons by the linear solution under uniform tractions on its four sides:
+// Compliance of a bonded rectangle of polygons or circles by the linear solution under uniform tractions on its four
+// sides:
 //
 //     (ε_x, ε_y, γ_xy) = S (σ_x, σ_y, τ_xy)            S in 1/Pa (area units) or m/N, stress tensile positive
 //
@@ -22,8 +23,9 @@ namespace crackle {
 /// By rows: ε_x, ε_y, γ_xy; columns: σ_x, σ_y, τ_xy.
 using Compliance = std::array<std::array<double, 3>, 3>;
 
-/// @param world bonded polygons that fill `box` but for `inset`, m, by which their outer edges lie inside it
-/// @throws InputError where a side has no edges, or there is no linear solution
+/// @param world bonded polygons that fill `box` but for `inset`, m, by which their outer edges lie inside it, or
+/// circles, of which those that reach a side are pulled there @throws InputError where a side has none, or there is no
+/// linear solution
 Compliance compliance_of(const World& world, const Domain& box, double inset);
 
 /// What a persistent set adds. @param angle rad, of its traces from +x  @param spacing m

@@ -42,7 +42,9 @@ std::optional<JointedCompliance> jointed_compliance(const TestCase& test, const 
     hooks.report_work("solving for the compliance");
     found.jointed = compliance_of(bond_alone(specimen, test), box, inset);
     found.welded = compliance_of(bond_alone(specimen, test, Traces::as_rock), box, inset);
-    const JointNetwork network = make_joints(test, box, static_cast<std::size_t>(specimen.centres));
+    const std::size_t centres =
+        specimen.centres > 0 ? static_cast<std::size_t>(specimen.centres) : specimen.scene.bodies.size();
+    const JointNetwork network = make_joints(test, box, centres);
     found.why_not = not_persistent(network);
     if (!found.why_not.empty()) return found;
     const std::vector<JointTable> tables = joint_tables(test);

@@ -55,7 +55,7 @@ double mean_damping_ratio(const World& world, const TestSetup& setup) {
             continue;
         // Shares are in the root mass: the critical dashpot is 2 sqrt(k_n) times it.
         const ContactLaw& law = world.settings.laws[world.points.state[k].law];
-        const double mass = world.points.root_mass[k];
+        const double mass = root_mass_of(world, k);
         sum += (law.normal_damping + law.normal_damping_ratio_term * mass) /
                (2.0 * std::sqrt(law.normal_stiffness) * mass);
         ++count;

@@ -59,10 +59,24 @@ Stretch interface_share(const World& world, const TestSetup& setup, PointIndex b
     return {along, begin + before * share, begin + (before + 1) * share};
 }
 
+double flat_face_lap_at_start(const World& world, const TestSetup& setup, const ContactPoint& point) {
+    const auto body = [&](BodyIndex b) {
+        const StartPlace& start = setup.start[b];
+        return placed_body(world, setup, b, start.x, start.y, start.angle);
+    };
+    return flat_face_contact(world.bodies.flat_faces[point.element_i], world.bodies.flat_faces[point.feature_j],
+                             body(point.body_i), body(point.body_j))
+        .lap();
+}
+
 /// A bond's share of the face. @param held  where it is held when loading begins
 template <PointKind K>
 Stretch share_of(const World& world, const TestSetup& setup, PointIndex bond, const Facing& held) {
     const ContactPoint point = setup.bonds.at<K>(bond);
+    if constexpr (K == PointKind::face_face) {
+        const double half = 0.5 * flat_face_lap_at_start(world, setup, point);
+        return {perpendicular(held.normal), -half, half};
+    }
     if (!is_circles(world, point.body_i)) return interface_share<K>(world, setup, bond, held);
     const double radius = smaller_radius(world, K, point);
     return {perpendicular(held.normal), -radius, radius};

@@ -52,13 +52,36 @@ Joint joint_of(const TestCase::JointKeys& keys) {
     return joint;
 }
 
-void set_joints(Scene& scene, const Mesh& mesh, const JointNetwork& network, const TestCase& test) {
+namespace {
+
+/// Where walls cut traces these end exactly.
+bool on_rim(const Domain& box, Vec2 p) { return p.x == box.x1 || p.x == box.x2 || p.y == box.y1 || p.y == box.y2; }
+
+/// What each trace's faces do.
+void set_mechanics(Scene& scene, const JointNetwork& network, const TestCase& test) {
     std::vector<std::int32_t> of_source;
     for (const JointTable& table : joint_tables(test)) {
         of_source.push_back(table.keys->as_rock() ? -1 : static_cast<std::int32_t>(scene.joints.size()));
         if (!table.keys->as_rock()) scene.joints.push_back(joint_of(*table.keys));
     }
     for (const JointTrace& trace : network.traces) scene.trace_joints.push_back(of_source[trace.source]);
+}
+
+}  // namespace
+
+void set_joints_of_circles(Scene& scene, const JointNetwork& network, const TestCase& test) {
+    set_mechanics(scene, network, test);
+    for (std::size_t number = 0; number < network.traces.size(); ++number) {
+        const std::vector<Vec2>& points = network.traces[number].points;
+        for (std::size_t k = 0; k + 1 < points.size(); ++k)
+            scene.trace_pieces.push_back({static_cast<std::int32_t>(number), points[k], points[k + 1],
+                                          k == 0 && on_rim(network.box, points[k]),
+                                          k + 2 == points.size() && on_rim(network.box, points[k + 1])});
+    }
+}
+
+void set_joints(Scene& scene, const Mesh& mesh, const JointNetwork& network, const TestCase& test) {
+    set_mechanics(scene, network, test);
     for (const Cell& cell : mesh.cells) {
         const std::span<const Point> outline = mesh.outline(cell);
         for (std::size_t k = 0; k < outline.size(); ++k) {

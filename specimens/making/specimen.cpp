@@ -416,6 +416,31 @@ void mesh_specimen(Specimen& specimen, const TestCase& test, const TestHooks& ho
     record_cells(specimen, test, measure_cells(mesh), hooks);
 }
 
+/// Traces among the circles of a specimen, which have flat faces on them.
+void joint_circles(Specimen& specimen, const TestCase& test, const TestHooks& hooks) {
+    Scene& scene = specimen.scene;
+    const auto refuse = [&](const char* found) {
+        throw InputError(
+            fmt::format("{}: found {} with joints, expected circles, or a [packing] with [mesh]; remove "
+                        "[[joint_set]] and [[trace]]",
+                        test.at("particles.file"), found));
+    };
+    if (specimen.polygons) refuse("polygons");
+    if (std::ranges::any_of(scene.bodies, [](const Body& body) { return body.circle_count != 1; })) refuse("clumps");
+    const JointNetwork joints = make_joints(test, scene.domain, scene.bodies.size());
+    check_apertures(test, std::ranges::min(scene.circles, {}, &CircleElement::radius).radius);
+    set_joints_of_circles(scene, joints, test);
+    specimen.notices.insert(specimen.notices.end(), joints.notices.begin(), joints.notices.end());
+    double length = 0.0;
+    for (const JointTrace& trace : joints.traces) {
+        specimen.traces.push_back({joints.sources[trace.source].name, trace.length()});
+        length += trace.length();
+    }
+    hooks.report_stage(fmt::format("joints: {} traces of {:.6g} m among the circles", joints.traces.size(), length));
+    if (const std::string as_rock = sources_as_rock(joints, test); !as_rock.empty())
+        specimen.notices.push_back("joints without mechanics (" + as_rock + ") change nothing among circles");
+}
+
 void measure_polygons(Specimen& specimen, const TestCase& test) {
     specimen.mesh_gap = specimen.scene.thick;
     if (test.coulomb_bonds() ? test.bond.thick && *test.bond.thick < specimen.mesh_gap
@@ -569,6 +594,7 @@ Specimen make_specimen(const TestCase& test, const TestHooks& hooks) {
     } else if (specimen.polygons) {
         measure_polygons(specimen, test);
     }
+    if (!meshed && test.jointed()) joint_circles(specimen, test, hooks);
     if (specimen.polygons) hooks.report_made(polygons_file, specimen.scene);
     for (Material& material : specimen.scene.materials) scale_damping(material, test.damping_scale);
     find_sides(specimen, test);

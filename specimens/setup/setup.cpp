@@ -85,7 +85,8 @@ void record_bonds(TestSetup& setup, const World& world) {
             if ((state.flags & point_bonded) == 0) continue;
             const ContactLaw law = law_of(world, k);
             const double bond_overlap = world.points.bond_overlap[k];
-            of_kind.push_back({point, bond_overlap, own_shares ? world.points.stiffness_share[k] : 1.0F});
+            of_kind.push_back(
+                {point, bond_overlap, own_shares ? static_cast<float>(share_of_stiffness(world, k)) : 1.0F});
             if (setup.coulomb_bonds && (state.flags & point_held) == 0) {
                 tensile += law.tensile_strength;
                 cohesion += law.cohesion;

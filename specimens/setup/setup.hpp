@@ -80,7 +80,7 @@ struct TestSetup {
     ContactList bonds;
     std::vector<double> bond_overlaps;                          ///< δ0 of each, m
     std::array<PointIndex, point_kinds + 1> bond_kind_begin{};  ///< into bonds
-    std::vector<float> bond_shares;  ///< of each bond, as Points::stiffness_share; empty where all are 1
+    std::vector<float> bond_shares;  ///< of each bond, of the law's stiffness; empty where all are 1
     std::vector<std::string> notices;
     std::vector<std::pair<std::string, double>> packing;  ///< figures of the packing by name; empty for a particle file
 

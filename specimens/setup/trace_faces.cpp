@@ -61,6 +61,31 @@ std::optional<TraceFace> face_of(const World& world, PointIndex begin, PointInde
     return face;
 }
 
+/// The same of two circles, whose flat faces meet: of several, at a crossing, on the first trace.
+std::optional<TraceFace> flat_face_of(const World& world, PointIndex begin, PointIndex end) {
+    TraceFace face;
+    for (PointIndex k = begin; k < end; ++k) {
+        const std::uint16_t flags = world.points.state[k].flags;
+        if ((flags & (point_bonded | point_had_bond)) == 0) continue;
+        const ContactPoint point = world.points.contact[k];
+        const FlatFace &i = world.bodies.flat_faces[point.element_i], &j = world.bodies.flat_faces[point.feature_j];
+        const FlatFaceContact g = flat_face_contact(world, point);
+        face.bonds += (flags & point_bonded) != 0 ? 1 : 0;
+        if (face.length == 0.0) {
+            std::tie(face.i, face.j) = ordered(point.body_i, point.body_j);
+            face.trace = trace_of(i.side);
+            face.normal = (point.body_i == face.i ? 1.0 : -1.0) * Vec2{g.nx, g.ny};
+            const Vec2 along{i.along_x, i.along_y}, apart{2.0 * g.aix, 2.0 * g.aiy};
+            const double offset = dot(apart, along);  // m, of j's centre from i's
+            const double middle = 0.5 * (std::max(i.from, offset + j.from) + std::min(i.to, offset + j.to));
+            const BodyState& body = world.bodies.state[point.body_i];
+            face.middle = Vec2{body.x, body.y} + middle * along + i.height * Vec2{g.nx, g.ny};
+        }
+        face.length += g.lap();
+    }
+    return face.length > 0.0 ? std::optional(face) : std::nullopt;
+}
+
 }  // namespace
 
 FaceMotion motion_of(const TraceFace& face, const FacePlaces& start, const FacePlaces& now) {
@@ -81,7 +106,9 @@ std::vector<TraceFace> find_trace_faces(const World& world) {
     const PointIndex walls = world.points.kind_begin[static_cast<std::size_t>(PointKind::element_wall)];
     for (PointIndex begin = 0, end = 0; begin < walls; begin = end) {
         end = points_between(world, begin).second;
-        if (const std::optional<TraceFace> face = face_of(world, begin, end)) faces.push_back(*face);
+        const bool flat = view_point(world, begin).kind == PointKind::face_face;
+        const std::optional<TraceFace> face = (flat ? flat_face_of : face_of)(world, begin, end);
+        if (face) faces.push_back(*face);
     }
     std::ranges::sort(faces, {}, pair_of);
     return faces;

@@ -30,7 +30,7 @@ struct StartPlace {
     }
 };
 
-/// A face of a mesh that lies on a trace, when loading began.
+/// A face that lies on a trace, of a mesh or of two circles whose flat faces lap there, when loading began.
 struct TraceFace {
     std::int32_t trace = 0;   ///< into TestSetup::traces
     BodyIndex i = 0, j = 0;   ///< i before j

@@ -14,6 +14,7 @@
 #include "solver/stepping/build_world.hpp"
 #include "specimens/making/specimen.hpp"
 #include "tests/specimens/joints/cases.hpp"
+#include "tests/support/refusal.hpp"
 
 namespace crackle::joint_faces_test {
 namespace {
@@ -118,6 +119,44 @@ TEST(JointFaces, KeysComeToAJoint) {
     EXPECT_EQ(trace.dilation_slip, 1e-3);
     EXPECT_EQ(trace.aperture, 1e-4);
     EXPECT_EQ(joint_of({}), Joint{});
+}
+
+TEST(JointFaces, OfCirclesLieOnTheTracesThatHaveMechanics) {
+    const std::string joints =
+        "[[trace]]\npoints = [0.0, 0.1, 0.15, 0.2, 0.3, 0.42]\nfriction_angle = 20.0\n"
+        "[[trace]]\nname = \"idle\"\npoints = [0.2, 0.0, 0.1, 0.5]\n";
+    const Specimen specimen = make_specimen(case_of(area_rock + joints), {});
+    EXPECT_EQ(specimen.kind, "circles");
+    ASSERT_EQ(specimen.scene.joints.size(), 1u);
+    EXPECT_EQ(specimen.scene.trace_joints, (std::vector<std::int32_t>{0, -1}));
+    EXPECT_EQ(specimen.scene.trace_pieces.size(), 3u);
+    ASSERT_EQ(specimen.traces.size(), 2u);
+    EXPECT_NE(specimen.notices.back().find("joints without mechanics (idle) change nothing among circles"),
+              std::string::npos);
+    Scene scene = specimen.scene;
+    scene.bond_law = BondLaw::coulomb;
+    scene.units = StiffnessUnits::area;
+    const World world = build_world(scene);
+    double lengths[2] = {0.0, 0.0};
+    for (const FlatFace& face : world.bodies.flat_faces) {
+        ASSERT_EQ(trace_of(face.side), 0) << "the other has none";
+        const double radius = world.bodies.state[face.body].shape[0];
+        if (face.height != radius || face.to - face.from != 2.0 * radius) lengths[face.side] += face.to - face.from;
+    }
+    const double whole = std::hypot(0.15, 0.1) + std::hypot(0.15, 0.22);
+    fmt::print("  faces of either side: expected {} m, got {} and {}\n", whole, lengths[0], lengths[1]);
+    EXPECT_NEAR(lengths[0], whole, 1e-12);
+    EXPECT_NEAR(lengths[1], whole, 1e-12);
+}
+
+TEST(JointFaces, OfCirclesHaveAnAperturesLimit) {
+    const std::string said = testing::refusal([&] {
+        make_specimen(case_of(area_rock + "[[trace]]\npoints = [0.0, 0.2, 0.3, 0.2]\nbonded = false\naperture = 0.1\n"),
+                      {});
+    });
+    EXPECT_NE(said.find("trace[1].aperture: found 0.1 m, expected at most the radius of the smallest circle"),
+              std::string::npos)
+        << said;
 }
 
 }  // namespace

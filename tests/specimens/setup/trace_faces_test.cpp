@@ -81,13 +81,13 @@ TEST(TraceFaces, TurnWithTheMeanOfTheirBodies) {
 class JointedTest : public ::testing::Test {
   protected:
     /// Cells with a trace from side to side and another that ends within, one of them as the rock.
-    VirtualTest jointed(const std::string& of_first = "friction_angle = 20.0") const {
+    VirtualTest jointed(const std::string& of_first = "friction_angle = 20.0", const char* mesh = "voronoi") const {
         testing::SmallCase wanted;
         wanted.kind = "compression";
-        wanted.mesh = "voronoi";
+        wanted.mesh = mesh;
         wanted.material =
             "units = \"area\"\ncontact_modulus = 1e7\nstiffness_ratio = 2.5\ntensile_strength = 1.5e4\ncohesion = 5e4";
-        wanted.bond = "law = \"coulomb\"";
+        wanted.bond = "law = \"coulomb\"" + std::string(wanted.mesh.empty() ? "\nrange = 0.3" : "");
         wanted.minerals =
             "[[trace]]\npoints = [0.0, 0.15, 0.3, 0.3]\n" + of_first + "\n[[trace]]\npoints = [0.05, 0.3, 0.15, 0.4]";
         return prepare_test(read_case(testing::write_small_case(scratch_ / "", wanted)));
@@ -175,6 +175,35 @@ TEST_F(JointedTest, AnOpenTraceHasFacesWithoutBonds) {
     const std::vector<TraceMotion> motions = trace_motions(test.world, test.setup, {});
     EXPECT_EQ(motions[0].bonded, 0.0);
     EXPECT_NEAR(motions[0].opening, 0.0, 1e-16);
+}
+
+TEST_F(JointedTest, FlatFacesOfCirclesAreFacesOfTheirTrace) {
+    VirtualTest test = jointed("friction_angle = 20.0", "");
+    const TestSetup& setup = test.setup;
+    ASSERT_EQ(setup.traces.size(), 2u);
+    const Vec2 along = (1.0 / std::hypot(0.3, 0.15)) * Vec2{0.3, 0.15}, up = perpendicular(along);
+    double length = 0.0;
+    for (const TraceFace& face : setup.trace_faces) {
+        ASSERT_EQ(face.trace, 0) << "one without mechanics has no faces";
+        EXPECT_EQ(face.bonds, 1);
+        length += face.length;
+        EXPECT_NEAR(std::abs(dot(face.normal, up)), 1.0, 1e-12);
+        EXPECT_NEAR(dot(face.middle - Vec2{0.0, 0.15}, up), 0.0, 1e-12);
+    }
+    fmt::print("  expected {} m of faces, got {}\n", setup.traces[0].length, length);
+    EXPECT_NEAR(length, setup.traces[0].length, 2e-3 * length) << "but for what hardly laps";
+    EXPECT_EQ(std::ranges::count_if(setup.bond_faces, [](std::int32_t face) { return face >= 0; }),
+              std::ssize(setup.trace_faces));
+    const double opening = 1e-4, right = 2e-4;  // m
+    for (BodyIndex b = 0; b < test.world.bodies.size(); ++b) {
+        BodyState& body = test.world.bodies.state[b];
+        if (cross(along, Vec2{body.x, body.y - 0.15}) <= 0.0) continue;
+        body.x += opening * up.x + right * along.x, body.y += opening * up.y + right * along.y;
+    }
+    const std::vector<TraceMotion> motions = trace_motions(test.world, setup, {});
+    EXPECT_NEAR(motions[0].opening, opening, 1e-9 * opening);
+    EXPECT_NEAR(motions[0].slip, -right, 1e-9 * right);
+    EXPECT_EQ(motions[1].faces, 0);
 }
 
 }  // namespace

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <string_view>
+
 #include "tools/bench/verify/scenes/packed_case.hpp"
 
 namespace crackle::verification {
@@ -22,6 +24,10 @@ TestCase jointed_rock(const char* kind, std::int64_t seed) {
     test.material.cohesion = 150e6;
     test.material.friction_angle = 40.0;
     test.bond.law = "coulomb";
+    if (std::string_view(kind) == "circles") {
+        test.bond.range = bonded_range;
+        return test;
+    }
     test.mesh.kind = kind;
     test.mesh.thick = 8e-4;
     test.table_present["mesh"] = true;
