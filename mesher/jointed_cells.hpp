@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Voronoi cells of a rectangle whose edges follow traces: seeds along traces (mirrored_seeds.hpp), smaller where the
 // edges of the cells do not yet cover a trace, until they do. Where cells as small as a fifth of the spacing do not
-// fit, the trace has no seeds of its own and cuts the cells that it meets (cut_cells.hpp). Tested by
-// tests/mesher/jointed_voronoi_test.cpp.
+// fit, or would be smaller than pieces may be, the trace has no seeds of its own and cuts the cells that it meets
+// (cut_cells.hpp).
+// Tested by tests/mesher/jointed_voronoi_test.cpp.
 #pragma once
 
 #include <span>

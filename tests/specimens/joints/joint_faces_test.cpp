@@ -136,6 +136,7 @@ TEST(JointFaces, OfCirclesLieOnTheTracesThatHaveMechanics) {
     Scene scene = specimen.scene;
     scene.bond_law = BondLaw::coulomb;
     scene.units = StiffnessUnits::area;
+    scene.time_step = 0.0;  // of a rock by the packing's stiffness; to be chosen
     const World world = build_world(scene);
     double lengths[2] = {0.0, 0.0};
     for (const FlatFace& face : world.bodies.flat_faces) {

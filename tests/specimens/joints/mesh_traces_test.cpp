@@ -37,8 +37,8 @@ TEST(JointedSpecimen, HasItsTracesAsFacesAndSaysSo) {
     }));
 }
 
-// specimens/METHODS.md states 7 %: 9.5 % are of even rows of cells beside the traces. k_n/k_s = 2.5, five cells between
-// the traces; three packings, whose ratios scatter by 0.2 %.
+// specimens/METHODS.md states 6 %: 9.5 % are of even rows of cells beside the traces. k_n/k_s = 2.5, five cells between
+// the traces. Over 20 packings 5.9 %, from one to the other by 0.9 %: the mean of three lies within three deviations.
 TEST(JointedSpecimen, StraightLinesOfFacesSoftenVoronoiCellsAsStated) {
     const auto modulus = [](int seed, const std::string& joints) {
         return moduli_of(prepare_test(case_of(fmt::format(R"([packing]
@@ -77,7 +77,7 @@ max_axial_strain = 0.01
         fmt::print("  packing {}: {:.4f} of the modulus without traces\n", seed, ratio);
         mean += ratio / 3.0;
     }
-    EXPECT_TRUE(testing::within("softening", 1.0 - mean, 0.07, 0.01));
+    EXPECT_TRUE(testing::within("softening", 1.0 - mean, 0.059, 0.016));
 }
 
 TEST(JointedSpecimen, ErrorsNameTracesByTheirSource) {
