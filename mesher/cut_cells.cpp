@@ -240,6 +240,7 @@ class CellCutter {
     /// Nearest ones first: those further off find them in place.
     void put_corners_onto_traces() {
         std::vector<Segment> segments;
+        segments.reserve(lines_.size());
         for (const Line& line : lines_) segments.push_back({place(line.from), place(line.to)});
         const double reach = onto_trace_share * spacing_;
         const SegmentGrid grid(segments, reach);
@@ -403,6 +404,7 @@ class CellCutter {
     }
     double smaller_part(const Loop& l, const Line& line) const {
         std::vector<Point> left, scratch;
+        left.reserve(l.size());
         for (const int corner : l.corners) left.push_back(place(corner));
         const double nx = -line.along.y, ny = line.along.x;
         clip(left, nx, ny, nx * line.start.x + ny * line.start.y, scratch);
@@ -513,6 +515,7 @@ class CellCutter {
 
     double area(const Loop& l) const {
         std::vector<Point> outline;
+        outline.reserve(l.size());
         for (const int corner : l.corners) outline.push_back(place(corner));
         return polygon_area(outline);
     }
