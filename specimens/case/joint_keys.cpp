@@ -15,7 +15,7 @@ template <class List>
 void add_mechanics(std::vector<Parameter>& all, const char* table, List list) {
     using Keys = TestCase::JointKeys;
     using namespace declaring;
-    const auto key = [&](auto Keys::*member, const char* name, const char* unit, const char* sentence) {
+    const auto key = [&](auto member, const char* name, const char* unit, const char* sentence) {
         const auto reach_in = [list, member](TestCase& c, std::size_t entry) -> auto& {
             return list(c)[entry].own.*member;
         };
