@@ -16,8 +16,8 @@ void add_mechanics(std::vector<Parameter>& all, const char* table, List list) {
     using Keys = TestCase::JointKeys;
     using namespace declaring;
     const auto key = [&](auto member, const char* name, const char* unit, const char* sentence) {
-        const auto reach_in = [list, member](TestCase& c, std::size_t entry) -> auto& {
-            return list(c)[entry].own.*member;
+        const auto reach_in = [list, member](TestCase& c, std::size_t entry) -> decltype(auto) {
+            return (list(c)[entry].own.*member);
         };
         return With{declare(table, name, unit, reach_in, sentence)};
     };
@@ -67,8 +67,8 @@ void add_mechanics(std::vector<Parameter>& all, const char* table, List list) {
 
 std::vector<Parameter> joint_mechanics_keys() {
     std::vector<Parameter> all;
-    add_mechanics(all, "joint_set", [](TestCase& c) -> auto& { return c.joint_set; });
-    add_mechanics(all, "trace", [](TestCase& c) -> auto& { return c.trace; });
+    add_mechanics(all, "joint_set", [](TestCase& c) -> decltype(auto) { return (c.joint_set); });
+    add_mechanics(all, "trace", [](TestCase& c) -> decltype(auto) { return (c.trace); });
     return all;
 }
 
