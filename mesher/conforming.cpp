@@ -139,7 +139,8 @@ class Conforming {
     void refuse_narrow_passages(const SegmentGrid& grid) const {
         const double narrow = narrowest_share * spacing_;
         for (const TracePiece& piece : pieces_) {
-            for (const auto& [end, start] : {std::pair{piece.a, piece.b}, {piece.b, piece.a}}) {
+            for (const auto& ends : {std::pair{piece.a, piece.b}, {piece.b, piece.a}}) {
+                const auto &end = ends.first, &start = ends.second;  // clang++ 14 captures no structured bindings
                 grid.each_near(end, [&](std::size_t number) {
                     const TracePiece& other = pieces_[number];
                     const bool meets = end == other.a || end == other.b;

@@ -9,7 +9,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <ranges>
 #include <set>
 #include <span>
 #include <unordered_set>
@@ -252,10 +251,12 @@ void validate_joints(const Scene& scene) {
             scene.edge_sides.size(), scene.vertices.size()));
     SmallestAngles smallest;
     for (const Body& body : scene.bodies) {
-        const auto on_trace = [&](std::uint32_t v) { return scene.edge_sides[v] != no_side; };
-        const auto vertices = std::views::iota(body.first_vertex, body.first_vertex + body.vertex_count);
         const bool circle = !scene.trace_pieces.empty() && body.circle_count == 1;
-        if (!circle && (scene.edge_sides.empty() || std::ranges::none_of(vertices, on_trace))) continue;
+        const auto on_trace = [](TraceSide side) { return side != no_side; };
+        const auto own_sides = [&] {
+            return std::span(scene.edge_sides).subspan(body.first_vertex, body.vertex_count);
+        };
+        if (!circle && (scene.edge_sides.empty() || std::ranges::none_of(own_sides(), on_trace))) continue;
         const Material& rock = scene.materials[static_cast<std::size_t>(body.material)];
         smallest.bonded = std::min(smallest.bonded, rock.friction_angle);
         smallest.residual = std::min(smallest.residual, rock.residual_friction_angle);

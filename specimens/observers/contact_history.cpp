@@ -2,7 +2,7 @@
 #include "specimens/observers/contact_history.hpp"
 
 #include <algorithm>
-#include <ranges>
+#include <boost/iterator/counting_iterator.hpp>
 #include <stdexcept>
 #include <utility>
 
@@ -13,10 +13,11 @@ namespace crackle {
 
 PointIndex bond_of(const TestSetup& setup, PointKind kind, const ContactPoint& point) {
     const auto number = static_cast<std::size_t>(kind);
-    const auto of_kind = std::views::iota(setup.bond_kind_begin[number], setup.bond_kind_begin[number + 1]);
-    const auto key = [&](PointIndex bond) { return key_of(kind, setup.bonds[bond]); };
-    const auto found = std::ranges::lower_bound(of_kind, key_of(kind, point), {}, key);
-    const bool is_bond = found != of_kind.end() && same_point(kind, setup.bonds[*found], point);
+    const boost::counting_iterator<PointIndex> begin(setup.bond_kind_begin[number]);
+    const boost::counting_iterator<PointIndex> end(setup.bond_kind_begin[number + 1]);
+    const auto before = [&](PointIndex bond, const PointKey& key) { return key_of(kind, setup.bonds[bond]) < key; };
+    const auto found = std::lower_bound(begin, end, key_of(kind, point), before);
+    const bool is_bond = found != end && same_point(kind, setup.bonds[*found], point);
     return is_bond ? *found : static_cast<PointIndex>(setup.bonds.size());
 }
 
