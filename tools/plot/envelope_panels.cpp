@@ -142,15 +142,15 @@ Panel strengths_over_confinement(const EnvelopeFigure& figure) {
                     hoek_brown_colour(), curve_width);
         canvas.unclip();
         const auto at = [&](double s3, double s1) { return axes.at(s3 / unit.factor, s1 / unit.factor); };
-        const Colour faint = tinted(ink, 0.45);
+        const Colour pale = tinted(ink, 0.45);
         constexpr double beside = 4.5;  // pt, from the mean and its interval
         for (const StrengthPoint& test : figure.tests.compressions) {
             const Point place_of_test = at(test.confinement, test.strength);
-            canvas.circle({place_of_test.x + beside, place_of_test.y}, 1.0, &faint, nullptr, 0.0);
+            canvas.circle({place_of_test.x + beside, place_of_test.y}, 1.0, &pale, nullptr, 0.0);
         }
         for (const double tension : figure.tests.tensions) {
             const Point place_of_test = at(-tension, 0.0);
-            canvas.circle({place_of_test.x, place_of_test.y - beside}, 1.0, &faint, nullptr, 0.0);
+            canvas.circle({place_of_test.x, place_of_test.y - beside}, 1.0, &pale, nullptr, 0.0);
         }
         axes.draw(canvas, titled("confining pressure " + indexed("σ", "3"), unit.name),
                   titled("strength " + indexed("σ", "1"), unit.name));

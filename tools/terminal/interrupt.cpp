@@ -19,7 +19,7 @@ std::function<bool()>& host() {
     return hears;
 }
 
-std::atomic<bool> asked{false}, on_terminal{false};
+std::atomic<bool> stop_asked{false}, on_terminal{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "set in a signal handler");
 
 constexpr unsigned patience = 2;  // s
@@ -38,7 +38,7 @@ extern "C" void report_still_here(int /*signal*/) {
 
 extern "C" void take_down_interrupt(int /*signal*/) {
     const int reason = errno;
-    asked = true;
+    stop_asked = true;
     for (const int next : {SIGINT, SIGTERM, SIGHUP}) std::signal(next, SIG_DFL);  // whichever comes then
     std::signal(SIGALRM, report_still_here);
     ::alarm(patience);
@@ -62,6 +62,6 @@ void make_writing_fail_by_error() {
 
 void hear_interrupts_by(std::function<bool()> hears) { host() = std::move(hears); }
 
-bool interrupted() { return host() ? host()() : asked.load(); }
+bool interrupted() { return host() ? host()() : stop_asked.load(); }
 
 }  // namespace crackle::tools

@@ -42,9 +42,9 @@ TwoBlocks two_blocks(const Joint& joint, const DofControl& x, const DofControl& 
     scene.edge_sides = {no_side, no_side, 1, no_side, 0, no_side, no_side, no_side};
     scene.joints = {joint};
     scene.trace_joints = {0};
-    const DofControl still{Drive::velocity, 0.0};
-    scene.controls = {{lower, still, still, still, 0}};
-    if (x.drive != Drive::free || y.drive != Drive::free) scene.controls.push_back({upper, x, y, still, 0});
+    const DofControl at_rest{Drive::velocity, 0.0};
+    scene.controls = {{lower, at_rest, at_rest, at_rest, 0}};
+    if (x.drive != Drive::free || y.drive != Drive::free) scene.controls.push_back({upper, x, y, at_rest, 0});
     Bonding bonding;
     bonding.thick = scene.thick;
     bonding.gap = 0.05 * scene.thick;
