@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 #include <malloc.h>
+#include <poll.h>
+#include <unistd.h>
 
 #include <cerrno>
 #include <cstdio>
@@ -25,6 +27,16 @@
 extern "C" const char* __asan_default_options() { return "detect_leaks=0"; }  // NOLINT: the sanitizer's own name
 #endif
 
+namespace {
+
+/// Of the standard output, a pipe.
+bool reader_is_gone() {
+    pollfd output{STDOUT_FILENO, 0, 0};
+    return ::poll(&output, 1, 0) == 1 && (output.revents & POLLERR) != 0;
+}
+
+}  // namespace
+
 int main(int argc, char** argv) {
     using namespace crackle::tools;
     // Arrays of large specimens go back to the system when they are freed. By itself glibc soon keeps them for good:
@@ -40,7 +52,7 @@ int main(int argc, char** argv) {
         errno = 0;
         const bool written = std::cout.flush() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
         if (written || code != exit_done) return code;
-        if (errno == EPIPE) return exit_system_fails;  // `| head` has seen what it wanted
+        if (reader_is_gone()) return exit_system_fails;  // `| head` has seen what it wanted
         report_error(fmt::format("standard output: {}, expected one that takes all that is printed",
                                  errno != 0 ? std::generic_category().message(errno) : "cannot be written"));
         return exit_system_fails;
@@ -57,6 +69,10 @@ int main(int argc, char** argv) {
     } catch (const crackle::UnstableRun& error) {
         report_error(error.what());
         return exit_unstable;
+    } catch (const std::system_error& error) {
+        if (reader_is_gone()) return exit_system_fails;  // seen while printing still
+        report_error(fmt::format("{}: {}, expected to go on", argc > 1 ? argv[1] : "crackle", error.what()));
+        return exit_system_fails;
     } catch (const std::exception& error) {  // of a library, which does not know what it was asked for
         report_error(fmt::format("{}: found '{}', expected to go on; please report it with the command and its files",
                                  argc > 1 ? argv[1] : "crackle", error.what()));

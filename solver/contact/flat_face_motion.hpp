@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the force pass does to the contact of two flat faces before its force is found, and once they have parted.
 //
-// While they touch, the overlap without force follows by what the turning of the circles closes them (flat_faces.hpp).
+// While they touch, the overlap without force follows by what the turning of the circles closes them (flat_faces.hpp);
+// it goes back as they part, no faster than they do: else they would meet at once, with energy from nowhere.
 // The lap of faces without a bond follows as they slide, at what the springs are strained: the stiffness K λ changes
 // and with it the energy that they store, by what no force has done:
 //
@@ -48,11 +49,13 @@ inline double follow_faces(World& world, PointIndex k, const ContactPoint& point
     return gained;
 }
 
-/// Faces that have parted meet again where they first would, but for what they opened by as they slid.
-inline void part_faces(World& world, PointIndex k) {
+/// m, of faces without a bond that do not touch: where they meet. They opened where that has turned to, and meet there
+/// again; once they are open wider, where they first did, but for what they opened by as they slid.
+inline void part_faces(World& world, PointIndex k, const FlatFaceContact& g) {
     const PointState& state = world.points.state[k];
     if ((state.flags & point_had_bond) != 0 || state.law < world.settings.first_joint_law()) return;
-    world.points.bond_overlap[k] = world.settings.joint_of_law(state.law).aperture;
+    double& rest = world.points.bond_overlap[k];
+    rest = std::max(world.settings.joint_of_law(state.law).aperture, std::min(rest, g.closed));
 }
 
 }  // namespace crackle

@@ -143,6 +143,7 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
     const bool held_before = bonded || (state.flags & point_touching) != 0;
     if (!held_before && overlap <= 0.0) {
         if constexpr (F.consistent) world.points.last_overlap[k].value = overlap;
+        if constexpr (K == PointKind::face_face) part_faces(world, k, g);
         out = {0.0, 0.0, 0.0, 0.0};
         return;
     }
@@ -192,7 +193,7 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
             // The event needs the springs as they were; record_breaks() releases the point.
         } else {
             release<F>(world, k, law, loss, slipping * dt);
-            if constexpr (K == PointKind::face_face) part_faces(world, k);
+            if constexpr (K == PointKind::face_face) part_faces(world, k, g);
         }
         out = {0.0, 0.0, 0.0, 0.0};
         return;

@@ -13,6 +13,10 @@ namespace {
 /// from farther away than two rows of them is rubble.
 constexpr double depth_in_diameters = 2.0;
 
+/// Radii to both sides of its centre, over which a circle has a face. A row is closer than that; where one ends while
+/// its trace goes on, as in a wedge at the specimen's side, its last circle bears no more than lies before it.
+constexpr double farthest_reach = 3.0;
+
 /// A circle with fewer neighbours than this on its side, at gaps below this share of its own and their mean radius,
 /// would roll between the two sides: it goes over to the other one, if that holds it.
 constexpr int fewest_neighbours = 2;
@@ -196,8 +200,9 @@ void lay_flat_faces(World& world, std::span<const TracePiece> pieces) {
                               parts[k].along.y};
                 const std::optional<TraceShare> own = one.held ? *share++ : std::nullopt;
                 if (own) {
-                    face.from = own->from - c.foot;
-                    face.to = own->to - c.foot;
+                    const double reach = farthest_reach * c.radius;
+                    face.from = std::clamp(own->from - c.foot, -reach, reach);
+                    face.to = std::clamp(own->to - c.foot, -reach, reach);
                     face.height = c.distance;
                 } else if (!one.held) {
                     face.from = face.to = 0.0;

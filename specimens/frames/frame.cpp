@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "solver/geometry/geometry.hpp"
+#include "solver/measure/point_view.hpp"
 #include "solver/world/point_order.hpp"
 #include "specimens/observers/curve.hpp"
 
@@ -41,7 +42,6 @@ void generate(ScratchArray<T>& values, std::size_t count, const Value& value) {
 void take_loose(const TestSetup& setup, const LooseContacts& loose, const auto& target) {
     Frame& frame = target.frame;
     frame.loose.contacts.clear();
-    frame.joint_forces.clear();
     for (std::size_t kind = 0; kind < point_kinds; ++kind) {
         for (PointIndex k = loose.kind_begin[kind]; k < loose.kind_begin[kind + 1]; ++k) {
             const LooseContact& contact = loose.contacts[k];
@@ -56,6 +56,7 @@ void take_loose(const TestSetup& setup, const LooseContacts& loose, const auto& 
         }
         frame.loose.kind_begin[kind + 1] = static_cast<PointIndex>(frame.loose.contacts.size());
     }
+    std::ranges::sort(frame.joint_forces, {}, &Frame::JointForce::bond);
 }
 
 constexpr std::array<const char*, 4> pictures{"particles_", "contacts_", "cracks_", "joints_"};
@@ -78,6 +79,7 @@ void take(const World& world, const TestSetup& setup, const ContactHistory& hist
     const ContactList& bonds = setup.bonds;
     target.shear_force.assign(bonds.size(), 0.0);
     target.states.assign(bonds.size(), ContactState::broken);
+    frame.joint_forces.clear();
     visit_kinds(world.points.kind_begin, [&]<PointKind K>(PointIndex begin, PointIndex end) {
         const PointIndex first = setup.bond_kind_begin[static_cast<std::size_t>(K)];
         const PointIndex last = setup.bond_kind_begin[static_cast<std::size_t>(K) + 1];
@@ -91,6 +93,8 @@ void take(const World& world, const TestSetup& setup, const ContactHistory& hist
             if (next == last) throw std::logic_error("a bonded point is not where the start of loading listed it");
             target.shear_force[next] = world.points.shear_force[k];
             target.states[next] = (flags & point_slid) != 0 ? ContactState::bonded_slid : ContactState::bonded;
+            if constexpr (K == PointKind::face_face)
+                frame.joint_forces.push_back({next, view_point(world, k).normal_force});
         }
     });
     take_loose(setup, history.loose, target);

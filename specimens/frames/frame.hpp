@@ -28,7 +28,8 @@ inline bool holds(ContactState state) { return state <= ContactState::bonded_sli
 
 /// A moment of a test: 48 bytes a body, 9 a bond, 40 a contact without one.
 struct Frame {
-    /// Of a bond across a joint that broke and touches: LooseContact::joint_force.
+    /// Of a bond whose force the places of its bodies do not say: of flat faces, whose overlap without force follows
+    /// their turning, and of one across a joint that broke and touches (LooseContact::joint_force).
     struct JointForce {
         PointIndex bond;
         double normal;
@@ -60,7 +61,7 @@ struct Frame {
     std::vector<ContactState> states;      ///< likewise
     LooseContacts loose;                   ///< of points that were never bonded
     std::uint64_t cracks = 0;              ///< so many have come first in ContactHistory::cracks
-    std::vector<JointForce> joint_forces;  ///< by kind and in the order of keys
+    std::vector<JointForce> joint_forces;  ///< by bond
 
     template <class Self, class Visit>
     static constexpr void fields(Self& s, Visit&& visit) {

@@ -142,6 +142,17 @@ TEST_F(CommandLines, AResultThatCannotBePrintedIsNoSuccess) {
     }
 }
 
+// Who reads may stop reading at the end, or in the midst of a text longer than a pipe holds.
+TEST_F(CommandLines, AReaderThatHasSeenEnoughIsNoError) {
+    for (const char* command : {"crackle test --help", "(for i in $(seq 40); do crackle test --keys; done)"}) {
+        const Answer answer = shell(fmt::format("({}) | head -1", command));
+        EXPECT_EQ(answer.code, 0) << command;
+        EXPECT_EQ(answer.err, "") << command;
+    }
+    const Answer answer = shell("(sleep 0.2; crackle test --keys; echo $? >&2) | true");
+    EXPECT_EQ(answer.err, "4\n");
+}
+
 TEST_F(CommandLines, WhatFilesAreCalledCannotReachTheTerminal) {
     const Answer answer = shell("crackle test \"$(printf '\\033[31mred\\007.toml')\" -o out");
     EXPECT_EQ(answer.code, 2);
