@@ -164,6 +164,33 @@ TEST_F(FrameForcesOfRock, OfASpecimenUnderPressureAreThoseOfItsPoints) {
     }
 }
 
+// Between flat faces the overlap without force follows the circles' turning.
+TEST_F(FrameForcesOfRock, OfFlatFacesAreThoseOfTheirPoints) {
+    TestCase asked = read_case(std::filesystem::path(CRACKLE_SOURCE_DIR) / "specimens/jointed/softrock_welded.toml");
+    asked.loading.max_axial_strain = 0.004;  // shortly before the peak
+    VirtualTest test = prepare_test(asked);
+    load_specimen(test);
+    const Frame frame = taken(test);
+    const FrameForces forces = find_forces(PlacedFrame(test.world, test.setup, frame));
+    double worst = 0.0, largest = 0.0, turned = 0.0;
+    std::size_t flat = 0;
+    for (PointIndex k = 0; k < test.world.points.size(); ++k) {
+        const PointView view = view_point(test.world, k);
+        if (!view.bonded) continue;
+        const PointIndex bond = bond_of(test.setup, view.kind, test.world.points.contact[k]);
+        ASSERT_LT(bond, test.setup.bonds.size());
+        worst = std::max(worst, std::abs(forces.normal[bond] - view.normal_force));
+        largest = std::max(largest, std::abs(view.normal_force));
+        if (view.kind != PointKind::face_face) continue;
+        ++flat;
+        turned = std::max(turned, view.normal_stiffness * std::abs(view.bond_overlap - test.setup.bond_overlaps[bond]));
+    }
+    fmt::print("  {} flat faces; turning has taken up to {:.3g} of the largest force\n", flat, turned / largest);
+    EXPECT_GT(flat, 50U);
+    EXPECT_GT(turned, 0.01 * largest) << "else the test cannot fail";
+    EXPECT_TRUE(within("largest difference over the largest force", worst / largest, 0.0, 1e-9));
+}
+
 TEST_F(FrameForcesOfRock, FragmentsOfASpecimenSplitAcrossAreItsTwoParts) {
     for (const char* mesh : {"", "voronoi"}) {
         VirtualTest test = prepared(mesh);
