@@ -12,6 +12,7 @@
 #include <set>
 #include <utility>
 
+#include "mesher/cell_net.hpp"
 #include "mesher/inset.hpp"
 #include "mesher/place_grid.hpp"
 
@@ -24,18 +25,6 @@ constexpr double onto_trace_share = 0.25, onto_corner_share = 0.08;  // of the s
 constexpr double on_line_share = 1e-12;
 // Of a cut: what is shorter of it, on the trace or beyond its tip, is no face of its own.
 constexpr double least_face_share = 0.15;
-// Least sine of the turn at a corner that was moved.
-constexpr double least_turn_if_moved = 1e-3;
-
-struct Loop {
-    std::vector<int> corners;  // counter-clockwise
-    std::vector<int> traces;   // by the edge to the next
-    int centre = -1;
-
-    std::size_t size() const { return corners.size(); }
-    std::size_t next(std::size_t k) const { return k + 1 == corners.size() ? 0 : k + 1; }
-    std::size_t before(std::size_t k) const { return k == 0 ? corners.size() - 1 : k - 1; }
-};
 
 /// An edge of the graph as a line: distances along it, and to its left.
 struct Line {
@@ -69,7 +58,7 @@ class CellCutter {
           patience_(patience),
           spacing_(spacing),
           near_(on_line_share * coordinate_scale(domain)),
-          cells_at_(spacing),
+          net_(spacing, onto_trace_share * spacing, near_),
           nodes_at_(spacing) {
         take(whole);
         for (std::size_t e = 0; e < graph.edges.size(); ++e)
@@ -80,7 +69,7 @@ class CellCutter {
         for (const std::size_t e : cut_by_) lines_.push_back(line_of(e));
         for (const Line& line : lines_) {
             for (const int node : {line.from, line.to}) {
-                nodes_at_.add(nodes_at_.index(place(node).x), nodes_at_.index(place(node).y),
+                nodes_at_.add(nodes_at_.index(net_.place(node).x), nodes_at_.index(net_.place(node).y),
                               static_cast<std::size_t>(node));
                 insert_node(node);
             }
@@ -104,74 +93,23 @@ class CellCutter {
             loop.centre = cell.centre;
             const auto outline = whole.cells.outline(cell);
             for (std::size_t k = 0; k < outline.size(); ++k) {
-                const int corner = corner_at(outline[k]);
+                const int corner = net_.corner_at(outline[k]);
                 if (!loop.corners.empty() && loop.corners.back() == corner) continue;
                 loop.corners.push_back(corner);
                 loop.traces.push_back(whole.traces[cell.first + k]);
             }
-            add(std::move(loop));
+            net_.add(std::move(loop));
         }
     }
-    int corner_at(Point p) {
-        const auto [found, is_new] = numbers_.try_emplace({p.x, p.y}, static_cast<int>(places_.size()));
-        if (is_new) {
-            places_.push_back(p);
-            around_.emplace_back();
-        }
-        return found->second;
-    }
-    Point place(int corner) const { return places_[static_cast<std::size_t>(corner)]; }
-    std::set<int>& around(int corner) { return around_[static_cast<std::size_t>(corner)]; }
-    Loop& loop(int cell) { return loops_[static_cast<std::size_t>(cell)]; }
-
-    int add(Loop made) {
-        const int number = static_cast<int>(loops_.size());
-        for (const int corner : made.corners) around(corner).insert(number);
-        loops_.push_back(std::move(made));
-        each_square(box_of(loops_.back()),
-                    [&](std::int64_t i, std::int64_t j) { cells_at_.add(i, j, static_cast<std::size_t>(number)); });
-        return number;
-    }
-    using Box = std::pair<Point, Point>;
-    /// Its corners may be moved out of it.
-    Box box_of(const Loop& l) const {
-        const double margin = onto_trace_share * spacing_;
-        Box box{place(l.corners[0]), place(l.corners[0])};
-        for (const int corner : l.corners) {
-            const Point p = place(corner);
-            box.first = {std::min(box.first.x, p.x), std::min(box.first.y, p.y)};
-            box.second = {std::max(box.second.x, p.x), std::max(box.second.y, p.y)};
-        }
-        return {{box.first.x - margin, box.first.y - margin}, {box.second.x + margin, box.second.y + margin}};
-    }
-    static Box box_of(Point a, Point b) {
+    static CellNet::Box box_of(Point a, Point b) {
         return {{std::min(a.x, b.x), std::min(a.y, b.y)}, {std::max(a.x, b.x), std::max(a.y, b.y)}};
     }
-    template <class Use>
-    void each_square(const Box& box, Use use) const {
-        for (std::int64_t i = cells_at_.index(box.first.x); i <= cells_at_.index(box.second.x); ++i)
-            for (std::int64_t j = cells_at_.index(box.first.y); j <= cells_at_.index(box.second.y); ++j) use(i, j);
-    }
-    /// That may reach into it, in the order of their numbers.
-    std::set<int> cells_near(const Box& box) const {
-        std::set<int> cells;
-        each_square(box, [&](std::int64_t i, std::int64_t j) {
-            for (const std::size_t cell : cells_at_.at(i, j)) cells.insert(static_cast<int>(cell));
-        });
-        return cells;
-    }
-    void replace(int cell, Loop made) {
-        for (const int corner : loop(cell).corners) around(corner).erase(cell);
-        for (const int corner : made.corners) around(corner).insert(cell);
-        loop(cell) = std::move(made);
-    }
-
     /// Of cells that meet at a node that is their corner, but for rounding.
     int node_at(Point p) {
-        for (const int cell : cells_near({p, p}))
-            for (const int corner : loop(cell).corners)
-                if (distance(place(corner), p) <= near_) return corner;
-        return corner_at(p);
+        for (const int cell : net_.cells_near({p, p}))
+            for (const int corner : net_.loop(cell).corners)
+                if (distance(net_.place(corner), p) <= near_) return corner;
+        return net_.corner_at(p);
     }
     Line line_of(std::size_t e) {
         const TraceGraph::Edge& edge = graph_.edges[e];
@@ -191,43 +129,17 @@ class CellCutter {
 
     /// A node that lies on an edge of cells becomes a corner of these.
     void insert_node(int node) {
-        if (!around(node).empty()) return;
-        const Point p = place(node);
-        for (const int cell : cells_near({p, p})) {
-            const Loop& l = loop(cell);
+        if (!net_.around(node).empty()) return;
+        const Point p = net_.place(node);
+        for (const int cell : net_.cells_near({p, p})) {
+            const Loop& l = net_.loop(cell);
             for (std::size_t k = 0; k < l.size(); ++k) {
-                if (distance_to({place(l.corners[k]), place(l.corners[l.next(k)])}, p) > near_) continue;
-                insert_into(l.corners[k], l.corners[l.next(k)], node);
+                if (distance_to({net_.place(l.corners[k]), net_.place(l.corners[l.next(k)])}, p) > near_) continue;
+                net_.insert_into(l.corners[k], l.corners[l.next(k)], node);
                 return;
             }
         }
     }
-    /// Into the edge between two corners, of all cells that have it.
-    void insert_into(int u, int v, int corner) {
-        const std::set<int> cells = around(u);
-        for (const int cell : cells) {
-            Loop made = loop(cell);
-            for (std::size_t k = 0; k < made.size(); ++k) {
-                const int a = made.corners[k], b = made.corners[made.next(k)];
-                if (!((a == u && b == v) || (a == v && b == u))) continue;
-                const auto at = static_cast<std::ptrdiff_t>(k) + 1;
-                made.corners.insert(made.corners.begin() + at, corner);
-                made.traces.insert(made.traces.begin() + at, made.traces[k]);
-                replace(cell, std::move(made));
-                break;
-            }
-        }
-    }
-
-    bool on_trace(int corner) {
-        for (const int cell : around(corner)) {
-            const Loop& l = loop(cell);
-            for (std::size_t k = 0; k < l.size(); ++k)
-                if ((l.corners[k] == corner || l.corners[l.next(k)] == corner) && l.traces[k] >= 0) return true;
-        }
-        return false;
-    }
-
     struct Move {
         double away;
         int corner;
@@ -241,18 +153,17 @@ class CellCutter {
     void put_corners_onto_traces() {
         std::vector<Segment> segments;
         segments.reserve(lines_.size());
-        for (const Line& line : lines_) segments.push_back({place(line.from), place(line.to)});
+        for (const Line& line : lines_) segments.push_back({net_.place(line.from), net_.place(line.to)});
         const double reach = onto_trace_share * spacing_;
         const SegmentGrid grid(segments, reach);
         std::set<int> fixed;
         for (const Line& line : lines_) fixed.insert({line.from, line.to});
         std::vector<Move> moves;
-        for (std::size_t c = 0; c < places_.size(); ++c) {
-            const int corner = static_cast<int>(c);
-            if (fixed.contains(corner) || around(corner).empty() || on_trace(corner)) continue;
+        for (int corner = 0; corner < static_cast<int>(net_.corners()); ++corner) {
+            if (fixed.contains(corner) || net_.around(corner).empty() || net_.on_trace(corner)) continue;
             std::optional<Move> best;
-            grid.each_near(places_[c], [&](std::size_t k) {
-                const double away = distance_to(segments[k], places_[c]);
+            grid.each_near(net_.place(corner), [&](std::size_t k) {
+                const double away = distance_to(segments[k], net_.place(corner));
                 const Move move{away, corner, k};
                 if (away <= reach && (!best || move < *best)) best = move;
             });
@@ -264,40 +175,30 @@ class CellCutter {
         for (const Move& move : moves) {
             patience_.piece();
             const Line& line = lines_[move.line];
-            const Point p = place(move.corner);
+            const Point p = net_.place(move.corner);
             const double s = std::clamp(line.at(p), 0.0, line.length);
             Point target{line.start.x + s * line.along.x, line.start.y + s * line.along.y};
             const int taken = nearest_of(on[move.line], target);
-            if (distance(place(taken), target) < onto_corner_share * spacing_) {
+            if (distance(net_.place(taken), target) < onto_corner_share * spacing_) {
                 put_together(move.corner, taken);
                 continue;
             }
             const unsigned walls = sides_at(p, domain_);
             if (walls != 0) continue;  // stays on its wall
-            if (move_to(move.corner, target)) on[move.line].push_back(move.corner);
+            if (net_.move_to(move.corner, target)) on[move.line].push_back(move.corner);
         }
     }
     int nearest_of(const std::vector<int>& corners, Point p) const {
         return *std::min_element(corners.begin(), corners.end(),
-                                 [&](int a, int b) { return distance(place(a), p) < distance(place(b), p); });
-    }
-    bool move_to(int corner, Point target) {
-        const Point before = place(corner);
-        places_[static_cast<std::size_t>(corner)] = target;
-        for (const int cell : around(corner)) {
-            if (convex(loop(cell))) continue;
-            places_[static_cast<std::size_t>(corner)] = before;
-            return false;
-        }
-        return true;
+                                 [&](int a, int b) { return distance(net_.place(a), p) < distance(net_.place(b), p); });
     }
     /// A corner takes the place of another and is it from then on; neither leaves its wall.
     void put_together(int corner, int onto) {
-        const unsigned walls = sides_at(place(corner), domain_);
-        if ((walls & ~sides_at(place(onto), domain_)) != 0) return;
+        const unsigned walls = sides_at(net_.place(corner), domain_);
+        if ((walls & ~sides_at(net_.place(onto), domain_)) != 0) return;
         std::map<int, Loop> changed;
-        for (const int cell : around(corner)) {
-            Loop made = loop(cell);
+        for (const int cell : net_.around(corner)) {
+            Loop made = net_.loop(cell);
             std::replace(made.corners.begin(), made.corners.end(), corner, onto);
             for (std::size_t k = 0; k < made.size() && made.size() > 2; ++k) {
                 if (made.corners[k] != made.corners[made.next(k)]) continue;
@@ -306,46 +207,23 @@ class CellCutter {
                 --k;
             }
             const std::set<int> distinct(made.corners.begin(), made.corners.end());
-            if (made.size() < 3 || distinct.size() != made.size() || !convex(made)) return;
+            if (made.size() < 3 || distinct.size() != made.size() || !net_.convex(made)) return;
             changed.emplace(cell, std::move(made));
         }
         const bool joined = std::any_of(changed.begin(), changed.end(),
-                                        [&](const auto& cell) { return around(onto).contains(cell.first); });
-        if (around(onto).empty() ? !surrounded(changed, onto) : !joined) return;
-        for (auto& [cell, made] : changed) replace(cell, std::move(made));
+                                        [&](const auto& cell) { return net_.around(onto).contains(cell.first); });
+        if (net_.around(onto).empty() ? !surrounded(changed, onto) : !joined) return;
+        for (auto& [cell, made] : changed) net_.replace(cell, std::move(made));
     }
     /// A node within a cell becomes a corner: only if the cell whose inside it was is among those changed.
     bool surrounded(const std::map<int, Loop>& changed, int onto) {
-        for (const int cell : cells_near({place(onto), place(onto)}))
-            if (inside(loop(cell), place(onto))) return changed.contains(cell);
+        for (const int cell : net_.cells_near({net_.place(onto), net_.place(onto)}))
+            if (net_.inside(net_.loop(cell), net_.place(onto))) return changed.contains(cell);
         return true;
     }
-    bool inside(const Loop& l, Point p) const {
-        for (std::size_t k = 0; k < l.size(); ++k)
-            if (turn(place(l.corners[k]), place(l.corners[l.next(k)]), p) < 0.0) return false;
-        return true;
-    }
-
-    static double turn(Point a, Point b, Point c) {
-        return cross(Point{b.x - a.x, b.y - a.y}, Point{c.x - b.x, c.y - b.y});
-    }
-    /// Flat corners aside, which lie on the line between the two beside them.
-    bool convex(const Loop& l) const {
-        double turned_forward = 0.0;
-        for (std::size_t k = 0; k < l.size(); ++k) {
-            const Point a = place(l.corners[l.before(k)]), b = place(l.corners[k]), c = place(l.corners[l.next(k)]);
-            const double lengths = distance(a, b) * distance(b, c), turned = turn(a, b, c);
-            const bool ahead = dot(Point{b.x - a.x, b.y - a.y}, Point{c.x - b.x, c.y - b.y}) > 0.0;
-            const bool flat = ahead && std::abs(turned) <= near_ * distance(a, c);
-            if (lengths == 0.0 || (!flat && turned < least_turn_if_moved * lengths)) return false;
-            turned_forward += turned;
-        }
-        return turned_forward > 0.0;
-    }
-
     /// Cells that the open edge enters, by its line.
     void cut(const Line& line, int trace) {
-        for (const int cell : cells_near(box_of(place(line.from), place(line.to)))) {
+        for (const int cell : net_.cells_near(box_of(net_.place(line.from), net_.place(line.to)))) {
             patience_.piece();
             const std::optional<std::pair<int, int>> ends = ends_of_cut(cell, line);
             if (!ends) continue;
@@ -362,11 +240,11 @@ class CellCutter {
             Point place;
         };
         std::vector<End> ends;
-        const Loop& l = loop(cell);
+        const Loop& l = net_.loop(cell);
         double lowest = 0.0, highest = 0.0;
         for (std::size_t k = 0; k < l.size(); ++k) {
             const int u = l.corners[k], v = l.corners[l.next(k)];
-            const Point a = place(u), b = place(v);
+            const Point a = net_.place(u), b = net_.place(v);
             const double before = line.off(a), after = line.off(b);
             lowest = std::min(lowest, before);
             highest = std::max(highest, before);
@@ -386,8 +264,8 @@ class CellCutter {
         if (!enters(l, line, first.along, last.along)) return std::nullopt;
         const auto corner_of = [&](const End& end) {
             if (end.corner >= 0) return end.corner;
-            const int corner = corner_at(end.place);
-            insert_into(end.u, end.v, corner);
+            const int corner = net_.corner_at(end.place);
+            net_.insert_into(end.u, end.v, corner);
             return corner;
         };
         const int from = corner_of(first), to = corner_of(last);
@@ -405,11 +283,11 @@ class CellCutter {
     double smaller_part(const Loop& l, const Line& line) const {
         std::vector<Point> left, scratch;
         left.reserve(l.size());
-        for (const int corner : l.corners) left.push_back(place(corner));
+        for (const int corner : l.corners) left.push_back(net_.place(corner));
         const double nx = -line.along.y, ny = line.along.x;
         clip(left, nx, ny, nx * line.start.x + ny * line.start.y, scratch);
         const double part = polygon_area(left);
-        return std::min(part, area(l) - part);
+        return std::min(part, net_.area(l) - part);
     }
     void moved_by(double length) {
         ++moved_;
@@ -423,7 +301,7 @@ class CellCutter {
         return p;
     }
     void split(int cell, int from, int to) {
-        const Loop l = loop(cell);
+        const Loop l = net_.loop(cell);
         const auto index = [&](int corner) {
             return static_cast<std::size_t>(std::find(l.corners.begin(), l.corners.end(), corner) - l.corners.begin());
         };
@@ -439,14 +317,14 @@ class CellCutter {
             return made;
         };
         Loop one = part(index(from), index(to)), other = part(index(to), index(from));
-        replace(cell, std::move(one));
-        const int piece = add(std::move(other));
+        net_.replace(cell, std::move(one));
+        const int piece = net_.add(std::move(other));
         ++cut_;
         pieces_.insert({cell, piece});
     }
     /// The trace along a cut: the whole of it but for what lies far beyond a tip, where the node becomes a corner.
     void mark_cut(const Line& line, int from, int to, int trace) {
-        const double first = line.at(place(from)), last = line.at(place(to)), length = last - first;
+        const double first = line.at(net_.place(from)), last = line.at(net_.place(to)), length = last - first;
         std::vector<std::pair<double, double>> parts;  // of the cut that are the trace's
         for (auto [begin, end] : line.trace) {
             begin = std::max(begin, first);
@@ -466,17 +344,18 @@ class CellCutter {
             parts.back().second = last;
             moved_by(bare);
         }
-        each_square(box_of(place(from), place(to)), [&](std::int64_t i, std::int64_t j) {
-            for (const std::size_t number : nodes_at_.at(i, j)) {
+        net_.each_square(box_of(net_.place(from), net_.place(to)), [&](std::int64_t i, std::int64_t j) {
+            nodes_at_.each_at(i, j, [&](std::size_t number) {
                 const int node = static_cast<int>(number);
-                if (!around(node).empty() || distance_to({place(from), place(to)}, place(node)) > near_) continue;
-                insert_into_cut(from, to, node);
-            }
+                const Segment cut_line{net_.place(from), net_.place(to)};
+                if (net_.around(node).empty() && distance_to(cut_line, net_.place(node)) <= near_)
+                    insert_into_cut(from, to, node);
+            });
         });
-        for (const int cell : cells_near(box_of(place(from), place(to)))) {
-            Loop& l = loop(cell);
+        for (const int cell : net_.cells_near(box_of(net_.place(from), net_.place(to)))) {
+            Loop& l = net_.loop(cell);
             for (std::size_t k = 0; k < l.size(); ++k) {
-                const Point a = place(l.corners[k]), b = place(l.corners[l.next(k)]);
+                const Point a = net_.place(l.corners[k]), b = net_.place(l.corners[l.next(k)]);
                 if (l.traces[k] >= 0 || std::max(std::abs(line.off(a)), std::abs(line.off(b))) > near_) continue;
                 const double middle = 0.5 * (line.at(a) + line.at(b));
                 for (const auto& [begin, end] : parts)
@@ -486,16 +365,16 @@ class CellCutter {
     }
     /// Between whichever of the corners along a cut it lies.
     void insert_into_cut(int from, int to, int node) {
-        const std::set<int> cells = around(from);
+        const std::set<int> cells = net_.around(from);
         for (const int cell : cells) {
-            const Loop& l = loop(cell);
+            const Loop& l = net_.loop(cell);
             for (std::size_t k = 0; k < l.size(); ++k) {
                 const int u = l.corners[k], v = l.corners[l.next(k)];
-                if (distance_to({place(from), place(to)}, place(u)) > near_ ||
-                    distance_to({place(from), place(to)}, place(v)) > near_ ||
-                    distance_to({place(u), place(v)}, place(node)) > near_)
+                if (distance_to({net_.place(from), net_.place(to)}, net_.place(u)) > near_ ||
+                    distance_to({net_.place(from), net_.place(to)}, net_.place(v)) > near_ ||
+                    distance_to({net_.place(u), net_.place(v)}, net_.place(node)) > near_)
                     continue;
-                insert_into(u, v, node);
+                net_.insert_into(u, v, node);
                 return;
             }
         }
@@ -503,44 +382,38 @@ class CellCutter {
 
     /// Edges that lie on a trace before anything is cut.
     void mark(const Line& line, int trace) {
-        const Segment s{place(line.from), place(line.to)};
-        for (const int cell : cells_near(box_of(s.a, s.b))) {
-            Loop& l = loop(cell);
+        const Segment s{net_.place(line.from), net_.place(line.to)};
+        for (const int cell : net_.cells_near(box_of(s.a, s.b))) {
+            Loop& l = net_.loop(cell);
             for (std::size_t k = 0; k < l.size(); ++k) {
-                const Point a = place(l.corners[k]), b = place(l.corners[l.next(k)]);
+                const Point a = net_.place(l.corners[k]), b = net_.place(l.corners[l.next(k)]);
                 if (l.traces[k] < 0 && distance_to(s, a) <= near_ && distance_to(s, b) <= near_) l.traces[k] = trace;
             }
         }
     }
 
-    double area(const Loop& l) const {
-        std::vector<Point> outline;
-        outline.reserve(l.size());
-        for (const int corner : l.corners) outline.push_back(place(corner));
-        return polygon_area(outline);
-    }
     void join_small_pieces() {
         const double least = smallest_piece_share * spacing_ * spacing_;
         std::vector<int> small;
         for (const int piece : pieces_)
-            if (area(loop(piece)) < least) small.push_back(piece);
+            if (net_.area(net_.loop(piece)) < least) small.push_back(piece);
         for (int piece : small) {
-            while (!loop(piece).corners.empty() && area(loop(piece)) < least) {
+            while (!net_.loop(piece).corners.empty() && net_.area(net_.loop(piece)) < least) {
                 patience_.piece();
                 const int into = join(piece);
-                if (into < 0) refuse(piece, area(loop(piece)));
+                if (into < 0) refuse(piece, net_.area(net_.loop(piece)));
                 piece = into;
             }
         }
     }
     [[noreturn]] void refuse(int piece, double piece_area) {
         std::set<int> named;
-        for (const int corner : loop(piece).corners)
-            for (const int cell : around(corner))
-                for (const int trace : loop(cell).traces)
+        for (const int corner : net_.loop(piece).corners)
+            for (const int cell : net_.around(corner))
+                for (const int trace : net_.loop(cell).traces)
                     if (trace >= 0) named.insert(trace);
         std::vector<int> traces(named.begin(), named.end());
-        const Point at = place(loop(piece).corners[0]);
+        const Point at = net_.place(net_.loop(piece).corners[0]);
         const std::string text = fmt::format(
             "mesh: found traces {} so near to each other, or a tip so near to a wall, that they cut off a piece of "
             "{:.2g} "
@@ -552,68 +425,37 @@ class CellCutter {
     /// To the neighbour across the longest edge that is no trace.
     /// @return the union, -1: there is none
     int join(int piece) {
-        const Loop l = loop(piece);
+        const Loop l = net_.loop(piece);
         double longest = 0.0;
         Loop best;
         int best_cell = -1;
         for (std::size_t k = 0; k < l.size(); ++k) {
             const int u = l.corners[k], v = l.corners[l.next(k)];
-            const double length = distance(place(u), place(v));
+            const double length = distance(net_.place(u), net_.place(v));
             if (l.traces[k] >= 0 || length <= longest) continue;
-            for (const int cell : around(u)) {
-                if (cell == piece || !around(v).contains(cell)) continue;
-                Loop both = together(l, loop(cell));
-                if (both.size() < 3 || !convex(both)) continue;
+            for (const int cell : net_.around(u)) {
+                if (cell == piece || !net_.around(v).contains(cell)) continue;
+                Loop both = CellNet::together(l, net_.loop(cell));
+                if (both.size() < 3 || !net_.convex(both)) continue;
                 best = std::move(both);
                 best_cell = cell;
                 longest = length;
             }
         }
         if (best_cell < 0) return -1;
-        best.centre = loop(best_cell).centre;
-        replace(best_cell, std::move(best));
-        replace(piece, {});
+        best.centre = net_.loop(best_cell).centre;
+        net_.replace(best_cell, std::move(best));
+        net_.replace(piece, {});
         ++joined_;
         return best_cell;
     }
-    /// The union across the edges that both have, which follow each other; empty where one of these is a trace.
-    static Loop together(const Loop& a, const Loop& b) {
-        std::map<std::pair<int, int>, std::size_t> of_b;
-        for (std::size_t k = 0; k < b.size(); ++k) of_b[{b.corners[b.next(k)], b.corners[k]}] = k;
-        std::vector<char> shared(a.size(), 0);
-        for (std::size_t k = 0; k < a.size(); ++k) {
-            const auto found = of_b.find({a.corners[k], a.corners[a.next(k)]});
-            if (found == of_b.end()) continue;
-            if (a.traces[k] >= 0) return {};
-            shared[k] = 1;
-        }
-        Loop made;
-        for (std::size_t k = 0; k < a.size(); ++k) {
-            if (shared[a.before(k)] == 0 || shared[k] != 0) continue;  // the first edge behind the shared ones
-            if (!made.corners.empty()) return {};                      // shared twice
-            std::size_t i = k;
-            for (; shared[i] == 0; i = a.next(i)) {
-                made.corners.push_back(a.corners[i]);
-                made.traces.push_back(a.traces[i]);
-            }
-            const int turning = a.corners[i], end = a.corners[k];
-            auto j =
-                static_cast<std::size_t>(std::find(b.corners.begin(), b.corners.end(), turning) - b.corners.begin());
-            for (; b.corners[j] != end; j = b.next(j)) {
-                made.corners.push_back(b.corners[j]);
-                made.traces.push_back(b.traces[j]);
-            }
-        }
-        return made;
-    }
-
     TracedCells result() {
         TracedCells made;
-        for (const Loop& l : loops_) {
+        for (const Loop& l : net_.loops()) {
             if (l.corners.empty()) continue;
             made.cells.cells.push_back({static_cast<std::uint32_t>(made.cells.corners.size()),
                                         static_cast<std::uint32_t>(l.size()), l.centre});
-            for (const int corner : l.corners) made.cells.corners.push_back(place(corner));
+            for (const int corner : l.corners) made.cells.corners.push_back(net_.place(corner));
             made.traces.insert(made.traces.end(), l.traces.begin(), l.traces.end());
         }
         made.cut = cut_;
@@ -628,13 +470,10 @@ class CellCutter {
     std::vector<std::size_t> cut_by_;
     Patience& patience_;
     double spacing_, near_;
+    CellNet net_;
     std::map<int, std::vector<std::size_t>> of_trace_;  // edges of the graph
     std::vector<Line> lines_;
-    std::vector<Point> places_;  // by corner
-    std::map<std::pair<double, double>, int> numbers_;
-    std::vector<std::set<int>> around_;  // cells, by corner
-    std::vector<Loop> loops_;
-    Squares cells_at_, nodes_at_;
+    Squares nodes_at_;
     std::set<int> pieces_;
     double largest_move_ = 0.0;
     std::size_t moved_ = 0, cut_ = 0, joined_ = 0;

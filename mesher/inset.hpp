@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Inset of a convex polygon: every edge moves inwards by the same depth.
+// Inset of a convex polygon: every edge moves inwards by the same depth. And what else is done to polygons: cut by a
+// line, measured, held against the sides of a domain. Tested by tests/mesher/voronoi_test.cpp.
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "mesher/mesher.hpp"
 
 namespace crackle {
+
+/// Of one rounding, relative.
+inline constexpr double relative_rounding = std::numeric_limits<double>::epsilon();
 
 /// Insets polygons one after another with the same working memory.
 class Inset {
@@ -43,5 +48,20 @@ double inscribed_radius(std::span<const Point> outline, double coordinate_scale)
 
 /// Signed area by the shoelace formula about the first corner, m2; positive counter-clockwise.
 double polygon_area(std::span<const Point> outline);
+
+/// Keeps the part of a convex polygon for which nx·x + ny·y >= offset. @param scratch working memory
+void clip(std::vector<Point>& polygon, double nx, double ny, double offset, std::vector<Point>& scratch);
+
+/// A side's bit, or none.
+inline unsigned side_if(bool set, SideBit side) { return set ? unsigned{side} : 0U; }
+
+/// Bits of the sides on which a point lies.
+inline unsigned sides_at(Point p, const Rectangle& domain) {
+    return side_if(p.x == domain.x1, side_left) | side_if(p.x == domain.x2, side_right) |
+           side_if(p.y == domain.y1, side_bottom) | side_if(p.y == domain.y2, side_top);
+}
+
+/// Bits of the sides on which the polygon has an edge.
+std::uint8_t sides_of(std::span<const Point> polygon, const Rectangle& domain);
 
 }  // namespace crackle

@@ -129,7 +129,9 @@ class JointedPartition {
             const Segment& s = grid_.segments()[e];
             const std::int64_t i = squares.index(0.5 * (s.a.x + s.b.x)), j = squares.index(0.5 * (s.a.y + s.b.y));
             squares.add(i, j, e);
-            if (static_cast<double>(squares.at(i, j).size()) > 1.0 / smallest_piece_share) refuse(e);
+            double crowd = 0.0;
+            squares.each_at(i, j, [&](std::size_t) { crowd += 1.0; });
+            if (crowd > 1.0 / smallest_piece_share) refuse(e);
         }
     }
     /// A seed a cell, in the order of the seeds that they grew from.

@@ -26,6 +26,7 @@ constexpr double widest_half_angle = pi / 3.0;  // of a pair on a ring: three se
 // no place on it further from one.
 constexpr double clear_share = 2.0, least_offset_share = 0.3, bare_share = 0.95;
 constexpr double shortest_own_share = 2.0;  // of a stretch with own seeds
+constexpr double beside_step_share = 1.0;   // between the places along an edge from which others are looked for
 
 struct Arm {
     double angle;  // rad, away from the node
@@ -62,7 +63,7 @@ class SeedPlacing {
           graph_(graph),
           spacing_(spacing),
           shrink_(shrink),
-          edges_(segments_of(graph), 2.0 * spacing),
+          edges_(segments_of(graph), (clear_share + 0.5 * beside_step_share) * spacing),
           arms_(graph.nodes.size()) {
         for (std::size_t e = 0; e < graph.edges.size(); ++e) {
             add_arm(graph.edges[e].from, graph.edges[e].to, e);
@@ -105,16 +106,47 @@ class SeedPlacing {
     }
     bool inside(Point p) const { return p.x > domain_.x1 && p.x < domain_.x2 && p.y > domain_.y1 && p.y < domain_.y2; }
 
-    /// Half the width of a row there, by what is neither this edge nor one that goes on from it straight.
-    double half_width(std::size_t edge, Point p) const {
-        double least = half_width_share * spacing_ * shrink_[edge];
-        edges_.each_near(p, [&](std::size_t other) {
-            if (other == edge || goes_on(edge, other)) return;
+    /// An edge of the graph as a line with distances along it, and to its left.
+    struct Line {
+        Point start, along;
+        double length;
+        Point at(double s, double off = 0.0) const {
+            return {start.x + s * along.x - off * along.y, start.y + s * along.y + off * along.x};
+        }
+    };
+    Line line_of(std::size_t e) const {
+        const Point a = node(graph_.edges[e].from), b = node(graph_.edges[e].to);
+        const double length = distance(a, b);
+        return {a, {(b.x - a.x) / length, (b.y - a.y) / length}, length};
+    }
+
+    /// An edge beside another, with the share of its distance that half a row's width may have.
+    struct Beside {
+        Segment segment;
+        double share;
+    };
+    /// All that lies within clear_share of an edge, but for the edge itself and ones that go on from it straight.
+    std::vector<Beside> edges_beside(std::size_t edge, const Line& line) const {
+        std::vector<std::size_t> others;
+        const double step = beside_step_share * spacing_;
+        for (double s = 0.0; s < line.length + step; s += step)
+            edges_.each_near(line.at(std::min(s, line.length)), [&](std::size_t other) { others.push_back(other); });
+        std::ranges::sort(others);
+        others.erase(std::unique(others.begin(), others.end()), others.end());
+        std::vector<Beside> beside;
+        for (const std::size_t other : others) {
+            if (other == edge || goes_on(edge, other)) continue;
             const double share = graph_.edges[other].trace < 0 ? wall_share
                                  : meet(edge, other)           ? fork_share
                                                                : passage_share;
-            least = std::min(least, share * distance_to(edges_.segments()[other], p));
-        });
+            beside.push_back({edges_.segments()[other], share});
+        }
+        return beside;
+    }
+    /// Half the width of a row there.
+    double half_width(std::size_t edge, const std::vector<Beside>& beside, Point p) const {
+        double least = half_width_share * spacing_ * shrink_[edge];
+        for (const Beside& other : beside) least = std::min(least, other.share * distance_to(other.segment, p));
         return std::max(least, narrowest_strip_share * half_width_share * spacing_);
     }
     bool meet(std::size_t edge, std::size_t other) const {
@@ -187,19 +219,6 @@ class SeedPlacing {
         return least;
     }
 
-    /// An edge of the graph as a line with distances along it, and to its left.
-    struct Line {
-        Point start, along;
-        double length;
-        Point at(double s, double off = 0.0) const {
-            return {start.x + s * along.x - off * along.y, start.y + s * along.y + off * along.x};
-        }
-    };
-    Line line_of(std::size_t e) const {
-        const Point a = node(graph_.edges[e].from), b = node(graph_.edges[e].to);
-        const double length = distance(a, b);
-        return {a, {(b.x - a.x) / length, (b.y - a.y) / length}, length};
-    }
     /// Part of an edge along which the packing's own seeds are mirrored.
     struct OwnStretch {
         std::size_t edge;
@@ -213,6 +232,7 @@ class SeedPlacing {
         const NodeRing &first = rings_[static_cast<std::size_t>(edge.from)],
                        &last = rings_[static_cast<std::size_t>(edge.to)];
         const Line line = line_of(e);
+        const std::vector<Beside> beside = edges_beside(e, line);
         double from = first.radius * direction_at(first.half_angle).x;
         const double to = line.length - last.radius * direction_at(last.half_angle).x;
         const double step = 0.1 * spacing_;
@@ -221,48 +241,45 @@ class SeedPlacing {
         const double start = from;
         for (std::size_t k = 0; k <= steps; ++k) {
             const double s = k == steps ? to : start + static_cast<double>(k) * step;
-            const bool clear = is_clear(e, line.at(s));
+            const bool clear = is_clear(e, beside, line.at(s));
             if (clear && begin < 0.0) begin = s;
             if (begin < 0.0 || (clear && k < steps)) continue;
             if (s - begin >= shortest_own_share * spacing_) {
                 own.push_back({e, line, begin, s});
                 if (begin > from) {
-                    place_even(e, line, from, begin);
-                    place_pair(line, begin, half_width(e, line.at(begin)));
+                    place_even(e, line, beside, from, begin);
+                    place_pair(line, begin, half_width(e, beside, line.at(begin)));
                 }
-                if (s < to) place_pair(line, s, half_width(e, line.at(s)));
+                if (s < to) place_pair(line, s, half_width(e, beside, line.at(s)));
                 from = s;
             }
             begin = -1.0;
         }
-        if (from < to) place_even(e, line, from, to);
+        if (from < to) place_even(e, line, beside, from, to);
     }
     /// No other edge is near, but what goes straight on.
-    bool is_clear(std::size_t edge, Point p) const {
-        if (shrink_[edge] < 1.0) return false;
-        bool clear = true;
-        edges_.each_near(p, [&](std::size_t other) {
-            if (other == edge || goes_on(edge, other)) return;
-            clear = clear && distance_to(edges_.segments()[other], p) >= clear_share * spacing_;
-        });
-        return clear;
+    bool is_clear(std::size_t edge, const std::vector<Beside>& beside, Point p) const {
+        return shrink_[edge] >= 1.0 && std::ranges::none_of(beside, [&](const Beside& other) {
+                   return distance_to(other.segment, p) < clear_share * spacing_;
+               });
     }
 
-    void place_even(std::size_t e, const Line& line, double from, double to) {
+    void place_even(std::size_t e, const Line& line, const std::vector<Beside>& beside, double from, double to) {
         // Steps of a tenth of the spacing; a pair after each whole count of widths, which are made to fit.
         const auto steps = static_cast<std::size_t>(std::ceil(std::max(1.0, 20.0 * (to - from) / spacing_)));
         std::vector<double> count{0.0};
         const double step = (to - from) / static_cast<double>(steps);
         for (std::size_t k = 0; k < steps; ++k)
             count.push_back(count.back() +
-                            step / (2.0 * half_width(e, line.at(from + (static_cast<double>(k) + 0.5) * step))));
+                            step /
+                                (2.0 * half_width(e, beside, line.at(from + (static_cast<double>(k) + 0.5) * step))));
         const auto pairs = std::max(1L, std::lround(count.back()));  // gaps between them
         std::size_t k = 0;
         for (long pair = 1; pair < pairs; ++pair) {
             const double wanted = count.back() * static_cast<double>(pair) / static_cast<double>(pairs);
             while (k + 1 < steps && count[k + 1] < wanted) ++k;
             const double s = from + step * (static_cast<double>(k) + (wanted - count[k]) / (count[k + 1] - count[k]));
-            place_pair(line, s, half_width(e, line.at(s)));
+            place_pair(line, s, half_width(e, beside, line.at(s)));
         }
     }
     void place_pair(const Line& line, double s, double off) {

@@ -27,6 +27,8 @@
 #include <limits>
 #include <utility>
 
+#include "mesher/inset.hpp"
+
 namespace crackle {
 namespace {
 
@@ -500,6 +502,10 @@ Triangles Partition::triangles(Boundary boundary) {
 }
 
 }  // namespace
+
+double coordinate_scale(const Rectangle& domain) {
+    return std::max({std::abs(domain.x1), std::abs(domain.x2), std::abs(domain.y1), std::abs(domain.y2)});
+}
 
 VoronoiCells voronoi_cells(std::span<const CellCentre> centres, const Rectangle& domain, Patience& patience) {
     return Partition(centres, domain, patience).cells();

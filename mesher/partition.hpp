@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "mesher/inset.hpp"
 #include "mesher/mesher.hpp"
 #include "mesher/patience.hpp"
 
@@ -43,24 +44,6 @@ VoronoiCells voronoi_cells(std::span<const CellCentre> centres, const Rectangle&
 /// @throws MeshError on coincident centres. The centres are finite and inside the domain.
 Triangles delaunay_triangles(std::span<const CellCentre> centres, const Rectangle& domain, Boundary boundary,
                              Patience& patience);
-
-/// Keeps the part of a convex polygon for which nx·x + ny·y >= offset. @param scratch working memory
-void clip(std::vector<Point>& polygon, double nx, double ny, double offset, std::vector<Point>& scratch);
-
-/// A side's bit, or none.
-inline unsigned side_if(bool set, SideBit side) { return set ? unsigned{side} : 0U; }
-
-/// Bits of the sides on which a point lies.
-inline unsigned sides_at(Point p, const Rectangle& domain) {
-    return side_if(p.x == domain.x1, side_left) | side_if(p.x == domain.x2, side_right) |
-           side_if(p.y == domain.y1, side_bottom) | side_if(p.y == domain.y2, side_top);
-}
-
-/// Bits of the sides on which the polygon has an edge.
-std::uint8_t sides_of(std::span<const Point> polygon, const Rectangle& domain);
-
-/// Of one rounding, relative.
-inline constexpr double relative_rounding = std::numeric_limits<double>::epsilon();
 
 /// Largest coordinate of the domain: rounding errors of positions are a few relative_rounding of it.
 double coordinate_scale(const Rectangle& domain);

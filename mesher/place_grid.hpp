@@ -7,7 +7,6 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -25,25 +24,58 @@ inline double distance_to(const Segment& s, Point p) {
     return distance(p, {s.a.x + share * dx, s.a.y + share * dy});
 }
 
-/// Numbers by the squares of a grid. Two squares may share an entry (their keys are 64 bits of two numbers): what comes
-/// with them is further away and must be told by its distance.
+/// Numbers by the squares of a grid, in one table: a list a bucket, each in the order of adding.
 class Squares {
   public:
-    explicit Squares(double size) : size_(size) {}
+    explicit Squares(double size) : size_(size), lists_(64) {}
     std::int64_t index(double x) const { return static_cast<std::int64_t>(std::floor(x / size_)); }
-    void add(std::int64_t i, std::int64_t j, std::size_t number) { squares_[key(i, j)].push_back(number); }
-    const std::vector<std::size_t>& at(std::int64_t i, std::int64_t j) const {
-        static const std::vector<std::size_t> none;
-        const auto found = squares_.find(key(i, j));
-        return found == squares_.end() ? none : found->second;
+    void add(std::int64_t i, std::int64_t j, std::size_t number) {
+        if (entries_.size() == lists_.size()) grow();
+        entries_.push_back({i, j, number, none});
+        append(static_cast<std::uint32_t>(entries_.size() - 1));
+    }
+    /// Calls use(number).
+    template <class Use>
+    void each_at(std::int64_t i, std::int64_t j, Use use) const {
+        for (std::uint32_t e = lists_[bucket(i, j)].first; e != none; e = entries_[e].next)
+            if (entries_[e].i == i && entries_[e].j == j) use(entries_[e].number);
     }
 
   private:
-    static std::uint64_t key(std::int64_t i, std::int64_t j) {
-        return static_cast<std::uint64_t>(i) * 0x9E3779B97F4A7C15ULL + static_cast<std::uint64_t>(j);
+    static constexpr std::uint32_t none = ~0U;
+    struct Entry {
+        std::int64_t i, j;
+        std::size_t number;
+        std::uint32_t next;
+    };
+    struct List {
+        std::uint32_t first = none, last = none;
+    };
+    std::size_t bucket(std::int64_t i, std::int64_t j) const {
+        const std::uint64_t mixed =
+            (static_cast<std::uint64_t>(i) * 0x9E3779B97F4A7C15ULL + static_cast<std::uint64_t>(j)) *
+            0xD6E8FEB86659FD93ULL;
+        return (mixed >> 32) & (lists_.size() - 1);
     }
+    void append(std::uint32_t entry) {
+        List& list = lists_[bucket(entries_[entry].i, entries_[entry].j)];
+        if (list.first == none)
+            list.first = entry;
+        else
+            entries_[list.last].next = entry;
+        list.last = entry;
+    }
+    void grow() {
+        lists_.assign(2 * lists_.size(), {});
+        for (std::uint32_t e = 0; e < entries_.size(); ++e) {
+            entries_[e].next = none;
+            append(e);
+        }
+    }
+
     double size_;
-    std::unordered_map<std::uint64_t, std::vector<std::size_t>> squares_;
+    std::vector<Entry> entries_;
+    std::vector<List> lists_;  // a power of two
 };
 
 /// Segments that may come within a reach of a place.
@@ -66,7 +98,7 @@ class SegmentGrid {
     /// Calls use(number): all within the reach, some beyond.
     template <class Use>
     void each_near(Point p, Use use) const {
-        for (const std::size_t k : squares_.at(squares_.index(p.x), squares_.index(p.y))) use(k);
+        squares_.each_at(squares_.index(p.x), squares_.index(p.y), use);
     }
 
   private:
@@ -112,12 +144,12 @@ class PlaceGrid {
         const std::int64_t i = squares_.index(p.x), j = squares_.index(p.y);
         for (std::int64_t u = i - rings; u <= i + rings; ++u) {
             for (std::int64_t v = j - rings; v <= j + rings; ++v) {
-                for (const std::size_t k : squares_.at(u, v)) {
+                squares_.each_at(u, v, [&](std::size_t k) {
                     const double away = distance(p, places_[k]);
-                    if (away >= least) continue;
+                    if (away >= least) return;
                     least = away;
                     best = static_cast<int>(k);
-                }
+                });
             }
         }
         return {best, least};

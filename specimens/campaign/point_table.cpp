@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <regex>
 #include <string_view>
 
 #include "solver/base/errors.hpp"
@@ -198,7 +199,9 @@ std::vector<PointSummary> summarise(const LedgerTable& results, const std::vecto
     return points;
 }
 
-std::string unit_of_figure(const std::string& figure, bool area_units) {
+std::string unit_of_figure(const std::string& column, bool area_units) {
+    static const std::regex element(R"(\[[0-9]+\])");  // of a list; its keys are those of all
+    const std::string figure = std::regex_replace(column, element, "[]");
     if (figure.ends_with(converted_suffix)) return "Pa";
     for (const SummaryKey& key : summary_keys()) {
         if (figure != key.what.name) continue;

@@ -43,7 +43,8 @@ std::vector<std::string> usual_figures(const LedgerTable& results);
 std::vector<PointSummary> summarise(const LedgerTable& results, const std::vector<std::string>& figures);
 
 /// Of a figure, as in summary.json; empty for none, or one that it does not list.
-std::string unit_of_figure(const std::string& figure, bool area_units);
+/// @param column its name; of an element of a list "joints[2].length" and its like
+std::string unit_of_figure(const std::string& column, bool area_units);
 
 /// What the error of a mean is mostly made of, and what would lessen it, as a sentence.
 std::string verdict_on(const MeanFigure& mean, const MeanBias& bias);

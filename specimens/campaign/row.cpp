@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "specimens/campaign/row.hpp"
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 
 #include <algorithm>
@@ -38,6 +39,8 @@ constexpr std::array<std::string_view, 18> no_figures{
     "threads",     "profile",    "wall_seconds", "step_seconds", "particle_steps_per_second",
     "frame_start", "frame_peak", "columns",      "frame_end",    "units",
     "files",       "seed",       "notices"};
+// Lists of which each element has a column for each figure. Not of traces: there may be thousands.
+constexpr std::array<std::string_view, 2> lists_of_figures{"cycles", "joints"};
 
 void add_figures(Json& figures, const std::string& prefix, const Json& table) {
     for (const auto& [key, value] : table.items()) {
@@ -45,6 +48,9 @@ void add_figures(Json& figures, const std::string& prefix, const Json& table) {
         const std::string name = prefix + key;
         if (value.is_object())
             add_figures(figures, name + ".", value);
+        else if (prefix.empty() && std::ranges::find(lists_of_figures, key) != lists_of_figures.end())
+            for (std::size_t k = 0; k < value.size(); ++k)
+                add_figures(figures, fmt::format("{}[{}].", name, k + 1), value[k]);
         else if (value.is_boolean())
             figures[name] = value.get<bool>() ? 1 : 0;
         else if (value.is_number() || value.is_string())

@@ -41,7 +41,7 @@ std::optional<JointedCompliance> jointed_compliance(const TestCase& test, const 
     JointedCompliance found;
     hooks.report_work("solving for the compliance");
     found.jointed = compliance_of(bond_alone(specimen, test), box, inset);
-    found.welded = compliance_of(bond_alone(specimen, test, Traces::as_rock), box, inset);
+    found.welded = compliance_of(bond_alone(specimen, test, Traces::welded), box, inset);
     const std::size_t centres =
         specimen.centres > 0 ? static_cast<std::size_t>(specimen.centres) : specimen.scene.bodies.size();
     const JointNetwork network = make_joints(test, box, centres);

@@ -9,7 +9,6 @@
 #include <stdexcept>
 
 #include "solver/geometry/geometry.hpp"
-#include "solver/measure/point_view.hpp"
 #include "solver/world/point_order.hpp"
 #include "specimens/observers/curve.hpp"
 
@@ -94,7 +93,9 @@ void take(const World& world, const TestSetup& setup, const ContactHistory& hist
             target.shear_force[next] = world.points.shear_force[k];
             target.states[next] = (flags & point_slid) != 0 ? ContactState::bonded_slid : ContactState::bonded;
             if constexpr (K == PointKind::face_face)
-                frame.joint_forces.push_back({next, view_point(world, k).normal_force});
+                frame.joint_forces.push_back(
+                    {next, law_of(world, k).normal_stiffness *
+                               (flat_face_contact(world, point).overlap - world.points.bond_overlap[k])});
         }
     });
     take_loose(setup, history.loose, target);

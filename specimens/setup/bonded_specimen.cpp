@@ -134,6 +134,7 @@ World bond_alone(const Specimen& specimen, const TestCase& test, Traces traces) 
     Scene scene = scene_of(specimen, test);
     scene.domain.wall_present = {false, false, false, false};
     if (traces == Traces::as_rock) std::ranges::fill(scene.trace_joints, -1);
+    if (traces == Traces::welded) std::ranges::fill(scene.joints, Joint{});
     const double thick = scene.thick;
     World world = build_world(std::move(scene));
     bond(world, test, bonding_of(specimen, test, thick));

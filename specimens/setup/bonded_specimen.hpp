@@ -3,6 +3,7 @@
 // Tested by tests/specimens/loading/virtual_test_test.cpp.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 
 #include "solver/world/world.hpp"
@@ -23,9 +24,13 @@ struct BondedSpecimen {
 BondedSpecimen bond_specimen(const Specimen& specimen, const TestCase& test, const TestCase::Loading& loading,
                              std::function<void()> while_solving = {});
 
-enum class Traces : bool { as_they_are, as_rock };
+enum class Traces : std::uint8_t {
+    as_they_are,
+    welded,   ///< of joints that hold as the rock does and give nothing; circles keep their flat faces
+    as_rock,  ///< without joints
+};
 
-/// The same without platens and walls. @param traces  whether joints keep their mechanics
+/// The same without platens and walls.
 World bond_alone(const Specimen& specimen, const TestCase& test, Traces traces = Traces::as_they_are);
 
 }  // namespace crackle

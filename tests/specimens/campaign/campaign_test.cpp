@@ -298,6 +298,18 @@ TEST_F(CampaignTest, AKilledWorkersTestIsRunAgain) {
     EXPECT_EQ(table("out"), table("undisturbed"));
 }
 
+TEST(CampaignFigures, OfListsAreThoseOfTheirElements) {
+    const auto summary = nlohmann::ordered_json::parse(R"({"peak_stress": 3.0, "notices": [{"text": "long"}],
+        "cycles": [{"modulus": 1.0}, {"modulus": 2.0}], "joints": [{"source": "set", "at_peak": {"slip": 4.0}}],
+        "traces": [{"length": 5.0}]})");
+    const auto expected = nlohmann::ordered_json::parse(R"({"peak_stress": 3.0, "cycles[1].modulus": 1.0,
+        "cycles[2].modulus": 2.0, "joints[1].source": "set", "joints[1].at_peak.slip": 4.0})");
+    EXPECT_EQ(figures_of(summary), expected);
+    EXPECT_EQ(unit_of_figure("cycles[12].modulus", true), "Pa");
+    EXPECT_EQ(unit_of_figure("joints[1].at_peak.slip", true), "m");
+    EXPECT_EQ(unit_of_figure("joints[1].at_peak.failed_share", true), "");
+}
+
 TEST_F(CampaignTest, ASecondOneIsRefusedWithTheProcessThatHoldsTheFolder) {
     write_small_plan(folder_, 1);
     fs::create_directory(folder_ / "out");

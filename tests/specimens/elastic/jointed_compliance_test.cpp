@@ -32,6 +32,26 @@ TEST(JointedCompliance, OfPersistentTracesIsThatOfTheTheory) {
     EXPECT_NEAR((*found->expected)[1][1] - found->welded[1][1], 1.0 / (2e11 * 0.125), 1e-9 / (2e11 * 0.125));
 }
 
+// The twin has the flat faces of the jointed specimen: what its joint adds is the joint's alone.
+TEST(JointedCompliance, OfCirclesIsThatOfTheTheory) {
+    TestCase asked = read_case(std::filesystem::path(CRACKLE_SOURCE_DIR) / "specimens/jointed/softrock_welded.toml");
+    TestCase::JointSet& set = asked.joint_set[0];
+    set.angle = 0.0;
+    set.spacing = 0.083;  // m: one, in the middle
+    set.through = {0.02, 0.0415};
+    set.own.normal_stiffness = 4e11;
+    set.own.shear_stiffness = 1.6e11;
+    const auto found = jointed_compliance(asked, {});
+    ASSERT_TRUE(found && found->expected) << (found ? found->why_not : "nothing");
+    const double ragged = 2.66e-3 / 0.083;  // of rows: a diameter over the spacing
+    for (std::size_t k = 0; k < 3; ++k) {
+        const double got = found->jointed[k][k], wanted = (*found->expected)[k][k];
+        fmt::print("  S{0}{0}: expected {1:.6g} 1/Pa, got {2:.6g}, error {3:.2g}; welded {4:.6g}\n", k + 1, wanted, got,
+                   got / wanted - 1.0, found->welded[k][k]);
+        EXPECT_NEAR(got / wanted, 1.0, ragged);
+    }
+}
+
 TEST(JointedCompliance, OfTracesThatEndHasNoTheoryAndOfNoneIsNone) {
     const auto ends =
         compliance_of_case("[[trace]]\nname = \"crack\"\npoints = [0.05, 0.25, 0.25, 0.25]\nnormal_stiffness = 1e10\n");
