@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What tests/benchmarks/jaeger and jointed_rock share: a campaign's rows, and the stress at which a plane slips."""
+"""What tests/benchmarks/jaeger, jointed_rock and welded_traces share: a campaign's rows, and the stress at which a plane slips."""
 
 import math
 import sqlite3
@@ -8,13 +8,13 @@ from pathlib import Path
 
 
 def rows_of(folder, plan):
-    """Rows of a campaign of specimens/plans/`plan`.toml, each by its column's name; all have a largest stress, Pa."""
+    """Rows of a campaign of specimens/plans/`plan`.toml, each by its column's name, but for specimens that were refused; all have a largest stress, Pa."""
     file = Path(folder) / "campaign.sqlite"
     if not file.exists():
         sys.exit(f"{file}: found no such file, expected that of a campaign of specimens/plans/{plan}.toml")
     with sqlite3.connect(f"file:{file}?mode=ro", uri=True) as ledger:
         ledger.row_factory = sqlite3.Row
-        rows = ledger.execute("select * from results").fetchall()
+        rows = ledger.execute("select * from results where state is not 'refused'").fetchall()
     for row in rows:
         if row["largest_stress"] is None:
             sys.exit(f"{file}: found a test without a stress, {row['test']} of row {row['row']}; see crackle campaign show")
