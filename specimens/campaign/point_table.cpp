@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <regex>
 #include <string_view>
 
 #include "solver/base/errors.hpp"
@@ -200,8 +199,11 @@ std::vector<PointSummary> summarise(const LedgerTable& results, const std::vecto
 }
 
 std::string unit_of_figure(const std::string& column, bool area_units) {
-    static const std::regex element(R"(\[[0-9]+\])");  // of a list; its keys are those of all
-    const std::string figure = std::regex_replace(column, element, "[]");
+    std::string figure = column;  // an element's keys are those of all
+    for (std::size_t at = figure.find('['); at != std::string::npos; at = figure.find('[', at + 1)) {
+        const std::size_t end = figure.find(']', at);
+        if (end != std::string::npos) figure.erase(at + 1, end - at - 1);
+    }
     if (figure.ends_with(converted_suffix)) return "Pa";
     for (const SummaryKey& key : summary_keys()) {
         if (figure != key.what.name) continue;
