@@ -39,6 +39,18 @@ Frame taken(VirtualTest& test) {
     return frame;
 }
 
+/// Calls visit(bond, view) for each bonded point.
+template <class Visit>
+void each_bond(const VirtualTest& test, Visit visit) {
+    for (PointIndex k = 0; k < test.world.points.size(); ++k) {
+        const PointView view = view_point(test.world, k);
+        if (!view.bonded) continue;
+        const PointIndex bond = bond_of(test.setup, view.kind, test.world.points.contact[k]);
+        ASSERT_LT(bond, test.setup.bonds.size());
+        visit(bond, view);
+    }
+}
+
 class FrameForcesOfRock : public ::testing::Test {
   protected:
     VirtualTest prepared(const std::string& mesh = {}) const {
@@ -150,14 +162,10 @@ TEST_F(FrameForcesOfRock, OfASpecimenUnderPressureAreThoseOfItsPoints) {
         const Frame frame = taken(test);
         const FrameForces forces = find_forces(PlacedFrame(test.world, test.setup, frame));
         double worst = 0.0, largest = 0.0;
-        for (PointIndex k = 0; k < test.world.points.size(); ++k) {
-            const PointView view = view_point(test.world, k);
-            if (!view.bonded) continue;
-            const PointIndex bond = bond_of(test.setup, view.kind, test.world.points.contact[k]);
-            ASSERT_LT(bond, test.setup.bonds.size());
+        each_bond(test, [&](PointIndex bond, const PointView& view) {
             worst = std::max(worst, std::abs(forces.normal[bond] - view.normal_force));
             largest = std::max(largest, std::abs(view.normal_force));
-        }
+        });
         // Overlaps are differences of places: rounding of these by the stiffness, 1e-16 m by 1e7 N/m, of some 100 N.
         EXPECT_TRUE(
             within(fmt::format("{}: largest difference over the largest force", mesh), worst / largest, 0.0, 1e-9));
@@ -174,17 +182,13 @@ TEST_F(FrameForcesOfRock, OfFlatFacesAreThoseOfTheirPoints) {
     const FrameForces forces = find_forces(PlacedFrame(test.world, test.setup, frame));
     double worst = 0.0, largest = 0.0, turned = 0.0;
     std::size_t flat = 0;
-    for (PointIndex k = 0; k < test.world.points.size(); ++k) {
-        const PointView view = view_point(test.world, k);
-        if (!view.bonded) continue;
-        const PointIndex bond = bond_of(test.setup, view.kind, test.world.points.contact[k]);
-        ASSERT_LT(bond, test.setup.bonds.size());
+    each_bond(test, [&](PointIndex bond, const PointView& view) {
         worst = std::max(worst, std::abs(forces.normal[bond] - view.normal_force));
         largest = std::max(largest, std::abs(view.normal_force));
-        if (view.kind != PointKind::face_face) continue;
+        if (view.kind != PointKind::face_face) return;
         ++flat;
         turned = std::max(turned, view.normal_stiffness * std::abs(view.bond_overlap - test.setup.bond_overlaps[bond]));
-    }
+    });
     fmt::print("  {} flat faces; turning has taken up to {:.3g} of the largest force\n", flat, turned / largest);
     EXPECT_GT(flat, 50U);
     EXPECT_GT(turned, 0.01 * largest) << "else the test cannot fail";

@@ -146,6 +146,8 @@ TEST(JointFaces, OfCirclesLieOnTheTracesThatHaveMechanics) {
         const double length = norm(piece.to - piece.from);
         for (const int right : {0, 1}) {
             std::vector<std::pair<double, double>> faces;  // along the part, of circles that lie at it
+            std::vector<std::pair<double, double>> feet;   // of these, with the power of the circle there, m2
+            double least_radius = 1.0;
             for (const FlatFace& face : world.bodies.flat_faces) {
                 ASSERT_EQ(trace_of(face.side), 0) << "the other has none";
                 const BodyState& body = world.bodies.state[face.body];
@@ -154,6 +156,9 @@ TEST(JointFaces, OfCirclesLieOnTheTracesThatHaveMechanics) {
                 if (face.piece != part || (face.side & 1) != right || face.height != (right == 1 ? -above : above))
                     continue;
                 faces.emplace_back(dot(along, from_begin) + face.from, dot(along, from_begin) + face.to);
+                least_radius = std::min(least_radius, body.shape[0]);
+                if (face.from < face.to)
+                    feet.emplace_back(dot(along, from_begin), above * above - body.shape[0] * body.shape[0]);
             }
             std::sort(faces.begin(), faces.end());
             double covered = 0.0;  // up to here without a gap
@@ -161,8 +166,18 @@ TEST(JointFaces, OfCirclesLieOnTheTracesThatHaveMechanics) {
                 if (begin <= covered + 1e-12) covered = std::max(covered, end);
             fmt::print("  faces of part {}, side {}: {} from its begin to {} m of {}\n", part, right, faces.size(),
                        covered, length);
-            // In the wedge between the second part and the wall to its right circles are few, and reach three radii.
-            EXPECT_GE(covered, part == 1 && right == 1 ? 0.6 * length : length - 1e-12);
+            if (part == 0 || right == 0) {
+                EXPECT_GE(covered, length - 1e-12);
+            }
+            // In the wedge between the second part and the wall to its right circles are few, and reach three radii r:
+            // the owner of a bare place has there a power of at least 9 r² - r², and all others have more.
+            for (double p = 0.0; p < length; p += 1e-4) {
+                if (std::ranges::any_of(faces,
+                                        [&](const auto& f) { return f.first <= p + 1e-12 && p <= f.second + 1e-12; }))
+                    continue;
+                for (const auto& [foot, power] : feet)
+                    ASSERT_GE((p - foot) * (p - foot) + power, 8.0 * least_radius * least_radius) << "at " << p;
+            }
         }
     }
 }
