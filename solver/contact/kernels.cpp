@@ -123,7 +123,7 @@ inline PointForce break_point(World& world, PointIndex k, PointIndex place, cons
     return {force.fx, force.fy, force.torque_i, force.torque_j};
 }
 
-/// Force of one point into `out`, with all that can happen to it. @param place in its block
+/// Force of one point into `out`, with all that can happen to it; faces have been followed. @param place in its block
 template <PointKind K, ContactFeatures F>
 inline void force_point(World& world, PointIndex k, PointIndex place, PointForce& out, BlockLosses& loss) {
     const double dt = world.stepping.drift;
@@ -133,7 +133,6 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
     const auto g = geometry_of_point<K>(world, k);
     bool bonded = false;
     if constexpr (F.bonds) bonded = (state.flags & point_bonded) != 0;
-    if constexpr (K == PointKind::face_face) loss.law -= follow_faces(world, k, point, g);
     const Law<double> law = law_for<K, F>(world, k);
     double overlap = g.overlap;  // m, of a point without a bond beyond the one without force
     if constexpr (F.coulomb) overlap -= world.points.bond_overlap[k];
@@ -143,7 +142,7 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
     const bool held_before = bonded || (state.flags & point_touching) != 0;
     if (!held_before && overlap <= 0.0) {
         if constexpr (F.consistent) world.points.last_overlap[k].value = overlap;
-        if constexpr (K == PointKind::face_face) part_faces(world, k, g);
+        if constexpr (K == PointKind::face_face) part_faces(world, k, g.closed);
         out = {0.0, 0.0, 0.0, 0.0};
         return;
     }
@@ -193,7 +192,7 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
             // The event needs the springs as they were; record_breaks() releases the point.
         } else {
             release<F>(world, k, law, loss, slipping * dt);
-            if constexpr (K == PointKind::face_face) part_faces(world, k, g);
+            if constexpr (K == PointKind::face_face) part_faces(world, k, g.closed);
         }
         out = {0.0, 0.0, 0.0, 0.0};
         return;
@@ -267,13 +266,15 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
 
 /// Whether kernels look at several points of a kind at once.
 template <PointKind K>
-inline constexpr bool in_batches = K == PointKind::circle_circle || K == PointKind::element_outline;
+inline constexpr bool in_batches =
+    K == PointKind::circle_circle || K == PointKind::element_outline || K == PointKind::face_face;
 
 /// Points of a block from k on, one after the other.
 template <PointKind K, ContactFeatures F>
 inline void force_points(World& world, const PointBlock& block, PointIndex k, BlockLosses& loss) {
     for (; k < block.end; ++k) {
         const PointIndex place = k - block.begin;
+        if constexpr (K == PointKind::face_face) follow_faces(world, k, loss);
         force_point<K, F>(world, k, place, block.forces[place], loss);
     }
 }
@@ -310,16 +311,19 @@ void force_block_in_batches(World& world, const PointBlock& block) {
             const PointIndex place = k - block.begin;
             PointForce* const out = block.forces + place;
             const BatchOf<K>& g = geometry[b];
+            if constexpr (K == PointKind::face_face) follow_batch<F>(world, k, g, law, loss);
             const BatchState batch = look_at_batch<F>(world, k, g, law);
             switch (batch.what) {
                 case BatchCase::all_hold:
-                    force_lanes<F, true>(world, k, place, g, law_of_batch<F>(world, k, law), batch, out, loss);
+                    force_lanes<F, true>(world, k, place, g, law_of_batch<F>(world, k, g, law), batch, out, loss);
                     break;
                 case BatchCase::some_hold:
-                    force_lanes<F, false>(world, k, place, g, law_of_batch<F>(world, k, law), batch, out, loss);
+                    force_lanes<F, false>(world, k, place, g, law_of_batch<F>(world, k, g, law), batch, out, loss);
+                    if constexpr (K == PointKind::face_face) part_batch(world, k, g, batch);
                     break;
                 case BatchCase::none_holds:
                     if constexpr (F.consistent) remember_overlaps(world, k, batch);
+                    if constexpr (K == PointKind::face_face) part_batch(world, k, g, batch);
                     store_quads(out, Lanes{}, Lanes{}, Lanes{}, Lanes{});
                     break;
                 case BatchCase::one_by_one:

@@ -20,7 +20,6 @@
 // Tested by tests/solver/geometry/flat_faces_test.cpp.
 #pragma once
 
-#include <algorithm>
 #include <optional>
 #include <span>
 
@@ -29,30 +28,49 @@
 
 namespace crackle {
 
-struct FlatFaceContact : ContactGeometry {
-    double apart;   // m, of the faces along the trace; < 0 where they lap
-    double closed;  // m, δ whether they lap or not: overlap is `-apart` where they do not, if that is less
-    double offset;  // m, (x_j - x_i)·t, t the normal turned by +90 degrees
-    double lap() const { return std::max(0.0, -apart); }
+/// Of one point, or of several in lanes.
+template <class Number>
+struct FlatFaceGeometry : PointGeometry<Number> {
+    Number apart;   // m, of the faces along the trace; < 0 where they lap
+    Number closed;  // m, δ whether they lap or not: overlap is `-apart` where they do not, if that is less
+    Number offset;  // m, (x_j - x_i)·t, t the normal turned by +90 degrees
+    CRACKLE_INLINE Number lap() const { return select(apart < 0.0, -apart, Number{}); }
+};
+using FlatFaceContact = FlatFaceGeometry<double>;
+
+/// As in FlatFace.
+template <class Number>
+struct FaceNumbers {
+    Number from, to, height;
 };
 
-/// @param a, b faces of bodies i and j on opposite sides of one part of a trace
-inline FlatFaceContact flat_face_contact(const FlatFace& a, const FlatFace& b, const BodyState& i, const BodyState& j) {
-    const double dx = j.x - i.x, dy = j.y - i.y;
-    const double along = dx * a.along_x + dy * a.along_y;
-    const double sense = (a.side & 1) != 0 ? 1.0 : -1.0;  // from the right to the left of the trace
-    FlatFaceContact c{};
-    c.nx = -sense * a.along_y;
-    c.ny = sense * a.along_x;
+/// @param a, b faces of bodies i and j on opposite sides of one part of a trace @param along_x, along_y its direction
+/// @param sense sense_of() the first @param dx, dy of j from i, m
+template <class Number>
+CRACKLE_INLINE FlatFaceGeometry<Number> flat_face_contact(const FaceNumbers<Number>& a, const FaceNumbers<Number>& b,
+                                                          const Number& along_x, const Number& along_y,
+                                                          const Number& sense, const Number& dx, const Number& dy) {
+    const Number along = dx * along_x + dy * along_y, from = along + b.from, to = along + b.to;
+    FlatFaceGeometry<Number> c{};
+    c.nx = -sense * along_y;
+    c.ny = sense * along_x;
     c.closed = a.height + b.height - (dx * c.nx + dy * c.ny);
-    c.apart = std::max(a.from, along + b.from) - std::min(a.to, along + b.to);
-    c.overlap = c.apart < 0.0 ? c.closed : std::min(c.closed, -c.apart);
+    c.apart = select(a.from < from, from, a.from) - select(to < a.to, to, a.to);
+    c.overlap = select((c.apart < 0.0) | (c.closed <= -c.apart), c.closed, -c.apart);
     c.offset = -sense * along;
     c.aix = 0.5 * dx;
     c.aiy = 0.5 * dy;
     c.ajx = -0.5 * dx;
     c.ajy = -0.5 * dy;
     return c;
+}
+
+/// Of the body i of a point: 1 where it lies on the right of its trace, else -1.
+inline double sense_of(const FlatFace& face) { return (face.side & 1) != 0 ? 1.0 : -1.0; }
+
+inline FlatFaceContact flat_face_contact(const FlatFace& a, const FlatFace& b, const BodyState& i, const BodyState& j) {
+    return flat_face_contact<double>({a.from, a.to, a.height}, {b.from, b.to, b.height}, a.along_x, a.along_y,
+                                     sense_of(a), j.x - i.x, j.y - i.y);
 }
 
 inline FlatFaceContact flat_face_contact(const World& world, const ContactPoint& point) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "specimens/loading/load_specimen.hpp"
+#include "specimens/measures/trace_motion.hpp"
 
 #include <malloc.h>
 
@@ -204,7 +205,7 @@ class LoadingLoop {
         if (new_peak) {
             state_.breaks_in_shear_to_peak = state_.breaks_in_shear;
             state_.breaks_in_tension_to_peak = state_.breaks_in_tension;
-            if (!setup_.traces.empty()) state_.traces_at_peak = trace_motions(world_, setup_, state_.history);
+            if (!setup_.trace_faces.empty()) state_.faces_at_peak = places_of_faces(world_, setup_);
         }
         if (state_.failure.collapsed) {
             state_.ended_by = ended_by_failure;

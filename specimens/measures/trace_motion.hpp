@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "specimens/observers/contact_history.hpp"
@@ -34,10 +35,14 @@ struct TraceMotion {
     void add(const TraceMotion& other);
 };
 
-/// At the present moment, by number of trace.
-std::vector<TraceMotion> trace_motions(const World& world, const TestSetup& setup, const ContactHistory& history);
+/// Where the bodies of TestSetup::trace_faces are: all that is kept of every row that may be the peak.
+std::vector<FacePlaces> places_of_faces(const World& world, const TestSetup& setup);
 
-/// Bonds that broke on traces, of the first `count` of ContactHistory::cracks.
-std::int64_t breaks_on_traces(const TestSetup& setup, const ContactHistory& history, std::size_t count);
+/// By number of trace. @param places of faces at the moment @param cracks until then
+std::vector<TraceMotion> trace_motions(const TestSetup& setup, std::span<const FacePlaces> places,
+                                       std::span<const Crack> cracks);
+
+/// Those of the cracks that are on traces.
+std::int64_t breaks_on_traces(const TestSetup& setup, std::span<const Crack> cracks);
 
 }  // namespace crackle

@@ -24,7 +24,7 @@ namespace crackle {
 
 // Names the layout; the number is raised whenever a field below changes.
 constexpr const char* checkpoint_title = "crackle test checkpoint ";
-constexpr const char* checkpoint_version = "19";
+constexpr const char* checkpoint_version = "20";
 constexpr std::size_t hash_digits = 64;
 
 void save_test(std::ostream& out, const std::string& case_hash, const TestSetup& setup, const TestState& state,

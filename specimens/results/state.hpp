@@ -12,13 +12,13 @@
 
 #include "specimens/emission/listener.hpp"
 #include "specimens/frames/frame.hpp"
-#include "specimens/measures/trace_motion.hpp"
 #include "specimens/observers/contact_history.hpp"
 #include "specimens/observers/curve.hpp"
 #include "specimens/observers/peak_and_failure.hpp"
 #include "specimens/results/growing_file.hpp"
 #include "specimens/setup/loading_path.hpp"
 #include "specimens/setup/loading_rate.hpp"
+#include "specimens/setup/trace_faces.hpp"
 
 namespace crackle {
 
@@ -54,7 +54,7 @@ struct TestState {
     LoadingPath path;
     std::int64_t breaks_in_shear = 0, breaks_in_tension = 0, breaks_after_sliding = 0;
     std::int64_t breaks_in_shear_to_peak = 0, breaks_in_tension_to_peak = 0;
-    std::vector<TraceMotion> traces_at_peak;  ///< of the peak so far, of jointed specimens
+    std::vector<FacePlaces> faces_at_peak;  ///< of the peak so far, of TestSetup::trace_faces
     std::string ended_by;                     ///< empty while the test runs
 
     // Of the specimen with all bonds intact and sticking (sparse solve); not a number where there is no solution.
@@ -93,7 +93,7 @@ struct TestState {
         visit("breaks_after_sliding", s.breaks_after_sliding);
         visit("breaks_in_shear_to_peak", s.breaks_in_shear_to_peak);
         visit("breaks_in_tension_to_peak", s.breaks_in_tension_to_peak);
-        visit("traces_at_peak", s.traces_at_peak);
+        visit("faces_at_peak", s.faces_at_peak);
         visit("ended_by", s.ended_by);
         visit("youngs_modulus", s.youngs_modulus);
         visit("poissons_ratio", s.poissons_ratio);

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string_view>
 
@@ -17,6 +18,7 @@
 #include "specimens/measures/fragment_sizes.hpp"
 #include "specimens/measures/parting.hpp"
 #include "specimens/measures/shear_box.hpp"
+#include "specimens/measures/trace_motion.hpp"
 #include "specimens/measures/verdicts.hpp"
 #include "specimens/observers/profile_report.hpp"
 #include "specimens/results/notices.hpp"
@@ -302,8 +304,9 @@ void joints(Writer& w, const TestSetup& setup, const TestState& state, const Wor
     const std::vector<Crack>& cracks = state.history.cracks;
     const bool has_peak = state.failure.peak_row >= 0;
     const auto to_peak = static_cast<std::size_t>(state.breaks_in_shear_to_peak + state.breaks_in_tension_to_peak);
-    const std::int64_t on_traces = breaks_on_traces(setup, state.history, cracks.size());
-    const std::int64_t on_traces_to_peak = breaks_on_traces(setup, state.history, to_peak);
+    const auto cracks_to_peak = std::span(cracks).first(to_peak);
+    const std::int64_t on_traces = breaks_on_traces(setup, cracks);
+    const std::int64_t on_traces_to_peak = breaks_on_traces(setup, cracks_to_peak);
     w.put("bonds_broken_on_joints", on_traces);
     w.put("bonds_broken_in_rock", std::ssize(cracks) - on_traces);
     w.put("bonds_broken_on_joints_to_peak", on_traces_to_peak);
@@ -317,13 +320,14 @@ void joints(Writer& w, const TestSetup& setup, const TestState& state, const Wor
                     {"at_peak", has_peak ? motion_of(peak) : Json(nullptr)},
                     {"at_end", motion_of(end)}};
     };
-    const std::vector<TraceMotion> at_end = trace_motions(world, setup, state.history);
+    const std::vector<TraceMotion> at_end = trace_motions(setup, places_of_faces(world, setup), cracks);
+    const std::vector<TraceMotion> at_peak =
+        has_peak ? trace_motions(setup, state.faces_at_peak, cracks_to_peak) : std::vector<TraceMotion>(at_end.size());
     Json traces = Json::array(), sources = Json::array();
     std::vector<std::string> names;
     for (std::size_t k = 0; k < setup.traces.size(); ++k) {
         const SpecimenTrace& trace = setup.traces[k];
-        traces.push_back(
-            entry(trace.source, trace.length, has_peak ? state.traces_at_peak[k] : TraceMotion{}, at_end[k]));
+        traces.push_back(entry(trace.source, trace.length, at_peak[k], at_end[k]));
         if (std::ranges::find(names, trace.source) == names.end()) names.push_back(trace.source);
     }
     for (const std::string& name : names) {
@@ -334,7 +338,7 @@ void joints(Writer& w, const TestSetup& setup, const TestState& state, const Wor
             if (setup.traces[k].source != name) continue;
             ++count;
             length += setup.traces[k].length;
-            if (has_peak) peak.add(state.traces_at_peak[k]);
+            peak.add(at_peak[k]);
             end.add(at_end[k]);
         }
         Json json = entry(name, length, peak, end);

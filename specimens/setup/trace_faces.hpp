@@ -59,6 +59,12 @@ struct FaceMotion {
 /// Places of the two bodies of a face.
 struct FacePlaces {
     StartPlace i, j;
+
+    template <class Self, class Visit>
+    static constexpr void fields(Self& s, Visit&& visit) {
+        visit("i", s.i);
+        visit("j", s.j);
+    }
 };
 FaceMotion motion_of(const TraceFace& face, const FacePlaces& start, const FacePlaces& now);
 

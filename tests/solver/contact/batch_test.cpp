@@ -14,9 +14,11 @@
 #include "solver/stepping/bonding.hpp"
 #include "solver/stepping/build_world.hpp"
 #include "solver/stepping/step.hpp"
+#include "solver/world/checkpoint.hpp"
 #include "solver/world/world.hpp"
 #include "specimens/making/lattices.hpp"
 #include "specimens/making/materials.hpp"
+#include "tests/support/jointed_circles.hpp"
 #include "tests/support/same_bytes.hpp"
 
 namespace crackle {
@@ -267,6 +269,61 @@ TEST(PointBatch, CoulombBondsThatBreak) {
         const auto coulomb = [&](const Trial& trial) { return with_shares(trial, BondLaw::coulomb, units); };
         expect_the_same(coulomb({triangular_lattice(9, 9, 0.02, 8e-5, damped_rock()), 0.01, 0.3}), 800, true);
         expect_the_same(coulomb({honeycomb(7, 7, 0.02, 1e-3, damped_rock()), 1.08e-3, 1.0}), 800, true);
+    }
+}
+
+/// Circles whose flat faces slide along two crossing traces, part, meet others and break, shaken and sheared.
+World faces_in_motion(const std::vector<Joint>& joints, Integrator integrator) {
+    testing::JointedCircles circles;
+    Scene scene = testing::scene_of(circles);
+    scene.integrator = integrator;
+    scene.joints = joints;
+    scene.trace_joints.assign({0, static_cast<std::int32_t>(joints.size()) - 1});
+    scene.trace_pieces.push_back({1, {0.06, -0.02}, {0.18, 0.26}});
+    World world = testing::bonded_circles(scene);
+    std::mt19937_64 random(5);
+    const auto any = [&] { return static_cast<double>(random() >> 11) * 0x1p-52 - 1.0; };
+    for (BodyState& body : world.bodies.state) {
+        body.vx += 40.0 * (body.y - 0.1) + 2.0 * any();
+        body.vy += -4.0 * (body.y - 0.1) + 2.0 * any();
+        body.omega += 100.0 * any();
+    }
+    velocities_changed(world);
+    return world;
+}
+
+TEST(PointBatch, FlatFacesThatSlipPartAndBreak) {
+    Joint weak, open, stiff;
+    weak.strength_factor = 0.05;
+    weak.friction_angle = 20.0;
+    open.bonded = false;
+    open.friction_angle = 25.0;
+    open.aperture = 2e-6;
+    stiff.strength_factor = 0.1;
+    stiff.friction_angle = 30.0;
+    stiff.normal_stiffness = 1e11;
+    stiff.shear_stiffness = 2e10;
+    stiff.dilation_angle = 8.0;
+    constexpr auto flat = static_cast<std::size_t>(PointKind::face_face);
+    for (const std::vector<Joint>& joints : {std::vector{weak}, {open}, {stiff}, {weak, open}, {stiff, open}}) {
+        for (const Integrator integrator : {Integrator::leapfrog, Integrator::consistent}) {
+            World together = faces_in_motion(joints, integrator), apart = together;
+            apart.workers.one_by_one = true;
+            std::size_t parted = 0, slid = 0;
+            for (int n = 0; n < 1500; ++n) {
+                step(together), step(apart);
+                for (PointIndex k = together.points.kind_begin[flat]; k < together.points.kind_begin[flat + 1]; ++k) {
+                    const std::uint16_t flags = together.points.state[k].flags;
+                    parted += (flags & (point_touching | point_bonded)) == 0 ? 1 : 0;
+                    slid += (flags & point_sliding) != 0 ? 1 : 0;
+                }
+            }
+            EXPECT_TRUE(save_world(together) == save_world(apart));
+            EXPECT_GT(parted, 100U);
+            EXPECT_GT(slid, 100U);
+            EXPECT_EQ(together.bonds.broken > 0, joints[0].bonded);
+            EXPECT_NE(together.account.law_loss, 0.0) << "laps have changed";
+        }
     }
 }
 

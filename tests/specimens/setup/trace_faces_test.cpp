@@ -9,10 +9,15 @@
 
 #include <cmath>
 #include <numbers>
+#include <span>
 #include <vector>
 
+#include "specimens/loading/load_specimen.hpp"
 #include "specimens/loading/prepare.hpp"
 #include "specimens/measures/trace_motion.hpp"
+#include "specimens/results/files.hpp"
+#include "specimens/results/output_folder.hpp"
+#include "specimens/results/summary.hpp"
 #include "tests/support/deck_files.hpp"
 #include "tests/support/small_rock.hpp"
 
@@ -81,9 +86,10 @@ TEST(TraceFaces, TurnWithTheMeanOfTheirBodies) {
 class JointedTest : public ::testing::Test {
   protected:
     /// Cells with a trace from side to side and another that ends within, one of them as the rock.
-    VirtualTest jointed(const std::string& of_first = "friction_angle = 20.0", const char* mesh = "voronoi") const {
+    VirtualTest jointed(const std::string& of_first = "friction_angle = 20.0", const char* mesh = "voronoi",
+                        const char* kind = "compression") const {
         testing::SmallCase wanted;
-        wanted.kind = "compression";
+        wanted.kind = kind;
         wanted.mesh = mesh;
         wanted.material =
             "units = \"area\"\ncontact_modulus = 1e7\nstiffness_ratio = 2.5\ntensile_strength = 1.5e4\ncohesion = 5e4";
@@ -145,7 +151,7 @@ TEST_F(JointedTest, WhatAnUpperPartMovesIsTheTracesOpeningAndSlip) {
         if (face == faces[0] || (face == faces[1] && std::exchange(spared, true)))
             history.cracks.push_back({.bond = bond});
     }
-    const std::vector<TraceMotion> motions = trace_motions(test.world, setup, history);
+    const std::vector<TraceMotion> motions = trace_motions(setup, places_of_faces(test.world, setup), history.cracks);
     ASSERT_EQ(motions.size(), 2u);
     fmt::print("  opening expected {}, got {:.9g}; slip expected {}, got {:.9g}\n", opening, motions[0].opening, -right,
                motions[0].slip);
@@ -156,7 +162,7 @@ TEST_F(JointedTest, WhatAnUpperPartMovesIsTheTracesOpeningAndSlip) {
     EXPECT_EQ(motions[1].failed, 0.0);
     EXPECT_NEAR(motions[0].failed, setup.trace_faces[faces[0]].length, 1e-15);
     EXPECT_NEAR(motions[0].bonded, motions[0].length, 1e-15);
-    EXPECT_EQ(breaks_on_traces(setup, history, history.cracks.size()), std::ssize(history.cracks));
+    EXPECT_EQ(breaks_on_traces(setup, history.cracks), std::ssize(history.cracks));
     TraceMotion both = motions[0];
     both.add(motions[1]);
     EXPECT_NEAR(both.opening, opening * motions[0].length / (motions[0].length + motions[1].length), 1e-9 * opening);
@@ -172,7 +178,7 @@ TEST_F(JointedTest, AnOpenTraceHasFacesWithoutBonds) {
         open += face.length;
     }
     EXPECT_NEAR(open, test.setup.traces[0].length, 1e-9 * open);
-    const std::vector<TraceMotion> motions = trace_motions(test.world, test.setup, {});
+    const std::vector<TraceMotion> motions = trace_motions(test.setup, places_of_faces(test.world, test.setup), {});
     EXPECT_EQ(motions[0].bonded, 0.0);
     EXPECT_NEAR(motions[0].opening, 0.0, 1e-16);
 }
@@ -200,10 +206,42 @@ TEST_F(JointedTest, FlatFacesOfCirclesAreFacesOfTheirTrace) {
         if (cross(along, Vec2{body.x, body.y - 0.15}) <= 0.0) continue;
         body.x += opening * up.x + right * along.x, body.y += opening * up.y + right * along.y;
     }
-    const std::vector<TraceMotion> motions = trace_motions(test.world, setup, {});
+    const std::vector<TraceMotion> motions = trace_motions(setup, places_of_faces(test.world, setup), {});
     EXPECT_NEAR(motions[0].opening, opening, 1e-9 * opening);
     EXPECT_NEAR(motions[0].slip, -right, 1e-9 * right);
     EXPECT_EQ(motions[1].faces, 0);
+}
+
+TEST_F(JointedTest, WhatTracesHaveComeToAtThePeakIsThatOfThePeaksFrame) {
+    VirtualTest test = jointed("friction_angle = 20.0\nstrength_factor = 0.5", "voronoi", "tension");
+    test.state.failure.share_of_peak = 0.8;
+    const OutputFolder output = OutputFolder::create(scratch_ / "out", false, {});
+    TestFiles files(output, "", test.state, {});
+    load_specimen(test, {}, &files);
+    const TestSetup& setup = test.setup;
+    const Frame& frame = test.state.peak_frame;
+    ASSERT_EQ(frame.row, test.state.failure.peak_row);
+    ASSERT_LT(frame.row + 1, std::ssize(test.state.rows)) << "it is not the end";
+    std::vector<FacePlaces> places;
+    const auto place = [&](BodyIndex b) {
+        return StartPlace{frame.bodies[b].x, frame.bodies[b].y, frame.bodies[b].angle};
+    };
+    for (const TraceFace& face : setup.trace_faces) places.push_back({place(face.i), place(face.j)});
+    const auto to_peak =
+        static_cast<std::size_t>(test.state.breaks_in_shear_to_peak + test.state.breaks_in_tension_to_peak);
+    const std::vector<Crack>& cracks = test.state.history.cracks;
+    ASSERT_LT(to_peak, cracks.size());
+    const auto motions = trace_motions(setup, places, std::span(cracks).first(to_peak));
+    const auto summary = make_summary(test.description, setup, test.state, test.world, {});
+    for (std::size_t k = 0; k < 2; ++k) {
+        const auto& got = summary["traces"][k]["at_peak"];
+        fmt::print("  trace {}: slip at peak expected {}, got {}, at the end {}\n", k, motions[k].slip,
+                   got["slip"].get<double>(), summary["traces"][k]["at_end"]["slip"].get<double>());
+        EXPECT_EQ(got["slip"].get<double>(), motions[k].slip);
+        EXPECT_EQ(got["opening"].get<double>(), motions[k].opening);
+        EXPECT_EQ(got["failed_share"].get<double>(), motions[k].failed / motions[k].bonded);
+        EXPECT_NE(got["slip"], summary["traces"][k]["at_end"]["slip"]);
+    }
 }
 
 }  // namespace
