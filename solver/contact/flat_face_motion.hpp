@@ -44,11 +44,13 @@ CRACKLE_INLINE Number follow(FaceMemory<Number>& memory, const FlatFaceGeometry<
     memory.rest = select(
         touched, memory.rest + 0.5 * drift * (g.offset - 0.5 * drift * sliding) * (m.spin_i + m.spin_j), memory.rest);
     const Number before = memory.lap, now = select(bonded, before, g.lap());
+    const Condition<Number> changed = now != before;
+    if (!any(changed)) return zero;
     memory.lap = now;
     const Number overlap = g.closed - memory.rest, overlap_before = overlap - closing * drift;
     const Number pressed = 0.5 * law.normal_stiffness * select(overlap > 0.0, overlap, zero) *
                            select(overlap_before > 0.0, overlap_before, zero);
-    const Condition<Number> sheared = (before > 0.0) & (memory.shear != 0.0) & (now != before);
+    const Condition<Number> sheared = changed & (before > 0.0) & (memory.shear != 0.0);
     const Number gained = pressed * (now - before);
     if (!any(sheared)) return gained;
     const Number lap = select(sheared, before, all_of<Number>(1.0)), ratio = now / lap;
@@ -95,7 +97,8 @@ CRACKLE_INLINE void follow_batch(World& world, PointIndex k, const FaceBatch& g,
     store_as(rest, memory.rest);
     store_as(lap, memory.lap);
     store_as(shear, memory.shear);
-    for (int l = 0; l < lane_count; ++l) loss.law -= gained[l];
+    if (any(gained != 0.0))
+        for (int l = 0; l < lane_count; ++l) loss.law -= gained[l];
 }
 
 /// m, of faces without a bond that do not touch: where they meet. They opened where that has turned to, and meet there
