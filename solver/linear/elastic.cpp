@@ -137,7 +137,8 @@ Vector refine(const Workers& workers, const Solver& factor, const Full& full, co
     if (!(residual <= residual_goal)) {
         throw InputError(
             fmt::format("elastic solve: found a residual of {:.3g}, expected at most {:.3g}; the specimen's stiffness "
-                        "is too ill-conditioned",
+                        "is too ill-conditioned, as where nothing holds a part, such as a block between joints without "
+                        "friction",
                         residual, residual_goal));
     }
     return u;

@@ -22,6 +22,11 @@ namespace {
 
 constexpr int most_rounds = 100, steps_of_relaxation = 2000;
 constexpr double most_left_by_a_solution = 0.5;  // of the force that was left before
+// Nothing is to be hoped for where so many rounds have not halved the least force so far.
+constexpr int most_rounds_in_vain = 10;
+constexpr double most_left_by_rounds = 0.5;
+// A specimen slides as a whole where its particles' forces add up to this share of the sum of their sizes.
+constexpr double share_of_one_way = 0.5;
 // Parts are brought to their force in the unloaded specimen: so near, from a first way of this share of a particle.
 constexpr double near_enough = 1e-3, first_way = 1e-5, farthest_way = 0.25;
 constexpr int most_tries = 100;  // of doublings and halvings: digits end before
@@ -69,8 +74,13 @@ class Confinement {
             compute_forces(world_);
         }
         Imbalance left = imbalance();
-        for (int round = 0; !settled(left); ++round) {
-            if (round == most_rounds) refuse(left, "");
+        double least = left.force;
+        for (int round = 0, in_vain = 0; !settled(left); ++round, ++in_vain) {
+            if (left.force <= most_left_by_rounds * least) {
+                least = left.force;
+                in_vain = 0;
+            }
+            if (round == most_rounds || in_vain == most_rounds_in_vain) refuse(left, "");
             try {
                 approach(left);
             } catch (const UnstableRun& error) {
@@ -240,13 +250,29 @@ class Confinement {
         displace(world_, std::vector<BodyMotion>(world_.bodies.size()));  // at rest
     }
 
+    /// N, along x, that moves the specimen between its platens; 0 where it does not slide as a whole.
+    double push_sideways() const {
+        double sum = 0.0, sizes = 0.0;
+        for (BodyIndex b = 0; b < world_.bodies.size(); ++b) {
+            if (test_.setup.is_platen(b) || !held_[number_[b]]) continue;
+            const BodyForce& force = world_.bodies.force[b];
+            sum += force.fx;
+            sizes += std::hypot(force.fx, force.fy);
+        }
+        return std::abs(sum) >= share_of_one_way * sizes ? std::abs(sum) : 0.0;
+    }
+
     [[noreturn]] void refuse(const Imbalance& left, const std::string& cause) const {
-        throw InputError(
-            fmt::format("{}: found no equilibrium under {:g} {}: by linear solutions a force of {:.2g} of the pressure "
-                        "on a particle "
-                        "was left, expected at most {:g}, and {} bonds had broken{}; lower the pressure",
-                        test_.description.at("confinement.pressure"), pressure_, test_.description.stress_unit(),
-                        left.force, most_unbalanced, world_.bonds.broken, cause));
+        const double push = push_sideways();
+        throw InputError(fmt::format(
+            "{}: found no equilibrium under {:g} {}: by linear solutions a force of {:.2g} of the pressure on a "
+            "particle was left, expected at most {:g}, and {} bonds had broken{}; {}",
+            test_.description.at("confinement.pressure"), pressure_, test_.description.stress_unit(), left.force,
+            most_unbalanced, world_.bonds.broken, cause,
+            push > 0.0 ? fmt::format("the specimen slides between its platens, for the membrane's ends push it "
+                                     "sideways by {:.3g} N more than they hold: raise loading.platen_friction_angle",
+                                     push)
+                       : "lower the pressure"));
     }
 
     [[noreturn]] void refuse_part(bool wall, double way, double force) const {

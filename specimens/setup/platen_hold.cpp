@@ -93,8 +93,11 @@ void check_platen_hold(const World& world, const TestSetup& setup, const Platens
     if (!connected(world, setup)) {
         throw InputError(fmt::format(
             "{}: found {} bonds, none of which join the lower and the upper platen, expected a specimen in one "
-            "piece; polygons bond where bond.thick is larger than the gap between them",
-            test.at("bond.thick"), setup.bonds.size()));
+            "piece; {}",
+            test.at("bond.thick"), setup.bonds.size(),
+            world.settings.joints.empty()
+                ? "polygons bond where bond.thick is larger than the gap between them"
+                : "an open joint from side to side holds it together only where its faces touch: without an aperture"));
     }
 }
 

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
+#include <string>
 
 #include "solver/base/errors.hpp"
 #include "solver/measure/ledger.hpp"
@@ -64,6 +66,24 @@ TEST_F(Confined, SpecimenIsInEquilibriumBeforeLoadingBegins) {
             EXPECT_EQ(test.setup.confining_pressure, pressure);
         }
     }
+}
+
+TEST_F(Confined, SpecimenThatItsPlatensDoNotHoldIsRefusedSoon) {
+    // The last circles of a side lie a little nearer to one platen than those of the other: the membrane pushes.
+    const auto file = scratch_ / "smooth.toml";
+    std::ofstream(file) << "include = \"" CRACKLE_SOURCE_DIR "/specimens/rocks/softrock.toml\"\n"
+                        << "title = \"smooth platens\"\n[packing]\ncount = 300\n[confinement]\npressure = 5e6\n"
+                        << "[loading]\nkind = \"biaxial\"\nmax_axial_strain = 0.01\nplatens = \"frictional\"\n"
+                        << "platen_friction_angle = 0.01\n";
+    const TestCase smooth = read_case(file);
+    std::string refused;
+    try {
+        VirtualTest prepared = prepare_test(smooth);
+    } catch (const InputError& error) {
+        refused = error.what();
+    }
+    EXPECT_NE(refused.find("slides between its platens"), std::string::npos) << refused;
+    EXPECT_NE(refused.find("raise loading.platen_friction_angle"), std::string::npos) << refused;
 }
 
 /// N, of the specimen on a wall, inwards positive where it presses it out.
