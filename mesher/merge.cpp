@@ -39,6 +39,7 @@ class Joiner {
   private:
     int owner(int triangle);
     Polygon polygon_of(int triangle) const;
+    std::size_t opposite(const Side& side) const;
     int beyond(const Polygon& polygon, std::size_t side) const;
     Point corner(const Side& side) const { return mesh_.points[static_cast<std::size_t>(side.corner)]; }
     bool convex(const Polygon& polygon) const;
@@ -68,16 +69,18 @@ Polygon Joiner::polygon_of(int key) const {
     return {{c[0], key}, {c[1], key}, {c[2], key}};
 }
 
+// @return which corner of its triangle a side has opposite.
+std::size_t Joiner::opposite(const Side& side) const {
+    const auto& corners = mesh_.corners[static_cast<std::size_t>(side.triangle)];
+    return corners[1] == side.corner ? 0 : corners[2] == side.corner ? 1 : 2;
+}
+
 // @return triangle on the other side of an edge, -1 at the end of the mesh and at a trace, which stays one.
 int Joiner::beyond(const Polygon& polygon, std::size_t side) const {
     const auto triangle = static_cast<std::size_t>(polygon[side].triangle);
-    const auto& corners = mesh_.corners[triangle];
-    for (std::size_t k = 0; k < 3; ++k) {
-        if (corners[(k + 1) % 3] != polygon[side].corner) continue;
-        const bool trace = !mesh_.traces.empty() && mesh_.traces[triangle][k] >= 0;
-        return trace ? -1 : mesh_.neighbours[triangle][k];
-    }
-    return -1;
+    const std::size_t k = opposite(polygon[side]);
+    const bool trace = !mesh_.traces.empty() && mesh_.traces[triangle][k] >= 0;
+    return trace ? -1 : mesh_.neighbours[triangle][k];
 }
 
 bool Joiner::convex(const Polygon& polygon) const {
@@ -158,8 +161,13 @@ JoinedTriangles Joiner::result() const {
     out.joined.assign(mesh_.corners.size(), false);
     for (const auto& [triangle, parent] : parent_) out.joined[static_cast<std::size_t>(triangle)] = true;
     for (const auto& [key, polygon] : polygons_) {
-        out.outlines.push_back({key, {}});
-        for (const Side& side : polygon) out.outlines.back().corners.push_back(side.corner);
+        JoinedTriangles::Outline& outline = out.outlines.emplace_back();
+        outline.triangle = key;
+        for (const Side& side : polygon) {
+            outline.corners.push_back(side.corner);
+            if (!mesh_.traces.empty())
+                outline.traces.push_back(mesh_.traces[static_cast<std::size_t>(side.triangle)][opposite(side)]);
+        }
     }
     return out;
 }

@@ -17,6 +17,7 @@ struct JoinedTriangles {
     struct Outline {
         int triangle;  // the lowest of its triangles
         std::vector<int> corners;
+        std::vector<int> traces;  // on the edge from each corner to the next, -1: none; empty of a mesh without traces
     };
     std::vector<Outline> outlines;  // in the order of their triangles
 };

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <numeric>
 #include <set>
 #include <utility>
@@ -351,33 +350,11 @@ Mesh mesh_jointed_voronoi(std::span<const CellCentre> centres, const Rectangle& 
     return mesh;
 }
 
-/// Of the edge between two points of a triangle, whichever comes first.
-class EdgeTraces {
-  public:
-    explicit EdgeTraces(const Triangles& triangles) {
-        for (std::size_t t = 0; t < triangles.traces.size(); ++t) {
-            for (std::size_t k = 0; k < 3; ++k) {
-                const auto& corners = triangles.corners[t];
-                if (triangles.traces[t][k] >= 0)
-                    traces_[std::minmax(corners[(k + 1) % 3], corners[(k + 2) % 3])] = triangles.traces[t][k];
-            }
-        }
-    }
-    /// By the edge from each corner to the next.
-    std::span<const int> of(std::span<const int> corners) {
-        edges_.clear();
-        for (std::size_t k = 0; k < corners.size(); ++k) {
-            const int next = corners[k + 1 == corners.size() ? 0 : k + 1];
-            const auto found = traces_.find(std::minmax(corners[k], next));
-            edges_.push_back(found == traces_.end() ? -1 : found->second);
-        }
-        return edges_;
-    }
-
-  private:
-    std::map<std::pair<int, int>, int> traces_;
-    std::vector<int> edges_;
-};
+/// On the edge from each corner of a triangle to the next.
+std::array<int, 3> traces_along(const Triangles& triangles, std::size_t t) {
+    const std::array<int, 3>& opposite = triangles.traces[t];
+    return {opposite[2], opposite[0], opposite[1]};
+}
 
 Mesh mesh_delaunay(std::span<const CellCentre> centres, const Rectangle& domain, const MeshRequest& request,
                    double depth) {
@@ -440,7 +417,6 @@ Mesh mesh_delaunay(std::span<const CellCentre> centres, const Rectangle& domain,
     }
     const JoinedTriangles joined = join_destroyed(triangles, destroyed, depth, scale);
     MeshBuilder builder(domain, triangles.corners.size(), 3 * triangles.corners.size());
-    EdgeTraces edge_traces(triangles);
     auto next = joined.outlines.begin();
     std::vector<Point> before;
     for (std::size_t t = 0; t < triangles.corners.size(); ++t) {
@@ -448,15 +424,13 @@ Mesh mesh_delaunay(std::span<const CellCentre> centres, const Rectangle& domain,
         if (!joined.joined[t]) {
             const auto alone = outline(t);
             const auto after = inset.of(alone);
-            Cell& cell =
-                traced ? builder.add(alone, after, edge_traces.of(triangles.corners[t])) : builder.add(alone, after);
+            Cell& cell = traced ? builder.add(alone, after, traces_along(triangles, t)) : builder.add(alone, after);
             cell.centres = centres_of(t);
         } else if (next != joined.outlines.end() && static_cast<std::size_t>(next->triangle) == t) {
             before.clear();
             for (const int corner : next->corners) before.push_back(point(corner));
             const auto after = inset.of(before);
-            Cell& cell =
-                traced ? builder.add(before, after, edge_traces.of(next->corners)) : builder.add(before, after);
+            Cell& cell = traced ? builder.add(before, after, next->traces) : builder.add(before, after);
             cell.centres = centres_of(t);
             ++next;
         }

@@ -38,11 +38,17 @@ class MeshBuilder {
         double total_ = 0.0, lost_ = 0.0;
     };
 
+    struct StraightEdge {
+        Point start, along;  // unit
+        double length;
+    };
+    static std::size_t edge_of(std::span<const StraightEdge> before, Point a, Point b);
     void measure_edges(std::span<const Point> outline);
 
     Rectangle domain_;
     Mesh mesh_;
     Sum area_before_, area_after_, trace_length_;
+    std::vector<StraightEdge> edges_;  // of an outline without inset, on traces
     double shortest_edge_ = std::numeric_limits<double>::infinity();
     double smallest_corner_ = 2.0;  // a measure of the angle, see measure_edges()
 };
