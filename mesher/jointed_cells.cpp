@@ -158,9 +158,16 @@ class JointedPartition {
     void each_trace_under(Point a, Point b, Use use) const {
         grid_.each_near({0.5 * (a.x + b.x), 0.5 * (a.y + b.y)}, [&](std::size_t e) {
             const Segment& s = grid_.segments()[e];
-            if (graph_.edges[e].trace >= 0 && distance_to(s, a) <= near_ && distance_to(s, b) <= near_)
+            if (graph_.edges[e].trace >= 0 && !off_line(s, a) && distance_to(s, a) <= near_ &&
+                distance_to(s, b) <= near_)
                 use(e, distance(a, b));
         });
+    }
+    /// Surely, as most corners are: cheaper than the distance.
+    bool off_line(const Segment& s, Point p) const {
+        const Point d{s.b.x - s.a.x, s.b.y - s.a.y};
+        const double off = cross(d, {p.x - s.a.x, p.y - s.a.y});
+        return off * off > 4.0 * near_ * near_ * dot(d, d);
     }
     bool is_covered(std::size_t e, double covered) const {
         const double length = distance(grid_.segments()[e].a, grid_.segments()[e].b);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "mesher/angles.hpp"
 #include "mesher/place_grid.hpp"
@@ -64,6 +65,7 @@ class SeedPlacing {
           spacing_(spacing),
           shrink_(shrink),
           edges_(segments_of(graph), (clear_share + 0.5 * beside_step_share) * spacing),
+          seen_from_(graph.edges.size(), graph.edges.size()),
           arms_(graph.nodes.size()) {
         for (std::size_t e = 0; e < graph.edges.size(); ++e) {
             add_arm(graph.edges[e].from, graph.edges[e].to, e);
@@ -113,6 +115,11 @@ class SeedPlacing {
         Point at(double s, double off = 0.0) const {
             return {start.x + s * along.x - off * along.y, start.y + s * along.y + off * along.x};
         }
+        /// Distances along it and to its left.
+        Point seen(Point p) const {
+            const Point d{p.x - start.x, p.y - start.y};
+            return {d.x * along.x + d.y * along.y, d.y * along.x - d.x * along.y};
+        }
     };
     Line line_of(std::size_t e) const {
         const Point a = node(graph_.edges[e].from), b = node(graph_.edges[e].to);
@@ -120,33 +127,56 @@ class SeedPlacing {
         return {a, {(b.x - a.x) / length, (b.y - a.y) / length}, length};
     }
 
+    /// A part of a line, empty where it ends before it begins.
+    struct Stretch {
+        double from = std::numeric_limits<double>::infinity(), to = -from;
+        bool holds(double s) const { return s >= from && s <= to; }
+    };
+    /// Where a segment may be as near to a line as that.
+    static Stretch stretch_within(const Line& line, const Segment& segment, double reach) {
+        const double room = 1.001 * reach;  // rounding
+        const Point a = line.seen(segment.a), b = line.seen(segment.b);
+        if (std::min(a.y, b.y) > room || std::max(a.y, b.y) < -room) return {};
+        const auto at_height = [&](Point end, Point other) {
+            const double height = std::clamp(end.y, -room, room);
+            return height == end.y ? end.x : end.x + (height - end.y) / (other.y - end.y) * (other.x - end.x);
+        };
+        const auto [from, to] = std::minmax({at_height(a, b), at_height(b, a)});
+        return {from - room, to + room};
+    }
+
     /// An edge beside another, with the share of its distance that half a row's width may have.
     struct Beside {
         Segment segment;
         double share;
+        Stretch near, narrow;  // where it may be within clear_share, and where rows may be narrower for it
     };
     /// All that lies within clear_share of an edge, but for the edge itself and ones that go on from it straight.
-    std::vector<Beside> edges_beside(std::size_t edge, const Line& line) const {
-        std::vector<std::size_t> others;
-        const double step = beside_step_share * spacing_;
-        for (double s = 0.0; s < line.length + step; s += step)
-            edges_.each_near(line.at(std::min(s, line.length)), [&](std::size_t other) { others.push_back(other); });
-        std::ranges::sort(others);
-        others.erase(std::unique(others.begin(), others.end()), others.end());
+    std::vector<Beside> edges_beside(std::size_t edge, const Line& line) {
         std::vector<Beside> beside;
-        for (const std::size_t other : others) {
-            if (other == edge || goes_on(edge, other)) continue;
+        const auto look_at = [&](std::size_t other) {
+            if (seen_from_[other] == edge) return;
+            seen_from_[other] = edge;
+            if (other == edge || goes_on(edge, other)) return;
+            const Segment& segment = edges_.segments()[other];
+            const Stretch near = stretch_within(line, segment, clear_share * spacing_);
+            if (near.from > line.length || near.to < 0.0) return;
             const double share = graph_.edges[other].trace < 0 ? wall_share
                                  : meet(edge, other)           ? fork_share
                                                                : passage_share;
-            beside.push_back({edges_.segments()[other], share});
-        }
+            beside.push_back({segment, share, near, stretch_within(line, segment, full_half_width(edge) / share)});
+        };
+        const double step = beside_step_share * spacing_;
+        for (double s = 0.0; s < line.length + step; s += step)
+            edges_.each_near(line.at(std::min(s, line.length)), look_at);
         return beside;
     }
+    double full_half_width(std::size_t edge) const { return half_width_share * spacing_ * shrink_[edge]; }
     /// Half the width of a row there.
-    double half_width(std::size_t edge, const std::vector<Beside>& beside, Point p) const {
-        double least = half_width_share * spacing_ * shrink_[edge];
-        for (const Beside& other : beside) least = std::min(least, other.share * distance_to(other.segment, p));
+    double half_width(std::size_t edge, const std::vector<Beside>& beside, const Line& line, double s) const {
+        double least = full_half_width(edge);
+        for (const Beside& other : beside)
+            if (other.narrow.holds(s)) least = std::min(least, other.share * distance_to(other.segment, line.at(s)));
         return std::max(least, narrowest_strip_share * half_width_share * spacing_);
     }
     bool meet(std::size_t edge, std::size_t other) const {
@@ -241,16 +271,16 @@ class SeedPlacing {
         const double start = from;
         for (std::size_t k = 0; k <= steps; ++k) {
             const double s = k == steps ? to : start + static_cast<double>(k) * step;
-            const bool clear = is_clear(e, beside, line.at(s));
+            const bool clear = is_clear(e, beside, line, s);
             if (clear && begin < 0.0) begin = s;
             if (begin < 0.0 || (clear && k < steps)) continue;
             if (s - begin >= shortest_own_share * spacing_) {
                 own.push_back({e, line, begin, s});
                 if (begin > from) {
                     place_even(e, line, beside, from, begin);
-                    place_pair(line, begin, half_width(e, beside, line.at(begin)));
+                    place_pair(line, begin, half_width(e, beside, line, begin));
                 }
-                if (s < to) place_pair(line, s, half_width(e, beside, line.at(s)));
+                if (s < to) place_pair(line, s, half_width(e, beside, line, s));
                 from = s;
             }
             begin = -1.0;
@@ -258,9 +288,9 @@ class SeedPlacing {
         if (from < to) place_even(e, line, beside, from, to);
     }
     /// No other edge is near, but what goes straight on.
-    bool is_clear(std::size_t edge, const std::vector<Beside>& beside, Point p) const {
+    bool is_clear(std::size_t edge, const std::vector<Beside>& beside, const Line& line, double s) const {
         return shrink_[edge] >= 1.0 && std::ranges::none_of(beside, [&](const Beside& other) {
-                   return distance_to(other.segment, p) < clear_share * spacing_;
+                   return other.near.holds(s) && distance_to(other.segment, line.at(s)) < clear_share * spacing_;
                });
     }
 
@@ -271,15 +301,14 @@ class SeedPlacing {
         const double step = (to - from) / static_cast<double>(steps);
         for (std::size_t k = 0; k < steps; ++k)
             count.push_back(count.back() +
-                            step /
-                                (2.0 * half_width(e, beside, line.at(from + (static_cast<double>(k) + 0.5) * step))));
+                            step / (2.0 * half_width(e, beside, line, from + (static_cast<double>(k) + 0.5) * step)));
         const auto pairs = std::max(1L, std::lround(count.back()));  // gaps between them
         std::size_t k = 0;
         for (long pair = 1; pair < pairs; ++pair) {
             const double wanted = count.back() * static_cast<double>(pair) / static_cast<double>(pairs);
             while (k + 1 < steps && count[k + 1] < wanted) ++k;
             const double s = from + step * (static_cast<double>(k) + (wanted - count[k]) / (count[k + 1] - count[k]));
-            place_pair(line, s, half_width(e, beside, line.at(s)));
+            place_pair(line, s, half_width(e, beside, line, s));
         }
     }
     void place_pair(const Line& line, double s, double off) {
@@ -291,23 +320,19 @@ class SeedPlacing {
     /// the line is bare a pair is put in. Whatever the seeds, nearest to each place on the line are two mirrored ones.
     void mirror_own(const std::vector<OwnStretch>& own) {
         if (own.empty()) return;
-        std::vector<std::vector<std::size_t>> stretches(graph_.edges.size());
-        for (std::size_t k = 0; k < own.size(); ++k) stretches[own[k].edge].push_back(k);
+        std::vector<Segment> stretches;
+        stretches.reserve(own.size());
+        for (const auto& [edge, line, from, to] : own) stretches.push_back({line.at(from), line.at(to)});
+        const double widest = (half_width_share + kept_share) * spacing_;
+        const SegmentGrid near_own(std::move(stretches), 1.001 * widest);
         struct Candidate {
             double s, off;
         };
         std::vector<std::vector<Candidate>> candidates(own.size());
         for (const CellCentre& centre : centres_) {
-            edges_.each_near(centre, [&](std::size_t e) {
-                for (const std::size_t k : stretches[e]) {
-                    const Line& line = own[k].line;
-                    const Point d{centre.x - line.start.x, centre.y - line.start.y};
-                    const double s = d.x * line.along.x + d.y * line.along.y,
-                                 off = d.y * line.along.x - d.x * line.along.y;
-                    if (s > own[k].from && s < own[k].to && off > 0.0 &&
-                        off < (half_width_share + kept_share) * spacing_)
-                        candidates[k].push_back({s, off});
-                }
+            near_own.each_near(centre, [&](std::size_t k) {
+                const auto [s, off] = own[k].line.seen(centre);
+                if (s > own[k].from && s < own[k].to && off > 0.0 && off < widest) candidates[k].push_back({s, off});
             });
         }
         PlaceGrid placed(spacing_);
@@ -337,17 +362,20 @@ class SeedPlacing {
     SeedSet with_centres() const {
         SeedSet set;
         const double room = kept_share * spacing_;
-        PlaceGrid seeds(room), given(spacing_);
+        PlaceGrid seeds(spacing_), given(spacing_);
+        seeds.reserve(added_.size());
+        given.reserve(centres_.size());
+        set.places.reserve(centres_.size() + added_.size());
         for (const Point p : added_) seeds.add(p);
         for (const CellCentre& centre : centres_) given.add(centre);
         for (std::size_t k = 0; k < centres_.size(); ++k) {
-            bool kept = !seeds.any_within(centres_[k], room);
-            edges_.each_near(centres_[k], [&](std::size_t e) {
-                if (graph_.edges[e].trace < 0 || !kept) return;
+            const bool in_row = edges_.any_near(centres_[k], [&](std::size_t e) {
+                if (graph_.edges[e].trace < 0) return false;
+                const double least = full_half_width(e) + room;
                 const Segment& s = edges_.segments()[e];
-                kept = distance_to(s, centres_[k]) >= half_width_share * spacing_ * shrink_[e] + room;
+                return !surely_beyond(s, centres_[k], least) && distance_to(s, centres_[k]) < least;
             });
-            if (!kept) {
+            if (in_row || seeds.any_within(centres_[k], room)) {
                 ++set.left_out;
                 continue;
             }
@@ -369,6 +397,7 @@ class SeedPlacing {
     double spacing_;
     std::span<const double> shrink_;
     SegmentGrid edges_;
+    std::vector<std::size_t> seen_from_;  // by edge: the last whose neighbours were looked for
     std::vector<std::vector<Arm>> arms_;  // by node
     std::vector<NodeRing> rings_;
     std::vector<Point> added_;

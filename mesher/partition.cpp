@@ -391,15 +391,21 @@ void Partition::contract_zero_edges() {
         }
         return static_cast<std::size_t>(face->info().index);
     };
-    for (auto edge = triangulation_.finite_edges_begin(); edge != triangulation_.finite_edges_end(); ++edge) {
-        const FaceHandle f = edge->first, g = f->neighbor(edge->second);
-        const VertexHandle a = f->vertex(Triangulation::ccw(edge->second)),
-                           b = f->vertex(Triangulation::cw(edge->second));
-        if (!is_centre(a) && !is_centre(b)) continue;
-        if (f->info().outside || g->info().outside) continue;
-        const Point p = f->info().dual, q = g->info().dual;
-        const double zero = 4.0 * zero_edge(p, position(is_centre(a) ? a : b));
-        if (squared_distance(p, q) < zero) parent[root(member(f))] = root(member(g));
+    // No dual is further from a centre of its face than that.
+    const double longest_zero = 4.0 * zero_edge({domain_.x1, domain_.y1}, {domain_.x2, domain_.y2});
+    for (const FaceHandle f : triangulation_.finite_face_handles()) {
+        for (int k = 0; k < 3; ++k) {
+            const FaceHandle g = f->neighbor(k);
+            if (g < f) continue;  // the edge is met from there
+            const Point p = f->info().dual, q = g->info().dual;
+            const double length = squared_distance(p, q);
+            if (length >= longest_zero) continue;
+            const VertexHandle a = f->vertex(Triangulation::ccw(k)), b = f->vertex(Triangulation::cw(k));
+            if (!is_centre(a) && !is_centre(b)) continue;
+            if (f->info().outside || g->info().outside) continue;
+            const double zero = 4.0 * zero_edge(p, position(is_centre(a) ? a : b));
+            if (length < zero) parent[root(member(f))] = root(member(g));
+        }
     }
     // A point on walls stands for those beside it; the order decides among equals, whatever the numbering of faces.
     const auto walls = [this](Point p) {

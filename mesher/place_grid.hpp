@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -18,47 +19,79 @@ struct Segment {
     Point a, b;
 };
 
+/// Whether its box is further away than that, as most are: cheaper than the distance.
+inline bool surely_beyond(const Segment& s, Point p, double reach) {
+    const double room = 1.001 * reach;  // rounding
+    return p.x + room < std::min(s.a.x, s.b.x) || p.x - room > std::max(s.a.x, s.b.x) ||
+           p.y + room < std::min(s.a.y, s.b.y) || p.y - room > std::max(s.a.y, s.b.y);
+}
 inline double distance_to(const Segment& s, Point p) {
     const double dx = s.b.x - s.a.x, dy = s.b.y - s.a.y;
     const double share = std::clamp(((p.x - s.a.x) * dx + (p.y - s.a.y) * dy) / (dx * dx + dy * dy), 0.0, 1.0);
     return distance(p, {s.a.x + share * dx, s.a.y + share * dy});
 }
 
+/// A square of a grid. Those 2^32 apart are one: what is taken for near by that is measured anyway.
+struct Square {
+    Square(std::int64_t column, std::int64_t row)
+        : i(static_cast<std::uint32_t>(column)), j(static_cast<std::uint32_t>(row)) {}
+    bool operator==(const Square&) const = default;
+    /// Of a table of so many, a power of two: those of a few rows of a column lie side by side, as they are looked at.
+    std::size_t bucket(std::size_t buckets) const {
+        const std::uint64_t mixed = ((std::uint64_t{i} << 32) | (j >> 2)) * 0x9E3779B97F4A7C15ULL;
+        return (((mixed >> 32) << 2) | (j & 3)) & (buckets - 1);
+    }
+
+    std::uint32_t i, j;
+};
+
 /// Numbers by the squares of a grid, in one table: a list a bucket, each in the order of adding.
 class Squares {
   public:
     explicit Squares(double size) : size_(size), lists_(64) {}
-    std::int64_t index(double x) const { return static_cast<std::int64_t>(std::floor(x / size_)); }
+    std::int64_t index(double x) const {
+        const double exactly = x / size_;
+        const auto truncated = static_cast<std::int64_t>(exactly);
+        return truncated - (exactly < static_cast<double>(truncated) ? 1 : 0);
+    }
+    /// For so many numbers.
+    void reserve(std::size_t count) {
+        entries_.reserve(count);
+        while (lists_.size() < count) grow();
+    }
     void add(std::int64_t i, std::int64_t j, std::size_t number) {
         if (entries_.size() == lists_.size()) grow();
-        entries_.push_back({i, j, number, none});
+        entries_.push_back({{i, j}, static_cast<std::uint32_t>(number), none});
         append(static_cast<std::uint32_t>(entries_.size() - 1));
     }
     /// Calls use(number).
     template <class Use>
     void each_at(std::int64_t i, std::int64_t j, Use use) const {
-        for (std::uint32_t e = lists_[bucket(i, j)].first; e != none; e = entries_[e].next)
-            if (entries_[e].i == i && entries_[e].j == j) use(entries_[e].number);
+        any_at(i, j, [&](std::size_t number) {
+            use(number);
+            return false;
+        });
+    }
+    /// Whether test(number) holds of one.
+    template <class Test>
+    bool any_at(std::int64_t i, std::int64_t j, Test test) const {
+        const Square square(i, j);
+        for (std::uint32_t e = lists_[square.bucket(lists_.size())].first; e != none; e = entries_[e].next)
+            if (entries_[e].square == square && test(std::size_t{entries_[e].number})) return true;
+        return false;
     }
 
   private:
     static constexpr std::uint32_t none = ~0U;
     struct Entry {
-        std::int64_t i, j;
-        std::size_t number;
-        std::uint32_t next;
+        Square square;
+        std::uint32_t number, next;
     };
     struct List {
         std::uint32_t first = none, last = none;
     };
-    std::size_t bucket(std::int64_t i, std::int64_t j) const {
-        const std::uint64_t mixed =
-            (static_cast<std::uint64_t>(i) * 0x9E3779B97F4A7C15ULL + static_cast<std::uint64_t>(j)) *
-            0xD6E8FEB86659FD93ULL;
-        return (mixed >> 32) & (lists_.size() - 1);
-    }
     void append(std::uint32_t entry) {
-        List& list = lists_[bucket(entries_[entry].i, entries_[entry].j)];
+        List& list = lists_[entries_[entry].square.bucket(lists_.size())];
         if (list.first == none)
             list.first = entry;
         else
@@ -82,26 +115,58 @@ class Squares {
 class SegmentGrid {
   public:
     SegmentGrid(std::vector<Segment> segments, double reach) : segments_(std::move(segments)), squares_(reach) {
+        std::vector<Entry> entries;
         for (std::size_t k = 0; k < segments_.size(); ++k) {
             // Along the segment from column to column: a long one does not fill the box about it.
             const auto [x1, x2] = std::minmax(segments_[k].a.x, segments_[k].b.x);
-            for (std::int64_t i = squares_.index(x1 - reach); i <= squares_.index(x2 + reach); ++i) {
+            const std::int64_t last = squares_.index(x2 + reach);
+            for (std::int64_t i = squares_.index(x1 - reach); i <= last; ++i) {
                 const double low = static_cast<double>(i) * reach - reach, high = low + 3.0 * reach;
                 const auto [y1, y2] = heights(segments_[k], low, high);
-                for (std::int64_t j = squares_.index(y1 - reach); j <= squares_.index(y2 + reach); ++j)
-                    squares_.add(i, j, k);
+                const std::int64_t top = squares_.index(y2 + reach);
+                for (std::int64_t j = squares_.index(y1 - reach); j <= top; ++j)
+                    entries.push_back({{i, j}, static_cast<std::uint32_t>(k)});
             }
         }
+        sort_into_buckets(entries);
     }
 
     const std::vector<Segment>& segments() const { return segments_; }
     /// Calls use(number): all within the reach, some beyond.
     template <class Use>
     void each_near(Point p, Use use) const {
-        squares_.each_at(squares_.index(p.x), squares_.index(p.y), use);
+        any_near(p, [&](std::size_t number) {
+            use(number);
+            return false;
+        });
+    }
+    /// Whether test(number) holds of one of these.
+    template <class Test>
+    bool any_near(Point p, Test test) const {
+        const Square square(squares_.index(p.x), squares_.index(p.y));
+        const std::size_t bucket = square.bucket(ends_.size());
+        for (std::uint32_t e = bucket == 0 ? 0 : ends_[bucket - 1]; e < ends_[bucket]; ++e)
+            if (entries_[e].square == square && test(std::size_t{entries_[e].number})) return true;
+        return false;
     }
 
   private:
+    struct Entry {
+        Square square;
+        std::uint32_t number;
+    };
+    /// Each bucket's in the order in which they are.
+    void sort_into_buckets(const std::vector<Entry>& entries) {
+        std::size_t buckets = 64;
+        while (buckets < entries.size()) buckets *= 2;
+        std::vector<std::uint32_t> next(buckets + 1);
+        for (const Entry& entry : entries) ++next[entry.square.bucket(buckets) + 1];
+        std::partial_sum(next.begin(), next.end(), next.begin());
+        entries_.assign(entries.size(), {{0, 0}, 0});
+        for (const Entry& entry : entries) entries_[next[entry.square.bucket(buckets)]++] = entry;
+        next.pop_back();  // what is left has become each bucket's end
+        ends_ = std::move(next);
+    }
     /// Of the part of a segment between two x.
     static std::pair<double, double> heights(const Segment& s, double low, double high) {
         if (s.a.x == s.b.x) return std::minmax(s.a.y, s.b.y);
@@ -114,20 +179,29 @@ class SegmentGrid {
 
     std::vector<Segment> segments_;
     Squares squares_;
+    std::vector<Entry> entries_;
+    std::vector<std::uint32_t> ends_;  // by bucket, of its entries
 };
 
 /// Places that lie near another.
 class PlaceGrid {
   public:
     explicit PlaceGrid(double size) : squares_(size), size_(size) {}
+    void reserve(std::size_t count) {
+        squares_.reserve(count);
+        places_.reserve(count);
+    }
     void add(Point p) {
         squares_.add(squares_.index(p.x), squares_.index(p.y), places_.size());
         places_.push_back(p);
     }
-    /// @param reach at most the grid's size
+    /// @param reach at most the grid's size; the smaller, the fewer squares are looked at
     bool any_within(Point p, double reach) const {
-        const auto [number, away] = nearest_of_squares(p, 1);
-        return number >= 0 && away < reach;
+        const double room = 1.001 * reach;  // rounding
+        for (std::int64_t u = squares_.index(p.x - room); u <= squares_.index(p.x + room); ++u)
+            for (std::int64_t v = squares_.index(p.y - room); v <= squares_.index(p.y + room); ++v)
+                if (squares_.any_at(u, v, [&](std::size_t k) { return distance(p, places_[k]) < reach; })) return true;
+        return false;
     }
     /// Number of the nearest place; there is one.
     int nearest(Point p) const {
@@ -138,19 +212,33 @@ class PlaceGrid {
     }
 
   private:
+    /// Of equally near ones that of the first square; the own square comes first only to spare most others.
     std::pair<int, double> nearest_of_squares(Point p, std::int64_t rings) const {
         int best = -1;
         double least = std::numeric_limits<double>::infinity();
         const std::int64_t i = squares_.index(p.x), j = squares_.index(p.y);
+        std::pair<std::int64_t, std::int64_t> of{i, j};
+        const auto look_at = [&](std::int64_t u, std::int64_t v) {
+            squares_.each_at(u, v, [&](std::size_t k) {
+                const double away = distance(p, places_[k]);
+                if (away > least || (away == least && std::pair{u, v} >= of)) return;
+                least = away;
+                best = static_cast<int>(k);
+                of = {u, v};
+            });
+        };
+        // From a place to the squares before and after it in a row of them.
+        const auto gap = [&](double x, std::int64_t own, std::int64_t other) {
+            return other == own  ? 0.0
+                   : other < own ? x - static_cast<double>(other + 1) * size_
+                                 : static_cast<double>(other) * size_ - x;
+        };
+        look_at(i, j);
         for (std::int64_t u = i - rings; u <= i + rings; ++u) {
-            for (std::int64_t v = j - rings; v <= j + rings; ++v) {
-                squares_.each_at(u, v, [&](std::size_t k) {
-                    const double away = distance(p, places_[k]);
-                    if (away >= least) return;
-                    least = away;
-                    best = static_cast<int>(k);
-                });
-            }
+            const double across = gap(p.x, i, u);
+            if (across > 1.001 * least) continue;
+            for (std::int64_t v = j - rings; v <= j + rings; ++v)
+                if ((u != i || v != j) && gap(p.y, j, v) <= 1.001 * least) look_at(u, v);
         }
         return {best, least};
     }
