@@ -11,6 +11,7 @@
 #include <CGAL/Delaunay_mesh_face_base_2.h>
 #include <CGAL/Delaunay_mesh_vertex_base_2.h>
 #include <CGAL/Delaunay_mesher_2.h>
+#include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Spatial_sort_traits_adapter_2.h>
 #include <CGAL/Triangulation_face_base_with_info_2.h>
@@ -22,7 +23,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <map>
 #include <utility>
 
 #include "mesher/place_grid.hpp"
@@ -40,7 +40,7 @@ constexpr double smallest_squared_sine = 0.125;  // of 20.7 degrees: up to that 
 struct PointInfo {
     int centre = -1;
     bool near_trace = true;  // also of points that refinement adds
-    int number = -1;         // among the mesh's points
+    int number = -1;         // among the traces' points; once refined, among the mesh's
 };
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -51,8 +51,9 @@ struct FaceNumber {
 };
 using TracedFaceBase =
     CGAL::Triangulation_face_base_with_info_2<FaceNumber, Kernel, CGAL::Delaunay_mesh_face_base_2<Kernel>>;
-using Constrained = CGAL::Constrained_Delaunay_triangulation_2<
-    Kernel, CGAL::Triangulation_data_structure_2<TracedVertexBase, TracedFaceBase>, CGAL::Exact_predicates_tag>;
+using TracedStructure = CGAL::Triangulation_data_structure_2<TracedVertexBase, TracedFaceBase>;
+using Unconstrained = CGAL::Delaunay_triangulation_2<Kernel, TracedStructure>;
+using Constrained = CGAL::Constrained_Delaunay_triangulation_2<Kernel, TracedStructure, CGAL::Exact_predicates_tag>;
 using ConstrainedVertex = Constrained::Vertex_handle;
 using ConstrainedFace = Constrained::Face_handle;
 
@@ -81,6 +82,7 @@ class NearTraceCriteria : public CGAL::Delaunay_mesh_criteria_2<Constrained> {
 
 struct TracePiece : Segment {
     int trace;
+    int from, to;  // among the traces' points
 };
 
 class Conforming {
@@ -108,19 +110,24 @@ class Conforming {
     };
 
     void cut_into_pieces() {
+        int points = static_cast<int>(graph_.nodes.size());  // those between nodes come after them
         for (const TraceGraph::Edge& edge : graph_.edges) {
             const Point a = graph_.nodes[static_cast<std::size_t>(edge.from)],
                         b = graph_.nodes[static_cast<std::size_t>(edge.to)];
             if (edge.trace < 0) continue;
             const auto parts = std::max(1, static_cast<int>(std::lround(distance(a, b) / spacing_)));
             Point last = a;
+            int from = edge.from;
             for (int part = 1; part <= parts; ++part) {
                 const double share = static_cast<double>(part) / parts;
                 const Point next = part == parts ? b : Point{a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)};
-                pieces_.push_back({{last, next}, edge.trace});
+                const int to = part == parts ? edge.to : points++;
+                pieces_.push_back({{last, next}, edge.trace, from, to});
                 last = next;
+                from = to;
             }
         }
+        vertices_.resize(static_cast<std::size_t>(points));
     }
 
     [[noreturn]] void refuse_narrow(int trace, int other, Point at, const std::string& what) const {
@@ -143,6 +150,7 @@ class Conforming {
                 const auto &end = ends.first, &start = ends.second;  // clang++ 14 captures no structured bindings
                 grid.each_near(end, [&](std::size_t number) {
                     const TracePiece& other = pieces_[number];
+                    if (surely_beyond(other, end, narrow)) return;
                     const bool meets = end == other.a || end == other.b;
                     if (!meets) {
                         const double away = distance_to(other, end);
@@ -177,7 +185,10 @@ class Conforming {
     /// Infinite beyond the grid's reach.
     static double from_traces(Point p, const SegmentGrid& grid) {
         double least = std::numeric_limits<double>::infinity();
-        grid.each_near(p, [&](std::size_t k) { least = std::min(least, distance_to(grid.segments()[k], p)); });
+        grid.each_near(p, [&](std::size_t k) {
+            const Segment& s = grid.segments()[k];
+            if (!surely_beyond(s, p, least)) least = std::min(least, distance_to(s, p));
+        });
         return least;
     }
 
@@ -185,14 +196,17 @@ class Conforming {
     std::vector<ChosenPoint> chosen_points(std::span<const CellCentre> centres, const SegmentGrid& grid) {
         std::vector<CellCentre> kept;
         std::vector<int> number;
+        std::vector<char> near;
         const double room = left_out_seed_share * spacing_;
         for (std::size_t k = 0; k < centres.size(); ++k) {
-            if (from_traces(centres[k], grid) < room) {
+            const double away = from_traces(centres[k], grid);
+            if (away < room) {
                 ++out_.left_out;
                 continue;
             }
             kept.push_back(centres[k]);
             number.push_back(static_cast<int>(k));
+            near.push_back(away <= near_share * spacing_ ? 1 : 0);
         }
         std::vector<ChosenPoint> points;
         for (const double x : {domain_.x1, domain_.x2})
@@ -202,13 +216,14 @@ class Conforming {
         const Triangles without = delaunay_triangles(kept, domain_, Boundary::domain, patience_);
         for (std::size_t k = 0; k < without.points.size(); ++k) {
             const Point p = without.points[k];
-            const int centre = without.centre_of[k];
-            const bool corner = (p.x == domain_.x1 || p.x == domain_.x2) && (p.y == domain_.y1 || p.y == domain_.y2);
-            if (centre < 0 && corner) continue;
+            if (without.centre_of[k] >= 0) {
+                const auto centre = static_cast<std::size_t>(without.centre_of[k]);
+                points.push_back({p, {number[centre], near[centre] != 0}});
+                continue;
+            }
+            if ((p.x == domain_.x1 || p.x == domain_.x2) && (p.y == domain_.y1 || p.y == domain_.y2)) continue;
             const double away = from_traces(p, grid);
-            if (centre < 0 && away < room) continue;
-            points.push_back(
-                {p, {centre < 0 ? -1 : number[static_cast<std::size_t>(centre)], away <= near_share * spacing_}});
+            if (away >= room) points.push_back({p, {-1, away <= near_share * spacing_}});
         }
         return points;
     }
@@ -218,43 +233,51 @@ class Conforming {
         std::vector<Placed> order;
         order.reserve(points.size() + 2 * pieces_.size());
         for (const ChosenPoint& one : points) order.emplace_back(Kernel::Point_2(one.place.x, one.place.y), one.info);
-        for (const TracePiece& piece : pieces_)
-            for (const Point p : {piece.a, piece.b}) order.emplace_back(Kernel::Point_2(p.x, p.y), PointInfo{});
+        for (const TracePiece& piece : pieces_) {
+            order.emplace_back(Kernel::Point_2(piece.a.x, piece.a.y), PointInfo{-1, true, piece.from});
+            order.emplace_back(Kernel::Point_2(piece.b.x, piece.b.y), PointInfo{-1, true, piece.to});
+        }
         using PlaceOf = CGAL::First_of_pair_property_map<Placed>;
         CGAL::spatial_sort(order.begin(), order.end(), CGAL::Spatial_sort_traits_adapter_2<Kernel, PlaceOf>());
+        Unconstrained points_alone;  // its flips look after no constraints
         ConstrainedFace hint;
         for (const auto& [place, info] : order) {
             patience_.piece();
-            const std::size_t before = mesh_.number_of_vertices();
-            const ConstrainedVertex v = mesh_.insert(place, hint);
-            // A trace's point comes twice, and may be a corner.
-            if (mesh_.number_of_vertices() != before || info.centre < 0) v->info() = info;
+            // A trace's point comes once a piece: where it is already, locating it would take exact arithmetic.
+            const bool of_trace = info.number >= 0;
+            ConstrainedVertex v = of_trace ? vertex(info.number) : ConstrainedVertex();
+            if (v == ConstrainedVertex()) {
+                const std::size_t before = points_alone.number_of_vertices();
+                v = points_alone.insert(place, hint);
+                // May be a corner.
+                if (points_alone.number_of_vertices() != before || info.centre < 0) v->info() = info;
+                if (of_trace) vertex(info.number) = v;
+            }
             hint = v->face();
         }
+        mesh_.swap(points_alone);
     }
-
-    ConstrainedVertex vertex_at(Point p, ConstrainedFace& hint) {
-        const ConstrainedVertex v = mesh_.insert(Kernel::Point_2(p.x, p.y), hint);
-        hint = v->face();
-        return v;
-    }
+    ConstrainedVertex& vertex(int point) { return vertices_[static_cast<std::size_t>(point)]; }
 
     void constrain() {
-        ConstrainedFace hint;
-        for (const TracePiece& piece : pieces_) {
-            const ConstrainedVertex a = vertex_at(piece.a, hint), b = vertex_at(piece.b, hint);
-            mesh_.insert_constraint(a, b);
-            hint = a->face();  // the one found before may be gone
-            ends_.emplace_back(a, b);
-        }
+        for (const TracePiece& piece : pieces_) constrain(vertex(piece.from), vertex(piece.to));
         // The walls are the convex hull.
         auto round = mesh_.incident_vertices(mesh_.infinite_vertex());
         const auto start = round;
         std::vector<ConstrainedVertex> around;
         do around.push_back(round);
         while (++round != start);
-        for (std::size_t k = 0; k < around.size(); ++k)
-            mesh_.insert_constraint(around[k], around[(k + 1) % around.size()]);
+        for (std::size_t k = 0; k < around.size(); ++k) constrain(around[k], around[(k + 1) % around.size()]);
+    }
+    void constrain(ConstrainedVertex a, ConstrainedVertex b) {
+        ConstrainedFace face;
+        int k = 0;
+        if (!mesh_.is_edge(a, b, face, k)) {
+            mesh_.insert_constraint(a, b);
+            return;
+        }
+        face->set_constraint(k, true);
+        face->neighbor(k)->set_constraint(mesh_.mirror_index(face, k), true);
     }
 
     void refine() {
@@ -270,8 +293,15 @@ class Conforming {
         const Point from = place_of(a);
         const double whole = distance(from, end);
         while (a != b) {
+            ConstrainedFace beside;
+            int opposite = 0;
+            if (mesh_.is_edge(a, b, beside, opposite) && beside->is_constrained(opposite)) {
+                mark(beside, opposite, trace);
+                return;
+            }
             const Point here = place_of(a);
             ConstrainedVertex best = nullptr;
+            Constrained::Edge best_edge;
             double least = 1e-6 * whole;  // off the line: other traces leave at angles that can be seen
             auto edge = mesh_.incident_edges(a);
             const auto start = edge;
@@ -284,24 +314,30 @@ class Conforming {
                 const Point there = place_of(other);
                 const double ahead = (there.x - here.x) * (end.x - from.x) + (there.y - here.y) * (end.y - from.y);
                 const double beyond = (end.x - there.x) * (end.x - from.x) + (end.y - there.y) * (end.y - from.y);
-                if (ahead <= 0.0 || (beyond < 0.0 && other != b)) continue;
+                if (ahead <= 0.0 || beyond < 0.0) continue;
                 const double off =
                     std::abs((end.x - from.x) * (there.y - from.y) - (end.y - from.y) * (there.x - from.x)) / whole;
-                if (off >= least && other != b) continue;
-                least = other == b ? -1.0 : off;
+                if (off >= least) continue;
+                least = off;
                 best = other;
+                best_edge = *edge;
             } while (++edge != start);
             if (best == ConstrainedVertex(nullptr))
                 throw MeshError(
                     fmt::format("mesh: found trace {} at ({:.9g}, {:.9g}) so close to another that its "
                                 "edges are lost in rounding, expected traces apart or crossing; remove one",
                                 trace, here.x, here.y));
-            trace_of_[key_of(a, best)] = trace;
+            mark(best_edge.first, best_edge.second, trace);
             a = best;
         }
     }
-    std::pair<int, int> key_of(ConstrainedVertex a, ConstrainedVertex b) const {
-        return std::minmax(a->info().number, b->info().number);
+    /// On both sides of an edge, those of the mesh.
+    void mark(ConstrainedFace face, int k, int trace) {
+        const ConstrainedFace beyond = face->neighbor(k);
+        for (const auto& [side, edge] : {std::pair{face, k}, {beyond, beyond->index(face)}})
+            if (side->info().value >= 0)
+                out_.triangles.traces[static_cast<std::size_t>(side->info().value)][static_cast<std::size_t>(edge)] =
+                    trace;
     }
 
     void number_points() {
@@ -313,7 +349,6 @@ class Conforming {
             t.centre_of.push_back(v->info().centre);
             if (v->info().centre < 0 && sides_at(p, domain_) == 0) ++out_.added;
         }
-        for (std::size_t k = 0; k < pieces_.size(); ++k) note_trace(ends_[k].first, ends_[k].second, pieces_[k].trace);
     }
 
     void collect() {
@@ -323,20 +358,19 @@ class Conforming {
             face->info().value = static_cast<int>(faces.size());
             faces.push_back(face);
         }
+        t.corners.reserve(faces.size());
+        t.neighbours.reserve(faces.size());
         for (const ConstrainedFace face : faces) {
             auto& corners = t.corners.emplace_back();
             auto& neighbours = t.neighbours.emplace_back();
-            auto& traces = t.traces.emplace_back(std::array<int, 3>{-1, -1, -1});
             for (int k = 0; k < 3; ++k) {
                 const auto at = static_cast<std::size_t>(k);
                 corners[at] = face->vertex(k)->info().number;
                 neighbours[at] = face->neighbor(k)->info().value;
-                if (!face->is_constrained(k)) continue;
-                const auto found =
-                    trace_of_.find(key_of(face->vertex(Constrained::ccw(k)), face->vertex(Constrained::cw(k))));
-                if (found != trace_of_.end()) traces[at] = found->second;
             }
         }
+        t.traces.assign(faces.size(), {-1, -1, -1});
+        for (const TracePiece& piece : pieces_) note_trace(vertex(piece.from), vertex(piece.to), piece.trace);
     }
 
     Rectangle domain_;
@@ -344,9 +378,8 @@ class Conforming {
     Patience& patience_;
     double spacing_;
     std::vector<TracePiece> pieces_;
-    std::vector<std::pair<ConstrainedVertex, ConstrainedVertex>> ends_;  // of the pieces
+    std::vector<ConstrainedVertex> vertices_;  // by the traces' points
     Constrained mesh_;
-    std::map<std::pair<int, int>, int> trace_of_;  // by the ends of an edge
     ConformingTriangles out_;
 };
 
