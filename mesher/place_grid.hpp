@@ -36,10 +36,11 @@ struct Square {
     Square(std::int64_t column, std::int64_t row)
         : i(static_cast<std::uint32_t>(column)), j(static_cast<std::uint32_t>(row)) {}
     bool operator==(const Square&) const = default;
-    /// Of a table of so many, a power of two: those of a few rows of a column lie side by side, as they are looked at.
+    /// Of a table of so many, a power of two from 64 on: eight by eight squares lie together, for what is looked at one
+    /// after another is near each other.
     std::size_t bucket(std::size_t buckets) const {
-        const std::uint64_t mixed = ((std::uint64_t{i} << 32) | (j >> 2)) * 0x9E3779B97F4A7C15ULL;
-        return (((mixed >> 32) << 2) | (j & 3)) & (buckets - 1);
+        const std::uint64_t mixed = ((std::uint64_t{i >> 3} << 32) | (j >> 3)) * 0x9E3779B97F4A7C15ULL;
+        return (((mixed >> 32) << 6) | ((i & 7) << 3) | (j & 7)) & (buckets - 1);
     }
 
     std::uint32_t i, j;
@@ -220,6 +221,8 @@ class PlaceGrid {
         std::pair<std::int64_t, std::int64_t> of{i, j};
         const auto look_at = [&](std::int64_t u, std::int64_t v) {
             squares_.each_at(u, v, [&](std::size_t k) {
+                const Point d{places_[k].x - p.x, places_[k].y - p.y};
+                if (dot(d, d) > 1.001 * least * least) return;  // spares the root
                 const double away = distance(p, places_[k]);
                 if (away > least || (away == least && std::pair{u, v} >= of)) return;
                 least = away;
