@@ -136,9 +136,11 @@ std::span<const Point> Inset::of(std::span<const Point> outline, std::span<const
     outline_.assign(outline.begin(), outline.end());
     kept_.assign(kept.begin(), kept.end());
     result_.clear();
+    edges_kept_ = false;
     if (outline_.size() < 3) return result_;
     measure_edges();
-    if (!straightforward()) by_half_planes();
+    edges_kept_ = straightforward();
+    if (!edges_kept_) by_half_planes();
     return result_;
 }
 

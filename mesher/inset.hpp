@@ -28,6 +28,8 @@ class Inset {
     /// @param kept  by corner: whether it stays one although the outline goes straight on there, as where a trace ends
     /// on an edge; it then stands out by 16 relative_rounding of the scale. Not where edges vanish.
     std::span<const Point> of(std::span<const Point> outline, std::span<const char> kept);
+    /// Whether no edge of the last outline vanished: those of its inset have their numbers.
+    bool edges_kept() const { return edges_kept_; }
 
   private:
     bool straightforward();
@@ -41,6 +43,7 @@ class Inset {
     std::vector<Point> direction_;  // of edge k, from corner k to k + 1, unit
     std::vector<double> length_;
     std::vector<char> kept_, none_;  // by corner of the outline
+    bool edges_kept_ = false;
 };
 
 /// Radius of the largest disc inside a convex polygon, m: the inset that destroys it.

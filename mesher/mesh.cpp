@@ -324,7 +324,7 @@ Mesh mesh_jointed_voronoi(std::span<const CellCentre> centres, const Rectangle& 
             destroyed.push_back(range);
             continue;
         }
-        builder.add(before, after, traces).centre = range.centre;
+        builder.add(before, after, traces, inset.edges_kept()).centre = range.centre;
     }
     if (!destroyed.empty()) {
         const auto worst = *std::ranges::min_element(destroyed, {}, [&](const VoronoiCells::Range& cell) {
@@ -424,13 +424,15 @@ Mesh mesh_delaunay(std::span<const CellCentre> centres, const Rectangle& domain,
         if (!joined.joined[t]) {
             const auto alone = outline(t);
             const auto after = inset.of(alone);
-            Cell& cell = traced ? builder.add(alone, after, traces_along(triangles, t)) : builder.add(alone, after);
+            Cell& cell = traced ? builder.add(alone, after, traces_along(triangles, t), inset.edges_kept())
+                                : builder.add(alone, after);
             cell.centres = centres_of(t);
         } else if (next != joined.outlines.end() && static_cast<std::size_t>(next->triangle) == t) {
             before.clear();
             for (const int corner : next->corners) before.push_back(point(corner));
             const auto after = inset.of(before);
-            Cell& cell = traced ? builder.add(before, after, next->traces) : builder.add(before, after);
+            Cell& cell =
+                traced ? builder.add(before, after, next->traces, inset.edges_kept()) : builder.add(before, after);
             cell.centres = centres_of(t);
             ++next;
         }

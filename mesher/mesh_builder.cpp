@@ -36,19 +36,21 @@ Cell& MeshBuilder::add(std::span<const Point> before, std::span<const Point> aft
     return cell;
 }
 
+namespace {
+
 /// Which edge of the outline without inset one of the inset outline is: the one that runs in its direction, for a
 /// convex outline has one of each; flat corners aside, where the nearer one is it.
-std::size_t MeshBuilder::edge_of(std::span<const StraightEdge> before, Point a, Point b) {
+std::size_t edge_of(std::span<const Point> before, Point a, Point b) {
     std::size_t best = 0;
     double least = std::numeric_limits<double>::infinity();
     const double length = distance(a, b);
     for (std::size_t k = 0; k < before.size(); ++k) {
-        const auto& [p, d, along] = before[k];
-        if (d.x * (b.x - a.x) + d.y * (b.y - a.y) <= 0.0) continue;
-        const double turn = std::abs(d.x * (b.y - a.y) - d.y * (b.x - a.x)) / length;
-        if (turn >= least) continue;
+        const Point p = before[k], q = before[k + 1 == before.size() ? 0 : k + 1];
+        const double along = distance(p, q), x = (q.x - p.x) / along, y = (q.y - p.y) / along;
+        const double turn = std::abs(x * (b.y - a.y) - y * (b.x - a.x)) / length;
+        if (x * (b.x - a.x) + y * (b.y - a.y) <= 0.0) continue;
         // Off its span, as a share of a turn: of two edges on one line the one beside counts.
-        const double middle = d.x * (0.5 * (a.x + b.x) - p.x) + d.y * (0.5 * (a.y + b.y) - p.y);
+        const double middle = x * (0.5 * (a.x + b.x) - p.x) + y * (0.5 * (a.y + b.y) - p.y);
         const double off = std::max({0.0, -middle, middle - along}) / (along + length);
         if (turn + 1e-9 * off >= least) continue;
         least = turn + 1e-9 * off;
@@ -57,24 +59,22 @@ std::size_t MeshBuilder::edge_of(std::span<const StraightEdge> before, Point a, 
     return best;
 }
 
-Cell& MeshBuilder::add(std::span<const Point> before, std::span<const Point> after, std::span<const int> traces) {
+}  // namespace
+
+Cell& MeshBuilder::add(std::span<const Point> before, std::span<const Point> after, std::span<const int> traces,
+                       bool edges_kept) {
     mesh_.edge_traces.reserve(mesh_.corners.capacity());  // once
     if (std::ranges::all_of(traces, [](int trace) { return trace < 0; })) {
         mesh_.edge_traces.insert(mesh_.edge_traces.end(), after.size(), -1);
         return add(before, after);
     }
-    edges_.clear();
-    for (std::size_t k = 0; k < before.size(); ++k) {
-        const Point p = before[k], q = before[k + 1 == before.size() ? 0 : k + 1];
-        const double length = distance(p, q);
-        edges_.push_back({p, {(q.x - p.x) / length, (q.y - p.y) / length}, length});
-        if (traces[k] >= 0) trace_length_.add(0.5 * length);
-    }
     for (std::size_t k = 0; k < after.size(); ++k) {
-        const int trace = traces[edge_of(edges_, after[k], after[k + 1 == after.size() ? 0 : k + 1])];
+        const int trace = traces[edges_kept ? k : edge_of(before, after[k], after[k + 1 == after.size() ? 0 : k + 1])];
         mesh_.edge_traces.push_back(trace);
         if (trace >= 0) ++mesh_.report.trace_edges;
     }
+    for (std::size_t k = 0; k < before.size(); ++k)
+        if (traces[k] >= 0) trace_length_.add(0.5 * distance(before[k], before[k + 1 == before.size() ? 0 : k + 1]));
     return add(before, after);
 }
 

@@ -22,7 +22,9 @@ class MeshBuilder {
     /// @return the cell, of no centre yet; valid until the next call
     Cell& add(std::span<const Point> before, std::span<const Point> after);
     /// The same of a mesh with traces. @param traces  of the edge from each corner of `before`; -1: none
-    Cell& add(std::span<const Point> before, std::span<const Point> after, std::span<const int> traces);
+    /// @param edges_kept  by the inset
+    Cell& add(std::span<const Point> before, std::span<const Point> after, std::span<const int> traces,
+              bool edges_kept);
 
     /// The cells in the order in which they came, and the report on them. The builder is empty afterwards.
     Mesh finish();
@@ -38,17 +40,11 @@ class MeshBuilder {
         double total_ = 0.0, lost_ = 0.0;
     };
 
-    struct StraightEdge {
-        Point start, along;  // unit
-        double length;
-    };
-    static std::size_t edge_of(std::span<const StraightEdge> before, Point a, Point b);
     void measure_edges(std::span<const Point> outline);
 
     Rectangle domain_;
     Mesh mesh_;
     Sum area_before_, area_after_, trace_length_;
-    std::vector<StraightEdge> edges_;  // of an outline without inset, on traces
     double shortest_edge_ = std::numeric_limits<double>::infinity();
     double smallest_corner_ = 2.0;  // a measure of the angle, see measure_edges()
 };
