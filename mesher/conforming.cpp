@@ -40,7 +40,7 @@ constexpr double smallest_squared_sine = 0.125;  // of 20.7 degrees: up to that 
 struct PointInfo {
     int centre = -1;
     bool near_trace = true;  // also of points that refinement adds
-    int number = -1;         // among the traces' points; once refined, among the mesh's
+    int number = -1;         // among the mesh's points
 };
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
@@ -182,9 +182,9 @@ class Conforming {
         }
     }
 
-    /// Infinite beyond the grid's reach.
-    static double from_traces(Point p, const SegmentGrid& grid) {
-        double least = std::numeric_limits<double>::infinity();
+    /// Beyond near_share a little more than that.
+    double from_traces(Point p, const SegmentGrid& grid) const {
+        double least = 1.001 * near_share * spacing_;
         grid.each_near(p, [&](std::size_t k) {
             const Segment& s = grid.segments()[k];
             if (!surely_beyond(s, p, least)) least = std::min(least, distance_to(s, p));
@@ -213,7 +213,7 @@ class Conforming {
             for (const double y : {domain_.y1, domain_.y2})
                 points.push_back({{x, y}, {-1, from_traces({x, y}, grid) <= near_share * spacing_}});
         if (kept.empty()) return points;
-        const Triangles without = delaunay_triangles(kept, domain_, Boundary::domain, patience_);
+        const Triangles without = delaunay_points(kept, domain_, patience_);
         for (std::size_t k = 0; k < without.points.size(); ++k) {
             const Point p = without.points[k];
             if (without.centre_of[k] >= 0) {
@@ -229,29 +229,30 @@ class Conforming {
     }
 
     void insert_points(const std::vector<ChosenPoint>& points) {
-        using Placed = std::pair<Kernel::Point_2, PointInfo>;
+        using Placed = std::pair<Kernel::Point_2, int>;  // small, to be sorted: a chosen point, or ~ one of the traces'
         std::vector<Placed> order;
         order.reserve(points.size() + 2 * pieces_.size());
-        for (const ChosenPoint& one : points) order.emplace_back(Kernel::Point_2(one.place.x, one.place.y), one.info);
+        for (const ChosenPoint& one : points)
+            order.emplace_back(Kernel::Point_2(one.place.x, one.place.y), static_cast<int>(order.size()));
         for (const TracePiece& piece : pieces_) {
-            order.emplace_back(Kernel::Point_2(piece.a.x, piece.a.y), PointInfo{-1, true, piece.from});
-            order.emplace_back(Kernel::Point_2(piece.b.x, piece.b.y), PointInfo{-1, true, piece.to});
+            order.emplace_back(Kernel::Point_2(piece.a.x, piece.a.y), ~piece.from);
+            order.emplace_back(Kernel::Point_2(piece.b.x, piece.b.y), ~piece.to);
         }
         using PlaceOf = CGAL::First_of_pair_property_map<Placed>;
         CGAL::spatial_sort(order.begin(), order.end(), CGAL::Spatial_sort_traits_adapter_2<Kernel, PlaceOf>());
         Unconstrained points_alone;  // its flips look after no constraints
         ConstrainedFace hint;
-        for (const auto& [place, info] : order) {
+        for (const auto& [place, which] : order) {
             patience_.piece();
             // A trace's point comes once a piece: where it is already, locating it would take exact arithmetic.
-            const bool of_trace = info.number >= 0;
-            ConstrainedVertex v = of_trace ? vertex(info.number) : ConstrainedVertex();
+            ConstrainedVertex v = which < 0 ? vertex(~which) : ConstrainedVertex();
             if (v == ConstrainedVertex()) {
                 const std::size_t before = points_alone.number_of_vertices();
                 v = points_alone.insert(place, hint);
-                // May be a corner.
+                const PointInfo info = which < 0 ? PointInfo{} : points[static_cast<std::size_t>(which)].info;
+                // A trace's point may be a corner.
                 if (points_alone.number_of_vertices() != before || info.centre < 0) v->info() = info;
-                if (of_trace) vertex(info.number) = v;
+                if (which < 0) vertex(~which) = v;
             }
             hint = v->face();
         }

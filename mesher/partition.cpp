@@ -110,6 +110,7 @@ class Partition {
     }
 
     VoronoiCells cells();
+    Triangles points(Boundary boundary);
     Triangles triangles(Boundary boundary);
 
   private:
@@ -127,6 +128,9 @@ class Partition {
     void mirror(VertexHandle centre, std::uint8_t walls, std::vector<VertexHandle>& touched);
 
     bool is_centre(VertexHandle v) const { return v->info().origin == Origin::centre; }
+    static bool is_kept(VertexHandle v) {
+        return v->info().origin == Origin::centre || v->info().origin == Origin::added;
+    }
     unsigned walls_beyond(Point p) const;
     Point dual(FaceHandle face, const WallsOfFace& walls) const;
     Point on_wall(FaceHandle face, std::uint8_t wall) const;
@@ -475,24 +479,26 @@ void Partition::close_with_flat_faces() {
     for (const Foot& foot : feet) add(foot.place, foot.beside->face());
 }
 
-Triangles Partition::triangles(Boundary boundary) {
+Triangles Partition::points(Boundary boundary) {
     Triangles out;
     if (boundary == Boundary::domain) close_with_flat_faces();
-    const auto kept = [](VertexHandle v) {
-        return v->info().origin == Origin::centre || v->info().origin == Origin::added;
-    };
     out.points.reserve(triangulation_.number_of_vertices());
     out.centre_of.reserve(triangulation_.number_of_vertices());
     for (const VertexHandle v : triangulation_.finite_vertex_handles()) {
-        if (!kept(v)) continue;
+        if (!is_kept(v)) continue;
         out.centre_of.push_back(v->info().index);
         v->info().index = static_cast<int>(out.points.size());
         out.points.push_back(position(v));
     }
+    return out;
+}
+
+Triangles Partition::triangles(Boundary boundary) {
+    Triangles out = points(boundary);
     std::vector<FaceHandle> faces;
     faces.reserve(2 * out.points.size());
     for (const FaceHandle face : triangulation_.finite_face_handles()) {
-        if (!kept(face->vertex(0)) || !kept(face->vertex(1)) || !kept(face->vertex(2))) continue;
+        if (!is_kept(face->vertex(0)) || !is_kept(face->vertex(1)) || !is_kept(face->vertex(2))) continue;
         face->info().index = static_cast<int>(faces.size());
         faces.push_back(face);
     }
@@ -520,6 +526,10 @@ VoronoiCells voronoi_cells(std::span<const CellCentre> centres, const Rectangle&
 Triangles delaunay_triangles(std::span<const CellCentre> centres, const Rectangle& domain, Boundary boundary,
                              Patience& patience) {
     return Partition(centres, domain, patience).triangles(boundary);
+}
+
+Triangles delaunay_points(std::span<const CellCentre> centres, const Rectangle& domain, Patience& patience) {
+    return Partition(centres, domain, patience).points(Boundary::domain);
 }
 
 }  // namespace crackle

@@ -45,6 +45,9 @@ VoronoiCells voronoi_cells(std::span<const CellCentre> centres, const Rectangle&
 Triangles delaunay_triangles(std::span<const CellCentre> centres, const Rectangle& domain, Boundary boundary,
                              Patience& patience);
 
+/// Of the triangles that fill the domain the points alone, with their centres. @throws MeshError as above
+Triangles delaunay_points(std::span<const CellCentre> centres, const Rectangle& domain, Patience& patience);
+
 /// Largest coordinate of the domain: rounding errors of positions are a few relative_rounding of it.
 double coordinate_scale(const Rectangle& domain);
 
