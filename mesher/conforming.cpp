@@ -343,6 +343,8 @@ class Conforming {
 
     void number_points() {
         Triangles& t = out_.triangles;
+        t.points.reserve(mesh_.number_of_vertices());
+        t.centre_of.reserve(mesh_.number_of_vertices());
         for (const ConstrainedVertex v : mesh_.finite_vertex_handles()) {
             v->info().number = static_cast<int>(t.points.size());
             const Point p = place_of(v);
@@ -355,6 +357,7 @@ class Conforming {
     void collect() {
         Triangles& t = out_.triangles;
         std::vector<ConstrainedFace> faces;
+        faces.reserve(mesh_.number_of_faces());
         for (const ConstrainedFace face : mesh_.finite_face_handles()) {
             face->info().value = static_cast<int>(faces.size());
             faces.push_back(face);

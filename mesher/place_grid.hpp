@@ -117,6 +117,7 @@ class SegmentGrid {
   public:
     SegmentGrid(std::vector<Segment> segments, double reach) : segments_(std::move(segments)), squares_(reach) {
         std::vector<Entry> entries;
+        entries.reserve(12 * segments_.size());  // of segments as long as the reach
         for (std::size_t k = 0; k < segments_.size(); ++k) {
             // Along the segment from column to column: a long one does not fill the box about it.
             const auto [x1, x2] = std::minmax(segments_[k].a.x, segments_[k].b.x);
