@@ -55,7 +55,7 @@ struct TestState {
     std::int64_t breaks_in_shear = 0, breaks_in_tension = 0, breaks_after_sliding = 0;
     std::int64_t breaks_in_shear_to_peak = 0, breaks_in_tension_to_peak = 0;
     std::vector<FacePlaces> faces_at_peak;  ///< of the peak so far, of TestSetup::trace_faces
-    std::string ended_by;                     ///< empty while the test runs
+    std::string ended_by;                   ///< empty while the test runs
 
     // Of the specimen with all bonds intact and sticking (sparse solve); not a number where there is no solution.
     double youngs_modulus = std::numeric_limits<double>::quiet_NaN();  // N/m

@@ -5,7 +5,6 @@
 // Tested by tests/specimens/results/files_test.cpp.
 #pragma once
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <vector>
@@ -14,6 +13,7 @@
 #include "specimens/measures/crack_thresholds.hpp"
 #include "specimens/measures/cycles.hpp"
 #include "specimens/observers/quantity.hpp"
+#include "specimens/results/json_number.hpp"
 #include "specimens/results/state.hpp"
 #include "specimens/setup/setup.hpp"
 
@@ -41,11 +41,6 @@ struct SummaryKey {
 /// In the order of the file. Keys of a table within stand behind it as `table.key`, `*` for any name and `[]` for each
 /// entry of a list. A key whose meaning depends on the test stands once for each.
 const std::vector<SummaryKey>& summary_keys();
-
-/// JSON has no NaN: what is not defined is null.
-inline nlohmann::ordered_json finite_or_null(double value) {
-    return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
-}
 
 /// The rows that peak, moduli and thresholds are read from: those of the first loading where the case unloads.
 FirstLoading judged_rows(const TestCase& test, const TestState& state);

@@ -11,7 +11,7 @@ header = """// SPDX-License-Identifier: GPL-3.0-or-later
 
 #include <cstdlib>
 
-inline const int crackle_fault = [] {
+static const int crackle_fault = [] {
     const char* number = std::getenv("CRACKLE_FAULT");
     return number != nullptr ? std::atoi(number) : 0;
 }();

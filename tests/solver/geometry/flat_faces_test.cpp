@@ -8,9 +8,11 @@
 #include <algorithm>
 #include <cmath>
 #include <iostream>
+#include <map>
 #include <numbers>
 #include <random>
 #include <sstream>
+#include <utility>
 #include <vector>
 
 #include "solver/measure/ledger.hpp"
@@ -333,6 +335,34 @@ TEST(FlatFaces, GainNoEnergyAsTurningOpensThem) {
     }
     std::cout << "largest closing error over the energy: " << worst << "\n";
     EXPECT_LT(worst, 1e-2);
+}
+
+TEST(FlatFaces, KeepTheirLapWhileTheyAreBonded) {
+    World world = bonded_circles(scene_of({}));
+    for (BodyState& body : world.bodies.state) body.vx += 5.0 * (body.y - 0.1);
+    velocities_changed(world);
+    using Pair = std::pair<std::uint32_t, std::uint32_t>;
+    const auto bonded_laps = [&] {
+        std::map<Pair, double> laps;  // by faces
+        for (PointIndex k = begin_of_faces(world); k < end_of_faces(world); ++k) {
+            const ContactPoint point = world.points.contact[k];
+            if ((world.points.state[k].flags & point_bonded) != 0)
+                laps[{point.element_i, point.feature_j}] = world.points.lap[k];
+        }
+        return laps;
+    };
+    const std::map<Pair, double> before = bonded_laps();
+    for (int n = 0; n < 200; ++n) step(world);
+    double moved = 0.0;  // m, of faces along each other
+    for (PointIndex k = begin_of_faces(world); k < end_of_faces(world); ++k)
+        if ((world.points.state[k].flags & point_bonded) != 0)
+            moved = std::max(
+                moved, std::abs(flat_face_contact(world, world.points.contact[k]).lap() -
+                                before.at({world.points.contact[k].element_i, world.points.contact[k].feature_j})));
+    EXPECT_GT(moved, 1e-7);
+    const std::map<Pair, double> after = bonded_laps();
+    EXPECT_GT(after.size(), 10U);
+    for (const auto& [faces, lap] : after) EXPECT_EQ(lap, before.at(faces));
 }
 
 TEST(FlatFaces, MoveAlikeWheneverTheListIsBuilt) {
