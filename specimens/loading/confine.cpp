@@ -22,7 +22,7 @@ namespace {
 
 constexpr int most_rounds = 100, steps_of_relaxation = 2000;
 constexpr double most_left_by_a_solution = 0.5;  // of the force that was left before
-// Nothing is to be hoped for where so many rounds have not halved the least force so far.
+// Nothing is to be hoped for where so many rounds have not halved what was missing least so far.
 constexpr int most_rounds_in_vain = 10;
 constexpr double most_left_by_rounds = 0.5;
 // A specimen slides as a whole where its particles' forces add up to this share of the sum of their sizes.
@@ -74,10 +74,10 @@ class Confinement {
             compute_forces(world_);
         }
         Imbalance left = imbalance();
-        double least = left.force;
+        double least = missing(left);
         for (int round = 0, in_vain = 0; !settled(left); ++round, ++in_vain) {
-            if (left.force <= most_left_by_rounds * least) {
-                least = left.force;
+            if (missing(left) <= most_left_by_rounds * least) {
+                least = missing(left);
                 in_vain = 0;
             }
             if (round == most_rounds || in_vain == most_rounds_in_vain) refuse(left, "");
@@ -123,9 +123,11 @@ class Confinement {
 
   private:
     static bool finite(const Imbalance& left) { return std::isfinite(left.force) && std::isfinite(left.stress); }
-    bool settled(const Imbalance& left) const {
-        return left.force <= most_unbalanced && std::abs(left.stress) <= most_unbalanced * pressure_;
+    /// Of force or stress, whichever is more, over what may be left.
+    double missing(const Imbalance& left) const {
+        return std::max(left.force, std::abs(left.stress) / pressure_) / most_unbalanced;
     }
+    bool settled(const Imbalance& left) const { return finite(left) && missing(left) <= 1.0; }
 
     void find_held() {
         held_.assign(held_.size(), true);
@@ -252,6 +254,7 @@ class Confinement {
 
     /// N, along x, that moves the specimen between its platens; 0 where it does not slide as a whole.
     double push_sideways() const {
+        if (test_.setup.has_walls()) return 0.0;
         double sum = 0.0, sizes = 0.0;
         for (BodyIndex b = 0; b < world_.bodies.size(); ++b) {
             if (test_.setup.is_platen(b) || !held_[number_[b]]) continue;
