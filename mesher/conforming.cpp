@@ -53,11 +53,80 @@ using TracedFaceBase =
     CGAL::Triangulation_face_base_with_info_2<FaceNumber, Kernel, CGAL::Delaunay_mesh_face_base_2<Kernel>>;
 using TracedStructure = CGAL::Triangulation_data_structure_2<TracedVertexBase, TracedFaceBase>;
 using Unconstrained = CGAL::Delaunay_triangulation_2<Kernel, TracedStructure>;
-using Constrained = CGAL::Constrained_Delaunay_triangulation_2<Kernel, TracedStructure, CGAL::Exact_predicates_tag>;
+using ConstrainedBase = CGAL::Constrained_Delaunay_triangulation_2<Kernel, TracedStructure, CGAL::Exact_predicates_tag>;
+/// Lists its constrained edges, so that CGAL's mesher, before it begins, need not look for them round every vertex.
+class Constrained : public ConstrainedBase {
+  public:
+    // What the mesher asks of one that lists them.
+    using Constraint_hierarchy_tag = CGAL::Tag_true;
+    using Listed = std::vector<std::pair<std::pair<Vertex_handle, Vertex_handle>, bool>>;
+    using Subconstraint_iterator = Listed::const_iterator;
+    Subconstraint_iterator subconstraints_begin() const { return listed_.begin(); }
+    Subconstraint_iterator subconstraints_end() const { return listed_.end(); }
+    void split_constraint(Vertex_handle, Vertex_handle, Vertex_handle) const {}  // the list is read once
+
+    void list_constraints();
+
+  private:
+    Listed listed_;
+};
 using ConstrainedVertex = Constrained::Vertex_handle;
 using ConstrainedFace = Constrained::Face_handle;
 
 Point place_of(ConstrainedVertex v) { return {v->point().x(), v->point().y()}; }
+
+/// Whether two edges from one place may meet at less than 60 degrees, whatever the rounding.
+bool meet_sharply(Point u, Point v) {
+    const double along = dot(u, v);
+    return !(along <= 0.0 || 4.0 * along * along < 0.999 * dot(u, u) * dot(v, v));
+}
+
+/// Those that the mesher may have to do with: at a sharp angle to another, or with a point in their diametral circle.
+/// In the order of the edges, in which it splits them.
+void Constrained::list_constraints() {
+    struct Arm {
+        crackle::Point along;
+        int next;  // at the same vertex; -1: none
+    };
+    std::vector<Edge> edges;
+    std::vector<Arm> arms;
+    std::vector<int> last;                                                          // arm, by vertex
+    std::vector<char> sharp;                                                        // by vertex
+    const auto number = [&](Vertex_handle v) -> int& { return v->info().number; };  // no point has another yet
+    const auto add_arm = [&](Vertex_handle from, Vertex_handle to) {
+        if (number(from) < 0) {
+            number(from) = static_cast<int>(last.size());
+            last.push_back(-1);
+            sharp.push_back(0);
+        }
+        const auto at = static_cast<std::size_t>(number(from));
+        const crackle::Point a = place_of(from), b = place_of(to), along{b.x - a.x, b.y - a.y};
+        for (int other = last[at]; other >= 0; other = arms[static_cast<std::size_t>(other)].next)
+            if (meet_sharply(along, arms[static_cast<std::size_t>(other)].along)) sharp[at] = 1;
+        arms.push_back({along, std::exchange(last[at], static_cast<int>(arms.size()))});
+    };
+    for (const Face_handle face : all_face_handles()) {
+        for (int k = 0; k < 3; ++k) {
+            if (!face->is_constrained(k) || !(face < face->neighbor(k))) continue;
+            edges.emplace_back(face, k);
+            add_arm(face->vertex(cw(k)), face->vertex(ccw(k)));
+            add_arm(face->vertex(ccw(k)), face->vertex(cw(k)));
+        }
+    }
+    const auto near_circle = [&](Vertex_handle apex, crackle::Point a, crackle::Point b) {
+        if (is_infinite(apex)) return false;
+        const crackle::Point p = place_of(apex), u{a.x - p.x, a.y - p.y}, v{b.x - p.x, b.y - p.y};
+        return dot(u, v) < 1e-3 * (dot(u, u) + dot(v, v));
+    };
+    listed_.clear();
+    for (const auto& [face, k] : edges) {
+        const Vertex_handle from = face->vertex(cw(k)), to = face->vertex(ccw(k));
+        const crackle::Point a = place_of(from), b = place_of(to);
+        if (sharp[static_cast<std::size_t>(number(from))] != 0 || sharp[static_cast<std::size_t>(number(to))] != 0 ||
+            near_circle(face->vertex(k), a, b) || near_circle(tds().mirror_vertex(face, k), a, b))
+            listed_.push_back({{from, to}, true});
+    }
+}
 
 /// CGAL's criterion for triangles near a trace; others are good.
 class NearTraceCriteria : public CGAL::Delaunay_mesh_criteria_2<Constrained> {
@@ -282,6 +351,7 @@ class Conforming {
     }
 
     void refine() {
+        mesh_.list_constraints();
         CGAL::Delaunay_mesher_2<Constrained, NearTraceCriteria> mesher(mesh_, NearTraceCriteria(smallest_squared_sine));
         mesher.init();
         // What refine_mesh() does, step by step.
