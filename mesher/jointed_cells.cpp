@@ -157,11 +157,12 @@ class JointedPartition {
     template <class Use>
     void each_trace_under(Point a, Point b, Use use) const {
         grid_.each_near({0.5 * (a.x + b.x), 0.5 * (a.y + b.y)}, [&](std::size_t e) {
-            const Segment& s = grid_.segments()[e];
-            if (graph_.edges[e].trace >= 0 && !off_line(s, a) && distance_to(s, a) <= near_ &&
-                distance_to(s, b) <= near_)
-                use(e, distance(a, b));
+            if (graph_.edges[e].trace >= 0 && is_on(e, a) && is_on(e, b)) use(e, distance(a, b));
         });
+    }
+    bool is_on(std::size_t e, Point p) const {
+        const Segment& s = grid_.segments()[e];
+        return !off_line(s, p) && distance_to(s, p) <= near_;
     }
     /// Surely, as most corners are: cheaper than the distance.
     bool off_line(const Segment& s, Point p) const {
@@ -182,13 +183,18 @@ class JointedPartition {
         for (const VoronoiCells::Range& cell : cells.cells) {
             if (made.seeds.added[static_cast<std::size_t>(cell.centre)] == 0) continue;
             const auto outline = cells.outline(cell);
-            for (std::size_t k = 0; k < outline.size(); ++k) {
-                each_trace_under(outline[k], outline[k + 1 == outline.size() ? 0 : k + 1],
-                                 [&](std::size_t e, double length) {
-                                     if (!has_rows(e)) return;
-                                     made.traced.traces[cell.first + k] = graph_.edges[e].trace;
-                                     covered[e] += 0.5 * length;
-                                 });
+            // An edge on a trace has both ends there: what is near every other corner is enough.
+            for (std::size_t corner = 1; corner <= outline.size(); corner += 2) {
+                const std::size_t at = std::min(corner, outline.size() - 1);
+                grid_.each_near(outline[at], [&](std::size_t e) {
+                    if (!has_rows(e) || !is_on(e, outline[at])) return;
+                    for (std::size_t k = corner - 1; k <= at; ++k) {
+                        const Point a = outline[k], b = outline[k + 1 == outline.size() ? 0 : k + 1];
+                        if (!is_on(e, k < at ? a : b)) continue;
+                        made.traced.traces[cell.first + k] = graph_.edges[e].trace;
+                        covered[e] += 0.5 * distance(a, b);
+                    }
+                });
             }
         }
         std::set<std::size_t> failing;
