@@ -25,6 +25,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <set>
 #include <utility>
 
 #include "mesher/inset.hpp"
@@ -110,13 +112,19 @@ class Partition {
     }
 
     VoronoiCells cells();
-    Triangles points(Boundary boundary);
     Triangles triangles(Boundary boundary);
+    /// Those of the triangles that fill the domain, which are not made.
+    Triangles points_with_flat_faces() const;
 
   private:
     struct Image {
         VertexHandle vertex, centre;
         std::uint8_t wall;
+    };
+    /// Of a cell that has an edge on a wall.
+    struct Foot {
+        Point place;
+        VertexHandle beside;
     };
 
     void insert_guards();
@@ -139,7 +147,10 @@ class Partition {
     void cut_at_walls(std::vector<Point>& polygon, std::vector<Point>& scratch) const;
     double zero_edge(Point dual_point, Point centre) const;
     bool meets_wall(const Image& image) const;
+    std::vector<Foot> feet() const;
+    std::array<Point, 4> corners() const;
     void close_with_flat_faces();
+    Triangles points(Boundary boundary);
 
     std::span<const CellCentre> centres_;
     Rectangle domain_;
@@ -400,10 +411,10 @@ void Partition::contract_zero_edges() {
     for (const FaceHandle f : triangulation_.finite_face_handles()) {
         for (int k = 0; k < 3; ++k) {
             const FaceHandle g = f->neighbor(k);
-            if (g < f) continue;  // the edge is met from there
             const Point p = f->info().dual, q = g->info().dual;
             const double length = squared_distance(p, q);
-            if (length >= longest_zero) continue;
+            if (length >= longest_zero) continue;  // first, for nearly all are
+            if (g < f) continue;                   // the edge is met from there
             const VertexHandle a = f->vertex(Triangulation::ccw(k)), b = f->vertex(Triangulation::cw(k));
             if (!is_centre(a) && !is_centre(b)) continue;
             if (f->info().outside || g->info().outside) continue;
@@ -450,11 +461,7 @@ bool Partition::meets_wall(const Image& image) const {
     return squared_distance(p, q) > zero_edge(p, position(image.centre));
 }
 
-void Partition::close_with_flat_faces() {
-    struct Foot {
-        Point place;
-        VertexHandle beside;
-    };
+std::vector<Partition::Foot> Partition::feet() const {
     std::vector<Foot> feet;
     for (const Image& image : images_) {
         if (!meets_wall(image)) continue;
@@ -465,6 +472,15 @@ void Partition::close_with_flat_faces() {
         if (image.wall == side_top) foot.y = domain_.y2;
         feet.push_back({foot, image.centre});
     }
+    return feet;
+}
+
+std::array<Point, 4> Partition::corners() const {
+    return {{{domain_.x1, domain_.y1}, {domain_.x1, domain_.y2}, {domain_.x2, domain_.y1}, {domain_.x2, domain_.y2}}};
+}
+
+void Partition::close_with_flat_faces() {
+    const std::vector<Foot> on_walls = feet();
     for (const Image& image : images_) triangulation_.remove(image.vertex);
     images_.clear();
     const auto add = [&](Point p, FaceHandle hint) {
@@ -472,11 +488,51 @@ void Partition::close_with_flat_faces() {
         if (v->info().origin != Origin::guard) return;  // a centre, or another foot, is there already
         v->info() = {-1, Origin::added};
     };
-    for (const double x : {domain_.x1, domain_.x2}) {
-        for (const double y : {domain_.y1, domain_.y2}) add({x, y}, guards_.front()->face());
-    }
+    for (const Point corner : corners()) add(corner, guards_.front()->face());
     for (const VertexHandle guard : guards_) triangulation_.remove(guard);
-    for (const Foot& foot : feet) add(foot.place, foot.beside->face());
+    for (const Foot& foot : on_walls) add(foot.place, foot.beside->face());
+}
+
+// In the order in which the triangulation would have them: a new vertex goes where one was removed last, and behind all
+// others where none is left.
+Triangles Partition::points_with_flat_faces() const {
+    Triangles out;
+    const auto add = [&out](Point p, int centre) {
+        out.points.push_back(p);
+        out.centre_of.push_back(centre);
+    };
+    std::vector<VertexHandle> centres;
+    std::set<std::pair<double, double>> taken;
+    for (const VertexHandle v : triangulation_.finite_vertex_handles()) {
+        if (!is_centre(v)) continue;
+        centres.push_back(v);
+        if (v->info().walls != 0) taken.insert({v->point().x(), v->point().y()});
+    }
+    std::vector<std::optional<Point>> added(guards_.size() + images_.size());  // images come behind the centres
+    std::vector<std::size_t> removed;
+    const auto put = [&](Point p) {
+        if (!taken.insert({p.x, p.y}).second) return;
+        if (removed.empty()) {
+            added.emplace_back(p);
+            return;
+        }
+        added[removed.back()] = p;
+        removed.pop_back();
+    };
+    for (std::size_t k = guards_.size(); k < added.size(); ++k) removed.push_back(k);
+    for (const Point corner : corners()) put(corner);
+    for (std::size_t k = 0; k < guards_.size(); ++k) removed.push_back(k);
+    for (const Foot& foot : feet()) put(foot.place);
+    out.points.reserve(centres.size() + added.size());
+    out.centre_of.reserve(centres.size() + added.size());
+    const auto add_from = [&](std::size_t first, std::size_t last) {
+        for (std::size_t k = first; k < last; ++k)
+            if (added[k]) add(*added[k], -1);
+    };
+    add_from(0, guards_.size());
+    for (const VertexHandle v : centres) add(position(v), v->info().index);
+    add_from(guards_.size(), added.size());
+    return out;
 }
 
 Triangles Partition::points(Boundary boundary) {
@@ -529,7 +585,7 @@ Triangles delaunay_triangles(std::span<const CellCentre> centres, const Rectangl
 }
 
 Triangles delaunay_points(std::span<const CellCentre> centres, const Rectangle& domain, Patience& patience) {
-    return Partition(centres, domain, patience).points(Boundary::domain);
+    return Partition(centres, domain, patience).points_with_flat_faces();
 }
 
 }  // namespace crackle
