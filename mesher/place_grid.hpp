@@ -4,6 +4,7 @@
 #pragma once
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -36,11 +37,14 @@ struct Square {
     Square(std::int64_t column, std::int64_t row)
         : i(static_cast<std::uint32_t>(column)), j(static_cast<std::uint32_t>(row)) {}
     bool operator==(const Square&) const = default;
-    /// Of a table of so many, a power of two from 64 on: eight by eight squares lie together, for what is looked at one
-    /// after another is near each other.
+    /// Of a table of so many, a power of two from 64 on. Eight by eight squares lie together, for what is looked at one
+    /// after another is near each other; and as many of these in a square as the table has room for share no bucket.
     std::size_t bucket(std::size_t buckets) const {
-        const std::uint64_t mixed = ((std::uint64_t{i >> 3} << 32) | (j >> 3)) * 0x9E3779B97F4A7C15ULL;
-        return (((mixed >> 32) << 6) | ((i & 7) << 3) | (j & 7)) & (buckets - 1);
+        const int across = (std::countr_zero(buckets) - 6) / 2, high = 3 + across;
+        const std::uint32_t within = (1U << across) - 1;
+        const std::uint64_t mixed = ((std::uint64_t{i >> high} << 32) | (j >> high)) * 0x9E3779B97F4A7C15ULL;
+        const std::uint64_t tile = (((i >> 3) & within) << across) | ((j >> 3) & within);
+        return (((tile ^ (mixed >> 32)) << 6) | ((i & 7) << 3) | (j & 7)) & (buckets - 1);
     }
 
     std::uint32_t i, j;
