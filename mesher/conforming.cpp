@@ -23,6 +23,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <utility>
 
 #include "mesher/place_grid.hpp"
@@ -217,6 +218,8 @@ class Conforming {
         for (const TracePiece& piece : pieces_) {
             for (const auto& ends : {std::pair{piece.a, piece.b}, {piece.b, piece.a}}) {
                 const auto &end = ends.first, &start = ends.second;  // clang++ 14 captures no structured bindings
+                // Between nodes the piece before has been here.
+                if (end == piece.a && piece.from >= static_cast<int>(graph_.nodes.size())) continue;
                 grid.each_near(end, [&](std::size_t number) {
                     const TracePiece& other = pieces_[number];
                     if (surely_beyond(other, end, narrow)) return;
@@ -251,14 +254,15 @@ class Conforming {
         }
     }
 
-    /// Beyond near_share a little more than that.
+    /// Beyond near_share something beyond; where a centre is left out, no more than what leaves it out.
     double from_traces(Point p, const SegmentGrid& grid) const {
-        double least = 1.001 * near_share * spacing_;
-        grid.each_near(p, [&](std::size_t k) {
-            const Segment& s = grid.segments()[k];
-            if (!surely_beyond(s, p, least)) least = std::min(least, distance_to(s, p));
+        const double room = left_out_seed_share * spacing_, enough = 0.999 * room * room;
+        double least = std::numeric_limits<double>::infinity();  // squared
+        grid.any_near(p, [&](std::size_t k) {
+            least = std::min(least, squared_distance_to(grid.segments()[k], p));
+            return least < enough;
         });
-        return least;
+        return std::sqrt(least);
     }
 
     /// Centres far enough from traces, and what the walls have of points without traces.

@@ -187,7 +187,7 @@ class JointedPartition {
             for (std::size_t corner = 1; corner <= outline.size(); corner += 2) {
                 const std::size_t at = std::min(corner, outline.size() - 1);
                 grid_.each_near(outline[at], [&](std::size_t e) {
-                    if (!has_rows(e) || !is_on(e, outline[at])) return;
+                    if (!is_on(e, outline[at]) || !has_rows(e)) return;
                     for (std::size_t k = corner - 1; k <= at; ++k) {
                         const Point a = outline[k], b = outline[k + 1 == outline.size() ? 0 : k + 1];
                         if (!is_on(e, k < at ? a : b)) continue;

@@ -167,8 +167,12 @@ class SeedPlacing {
             beside.push_back({segment, share, near, stretch_within(line, segment, full_half_width(edge) / share)});
         };
         const double step = beside_step_share * spacing_;
-        for (double s = 0.0; s < line.length + step; s += step)
-            edges_.each_near(line.at(std::min(s, line.length)), look_at);
+        Point last{};
+        for (double s = 0.0; s < line.length + step; s += step) {
+            const Point at = line.at(std::min(s, line.length));
+            if (s == 0.0 || !edges_.same_near(last, at)) edges_.each_near(at, look_at);
+            last = at;
+        }
         return beside;
     }
     double full_half_width(std::size_t edge) const { return half_width_share * spacing_ * shrink_[edge]; }
@@ -336,6 +340,7 @@ class SeedPlacing {
             });
         }
         PlaceGrid placed(spacing_);
+        placed.reserve(added_.size() + centres_.size());
         for (const Point p : added_) placed.add(p);
         const auto place = [&](const Line& line, double s, double off) {
             if (placed.any_within(line.at(s, off), kept_share * spacing_)) return;

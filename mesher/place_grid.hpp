@@ -26,11 +26,13 @@ inline bool surely_beyond(const Segment& s, Point p, double reach) {
     return p.x + room < std::min(s.a.x, s.b.x) || p.x - room > std::max(s.a.x, s.b.x) ||
            p.y + room < std::min(s.a.y, s.b.y) || p.y - room > std::max(s.a.y, s.b.y);
 }
-inline double distance_to(const Segment& s, Point p) {
+inline double squared_distance_to(const Segment& s, Point p) {
     const double dx = s.b.x - s.a.x, dy = s.b.y - s.a.y;
     const double share = std::clamp(((p.x - s.a.x) * dx + (p.y - s.a.y) * dy) / (dx * dx + dy * dy), 0.0, 1.0);
-    return distance(p, {s.a.x + share * dx, s.a.y + share * dy});
+    const Point off{s.a.x + share * dx - p.x, s.a.y + share * dy - p.y};
+    return dot(off, off);
 }
+inline double distance_to(const Segment& s, Point p) { return std::sqrt(squared_distance_to(s, p)); }
 
 /// A square of a grid. Those 2^32 apart are one: what is taken for near by that is measured anyway.
 struct Square {
@@ -138,6 +140,10 @@ class SegmentGrid {
     }
 
     const std::vector<Segment>& segments() const { return segments_; }
+    /// Whether the same ones are taken for near.
+    bool same_near(Point p, Point q) const {
+        return squares_.index(p.x) == squares_.index(q.x) && squares_.index(p.y) == squares_.index(q.y);
+    }
     /// Calls use(number): all within the reach, some beyond.
     template <class Use>
     void each_near(Point p, Use use) const {
@@ -165,11 +171,14 @@ class SegmentGrid {
     void sort_into_buckets(const std::vector<Entry>& entries) {
         std::size_t buckets = 64;
         while (buckets < entries.size()) buckets *= 2;
-        std::vector<std::uint32_t> next(buckets + 1);
-        for (const Entry& entry : entries) ++next[entry.square.bucket(buckets) + 1];
+        std::vector<std::uint32_t> next(buckets + 1), bucket_of(entries.size());
+        for (std::size_t e = 0; e < entries.size(); ++e) {
+            bucket_of[e] = static_cast<std::uint32_t>(entries[e].square.bucket(buckets));
+            ++next[bucket_of[e] + 1];
+        }
         std::partial_sum(next.begin(), next.end(), next.begin());
         entries_.assign(entries.size(), {{0, 0}, 0});
-        for (const Entry& entry : entries) entries_[next[entry.square.bucket(buckets)]++] = entry;
+        for (std::size_t e = 0; e < entries.size(); ++e) entries_[next[bucket_of[e]]++] = entries[e];
         next.pop_back();  // what is left has become each bucket's end
         ends_ = std::move(next);
     }
