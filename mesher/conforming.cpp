@@ -286,7 +286,7 @@ class Conforming {
             for (const double y : {domain_.y1, domain_.y2})
                 points.push_back({{x, y}, {-1, from_traces({x, y}, grid) <= near_share * spacing_}});
         if (kept.empty()) return points;
-        const Triangles without = delaunay_points(kept, domain_, patience_);
+        const Triangles without = points_without_traces(kept, centres, number);
         for (std::size_t k = 0; k < without.points.size(); ++k) {
             const Point p = without.points[k];
             if (without.centre_of[k] >= 0) {
@@ -299,6 +299,18 @@ class Conforming {
             if (away >= room) points.push_back({p, {-1, away <= near_share * spacing_}});
         }
         return points;
+    }
+
+    /// @param number  of each that is kept among the given centres, by which errors name it
+    Triangles points_without_traces(std::span<const CellCentre> kept, std::span<const CellCentre> given,
+                                    const std::vector<int>& number) const {
+        try {
+            return delaunay_points(kept, domain_, patience_);
+        } catch (const MeshError& error) {
+            if (error.centres.size() != 2) throw;
+            throw coincident_centres(given, number[static_cast<std::size_t>(error.centres[0])],
+                                     number[static_cast<std::size_t>(error.centres[1])]);
+        }
     }
 
     void insert_points(const std::vector<ChosenPoint>& points) {

@@ -129,7 +129,6 @@ class Partition {
 
     void insert_guards();
     void insert_centres();
-    void refuse_coincident(int a, int b) const;
     void mirror_where_needed();
     void refuse_near_coincident(FaceHandle face, double too_close) const;
     void place_dual(FaceHandle face, std::vector<VertexHandle>& to_mirror);
@@ -183,21 +182,11 @@ void Partition::insert_centres() {
         patience_.piece();
         const std::size_t before = triangulation_.number_of_vertices();
         const VertexHandle v = triangulation_.insert(place, hint);
-        if (triangulation_.number_of_vertices() == before) refuse_coincident(v->info().index, number);
+        if (triangulation_.number_of_vertices() == before) throw coincident_centres(centres_, v->info().index, number);
         const auto lies_on = static_cast<std::uint8_t>(sides_at({place.x(), place.y()}, domain_));
         v->info() = {number, Origin::centre, lies_on, lies_on, 0};
         hint = v->face();
     }
-}
-
-void Partition::refuse_coincident(int a, int b) const {
-    const auto [first, second] = std::minmax(a, b);
-    const CellCentre& p = centres_[static_cast<std::size_t>(first)];
-    const CellCentre& q = centres_[static_cast<std::size_t>(second)];
-    throw MeshError(fmt::format("mesh: found centres {} and {} at the same place (({}, {}) and ({}, {}), {:.3g} "
-                                "apart), expected distinct centres; remove one of them",
-                                first, second, p.x, p.y, q.x, q.y, std::sqrt(squared_distance(p, q))),
-                    {first, second});
 }
 
 unsigned Partition::walls_beyond(Point p) const {
@@ -303,7 +292,7 @@ void Partition::refuse_near_coincident(FaceHandle face, double too_close) const 
     for (int k = 0; k < 3; ++k) {
         const VertexHandle a = face->vertex(k), b = face->vertex(Triangulation::ccw(k));
         if (is_centre(a) && is_centre(b) && squared_distance(position(a), position(b)) < too_close * too_close) {
-            refuse_coincident(a->info().index, b->info().index);
+            throw coincident_centres(centres_, a->info().index, b->info().index);
         }
     }
 }
@@ -570,6 +559,17 @@ Triangles Partition::triangles(Boundary boundary) {
 }
 
 }  // namespace
+
+MeshError coincident_centres(std::span<const CellCentre> centres, int a, int b) {
+    const auto [first, second] = std::minmax(a, b);
+    const CellCentre& p = centres[static_cast<std::size_t>(first)];
+    const CellCentre& q = centres[static_cast<std::size_t>(second)];
+    return MeshError(
+        fmt::format("mesh: found centres {} and {} at the same place (({}, {}) and ({}, {}), {:.3g} apart), expected "
+                    "distinct centres; remove one of them",
+                    first, second, p.x, p.y, q.x, q.y, std::sqrt(squared_distance(p, q))),
+        {first, second});
+}
 
 double coordinate_scale(const Rectangle& domain) {
     return std::max({std::abs(domain.x1), std::abs(domain.x2), std::abs(domain.y1), std::abs(domain.y2)});

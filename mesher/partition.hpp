@@ -48,6 +48,9 @@ Triangles delaunay_triangles(std::span<const CellCentre> centres, const Rectangl
 /// Of the triangles that fill the domain the points alone, with their centres. @throws MeshError as above
 Triangles delaunay_points(std::span<const CellCentre> centres, const Rectangle& domain, Patience& patience);
 
+/// What two centres at one place are refused with.
+MeshError coincident_centres(std::span<const CellCentre> centres, int a, int b);
+
 /// Largest coordinate of the domain: rounding errors of positions are a few relative_rounding of it.
 double coordinate_scale(const Rectangle& domain);
 

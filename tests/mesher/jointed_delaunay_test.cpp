@@ -147,6 +147,21 @@ TEST(JointedDelaunay, RandomNetworksAreMeshedOrRefusedByName) {
     EXPECT_GT(count.refused, 20);
 }
 
+TEST(JointedDelaunay, CoincidentCentresAreNamedAsTheyAreGiven) {
+    auto centres = packing_like(8);
+    const auto last = static_cast<int>(centres.size());
+    centres.push_back(centres[790]);  // far from the trace, which makes centres before it give way
+    try {
+        make_mesh(centres, jointed_box, triangles_with({{{0.0, 0.1}, {0.5, 0.4}}}));
+        FAIL() << "meshed";
+    } catch (const MeshError& error) {
+        const std::string text = error.what();
+        fmt::print("  {}\n", text);
+        EXPECT_EQ(error.centres, (std::vector<int>{790, last}));
+        EXPECT_NE(text.find(fmt::format("found centres 790 and {} at the same place", last)), std::string::npos);
+    }
+}
+
 TEST(JointedDelaunay, WhatCannotBeMeshedIsRefused) {
     const auto refusal = [](const MeshRequest& request) -> std::string {
         try {
