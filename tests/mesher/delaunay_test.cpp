@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Delaunay triangles: empty circumcircles, the guide's count, flat faces on request, and gaps of exactly `thick`.
 
+#include <cstddef>
+#include <functional>
 #include <set>
 
+#include "mesher/partition.hpp"
+#include "mesher/patience.hpp"
 #include "tests/mesher/centres.hpp"
 
 namespace crackle {
@@ -51,6 +55,19 @@ TEST(DelaunayOfSeeds, TheGuidesSpecimenHasAboutItsTriangles) {
     const Mesh mesh = make_mesh(centres, domain, delaunay(Boundary::centres, 0.0));
     EXPECT_TRUE(agrees("triangles of 300 centres against the guide's share", static_cast<double>(mesh.report.cells),
                        300 * 537.0 / 304, 0.02));
+}
+
+TEST(DelaunayOfSeeds, PointsAloneAreThoseOfTheTriangles) {
+    const std::function<bool()> never;
+    Patience patience(never);
+    for (const auto& specimen : testing::specimens()) {
+        const Triangles whole = delaunay_triangles(specimen.centres, specimen.domain, Boundary::domain, patience);
+        const Triangles alone = delaunay_points(specimen.centres, specimen.domain, patience);
+        SCOPED_TRACE(specimen.name);
+        EXPECT_EQ(alone.centre_of, whole.centre_of);
+        ASSERT_EQ(alone.points.size(), whole.points.size());
+        for (std::size_t k = 0; k < whole.points.size(); ++k) EXPECT_TRUE(alone.points[k] == whole.points[k]) << k;
+    }
 }
 
 TEST(DelaunayOfSeeds, CircumcirclesAreEmptyAndCentredInTheDomain) {
