@@ -22,6 +22,7 @@
 #include "specimens/joints/mesh_traces.hpp"
 #include "specimens/making/cell_bodies.hpp"
 #include "specimens/making/cell_sizes.hpp"
+#include "specimens/making/cut_shape.hpp"
 #include "specimens/packing/packing.hpp"
 
 namespace crackle {
@@ -499,28 +500,6 @@ void take_minerals(Specimen& specimen, const TestCase& test, const TestHooks& ho
     hooks.report_stage(mineral_shares_text(specimen.minerals));
 }
 
-}  // namespace
-
-namespace {
-
-constexpr std::size_t fewest_bodies = 10;  // in what is cut
-
-/// A scene of some of its bodies, with their circles alone. @param keep  whether to, by body
-template <class Keep>
-Scene part_of(const Scene& scene, const Keep& keep) {
-    Scene part = scene;
-    part.bodies.clear();
-    part.circles.clear();
-    for (const Body& body : scene.bodies) {
-        if (!keep(body)) continue;
-        part.bodies.push_back(body);
-        part.bodies.back().first_circle = static_cast<std::uint32_t>(part.circles.size());
-        const auto circles = std::span(scene.circles).subspan(body.first_circle, body.circle_count);
-        part.circles.insert(part.circles.end(), circles.begin(), circles.end());
-    }
-    return part;
-}
-
 /// m, mean size of the bodies to come.
 double particle_size(const Specimen& specimen, const TestCase& test) {
     const Domain& box = specimen.scene.domain;
@@ -531,44 +510,12 @@ double particle_size(const Specimen& specimen, const TestCase& test) {
     return std::sqrt((box.x2 - box.x1) * (box.y2 - box.y1) / cells);
 }
 
-/// Leaves the bodies that lie within the shape of the kind of test; circles that its notch runs through are taken away.
-void cut(Specimen& specimen, const TestCase& test) {
-    const KindRequest request{test, specimen.scene.domain, specimen.particle};
-    specimen.shape = test_kind(test.loading.kind).shape(request);
-    const Shape& shape = specimen.shape;
-    if (shape.whole()) return;
-    if (specimen.polygons && !shape.outline.empty()) {
-        throw InputError(
-            fmt::format("{}: found a particle file of polygons, expected circles, or a [packing], with kind = "
-                        "\"{}\": polygons are not cut",
-                        test.at("particles.file"), test.loading.kind));
-    }
-    const bool slot = shape.notch && !test.has_table("mesh") && !specimen.polygons;
-    specimen.scene = specimen.polygons ? specimen.scene : part_of(specimen.scene, [&](const Body& body) {
-        const Vec2 centre = mass_properties(specimen.scene, body).centroid;
-        if (!shape.holds(centre)) return false;
-        return !(slot && shape.notch->distance(centre) < specimen.scene.circles[body.first_circle].radius);
-    });
-    if (specimen.scene.bodies.size() < fewest_bodies) {
-        throw InputError(
-            fmt::format("{}: found {} particles in what is cut from the packing, expected at least {}; make the "
-                        "particles smaller, or the specimen larger",
-                        test.at("loading.kind"), specimen.scene.bodies.size(), fewest_bodies));
-    }
-}
-
 /// The bodies by whose distance the lateral strain counts, where the kind of test says where they are.
-void find_sides(Specimen& specimen, const TestCase& test) {
-    if (test.uniaxial()) return;
-    specimen.left_ids.clear();
-    specimen.right_ids.clear();
+void find_sides(Specimen& specimen) {
     const Shape& shape = specimen.shape;
-    if (!shape.left || !shape.right) return;
-    for (const Body& body : specimen.scene.bodies) {
-        const Vec2 centre = mass_properties(specimen.scene, body).centroid;
-        if (shape.left->holds(centre)) specimen.left_ids.push_back(body.id);
-        if (shape.right->holds(centre)) specimen.right_ids.push_back(body.id);
-    }
+    const bool measured = shape.left && shape.right;
+    specimen.left_ids = measured ? bodies_within(specimen.scene, *shape.left) : std::vector<int>{};
+    specimen.right_ids = measured ? bodies_within(specimen.scene, *shape.right) : std::vector<int>{};
 }
 
 }  // namespace
@@ -580,7 +527,8 @@ Specimen make_specimen(const TestCase& test, const TestHooks& hooks) {
     bring_to_rest(specimen.scene, specimen.notices);
     measure_circles(specimen);
     specimen.particle = particle_size(specimen, test);
-    cut(specimen, test);
+    specimen.shape = test_kind(test.loading.kind).shape({test, specimen.scene.domain, specimen.particle});
+    cut_shape(specimen.scene, specimen.shape, specimen.polygons, test);
     const bool meshed = test.has_table("mesh");
     if (!meshed) take_minerals(specimen, test, hooks);
     if (!specimen.polygons) hooks.report_made(circles_file, specimen.scene);
@@ -597,7 +545,7 @@ Specimen make_specimen(const TestCase& test, const TestHooks& hooks) {
     if (!meshed && test.jointed()) joint_circles(specimen, test, hooks);
     if (specimen.polygons) hooks.report_made(polygons_file, specimen.scene);
     for (Material& material : specimen.scene.materials) scale_damping(material, test.damping_scale);
-    find_sides(specimen, test);
+    if (!test.uniaxial()) find_sides(specimen);
     specimen.area = area_of(specimen.shape, specimen.scene.domain);
     specimen.width = specimen.shape.width;
     specimen.height = specimen.shape.height;
