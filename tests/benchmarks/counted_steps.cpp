@@ -19,8 +19,8 @@
 #include "solver/world/world.hpp"
 #include "specimens/making/lattices.hpp"
 #include "specimens/making/materials.hpp"
-#include "tools/bench/throughput/least_step.hpp"
-#include "tools/bench/throughput/walls.hpp"
+#include "tests/bench/throughput/least_step.hpp"
+#include "tests/bench/throughput/walls.hpp"
 
 namespace crackle {
 namespace {

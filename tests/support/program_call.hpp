@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle COMMAND ...` as a user calls it, in a scratch folder: what it answers, and that a refusal touches no file.
+// `crackle COMMAND ...`, or another program, as a user calls it, in a scratch folder: what it answers, and that a
+// refusal touches no file.
 #pragma once
 
 #include <fmt/format.h>
@@ -24,15 +25,16 @@ struct Answer {
     std::string out, err;
 };
 
-/// Base of the tests of one command.
+/// Base of the tests of one command; without a name, of a program.
 class ProgramCall : public ::testing::Test {
   protected:
-    explicit ProgramCall(std::string command) : command_(std::move(command)) {}
+    explicit ProgramCall(std::string command, std::string program = CRACKLE_PROGRAM)
+        : command_(std::move(command)), program_(std::move(program)) {}
 
     Answer call(const std::string& words) const {
-        const int status = std::system(fmt::format("cd '{}' && '{}' {} {} > out.txt 2> err.txt", folder_.string(),
-                                                   CRACKLE_PROGRAM, command_, words)
-                                           .c_str());
+        const int status = std::system(
+            fmt::format("cd '{}' && '{}' {} {} > out.txt 2> err.txt", folder_.string(), program_, command_, words)
+                .c_str());
         return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read(out_), read(err_)};
     }
 
@@ -73,7 +75,7 @@ class ProgramCall : public ::testing::Test {
     std::filesystem::path folder_ = scratch_ / "";
 
   private:
-    std::string command_;
+    std::string command_, program_;
 };
 
 }  // namespace crackle::testing

@@ -21,10 +21,11 @@ struct TerminalAnswer {
     double seconds = 0.0;  ///< the call took
 };
 
-/// @param words of a shell, behind the program's path. @param environment set on top of the caller's
+/// @param words of a shell, behind the program's path. @param environment set on top of the caller's @param program its
+/// path
 inline TerminalAnswer call_on_terminal(const std::filesystem::path& folder, const std::string& words,
                                        const std::vector<std::pair<std::string, std::string>>& environment = {},
-                                       unsigned short columns = 120) {
+                                       unsigned short columns = 120, const std::string& program = CRACKLE_PROGRAM) {
     const auto begun = std::chrono::steady_clock::now();
     winsize size{24, columns, 0, 0};
     int terminal = -1;
@@ -33,7 +34,7 @@ inline TerminalAnswer call_on_terminal(const std::filesystem::path& folder, cons
         unsetenv("NO_COLOR");
         setenv("TERM", "xterm", 1);
         for (const auto& [name, value] : environment) setenv(name.c_str(), value.c_str(), 1);
-        const std::string command = std::string("exec '") + CRACKLE_PROGRAM + "' " + words;
+        const std::string command = "exec '" + program + "' " + words;
         if (chdir(folder.c_str()) == 0) execl("/bin/sh", "sh", "-c", command.c_str(), static_cast<char*>(nullptr));
         _exit(127);
     }

@@ -45,6 +45,22 @@ class CheckRooms(unittest.TestCase):
         self.expect_fault({"tools/rooms.md": GOOD["tools/rooms.md"].replace("roof | solver/low", "roof | ")},
                           "solver/high/roof.hpp:1: includes solver/low/brick.hpp, but solver/high may not include solver/low")
 
+    BENCH = {"tools/rooms.md": GOOD["tools/rooms.md"] + "| tests/bench/scenes | scenes | solver/high |\n",
+             "tests/bench/scenes/house.hpp": '#include "solver/high/roof.hpp"\n',
+             "tests/bench_tests/scenes/house_test.cpp": '#include "tests/bench/scenes/house.hpp"\n'}
+
+    def test_the_program_in_tests_has_rooms_and_tests(self):
+        code, out = self.checked(self.BENCH)
+        self.assertEqual(code, 0, out)
+        self.expect_fault(self.BENCH | {"tools/rooms.md": GOOD["tools/rooms.md"]}, "tests/bench/scenes: a folder with sources without a row")
+        self.expect_fault({path: text for path, text in self.BENCH.items() if not path.endswith("_test.cpp")}, "no tests/bench_tests/scenes/house_test.cpp")
+
+    def test_nothing_outside_tests_includes_what_lies_in_it(self):
+        table = self.BENCH["tools/rooms.md"] + "| tools/plot | figures | tests/bench/scenes |\n"
+        plot = '// Tested by tests/solver/high/roof_test.cpp.\n#include "tests/bench/scenes/house.hpp"\n'
+        self.expect_fault(self.BENCH | {"tools/rooms.md": table, "tools/plot/plot.cpp": plot},
+                          "tools/plot/plot.cpp:2: includes tests/bench/scenes/house.hpp, but nothing outside tests/ may include what lies in it")
+
     def test_an_arrow_that_no_source_has(self):
         self.expect_fault({"solver/high/roof.hpp": "// Roof.\n"}, "may include solver/low, but none of its sources does")
 

@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What the pages show is so: their commands run, their tables name what the program writes, their links lead somewhere.
 
-  CRACKLE_PROGRAM    the program
+  CRACKLE_PROGRAM, CRACKLE_BENCH_PROGRAM    the programs
 Pages are all Markdown files of the tree. Blocks marked `sh` run in their order in one shell a page, the README's first, all in one folder that is empty
-but for the project's specimens/, tools/recount and the built program where the README expects them; then the blocks marked `python` of a page, as one script.
+but for the project's specimens/, tools/recount and the built programs where the README expects them; then the blocks marked `python` of a page, as one script.
 Commands of blocks marked `sh ci` must stand in .ci/run. What takes too long or needs what is not here is marked `sh long`, or stands in a page as
 «Made by `...`» and «Run: `...`»: these must name a program that is there, with options it has, and folders that are there.
 """
@@ -22,6 +22,7 @@ from pathlib import Path
 
 TOP = Path(__file__).resolve().parents[2]
 PROGRAM = Path(os.environ["CRACKLE_PROGRAM"]).resolve()
+BENCH_PROGRAM = Path(os.environ["CRACKLE_BENCH_PROGRAM"]).resolve()  # beside it
 ROOMS = ("solver", "mesher", "specimens", "tools", "tests")
 README_AT_MOST = 9000  # bytes: a door, not the house
 PAGES = {"README.md": (TOP / "README.md").read_text(encoding="utf-8")} | {
@@ -57,9 +58,8 @@ def printed(*words):
 def help_of(words):
     """What distinguishes the options of a command line's program, and the words that are left of it."""
     name = words[0]
-    if name == "crackle":
-        commands = words[1:3] if words[1] == "bench" else words[1:2]
-        return printed(PROGRAM, *commands, "--help"), words[1 + len(commands):]
+    if name in ("crackle", "crackle-bench"):
+        return printed(PROGRAM if name == "crackle" else BENCH_PROGRAM, words[1], "--help"), words[2:]
     if name in ("node", "bash"):
         name, words = words[1], words[1:]
     if name.startswith("build/"):

@@ -13,8 +13,8 @@
 #include "solver/world/checkpoint.hpp"
 #include "solver/world/world.hpp"
 #include "specimens/making/disordered.hpp"
+#include "tests/bench/verify/scenes/whole_world.hpp"
 #include "tests/support/claim.hpp"
-#include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle::testing {
 

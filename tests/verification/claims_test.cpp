@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Every claim of tools/bench/verify as a test of its name; `crackle bench verify` shows the same rows on a page.
+// Every claim of tests/bench/verify as a test of its name; `crackle-bench verify` shows the same rows on a page.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
-#include "tools/bench/verify/claim.hpp"
-#include "tools/bench/verify/rows.hpp"
+#include "tests/bench/verify/claim.hpp"
+#include "tests/bench/verify/rows.hpp"
 
 namespace crackle::verification {
 
@@ -108,7 +108,7 @@ TEST(Claims, StandOnTheShippedPage) {
     const std::string page{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
     for (const Claim& claim : claims())
         EXPECT_NE(page.find("\n### " + claim.name + "\n"), std::string::npos)
-            << claim.name << ": make the page again, crackle bench verify -o tests/benchmarks/results/verification.md";
+            << claim.name << ": make the page again, crackle-bench verify -o tests/benchmarks/results/verification.md";
     const auto sections = [&] {
         std::size_t count = 0;
         for (std::size_t at = page.find("\n### "); at != std::string::npos; at = page.find("\n### ", at + 1)) ++count;

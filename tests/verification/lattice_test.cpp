@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The bound on the stable step of a triangular lattice as its derivation has it. Closed forms of lattices and chains:
-// tools/bench/verify.
+// tests/bench/verify.
 
 #include <algorithm>
 #include <cmath>
@@ -8,8 +8,8 @@
 #include "solver/stepping/bonding.hpp"
 #include "solver/stepping/build_world.hpp"
 #include "specimens/making/lattices.hpp"
+#include "tests/bench/verify/scenes/whole_world.hpp"
 #include "tests/support/claim.hpp"
-#include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle::lattice_test {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The account of energy, driven bodies and derived steps of one or two bodies. Closed forms: tools/bench/verify.
+// The account of energy, driven bodies and derived steps of one or two bodies. Closed forms: tests/bench/verify.
 
 #include <algorithm>
 #include <cmath>

@@ -1,8 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The subcommands of `crackle`, one file each. A command declares how it is called; commands.cpp parses its words,
-// answers
-// --help, and runs it. It prints to stdout (results) and stderr (by Messages: progress, notices), and returns the exit
-// code; errors are thrown and turned into messages by main().
+// The subcommands of `crackle`, one file each; commands.cpp has their table.
 // Tested by tests/tools/commands/command_line_test.cpp.
 #pragma once
 
@@ -13,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "tools/commands/command_line.hpp"
+#include "tools/command_line/program.hpp"
 
 namespace crackle {
 
@@ -32,15 +29,6 @@ struct VirtualTest;
 }  // namespace crackle
 
 namespace crackle::tools {
-
-/// One subcommand: a line for `crackle --help`, how it is called, and the function that runs it.
-struct Command {
-    const char* name;
-    const char* summary;
-    CommandLine (*describe)();
-    int (*run)(const Invocation& given);                 ///< absent: one of its studies is run
-    const std::vector<Command>& (*studies)() = nullptr;  ///< named by the next word; else run() has it
-};
 
 /// In the order of a user's work.
 const std::vector<Command>& commands();
@@ -71,7 +59,7 @@ int view(const Invocation& given);
 CommandLine describe_plot();
 int plot(const Invocation& given);
 CommandLine describe_bench();
-const std::vector<Command>& bench_studies();
+int bench(const Invocation& given);
 CommandLine describe_doctor();
 int doctor(const Invocation& given);
 CommandLine describe_completion();
@@ -79,7 +67,8 @@ int completion(const Invocation& given);
 CommandLine describe_manual();
 int manual(const Invocation& given);
 
-void print_version();  // crackle --version
+/// Where crackle-bench is: beside this program, else on the PATH; empty: nowhere.
+std::string bench_program();
 
 // What the commands do, without their printing: for callers that want values (tools/python).
 
@@ -106,22 +95,5 @@ TestCase elastic_case(TestCase description, std::vector<std::string>& notices);
 /// What `crackle elastic --json` prints.
 nlohmann::ordered_json elastic_as_json(const VirtualTest& test, const ElasticAnalysis& analysis,
                                        const std::optional<JointedCompliance>& compliance, double seconds);
-
-// Exit codes of the program; exit_codes() explains them.
-inline constexpr int exit_done = 0;
-inline constexpr int exit_claim_fails = 1;
-inline constexpr int exit_bad_input = 2;      // InputError, wrong options
-inline constexpr int exit_unstable = 3;       // UnstableRun
-inline constexpr int exit_system_fails = 4;   // the output cannot be written, a library gives up
-inline constexpr int exit_interrupted = 130;  // as a shell's own of SIGINT
-
-struct ExitCode {
-    int code;
-    const char* meaning;
-};
-const std::vector<ExitCode>& exit_codes();
-
-/// Runs what the words behind `crackle` ask for. @return exit code @throws what the command does
-int call_command(const Arguments& words);
 
 }  // namespace crackle::tools

@@ -17,22 +17,21 @@ namespace {
 
 /// A command or a study with what can follow it.
 struct Completed {
-    std::string name;  ///< "mesh", "bench verify"
+    std::string name;  ///< "mesh", "campaign show"
     std::string summary;
     CommandLine line;
     Arguments studies;
-    bool itself = true;  ///< runs without naming a study
 };
 
 std::vector<Completed> completed_commands() {
     std::vector<Completed> all;
     for (const Command& command : commands()) {
-        Completed one{command.name, command.summary, command.describe(), {}, command.run != nullptr};
+        Completed one{command.name, command.summary, command.describe(), {}};
         std::vector<Completed> studies;
         if (command.studies != nullptr) {
             for (const Command& study : command.studies()) {
                 one.studies.emplace_back(study.name);
-                studies.push_back({one.name + ' ' + study.name, study.summary, study.describe(), {}, true});
+                studies.push_back({one.name + ' ' + study.name, study.summary, study.describe(), {}});
             }
         }
         all.push_back(std::move(one));
@@ -49,6 +48,7 @@ Arguments command_names() {
 
 std::vector<OptionFacts> options_of(const CommandLine& line) {
     std::vector<OptionFacts> all;
+    if (!line.takes_options) return all;
     for (const OptionGroup& group : option_groups(line))
         all.insert(all.end(), group.options.begin(), group.options.end());
     return all;
@@ -109,17 +109,15 @@ std::string bash_completion(const std::string& shell) {
     std::string studies, arguments, lists, options;
     for (const Completed& command : completed_commands()) {
         if (!command.studies.empty()) {
-            // One that runs by itself may be given a file, or an option, in the place of a study.
+            // A file, or an option, may stand in the place of a study.
             studies += fmt::format(
                 "        {0})\n"
-                "            if [ \"$COMP_CWORD\" -eq 2 ]{2}; then\n"
-                "                COMPREPLY=($(compgen {3}-W '{1}' -- \"$word\"))\n"
+                "            if [ \"$COMP_CWORD\" -eq 2 ] && [ \"${{word#-}}\" = \"$word\" ]; then\n"
+                "                COMPREPLY=($(compgen -f -W '{1}' -- \"$word\"))\n"
                 "                return\n"
                 "            fi\n"
-                "            case ${{COMP_WORDS[2]}} in {4}) called=\"{0} ${{COMP_WORDS[2]}}\" ;; esac ;;\n",
-                command.name, joined(command.studies), command.itself ? " && [ \"${word#-}\" = \"$word\" ]" : "",
-                command.itself ? "-f " : "", fmt::join(command.studies, "|"));
-            if (!command.itself) continue;
+                "            case ${{COMP_WORDS[2]}} in {2}) called=\"{0} ${{COMP_WORDS[2]}}\" ;; esac ;;\n",
+                command.name, joined(command.studies), fmt::join(command.studies, "|"));
         }
         Arguments names;
         for (const OptionFacts& option : options_of(command.line)) {
@@ -172,7 +170,6 @@ std::string fish_completion() {
         text += fmt::format("complete -c crackle -n 'test (count (commandline -opc)) -eq {}{}' -f -a {} -d {}\n",
                             before.empty() ? 1 : 2, before.empty() ? "" : "; and __crackle_calls " + before, name,
                             quoted(command.summary));
-        if (!command.itself) continue;
         for (const OptionFacts& option : options_of(command.line)) {
             text += fmt::format("complete -c crackle -n '__crackle_calls {}' -l {}", command.name, option.name);
             if (option.letter != '\0') text += fmt::format(" -s {}", option.letter);

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// `crackle doctor` and `crackle --version`: what this build is made of, what it can do, and what is missing.
+// `crackle doctor`: what this build is made of, what it can do, and what is missing.
 // Tested by tests/tools/commands/command_line_test.cpp.
 
 #include <fmt/format.h>
 #include <isa-l.h>
-#include <unistd.h>
 #include <xxhash.h>
 
 #include <Spectra/Util/Version.h>
 #include <cereal/version.hpp>
-#include <cstdlib>
-#include <filesystem>
 #include <iostream>
-#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -21,6 +17,7 @@
 #include "tools/commands/build_info.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/page/page_template.hpp"
+#include "tools/terminal/programs.hpp"
 #include "tools/terminal/shipped.hpp"
 #include "tools/terminal/terminal.hpp"
 
@@ -36,27 +33,17 @@ std::string instructions() {
                        name_of(chosen_set()), built_in);
 }
 
-/// Where a program is on the PATH; empty: nowhere.
-std::string found_program(const std::string& name) {
-    const char* path = std::getenv("PATH");
-    std::istringstream folders(path != nullptr ? path : "");
-    for (std::string folder; std::getline(folders, folder, ':');) {
-        std::string file = (std::filesystem::path(folder) / name).string();
-        if (access(file.c_str(), X_OK) == 0) return file;
-    }
-    return "";
-}
-
 void line(const char* what, const std::string& text) { fmt::print("{:<14}{}\n", what, text); }
 
 /// What would do more, and how to get it.
-std::vector<std::string> missing_parts(bool page, bool gnuplot) {
+std::vector<std::string> missing_parts(bool page, bool gnuplot_for_bench) {
     std::vector<std::string> missing;
     if (!page) {
         missing.emplace_back(
             "the report page: configure with -DCRACKLE_VIEWER=ON; that takes Node 18 or later, and npm");
     }
-    if (!gnuplot) missing.emplace_back("gnuplot: apt-get install gnuplot-nox; pictures of crackle bench want it");
+    if (!gnuplot_for_bench)
+        missing.emplace_back("gnuplot: apt-get install gnuplot-nox; pictures of crackle-bench want it");
     if (build_info::sanitizers)
         missing.emplace_back("speed: build the preset `release`, this one has the sanitizers in");
     if (std::string(build_info::build_type) != "Release" && !build_info::sanitizers)
@@ -65,8 +52,6 @@ std::vector<std::string> missing_parts(bool page, bool gnuplot) {
 }
 
 }  // namespace
-
-void print_version() { fmt::print("crackle {}\n", build_info::version); }
 
 CommandLine describe_doctor() {
     return {.synopses = {"crackle doctor"},
@@ -77,7 +62,7 @@ CommandLine describe_doctor() {
 
 int doctor(const Invocation& given) {
     const std::size_t page = page_template().size();
-    const std::string gnuplot = found_program("gnuplot");
+    const std::string studies = bench_program(), gnuplot = program_on_path("gnuplot");
     line("crackle", build_info::version);
     line("build", fmt::format("{}, {}", build_info::build_type, build_info::compiler));
     if (given.messages.verbose()) line("flags", build_info::flags);
@@ -104,13 +89,15 @@ int doctor(const Invocation& given) {
     const std::string shipped = shipped_folder();
     line("shipped", shipped.empty() ? "found no cases: `crackle test specimens/...` finds them where they are alone"
                                     : "specimens/... is also looked for in " + shipped);
-    line("gnuplot", gnuplot.empty() ? "found none on the PATH: `crackle bench` leaves tables and scripts, no pictures"
-                                    : gnuplot + ": draws the pictures of `crackle bench`");
+    line("crackle-bench",
+         studies.empty() ? "found none: `crackle bench` says where to get it" : studies + ": studies of the engine");
+    line("gnuplot", gnuplot.empty() ? "found none on the PATH: `crackle-bench` leaves tables and scripts, no pictures"
+                                    : gnuplot + ": draws the pictures of `crackle-bench`");
     const bool coloured = !styled("", Style::heading, Stream::out).empty();
     line("terminal", !is_terminal(Stream::out) ? "none: no colours, no progress line"
                      : coloured                ? "colours and a progress line"
                                                : "a progress line, no colours (NO_COLOR)");
-    const std::vector<std::string> missing = missing_parts(page > 0, !gnuplot.empty());
+    const std::vector<std::string> missing = missing_parts(page > 0, studies.empty() || !gnuplot.empty());
     if (missing.empty()) line("missing", "nothing");
     for (const std::string& part : missing) line("missing", part);
     return exit_done;

@@ -147,7 +147,6 @@ std::string manual_page() {
         out += tagged(fmt::format("\\fB{}\\fR", literal(variable.name)), variable.text);
     out += ".SH \"EXIT STATUS\"\n";
     for (const ExitCode& code : exit_codes()) out += tagged(fmt::format("\\fB{}\\fR", code.code), code.meaning);
-    out += ".SH \"SEE ALSO\"\n.BR gnuplot (1)\n";
     return out;
 }
 

@@ -11,19 +11,21 @@ add_custom_target(crackle_compressed ALL DEPENDS ${documents}/changelog.gz)
 install(FILES ${documents}/crackle.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
 install(FILES ${copyright} ${documents}/changelog.gz DESTINATION ${CMAKE_INSTALL_DOCDIR})
 install(FILES ${copyright} ${documents}/changelog.gz DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/libcrackle-dev COMPONENT development)
+install(FILES ${copyright} ${documents}/changelog.gz DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/crackle-bench COMPONENT bench)
 if(TARGET crackle_python)
   install(FILES ${copyright} ${documents}/changelog.gz DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/python3-crackle COMPONENT python)
 endif()
 
 set(CPACK_GENERATOR DEB)
-# crackle, python3-crackle, and libcrackle-dev with what find_package(crackle) finds.
+# crackle, crackle-bench, python3-crackle, and libcrackle-dev with what find_package(crackle) finds.
 set(CPACK_DEB_COMPONENT_INSTALL ON)
 set(CPACK_COMPONENTS_GROUPING IGNORE)
-set(CPACK_COMPONENTS_ALL program development)
+set(CPACK_COMPONENTS_ALL program development bench)
 if(TARGET crackle_python)
   list(APPEND CPACK_COMPONENTS_ALL python)
 endif()
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_NAME crackle)
+set(CPACK_DEBIAN_BENCH_PACKAGE_NAME crackle-bench)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_NAME python3-crackle)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libcrackle-dev)
@@ -37,6 +39,10 @@ Crackle packs circles, makes Delaunay triangles or Voronoi polygons of them,
 bonds them and loads them between platens until they break: two-dimensional
 discrete elements for rock mechanics. It writes stress-strain curves, every
 bond break, frames for ParaView, figures and an interactive report.")
+set(CPACK_DEBIAN_BENCH_DESCRIPTION "studies of the engine of crackle
+Closed forms and laws that the engine has to meet, run time against error,
+scenes that are hard on its stability, particle-steps a second beside what the
+machine can do, and the rock of DEMseg's guide on many packings.")
 set(CPACK_DEBIAN_PYTHON_DESCRIPTION "bonded rock specimens, made and tested from Python
 The commands of crackle as functions, with the same words and the same bytes:
 specimens, tests with callbacks, worlds that are stepped and loaded by one's
@@ -52,8 +58,10 @@ set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_PRIORITY optional)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS fonts-dejavu-core)
-set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "gnuplot-nox, paraview, python3-crackle")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "crackle-bench, paraview, python3-crackle")
 # Shipped cases and their pages come with the program.
+set(CPACK_DEBIAN_BENCH_PACKAGE_DEPENDS "crackle (= ${PROJECT_VERSION})")
+set(CPACK_DEBIAN_BENCH_PACKAGE_SUGGESTS gnuplot-nox)
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "crackle (= ${PROJECT_VERSION}), python3 (>= 3.11), python3 (<< 3.12), python3-numpy, fonts-dejavu-core")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-pandas, python3-matplotlib")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)

@@ -17,6 +17,11 @@ constexpr std::string_view notice_mark = "notice:";
 // Of one message: more is a file's contents that found its way into it.
 constexpr std::size_t longest_message = 2000;
 
+std::string& program_name() {
+    static std::string name = "crackle";
+    return name;
+}
+
 /// What a terminal may be sent: names and contents of files may hold anything, its commands too.
 std::string printable(std::string_view text) {
     std::string shown;
@@ -79,15 +84,17 @@ void Messages::notice(const std::string& text) {
     if (listener_.notice) listener_.notice(text);
     if (quiet()) return;
     progress_.clear();
-    std::cerr << styled("crackle:", Style::notice, Stream::err) << ' ' << printable(text) << '\n';
+    std::cerr << styled(program_name() + ':', Style::notice, Stream::err) << ' ' << printable(text) << '\n';
 }
 
+void name_program(const std::string& name) { program_name() = name; }
+
 void report_error(const std::string& text) {
-    const std::string own = "crackle ";
+    const std::string own = program_name() + ' ';
     const std::size_t colon = text.find(": ");
     const bool named = text.starts_with(own) && colon != std::string::npos &&
                        text.find_first_of("/.", own.size()) > colon;  // no file's name
-    const std::string beginning = named ? text.substr(0, colon + 1) : "crackle:";
+    const std::string beginning = named ? text.substr(0, colon + 1) : program_name() + ':';
     std::cerr << styled(beginning, Style::error, Stream::err) << ' ' << printable(named ? text.substr(colon + 2) : text)
               << '\n';
 }

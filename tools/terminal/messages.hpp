@@ -52,6 +52,9 @@ class Messages {
     ProgressLine progress_;
 };
 
+/// What the program is called in its messages, before the first of them; "crackle" where nothing says otherwise.
+void name_program(const std::string& name);
+
 /// "crackle: TEXT", also with -q. A text that begins with "crackle COMMAND:" keeps that as its beginning.
 void report_error(const std::string& text);
 

@@ -3,14 +3,15 @@
 
 #include <system_error>
 
+#include "tools/terminal/programs.hpp"
+
 namespace crackle::tools {
 namespace fs = std::filesystem;
 
 fs::path shipped_folder() {
+    const fs::path folder = own_folder();
+    if (folder.empty()) return {};
     std::error_code none;
-    const fs::path program = fs::read_symlink("/proc/self/exe", none);
-    if (none) return {};
-    const fs::path folder = program.parent_path();
     // Installed: PREFIX/bin. Built: SOURCES/build/PRESET/tools.
     for (const fs::path& data : {folder / "../share/crackle", folder / "../../.."})
         if (fs::is_directory(data / "specimens/guide_rock", none)) return fs::weakly_canonical(data, none);

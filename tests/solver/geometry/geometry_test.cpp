@@ -12,9 +12,9 @@
 #include "solver/measure/point_view.hpp"
 #include "solver/stepping/build_world.hpp"
 #include "solver/stepping/step.hpp"
+#include "tests/bench/verify/scenes/whole_world.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/plain_distance.hpp"
-#include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle {
 namespace {

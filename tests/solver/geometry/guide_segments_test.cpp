@@ -11,8 +11,8 @@
 #include "solver/stepping/build_world.hpp"
 #include "solver/stepping/step.hpp"
 #include "solver/world/world.hpp"
+#include "tests/bench/verify/scenes/whole_world.hpp"
 #include "tests/support/claim.hpp"
-#include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle::guide_segments_test {
 namespace {

@@ -15,8 +15,8 @@
 #include "solver/stepping/step.hpp"
 #include "specimens/making/disordered.hpp"
 #include "specimens/making/lattices.hpp"
+#include "tests/bench/verify/scenes/whole_world.hpp"
 #include "tests/support/claim.hpp"
-#include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle {
 namespace {

@@ -18,8 +18,8 @@
 #include "solver/stepping/step.hpp"
 #include "solver/world/world.hpp"
 #include "specimens/making/disordered.hpp"
+#include "tests/bench/verify/scenes/whole_world.hpp"
 #include "tests/support/claim.hpp"
-#include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle {
 namespace {

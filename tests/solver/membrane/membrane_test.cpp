@@ -18,9 +18,9 @@
 #include "solver/stepping/build_world.hpp"
 #include "solver/stepping/step.hpp"
 #include "specimens/making/disordered.hpp"
+#include "tests/bench/verify/scenes/whole_world.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/same_bytes.hpp"
-#include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle::membrane_test {
 namespace {

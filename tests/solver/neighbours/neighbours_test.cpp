@@ -15,9 +15,9 @@
 #include "solver/stepping/time_step.hpp"
 #include "solver/world/world.hpp"
 #include "specimens/making/disordered.hpp"
+#include "tests/bench/verify/scenes/whole_world.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/plain_distance.hpp"
-#include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle {
 namespace {

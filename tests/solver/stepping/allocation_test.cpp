@@ -12,8 +12,8 @@
 #include "solver/stepping/build_world.hpp"
 #include "solver/stepping/step.hpp"
 #include "specimens/making/disordered.hpp"
+#include "tests/bench/verify/scenes/whole_world.hpp"
 #include "tests/support/claim.hpp"
-#include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace {
 std::atomic<std::int64_t> requests{0};

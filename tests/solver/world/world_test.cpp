@@ -26,8 +26,8 @@
 #include "solver/world/point_order.hpp"
 #include "solver/world/state_hash.hpp"
 #include "specimens/making/lattices.hpp"
+#include "tests/bench/verify/scenes/whole_world.hpp"
 #include "tests/solver/world/every_field.hpp"
-#include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle {
 namespace {

@@ -17,10 +17,10 @@
 #include "solver/stepping/bonding.hpp"
 #include "solver/stepping/build_world.hpp"
 #include "specimens/making/lattices.hpp"
+#include "tests/bench/verify/scenes/whole_world.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/deck_files.hpp"
 #include "tests/support/small_rock.hpp"
-#include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Kinds of test: their formulas against published values, their shapes and parts, and what is refused; closed forms of
-// discs and beams are claims (tools/bench/verify/laboratory).
+// discs and beams are claims (tests/bench/verify/laboratory).
 
 #include "specimens/kinds/test_kind.hpp"
 
@@ -13,8 +13,8 @@
 #include "solver/base/errors.hpp"
 #include "specimens/case/case_file.hpp"
 #include "specimens/case/parameters.hpp"
+#include "tests/bench/verify/scenes/lattice_case.hpp"
 #include "tests/support/claim.hpp"
-#include "tools/bench/verify/scenes/lattice_case.hpp"
 
 namespace crackle::test_kind_test {
 namespace {

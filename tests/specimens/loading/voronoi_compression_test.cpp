@@ -17,10 +17,10 @@
 #include "specimens/loading/run.hpp"
 #include "specimens/loading/virtual_test.hpp"
 #include "specimens/statistics/random_numbers.hpp"
+#include "tests/bench/verify/scenes/whole_world.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/deck_files.hpp"
 #include "tests/support/folder_contents.hpp"
-#include "tools/bench/verify/scenes/whole_world.hpp"
 
 namespace crackle {
 namespace {

@@ -49,14 +49,10 @@ class CommandLines : public testing::ProgramCall {
   protected:
     CommandLines() : ProgramCall("") {}
 
-    /// All that can be called, "bench verify" too, `bench` itself not.
+    /// All commands but `bench`, whose options are another program's.
     Words commands() const {
-        Words all;
-        for (const std::string& command : listed(call("--help").out)) {
-            if (command != "bench") all.push_back(command);
-        }
-        const std::string bench = call("bench --help").out;
-        for (const std::string& study : listed(bench.substr(bench.find("studies:")))) all.push_back("bench " + study);
+        Words all = listed(call("--help").out);
+        std::erase(all, "bench");
         return all;
     }
 
@@ -91,7 +87,7 @@ class CommandLines : public testing::ProgramCall {
 
 TEST_F(CommandLines, HelpOfEveryCommandHasUsageOptionsAndExamples) {
     const Words all = commands();
-    EXPECT_GE(all.size(), 16U);
+    EXPECT_GE(all.size(), 15U);
     for (const std::string& command : all) {
         for (const char* option : {" --help", " -h"}) {
             const Answer answer = call(command + option);
@@ -106,8 +102,10 @@ TEST_F(CommandLines, HelpOfEveryCommandHasUsageOptionsAndExamples) {
         }
     }
     EXPECT_EQ(call("help mesh").out, call("mesh --help").out);
-    EXPECT_EQ(call("help bench verify").out, call("bench verify --help").out);
-    fmt::print("  {} commands and studies\n", all.size());
+    EXPECT_EQ(call("help campaign show").out, call("campaign show --help").out);
+    const std::string campaign = call("campaign --help").out;
+    EXPECT_NE(campaign.find("\nfurther:\n  show "), std::string::npos) << campaign;
+    fmt::print("  {} commands\n", all.size());
 }
 
 TEST_F(CommandLines, ManualPageIsSoundRoffAndNamesEveryOption) {
@@ -183,11 +181,8 @@ TEST_F(CommandLines, BashCompletesCommandsOptionsAndTheirWords) {
     }
     EXPECT_EQ(completed({"crackle", "mesh", "in.dat", "--kind", ""}), (std::set<std::string>{"delaunay", "voronoi"}));
     EXPECT_EQ(completed({"crackle", "mesh", "--kind", "=", "v"}), std::set<std::string>{"voronoi"});
-    EXPECT_EQ(completed({"crackle", "bench", "ver"}), std::set<std::string>{"verify"});
-    EXPECT_EQ(completed({"crackle", "bench", "verify", "--only", "bonded_chain_hangs"}),
-              std::set<std::string>{"bonded_chain_hangs_as_a_catenary"});
-    EXPECT_EQ(completed({"crackle", "bench", "guide", "--laws", "rounded", "dem"}),
-              (std::set<std::string>{"demseg", "demseg_mean"}))
+    EXPECT_EQ(completed({"crackle", "campaign", "sho"}), std::set<std::string>{"show"});
+    EXPECT_EQ(completed({"crackle", "plot", "--what", "curve", "s"}), (std::set<std::string>{"strain", "specimen"}))
         << "an option that takes several words";
     EXPECT_EQ(completed({"crackle", "completion", "f"}), std::set<std::string>{"fish"});
     std::filesystem::create_directory(folder_ / "two words");
@@ -223,7 +218,61 @@ TEST_F(CommandLines, WordsThatAreNearlyRightAreGuessed) {
     expect_refused("doctor now", "found 'now', expected options alone");
     expect_refused("run one two", "found 'two', expected one DIR");
     expect_refused("doctor -q -v", "found --quiet and --verbose, expected one of them");
-    expect_refused("bench verify --list --only", "crackle bench verify: the required argument");
+    expect_refused("mesh rock.dat --kind", "crackle mesh: the required argument");
+}
+
+/// A copy of crackle in a folder of its own, with nothing of what is built beside it.
+class Bench : public CommandLines {
+  protected:
+    Bench() {
+        std::filesystem::create_directories(folder_ / "alone");
+        std::filesystem::copy_file(CRACKLE_PROGRAM, folder_ / "alone/crackle");
+    }
+
+    /// A program of the name that crackle looks for. It prints its folder and its words, one a line.
+    void write_bench(const std::string& folder) const {
+        std::filesystem::create_directories(folder_ / folder);
+        write(folder + "/crackle-bench", "#!/bin/sh\nprintf '%s\\n' " + folder + " \"$@\"\nexit 7\n");
+        std::filesystem::permissions(folder_ / folder / "crackle-bench", std::filesystem::perms::owner_all);
+    }
+
+    /// @param path the PATH, of folders in the scratch folder
+    Answer alone(const std::string& words, const std::string& path = "none") const {
+        return shell(fmt::format("PATH='{}/{}' alone/crackle {}", folder_.string(), path, words));
+    }
+};
+
+TEST_F(Bench, IsStartedWithTheSameWordsAndEndsWithItsCode) {
+    write_bench("on_path");
+    const Answer answer = alone("bench verify --only 'two words' -o -q --help", "on_path");
+    EXPECT_EQ(answer.code, 7) << answer.err;
+    EXPECT_EQ(answer.out, "on_path\nverify\n--only\ntwo words\n-o\n-q\n--help\n");
+    EXPECT_EQ(answer.err, "");
+    EXPECT_EQ(alone("bench", "on_path").out, "on_path\n");
+    EXPECT_EQ(alone("help bench verify", "on_path").out, "on_path\nverify\n--help\n");
+    write_bench("alone");
+    EXPECT_EQ(alone("bench verify", "on_path").out, "alone\nverify\n") << "one beside crackle comes first";
+    const std::string version = call("--version").out;
+    EXPECT_EQ(call("bench --version").out, "crackle-bench" + version.substr(version.find(' ')))
+        << "the one built beside it";
+}
+
+TEST_F(Bench, SaysWhereToGetItWhereItIsNot) {
+    std::filesystem::create_directories(folder_ / "none/crackle-bench");  // a folder is no program
+    const Answer answer = alone("bench verify --list");
+    EXPECT_EQ(answer.code, 2);
+    EXPECT_EQ(answer.out, "");
+    EXPECT_EQ(count_of(answer.err, "\n"), 1U) << answer.err;
+    for (const char* part : {"crackle bench: found no crackle-bench beside crackle or on the PATH",
+                             "package crackle-bench", "cmake --build --preset release --target crackle-bench"})
+        EXPECT_NE(answer.err.find(part), std::string::npos) << part << '\n' << answer.err;
+    const Answer help = alone("bench --help");
+    EXPECT_EQ(help.code, 0) << help.err;
+    EXPECT_TRUE(help.out.starts_with("usage: crackle bench STUDY [OPTIONS]")) << help.out;
+    EXPECT_EQ(alone("help bench").out, help.out);
+    const std::string doctor = alone("doctor").out;
+    EXPECT_NE(doctor.find("crackle-bench found none"), std::string::npos) << doctor;
+    EXPECT_EQ(doctor.find("missing       gnuplot"), std::string::npos) << doctor;
 }
 
 /// Each command that writes files: its words, and the files it takes.
@@ -234,8 +283,7 @@ TEST_F(CommandLines, QuietSaysNothingAndVerboseSaysMore) {
     for (const std::string& words :
          {pack_ + "--force -o rock2.dat", std::string("mesh rock.dat --kind voronoi --thick 1e-3 --force -o cells.dat"),
           "run '" + deck + "' -o deck --steps 200 --force", std::string("test case.toml -o out --force"),
-          std::string("report out -o report.html"), std::string("view rock.dat -o view.html"),
-          std::string("bench verify --only two_discs_stacked_between_walls -o page.md")}) {
+          std::string("report out -o report.html"), std::string("view rock.dat -o view.html")}) {
         if (!page && (words.starts_with("report") || words.starts_with("view"))) continue;
         const Answer usual = call(words), quiet = call(words + " -q"), verbose = call(words + " -v");
         EXPECT_EQ(usual.code, 0) << words << usual.err;
@@ -322,9 +370,7 @@ TEST_F(CommandLines, ProgressOfEveryLongCommandIsShown) {
     for (const auto& [words, says] : std::vector<std::pair<std::string, std::string>>{
              {"pack --count 3000 --radius-min 0.01 --radius-max 0.02 --mean-overlap 2e-5 -o rock.dat", "unbalanced by"},
              {"mesh rock.dat --kind voronoi --thick 1e-4 -o cells.dat", "meshing 3000 centres"},
-             {"run '" + deck + "' -o deck", "%"},
-             {"bench verify --only two_discs_stacked_between_walls -o page.md", "two_discs_stacked_between_walls"},
-             {"bench stress --steps 20", "% "}}) {
+             {"run '" + deck + "' -o deck", "%"}}) {
         const TerminalAnswer answer = call_on_terminal(folder_, words);
         EXPECT_EQ(answer.code, 0) << answer.shown;
         const std::size_t at = answer.shown.find(redraw);
@@ -336,7 +382,7 @@ TEST_F(CommandLines, ProgressOfEveryLongCommandIsShown) {
 TEST_F(CommandLines, DoctorSaysWhatIsThereAndWhatIsMissing) {
     const std::string report = call("doctor").out;
     for (const char* part : {"lanes", "instructions", "threads", "CGAL ", "Eigen ", "Spectra ", "cereal ", "xxHash ",
-                             "ISA-L ", "OpenSSL ", "report page", "gnuplot", "missing"})
+                             "ISA-L ", "OpenSSL ", "report page", "crackle-bench", "gnuplot", "missing"})
         EXPECT_NE(report.find(part), std::string::npos) << part << '\n' << report;
     const std::string without = shell("PATH=/nowhere '" + std::string(CRACKLE_PROGRAM) + "' doctor").out;
     EXPECT_NE(without.find("missing       gnuplot: apt-get install gnuplot-nox"), std::string::npos) << without;

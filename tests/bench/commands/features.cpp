@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `crackle-bench features`: what each feature costs a contact and step, and what is left of those that a scene lacks.
+// Tested by tests/bench_tests/commands/bench_test.cpp.
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <string>
+#include <vector>
+
+#include "solver/base/errors.hpp"
+#include "solver/base/instruction_set.hpp"
+#include "solver/files/replace_file.hpp"
+#include "tests/bench/commands/bench.hpp"
+#include "tests/bench/commands/gnuplot.hpp"
+#include "tests/bench/commands/results_folder.hpp"
+#include "tests/bench/throughput/feature_costs.hpp"
+#include "tests/bench/throughput/machine_limits.hpp"
+
+namespace crackle::tools {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace throughput;
+
+std::string interval(const MedianInterval& value, double unit, const char* format) {
+    const auto number = [&](double x) { return fmt::format(fmt::runtime(format), unit * x); };
+    return fmt::format("{} ({} to {})", number(value.median), number(value.low), number(value.high));
+}
+
+bool holds_one(const MedianInterval& ratio) { return ratio.low <= 1.0 && 1.0 <= ratio.high; }
+
+std::string page_of(const std::string& command, const FeatureStudy& study, const std::vector<FeatureRow>& rows) {
+    std::string text = fmt::format(
+        "# What features cost\n\nMade by `{}` on {}, kernels for {}, {} lanes of doubles, one thread. ns of the "
+        "processor a contact "
+        "and step; contacts carry load. Medians of {} pairs of runs of about {:g} s, each from the same start, who "
+        "begins alternating; in brackets the interval that holds the median at 95 % whatever the distribution (order "
+        "statistics). Specimens are stirred by about a hundredth of an overlap.\n\n"
+        "## Features one at a time\n\nEach row has one feature more than the row it stands beside. The first is that "
+        "row itself again: what the measuring adds. `bonds` moves the walls away, `driven platens` replaces them, "
+        "`two materials` gives every second body another friction angle and stiffness.\n\n"
+        "| bodies | feature | beside | particles | contacts a particle | ns a contact | ns a particle | ns a contact "
+        "more | times |\n| --- | --- | --- | ---: | ---: | ---: | ---: | ---: | ---: |\n",
+        command, processor_name(), name_of(chosen_set()), lanes_of(chosen_set()), study.pairs, study.seconds);
+    for (const FeatureRow& row : rows) {
+        if (row.kind != FeatureRowKind::added) continue;
+        text += fmt::format("| {} | {} | {} | {} | {:.2f} | {:.2f} | {:.1f} | {} | {} |\n", row.bodies, row.feature,
+                            row.beside, row.particles,
+                            static_cast<double>(row.contacts) / static_cast<double>(row.particles),
+                            1e9 * row.contact_seconds, 1e9 * row.particle_seconds,
+                            interval(row.difference, 1e9, "{:.2f}"), interval(row.ratio, 1.0, "{:.3f}"));
+    }
+    text +=
+        "\n## Features that a scene lacks\n\n`dispatched`: force passes as the engine picks them, beside those of the "
+        "kernel compiled without the feature; whole steps, which look for all that a world might have, beside the "
+        "least step (forces, their sums, kick and drift alone: tests/bench/throughput/least_step.hpp). `forced`: the "
+        "same "
+        "scene under a kernel compiled with the feature, which finds nothing to do: what one kernel for all would "
+        "cost. "
+        "A difference is not resolved where the interval holds 1. Instructions are counted by "
+        "`tests/benchmarks/instruction_counts`.\n\n"
+        "| bodies | absent | how | beside | ns a contact | times | difference |\n"
+        "| --- | --- | --- | --- | ---: | ---: | --- |\n";
+    for (const FeatureRow& row : rows) {
+        if (row.kind == FeatureRowKind::added) continue;
+        text += fmt::format(
+            "| {} | {} | {} | {} | {:.2f} | {} | {} |\n", row.bodies, row.feature, name_of(row.kind), row.beside,
+            1e9 * row.contact_seconds, interval(row.ratio, 1.0, "{:.3f}"),
+            holds_one(row.ratio) ? "not resolved" : fmt::format("{:+.1f} %", 100.0 * (row.ratio.median - 1.0)));
+    }
+    return text;
+}
+
+std::string table_of(const std::string& command, const std::vector<FeatureRow>& rows) {
+    std::string text = fmt::format(
+        "# Made by `{}` on {}. Times of a step; intervals hold the median at 95 %.\n"
+        "kind,bodies,feature,beside,particles,contacts,ns_a_contact,ns_a_particle,ns_a_contact_more,more_low,more_high,"
+        "ratio,ratio_low,ratio_high\n",
+        command, processor_name());
+    for (const FeatureRow& row : rows) {
+        text += fmt::format("{},{},\"{}\",\"{}\",{},{},{:.5g},{:.5g},{:.4g},{:.4g},{:.4g},{:.5g},{:.5g},{:.5g}\n",
+                            name_of(row.kind), row.bodies, row.feature, row.beside, row.particles, row.contacts,
+                            1e9 * row.contact_seconds, 1e9 * row.particle_seconds, 1e9 * row.difference.median,
+                            1e9 * row.difference.low, 1e9 * row.difference.high, row.ratio.median, row.ratio.low,
+                            row.ratio.high);
+    }
+    return text;
+}
+
+/// A bar a row of the first table, discs and polygons side by side: the ratio, for times of different pairs differ by
+/// what else the machine did.
+std::string script_of(const std::vector<FeatureRow>& rows) {
+    const auto data_of = [&](bool discs) {
+        std::string data;
+        for (const FeatureRow& row : rows) {
+            if (row.kind == FeatureRowKind::added && (row.bodies == "discs") == discs)
+                data += fmt::format("\"{}\" {:.5g} {:.5g} {:.5g}\n", row.feature, row.ratio.median, row.ratio.low,
+                                    row.ratio.high);
+        }
+        return data;
+    };
+    return fmt::format(
+        "# SPDX-License-Identifier: GPL-3.0-or-later\n$discs << EOD\n{}EOD\n$polygons << EOD\n{}EOD\n"
+        "set terminal svg size 900,480 font \"DejaVu Sans,11\" background rgb 'white'\nset output \"features.svg\"\n"
+        "set multiplot layout 1,2\nset style fill solid 0.5 noborder\nset errorbars 2\n"
+        "set grid ytics lc rgb '#d8d8d8'\nset xtics rotate by 40 right nomirror\nset yrange [0:*]\nset key off\n"
+        "set bmargin 11\nset lmargin 15\nset rmargin 1\nset ylabel \"times the row it stands beside\"\n"
+        "set title \"discs\"\nplot $discs using 0:2:3:4:(0.7):xtic(1) with boxerrorbars lc rgb '#33608c', 1 lc rgb "
+        "'#808080'\nset title \"polygons\"\nplot $polygons using 0:2:3:4:(0.7):xtic(1) with boxerrorbars lc rgb "
+        "'#33608c', 1 lc rgb '#808080'\nunset multiplot\n",
+        data_of(true), data_of(false));
+}
+
+/// Rows of both tables, tests/bench_tests/commands/bench_test.cpp counts them; only the progress depends on it.
+constexpr std::size_t feature_rows = 42;
+
+FeatureStudy study_of(const po::variables_map& given) {
+    const bool quick = given.contains("quick");
+    FeatureStudy study;
+    study.count = given.contains("count") ? given["count"].as<std::int64_t>() : quick ? 300 : 5000;
+    study.pairs = given.contains("pairs") ? given["pairs"].as<int>() : quick ? fewest_for_interval : 15;
+    study.seconds = given.contains("seconds") ? given["seconds"].as<double>() : quick ? 0.01 : 0.08;
+    if (study.count < 100 || study.count > 1'000'000)
+        throw InputError(
+            fmt::format("crackle-bench features: --count: found {}, expected 100 to 1000000", study.count));
+    if (study.pairs < fewest_for_interval || study.pairs > 1000)
+        throw InputError(fmt::format("crackle-bench features: --pairs: found {}, expected {} to 1000", study.pairs,
+                                     fewest_for_interval));
+    if (!(study.seconds > 0.0 && study.seconds <= 60.0))
+        throw InputError(
+            fmt::format("crackle-bench features: --seconds: found {}, expected above 0, at most 60", study.seconds));
+    return study;
+}
+
+}  // namespace
+
+CommandLine describe_bench_features() {
+    po::options_description options;
+    options.add_options()("output,o", po::value<std::string>()->value_name("DIR")->default_value("out/features"),
+                          "folder for features.md, .csv, .svg")  //
+        ("count", po::value<std::int64_t>()->value_name("N"),
+         "discs, and polygons, of each scene (default 5000; quick: 300)")  //
+        ("pairs", po::value<int>()->value_name("N"),
+         "runs of both scenes, of which the median counts (default 15; quick: 6)")                          //
+        ("seconds", po::value<double>()->value_name("X"), "of one run, about (default 0.08; quick: 0.01)")  //
+        ("quick", "small and short");
+    return {.synopses = {"crackle-bench features [OPTIONS]"},
+            .description =
+                "Nanoseconds a contact and step with one feature added after the other, and what is left of "
+                "features that a scene lacks.",
+            .options = {{"options", options}},
+            .verbose = "seconds of each row",
+            .examples = {{"crackle-bench features --quick", "seconds: 300 bodies, short runs"},
+                         {"crackle-bench features -o out/features", "minutes: features.md, .csv, .svg"},
+                         {"crackle-bench features --count 50000 --pairs 30"}},
+            .notes = {"Pairs take turns, so that a busy machine is busy for both; an interval that holds 1 shows no "
+                      "difference."}};
+}
+
+int bench_features(const Invocation& invocation) {
+    const po::variables_map& given = invocation.values;
+    Messages& messages = invocation.messages;
+    FeatureStudy study = study_of(given);
+    const fs::path folder = given["output"].as<std::string>();
+    make_results_folder(folder);
+    study.scratch = folder / "scratch";
+
+    std::string command = "crackle-bench features";
+    for (const std::string& word : invocation.words) command += ' ' + word;
+    std::vector<FeatureRow> rows;
+    messages.progress().begin("comparing scenes", static_cast<double>(feature_rows), "rows");
+    measure_feature_costs(study, [&](const FeatureRow& row) {
+        rows.push_back(row);
+        messages.stage(fmt::format("{:<11}{:<9}{:<46}{:>8.2f} ns, {} times {}", name_of(row.kind), row.bodies,
+                                   row.feature, 1e9 * row.contact_seconds, interval(row.ratio, 1.0, "{:.3f}"),
+                                   row.beside));
+        messages.progress().count(static_cast<double>(rows.size()));
+        replace_file(folder / "features.md", page_of(command, study, rows));
+        replace_file(folder / "features.csv", table_of(command, rows));
+    });
+    std::error_code failed;
+    fs::remove_all(study.scratch, failed);
+    replace_file(folder / "features.gp", script_of(rows));
+    const std::string problem = draw_with_gnuplot(folder / "features.gp");
+    messages.make_room();
+    if (!problem.empty()) messages.notice(problem + ". features.csv is complete");
+    std::cout << page_of(command, study, rows);
+    return exit_done;
+}
+
+}  // namespace crackle::tools

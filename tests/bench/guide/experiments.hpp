@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the guide leaves open and might have been otherwise: each experiment changes one thing of the shipped cases.
+// Tested by tests/bench_tests/guide/ensemble_test.cpp.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "specimens/case/test_case.hpp"
+
+namespace crackle::studies {
+
+inline constexpr const char* as_shipped = "shipped";  ///< the experiment that changes nothing
+
+/// Tests that an experiment touches; where it does not, the shipped test stands in.
+struct Reach {
+    bool circles = true, polygons = true;
+    bool elastic = true, tension = true, compression = true;
+
+    bool holds(const std::string& specimen, const std::string& loading) const;
+};
+
+struct GuideExperiment {
+    std::string name;
+    std::string sentence;
+    Reach reach;
+    void (*change)(TestCase& test);
+    bool without_platens = false;  ///< no platen holds such a specimen: its tests only count
+};
+
+/// All, the shipped case first.
+const std::vector<GuideExperiment>& guide_experiments();
+const GuideExperiment& guide_experiment(const std::string& name);
+
+}  // namespace crackle::studies

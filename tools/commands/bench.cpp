@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `crackle bench STUDY`: starts crackle-bench, a program and a package of its own.
+// Tested by tests/tools/commands/command_line_test.cpp.
+
+#include <unistd.h>
+
+#include <cerrno>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include "solver/base/errors.hpp"
+#include "tools/commands/commands.hpp"
+#include "tools/terminal/programs.hpp"
+
+namespace crackle::tools {
+namespace {
+
+constexpr const char* bench_name = "crackle-bench";
+
+}  // namespace
+
+std::string bench_program() { return program_beside_or_on_path(bench_name); }
+
+CommandLine describe_bench() {
+    return {.synopses = {"crackle bench STUDY [OPTIONS]   (crackle-bench --help lists the studies)"},
+            .description =
+                "Starts crackle-bench with the same words: studies of the engine, each of which can write its page. It "
+                "is a program of its own, looked for beside crackle and on the PATH.",
+            .takes_options = false,
+            .examples = {{"crackle bench accuracy --quick -o out/accuracy", "run time against error"},
+                         {"crackle bench stress --steps 1000", "numerical stability"}}};
+}
+
+int bench(const Invocation& given) {
+    const std::string program = bench_program();
+    if (program.empty()) {
+        throw InputError(
+            "crackle bench: found no crackle-bench beside crackle or on the PATH, expected the program of that name; "
+            "install Debian's package crackle-bench, or build it in the sources: cmake --build --preset release "
+            "--target crackle-bench");
+    }
+    Arguments words = given.words;
+    words.insert(words.begin(), bench_name);
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    execv(program.c_str(), pointers.data());
+    throw std::system_error(errno, std::generic_category(), program);
+}
+
+}  // namespace crackle::tools
