@@ -79,33 +79,31 @@ CRACKLE_INLINE LaneBits fail(const World& world, PointIndex k, const Law<Lanes>&
 }
 
 /// @param share of stiffness, where points have one
-template <ContactFeatures F, class Share>
-CRACKLE_INLINE Law<Lanes> with_shares_of(const World& world, PointIndex k, const BatchLaw& law, const Share& share) {
-    if constexpr (F.own_shear)
-        return law.law.with_shares(share(), load_floats(&world.points.shear_root[k]));
-    else if constexpr (F.own_shares)
-        return law.law.with_share(share());
-    else
-        return law.law;
+template <class Features, class Share>
+CRACKLE_INLINE Law<Lanes> with_shares_of(const Features& has, const World& world, PointIndex k, const BatchLaw& law,
+                                         const Share& share) {
+    if (has.own_shear) return law.law.with_shares(share(), load_floats(&world.points.shear_root[k]));
+    if (has.own_shares) return law.law.with_share(share());
+    return law.law;
 }
 
 template <class Contact>
 inline constexpr bool of_faces = std::is_same_v<Contact, FlatFaceGeometry<Lanes>>;
 
 /// The law of the points of a batch with their shares, of flat faces over a metre.
-template <ContactFeatures F>
-CRACKLE_INLINE Law<Lanes> law_of_metre(const World& world, PointIndex k, const BatchLaw& law) {
-    return with_shares_of<F>(world, k, law, [&] { return load_floats(&world.points.stiffness_share[k]); });
+template <class Features>
+CRACKLE_INLINE Law<Lanes> law_of_metre(const Features& has, const World& world, PointIndex k, const BatchLaw& law) {
+    return with_shares_of(has, world, k, law, [&] { return load_floats(&world.points.stiffness_share[k]); });
 }
 
 /// The same over their lap.
-template <ContactFeatures F, class Contact>
-CRACKLE_INLINE Law<Lanes> law_of_batch(const World& world, PointIndex k, const BatchGeometry<Contact>&,
-                                       const BatchLaw& law) {
+template <class Features, class Contact>
+CRACKLE_INLINE Law<Lanes> law_of_batch(const Features& has, const World& world, PointIndex k,
+                                       const BatchGeometry<Contact>&, const BatchLaw& law) {
     if constexpr (!of_faces<Contact>)
-        return law_of_metre<F>(world, k, law);
+        return law_of_metre(has, world, k, law);
     else
-        return with_shares_of<F>(world, k, law, [&] {
+        return with_shares_of(has, world, k, law, [&] {
             return load_floats(&world.points.stiffness_share[k]) * load_as<Lanes>(&world.points.lap[k]);
         });
 }
@@ -121,10 +119,10 @@ CRACKLE_INLINE Lanes root_masses(const World& world, PointIndex k, const BatchGe
 }
 
 /// Whether every unbonded point of a batch that closes has been closed and surely stays so for a step more.
-template <ContactFeatures F, class Contact>
-CRACKLE_INLINE bool none_opens(const World& world, PointIndex k, const BatchGeometry<Contact>& g, const BatchLaw& laws,
-                               const Lanes& overlap, const LaneBits& free) {
-    const Law<Lanes> law = law_of_batch<F>(world, k, g, laws);
+template <class Features, class Contact>
+CRACKLE_INLINE bool none_opens(const Features& has, const World& world, PointIndex k, const BatchGeometry<Contact>& g,
+                               const BatchLaw& laws, const Lanes& overlap, const LaneBits& free) {
+    const Law<Lanes> law = law_of_batch(has, world, k, g, laws);
     const BodyPair* const points = world.points.contact.pairs.data() + k;
     const double *i[lane_count], *j[lane_count];
     for (int l = 0; l < lane_count; ++l) {
@@ -134,7 +132,7 @@ CRACKLE_INLINE bool none_opens(const World& world, PointIndex k, const BatchGeom
     Lanes acceleration_i, acceleration_j, inverse_mass_i, inverse_mass_j, dashpot{};
     gather_pairs(i, acceleration_i, inverse_mass_i);
     gather_pairs(j, acceleration_j, inverse_mass_j);
-    if constexpr (F.damping) dashpot = normal_damping(law, root_masses(world, k, g)) * g.motion.closing;
+    if (has.damping) dashpot = normal_damping(law, root_masses(world, k, g)) * g.motion.closing;
     const double step = world.stepping.time_step, kick = kick_before(world.stepping) + 0.5 * step;
     return none_of(free &
                    ~stays_closed(law.normal_stiffness, overlap, g.motion.closing,
@@ -146,60 +144,61 @@ CRACKLE_INLINE bool none_opens(const World& world, PointIndex k, const BatchGeom
 inline constexpr LaneBit bits_of_law = 0xffff;
 
 /// Laws of a batch that are not those of the batch before. @return whether lanes can have them
-template <ContactFeatures F>
-CRACKLE_INLINE bool take_laws(const World& world, const PointState* states, const LaneBits& law_and_flags,
-                              BatchLaw& law) {
+template <class Features>
+CRACKLE_INLINE bool take_laws(const Features& has, const World& world, const PointState* states,
+                              const LaneBits& law_and_flags, BatchLaw& law) {
     if (!none_of((law_and_flags ^ law_and_flags[0]) & bits_of_law))
-        return load_laws<F>(world, states, law_and_flags & bits_of_law, law);
+        return load_laws(has, world, states, law_and_flags & bits_of_law, law);
     law.take(world, states[0].law);
     return true;
 }
 
 /// Changes nothing. @param k first point of the batch @param law of the batch before; left as this one's
-template <ContactFeatures F, class Contact>
-CRACKLE_INLINE BatchState look_at_batch(World& world, PointIndex k, const BatchGeometry<Contact>& g, BatchLaw& law) {
-    constexpr int at_rest = point_touching | (F.bonds ? point_bonded | point_counted : 0);
-    constexpr LaneBit looked_at =
-        bits_of_law | bits_of_flags(at_rest | point_sliding | (F.consistent ? point_unsettled : 0));
+template <class Features, class Contact>
+CRACKLE_INLINE BatchState look_at_batch(const Features& has, World& world, PointIndex k,
+                                        const BatchGeometry<Contact>& g, BatchLaw& law) {
+    const int at_rest = point_touching | (has.bonds ? point_bonded | point_counted : 0);
+    const LaneBit looked_at =
+        bits_of_law | bits_of_flags(at_rest | point_sliding | (has.consistent ? point_unsettled : 0));
     const Lanes& overlap = g.contact.overlap;
     PointState* const states = world.points.state.data() + k;
     const LaneBits law_and_flags = widened(states);
     LaneBits unlike = law_and_flags ^ (law.number | bits_of_flags(at_rest));
     if (!none_of(unlike & bits_of_law)) {
-        if (!take_laws<F>(world, states, law_and_flags, law))
+        if (!take_laws(has, world, states, law_and_flags, law))
             return {BatchCase::one_by_one, states, law_and_flags, LaneBits{}, LaneBits{}, Lanes{}};
         unlike = (law_and_flags ^ bits_of_flags(at_rest)) & ~bits_of_law;
     }
     Lanes beyond_rest = overlap;  // m, of the overlap without force
-    if constexpr (F.coulomb) beyond_rest -= load_as<Lanes>(&world.points.bond_overlap[k]);
+    if (has.coulomb) beyond_rest -= load_as<Lanes>(&world.points.bond_overlap[k]);
     if constexpr (of_faces<Contact>)
         beyond_rest = select((load_as<Lanes>(&world.points.lap[k]) == 0.0) & (beyond_rest > 0.0), Lanes{}, beyond_rest);
     LaneBits over = beyond_rest > 0.0;
-    if constexpr (F.coulomb)
+    if (has.coulomb)
         over =
-            ~fail(world, k, law_of_batch<F>(world, k, g, law), beyond_rest, g.motion.slipping * world.stepping.drift);
-    else if constexpr (F.bonds)
+            ~fail(world, k, law_of_batch(has, world, k, g, law), beyond_rest, g.motion.slipping * world.stepping.drift);
+    else if (has.bonds)
         over = bond_holds(law.law, overlap);
     if (none_of((unlike & looked_at) | ~over)) {
         BatchCase what = BatchCase::all_hold;
-        const LaneBits all_bonded = F.bonds ? over : LaneBits{};
-        if constexpr (F.consistent && !F.bonds) {
-            if (!none_opens<F>(world, k, g, law, overlap, over)) what = BatchCase::one_by_one;
+        const LaneBits all_bonded = has.bonds ? over : LaneBits{};
+        if (has.consistent && !has.bonds) {
+            if (!none_opens(has, world, k, g, law, overlap, over)) what = BatchCase::one_by_one;
         }
         return {what, states, law_and_flags, all_bonded, over, beyond_rest};
     }
     LaneBits bonded{}, holds = beyond_rest > 0.0;
-    if constexpr (F.bonds) {
+    if (has.bonds) {
         bonded = (law_and_flags & bits_of_flags(point_bonded)) != 0;
         holds = bonded ? over : holds;
     }
     const LaneBits touched = (law_and_flags & bits_of_flags(point_touching)) != 0;
     BatchCase what = any(holds) ? BatchCase::some_hold : BatchCase::none_holds;
     if (any(~holds & (bonded | touched))) what = BatchCase::one_by_one;
-    if constexpr (F.consistent) {
+    if (has.consistent) {
         const LaneBits free = holds & ~bonded;
         const LaneBits unsettled = (law_and_flags & bits_of_flags(point_unsettled)) != 0;
-        if (any(unsettled | (free & ~touched)) || (any(free) && !none_opens<F>(world, k, g, law, beyond_rest, free)))
+        if (any(unsettled | (free & ~touched)) || (any(free) && !none_opens(has, world, k, g, law, beyond_rest, free)))
             what = BatchCase::one_by_one;
     }
     return {what, states, law_and_flags, bonded, holds, beyond_rest};
@@ -214,9 +213,10 @@ CRACKLE_INLINE void remember_overlaps(World& world, PointIndex k, const BatchSta
 /// Forces of the points of a batch that hold, into `out`; of the others 0.
 /// @tparam All BatchCase::all_hold, else some_hold @param place of the first point in its block
 /// @param law with the points' shares
-template <ContactFeatures F, bool All, class Contact>
-CRACKLE_INLINE void force_lanes(World& world, PointIndex k, PointIndex place, const BatchGeometry<Contact>& g,
-                                const Law<Lanes>& law, const BatchState& batch, PointForce* out, BlockLosses& loss) {
+template <bool All, class Features, class Contact>
+CRACKLE_INLINE void force_lanes(const Features& has, World& world, PointIndex k, PointIndex place,
+                                const BatchGeometry<Contact>& g, const Law<Lanes>& law, const BatchState& batch,
+                                PointForce* out, BlockLosses& loss) {
     const Lanes zero{};
     const auto where_held = [&](const Lanes& held, const Lanes& otherwise) -> Lanes {
         if constexpr (All)
@@ -225,20 +225,20 @@ CRACKLE_INLINE void force_lanes(World& world, PointIndex k, PointIndex place, co
             return select(batch.holds, held, otherwise);
     };
     const double dt = world.stepping.drift;
-    const Lanes& compression = F.coulomb ? batch.beyond_rest : g.contact.overlap;  // m, what Coulomb's limit goes by
+    const Lanes& compression = has.coulomb ? batch.beyond_rest : g.contact.overlap;  // m, what Coulomb's limit goes by
     Lanes normal = spring_force(law, compression);
     [[maybe_unused]] Lanes bond_overlap;
-    if constexpr (F.bonds && !F.coulomb) {
+    if (has.bonds && !has.coulomb) {
         bond_overlap = load_as<Lanes>(&world.points.bond_overlap[k]);
         normal -= spring_force(law, bond_overlap);
     }
     Lanes shear = zero;
     LaneBits sliding = batch.holds;
-    if constexpr (F.friction) {
+    if (has.friction) {
         double* const spring = &world.points.shear_force[k];
         const Lanes before = load_as<Lanes>(spring);
         Lanes limit;
-        if constexpr (F.coulomb) {
+        if (has.coulomb) {
             limit = law.friction * normal;
             if constexpr (All)
                 limit = all_of<Lanes>(infinite_limit);
@@ -264,17 +264,17 @@ CRACKLE_INLINE void force_lanes(World& world, PointIndex k, PointIndex place, co
     }
     if constexpr (!All) {
         LaneBits now = (batch.law_and_flags | bits_of_flags(point_touching)) & ~bits_of_flags(point_sliding);
-        if constexpr (F.friction) now |= sliding & (bits_of_flags(point_sliding) | bits_of_flags(point_slid));
+        if (has.friction) now |= sliding & (bits_of_flags(point_sliding) | bits_of_flags(point_slid));
         if (const unsigned changed = mask_of(batch.holds & ((now ^ batch.law_and_flags) != 0)); changed != 0) {
             for (int l = 0; l < lane_count; ++l)
                 if ((changed >> l & 1) != 0) batch.states[l].flags = static_cast<std::uint16_t>(now[l] >> 16);
         }
     }
-    if constexpr (F.bonds && !All) {
+    if (has.bonds && !All) {
         const unsigned uncounted = mask_of(batch.holds & ((batch.law_and_flags & bits_of_flags(point_counted)) == 0));
         loss.gained += static_cast<std::uint32_t>(__builtin_popcount(uncounted));
     }
-    if constexpr (F.bonds && !F.coulomb) {
+    if (has.bonds && !has.coulomb) {
         LaneBits strong = carries_half_strength(law, normal, shear, bond_overlap);
         if constexpr (!All) strong &= batch.bonded;
         if (any(strong)) {  // rare: spares the memory of the others
@@ -284,7 +284,7 @@ CRACKLE_INLINE void force_lanes(World& world, PointIndex k, PointIndex place, co
             store_floats(strong_shear, select(strong, shear, load_floats(strong_shear)));
         }
     }
-    if constexpr (F.damping) {
+    if (has.damping) {
         const Lanes root_mass = root_masses(world, k, g);
         const Lanes normal_damper = normal_damping(law, root_mass) * g.motion.closing;
         const Lanes shear_damper = shear_dashpot(law, root_mass, g.motion.slipping, compression, sliding);
@@ -299,7 +299,7 @@ CRACKLE_INLINE void force_lanes(World& world, PointIndex k, PointIndex place, co
         normal += normal_damper;
         shear -= shear_damper;
     }
-    if constexpr (F.consistent && !(F.bonds && All)) {
+    if (has.consistent && !(has.bonds && All)) {
         double* const last = &world.points.last_normal[k];
         store_as(last, select(batch.bonded, load_as<Lanes>(last), where_held(normal, load_as<Lanes>(last))));
         remember_overlaps(world, k, batch);

@@ -71,8 +71,9 @@ struct BatchLaw {
 };
 
 /// Each point's law. @param numbers of the laws @return whether lanes can have them: all with a shear spring, or none
-template <ContactFeatures F>
-CRACKLE_INLINE bool load_laws(const World& world, const PointState* states, const LaneBits& numbers, BatchLaw& batch) {
+template <class Features>
+CRACKLE_INLINE bool load_laws(const Features& has, const World& world, const PointState* states,
+                              const LaneBits& numbers, BatchLaw& batch) {
     Law<Lanes>& law = batch.law;
     batch.number = BatchLaw::several_laws;
     if (!batch.table.filled) batch.table.fill(world);
@@ -83,15 +84,15 @@ CRACKLE_INLINE bool load_laws(const World& world, const PointState* states, cons
         };
         look_up(0, law.normal_stiffness);
         look_up(1, law.shear_stiffness);
-        if constexpr (F.damping) {
+        if (has.damping) {
             look_up(2, law.normal_damping);
             look_up(3, law.shear_damping);
             look_up(4, law.normal_damping_ratio_term);
             look_up(5, law.shear_damping_ratio_term);
         }
-        if constexpr (F.friction) look_up(6, law.friction);
-        if constexpr (F.bonds && !F.coulomb) look_up(7, law.break_overlap);
-        if constexpr (F.coulomb) {
+        if (has.friction) look_up(6, law.friction);
+        if (has.bonds && !has.coulomb) look_up(7, law.break_overlap);
+        if (has.coulomb) {
             look_up(8, law.tensile_strength);
             look_up(9, law.cohesion);
             look_up(10, law.bond_friction);
@@ -114,11 +115,11 @@ CRACKLE_INLINE bool load_laws(const World& world, const PointState* states, cons
     };
     load(&ContactLaw::normal_stiffness, law.normal_stiffness, law.shear_stiffness);
     load(&ContactLaw::friction, law.friction, law.break_overlap);
-    if constexpr (F.damping) {
+    if (has.damping) {
         load(&ContactLaw::normal_damping, law.normal_damping, law.shear_damping);
         load(&ContactLaw::normal_damping_ratio_term, law.normal_damping_ratio_term, law.shear_damping_ratio_term);
     }
-    if constexpr (F.coulomb) {
+    if (has.coulomb) {
         Lanes unused;
         load(&ContactLaw::tensile_strength, law.tensile_strength, law.cohesion);
         load(&ContactLaw::bond_friction, law.bond_friction, unused);

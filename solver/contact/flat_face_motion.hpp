@@ -79,11 +79,12 @@ inline void follow_faces(World& world, PointIndex k, BlockLosses& loss) {
 }
 
 /// Of a batch. @param law of the batch before; left as this one's
-template <ContactFeatures F>
-CRACKLE_INLINE void follow_batch(World& world, PointIndex k, const FaceBatch& g, BatchLaw& law, BlockLosses& loss) {
+template <class Features>
+CRACKLE_INLINE void follow_batch(const Features& has, World& world, PointIndex k, const FaceBatch& g, BatchLaw& law,
+                                 BlockLosses& loss) {
     const PointState* const states = world.points.state.data() + k;
     const LaneBits law_and_flags = widened(states);
-    if (!none_of((law_and_flags ^ law.number) & bits_of_law) && !take_laws<F>(world, states, law_and_flags, law)) {
+    if (!none_of((law_and_flags ^ law.number) & bits_of_law) && !take_laws(has, world, states, law_and_flags, law)) {
         for (PointIndex l = 0; l < lane_count; ++l) follow_faces(world, k + l, loss);
         return;
     }
@@ -91,7 +92,7 @@ CRACKLE_INLINE void follow_batch(World& world, PointIndex k, const FaceBatch& g,
                   *const shear = &world.points.shear_force[k];
     FaceMemory<Lanes> memory{load_as<Lanes>(rest), load_as<Lanes>(lap), load_as<Lanes>(shear)};
     const Lanes gained =
-        follow<Lanes>(memory, g.contact, g.pair, g.motion.closing, law_of_metre<F>(world, k, law),
+        follow<Lanes>(memory, g.contact, g.pair, g.motion.closing, law_of_metre(has, world, k, law),
                       (law_and_flags & (bits_of_flags(point_bonded) | bits_of_flags(point_touching))) != 0,
                       (law_and_flags & bits_of_flags(point_bonded)) != 0, world.stepping.drift);
     store_as(rest, memory.rest);

@@ -31,10 +31,11 @@ inline void store_work(SpringWork& work, const World& world, const ContactPoint&
 }
 
 /// Out of contact: no force; what the shear spring still held is lost to the slider.
-template <ContactFeatures F>
-inline void release(World& world, PointIndex k, const Law<double>& law, BlockLosses& loss, double slip) {
+template <class Features>
+inline void release(const Features& has, World& world, PointIndex k, const Law<double>& law, BlockLosses& loss,
+                    double slip) {
     PointState& state = world.points.state[k];
-    if constexpr (F.friction) {
+    if (has.friction) {
         const ShearTrial<double> trial = try_shear(law, world.points.shear_force[k], slip, 0.0);
         if (trial.slides) loss.friction += slider_loss(law, trial, shear_force(trial));
     }
@@ -72,17 +73,17 @@ inline PushBounds<double> push_bounds(const World& world, const ContactPoint& po
 }
 
 /// Law of a point, with its share where it has one.
-template <PointKind K, ContactFeatures F>
-inline Law<double> law_for(const World& world, PointIndex k) {
+template <PointKind K, class Features>
+inline Law<double> law_for(const Features& has, const World& world, PointIndex k) {
     const Law<double> law(world.settings.laws[world.points.state[k].law]);
     [[maybe_unused]] const auto share = [&]() -> double {
         if constexpr (K == PointKind::face_face) return share_of_stiffness(world, k);
         return world.points.stiffness_share[k];
     };
     const auto own = [&] {
-        if constexpr (F.own_shear)
+        if (has.own_shear)
             return law.with_shares(share(), world.points.shear_root[k]);
-        else if constexpr (F.own_shares)
+        else if (has.own_shares)
             return law.with_share(share());
         else
             return law;
@@ -100,8 +101,8 @@ inline double root_mass_for(const World& world, PointIndex k) {
 }
 
 /// A coulomb bond breaks: what is left of its forces acts. record_breaks() writes that into the point.
-template <PointKind K, ContactFeatures F>
-inline PointForce break_point(World& world, PointIndex k, PointIndex place, const Law<double>& law,
+template <PointKind K, class Features>
+inline PointForce break_point(const Features& has, World& world, PointIndex k, PointIndex place, const Law<double>& law,
                               const ContactGeometry& g, const PointMotion& motion, BlockLosses& loss) {
     const double dt = world.stepping.drift;
     const BrokenBond broken = broken_bond(world, k, law, motion);
@@ -109,7 +110,7 @@ inline PointForce break_point(World& world, PointIndex k, PointIndex place, cons
     state.flags = static_cast<std::uint16_t>((state.flags & ~point_bonded) | point_just_broken);
     ++loss.broken;
     double normal = broken.normal;
-    if constexpr (F.damping) {
+    if (has.damping) {
         const bool touches = normal > 0.0;
         const double damper = touches ? normal_damping(law, root_mass_for<K>(world, k)) * motion.closing : 0.0;
         loss.dashpot[place % BlockLosses::places] +=
@@ -124,44 +125,45 @@ inline PointForce break_point(World& world, PointIndex k, PointIndex place, cons
 }
 
 /// Force of one point into `out`, with all that can happen to it; faces have been followed. @param place in its block
-template <PointKind K, ContactFeatures F>
-inline void force_point(World& world, PointIndex k, PointIndex place, PointForce& out, BlockLosses& loss) {
+template <PointKind K, class Features>
+[[gnu::noinline]] void force_point(const Features& has, World& world, PointIndex k, PointIndex place, PointForce& out,
+                                   BlockLosses& loss) {
     const double dt = world.stepping.drift;
     [[maybe_unused]] const double kick = kick_before(world.stepping) + 0.5 * world.stepping.time_step;
     const ContactPoint point = point_of<K>(world, k);
     PointState& state = world.points.state[k];
     const auto g = geometry_of_point<K>(world, k);
     bool bonded = false;
-    if constexpr (F.bonds) bonded = (state.flags & point_bonded) != 0;
-    const Law<double> law = law_for<K, F>(world, k);
+    if (has.bonds) bonded = (state.flags & point_bonded) != 0;
+    const Law<double> law = law_for<K>(has, world, k);
     double overlap = g.overlap;  // m, of a point without a bond beyond the one without force
-    if constexpr (F.coulomb) overlap -= world.points.bond_overlap[k];
+    if (has.coulomb) overlap -= world.points.bond_overlap[k];
     if constexpr (K == PointKind::face_face)
         if (world.points.lap[k] == 0.0) overlap = std::min(overlap, 0.0);
 
     const bool held_before = bonded || (state.flags & point_touching) != 0;
     if (!held_before && overlap <= 0.0) {
-        if constexpr (F.consistent) world.points.last_overlap[k].value = overlap;
+        if (has.consistent) world.points.last_overlap[k].value = overlap;
         if constexpr (K == PointKind::face_face) part_faces(world, k, g.closed);
         out = {0.0, 0.0, 0.0, 0.0};
         return;
     }
 
     const auto [closing, slipping] = motion_of_point<K>(world, point, g);
-    if constexpr (F.coulomb) {
+    if (has.coulomb) {
         const PointMotion motion{overlap, closing, slipping};
         if (bonded && bond_fails(world, k, law, motion)) {
-            out = break_point<K, F>(world, k, place, law, with_arms(g), motion, loss);
+            out = break_point<K>(has, world, k, place, law, with_arms(g), motion, loss);
             return;
         }
     }
-    const bool holds = bonded ? F.coulomb || bond_holds(law, g.overlap) : overlap > 0.0;
+    const bool holds = bonded ? has.coulomb || bond_holds(law, g.overlap) : overlap > 0.0;
 
     [[maybe_unused]] ClosingPoint coming{};
     [[maybe_unused]] double before = 0.0;
     // A point that overlaps before anything has moved has not been seen to close.
     [[maybe_unused]] const bool touched = (state.flags & point_touching) != 0 || dt == 0.0;
-    if constexpr (F.consistent) {
+    if (has.consistent) {
         coming = {overlap, closing, 0.0, 0.0, law.normal_stiffness, 0.0, dt, kick, world.stepping.time_step};
         if (!bonded) {
             before = settle_opening(world.points.opening[k], world.points.last_overlap[k].value, touched, coming);
@@ -171,8 +173,8 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
     }
 
     if (!holds) {
-        if constexpr (F.consistent) world.points.last_normal[k] = 0.0;
-        if constexpr (F.damping) {
+        if (has.consistent) world.points.last_normal[k] = 0.0;
+        if (has.damping) {
             loss.dashpot[place % BlockLosses::places] += dashpot_loss<double>(
                 dt, world.points.normal_dashpot[k], closing, world.points.shear_dashpot[k], slipping);
             world.points.normal_dashpot[k] = world.points.shear_dashpot[k] = 0.0F;
@@ -191,7 +193,7 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
             ++loss.broken;
             // The event needs the springs as they were; record_breaks() releases the point.
         } else {
-            release<F>(world, k, law, loss, slipping * dt);
+            release(has, world, k, law, loss, slipping * dt);
             if constexpr (K == PointKind::face_face) part_faces(world, k, g.closed);
         }
         out = {0.0, 0.0, 0.0, 0.0};
@@ -200,9 +202,9 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
 
     double normal = spring_force(law, overlap);
     double compression = overlap;  // m, what Coulomb's limit goes by
-    if constexpr (F.consistent) {
+    if (has.consistent) {
         if (!bonded) {
-            if constexpr (F.damping) coming.dashpot = normal_damping(law, root_mass_for<K>(world, k)) * closing;
+            if (has.damping) coming.dashpot = normal_damping(law, root_mass_for<K>(world, k)) * closing;
             double& last = world.points.last_normal[k];
             if (!touched || !stays_closed(law.normal_stiffness, overlap, closing, last, coming.dashpot,
                                           push_bounds<K>(world, point), kick, world.stepping.time_step)) {
@@ -215,7 +217,7 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
             last = normal + coming.dashpot;
         }
     }
-    if constexpr (F.bonds && !F.coulomb) normal -= spring_force(law, world.points.bond_overlap[k]);
+    if (has.bonds && !has.coulomb) normal -= spring_force(law, world.points.bond_overlap[k]);
     if constexpr (by_guide(K)) {
         SpringWork& work = world.points.spring_work[k];
         if (world.account.begun) {
@@ -228,10 +230,10 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
     }
     double shear = 0.0;
     std::uint16_t flags = static_cast<std::uint16_t>((state.flags | point_touching) & ~point_sliding);
-    bool sliding = !F.friction;
-    if constexpr (F.friction) {
+    bool sliding = !has.friction;
+    if (has.friction) {
         const double limit =
-            F.coulomb ? (bonded ? infinite_limit : law.friction * normal) : coulomb_limit(law, compression);
+            has.coulomb ? (bonded ? infinite_limit : law.friction * normal) : coulomb_limit(law, compression);
         const ShearTrial<double> trial = try_shear_within(law, world.points.shear_force[k], slipping * dt, limit);
         shear = shear_force(trial);
         sliding = trial.slides;
@@ -242,14 +244,14 @@ inline void force_point(World& world, PointIndex k, PointIndex place, PointForce
         world.points.shear_force[k] = shear;
     }
     state.flags = flags;
-    if constexpr (F.bonds) loss.gained += (flags & point_counted) == 0 ? 1u : 0u;
-    if constexpr (F.bonds && !F.coulomb) {
+    if (has.bonds) loss.gained += (flags & point_counted) == 0 ? 1u : 0u;
+    if (has.bonds && !has.coulomb) {
         if (bonded && carries_half_strength(law, normal, shear, world.points.bond_overlap[k])) {
             world.points.strong_normal[k] = static_cast<float>(normal);
             world.points.strong_shear[k] = static_cast<float>(shear);
         }
     }
-    if constexpr (F.damping) {
+    if (has.damping) {
         const double normal_damper = normal_damping(law, root_mass_for<K>(world, k)) * closing;
         const double shear_damper = shear_dashpot(law, root_mass_for<K>(world, k), slipping, compression, sliding);
         loss.dashpot[place % BlockLosses::places] +=
@@ -270,30 +272,21 @@ inline constexpr bool in_batches =
     K == PointKind::circle_circle || K == PointKind::element_outline || K == PointKind::face_face;
 
 /// Points of a block from k on, one after the other.
-template <PointKind K, ContactFeatures F>
-inline void force_points(World& world, const PointBlock& block, PointIndex k, BlockLosses& loss) {
+template <PointKind K, class Features>
+inline void force_points(const Features& has, World& world, const PointBlock& block, PointIndex k, BlockLosses& loss) {
     for (; k < block.end; ++k) {
         const PointIndex place = k - block.begin;
         if constexpr (K == PointKind::face_face) follow_faces(world, k, loss);
-        force_point<K, F>(world, k, place, block.forces[place], loss);
+        force_point<K>(has, world, k, place, block.forces[place], loss);
     }
 }
 
-/// Kernel of kinds that are looked at one point after the other.
-template <PointKind K, ContactFeatures F>
-void force_block(World& world, const PointBlock& block) {
-    BlockLosses loss;
-    force_points<K, F>(world, block, block.begin, loss);
-    world.account.blocks[block.number] = loss.total();
-}
-
-/// Kernel of kinds that are looked at in batches, as far as these fill their lanes.
-template <PointKind K, ContactFeatures F>
-void force_block_in_batches(World& world, const PointBlock& block) {
+/// Points of a block in batches, as far as these fill their lanes. @return the first point behind them
+template <PointKind K, class Features>
+CRACKLE_INLINE PointIndex force_batches(const Features& has, World& world, const PointBlock& block, BlockLosses& loss) {
     // Geometry first: its roots and divisions then overlap those of the next batches.
     constexpr PointIndex ahead = 64 / lane_count;
     BatchOf<K> geometry[ahead];
-    BlockLosses loss;
     BatchLaw law(world, world.points.state[block.begin].law);
     const PointIndex fours_end = K == PointKind::element_outline ? std::min(block.end, world.points.fours_end) : 0;
     [[maybe_unused]] const bool in_memory = world.points.size() > points_in_cache;
@@ -311,30 +304,76 @@ void force_block_in_batches(World& world, const PointBlock& block) {
             const PointIndex place = k - block.begin;
             PointForce* const out = block.forces + place;
             const BatchOf<K>& g = geometry[b];
-            if constexpr (K == PointKind::face_face) follow_batch<F>(world, k, g, law, loss);
-            const BatchState batch = look_at_batch<F>(world, k, g, law);
+            if constexpr (K == PointKind::face_face) follow_batch(has, world, k, g, law, loss);
+            const BatchState batch = look_at_batch(has, world, k, g, law);
             switch (batch.what) {
                 case BatchCase::all_hold:
-                    force_lanes<F, true>(world, k, place, g, law_of_batch<F>(world, k, g, law), batch, out, loss);
+                    force_lanes<true>(has, world, k, place, g, law_of_batch(has, world, k, g, law), batch, out, loss);
                     break;
                 case BatchCase::some_hold:
-                    force_lanes<F, false>(world, k, place, g, law_of_batch<F>(world, k, g, law), batch, out, loss);
+                    force_lanes<false>(has, world, k, place, g, law_of_batch(has, world, k, g, law), batch, out, loss);
                     if constexpr (K == PointKind::face_face) part_batch(world, k, g, batch);
                     break;
                 case BatchCase::none_holds:
-                    if constexpr (F.consistent) remember_overlaps(world, k, batch);
+                    if (has.consistent) remember_overlaps(world, k, batch);
                     if constexpr (K == PointKind::face_face) part_batch(world, k, g, batch);
                     store_quads(out, Lanes{}, Lanes{}, Lanes{}, Lanes{});
                     break;
                 case BatchCase::one_by_one:
                     for (PointIndex l = 0; l < lane_count; ++l)
-                        force_point<K, F>(world, k + l, place + l, out[l], loss);
+                        force_point<K>(has, world, k + l, place + l, out[l], loss);
                     break;
             }
         }
     }
-    force_points<K, F>(world, block, k, loss);
+    return k;
+}
+
+/// What a kind can have: the guide's segments know of no others.
+constexpr ContactFeatures features_for(PointKind kind, ContactFeatures f) {
+    if (by_guide(kind)) f.consistent = f.own_shares = f.coulomb = f.own_shear = false;
+    // Only outlines and flat faces have joints: others' shares of shear stiffness are 1.
+    if (kind != PointKind::element_outline && kind != PointKind::face_face) f.own_shear = false;
+    // Joints are of coulomb bonds; before there are any, nothing of a bond is found.
+    if (kind == PointKind::face_face) return {true, f.damping, true, false, true, true, f.own_shear};
+    return f;
+}
+
+/// What a kind can have of the features that are known at run time.
+template <PointKind K>
+struct FeaturesOf : ContactFeatures {
+    explicit FeaturesOf(const ContactFeatures& features) : ContactFeatures(features_for(K, features)) {}
+};
+
+/// Sets of features that points in batches have kernels of their own for: those of the shipped scenes, and the fewest.
+/// What another set has is asked once a batch. tests/benchmarks/results/features.md: what either costs.
+constexpr std::array compiled_sets{
+    ContactFeatures{},
+    ContactFeatures{.friction = true},
+    ContactFeatures{.friction = true, .damping = true},
+    ContactFeatures{.friction = true, .damping = true, .bonds = true},
+    ContactFeatures{.friction = true, .damping = true, .bonds = true, .own_shares = true, .coulomb = true},
+};
+
+template <PointKind K, class Features>
+void force_block(World& world, const ContactFeatures& features, const PointBlock& block) {
+    const Features has(features);
+    BlockLosses loss;
+    PointIndex k = block.begin;
+    if constexpr (in_batches<K>) k = force_batches<K>(has, world, block, loss);
+    force_points<K>(has, world, block, k, loss);
     world.account.blocks[block.number] = loss.total();
+}
+
+template <PointKind K>
+ForceKernel kernel_of(const ContactFeatures& features) {
+    ForceKernel found = &force_block<K, FeaturesOf<K>>;
+    [&]<std::size_t... Number>(std::index_sequence<Number...>) {
+        ((features == compiled_sets[Number] &&
+          (found = &force_block<K, CompiledFeatures<features_for(K, compiled_sets[Number])>>)),
+         ...);
+    }(std::make_index_sequence<compiled_sets.size()>{});
+    return found;
 }
 
 /// Geometry alone, for profiles.
@@ -354,65 +393,6 @@ void geometry_block(World& world, const PointBlock& block) {
     }
 }
 
-/// The sets of features that kernels are compiled for: any of the first five, and what coulomb bonds can have.
-constexpr std::size_t plain_sets = 32, all_sets = plain_sets + 8;
-
-constexpr ContactFeatures features_numbered(std::size_t number) {
-    const auto has = [&](std::size_t bit) { return (number & bit) != 0; };
-    if (number >= plain_sets) return {true, has(1), true, has(2), true, true, has(4)};
-    return {has(1), has(2), has(4), has(8), has(16), false, false};
-}
-
-constexpr std::size_t number_of(const ContactFeatures& f) {
-    if (f.coulomb) return plain_sets + (f.damping ? 1u : 0u) + (f.consistent ? 2u : 0u) + (f.own_shear ? 4u : 0u);
-    return (f.friction ? 1u : 0u) + (f.damping ? 2u : 0u) + (f.bonds ? 4u : 0u) + (f.consistent ? 8u : 0u) +
-           (f.own_shares ? 16u : 0u);
-}
-
-/// What a kind can have: the guide's segments know of no others.
-constexpr ContactFeatures features_for(PointKind kind, ContactFeatures f) {
-    if (by_guide(kind)) f.consistent = f.own_shares = f.coulomb = f.own_shear = false;
-    // Only outlines and flat faces have joints: others' shares of shear stiffness are 1.
-    if (kind != PointKind::element_outline && kind != PointKind::face_face) f.own_shear = false;
-    // Joints are of coulomb bonds; before there are any, nothing of a bond is found.
-    if (kind == PointKind::face_face) return {true, f.damping, true, false, true, true, f.own_shear};
-    return f;
-}
-
-/// The set of features that stands for a numbered one: itself; for clang-tidy, which takes a second to read each
-/// kernel, the least and the largest sets alone.
-constexpr std::size_t compiled_for(std::size_t number) {
-#ifdef __clang_analyzer__
-    return number == 0 ? 0 : number < plain_sets ? plain_sets - 1 : all_sets - 1;
-#else
-    return number;
-#endif
-}
-
-template <PointKind K, std::size_t Number>
-constexpr ForceKernel kernel_of() {
-    constexpr ContactFeatures features = features_for(K, features_numbered(compiled_for(Number)));
-    if constexpr (in_batches<K>)
-        return &force_block_in_batches<K, features>;
-    else
-        return &force_block<K, features>;
-}
-
-template <PointKind K, std::size_t... Number>
-constexpr std::array<ForceKernel, all_sets> kernels_of(std::index_sequence<Number...>) {
-    return {kernel_of<K, Number>()...};
-}
-
-constexpr std::array<std::array<ForceKernel, all_sets>, point_kinds> kernels{
-    kernels_of<PointKind::circle_circle>(std::make_index_sequence<all_sets>{}),
-    kernels_of<PointKind::element_element>(std::make_index_sequence<all_sets>{}),
-    kernels_of<PointKind::element_outline>(std::make_index_sequence<all_sets>{}),
-    kernels_of<PointKind::face_face>(std::make_index_sequence<all_sets>{}),
-    kernels_of<PointKind::disc_segment>(std::make_index_sequence<all_sets>{}),
-    kernels_of<PointKind::segment_segment>(std::make_index_sequence<all_sets>{}),
-    kernels_of<PointKind::element_wall>(std::make_index_sequence<all_sets>{}),
-};
-
 constexpr std::array<GeometryKernel, point_kinds> geometry_kernels{
     &geometry_block<PointKind::circle_circle>,   &geometry_block<PointKind::element_element>,
     &geometry_block<PointKind::element_outline>, &geometry_block<PointKind::face_face>,
@@ -424,7 +404,23 @@ constexpr std::array<GeometryKernel, point_kinds> geometry_kernels{
 
 template <>
 ForceKernel force_kernel_of<InstructionSet::CRACKLE_SET>(const ContactFeatures& features, std::size_t kind) {
-    return kernels[kind][number_of(features)];
+    switch (static_cast<PointKind>(kind)) {
+        case PointKind::circle_circle:
+            return kernel_of<PointKind::circle_circle>(features);
+        case PointKind::element_element:
+            return kernel_of<PointKind::element_element>(features);
+        case PointKind::element_outline:
+            return kernel_of<PointKind::element_outline>(features);
+        case PointKind::face_face:
+            return kernel_of<PointKind::face_face>(features);
+        case PointKind::disc_segment:
+            return kernel_of<PointKind::disc_segment>(features);
+        case PointKind::segment_segment:
+            return kernel_of<PointKind::segment_segment>(features);
+        case PointKind::element_wall:
+            return kernel_of<PointKind::element_wall>(features);
+    }
+    return nullptr;
 }
 
 template <>

@@ -20,7 +20,8 @@ struct PointBlock {
 };
 
 /// Forces of a block at the present positions: shear springs, bond breaking and losses included.
-using ForceKernel = void (*)(World& world, const PointBlock& block);
+/// @param features as the kernel was asked for
+using ForceKernel = void (*)(World& world, const ContactFeatures& features, const PointBlock& block);
 template <InstructionSet>
 ForceKernel force_kernel_of(const ContactFeatures& features, std::size_t kind);
 

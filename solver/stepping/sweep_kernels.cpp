@@ -180,7 +180,7 @@ class Sweeper {
 
     void compute(ForceKernel kernel, const PointBlock& block) {
         const PhaseTimer timer(profile_, Phase::force);
-        kernel(world_, block);
+        kernel(world_, features_, block);
         ++world_.workers.blocks_done[thread_];
     }
 
