@@ -2,24 +2,19 @@
 // Kernels are compiled once for each instruction set, into one program; which of them run is chosen at its start.
 //
 // A source of kernels (crackle_kernels() in CMakeLists.txt) defines functions of InstructionSet::CRACKLE_SET, which
-// callers reach by of_chosen_set(). All else is compiled for what every processor of the family has. Any set gives the
-// same bytes: lanes are IEEE arithmetic in the order of the source (solver/base/lanes.hpp).
+// callers reach by of_chosen_set() of chosen_set.hpp. All else is compiled for what every processor of the family has.
+// Any set gives the same bytes: lanes are IEEE arithmetic in the order of the source (solver/base/lanes.hpp).
 // Tested by tests/solver/base/instruction_set_test.cpp.
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string_view>
-#include <utility>
 
 namespace crackle {
 
 /// Levels of the x86-64 psABI: v2 has SSE4.2, v3 AVX2, v4 AVX-512 (F, BW, CD, DQ, VL); aarch64 as of Armv8.0 with NEON.
 enum class InstructionSet : std::uint8_t { x86_64_v2, x86_64_v3, x86_64_v4, aarch64 };
-
-/// Those that kernels are compiled for, narrowest first.
-inline constexpr std::array built_in_sets{CRACKLE_SETS};
 
 /// As CRACKLE_ISA and `crackle doctor` have it: "x86-64-v3".
 std::string_view name_of(InstructionSet set);
@@ -36,22 +31,11 @@ bool runs_here(InstructionSet set);
 /// Whether its vector registers are wider than those of v2 (clear_upper_halves() of lanes.hpp).
 bool has_wider_registers();
 
-/// The widest that runs here, or the one that the environment variable CRACKLE_ISA names; found once.
+/// Those that kernels are compiled for, narrowest first.
+std::span<const InstructionSet> built_in_sets();
+
+/// The widest of them that runs here, or the one that the environment variable CRACKLE_ISA names; found once.
 /// @throws InputError where that is unknown, not compiled in or does not run here, or no set does
 InstructionSet chosen_set();
-/// Its place among built_in_sets.
-std::size_t chosen_place();
-
-/// call.operator()<S>() of the chosen set S.
-template <class Call>
-auto of_chosen_set(Call call) {
-    using Result = decltype(call.template operator()<built_in_sets[0]>());
-    const auto call_chosen = [&]<std::size_t... K>(std::index_sequence<K...>) {
-        static constexpr std::array<Result (*)(Call&), sizeof...(K)> calls{
-            [](Call& of) -> Result { return of.template operator()<built_in_sets[K]>(); }...};
-        return calls[chosen_place()](call);
-    };
-    return call_chosen(std::make_index_sequence<built_in_sets.size()>{});
-}
 
 }  // namespace crackle

@@ -227,7 +227,7 @@ CRACKLE_INLINE void force_lanes(const Features& has, World& world, PointIndex k,
     const double dt = world.stepping.drift;
     const Lanes& compression = has.coulomb ? batch.beyond_rest : g.contact.overlap;  // m, what Coulomb's limit goes by
     Lanes normal = spring_force(law, compression);
-    [[maybe_unused]] Lanes bond_overlap;
+    [[maybe_unused]] Lanes bond_overlap{};
     if (has.bonds && !has.coulomb) {
         bond_overlap = load_as<Lanes>(&world.points.bond_overlap[k]);
         normal -= spring_force(law, bond_overlap);

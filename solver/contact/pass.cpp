@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "solver/base/instruction_set.hpp"
+#include "solver/base/chosen_set.hpp"
 
 namespace crackle {
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "solver/stepping/motion.hpp"
+#include "solver/base/chosen_set.hpp"
 
 namespace crackle {
 

@@ -5,7 +5,7 @@
 #include <limits>
 #include <span>
 
-#include "solver/base/instruction_set.hpp"
+#include "solver/base/chosen_set.hpp"
 #include "solver/contact/pass.hpp"
 #include "solver/stepping/sweep_shares.hpp"
 

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <utility>
 
-#include "solver/base/instruction_set.hpp"
+#include "solver/base/chosen_set.hpp"
 #include "solver/neighbours/cell_grid.hpp"
 
 namespace crackle {

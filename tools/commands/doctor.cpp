@@ -27,7 +27,7 @@ namespace {
 /// "x86-64-v3 of x86-64-v2, x86-64-v3, x86-64-v4 that the kernels are built for".
 std::string instructions() {
     std::string built_in;
-    for (const InstructionSet set : built_in_sets)
+    for (const InstructionSet set : built_in_sets())
         built_in += fmt::format("{}{}", built_in.empty() ? "" : ", ", name_of(set));
     return fmt::format("{}, chosen from {}; CRACKLE_ISA names another; results are the same by any",
                        name_of(chosen_set()), built_in);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tests/bench/throughput/bare_kernel.hpp"
 
+#include "solver/base/chosen_set.hpp"
 #include "solver/base/errors.hpp"
-#include "solver/base/instruction_set.hpp"
 #include "solver/measure/point_view.hpp"
 #include "solver/stepping/step.hpp"
 

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "solver/base/chosen_set.hpp"
 #include "solver/stepping/motion.hpp"
 #include "solver/stepping/sweep.hpp"
 

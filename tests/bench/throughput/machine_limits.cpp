@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/base/chosen_set.hpp"
 #include "tests/bench/throughput/triad.hpp"
 
 namespace crackle::throughput {

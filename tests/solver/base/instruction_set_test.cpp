@@ -28,13 +28,13 @@ class InstructionSets : public testing::ProgramCall {
 
 TEST_F(InstructionSets, TheWidestThatRunsIsTaken) {
     std::string_view widest;
-    for (const InstructionSet set : built_in_sets)
+    for (const InstructionSet set : built_in_sets())
         if (runs_here(set)) widest = name_of(set);
     EXPECT_NE(instructions().find(std::string(widest) + ", chosen"), std::string::npos) << instructions();
 }
 
 TEST_F(InstructionSets, AnyThatRunsCanBeAskedFor) {
-    for (const InstructionSet set : built_in_sets) {
+    for (const InstructionSet set : built_in_sets()) {
         if (!runs_here(set)) continue;
         ask_for(name_of(set));
         EXPECT_NE(instructions().find(std::string(name_of(set)) + ", chosen"), std::string::npos) << instructions();
@@ -48,7 +48,7 @@ TEST_F(InstructionSets, WhatIsUnknownIsRefusedBeforeAnythingIsDone) {
 
 TEST(InstructionSetOrder, AWiderOneRunsOnlyWhereTheNarrowerDo) {
     bool narrower = true;
-    for (const InstructionSet set : built_in_sets) {
+    for (const InstructionSet set : built_in_sets()) {
         EXPECT_TRUE(narrower || !runs_here(set)) << name_of(set);
         narrower = runs_here(set);
     }
