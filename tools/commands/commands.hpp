@@ -5,7 +5,6 @@
 
 #include <cstdint>
 #include <functional>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
@@ -88,12 +87,12 @@ void limit_threads(TestOptions& options, std::int64_t asked);
 std::int64_t threads_to_resume(const TestOptions& options);
 /// How far a test is, as the program shows it.
 Progress shown_progress(const TestProgress& test);
-/// What `crackle test --check --json` prints.
-nlohmann::ordered_json check_as_json(const TestCheck& check);
+/// What `crackle test --check --json` prints. @param indent spaces a level; -1: all on one line
+std::string check_as_json(const TestCheck& check, int indent = -1);
 /// The case as the linear solution takes it; a notice of each thing that it leaves out.
 TestCase elastic_case(TestCase description, std::vector<std::string>& notices);
-/// What `crackle elastic --json` prints.
-nlohmann::ordered_json elastic_as_json(const VirtualTest& test, const ElasticAnalysis& analysis,
-                                       const std::optional<JointedCompliance>& compliance, double seconds);
+/// What `crackle elastic --json` prints. @param indent as of check_as_json()
+std::string elastic_as_json(const VirtualTest& test, const ElasticAnalysis& analysis,
+                            const std::optional<JointedCompliance>& compliance, double seconds, int indent = -1);
 
 }  // namespace crackle::tools

@@ -17,7 +17,7 @@
 #include "solver/files/replace_file.hpp"
 #include "specimens/envelope/measured_strengths.hpp"
 #include "specimens/envelope/strength_envelope.hpp"
-#include "specimens/results/summary.hpp"
+#include "specimens/results/json_number.hpp"
 #include "specimens/statistics/mean.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/plot/envelope_panels.hpp"
