@@ -10,6 +10,11 @@
 #include <vector>
 
 #include "tools/command_line/program.hpp"
+#include "tools/terminal/messages.hpp"
+
+namespace boost::program_options {
+class variables_map;
+}
 
 namespace crackle {
 
@@ -28,6 +33,8 @@ struct VirtualTest;
 }  // namespace crackle
 
 namespace crackle::tools {
+
+namespace po = boost::program_options;
 
 /// In the order of a user's work.
 const std::vector<Command>& commands();

@@ -16,6 +16,7 @@
 #include "specimens/elastic/jointed_compliance.hpp"
 #include "specimens/loading/prepare.hpp"
 #include "specimens/results/json_number.hpp"
+#include "tools/command_line/command_line.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/terminal/shipped.hpp"
 

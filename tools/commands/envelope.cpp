@@ -19,6 +19,7 @@
 #include "specimens/envelope/strength_envelope.hpp"
 #include "specimens/results/json_number.hpp"
 #include "specimens/statistics/mean.hpp"
+#include "tools/command_line/command_line.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/plot/envelope_panels.hpp"
 #include "tools/plot/figure_options.hpp"

@@ -17,6 +17,7 @@
 #include "specimens/recordings/distinct_names.hpp"
 #include "specimens/recordings/recording.hpp"
 #include "tools/campaign/page/figures.hpp"
+#include "tools/command_line/command_line.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/page/report_page.hpp"
 #include "tools/plot/figure_options.hpp"

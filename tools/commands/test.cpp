@@ -18,6 +18,7 @@
 #include "specimens/results/json_number.hpp"
 #include "specimens/results/output_folder.hpp"
 #include "specimens/results/summary_keys.hpp"
+#include "tools/command_line/command_line.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/terminal/interrupt.hpp"
 #include "tools/terminal/shipped.hpp"

@@ -19,6 +19,7 @@
 #include "specimens/joints/joint_report.hpp"
 #include "specimens/joints/trace_files.hpp"
 #include "specimens/results/json_number.hpp"
+#include "tools/command_line/command_line.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/joints/joint_panels.hpp"
 #include "tools/plot/figure_options.hpp"

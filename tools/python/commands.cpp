@@ -19,6 +19,7 @@
 #include "specimens/loading/check.hpp"
 #include "specimens/loading/prepare.hpp"
 #include "tools/campaign/campaign.hpp"
+#include "tools/command_line/command_line.hpp"
 #include "tools/python/arrays.hpp"
 #include "tools/python/parts.hpp"
 #include "tools/python/reports.hpp"
