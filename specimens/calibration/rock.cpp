@@ -17,7 +17,7 @@
 #include "specimens/case/parameters.hpp"
 #include "specimens/envelope/strength_envelope.hpp"
 #include "specimens/recordings/measured_curve.hpp"
-#include "specimens/results/summary.hpp"
+#include "specimens/results/summary_keys.hpp"
 
 namespace crackle {
 namespace {

@@ -11,6 +11,7 @@
 #include <cstring>
 #include <limits>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -39,10 +40,13 @@ std::string host_name() {
 }
 
 std::string packed(const RowResult& r) {
+    Json figures = Json::object();
+    for (const auto& [name, value] : r.figures)
+        std::visit([&, &key = name](const auto& known) { figures[key] = known; }, value);
     const Json json{
         {"identity", r.identity},         {"state", r.state},     {"exit", r.exit},
         {"message", r.message},           {"notices", r.notices}, {"processor_seconds", r.processor_seconds},
-        {"wall_seconds", r.wall_seconds}, {"figures", r.figures}};
+        {"wall_seconds", r.wall_seconds}, {"figures", figures}};
     const std::vector<std::uint8_t> bytes = Json::to_cbor(json);
     return {bytes.begin(), bytes.end()};
 }
@@ -56,7 +60,12 @@ RowResult unpacked(const Json& json) {
     r.notices = json.at("notices").get<std::vector<std::string>>();
     r.processor_seconds = json.at("processor_seconds");
     r.wall_seconds = json.at("wall_seconds");
-    r.figures = json.at("figures");
+    for (const auto& [name, value] : json.at("figures").items()) {
+        if (value.is_string())
+            r.figures.emplace_back(name, value.get<std::string>());
+        else
+            r.figures.emplace_back(name, value.get<double>());
+    }
     return r;
 }
 

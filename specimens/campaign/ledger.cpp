@@ -8,6 +8,7 @@
 #include <xxhash.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <utility>
 
@@ -281,9 +282,9 @@ void CampaignLedger::set_plan(const Plan& plan, const std::vector<std::string>& 
     });
 }
 
-void CampaignLedger::add_columns(const nlohmann::ordered_json& figures) {
+void CampaignLedger::add_columns(const Figures& figures) {
     bool added = false;
-    for (const auto& [name, value] : figures.items()) {
+    for (const auto& [name, value] : figures) {
         if (!figure_columns_.insert(name).second) continue;
         database_->exec(fmt::format("ALTER TABLE figures ADD COLUMN {} ANY", quoted(name)));
         added = true;
@@ -315,23 +316,23 @@ void CampaignLedger::record(const RowResult& result, const std::string& host) {
     });
 }
 
-void CampaignLedger::put_figures(const std::string& identity, const nlohmann::ordered_json& all) {
+void CampaignLedger::put_figures(const std::string& identity, const Figures& all) {
     if (all.empty()) return;
     add_columns(all);
     std::string names = "identity", places = "?";
-    for (const auto& [name, value] : all.items()) {
+    for (const auto& [name, value] : all) {
         names += ", " + quoted(name);
         places += ", ?";
     }
     SQLite::Statement figures(*database_, fmt::format("INSERT OR REPLACE INTO figures({}) VALUES({})", names, places));
     int place = 1;
     figures.bind(place, identity);
-    for (const auto& [name, value] : all.items()) {
+    for (const auto& [name, value] : all) {
         ++place;
-        if (value.is_string())
-            figures.bind(place, value.get<std::string>());
+        if (const auto* word = std::get_if<std::string>(&value))
+            figures.bind(place, *word);
         else
-            figures.bind(place, value.get<double>());
+            figures.bind(place, std::get<double>(value));
     }
     run(figures);
 }

@@ -93,8 +93,8 @@ class CampaignLedger {
     auto guarded(const Work& work) const;
     void make_tables(Journal journal);
     void make_views();
-    void add_columns(const nlohmann::ordered_json& figures);
-    void put_figures(const std::string& identity, const nlohmann::ordered_json& all);
+    void add_columns(const Figures& figures);
+    void put_figures(const std::string& identity, const Figures& all);
 
     std::filesystem::path file_;
     std::unique_ptr<SQLite::Database> database_;

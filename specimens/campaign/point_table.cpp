@@ -10,7 +10,7 @@
 #include <string_view>
 
 #include "solver/base/errors.hpp"
-#include "specimens/results/summary.hpp"
+#include "specimens/results/summary_keys.hpp"
 
 namespace crackle {
 namespace {

@@ -8,6 +8,7 @@
 #include <array>
 #include <chrono>
 #include <new>
+#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "solver/base/errors.hpp"
@@ -42,7 +43,7 @@ constexpr std::array<std::string_view, 18> no_figures{
 // Lists of which each element has a column for each figure. Not of traces: there may be thousands.
 constexpr std::array<std::string_view, 2> lists_of_figures{"cycles", "joints"};
 
-void add_figures(Json& figures, const std::string& prefix, const Json& table) {
+void add_figures(Figures& figures, const std::string& prefix, const Json& table) {
     for (const auto& [key, value] : table.items()) {
         if (prefix.empty() && std::find(no_figures.begin(), no_figures.end(), key) != no_figures.end()) continue;
         const std::string name = prefix + key;
@@ -52,9 +53,11 @@ void add_figures(Json& figures, const std::string& prefix, const Json& table) {
             for (std::size_t k = 0; k < value.size(); ++k)
                 add_figures(figures, fmt::format("{}[{}].", name, k + 1), value[k]);
         else if (value.is_boolean())
-            figures[name] = value.get<bool>() ? 1 : 0;
-        else if (value.is_number() || value.is_string())
-            figures[name] = value;
+            figures.emplace_back(name, value.get<bool>() ? 1.0 : 0.0);
+        else if (value.is_number())
+            figures.emplace_back(name, value.get<double>());
+        else if (value.is_string())
+            figures.emplace_back(name, value.get<std::string>());
     }
 }
 
@@ -64,7 +67,8 @@ std::string curve_text(const VirtualTest& test) {
     return text;
 }
 
-Json loaded_in_memory(const TestCase& description, const RowPlace& place, const TestHooks& hooks, std::string* curve) {
+TestSummary loaded_in_memory(const TestCase& description, const RowPlace& place, const TestHooks& hooks,
+                             std::string* curve) {
     VirtualTest test = prepare_test(description, hooks);
     const RunEstimate run = expected_run(test, description.loading.max_axial_strain, roughly_steps_per_second(test));
     if (!place.endless) refuse_endless(test, run);
@@ -74,8 +78,8 @@ Json loaded_in_memory(const TestCase& description, const RowPlace& place, const 
     return make_summary(test.description, test.setup, test.state, test.world, {});
 }
 
-Json loaded_with_files(const TestCase& description, const std::filesystem::path& folder, const RowPlace& place,
-                       const TestHooks& hooks) {
+TestSummary loaded_with_files(const TestCase& description, const std::filesystem::path& folder, const RowPlace& place,
+                              const TestHooks& hooks) {
     TestOptions options;
     options.folder = folder;
     options.force = true;  // what a stopped one has left
@@ -89,9 +93,9 @@ Json loaded_with_files(const TestCase& description, const std::filesystem::path&
 
 }  // namespace
 
-Json figures_of(const Json& summary) {
-    Json figures = Json::object();
-    add_figures(figures, "", summary);
+Figures figures_of(const TestSummary& summary) {
+    Figures figures;
+    add_figures(figures, "", summary.json());
     return figures;
 }
 
@@ -115,15 +119,15 @@ RowResult run_row(const TestCase& test, const std::string& identity, Keep keep, 
     };
     try {
         std::string curve;
-        const Json summary = keep == Keep::all
-                                 ? loaded_with_files(description, place.folder / "tests" / identity, place, hooks)
-                                 : loaded_in_memory(description, place, hooks, keep == Keep::curves ? &curve : nullptr);
+        const TestSummary summary =
+            keep == Keep::all ? loaded_with_files(description, place.folder / "tests" / identity, place, hooks)
+                              : loaded_in_memory(description, place, hooks, keep == Keep::curves ? &curve : nullptr);
         if (keep == Keep::curves) {
             make_folder(place.folder / "curves");
             replace_file(place.folder / "curves" / (identity + ".csv"), curve);
         }
         result.figures = figures_of(summary);
-        result.notices = summary.at("notices").get<std::vector<std::string>>();
+        result.notices = summary.json().at("notices").get<std::vector<std::string>>();
         result.state = row_done;
     } catch (const OutputError&) {
         throw;

@@ -5,14 +5,17 @@
 
 #include <filesystem>
 #include <functional>
-#include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
+#include <variant>
 #include <vector>
 
 #include "specimens/campaign/packing_store.hpp"
 #include "specimens/campaign/plan.hpp"
 
 namespace crackle {
+
+class TestSummary;
 
 /// How a test of a campaign ended.
 inline constexpr const char* row_done = "done";        ///< whether it failed or not
@@ -22,6 +25,9 @@ inline constexpr const char* row_failed = "failed";    ///< the system or a libr
 inline constexpr const char* row_crashed = "crashed";  ///< its process ended by itself
 inline constexpr const char* row_timed_out = "timed out";
 
+/// What came of a test, by name: numbers and words; flags are 0 and 1.
+using Figures = std::vector<std::pair<std::string, std::variant<double, std::string>>>;
+
 struct RowResult {
     std::string identity;
     std::string state;
@@ -29,7 +35,7 @@ struct RowResult {
     std::string message;  ///< of what went wrong
     std::vector<std::string> notices;
     double processor_seconds = 0.0, wall_seconds = 0.0;
-    nlohmann::ordered_json figures = nlohmann::ordered_json::object();  ///< none unless done
+    Figures figures;  ///< none unless done
 };
 
 struct RowPlace {
@@ -37,9 +43,9 @@ struct RowPlace {
     bool endless = false;          ///< as TestOptions::endless
 };
 
-/// What a summary states of a test and not of the run: numbers and words by their names, those within tables as
-/// "packing.void_ratio"; flags as 0 and 1. Left out: clocks, versions, names of files, and what is not known.
-nlohmann::ordered_json figures_of(const nlohmann::ordered_json& summary);
+/// What a summary states of a test and not of the run: numbers, words and flags by their names, those within tables
+/// as "packing.void_ratio". Left out: clocks, versions, names of files, and what is not known.
+Figures figures_of(const TestSummary& summary);
 
 /// @param test of the row  @param keep what is left beside the result: curves/IDENTITY.csv, tests/IDENTITY/
 /// @throws OutputError where the campaign's folder cannot be written

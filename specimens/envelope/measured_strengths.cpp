@@ -141,7 +141,7 @@ bool is_derived_gap(double thick, const Json& summary) {
 StrengthTest read_test(const fs::path& folder, FileHashes& files) {
     StrengthTest test;
     test.where = folder.string();
-    test.figures = read_results(folder).summary;
+    test.figures = read_results(folder).summary.json();
     const TestCase made = read_case(folder / "case.toml");
     test.rock = keys_of_rock(made, files);
     if (made.mesh.thick && is_derived_gap(*made.mesh.thick, test.figures)) test.rock.erase("mesh.thick");

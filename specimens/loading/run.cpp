@@ -29,7 +29,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
-using namespace nlohmann::literals;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
@@ -155,11 +154,10 @@ TestOutcome finished_test(VirtualTest& test, const TestOptions& options, const T
     const fs::path name = folder.path() / "summary.json";
     // Without one the process was stopped in between: what only the clock knew is lost.
     const bool exists = is_file(name);
-    if (exists) outcome.summary = nlohmann::ordered_json::parse(read_file(name), nullptr, false);
-    const auto& old = outcome.summary;
-    const bool readable =
-        exists && old.is_object() && old.contains("ended_by") && old["ended_by"] == test.state.ended_by;
-    const bool verified = readable && old.contains("/numerical_errors/companions"_json_pointer);
+    if (exists) outcome.summary = TestSummary::parse(read_file(name));
+    const TestSummary& old = outcome.summary;
+    const bool readable = exists && old.word("ended_by") == test.state.ended_by;
+    const bool verified = readable && old.contains("numerical_errors.companions");
     outcome.was_finished = readable && (verified || !options.verify);
     if (readable) {
         const FileMarks stated = stated_files(old, name.string());
@@ -169,8 +167,7 @@ TestOutcome finished_test(VirtualTest& test, const TestOptions& options, const T
     if (outcome.was_finished) return outcome;
     TestTiming timing{0.0, 0.0, test.world.workers.threads};
     const auto number = [&](const char* key, double otherwise) {  // whoever wrote what is there
-        const auto found = old.find(key);
-        return found != old.end() && found->is_number() ? found->get<double>() : otherwise;
+        return old.number(key).value_or(otherwise);
     };
     if (readable)
         timing = {number("wall_seconds", 0.0), number("step_seconds", 0.0),

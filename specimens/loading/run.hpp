@@ -6,11 +6,11 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 
 #include "specimens/case/case_file.hpp"
 #include "specimens/making/hooks.hpp"
+#include "specimens/recordings/test_summary.hpp"
 
 namespace crackle {
 
@@ -30,7 +30,7 @@ struct TestOptions {
 };
 
 struct TestOutcome {
-    nlohmann::ordered_json summary;
+    TestSummary summary;
     std::filesystem::path folder;  ///< where the results are: OUT, or OUT.new if earlier results are still in OUT
     bool interrupted = false;
     bool unverified = false;    ///< the companions were interrupted: the test is complete, but states no error

@@ -3,7 +3,7 @@
 // Tested by tests/tools/commands/test_test.cpp.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "solver/world/world.hpp"

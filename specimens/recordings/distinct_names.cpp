@@ -17,15 +17,12 @@ bool distinct(Names names) {
     return (names.empty() || !names.front().empty()) && std::adjacent_find(names.begin(), names.end()) == names.end();
 }
 
-std::string title_of(const Recording& recording) {
-    const auto title = recording.results.summary.find("title");
-    return title != recording.results.summary.end() && title->is_string() ? title->get<std::string>() : "";
-}
+std::string title_of(const Recording& recording) { return recording.results.summary.word("title"); }
 
 std::string with_seed(const std::string& name, const Recording& recording) {
-    const auto seed = recording.results.summary.find("seed");
-    if (name.empty() || seed == recording.results.summary.end() || !seed->is_number()) return "";
-    return fmt::format("{}, seed {}", name, seed->dump());
+    const TestSummary& summary = recording.results.summary;
+    if (name.empty() || !summary.number("seed")) return "";
+    return fmt::format("{}, seed {}", name, summary.text_of("seed"));
 }
 
 std::string end_of_path(const std::filesystem::path& path, std::ptrdiff_t parts) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "solver/base/errors.hpp"
@@ -31,13 +32,13 @@ bool is_plain_name(const std::string& name) {
 
 }  // namespace
 
-void state_files(Json& summary, const FileMarks& files) {
+void state_files(TestSummary& summary, const FileMarks& files) {
     Json stated = Json::object();
     for (const auto& [name, mark] : files) stated[name] = {{"bytes", mark.bytes}, {"xxh3", hash_text(mark)}};
-    summary["files"] = std::move(stated);
+    summary.json()["files"] = std::move(stated);
 }
 
-FileMarks stated_files(const Json& summary, const std::string& name) {
+FileMarks stated_files(const TestSummary& summary, const std::string& name) {
     FileMarks files;
     if (!summary.contains("files")) return files;
     const auto refuse = [&](const std::string& key) {
@@ -46,7 +47,7 @@ FileMarks stated_files(const Json& summary, const std::string& name) {
                         "file, or run the test again with --force",
                         name, key));
     };
-    const Json& stated = summary["files"];
+    const Json& stated = summary.json()["files"];
     if (!stated.is_object() || stated.empty()) refuse("files");
     for (const auto& [file, entry] : stated.items()) {
         const auto mark = mark_from(entry);

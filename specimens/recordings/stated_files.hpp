@@ -5,23 +5,23 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "solver/files/file_mark.hpp"
+#include "specimens/recordings/test_summary.hpp"
 
 namespace crackle {
 
 /// Names in the test's folder.
 using FileMarks = std::vector<std::pair<std::string, FileMark>>;
 
-void state_files(nlohmann::ordered_json& summary, const FileMarks& files);
+void state_files(TestSummary& summary, const FileMarks& files);
 
 /// What a summary states; none where an earlier version wrote it, which stated nothing.
 /// @param name of the summary, for the message @throws InputError if it is none that state_files() wrote
-FileMarks stated_files(const nlohmann::ordered_json& summary, const std::string& name);
+FileMarks stated_files(const TestSummary& summary, const std::string& name);
 
 bool states(const FileMarks& stated, const std::string& name);
 

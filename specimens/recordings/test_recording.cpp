@@ -204,8 +204,7 @@ constexpr std::array roles{"start", "peak", "end"};
 
 /// Empty where the test had none.
 std::string named_frame(const TestResults& results, const char* role) {
-    const auto named = results.summary.find(std::string("frame_") + role);
-    return named != results.summary.end() && named->is_string() ? named->get<std::string>() : std::string();
+    return results.summary.word(std::string("frame_") + role);
 }
 
 FrameHead head_of(const fs::path& folder, const TestResults& results, std::int64_t row) {

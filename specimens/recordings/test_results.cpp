@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstring>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "solver/base/errors.hpp"
@@ -177,7 +178,7 @@ TestResults read_results(const std::filesystem::path& folder) {
     refuse_half_replaced(folder);
     TestResults results;
     results.name = std::filesystem::weakly_canonical(folder).filename().string();
-    results.summary = read_summary(folder / "summary.json");
+    results.summary = TestSummary(read_summary(folder / "summary.json"));
     const FileMarks stated = stated_files(results.summary, (folder / "summary.json").string());
     const auto read_table = [&](const char* name, std::string_view word_column = {},
                                 const std::vector<std::string>& words = {}) {

@@ -5,11 +5,12 @@
 #pragma once
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "specimens/recordings/test_summary.hpp"
 
 namespace crackle {
 
@@ -29,7 +30,7 @@ struct NumberTable {
 
 struct TestResults {
     std::string name;                  ///< the folder's
-    nlohmann::ordered_json summary;    ///< as written
+    TestSummary summary;               ///< as written
     NumberTable curve;                 ///< columns of curve.csv
     NumberTable events;                ///< columns of events.csv; `mode` as 1 for shear, 0 for tension
     std::optional<NumberTable> slips;  ///< columns of slips.csv; none where the test did not record slips

@@ -12,7 +12,7 @@
 #include "specimens/observers/curve.hpp"
 #include "specimens/observers/events.hpp"
 #include "specimens/results/output_folder.hpp"
-#include "specimens/results/summary.hpp"
+#include "specimens/results/summary_keys.hpp"
 
 namespace crackle {
 namespace {

@@ -177,7 +177,7 @@ void TestFiles::flush() {
     if (ae_) ae_->flush();
 }
 
-void TestFiles::write_summary(nlohmann::ordered_json& summary, const TestState& state) {
+void TestFiles::write_summary(TestSummary& summary, const TestState& state) {
     write_collection(state);
     FileMarks files{{"curve.csv", curve_.mark()}, {"events.csv", events_.mark()}};
     if (slips_) files.emplace_back("slips.csv", slips_->mark());
@@ -185,11 +185,11 @@ void TestFiles::write_summary(nlohmann::ordered_json& summary, const TestState& 
     crackle::write_summary(folder_, summary, std::move(files));
 }
 
-void write_summary(const OutputFolder& folder, nlohmann::ordered_json& summary, FileMarks files) {
+void write_summary(const OutputFolder& folder, TestSummary& summary, FileMarks files) {
     const fs::path checkpoint = folder.path() / "checkpoint";
     if (is_there(checkpoint)) files.emplace_back("checkpoint", mark_of_file(checkpoint));
     state_files(summary, files);
-    folder.write("summary.json", summary.dump(2) + '\n', Durable::yes);
+    folder.write("summary.json", summary.text(2) + '\n', Durable::yes);
 }
 
 }  // namespace crackle

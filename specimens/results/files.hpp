@@ -16,7 +16,7 @@
 namespace crackle {
 
 /// Writes summary.json, which states these files (stated_files.hpp) and the checkpoint, if there is one.
-void write_summary(const OutputFolder& folder, nlohmann::ordered_json& summary, FileMarks files);
+void write_summary(const OutputFolder& folder, TestSummary& summary, FileMarks files);
 
 struct FileOptions {
     PointPrecision precision = PointPrecision::single_;  ///< of frames
@@ -53,7 +53,7 @@ class TestFiles {
     void write_checkpoint(const TestSetup& setup, TestState& state, const World& world);
     /// Without a checkpoint: for a run that has gone wrong, whose last good checkpoint stays.
     void flush();
-    void write_summary(nlohmann::ordered_json& summary, const TestState& state);
+    void write_summary(TestSummary& summary, const TestState& state);
 
   private:
     /// Whether it is to be drawn: it was not before.

@@ -3,14 +3,11 @@
 // Tested by tests/specimens/results/files_test.cpp.
 #pragma once
 
-#include <cmath>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 namespace crackle {
 
-/// What is not defined is null.
-inline nlohmann::ordered_json finite_or_null(double value) {
-    return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
-}
+/// What is not defined is null. Callers include the JSON library.
+nlohmann::ordered_json finite_or_null(double value);
 
 }  // namespace crackle

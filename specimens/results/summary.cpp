@@ -7,9 +7,11 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 #include "specimens/emission/b_value.hpp"
 #include "specimens/measures/crack_rose.hpp"
@@ -19,8 +21,10 @@
 #include "specimens/measures/shear_box.hpp"
 #include "specimens/measures/verdicts.hpp"
 #include "specimens/observers/profile_report.hpp"
+#include "specimens/results/json_number.hpp"
 #include "specimens/results/notices.hpp"
 #include "specimens/results/numerical_errors.hpp"
+#include "specimens/results/summary_keys.hpp"
 #include "specimens/results/trace_figures.hpp"
 
 namespace crackle {
@@ -495,8 +499,8 @@ std::optional<CrackThresholds> crack_thresholds_of(const TestCase& test, const T
                                  setup.confining_pressure);
 }
 
-nlohmann::ordered_json make_summary(const TestCase& test, const TestSetup& setup, const TestState& state,
-                                    const World& world, const TestTiming& timing, const NumericalErrors* errors) {
+TestSummary make_summary(const TestCase& test, const TestSetup& setup, const TestState& state, const World& world,
+                         const TestTiming& timing, const NumericalErrors* errors) {
     Json json, units;
     const std::optional<double>& thickness = test.output.out_of_plane_thickness;
     Writer w{json, units, thickness.value_or(1.0), test.area_units()};
@@ -541,7 +545,7 @@ nlohmann::ordered_json make_summary(const TestCase& test, const TestSetup& setup
         if (!column.pressed || setup.pressed()) columns[column.what.name] = w.unit_of(column.what);
     w.put("columns", columns);
     w.put("units", units);
-    return json;
+    return TestSummary(std::move(json));
 }
 
 }  // namespace crackle

@@ -3,7 +3,7 @@
 // values.
 // Tested by tests/tools/readme_test.py.
 
-#include "specimens/results/summary.hpp"
+#include "specimens/results/summary_keys.hpp"
 
 namespace crackle {
 namespace {

@@ -3,7 +3,7 @@
 // and failed, at the peak and at the end. Tested by tests/specimens/setup/trace_faces_test.cpp.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "specimens/results/state.hpp"
 #include "specimens/setup/setup.hpp"

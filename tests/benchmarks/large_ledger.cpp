@@ -68,9 +68,10 @@ int main(int argc, char** argv) {
         begun = Clock::now();
         for (std::size_t k = 0; k < identities.size(); ++k) {
             result.identity = identities[k];
+            result.figures.clear();
             for (int f = 0; f < figures; ++f)
-                result.figures[f == 0 ? "peak_stress" : fmt::format("figure_{}", f)] =
-                    std::sin(static_cast<double>(k) + 0.1 * f);
+                result.figures.emplace_back(f == 0 ? "peak_stress" : fmt::format("figure_{}", f),
+                                            std::sin(static_cast<double>(k) + 0.1 * f));
             ledger.record(result, "host");
         }
         const double seconds = seconds_since(begun);

@@ -15,6 +15,7 @@
 #include "specimens/calibration/outcome_files.hpp"
 #include "specimens/making/hooks.hpp"
 #include "tools/calibrate/calibration_page.hpp"
+#include "tools/command_line/command_line.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/terminal/interrupt.hpp"
 #include "tools/terminal/shipped.hpp"

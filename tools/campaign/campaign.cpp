@@ -16,6 +16,7 @@
 #include "specimens/campaign/campaign.hpp"
 #include "specimens/campaign/estimate.hpp"
 #include "specimens/campaign/plan_file.hpp"
+#include "tools/command_line/command_line.hpp"
 #include "tools/terminal/interrupt.hpp"
 #include "tools/terminal/shipped.hpp"
 #include "tools/terminal/threads.hpp"

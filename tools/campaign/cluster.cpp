@@ -19,6 +19,7 @@
 #include "specimens/campaign/estimate.hpp"
 #include "specimens/campaign/plan_file.hpp"
 #include "tools/campaign/campaign.hpp"
+#include "tools/command_line/command_line.hpp"
 #include "tools/terminal/shipped.hpp"
 
 namespace crackle::tools {

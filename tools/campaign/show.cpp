@@ -13,6 +13,7 @@
 #include "specimens/campaign/campaign.hpp"
 #include "specimens/campaign/point_table.hpp"
 #include "tools/campaign/campaign.hpp"
+#include "tools/command_line/command_line.hpp"
 
 namespace crackle::tools {
 namespace {

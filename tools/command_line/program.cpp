@@ -21,6 +21,7 @@
 
 #include "solver/base/errors.hpp"
 #include "solver/base/instruction_set.hpp"
+#include "tools/command_line/command_line.hpp"
 #include "tools/terminal/interrupt.hpp"
 #include "tools/terminal/terminal.hpp"
 

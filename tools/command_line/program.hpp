@@ -6,9 +6,10 @@
 
 #include <vector>
 
-#include "tools/command_line/command_line.hpp"
-
 namespace crackle::tools {
+
+struct CommandLine;
+struct Invocation;
 
 /// One command: a line for --help of its program, how it is called, and the function that runs it. The function prints
 /// results to stdout and, by Messages, progress and notices to stderr; it returns the exit code and throws errors.

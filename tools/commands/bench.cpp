@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "solver/base/errors.hpp"
+#include "tools/command_line/command_line.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/terminal/programs.hpp"
 

@@ -5,12 +5,16 @@
 
 #include <cstdint>
 #include <functional>
-#include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "tools/command_line/program.hpp"
+#include "tools/terminal/messages.hpp"
+
+namespace boost::program_options {
+class variables_map;
+}
 
 namespace crackle {
 
@@ -29,6 +33,8 @@ struct VirtualTest;
 }  // namespace crackle
 
 namespace crackle::tools {
+
+namespace po = boost::program_options;
 
 /// In the order of a user's work.
 const std::vector<Command>& commands();
@@ -88,12 +94,12 @@ void limit_threads(TestOptions& options, std::int64_t asked);
 std::int64_t threads_to_resume(const TestOptions& options);
 /// How far a test is, as the program shows it.
 Progress shown_progress(const TestProgress& test);
-/// What `crackle test --check --json` prints.
-nlohmann::ordered_json check_as_json(const TestCheck& check);
+/// What `crackle test --check --json` prints. @param indent spaces a level; -1: all on one line
+std::string check_as_json(const TestCheck& check, int indent = -1);
 /// The case as the linear solution takes it; a notice of each thing that it leaves out.
 TestCase elastic_case(TestCase description, std::vector<std::string>& notices);
-/// What `crackle elastic --json` prints.
-nlohmann::ordered_json elastic_as_json(const VirtualTest& test, const ElasticAnalysis& analysis,
-                                       const std::optional<JointedCompliance>& compliance, double seconds);
+/// What `crackle elastic --json` prints. @param indent as of check_as_json()
+std::string elastic_as_json(const VirtualTest& test, const ElasticAnalysis& analysis,
+                            const std::optional<JointedCompliance>& compliance, double seconds, int indent = -1);
 
 }  // namespace crackle::tools

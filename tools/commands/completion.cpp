@@ -9,6 +9,7 @@
 #include <iostream>
 
 #include "solver/base/errors.hpp"
+#include "tools/command_line/command_line.hpp"
 #include "tools/commands/build_info.hpp"
 #include "tools/commands/commands.hpp"
 

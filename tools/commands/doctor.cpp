@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "solver/base/instruction_set.hpp"
+#include "tools/command_line/command_line.hpp"
 #include "tools/commands/build_info.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/page/page_template.hpp"

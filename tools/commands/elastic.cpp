@@ -15,7 +15,8 @@
 #include "specimens/elastic/analysis.hpp"
 #include "specimens/elastic/jointed_compliance.hpp"
 #include "specimens/loading/prepare.hpp"
-#include "specimens/results/summary.hpp"
+#include "specimens/results/json_number.hpp"
+#include "tools/command_line/command_line.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/terminal/shipped.hpp"
 
@@ -134,8 +135,8 @@ void print(const JointedCompliance& found, const std::string& stress) {
 
 }  // namespace
 
-nlohmann::ordered_json elastic_as_json(const VirtualTest& test, const ElasticAnalysis& a,
-                                       const std::optional<JointedCompliance>& compliance, double seconds) {
+std::string elastic_as_json(const VirtualTest& test, const ElasticAnalysis& a,
+                            const std::optional<JointedCompliance>& compliance, double seconds, int indent) {
     Json json{{"title", test.description.title},
               {"kind", test.description.loading.kind},
               {"platens", test.description.loading.platens},
@@ -184,7 +185,7 @@ nlohmann::ordered_json elastic_as_json(const VirtualTest& test, const ElasticAna
             "stress y, shear stress, tensile positive; welded: its traces as the rock; expected: that and what "
             "persistent traces add (Amadei and Goodman); moduli: {0}, along x, along y, in shear",
             stress);
-    return json;
+    return json.dump(indent);
 }
 
 CommandLine describe_elastic() {
@@ -250,7 +251,7 @@ int elastic(const Invocation& given) {
         for (const std::string& notice : test.setup.notices) hooks.stage("notice: " + notice);
     if (values.contains("bonds")) replace_file(values["bonds"].as<std::string>(), bonds_table(analysis));
     if (values.contains("json"))
-        std::cout << elastic_as_json(test, analysis, compliance, seconds).dump(2) << '\n';
+        std::cout << elastic_as_json(test, analysis, compliance, seconds, 2) << '\n';
     else
         print(test, analysis, seconds);
     if (compliance && !values.contains("json")) print(*compliance, test.description.stress_unit());

@@ -22,6 +22,7 @@
 #include "specimens/joints/mesh_traces.hpp"
 #include "specimens/making/cell_bodies.hpp"
 #include "specimens/making/hooks.hpp"
+#include "tools/command_line/command_line.hpp"
 #include "tools/commands/centre_list.hpp"
 #include "tools/commands/commands.hpp"
 

@@ -13,6 +13,7 @@
 #include "solver/demseg/geometry.hpp"
 #include "solver/files/replace_file.hpp"
 #include "specimens/packing/packing.hpp"
+#include "tools/command_line/command_line.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/terminal/threads.hpp"
 

@@ -17,6 +17,7 @@
 #include "specimens/recordings/distinct_names.hpp"
 #include "specimens/recordings/recording.hpp"
 #include "tools/campaign/page/figures.hpp"
+#include "tools/command_line/command_line.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/page/report_page.hpp"
 #include "tools/plot/figure_options.hpp"
@@ -46,17 +47,12 @@ std::string capitalised(std::string word) {
     return word;
 }
 
-std::string text_of(const TestResults& results, const char* key) {
-    const auto found = results.summary.find(key);
-    return found != results.summary.end() && found->is_string() ? found->get<std::string>() : "";
-}
-
 /// «Circles, tension» where that distinguishes the tests, else as distinct_names() does.
 Words default_labels(const std::vector<Recording>& tests) {
     Words labels;
     for (const Recording& test : tests)
-        labels.push_back(
-            fmt::format("{}, {}", capitalised(text_of(test.results, "specimen")), text_of(test.results, "kind")));
+        labels.push_back(fmt::format("{}, {}", capitalised(test.results.summary.word("specimen")),
+                                     test.results.summary.word("kind")));
     Words sorted = labels;
     std::sort(sorted.begin(), sorted.end());
     if (std::adjacent_find(sorted.begin(), sorted.end()) == sorted.end()) return labels;
@@ -107,7 +103,7 @@ Panel drawings_of(const Recording& test, const fs::path& folder, const Words& mo
         const std::size_t frame = frame_at(test, at);
         const FrameHead& head = test.frames[frame];
         Words names = head.roles;
-        if (!test.results.summary.value("failed", false))
+        if (!test.results.summary.flag("failed"))
             std::replace(names.begin(), names.end(), std::string("peak"), std::string("peak so far"));
         Words caption{strain_text(head.axial_strain.value_or(0.0))};
         if (!names.empty()) caption.insert(caption.begin(), fmt::format("{}", fmt::join(names, ", ")));
@@ -120,7 +116,7 @@ Panel drawings_of(const Recording& test, const fs::path& folder, const Words& mo
 Words everything_of(const std::vector<Recording>& tests) {
     Words what{"curve"};
     const TestResults& first = tests.front().results;
-    if (tests.size() == 1 && first.summary.value("kind", std::string()) != "tension" && has_area_strain(first))
+    if (tests.size() == 1 && first.summary.word("kind") != "tension" && has_area_strain(first))
         what.emplace_back("strain");
     what.emplace_back("ae");
     if (std::ranges::all_of(tests, [](const Recording& test) { return has_emission(test.results); }))

@@ -12,6 +12,7 @@
 #include "specimens/recordings/test_results.hpp"
 #include "tools/campaign/page/campaign_page.hpp"
 #include "tools/campaign/page/figures.hpp"
+#include "tools/command_line/command_line.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/page/report_page.hpp"
 

@@ -8,6 +8,7 @@
 
 #include "solver/base/errors.hpp"
 #include "solver/demseg/deck_run.hpp"
+#include "tools/command_line/command_line.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/terminal/interrupt.hpp"
 #include "tools/terminal/shipped.hpp"

@@ -15,8 +15,10 @@
 #include "specimens/loading/run.hpp"
 #include "specimens/observers/profile_report.hpp"
 #include "specimens/results/describe_files.hpp"
+#include "specimens/results/json_number.hpp"
 #include "specimens/results/output_folder.hpp"
-#include "specimens/results/summary.hpp"
+#include "specimens/results/summary_keys.hpp"
+#include "tools/command_line/command_line.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/terminal/interrupt.hpp"
 #include "tools/terminal/shipped.hpp"
@@ -42,7 +44,7 @@ std::string stress(const nlohmann::ordered_json& summary, const std::string& key
 }
 
 void print_figures(const TestOutcome& outcome) {
-    const auto& s = outcome.summary;
+    const auto& s = outcome.summary.json();
     const bool failed = s.value("failed", false);
     const std::string so_far = failed ? "" : "_so_far";
     std::cout << fmt::format("{}, {}: {}\n", s.value("specimen", ""), s.value("kind", ""),
@@ -106,7 +108,7 @@ TestHooks hooks_for(Messages& messages) {
 /// What -v reports of a test that has ended.
 void report_details(Messages& messages, const TestOutcome& outcome) {
     if (!messages.verbose()) return;
-    const auto& s = outcome.summary;
+    const auto& s = outcome.summary.json();
     messages.detail(fmt::format("{} steps in {} s on {} threads; mean time step {} s", shown_value(s, "steps"),
                                 shown_value(s, "step_seconds"), shown_value(s, "threads"),
                                 shown_value(s, "time_step_mean")));
@@ -239,7 +241,7 @@ int check(const Invocation& given) {
         const TestCheck checked = check_test(description, hooks);
         given.messages.make_room();
         if (json)
-            std::cout << check_as_json(checked).dump(2) << '\n';
+            std::cout << check_as_json(checked, 2) << '\n';
         else
             print_check(checked);
     } catch (const TestInterrupted& stop) {
@@ -276,7 +278,7 @@ std::int64_t threads_to_resume(const TestOptions& options) {
     return is_file(own_case) ? read_case(own_case).numerics.threads : options.most_threads;
 }
 
-nlohmann::ordered_json check_as_json(const TestCheck& check) {
+std::string check_as_json(const TestCheck& check, int indent) {
     const VirtualTest& test = check.test;
     const std::string stress = test.description.stress_unit();
     Json json{{"title", test.description.title},
@@ -325,7 +327,7 @@ nlohmann::ordered_json check_as_json(const TestCheck& check) {
         {"run_to_max_axial_strain", "likewise, should the specimen not fail before"},
         {"specimen_seconds", "s, making the specimen"},
         {"memory", "bytes, largest of this check"}};
-    return json;
+    return json.dump(indent);
 }
 
 CommandLine describe_test() {

@@ -5,6 +5,7 @@
 #include <iostream>
 
 #include "solver/base/errors.hpp"
+#include "tools/command_line/command_line.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/page/report_page.hpp"
 

@@ -355,7 +355,7 @@ PageData pack_recording(const Recording& recording, const std::function<void(std
     Json& manifest = data.manifest;
     manifest["name"] = recording.name;
     manifest["kind"] = name_of(recording.kind);
-    manifest["summary"] = recording.kind == Recording::Kind::test ? recording.results.summary : Json::object();
+    manifest["summary"] = recording.kind == Recording::Kind::test ? recording.results.summary.json() : Json::object();
     if (recording.walls) manifest["walls"] = *recording.walls;
     if (recording.mean_velocities) manifest["velocities"] = "mean";
     manifest["arrays"] = first.places();

@@ -38,12 +38,8 @@ std::string safe_in_script(const std::string& json) {
 std::string default_title(const std::vector<Recording>& recordings) {
     if (recordings.size() != 1) return "Virtual rock tests";
     const Recording& recording = recordings.front();
-    const auto& summary = recording.results.summary;
-    if (const auto title = summary.find("title");
-        title != summary.end() && title->is_string() && !title->get<std::string>().empty()) {
-        return title->get<std::string>();
-    }
-    return recording.name;
+    const std::string title = recording.results.summary.word("title");
+    return title.empty() ? recording.name : title;
 }
 
 void append_block(std::string& out, std::size_t recording, std::size_t block, const std::string& text) {

@@ -21,7 +21,7 @@ struct AreaStrains {
 
 AreaStrains area_strains_of(const PlottedTest& test) {
     const TestResults& results = *test.results;
-    const double sense = results.summary.value("kind", std::string()) == "tension" ? -1.0 : 1.0;
+    const double sense = results.summary.word("kind") == "tension" ? -1.0 : 1.0;
     const double compliance = (1.0 - number_of(test, "poissons_ratio")) / number_of(test, "youngs_modulus");
     const double pressure = number_of(test, "confining_pressure"), confined = std::isnan(pressure) ? 0.0 : pressure;
     const std::vector<double>&axial = column(results, "axial_strain"), &lateral = column(results, "lateral_strain"),
@@ -56,7 +56,7 @@ constexpr double beyond_peak = 1.5;
 
 bool has_area_strain(const TestResults& results) {
     // Of other kinds the two strains are not of one stretched area.
-    const std::string kind = results.summary.value("kind", std::string());
+    const std::string kind = results.summary.word("kind");
     if (kind != "compression" && kind != "tension" && kind != "biaxial") return false;
     const std::vector<double>& lateral = column(results, "lateral_strain");
     return !lateral.empty() && std::ranges::none_of(lateral, [](double strain) { return std::isnan(strain); });

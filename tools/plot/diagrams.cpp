@@ -137,7 +137,7 @@ std::vector<PlottedTest> slivers_of(const std::vector<PlottedTest>& tests) {
     constexpr double least_stress = 0.25, least_strain = 0.2;  // of the largest
     std::array<std::vector<PlottedTest>, 2> kinds;
     for (const PlottedTest& test : tests)
-        kinds[test.results->summary.value("kind", std::string()) == "tension" ? 0 : 1].push_back(test);
+        kinds[test.results->summary.word("kind") == "tension" ? 0 : 1].push_back(test);
     if (kinds[0].empty() || kinds[1].empty()) return {};
     const std::vector<PlottedTest>& weaker =
         largest_of(kinds[0], "axial_stress") < largest_of(kinds[1], "axial_stress") ? kinds[0] : kinds[1];
@@ -175,9 +175,7 @@ std::optional<Rect> free_place(const Axes& axes, const std::vector<PlottedTest>&
 
 /// Of tests in units of an area Pa, of others N/m.
 std::string stress_unit(const std::vector<PlottedTest>& tests) {
-    const auto in_area = [](const PlottedTest& test) {
-        return test.results->summary.value("material_units", "point") == "area";
-    };
+    const auto in_area = [](const PlottedTest& test) { return test.results->summary.word("material_units") == "area"; };
     if (std::ranges::none_of(tests, in_area)) return "N/m";
     return std::ranges::all_of(tests, in_area) ? "Pa" : "N/m or Pa";
 }
@@ -193,9 +191,8 @@ void draw_inset(Canvas& canvas, const Rect& place, const std::vector<PlottedTest
     const double left = Axes::room_left(canvas, axes.y, small_text), line = canvas.size_of("X", small_text).height;
     axes.frame = {place.x + left, place.y + 1.3 * line, place.width - left - 3.0,
                   place.height - 1.3 * line - Axes::room_below(canvas, small_text)};
-    canvas.text({axes.frame.x + 0.5 * axes.frame.width, place.y},
-                tests.front().results->summary.value("kind", std::string()), Across::centre, Down::top, small_text,
-                ink);
+    canvas.text({axes.frame.x + 0.5 * axes.frame.width, place.y}, tests.front().results->summary.word("kind"),
+                Across::centre, Down::top, small_text, ink);
     draw_curves(canvas, axes, tests, unit.factor);
     axes.draw(canvas, "10⁻³", unit.name);
 }

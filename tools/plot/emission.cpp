@@ -57,10 +57,7 @@ Scale magnitude_scale(double low, double high, int most_ticks) {
 }
 
 double of_emission(const PlottedTest& test, const char* key) {
-    const auto found = test.results->summary.find("emission");
-    if (found == test.results->summary.end() || !found->is_object() || !found->contains(key)) return std::nan("");
-    const auto& value = (*found)[key];
-    return value.is_number() ? value.get<double>() : std::nan("");
+    return test.results->summary.number(std::string("emission.") + key).value_or(std::nan(""));
 }
 
 /// "0.2" or "0.05 to 0.2".

@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <boost/program_options/options_description.hpp>
+#include <boost/program_options/value_semantic.hpp>
+#include <boost/program_options/variables_map.hpp>
 #include <map>
 
 #include "solver/base/errors.hpp"

@@ -3,11 +3,15 @@
 // Tested by tests/tools/commands/plot_test.cpp.
 #pragma once
 
-#include <boost/program_options.hpp>
 #include <filesystem>
 #include <string>
 
 #include "tools/plot/canvas.hpp"
+
+namespace boost::program_options {
+class options_description;
+class variables_map;
+}  // namespace boost::program_options
 
 namespace crackle::plot {
 

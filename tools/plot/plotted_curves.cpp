@@ -44,8 +44,7 @@ std::vector<Point> curve_points(const Axes& axes, const std::vector<double>& x, 
 }
 
 double number_of(const PlottedTest& test, const char* key) {
-    const auto found = test.results->summary.find(key);
-    return found != test.results->summary.end() && found->is_number() ? found->get<double>() : std::nan("");
+    return test.results->summary.number(key).value_or(std::nan(""));
 }
 
 CurveNames names_of(const std::vector<PlottedTest>& tests) {
@@ -55,7 +54,7 @@ CurveNames names_of(const std::vector<PlottedTest>& tests) {
         {"scb", {"P/2R", "displacement over R"}},
         {"direct_shear", {"shear stress", "displacement over length"}}};
     const auto name = [](const PlottedTest& test) {
-        const auto found = kinds.find(test.results->summary.value("kind", std::string()));
+        const auto found = kinds.find(test.results->summary.word("kind"));
         return found == kinds.end() ? CurveNames{"axial stress", "axial strain"} : found->second;
     };
     if (tests.empty()) return {};

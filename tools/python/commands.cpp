@@ -8,7 +8,6 @@
 
 #include <chrono>
 #include <iostream>
-#include <nlohmann/json.hpp>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -20,6 +19,7 @@
 #include "specimens/loading/check.hpp"
 #include "specimens/loading/prepare.hpp"
 #include "tools/campaign/campaign.hpp"
+#include "tools/command_line/command_line.hpp"
 #include "tools/python/arrays.hpp"
 #include "tools/python/parts.hpp"
 #include "tools/python/reports.hpp"
@@ -135,8 +135,7 @@ py::tuple elastic(const TestCase& description, double strain, int modes, const p
         TestHooks quietly = hooks;  // the same specimen again
         quietly.stage = quietly.detail = {};
         json = tools::elastic_as_json(test, *analysis, jointed_compliance(test.description, quietly),
-                                      seconds - test.specimen_seconds)
-                   .dump();
+                                      seconds - test.specimen_seconds);
     });
     return py::make_tuple(json, view_of(analysis->bonds, analysis), notices);
 }
@@ -149,7 +148,7 @@ std::string check(TestCase description, int threads, const py::object& report) {
     Interrupts interrupts;
     const TestHooks hooks = reporting_hooks(report, interrupts);
     std::string json;
-    run_free(interrupts, [&] { json = tools::check_as_json(check_test(description, hooks)).dump(); });
+    run_free(interrupts, [&] { json = tools::check_as_json(check_test(description, hooks)); });
     return json;
 }
 

@@ -17,6 +17,7 @@
 #include "solver/files/read_file.hpp"
 #include "solver/files/replace_file.hpp"
 #include "specimens/packing/packing.hpp"
+#include "tools/command_line/command_line.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/python/arrays.hpp"
 #include "tools/python/parts.hpp"

@@ -138,7 +138,7 @@ void bind_results(py::module_& module) {
         py::arg("path"));
     using Results = std::shared_ptr<TestResults>;
     py::class_<TestResults, Results>(module, "TestResults")
-        .def_property_readonly("summary", [](const TestResults& r) { return r.summary.dump(); })
+        .def_property_readonly("summary", [](const TestResults& r) { return r.summary.text(); })
         .def_property_readonly("curve", [](const Results& r) { return columns(r->curve, r); })
         .def_property_readonly("events", [](const Results& r) { return columns(r->events, r); })
         .def_property_readonly("slips",

@@ -17,6 +17,7 @@
 #include "tests/bench/commands/bench.hpp"
 #include "tests/bench/commands/gnuplot.hpp"
 #include "tests/bench/commands/results_folder.hpp"
+#include "tools/command_line/command_line.hpp"
 
 namespace crackle::tools {
 namespace {

@@ -19,6 +19,7 @@
 #include "tests/bench/commands/results_folder.hpp"
 #include "tests/bench/throughput/feature_costs.hpp"
 #include "tests/bench/throughput/machine_limits.hpp"
+#include "tools/command_line/command_line.hpp"
 
 namespace crackle::tools {
 namespace {

@@ -17,6 +17,7 @@
 #include "tests/bench/commands/bench.hpp"
 #include "tests/bench/guide/experiments.hpp"
 #include "tests/bench/guide/page.hpp"
+#include "tools/command_line/command_line.hpp"
 #include "tools/terminal/interrupt.hpp"
 #include "tools/terminal/shipped.hpp"
 

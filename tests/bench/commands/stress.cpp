@@ -11,6 +11,7 @@
 #include "solver/base/errors.hpp"
 #include "tests/bench/commands/bench.hpp"
 #include "tests/bench/verify/assembly/stress.hpp"
+#include "tools/command_line/command_line.hpp"
 
 namespace crackle::tools {
 namespace {

@@ -28,6 +28,7 @@
 #include "tests/bench/throughput/machine_limits.hpp"
 #include "tests/bench/throughput/median_interval.hpp"
 #include "tests/bench/throughput/timed_test.hpp"
+#include "tools/command_line/command_line.hpp"
 
 namespace crackle::tools {
 namespace {

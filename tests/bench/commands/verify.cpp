@@ -14,6 +14,7 @@
 #include "solver/files/replace_file.hpp"
 #include "tests/bench/commands/bench.hpp"
 #include "tests/bench/verify/page.hpp"
+#include "tools/command_line/command_line.hpp"
 
 namespace crackle::tools {
 namespace {

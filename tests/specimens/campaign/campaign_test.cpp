@@ -60,14 +60,14 @@ TEST_F(CampaignTest, GivesTheFiguresOfTheSameTestsRunAlone) {
         TestOptions options;
         options.folder = folder_ / fmt::format("alone-{}", k);
         const auto alone = figures_of(run_test(plan.test_of(plan.rows[k]), options).summary);
-        for (const auto& [name, value] : alone.items()) {
+        for (const auto& [name, value] : alone) {
             const auto column = std::find(results.columns.begin(), results.columns.end(), name);
             ASSERT_NE(column, results.columns.end()) << name;
             const LedgerCell& cell = results.rows[k][static_cast<std::size_t>(column - results.columns.begin())];
-            if (value.is_string())
-                EXPECT_EQ(std::get<std::string>(cell), value.get<std::string>()) << name;
+            if (const auto* word = std::get_if<std::string>(&value))
+                EXPECT_EQ(std::get<std::string>(cell), *word) << name;
             else
-                EXPECT_EQ(std::get<double>(cell), value.get<double>()) << name;
+                EXPECT_EQ(std::get<double>(cell), std::get<double>(value)) << name;
             ++compared;
         }
     }
@@ -299,11 +299,14 @@ TEST_F(CampaignTest, AKilledWorkersTestIsRunAgain) {
 }
 
 TEST(CampaignFigures, OfListsAreThoseOfTheirElements) {
-    const auto summary = nlohmann::ordered_json::parse(R"({"peak_stress": 3.0, "notices": [{"text": "long"}],
+    const TestSummary summary = TestSummary::parse(R"({"peak_stress": 3.0, "notices": [{"text": "long"}],
         "cycles": [{"modulus": 1.0}, {"modulus": 2.0}], "joints": [{"source": "set", "at_peak": {"slip": 4.0}}],
         "traces": [{"length": 5.0}]})");
-    const auto expected = nlohmann::ordered_json::parse(R"({"peak_stress": 3.0, "cycles[1].modulus": 1.0,
-        "cycles[2].modulus": 2.0, "joints[1].source": "set", "joints[1].at_peak.slip": 4.0})");
+    const Figures expected{{"peak_stress", 3.0},
+                           {"cycles[1].modulus", 1.0},
+                           {"cycles[2].modulus", 2.0},
+                           {"joints[1].source", "set"},
+                           {"joints[1].at_peak.slip", 4.0}};
     EXPECT_EQ(figures_of(summary), expected);
     EXPECT_EQ(unit_of_figure("cycles[12].modulus", true), "Pa");
     EXPECT_EQ(unit_of_figure("joints[1].at_peak.slip", true), "m");

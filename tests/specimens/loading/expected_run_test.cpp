@@ -95,7 +95,7 @@ TEST_F(ExpectedRun, OfASmallSpecimenTakesNoMoreThreadsThanAreOfUse) {
     TestHooks hooks;
     hooks.stage = [&](const std::string& line) { notices += line + '\n'; };
     const TestOutcome outcome = run_test(small_case(), options, hooks);
-    EXPECT_EQ(outcome.summary["threads"], 1) << outcome.summary["bodies"];
+    EXPECT_EQ(outcome.summary.number("threads"), 1.0) << outcome.summary.text_of("bodies");
     EXPECT_NE(notices.find("notice: 1 of 16 threads are used"), std::string::npos) << notices;
 }
 

@@ -86,9 +86,9 @@ TEST(VoronoiCompression, HasTheSameFilesForAnyNumberOfThreadsAndResumedAtFiveRan
     options.command = "crackle test";
     options.folder = scratch / "one";
     const TestOutcome first = run_test(test, options);
-    ASSERT_TRUE(first.summary["failed"].get<bool>());
+    ASSERT_TRUE(first.summary.flag("failed"));
     const auto one = contents(scratch / "one");
-    const auto questions = first.summary["steps"].get<std::int64_t>() / steps_between_questions;
+    const auto questions = static_cast<std::int64_t>(first.summary.number("steps").value()) / steps_between_questions;
 
     std::mt19937_64 generator(5);
     for (const int threads : {1, 2, 3, 7}) {
@@ -116,7 +116,7 @@ TEST(VoronoiCompression, HasTheSameFilesForAnyNumberOfThreadsAndResumedAtFiveRan
         TestOutcome outcome = run_test(test, options, stop());
         int interrupts = 0;
         for (; outcome.interrupted; ++interrupts) {
-            fmt::print("  stopped at step {}\n", outcome.summary["steps"].get<std::int64_t>());
+            fmt::print("  stopped at step {}\n", outcome.summary.text_of("steps"));
             outcome = resume_test(options, interrupts < 4 ? stop() : TestHooks{});
         }
         EXPECT_EQ(interrupts, 5);

@@ -12,6 +12,7 @@
 #include <fstream>
 #include <functional>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <numeric>
 #include <set>
@@ -403,7 +404,7 @@ TEST_F(MineralRock, FramesAndSummaryTellTheMinerals) {
         ++compared;
     }
     EXPECT_EQ(compared, 77u);
-    const auto& minerals = outcome.summary.at("minerals");
+    const auto& minerals = outcome.summary.json().at("minerals");
     ASSERT_EQ(minerals.size(), 3u);
     EXPECT_EQ(minerals[0].at("name"), "quartz");
     EXPECT_EQ(minerals[0].at("area_share"), 0.3);

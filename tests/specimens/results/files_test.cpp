@@ -112,18 +112,18 @@ class TestFolder : public ::testing::Test {
         TestOptions straight = options("straight"), broken = options("broken");
         straight.force = broken.force = true;
         const TestOutcome whole = run_test(test, straight);
-        EXPECT_GT(whole.summary["bonds_broken"].get<int>(), 0);
+        EXPECT_GT(whole.summary.json()["bonds_broken"].get<int>(), 0);
 
         TestOutcome outcome = run_test(test, broken, stopping_at(1));
         int interrupts = 0;
         while (outcome.interrupted) {
             ++interrupts;
-            EXPECT_EQ(outcome.summary["ended_by"], "interrupt");
+            EXPECT_EQ(outcome.summary.json()["ended_by"], "interrupt");
             broken.folder = outcome.folder;
             outcome = resume_test(broken, stopping_at(1 + longer * interrupts));
         }
         fmt::print("  {}: {} interrupts in {} steps, {} bonds broken\n", what, interrupts,
-                   whole.summary["steps"].get<int>(), whole.summary["bonds_broken"].get<int>());
+                   whole.summary.json()["steps"].get<int>(), whole.summary.json()["bonds_broken"].get<int>());
         EXPECT_GE(interrupts, 5);
         expect_same(contents(outcome.folder), contents(scratch_ / "straight"), what);
         fs::remove_all(outcome.folder);
@@ -137,13 +137,13 @@ TEST_F(TestFolder, HoldsWhatReadersLookFor) {
     const TestOutcome outcome = run_test(small_case(), options("out"));
     const Recording recording = read_test_recording(scratch_ / "out", 3);
     const TestResults& results = recording.results;
-    EXPECT_TRUE(results.summary["failed"].get<bool>());
+    EXPECT_TRUE(results.summary.json()["failed"].get<bool>());
     ASSERT_EQ(recording.frames.size(), 3u);
     std::vector<std::string> roles;
     for (const FrameHead& head : recording.frames) roles.insert(roles.end(), head.roles.begin(), head.roles.end());
     EXPECT_EQ(roles, (std::vector<std::string>{"start", "peak", "end"}));
     EXPECT_EQ(recording.cells.size(), 79u) << "77 discs and two platens";
-    EXPECT_EQ(recording.bonds.size(), results.summary["bonds_initial"].get<std::size_t>());
+    EXPECT_EQ(recording.bonds.size(), results.summary.json()["bonds_initial"].get<std::size_t>());
     for (const RecordedBond& bond : recording.bonds) {
         const auto gap = [&](std::int32_t cell) {
             const RecordedCell& disc = recording.cells[static_cast<std::size_t>(cell)];
@@ -153,18 +153,18 @@ TEST_F(TestFolder, HoldsWhatReadersLookFor) {
     }
     const std::string curve = read_file(scratch_ / "out/curve.csv");
     EXPECT_EQ(static_cast<std::ptrdiff_t>(results.curve.rows()), std::count(curve.begin(), curve.end(), '\n') - 1);
-    EXPECT_EQ(results.events.rows(), results.summary["bonds_broken"].get<std::size_t>());
+    EXPECT_EQ(results.events.rows(), results.summary.json()["bonds_broken"].get<std::size_t>());
     const std::vector<double>& stress = *results.curve.find("axial_stress");
-    EXPECT_EQ(*std::max_element(stress.begin(), stress.end()), results.summary["largest_stress"].get<double>())
+    EXPECT_EQ(*std::max_element(stress.begin(), stress.end()), results.summary.json()["largest_stress"].get<double>())
         << "the same number in both files";
     const std::vector<double>& ids = *results.events.find("body_i");
     EXPECT_GT(*std::min_element(ids.begin(), ids.end()), 100.0) << "ids of the input";
     // Figures and their presence: tests/recount.
-    EXPECT_EQ(outcome.summary["title"], "case");
-    EXPECT_EQ(outcome.summary["command"], options("out").command);
+    EXPECT_EQ(outcome.summary.json()["title"], "case");
+    EXPECT_EQ(outcome.summary.json()["command"], options("out").command);
     const std::string text = read_file(scratch_ / "out/case.toml");
-    EXPECT_NE(text.find("crackle " + outcome.summary["version"].get<std::string>()), std::string::npos) << text;
-    EXPECT_EQ(outcome.summary["columns"].size(), results.curve.columns.size());
+    EXPECT_NE(text.find("crackle " + outcome.summary.json()["version"].get<std::string>()), std::string::npos) << text;
+    EXPECT_EQ(outcome.summary.json()["columns"].size(), results.curve.columns.size());
     EXPECT_NE(
         curve.find("axial_strain,axial_stress,stress_top,stress_bottom,lateral_strain,bonds_broken,kinetic_energy,"
                    "strain_energy,time,"
@@ -201,12 +201,12 @@ TEST_F(TestFolder, EndsBeforeFailureWithAPeakSoFar) {
     SmallCase wanted;
     wanted.max_strain = 2e-4;
     const TestOutcome outcome = run_test(small_case(wanted), options("out"));
-    EXPECT_FALSE(outcome.summary["failed"].get<bool>());
+    EXPECT_FALSE(outcome.summary.json()["failed"].get<bool>());
     const TestResults results = read_test_recording(scratch_ / "out", 3).results;
     const std::vector<double>& stress = *results.curve.find("axial_stress");
-    EXPECT_EQ(outcome.summary["peak_stress_so_far"].get<double>(), *std::ranges::max_element(stress));
-    EXPECT_FALSE(outcome.summary.contains("peak_stress"));
-    EXPECT_EQ(outcome.summary["ended_by"], "max_axial_strain");
+    EXPECT_EQ(outcome.summary.json()["peak_stress_so_far"].get<double>(), *std::ranges::max_element(stress));
+    EXPECT_FALSE(outcome.summary.json().contains("peak_stress"));
+    EXPECT_EQ(outcome.summary.json()["ended_by"], "max_axial_strain");
 }
 
 TEST_F(TestFolder, ResolvedCaseRunsToTheSameCurve) {
@@ -226,7 +226,7 @@ TEST_F(TestFolder, HasTheSameBytesForAnyNumberOfThreads) {
         TestOptions single = options("one");
         single.force = true;
         const TestOutcome first = run_test(test, single);
-        EXPECT_GT(first.summary["bonds_broken"].get<int>(), 0);
+        EXPECT_GT(first.summary.json()["bonds_broken"].get<int>(), 0);
         const auto one = contents(scratch_ / "one");
         for (const int threads : {2, 3, 7}) {
             TestOptions several = options("several");
@@ -273,7 +273,7 @@ TEST_F(TestFolder, ResumedKnowsHowOldItsContactsAre) {
     TestOutcome outcome = run_test(test, options("broken"), stopping_at(2));
     std::set<double> interrupts;  // s
     while (outcome.interrupted) {
-        interrupts.insert(outcome.summary["simulated_time"].get<double>());
+        interrupts.insert(outcome.summary.json()["simulated_time"].get<double>());
         outcome = resume_test(options("broken"), stopping_at(4));
     }
     expect_same(contents(scratch_ / "broken"), contents(scratch_ / "straight"), "resumed");
@@ -360,9 +360,9 @@ TEST_F(TestFolder, KeepsEarlierResultsUntilNewOnesAreComplete) {
 TEST_F(TestFolder, PeakAndFailureDoNotDependOnTheRowsWritten) {
     SmallCase wanted;
     wanted.output = "curve_rows = 10\nframes = 5";
-    const auto few = run_test(small_case(wanted), options("few")).summary;
+    const auto few = run_test(small_case(wanted), options("few")).summary.json();
     wanted.output = "curve_rows = 2000\nframes = 5";
-    const auto many = run_test(small_case(wanted), options("many")).summary;
+    const auto many = run_test(small_case(wanted), options("many")).summary.json();
     for (const char* key :
          {"failed", "peak_stress", "peak_strain", "initial_tangent_modulus", "platen_out_of_balance"}) {
         EXPECT_EQ(few[key], many[key]) << key;
@@ -438,7 +438,7 @@ TEST_F(TestFolder, SaysWhereItsNumbersAreNoResults) {
     SmallCase wanted;
     wanted.numerics = "time_step = 1.0e-2\nallow_unstable = true";
     wanted.rate = 1e-4;
-    const std::string notices = run_test(small_case(wanted), options("out")).summary["notices"].dump();
+    const std::string notices = run_test(small_case(wanted), options("out")).summary.text_of("notices");
     fmt::print("  {}\n", notices);
     EXPECT_NE(notices.find("above the stable bound"), std::string::npos);
     EXPECT_NE(notices.find("energy balance misses"), std::string::npos);

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <nlohmann/json.hpp>
 #include <numbers>
 #include <span>
 #include <vector>
@@ -232,7 +233,8 @@ TEST_F(JointedTest, WhatTracesHaveComeToAtThePeakIsThatOfThePeaksFrame) {
     const std::vector<Crack>& cracks = test.state.history.cracks;
     ASSERT_LT(to_peak, cracks.size());
     const auto motions = trace_motions(setup, places, std::span(cracks).first(to_peak));
-    const auto summary = make_summary(test.description, setup, test.state, test.world, {});
+    const TestSummary made = make_summary(test.description, setup, test.state, test.world, {});
+    const auto& summary = made.json();
     for (std::size_t k = 0; k < 2; ++k) {
         const auto& got = summary["traces"][k]["at_peak"];
         fmt::print("  trace {}: slip at peak expected {}, got {}, at the end {}\n", k, motions[k].slip,

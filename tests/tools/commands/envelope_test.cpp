@@ -240,10 +240,10 @@ class EnvelopeOfCampaign : public EnvelopeCommand {
             result.identity = identities[k];
             result.state = k + 2 == plan.rows.size() ? row_unstable : row_done;
             if (result.state == row_done) {
-                result.figures = {{"kind", test.loading.kind}, {"material_units", "point"}, {"failed", 1}};
-                result.figures["peak_stress"] =
-                    on_line(pressure) * (1.0 + 0.05 * (static_cast<double>(plan.rows[k].seed) - 2.0));
-                if (pressure > 0.0) result.figures["confining_pressure"] = pressure;
+                result.figures = {{"kind", test.loading.kind}, {"material_units", "point"}, {"failed", 1.0}};
+                result.figures.emplace_back(
+                    "peak_stress", on_line(pressure) * (1.0 + 0.05 * (static_cast<double>(plan.rows[k].seed) - 2.0)));
+                if (pressure > 0.0) result.figures.emplace_back("confining_pressure", pressure);
             }
             ledger.record(result, "here");
         }

@@ -11,6 +11,7 @@
 #include <fstream>
 #include <iterator>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -215,8 +216,8 @@ Recording recorded(const std::string& path, const std::string& title = "", int s
     Recording recording;
     recording.path = path;
     recording.name = recording.path.filename().string();
-    if (!title.empty()) recording.results.summary["title"] = title;
-    if (seed >= 0) recording.results.summary["seed"] = seed;
+    if (!title.empty()) recording.results.summary.json()["title"] = title;
+    if (seed >= 0) recording.results.summary.json()["seed"] = seed;
     return recording;
 }
 
