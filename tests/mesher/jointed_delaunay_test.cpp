@@ -28,7 +28,7 @@ MeshRequest triangles_with(Lines traces, double gap = 0.0) {
 
 TEST(JointedDelaunay, EveryTraceIsAChainOfEdgesOnItsLine) {
     const Lines traces{{{0.0, 0.3}, {1.0, 0.8}}, {{0.3, 0.0}, {0.6, 2.0}}, {{0.1, 1.2}, {0.5, 1.3}, {0.9, 1.7}}};
-    for (const std::uint64_t seed : {1, 2, 3}) {
+    for (const std::uint64_t seed : {1U, 2U, 3U}) {
         const Mesh mesh = make_mesh(packing_like(seed), jointed_box, triangles_with(traces));
         const TraceCheck found = check(mesh, traces);
         EXPECT_TRUE(within("distance of the edges from the trace", found.off_line, 0.0, 2e-12));

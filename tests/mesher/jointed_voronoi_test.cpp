@@ -29,7 +29,7 @@ TEST(JointedVoronoi, EveryTraceIsAChainOfEdgesOnItsLine) {
           Lines{{{0.2, 0.5}, {0.8, 0.9}}, {{0.3, 1.0}, {0.6, 0.4}}},              // a crossing
           Lines{{{0.1, 0.4}, {0.5, 0.9}, {0.9, 1.0}}, {{0.5, 0.9}, {0.4, 1.6}}},  // a bend, and a branch
           Lines{{{0.0, 0.3}, {1.0, 0.8}}, {{0.3, 0.0}, {0.6, 2.0}}, {{0.1, 1.2}, {0.5, 1.3}, {0.9, 1.7}}}}) {
-        for (const std::uint64_t seed : {1, 2, 3}) {
+        for (const std::uint64_t seed : {1U, 2U, 3U}) {
             const Mesh mesh = make_mesh(packing_like(seed), jointed_box, cells_with(traces));
             const TraceCheck found = check(mesh, traces);
             EXPECT_TRUE(within("distance of the edges from the trace", found.off_line, 0.0, 2e-12));

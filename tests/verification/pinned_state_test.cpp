@@ -129,7 +129,8 @@ void write_record(const char* path, const Hashes& hashes) {
 class PinnedState : public ::testing::TestWithParam<std::pair<const char*, Scene (*)()>> {};
 
 TEST_P(PinnedState, IsTheRecordedOneOnAnyNumberOfThreads) {
-    const auto [name, scene] = GetParam();
+    const auto name = GetParam().first;
+    const auto scene = GetParam().second;
     const Hashes expected = recorded();
     if (const char* path = std::getenv("CRACKLE_RECORD_STATES")) write_record(path, hashes_of(name, scene(), 1));
     for (const int threads : {1, 2, 3}) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A plain list of centres: one `x y` a line, blanks between, `#` begins a comment.
-// Tested by tests/tools/commands/mesh_test.cpp.
 #pragma once
 
 #include <string>

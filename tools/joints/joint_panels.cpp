@@ -26,10 +26,6 @@ std::vector<Legend::Entry> entries_of(const JointNetwork& network) {
     return entries;
 }
 
-double room_above(const Canvas& canvas, const Legend& legend) {
-    return std::max(legend.height(), 1.6 * canvas.style().font_size);
-}
-
 /// Axes in m over the box, as large as the room allows with both at one scale.
 struct MapAxes {
     Unit unit;

@@ -92,10 +92,6 @@ struct MohrAxes {
     double height() const { return y.high * points_of_unit(); }
 };
 
-double room_above(const Canvas& canvas, const Legend& legend) {
-    return std::max(legend.height(), 1.6 * canvas.style().font_size);
-}
-
 void draw_circle(Canvas& canvas, const Axes& axes, double factor, double smallest, double largest,
                  const Colour& colour) {
     const double centre = 0.5 * (smallest + largest), radius = 0.5 * (largest - smallest);

@@ -64,6 +64,11 @@ class Legend {
 /// Beside the letter of a panel of this width.
 Legend legend_of(const Canvas& canvas, std::vector<Legend::Entry> entries, double width);
 
+/// What a legend takes above a panel, at least a line.
+inline double room_above(const Canvas& canvas, const Legend& legend) {
+    return std::max(legend.height(), 1.6 * canvas.style().font_size);
+}
+
 /// What a legend above and the axes' numbers leave of a panel.
 Rect frame_below(const Canvas& canvas, const Rect& place, const Legend& legend, const Scale& y);
 

@@ -60,7 +60,7 @@ TEST(Outline, IsRefusedWhereAnyTwoOfItsSegmentsCross) {
             const std::string answer = answer_to(outline);
             EXPECT_NE(answer.find("cross, expected a simple outline"), std::string::npos)
                 << fmt::format("corners {} and the next, started at {}: {}", swapped, start, answer);
-            std::ranges::rotate(outline, outline.begin() + 1);
+            std::rotate(outline.begin(), outline.begin() + 1, outline.end());
         }
     }
 }

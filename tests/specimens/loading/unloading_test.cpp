@@ -60,7 +60,7 @@ TEST(Unloading, ABarTurnsWhereItIsAskedToWithoutMoreThanItsAcceleration) {
     ASSERT_EQ(turns.size(), 4U);
     // Beyond the turn: two intervals at the creeping speed, and stopping from it.
     const double beyond = 2.0 * rule.creep * interval + rule.creep * rule.creep / (2.0 * rule.acceleration);
-    for (int k = 0; k < 4; ++k)
+    for (std::size_t k = 0; k < 4; ++k)
         EXPECT_TRUE(within("strain at turn, per 1e-3", 1e3 * turns[k], 1e3 * expected[k], 1e3 * beyond));
     EXPECT_TRUE(agrees("travel", path.travel(strain), travel, 1e-12));
 }

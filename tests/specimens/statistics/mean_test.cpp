@@ -50,7 +50,7 @@ TEST(MeanFigure, OfOneValueKnowsNoScatterAndOfNoneNoMean) {
 // 400 samples: a share of 0.95 has a standard error of 0.011.
 TEST(MeanFigure, IntervalHoldsTheMeanInNineteenOfTwentySamples) {
     std::mt19937_64 generator(7);
-    for (const std::size_t count : {2, 3, 5, 10, 40, 300}) {
+    for (const std::size_t count : {2U, 3U, 5U, 10U, 40U, 300U}) {
         int held = 0;
         constexpr int samples = 400;
         for (int k = 0; k < samples; ++k) {

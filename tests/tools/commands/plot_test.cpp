@@ -154,7 +154,7 @@ int shapes_filled(const std::string& svg, std::array<int, 3> rgb) {
     return count;
 }
 
-constexpr std::array<int, 3> grain{0xe3, 0xe0, 0xd9}, tension_colour{0x00, 0x72, 0xb2}, shear_colour{0xd5, 0x5e, 0x00};
+constexpr std::array<int, 3> grain{0xe3, 0xe0, 0xd9};
 
 TEST_F(PlotCommand, APngHasTheWidthAskedForAtItsResolution) {
     for (const auto& [words, mm, dpi] : {std::tuple("", 85.0, 300.0), std::tuple("--columns 2 --dpi 100", 180.0, 100.0),

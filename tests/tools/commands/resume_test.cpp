@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A test that is stopped at any moment, by Ctrl-C or by force, and resumed by the command that the program prints,
-// leaves the very files of an uninterrupted one. CRACKLE_KILLS: how many moments of each kind are tried,
-// CRACKLE_SERIES: what that is called (tests/tools/CMakeLists.txt).
+// leaves the very files of an uninterrupted one. A few moments of each kind are tried in every run of the tests, many
+// where slow tests run (tests/tools/CMakeLists.txt).
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <ostream>
 #include <random>
 #include <thread>
 
@@ -27,7 +28,6 @@ using testing::Answer;
 using testing::contents;
 using testing::expect_same;
 
-constexpr int kills = CRACKLE_KILLS;
 #ifdef __SANITIZE_ADDRESS__  // twenty times slower: the moments lie as far apart in fewer circles
 constexpr int circles = 40;
 #else
@@ -49,7 +49,14 @@ std::string case_of(const std::string& specimen) {
                       specimen == "voronoi" ? 0.05 : 0.01);
 }
 
-class Resume : public testing::ProgramCall, public ::testing::WithParamInterface<const char*> {
+struct Series {
+    const char* specimen;
+    int kills;  ///< moments of each kind
+};
+
+void PrintTo(const Series& series, std::ostream* out) { *out << series.specimen << ", " << series.kills << " kills"; }
+
+class Resume : public testing::ProgramCall, public ::testing::WithParamInterface<Series> {
   protected:
     Resume() : ProgramCall("test") {}
 
@@ -57,7 +64,7 @@ class Resume : public testing::ProgramCall, public ::testing::WithParamInterface
         const Clock::time_point begun = Clock::now();
         for (const std::string name : {"whole", "cut", "forced"}) {
             fs::create_directory(folder_ / name);
-            write(name + "/case.toml", case_of(GetParam()));
+            write(name + "/case.toml", case_of(GetParam().specimen));
         }
         const Answer answer = call_in("whole", "case.toml -o out -q");
         ASSERT_EQ(answer.code, 0) << answer.err;
@@ -129,7 +136,7 @@ class Resume : public testing::ProgramCall, public ::testing::WithParamInterface
     double seconds_ = 0.0;
 };
 
-void try_moments(const std::function<std::string(double)>& at, int signal) {
+void try_moments(int kills, const std::function<std::string(double)>& at, int signal) {
     std::mt19937_64 generator(static_cast<std::uint64_t>(signal));
     for (int k = 0; k < kills; ++k) {
         // One in each part of the run and a little beyond: all of it is met, whatever the luck.
@@ -142,6 +149,7 @@ void try_moments(const std::function<std::string(double)>& at, int signal) {
 
 TEST_P(Resume, AfterAKillAtAnyMomentEndsWithTheBytesOfAnUninterruptedTest) {
     try_moments(
+        GetParam().kills,
         [&](double share) {
             clear();
             const int code = stop(start({"case.toml", "-o", "out", "-q"}), SIGKILL, share * seconds_);
@@ -155,6 +163,7 @@ TEST_P(Resume, AfterAKillAtAnyMomentEndsWithTheBytesOfAnUninterruptedTest) {
 
 TEST_P(Resume, AfterCtrlCAtAnyMomentEndsWithTheBytesOfAnUninterruptedTest) {
     try_moments(
+        GetParam().kills,
         [&](double share) {
             clear();
             const int code = stop(start({"case.toml", "-o", "out", "-q"}), SIGINT, share * seconds_);
@@ -176,7 +185,7 @@ TEST_P(Resume, AfterOneKillUponTheOtherEndsWithTheBytesOfAnUninterruptedTest) {
     std::mt19937_64 generator(7);
     int code = stop(start({"case.toml", "-o", "out", "-q"}), SIGKILL, 0.6 * seconds_);
     int times = 0;
-    for (; code == -SIGKILL && times < kills; ++times) {
+    for (; code == -SIGKILL && times < GetParam().kills; ++times) {
         const double seconds = seconds_ * (0.05 + 0.3 * static_cast<double>(generator() >> 11) * 0x1p-53);
         const bool there = exists("cut/out/checkpoint");
         code =
@@ -230,7 +239,7 @@ TEST_P(Resume, AfterAKillWhileAFileIsWrittenEndsWithTheBytesOfAnUninterruptedTes
 /// Results that new ones are to replace are whole at any moment: the old ones or, gone on with, the new ones.
 TEST_P(Resume, OfAForcedTestKeepsTheEarlierResultsUntilTheNewOnesHaveTakenTheirPlace) {
     // Earlier results of another case, and of the new one what an uninterrupted --force makes.
-    write("earlier.toml", case_of(GetParam()));
+    write("earlier.toml", case_of(GetParam().specimen));
     replace("earlier.toml", "frames = 200", "frames = 30");
     ASSERT_EQ(call_in("forced", "../earlier.toml -o out -q").code, 0);
     const auto earlier = contents(folder_ / "forced/out");
@@ -278,11 +287,10 @@ TEST_P(Resume, OfAForcedTestKeepsTheEarlierResultsUntilTheNewOnesHaveTakenTheirP
     }
 }
 
-// Through a macro of our own, for the name of the series is one itself.
-#define CRACKLE_INSTANTIATE(series)                                                   \
-    INSTANTIATE_TEST_SUITE_P(series, Resume, ::testing::Values("circles", "voronoi"), \
-                             [](const auto& instance) { return std::string(instance.param); })
-CRACKLE_INSTANTIATE(CRACKLE_SERIES);
+std::string specimen_of(const ::testing::TestParamInfo<Series>& series) { return series.param.specimen; }
+
+INSTANTIATE_TEST_SUITE_P(AFew, Resume, ::testing::Values(Series{"circles", 2}, Series{"voronoi", 2}), specimen_of);
+INSTANTIATE_TEST_SUITE_P(Many, Resume, ::testing::Values(Series{"circles", 20}, Series{"voronoi", 20}), specimen_of);
 
 }  // namespace
 }  // namespace crackle
