@@ -339,20 +339,22 @@ constexpr ContactFeatures features_for(PointKind kind, ContactFeatures f) {
     return f;
 }
 
-/// What a kind can have of the features that are known at run time.
+/// Features of a kind that are known as the kernel runs.
 template <PointKind K>
 struct FeaturesOf : ContactFeatures {
     explicit FeaturesOf(const ContactFeatures& features) : ContactFeatures(features_for(K, features)) {}
 };
 
-/// Sets of features that points in batches have kernels of their own for: those of the shipped scenes, and the fewest.
-/// What another set has is asked once a batch. tests/benchmarks/results/features.md: what either costs.
+/// Sets of features that have kernels of their own: those of the shipped cases and decks, and the smallest. Any other
+/// set is asked for its features as the kernel runs, once a batch. What either costs: `crackle-bench features`.
 constexpr std::array compiled_sets{
     ContactFeatures{},
     ContactFeatures{.friction = true},
     ContactFeatures{.friction = true, .damping = true},
     ContactFeatures{.friction = true, .damping = true, .bonds = true},
     ContactFeatures{.friction = true, .damping = true, .bonds = true, .own_shares = true, .coulomb = true},
+    ContactFeatures{
+        .friction = true, .damping = true, .bonds = true, .own_shares = true, .coulomb = true, .own_shear = true},
 };
 
 template <PointKind K, class Features>

@@ -66,4 +66,7 @@ set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "crackle (= ${PROJECT_VERSION}), python3
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "python3-pandas, python3-matplotlib")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SHLIBDEPS OFF)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libfmt-dev, nlohmann-json3-dev, libcereal-dev, libssl-dev, libpugixml-dev, libsqlite3-dev, libsqlitecpp-dev, libnlopt-cxx-dev, libtomlplusplus-dev, zlib1g-dev, libcairo2-dev, libisal-dev, libxxhash-dev, libmpfr-dev, libgmp-dev, libeigen3-dev, pkg-config")
+if(NOT crackle_sets STREQUAL known_sets)
+  set(CPACK_PROJECT_CONFIG_FILE ${CMAKE_CURRENT_LIST_DIR}/needs_all_sets.cmake)
+endif()
 include(CPack)
