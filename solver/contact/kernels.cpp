@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <utility>
 
 #include "solver/contact/batch.hpp"
 #include "solver/contact/coulomb_bond.hpp"
@@ -367,15 +366,15 @@ void force_block(World& world, const ContactFeatures& features, const PointBlock
     world.account.blocks[block.number] = loss.total();
 }
 
-template <PointKind K>
+/// The kernel of a compiled set from number N on, else the one of any set.
+template <PointKind K, std::size_t N = 0>
 ForceKernel kernel_of(const ContactFeatures& features) {
-    ForceKernel found = &force_block<K, FeaturesOf<K>>;
-    [&]<std::size_t... Number>(std::index_sequence<Number...>) {
-        ((features == compiled_sets[Number] &&
-          (found = &force_block<K, CompiledFeatures<features_for(K, compiled_sets[Number])>>)),
-         ...);
-    }(std::make_index_sequence<compiled_sets.size()>{});
-    return found;
+    if constexpr (N == compiled_sets.size()) {
+        return &force_block<K, FeaturesOf<K>>;
+    } else {
+        if (features == compiled_sets[N]) return &force_block<K, CompiledFeatures<features_for(K, compiled_sets[N])>>;
+        return kernel_of<K, N + 1>(features);
+    }
 }
 
 /// Geometry alone, for profiles.

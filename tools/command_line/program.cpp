@@ -149,9 +149,9 @@ int run_program(const Program& program, int argc, char** argv) {
     name_program(program.name);
     make_writing_fail_by_error();
     try {
-        chosen_set();  // an unknown CRACKLE_ISA is said before anything is done
+        chosen_set();  // refuses an unknown CRACKLE_ISA before anything is done
         const int code = call(program, {all.begin() + 1, all.end()});
-        // A result that nobody receives is none: a full disk shows when the last of it is written.
+        // Fails if the result cannot be written: a full disk shows with its last bytes.
         errno = 0;
         const bool written = std::cout.flush() && std::fflush(stdout) == 0 && std::ferror(stdout) == 0;
         if (written || code != exit_done) return code;
