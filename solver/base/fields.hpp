@@ -35,14 +35,10 @@ constexpr bool takes(std::index_sequence<N...>) {
     return requires { T{(static_cast<void>(N), AnyField{})...}; };
 }
 
-/// Initialisers that the aggregate T takes, an array's elements one by one: the largest number, since fewer always do.
-template <class T, std::size_t Most = 64>
-constexpr std::size_t initialisers() {
-    if constexpr (Most == 0 || takes<T>(std::make_index_sequence<Most>{})) {
-        return Most;
-    } else {
-        return initialisers<T, Most - 1>();
-    }
+/// Whether `count` initialisers are all that the aggregate T takes, an array's elements one by one: fewer always do.
+template <class T, std::size_t Count>
+constexpr bool takes_at_most() {
+    return takes<T>(std::make_index_sequence<Count>{}) && !takes<T>(std::make_index_sequence<Count + 1>{});
 }
 
 struct AnyVisitor {
@@ -96,7 +92,7 @@ concept HasFields = detail::has_fields<T>();
 /// Whether T::fields() visits every member of T.
 template <HasFields T>
 constexpr bool lists_all_fields() {
-    return detail::listed_fields<T>() == detail::initialisers<T>();
+    return detail::takes_at_most<T, detail::listed_fields<T>()>();
 }
 
 }  // namespace crackle

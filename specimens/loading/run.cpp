@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "solver/base/errors.hpp"
+#include "solver/base/version.hpp"
 #include "solver/demseg/geometry.hpp"
 #include "solver/files/read_file.hpp"
 #include "specimens/loading/companions.hpp"
@@ -83,7 +84,7 @@ class SpecimenFiles {
 
 std::string resolved_case(const TestCase& test, const fs::path& folder) {
     std::ostringstream text;
-    text << resolved_case_mark << CRACKLE_VERSION << ": every value in the open. Its inputs, with their SHA-256:\n";
+    text << resolved_case_mark << project_version << ": every value in the open. Its inputs, with their SHA-256:\n";
     for (const fs::path& input : test.inputs) {
         text << "#   " << sha256(read_file(input)) << "  " << input.filename().string() << '\n';
     }

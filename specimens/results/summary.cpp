@@ -13,6 +13,7 @@
 #include <string_view>
 #include <utility>
 
+#include "solver/base/version.hpp"
 #include "specimens/emission/b_value.hpp"
 #include "specimens/measures/crack_rose.hpp"
 #include "specimens/measures/curve_analysis.hpp"
@@ -529,7 +530,7 @@ TestSummary make_summary(const TestCase& test, const TestSetup& setup, const Tes
         const std::string notice = notice_of_companions(state.failure, *errors);
         if (!notice.empty()) json["notices"].push_back(notice);
     }
-    w.put("version", CRACKLE_VERSION);
+    w.put("version", project_version);
     w.put("compiler", __VERSION__);
     w.put("command", state.command);
     w.put("threads", timing.threads);

@@ -21,6 +21,7 @@
 
 #include "solver/base/errors.hpp"
 #include "solver/base/instruction_set.hpp"
+#include "solver/base/version.hpp"
 #include "tools/command_line/command_line.hpp"
 #include "tools/terminal/interrupt.hpp"
 #include "tools/terminal/terminal.hpp"
@@ -103,7 +104,7 @@ int call(const Program& program, const Arguments& words) {
         return exit_done;
     }
     if (words[0] == "--version") {
-        fmt::print("{} {}\n", program.name, CRACKLE_VERSION);
+        fmt::print("{} {}\n", program.name, project_version);
         return exit_done;
     }
     // `crackle help campaign show` is `crackle campaign show --help`.

@@ -7,6 +7,7 @@
 #include <system_error>
 
 #include "solver/base/errors.hpp"
+#include "solver/base/version.hpp"
 #include "solver/files/read_file.hpp"
 #include "solver/files/replace_file.hpp"
 #include "specimens/recordings/distinct_names.hpp"
@@ -66,7 +67,7 @@ std::string filled_page(std::string_view page, const PageHead& head, const std::
     }
     Json manifest{{"format", "crackle-report 2"},
                   {"title", head.title.empty() ? default_title(recordings) : head.title},
-                  {"version", CRACKLE_VERSION},
+                  {"version", project_version},
                   {"view", head.view == PageView::report ? "report" : "view"},
                   {"tests", Json::array()}};
     std::array<std::string, 3> texts;
