@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <span>
 #include <sstream>
 #include <unordered_map>
 #include <utility>
@@ -106,6 +107,7 @@ DeckRun::DeckRun(DeckOptions options) : options_(std::move(options)) {
     find_bodies();
     first_step_ = world_.stepping.steps;
     last_step_ = first_step_ + options_.steps.value_or(asked_.steps);
+    breaks_written_ = world_.bonds.events.size();
     refuse_existing_outputs();
 }
 
@@ -255,7 +257,10 @@ void DeckRun::write_rows(DeckOutputs& outputs) const {
     const bool beginning = step == first_step_;
     if (beginning || due(step, asked_.output_interval)) outputs.write_frame(world_, order_);
     const bool row = due(step, asked_.row_interval);
-    if (beginning || row) outputs.write_energy_row(world_, velocity_);
+    if (beginning || row) {
+        outputs.write_energy_row(world_, velocity_);
+        outputs.write_bond_row(world_);
+    }
     if (!beginning && (row || step == 1)) outputs.write_force_rows(world_, watched_);
 }
 
@@ -287,6 +292,16 @@ void DeckRun::run(const std::function<bool(const World&)>& go_on) {
         throw OutputError(
             fmt::format("{}; earlier outputs in {} are as they were{}", error.what(), output_folder().string(), left));
     }
+}
+
+void DeckRun::write_breaks(DeckOutputs& outputs) {
+    const std::span<const BreakEvent> found = std::span(world_.bonds.events).subspan(breaks_written_);
+    if (found.empty()) return;
+    // The last part has written those of its last step, which the first force pass of this one finds again.
+    const auto ours = [&](const BreakEvent& event) { return first_part() || event.step > first_step_; };
+    outputs.write_breaks(world_,
+                         found.subspan(static_cast<std::size_t>(std::ranges::find_if(found, ours) - found.begin())));
+    breaks_written_ = world_.bonds.events.size();
 }
 
 OutputMode DeckRun::mode() const {
@@ -327,13 +342,14 @@ void DeckRun::do_step(DeckOutputs& outputs) {
     const bool check_due = due(world_.stepping.steps, health_interval);
     if (!check_due && !rows_due()) {
         step(world_);
-        return;
+    } else {
+        compute_forces(world_);
+        if (check_due) check_health(world_);
+        if (first_part() || world_.stepping.steps > first_step_)
+            write_rows(outputs);  // the last part has written the row of its last step
+        advance(world_);
     }
-    compute_forces(world_);
-    if (check_due) check_health(world_);
-    if (first_part() || world_.stepping.steps > first_step_)
-        write_rows(outputs);  // the last part has written the row of its last step
-    advance(world_);
+    write_breaks(outputs);
 }
 
 Scene DeckRun::present_scene() const {
@@ -342,6 +358,7 @@ Scene DeckRun::present_scene() const {
         world_.stepping.time_step;  // a derived one as it is in use: from here it might come out otherwise
     for (std::size_t k = 0; k < scene.bodies.size(); ++k) {
         Body& body = scene.bodies[k];
+    write_breaks(outputs);
         const BodyState& state = world_.bodies.state[order_[k]];
         body.velocity = {state.vx, state.vy};
         body.spin = state.omega;

@@ -85,6 +85,8 @@ class DeckRun {
     /// Contents of new_in_gm.dat, new_in_bc.dat, new_in_cf.dat, new_in_cf0.dat and new_state.bin, by name.
     FileSet files_for_next() const;
     /// Puts them in the place of the earlier ones, once the outputs are on the disc, which get their own names with it.
+    /// Bonds that have broken since the last call.
+    void write_breaks(DeckOutputs& outputs);
     void save(const FileSet& files, DeckOutputs& outputs) const;
 
     DeckOptions options_;
@@ -102,3 +104,4 @@ class DeckRun {
 };
 
 }  // namespace crackle
+    std::size_t breaks_written_ = 0;  // of the world's events

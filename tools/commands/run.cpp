@@ -62,7 +62,8 @@ CommandLine describe_run() {
     return {.synopses = {"crackle run DIR [OPTIONS]"},
             .description =
                 "Runs the DEMseg deck in DIR (in_gm.dat, in_bc.dat; in_cf.dat with jclid 1, in_cf0.dat with jclid 3) "
-                "and writes output.dat, cont.dat, cont2.dat, energy.dat, f-d_curve.dat, velocity_y.dat, and "
+                "and writes output.dat, cont.dat, cont2.dat, energy.dat, f-d_curve.dat, velocity_y.dat, bonds.dat, "
+                "events.csv (a row a broken bond), and "
                 "new_in_gm.dat, new_in_bc.dat, new_in_cf.dat, new_in_cf0.dat and new_state.bin, with which the run "
                 "can be continued.",
             .options = {{"options", options}},

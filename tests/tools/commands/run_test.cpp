@@ -36,8 +36,9 @@ TEST_F(RunCommand, WritesEveryOutputOfTheGuide) {
     const auto out = scratch_ / "out";
     ASSERT_EQ(crackle(fmt::format("run {} -o {}", quoted(shipped_deck("controlled_segment_force")), quoted(out))), 0)
         << printed();
-    for (const char* name : {"output.dat", "cont.dat", "cont2.dat", "energy.dat", "f-d_curve.dat", "velocity_y.dat",
-                             "new_in_gm.dat", "new_in_bc.dat", "new_in_cf.dat", "new_in_cf0.dat", "new_state.bin"}) {
+    for (const char* name :
+         {"output.dat", "cont.dat", "cont2.dat", "energy.dat", "f-d_curve.dat", "velocity_y.dat", "bonds.dat",
+          "events.csv", "new_in_gm.dat", "new_in_bc.dat", "new_in_cf.dat", "new_in_cf0.dat", "new_state.bin"}) {
         EXPECT_TRUE(std::filesystem::exists(out / name)) << name;
     }
     EXPECT_EQ(printed().find('\r'), std::string::npos) << "no progress line where there is no terminal";
