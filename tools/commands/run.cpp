@@ -53,10 +53,10 @@ CommandLine describe_run() {
         ("seed", po::value<std::uint64_t>()->value_name("N"), "of the random circles of mode 0 (default: 1)")  //
         ("law", po::value<std::string>()->value_name("LAW"),
          "contact law of segments: rounded, or the guide's demseg (demseg_mean: mean of its disc cases); default: "
-         "rounded, or that of the run that goes on")  //
+         "rounded, or that of the run before, which new_state.bin keeps")  //
         ("integrator", po::value<std::string>()->value_name("NAME"),
          "how contacts open and close: leapfrog, the guide's, or consistent with the energy; default: leapfrog, or "
-         "that of the run that goes on")                                                     //
+         "that of the run before, likewise")                                                 //
         ("allow-unstable", "accept a time step above the stable bound, and runaway energy")  //
         ("threads", po::value<int>()->value_name("N")->default_value(1), "threads; the results do not depend on them");
     return {.synopses = {"crackle run DIR [OPTIONS]"},
