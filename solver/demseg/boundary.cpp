@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <ostream>
 #include <string>
@@ -23,6 +24,12 @@ constexpr std::int64_t largest_step = 1'000'000'000'000;  // sums of a few stay 
 DofControl read_dof(DeckReader& reader, int id, const char* flag, const char* value) {
     const bool displacement = reader.integer(fmt::format("body {}: {}", id, flag), 0, 1) == 1;
     return {displacement ? Drive::displacement : Drive::force, reader.number(fmt::format("body {}: {}", id, value))};
+}
+
+/// Whether no force can move the body.
+bool holds(const BodyControl& control) {
+    return control.x.drive == Drive::displacement && control.y.drive == Drive::displacement &&
+           control.rotation.drive == Drive::displacement;
 }
 
 std::string dof_text(const DofControl& dof) {
@@ -95,6 +102,7 @@ void apply_controls(const BoundaryConditions& boundary, Scene& scene) {
     for (const BodyControl& control : boundary.controls) {
         scene.controls.push_back({find(control.id, "npbd"), control.x, control.y, control.rotation, boundary.steps});
     }
+    if (std::ranges::count_if(boundary.controls, holds) > 1) scene.driven_contacts = DrivenContacts::all;
 }
 
 }  // namespace crackle

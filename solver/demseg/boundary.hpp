@@ -45,7 +45,8 @@ BoundaryConditions read_boundary(DeckReader& reader);
 /// Numbers read back to the same bits.
 void write_boundary(std::ostream& out, const BoundaryConditions& boundary);
 
-/// Adds the controls to the scene. @throws InputError naming an id that no body of the scene has.
+/// Adds the controls to the scene, and the contacts between bodies that are held, which the outputs show. @throws
+/// InputError naming an id that no body of the scene has.
 void apply_controls(const BoundaryConditions& boundary, Scene& scene);
 
 }  // namespace crackle

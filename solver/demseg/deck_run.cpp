@@ -7,7 +7,9 @@
 
 #include <algorithm>
 #include <chrono>
+#include <span>
 #include <sstream>
+#include <string_view>
 #include <unordered_map>
 #include <utility>
 
@@ -105,6 +107,7 @@ DeckRun::DeckRun(DeckOptions options) : options_(std::move(options)) {
     }
     find_bodies();
     first_step_ = world_.stepping.steps;
+    breaks_written_ = world_.bonds.events.size();
     last_step_ = first_step_ + options_.steps.value_or(asked_.steps);
     refuse_existing_outputs();
 }
@@ -117,6 +120,58 @@ void DeckRun::complete_earlier_run() const {
                     "are complete now: if the deck's files are copies of them, copy them again; then repeat the "
                     "command",
                     options_.folder.string()));
+}
+
+std::vector<std::filesystem::path> DeckRun::states() const {
+    std::vector<std::filesystem::path> found;
+    for (const char* name : {"in_state.bin", state_name}) {
+        const bool asked_for = name == std::string_view(state_name) || !options_.goes_on;
+        if (asked_for && is_there(options_.folder / name)) found.push_back(options_.folder / name);
+    }
+    return found;
+}
+
+template <class Choice>
+Choice DeckRun::chosen(const char* option, std::optional<Choice> asked, std::optional<Choice> before,
+                       const std::filesystem::path& state) {
+    if (asked && before && *asked != *before) {
+        throw InputError(fmt::format(
+            "--{}: found {}, expected {} or none, as the run before had it by {}; remove that file to go on "
+            "from the text files alone",
+            option, name_of(*asked), name_of(*before), state.string()));
+    }
+    const Choice choice = asked.value_or(before.value_or(Choice{}));
+    if (choice == Choice{}) return choice;
+    const std::string words = fmt::format("--{} {}", option, name_of(choice));
+    notices_.push_back(asked ? fmt::format("{}: kept in {}, so that a run that goes on from there needs no --{}", words,
+                                           (output_folder() / state_name).string(), option)
+                             : fmt::format("{}, as the run before had it by {}", words, state.string()));
+    return choice;
+}
+
+DeckLaws DeckRun::laws_for(const Texts& texts, std::optional<std::size_t> which) {
+    std::optional<DeckLaws> before;
+    std::filesystem::path state;
+    for (const std::filesystem::path& path : states()) {
+        if (!before && which) before = laws_of_deck_state(state = path, *which, texts.contents[*which]);
+    }
+    // A new start brings nothing along but the names of its points.
+    const bool goes_on = asked_.start == DeckStart::continued;
+    std::optional<SegmentLaw> law;
+    std::optional<Integrator> integrator;
+    if (before) law = before->law;
+    if (before && goes_on) integrator = before->integrator;
+    return {chosen("law", options_.law, law, state), chosen("integrator", options_.integrator, integrator, state)};
+}
+
+Scene DeckRun::scene_under(const DeckLaws& laws) const {
+    Scene scene = base_.scene;
+    apply_controls(boundary_, scene);
+    scene.segment_law = laws.law;
+    scene.integrator = laws.integrator;
+    scene.allow_unstable = options_.allow_unstable;
+    scene.threads = options_.threads;
+    return scene;
 }
 
 void DeckRun::start_new(const Texts& texts) {
@@ -134,13 +189,8 @@ void DeckRun::start_new(const Texts& texts) {
     for (const std::string& notice : scene_notices(base_.scene))
         notices_.push_back(fmt::format("{}: {}", texts.names[0], notice));
     boundary_ = asked_;
-    Scene scene = base_.scene;
-    apply_controls(boundary_, scene);
-    scene.segment_law = options_.law.value_or(SegmentLaw::rounded);
-    scene.integrator = options_.integrator.value_or(Integrator::leapfrog);
-    scene.allow_unstable = options_.allow_unstable;
-    scene.threads = options_.threads;
-    world_ = build_world(std::move(scene));
+    const bool has_tensions = asked_.start == DeckStart::bonded && texts.present[3];
+    world_ = build_world(scene_under(laws_for(texts, has_tensions ? std::optional<std::size_t>(3) : std::nullopt)));
     if (asked_.start == DeckStart::bonded) {
         if (texts.present[3]) {
             DeckReader tensions = texts.reader(3);
@@ -164,13 +214,7 @@ void DeckRun::start_from_contacts(const Texts& texts) {
     DeckReader geometry = texts.reader(0), contacts = texts.reader(2);
     base_ = read_deck_geometry(geometry);
     boundary_ = asked_;
-    Scene scene = base_.scene;
-    apply_controls(boundary_, scene);
-    scene.segment_law = options_.law.value_or(SegmentLaw::rounded);
-    scene.integrator = options_.integrator.value_or(Integrator::leapfrog);
-    scene.allow_unstable = options_.allow_unstable;
-    scene.threads = options_.threads;
-    world_ = build_world(std::move(scene));
+    world_ = build_world(scene_under(laws_for(texts, 2)));
     read_contacts(contacts, base_.scene, world_);
     enter_steps_before();
     world_.stepping.drift =
@@ -178,11 +222,7 @@ void DeckRun::start_from_contacts(const Texts& texts) {
 }
 
 bool DeckRun::start_from_state(const Texts& texts) {
-    std::vector<std::filesystem::path> candidates;
-    if (!options_.goes_on) candidates.push_back(options_.folder / "in_state.bin");
-    candidates.push_back(options_.folder / state_name);
-    for (const std::filesystem::path& path : candidates) {
-        if (!is_there(path)) continue;
+    for (const std::filesystem::path& path : states()) {
         std::vector<std::string> edited;
         std::optional<DeckState> state = load_deck_state(path, texts.contents, texts.present, edited);
         if (!state) {
@@ -200,16 +240,8 @@ bool DeckRun::start_from_state(const Texts& texts) {
                 fmt::format("{}: found a state of other bodies than its geometry's, expected one that "
                             "crackle wrote; remove it to go on from the text files",
                             path.string()));
-        if (options_.law && *options_.law != world_.settings.segment_law)
-            throw InputError(
-                fmt::format("law: found another contact law than that of {}, expected the same or none; "
-                            "remove it to go on from the text files",
-                            path.string()));
-        if (options_.integrator && *options_.integrator != world_.settings.integrator)
-            throw InputError(
-                fmt::format("integrator: found another than that of {}, expected the same or none; remove it to go on "
-                            "from the text files",
-                            path.string()));
+        chosen<SegmentLaw>("law", options_.law, world_.settings.segment_law, path);
+        chosen<Integrator>("integrator", options_.integrator, world_.settings.integrator, path);
         world_.stepping.allow_unstable = options_.allow_unstable;
         set_threads(world_, options_.threads);
         return true;
@@ -255,8 +287,21 @@ void DeckRun::write_rows(DeckOutputs& outputs) const {
     const bool beginning = step == first_step_;
     if (beginning || due(step, asked_.output_interval)) outputs.write_frame(world_, order_);
     const bool row = due(step, asked_.row_interval);
-    if (beginning || row) outputs.write_energy_row(world_, velocity_);
+    if (beginning || row) {
+        outputs.write_energy_row(world_, velocity_);
+        outputs.write_bond_row(world_);
+    }
     if (!beginning && (row || step == 1)) outputs.write_force_rows(world_, watched_);
+}
+
+void DeckRun::write_breaks(DeckOutputs& outputs) {
+    const std::span<const BreakEvent> found = std::span(world_.bonds.events).subspan(breaks_written_);
+    if (found.empty()) return;
+    // The last part has written those of its last step, which the first force pass of this one finds again.
+    const auto ours = [&](const BreakEvent& event) { return first_part() || event.step > first_step_; };
+    outputs.write_breaks(world_,
+                         found.subspan(static_cast<std::size_t>(std::ranges::find_if(found, ours) - found.begin())));
+    breaks_written_ = world_.bonds.events.size();
 }
 
 void DeckRun::run(const std::function<bool(const World&)>& go_on) {
@@ -312,6 +357,7 @@ void DeckRun::step_to_end(DeckOutputs& outputs, const std::function<bool(const W
     compute_forces(world_);
     check_health(world_);
     if (first_part() || world_.stepping.steps > first_step_) write_rows(outputs);
+    write_breaks(outputs);
     save(files, outputs);
 }
 
@@ -327,13 +373,14 @@ void DeckRun::do_step(DeckOutputs& outputs) {
     const bool check_due = due(world_.stepping.steps, health_interval);
     if (!check_due && !rows_due()) {
         step(world_);
-        return;
+    } else {
+        compute_forces(world_);
+        if (check_due) check_health(world_);
+        if (first_part() || world_.stepping.steps > first_step_)
+            write_rows(outputs);  // the last part has written the row of its last step
+        advance(world_);
     }
-    compute_forces(world_);
-    if (check_due) check_health(world_);
-    if (first_part() || world_.stepping.steps > first_step_)
-        write_rows(outputs);  // the last part has written the row of its last step
-    advance(world_);
+    write_breaks(outputs);
 }
 
 Scene DeckRun::present_scene() const {

@@ -23,6 +23,7 @@
 namespace crackle {
 
 class DeckOutputs;
+struct DeckLaws;
 enum class OutputMode;
 
 struct DeckOptions {
@@ -32,8 +33,8 @@ struct DeckOptions {
     bool overwrite = false;  ///< existing outputs may be replaced
     std::optional<std::int64_t> steps;     ///< do so many instead of nstep; ramps keep the length nstep
     std::optional<std::uint64_t> seed;     ///< of mode 0; 1 if not given
-    std::optional<SegmentLaw> law;         ///< rounded if not given; a run that goes on from its state keeps its own
-    std::optional<Integrator> integrator;  ///< leapfrog if not given; likewise
+    std::optional<SegmentLaw> law;         ///< if not given that of the run before, which its state tells, or rounded
+    std::optional<Integrator> integrator;  ///< likewise, or leapfrog
     bool allow_unstable = false;
     int threads = 1;
     double save_interval = 60.0;  ///< s of wall clock, after which new_* is written, to go on from should the run stop
@@ -61,6 +62,16 @@ class DeckRun {
   private:
     struct Texts;  // the deck's files as read
 
+    /// Files that may hold the state of the run before.
+    std::vector<std::filesystem::path> states() const;
+    /// Contact law and integrator of a run that begins from text files. @param which text that was read under a law, if
+    /// the deck has one
+    DeckLaws laws_for(const Texts& texts, std::optional<std::size_t> which);
+    /// What was asked for, else what the run before had. @param state in which that is
+    template <class Choice>
+    Choice chosen(const char* option, std::optional<Choice> asked, std::optional<Choice> before,
+                  const std::filesystem::path& state);
+    Scene scene_under(const DeckLaws& laws) const;
     void start_new(const Texts& texts);
     void start_from_contacts(const Texts& texts);
     bool start_from_state(const Texts& texts);
@@ -74,6 +85,8 @@ class DeckRun {
     /// Whether write_rows() has something to write at the present step.
     bool rows_due() const;
     void write_rows(DeckOutputs& outputs) const;
+    /// Bonds that have broken since the last call.
+    void write_breaks(DeckOutputs& outputs);
     /// One step, with the rows that are due before it.
     void do_step(DeckOutputs& outputs);
     void step_to_end(DeckOutputs& outputs, const std::function<bool(const World&)>& go_on);
@@ -99,6 +112,7 @@ class DeckRun {
     std::vector<BodyIndex> velocity_;  // those in velocity_y.dat
     std::vector<std::string> notices_;
     std::int64_t first_step_ = 0, last_step_ = 0;
+    std::size_t breaks_written_ = 0;  // of the world's events
 };
 
 }  // namespace crackle

@@ -22,6 +22,7 @@ static_assert(std::endian::native == std::endian::little, "state files are littl
 
 constexpr std::string_view magic = "CRKLDECK";
 constexpr std::uint64_t version = 1;
+constexpr std::size_t head_bytes = magic.size() + (1 + deck_text_names.size()) * sizeof(std::uint64_t);
 
 void put(std::string& out, std::uint64_t value) {
     char bytes[sizeof value];
@@ -99,6 +100,23 @@ std::optional<DeckState> load_deck_state(const std::filesystem::path& path, cons
         throw InputError(
             fmt::format("{}: found bytes after its end, expected a complete state; remove it to go without", name));
     return state;
+}
+
+std::optional<DeckLaws> laws_of_deck_state(const std::filesystem::path& path, std::size_t which,
+                                           const std::string& text) {
+    const std::string name = path.string();
+    const std::string bytes = read_file(path);
+    if (bytes.size() < head_bytes || !bytes.starts_with(magic)) return std::nullopt;
+    Source source(name, bytes);
+    source.take(magic.size());
+    if (source.number() != version) return std::nullopt;
+    const std::uint64_t asked = hash_of(text);
+    for (std::size_t k = 0; k < deck_text_names.size(); ++k)
+        if (source.number() != asked && k == which) return std::nullopt;
+    source.text();  // geometry and boundary conditions of the beginning
+    source.text();
+    const World world = load_world(source.text(), name, "remove it to go without");
+    return DeckLaws{world.settings.segment_law, world.settings.integrator};
 }
 
 }  // namespace crackle

@@ -30,6 +30,12 @@ struct DeckState {
     std::string base_boundary;  ///< in_bc.dat of the run's beginning: ramps are counted from there
 };
 
+/// How the contacts of a run act, which its text files do not say.
+struct DeckLaws {
+    SegmentLaw law = SegmentLaw::rounded;
+    Integrator integrator = Integrator::leapfrog;
+};
+
 /// @param texts as they are written beside it.
 std::string save_deck_state(const DeckState& state, const DeckTexts& texts);
 
@@ -38,5 +44,11 @@ std::string save_deck_state(const DeckState& state, const DeckTexts& texts);
 /// @return nothing if any differs. @throws InputError on a truncated, foreign or newer file.
 std::optional<DeckState> load_deck_state(const std::filesystem::path& path, const DeckTexts& texts,
                                          const std::array<bool, 4>& present, std::vector<std::string>& edited);
+
+/// Those of the run that left a state, if one of the texts is as that run wrote it.
+/// @param which in_cf.dat or in_cf0.dat, by deck_text_names: their points have the names that the law gives them
+/// @return nothing if that text is another, or the file is no state @throws InputError on a truncated or damaged one
+std::optional<DeckLaws> laws_of_deck_state(const std::filesystem::path& path, std::size_t which,
+                                           const std::string& text);
 
 }  // namespace crackle

@@ -19,33 +19,56 @@
 #include "solver/demseg/contact_files.hpp"
 #include "solver/files/read_file.hpp"
 #include "solver/files/replace_file.hpp"
+#include "solver/measure/breaks.hpp"
 #include "solver/measure/ledger.hpp"
 #include "solver/measure/point_view.hpp"
 
 namespace crackle {
 namespace {
 
-constexpr std::array<const char*, 6> headers{
-    "# step time circles segments, then per circle: body radius xc yc angle, per segment: body xs ys xe ye\n",
-    "# step time contacts, then per contact: body other x y fx fy (force on body, dashpots included)\n",
-    "# step time contacts, then per contact: body other nx ny overlap normal_force shear_force back_tension "
-    "(springs)\n",
-    "# step enrg enva enka enca enfr enxd enxf err enfb\n",
-    "",  // as in the guide: rows only
-    "# step body vy\n",
+/// How the lines of a file follow each other.
+enum class Layout {
+    frames,  ///< a head with step, time and counts, then as many lines
+    rows,    ///< each begins with its step
+    table,   ///< comma-separated, under a line of names
 };
+
+constexpr std::array<Layout, deck_output_names.size()> layouts{Layout::frames, Layout::frames, Layout::frames,
+                                                               Layout::rows,   Layout::rows,   Layout::rows,
+                                                               Layout::rows,   Layout::table};
+
+const std::array<std::string, deck_output_names.size()>& headers() {
+    static const std::array<std::string, deck_output_names.size()> lines{
+        "# step time circles segments, then per circle: body radius xc yc angle, per segment: body xs ys xe ye\n",
+        "# step time contacts, then per contact: body other x y fx fy (force on body, dashpots included)\n",
+        "# step time contacts, then per contact: body other nx ny overlap normal_force shear_force back_tension "
+        "(springs)\n",
+        "# step enrg enva enka enca enfr enxd enxf err enfb\n",
+        "",  // as in the guide: rows only
+        "# step body vy\n",
+        "# step bonds broken\n",
+        breaks_header(),
+    };
+    return lines;
+}
 
 constexpr std::int64_t most_lines_a_count = 1'000'000'000;  // of one frame and count
 
-/// Whole numbers at the beginning of a row: its step, and from the third word on the counts of a frame's lines.
-/// @return false if the row is none of ours
-bool read_head(std::string_view line, bool frame, std::int64_t& step, std::int64_t& lines) {
+/// Whole numbers at the beginning of a row: its step, which in a table stands behind the time, and from the third word
+/// on the counts of a frame's lines. @return false if the row is none of ours
+bool read_head(std::string_view line, Layout layout, std::int64_t& step, std::int64_t& lines) {
     const char *at = line.data(), *end = line.data() + line.size();
-    auto result = std::from_chars(at, end, step);
-    if (result.ec != std::errc() || result.ptr == end || *result.ptr != ' ') return false;
-    lines = 0;
-    if (!frame) return true;
     double time = 0.0;
+    const bool table = layout == Layout::table;
+    if (table) {
+        const auto behind = std::from_chars(at, end, time);
+        if (behind.ec != std::errc() || behind.ptr == end || *behind.ptr != ',') return false;
+        at = behind.ptr + 1;
+    }
+    auto result = std::from_chars(at, end, step);
+    if (result.ec != std::errc() || result.ptr == end || *result.ptr != (table ? ',' : ' ')) return false;
+    lines = 0;
+    if (layout != Layout::frames) return true;
     result = std::from_chars(result.ptr + 1, end, time);
     if (result.ec != std::errc() || result.ptr == end) return false;
     while (result.ptr != end) {
@@ -58,7 +81,7 @@ bool read_head(std::string_view line, bool frame, std::int64_t& step, std::int64
 }
 
 /// Bytes up to the last complete row or frame of a step up to `step`.
-std::uintmax_t length_up_to(const std::filesystem::path& path, std::int64_t step, bool frames) {
+std::uintmax_t length_up_to(const std::filesystem::path& path, std::int64_t step, std::size_t which) {
     errno = 0;
     std::ifstream file(path, std::ios::binary);
     const auto refuse_unread = [&] {  // or all of it would be cut off
@@ -74,8 +97,8 @@ std::uintmax_t length_up_to(const std::filesystem::path& path, std::int64_t step
         ++number;
         if (lines_left > 0) {
             --lines_left;
-        } else if (!line.starts_with('#')) {
-            if (!read_head(line, frames, row_step, lines_left)) {
+        } else if (!line.starts_with('#') && !(number == 1 && line + '\n' == headers()[which])) {
+            if (!read_head(line, layouts[which], row_step, lines_left)) {
                 throw InputError(
                     fmt::format("{}:{}: found '{}', expected a row of an earlier part; give another folder with -o, or "
                                 "move the file away",
@@ -97,7 +120,7 @@ void drop_rows_after(const std::filesystem::path& folder, std::int64_t step) {
     std::vector<std::pair<std::filesystem::path, std::uintmax_t>> lengths;
     for (std::size_t k = 0; k < deck_output_names.size(); ++k) {
         const std::filesystem::path path = folder / deck_output_names[k];
-        if (is_there(path)) lengths.emplace_back(path, length_up_to(path, step, k < 3));
+        if (is_there(path)) lengths.emplace_back(path, length_up_to(path, step, k));
     }
     for (const auto& [path, length] : lengths) {
         std::error_code error;
@@ -113,7 +136,7 @@ DeckOutputs::DeckOutputs(const std::filesystem::path& folder, OutputMode mode, O
         errno = 0;
         files_[k].open(path(k), std::ios::binary | (mode == OutputMode::appending ? std::ios::app : std::ios::trunc));
         if (!files_[k]) refuse_output(path(k));
-        if (mode == OutputMode::fresh) files_[k] << headers[k];
+        if (mode == OutputMode::fresh) files_[k] << headers()[k];
     }
     flush();
 }
@@ -130,8 +153,7 @@ Renames DeckOutputs::renames() const {
 }
 
 void DeckOutputs::write(Which which, const World& world, const std::string& text) {
-    // Rows are numbers: a letter n is in inf and nan alone.
-    if (text.find('n') != std::string::npos) {
+    if (text.find("inf") != std::string::npos || text.find("nan") != std::string::npos) {
         const auto largest = std::max_element(
             world.bodies.force.begin(), world.bodies.force.end(), [](const BodyForce& a, const BodyForce& b) {
                 return std::abs(a.fx) + std::abs(a.fy) < std::abs(b.fx) + std::abs(b.fy);
@@ -207,6 +229,18 @@ void DeckOutputs::write_energy_row(const World& world, std::span<const BodyIndex
     for (const BodyIndex b : bodies)
         write(velocities, world,
               fmt::format("{} {} {}\n", world.stepping.steps, world.bodies.info(b).id, world.bodies.state[b].vy));
+}
+
+void DeckOutputs::write_bond_row(const World& world) {
+    write(
+        bonds, world,
+        fmt::format("{} {} {}\n", world.stepping.steps, world.bonds.initial - world.bonds.broken, world.bonds.broken));
+}
+
+void DeckOutputs::write_breaks(const World& world, std::span<const BreakEvent> breaks) {
+    std::string rows;
+    for (const BreakEvent& event : breaks) rows += break_line(event);
+    write(events, world, rows);
 }
 
 void DeckOutputs::write_force_rows(const World& world, std::span<const BodyIndex> bodies) {

@@ -19,11 +19,12 @@
 #include "solver/demseg/deck_reader.hpp"
 #include "solver/files/file_set.hpp"
 #include "solver/files/read_file.hpp"
+#include "solver/measure/breaks.hpp"
 
 namespace crackle {
 namespace {
 
-constexpr std::array<const char*, 3> frame_files{"output.dat", "cont.dat", "cont2.dat"};
+constexpr std::array<const char*, 4> files_read{"output.dat", "cont.dat", "cont2.dat", "events.csv"};
 
 constexpr int largest_number = std::numeric_limits<int>::max();
 constexpr std::int64_t most_lines = 1'000'000'000;
@@ -52,6 +53,17 @@ const DeckFrameFile::Head* head_of_step(const DeckFrameFile& file, std::int64_t 
 std::optional<DeckFrameFile> file_if_there(const std::filesystem::path& path) {
     if (!is_there(path)) return std::nullopt;
     return DeckFrameFile(path, 1);
+}
+
+DeckBreaks read_breaks(const std::filesystem::path& file) {
+    if (!is_there(file)) return {};
+    std::string text = read_file(file);
+    text.resize(text.rfind('\n') + 1);  // a killed run may have left its last line incomplete
+    const std::string names = breaks_header();
+    if (text.starts_with(names)) return {std::move(text), 1};
+    if (text.empty() || (text.front() >= '0' && text.front() <= '9')) return {names + text, 0};
+    throw InputError(fmt::format("{}:1: found '{:.40}', expected the broken bonds that `crackle run` lists: {:.40}...",
+                                 file.string(), text.substr(0, text.find('\n')), names));
 }
 
 }  // namespace
@@ -105,9 +117,9 @@ std::string DeckFrameFile::lines(const Head& head) const {
 
 DeckFrames::Identities DeckFrames::identities(const std::filesystem::path& folder) {
     Identities all{};
-    for (std::size_t k = 0; k < frame_files.size(); ++k) {
+    for (std::size_t k = 0; k < files_read.size(); ++k) {
         struct stat found {};
-        if (::stat((folder / frame_files[k]).c_str(), &found) == 0) all[k] = {found.st_dev, found.st_ino};
+        if (::stat((folder / files_read[k]).c_str(), &found) == 0) all[k] = {found.st_dev, found.st_ino};
     }
     return all;
 }
@@ -116,7 +128,7 @@ DeckFrames::Identities DeckFrames::whole_set(const std::filesystem::path& folder
     // Of a run that was stopped, or is saving just now and will be done in a moment. Others leave outputs alone.
     constexpr int most_tries = 50;
     constexpr std::chrono::milliseconds between_tries{100};
-    for (int tries = 1; gives_name(deck_journal(folder), frame_files); ++tries) {
+    for (int tries = 1; gives_name(deck_journal(folder), files_read); ++tries) {
         try {
             complete_deck_replacement(folder);
         } catch (const OutputError&) {
@@ -129,9 +141,10 @@ DeckFrames::Identities DeckFrames::whole_set(const std::filesystem::path& folder
 
 DeckFrames::DeckFrames(const std::filesystem::path& folder)
     : opened_(whole_set(folder)),
-      positions_(folder / frame_files[0], 2),
-      forces_(file_if_there(folder / frame_files[1])),
-      details_(file_if_there(folder / frame_files[2])) {
+      positions_(folder / files_read[0], 2),
+      forces_(file_if_there(folder / files_read[1])),
+      details_(file_if_there(folder / files_read[2])),
+      breaks_(read_breaks(folder / files_read[3])) {
     if (identities(folder) != opened_) {
         throw InputError(
             fmt::format("{}: found outputs that a new run replaced while they were read, expected those of one run; "

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reads back the frames that a deck run wrote: output.dat, cont.dat and cont2.dat. Formats: FORMATS.md.
-// Tested by tests/tools/commands/view_test.cpp.
+// Reads back what a deck run wrote: the frames of output.dat, cont.dat and cont2.dat, and events.csv. Formats:
+// FORMATS.md. Tested by tests/tools/commands/view_test.cpp.
 #pragma once
 
 #include <array>
@@ -33,6 +33,12 @@ struct DeckContact {
     double normal_force = 0.0, shear_force = 0.0, back_tension = 0.0;  ///< of the springs
 };
 
+/// The complete lines of events.csv, under the names of its columns; empty where the run wrote none.
+struct DeckBreaks {
+    std::string table;
+    int names_line = 1;  ///< 0 of a later part, whose file begins with its rows
+};
+
 /// One of the files as a list of frames: a line `step time count [count]`, then as many lines as the counts add up to.
 class DeckFrameFile {
   public:
@@ -63,7 +69,7 @@ class DeckFrameFile {
 class DeckFrames {
   public:
     /// Ends a replacement of the folder's files that was stopped.
-    /// @param folder  holds output.dat; the two others may be absent
+    /// @param folder  holds output.dat; the others may be absent
     /// @throws InputError on files that are none of ours, or that a run replaces meanwhile
     explicit DeckFrames(const std::filesystem::path& folder);
 
@@ -76,16 +82,18 @@ class DeckFrames {
     Positions positions(std::size_t k) const;
     /// Of the same step; none where the run wrote none.
     std::vector<DeckContact> contacts(std::size_t k) const;
+    const DeckBreaks& breaks() const { return breaks_; }
 
   private:
     /// Device and number of each file; zeros where there is none.
-    using Identities = std::array<std::array<std::uint64_t, 2>, 3>;
+    using Identities = std::array<std::array<std::uint64_t, 2>, 4>;
     static Identities identities(const std::filesystem::path& folder);
     static Identities whole_set(const std::filesystem::path& folder);
 
     Identities opened_;  // before the others are
     DeckFrameFile positions_;
     std::optional<DeckFrameFile> forces_, details_;
+    DeckBreaks breaks_;
 };
 
 }  // namespace crackle

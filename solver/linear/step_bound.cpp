@@ -135,10 +135,6 @@ void add_side(BodyBlocks& blocks, const Side& side, const ContactLaw& law, doubl
     add_damping(blocks.damping, side, law, root_mass, 1.0 + std::sqrt(share - 1.0));
 }
 
-bool held(const BodyInertia& inertia) {
-    return inertia.inverse_mass_x == 0.0 && inertia.inverse_mass_y == 0.0 && inertia.inverse_moment == 0.0;
-}
-
 /// (sqrt(c² + 4k) - c)/k, written without the cancellation.
 double stable_step_of(double k, double c) {
     return k > 0.0 ? 4.0 / (std::sqrt(c * c + 4.0 * k) + c) : std::numeric_limits<double>::infinity();
@@ -276,7 +272,7 @@ std::vector<BodyBlocks> blocks_of(const World& world, const std::vector<double>&
             const ContactGeometry g = contact_geometry<K>(world, point, feature);
             if (!counts(k, g.overlap)) continue;
             const auto add = [&](BodyIndex b) {
-                if (held(world.bodies.inertia[b])) return;
+                if (world.bodies.inertia[b].held()) return;
                 add_point(blocks[b], world, weights, k, b, roots_of(world.bodies.inertia[b]), arms_of(g));
             };
             add(point.body_i);
@@ -285,7 +281,7 @@ std::vector<BodyBlocks> blocks_of(const World& world, const std::vector<double>&
     });
     for (const Spring& row : rows) {
         const auto add = [&](BodyIndex b, BodyIndex partner, bool second) {
-            if (held(world.bodies.inertia[b])) return;
+            if (world.bodies.inertia[b].held()) return;
             add_row(blocks[b].stiffness, roots_of(world.bodies.inertia[b]), row, second,
                     share_of(weights[b], weights[partner]));
         };
@@ -310,7 +306,7 @@ std::vector<double> first_weights(const World& world, const std::vector<Spring>&
 Least least_of(const World& world, const std::vector<BodyBlocks>& blocks, const std::vector<bool>& met) {
     Least least;
     for (BodyIndex b = 0; b < blocks.size(); ++b) {
-        if (held(world.bodies.inertia[b])) continue;
+        if (world.bodies.inertia[b].held()) continue;
         least.lower_to(blocks[b], b);
         if (!met[b]) lower_to_first_meeting(least, world, b);
     }
@@ -334,7 +330,7 @@ constexpr double like_list = 0.01;
 bool weighed_before(const World& world, const std::vector<bool>& met) {
     if (world.stepping.step_weights.size() != met.size()) return false;
     for (std::size_t b = 0; b < met.size(); ++b)
-        if (met[b] && !held(world.bodies.inertia[b]) && !(world.stepping.step_weights[b] > 0.0)) return false;
+        if (met[b] && !world.bodies.inertia[b].held() && !(world.stepping.step_weights[b] > 0.0)) return false;
     return true;
 }
 
@@ -444,7 +440,7 @@ bool lower_step_bound(World& world) {
     std::array<BodyIndex, most> gaining{};  // their marks are 1 and on
     std::size_t count = 0, uncounted = 0;
     const auto gains = [&](BodyIndex b) {
-        if (held(world.bodies.inertia[b]) || world.workers.marks[b] != 0) return;
+        if (world.bodies.inertia[b].held() || world.workers.marks[b] != 0) return;
         if (count == most) {
             ++uncounted;
             return;

@@ -78,9 +78,11 @@ bool convex(const BodyInfo& body) { return body.single_circle || (body.closed &&
 void refuse_piercing(const World& world) {
     if (world.stepping.allow_unstable || world.settings.segment_law != SegmentLaw::rounded) return;
     constexpr const char* cause = "; the impact is too fast or the load too high for its stiffness and thickness";
+    const bool held_are_listed = world.settings.driven_contacts == DrivenContacts::all;
     const auto outlines = static_cast<std::size_t>(PointKind::element_outline);
     for (PointIndex k = world.points.kind_begin[outlines]; k < world.points.kind_begin[outlines + 1]; ++k) {
         const auto [i, j] = world.points.contact.pairs[k];
+        if (held_are_listed && world.bodies.inertia[i].held() && world.bodies.inertia[j].held()) continue;
         const bool closed = world.bodies.names[j].closed;
         const bool first_of_pair = k == world.points.kind_begin[outlines] ||
                                    world.points.contact.pairs[k - 1].body_i != i ||

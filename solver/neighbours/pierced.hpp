@@ -12,7 +12,8 @@ namespace crackle {
 /// Compares places now with those when the list was built: a circle or corner on the other side of a segment, or the
 /// centroid of a convex body inside an outline that it was outside of. To be called before the list is built again,
 /// which is before anything has moved a tenth of a body's size. The rounded law only: the guide's lets discs through by
-/// its own rules. Two circles are not looked at; packing presses them deep.
+/// its own rules. Two circles are not looked at, packing presses them deep, nor two
+/// bodies that are held: they go where they are told to.
 /// @throws UnstableRun naming both bodies (not with allow_unstable)
 void refuse_piercing(const World& world);
 

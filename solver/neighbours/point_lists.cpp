@@ -144,18 +144,12 @@ void add_wall_points(const World& world, BodyIndex i, PointLists& lists) {
     }
 }
 
-/// Two bodies none of whose degrees of freedom can answer need no points.
-bool both_held(const World& world, BodyIndex i, BodyIndex j) {
-    const auto held = [&](BodyIndex b) {
-        const BodyInertia& inertia = world.bodies.inertia[b];
-        return inertia.inverse_mass_x == 0.0 && inertia.inverse_mass_y == 0.0 && inertia.inverse_moment == 0.0;
-    };
-    return held(i) && held(j);
-}
-
-/// Driven bodies may be told to pass through each other.
-bool pass_through(const World& world, BodyIndex i, BodyIndex j) {
-    if (world.settings.driven_bodies_touch) return false;
+/// Whether two bodies have no contacts because both are driven (DrivenContacts).
+bool left_out(const World& world, BodyIndex i, BodyIndex j) {
+    const DrivenContacts wanted = world.settings.driven_contacts;
+    if (wanted == DrivenContacts::all) return false;
+    const bool held = world.bodies.inertia[i].held() && world.bodies.inertia[j].held();
+    if (held || wanted == DrivenContacts::unless_held) return held;
     const auto driven = [&](BodyIndex b) {
         return std::ranges::any_of(world.bodies.controls, [&](const ControlState& c) { return c.body == b; });
     };
@@ -189,7 +183,7 @@ void add_face_points(const World& world, PointLists& lists) {
     auto& list = lists[static_cast<std::size_t>(PointKind::face_face)];
     const auto meet = [&](std::uint32_t one, std::uint32_t other) {
         const BodyIndex a = world.bodies.flat_faces[one].body, b = world.bodies.flat_faces[other].body;
-        if (both_held(world, a, b) || pass_through(world, a, b)) return;
+        if (left_out(world, a, b)) return;
         const ContactPoint point = a < b ? new_point(a, b, one, other) : new_point(b, a, other, one);
         if (flat_face_contact(world, point).closed > -skin_between(world, a, b)) list.push_back(point);
     };
@@ -214,7 +208,7 @@ PointLists list_points(const World& world, const std::vector<std::uint64_t>& pai
     }
     for (const std::uint64_t pair : pairs) {
         const auto i = static_cast<BodyIndex>(pair >> 32), j = static_cast<BodyIndex>(pair & 0xffffffffu);
-        if (both_held(world, i, j) || pass_through(world, i, j)) continue;
+        if (left_out(world, i, j)) continue;
         if (world.bodies.names[i].shape == no_shape && world.bodies.names[j].shape == no_shape) {
             add_single_circles(world, i, j, lists);
             continue;

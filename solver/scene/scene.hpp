@@ -184,6 +184,13 @@ enum class Integrator : std::uint8_t {
 Integrator integrator_named(const std::string& where, const std::string& word);
 const char* name_of(Integrator integrator);
 
+/// Which contacts there are between two bodies that have a control.
+enum class DrivenContacts : std::uint8_t {
+    none,         ///< driven bodies pass through each other
+    unless_held,  ///< all but those of two bodies that are held in every degree of freedom, which would move nothing
+    all           ///< those too: somebody reads their forces and energies
+};
+
 /// First kick of leapfrog: decks start with a full one (the guide's n(n+1)/2), everything else with a half one.
 enum class FirstKick : std::uint8_t { half, full };
 
@@ -216,7 +223,7 @@ struct Scene {
     std::vector<std::int32_t> trace_joints;  ///< by trace: into joints; -1: as the rock
     std::vector<Control> controls;
     Domain domain;
-    bool driven_bodies_touch = true;  ///< false: bodies with a control pass through each other
+    DrivenContacts driven_contacts = DrivenContacts::unless_held;
     double thick =
         0.0;  ///< segment thickness t, m, >= 0: a disc of radius t at each vertex against the other's bare outline
     SegmentLaw segment_law = SegmentLaw::rounded;

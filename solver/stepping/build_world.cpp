@@ -330,7 +330,7 @@ World build_world(Scene scene) {
     world.settings.bond_law = scene.bond_law;
     world.settings.units = scene.units;
     world.settings.gravity = scene.gravity;
-    world.settings.driven_bodies_touch = scene.driven_bodies_touch;
+    world.settings.driven_contacts = scene.driven_contacts;
     world.stepping.safety_factor = scene.safety_factor;
     world.stepping.step_scale = scene.step_scale;
     world.stepping.allow_unstable = scene.allow_unstable;

@@ -45,6 +45,9 @@ struct BodyInertia {
     double inverse_mass_x, inverse_mass_y, inverse_moment;
     double mass;
 
+    /// In every degree of freedom: no force moves it.
+    bool held() const { return inverse_mass_x == 0.0 && inverse_mass_y == 0.0 && inverse_moment == 0.0; }
+
     template <class Self, class Visit>
     static constexpr void fields(Self& s, Visit&& visit) {
         visit("inverse_mass_x", s.inverse_mass_x);

@@ -53,7 +53,7 @@ constexpr std::size_t pair_number(std::size_t a, std::size_t b) {
 struct Settings {
     Domain domain;
     Vec2 gravity;
-    bool driven_bodies_touch = true;
+    DrivenContacts driven_contacts = DrivenContacts::unless_held;
     double thick = 0.0;  // m
     SegmentLaw segment_law = SegmentLaw::rounded;
     Integrator integrator = Integrator::leapfrog;
@@ -87,7 +87,7 @@ struct Settings {
     static constexpr void fields(Self& s, Visit&& visit) {
         visit("domain", s.domain);
         visit("gravity", s.gravity);
-        visit("driven_bodies_touch", s.driven_bodies_touch);
+        visit("driven_contacts", s.driven_contacts);
         visit("thick", s.thick);
         visit("segment_law", s.segment_law);
         visit("integrator", s.integrator);

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "solver/base/quantity.hpp"
 #include "specimens/emission/source.hpp"
-#include "specimens/observers/quantity.hpp"
 
 namespace crackle {
 

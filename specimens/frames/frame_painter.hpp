@@ -26,12 +26,12 @@
 #include <string>
 #include <vector>
 
+#include "solver/base/quantity.hpp"
 #include "solver/base/vec2.hpp"
 #include "specimens/frames/frame.hpp"
 #include "specimens/frames/frame_forces.hpp"
 #include "specimens/frames/placed_frame.hpp"
 #include "specimens/frames/vtk_polydata.hpp"
-#include "specimens/observers/quantity.hpp"
 
 namespace crackle {
 

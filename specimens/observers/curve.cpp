@@ -144,25 +144,23 @@ const std::vector<CurveColumn>& curve_columns() {
     return columns;
 }
 
+namespace {
+
+auto of_row(bool pressed) {
+    return [pressed](const CurveColumn& column) { return pressed || !column.pressed; };
+}
+
+}  // namespace
+
 std::string curve_header(bool pressed) {
-    std::string line;
-    for (const CurveColumn& column : curve_columns()) {
-        if (column.pressed && !pressed) continue;
-        if (!line.empty()) line += ',';
-        line += column.what.name;
-    }
-    return line + '\n';
+    return table_line(curve_columns(), of_row(pressed), [](const CurveColumn& column) { return column.what.name; });
 }
 
 std::string curve_line(const CurveRow& row, bool pressed) {
-    std::string line;
-    for (const CurveColumn& column : curve_columns()) {
-        if (column.pressed && !pressed) continue;
-        if (!line.empty()) line += ',';
+    return table_line(curve_columns(), of_row(pressed), [&](const CurveColumn& column) {
         const double value = column.value(row);
-        line += column.whole ? fmt::format("{}", static_cast<std::int64_t>(value)) : fmt::format("{}", value);
-    }
-    return line + '\n';
+        return column.whole ? fmt::format("{}", static_cast<std::int64_t>(value)) : fmt::format("{}", value);
+    });
 }
 
 }  // namespace crackle

@@ -12,8 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "solver/base/quantity.hpp"
 #include "solver/world/world.hpp"
-#include "specimens/observers/quantity.hpp"
 
 namespace crackle {
 

@@ -4,18 +4,20 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "solver/base/quantity.hpp"
 #include "solver/world/world.hpp"
-#include "specimens/observers/quantity.hpp"
 
 namespace crackle {
 
+/// A column of every break (solver/measure/breaks.hpp), or one that a test adds.
 struct EventColumn {
     Quantity what;
-    std::string (*text)(const BreakEvent&, double axial_strain, std::int32_t trace);
+    std::function<std::string(const BreakEvent&, double axial_strain, std::int32_t trace)> text;
     bool jointed = false;  ///< only of specimens with traces of joints
 };
 /// In the order of the file.

@@ -1,18 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The outputs of a deck run (output.dat, cont.dat, cont2.dat) as a recording.
+// The outputs of a deck run (output.dat, cont.dat, cont2.dat, events.csv) as a recording.
 //
 // They hold places and forces only. Velocities are those between two frames; a chain is taken to turn by less than half
 // a turn from one to the next. Stress of a body: σ = -1/A Σ f ⊗ (x - x_c), symmetrised, dashpots included, compression
 // positive; f the forces on it, A its area (of a clump the sum of its circles, as for its mass).
-// Tested by tests/tools/commands/view_test.cpp.
+//
+// Bonds are the contacts that have a back-tension in the first frame. Which of them one of a later frame is follows
+// from its bodies, its back-tension, which stays as it is until the bond breaks, and its place: equal ones of a face
+// lie apart. Tested by tests/tools/commands/view_test.cpp.
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <map>
 #include <memory>
 #include <numbers>
+#include <optional>
 #include <unordered_map>
+#include <utility>
 
 #include "solver/base/correctly_rounded.hpp"
 #include "solver/base/errors.hpp"
@@ -67,6 +75,8 @@ struct Place {
     double angle = 0.0;
 };
 
+constexpr double same_tension = 1e-9;  // of itself, by which a back-tension that was read from a text may differ
+
 /// Reads the frames of one run; remembers places, for velocities and whole turns: 24 bytes a cell and frame.
 class DeckMotion {
   public:
@@ -94,6 +104,8 @@ class DeckMotion {
             area_of_body_[cell.id] += area_of(cell);
         }
         finder_ = CellFinder(recording.cells);
+        read_bonds(recording);
+        read_breaks(folder / "events.csv", recording.results.events);
     }
 
     RecordedFrame read(std::size_t k) {
@@ -184,6 +196,63 @@ class DeckMotion {
         return cell;
     }
 
+    /// Of either order of the two bodies: it may change where a run went on from its text files.
+    static std::pair<int, int> pair_of(const DeckContact& contact) { return std::minmax(contact.id, contact.other); }
+
+    void read_bonds(Recording& recording) {
+        for (const DeckContact& contact : frames_.contacts(chosen_.front())) {
+            if (contact.back_tension == 0.0) continue;
+            bonds_of_[pair_of(contact)].push_back(bonds_.size());
+            bonds_.push_back(
+                {cell_of(contact.id, contact.place), cell_of(contact.other, contact.place), contact.place});
+            tensions_.push_back(contact.back_tension);
+        }
+        recording.bonds = bonds_;
+    }
+
+    void read_breaks(const fs::path& file, NumberTable& events) const {
+        const DeckBreaks& breaks = frames_.breaks();
+        if (breaks.table.empty()) return;
+        events = break_table(file, breaks.table, {"time", "x", "y", "body_i", "body_j", "mode", "last_of_interface"},
+                             "run the deck again", breaks.names_line);
+        for (const char* name : {"body_i", "body_j"}) {
+            for (const double id : *events.find(name)) {
+                if (!area_of_body_.contains(static_cast<int>(id)))
+                    throw InputError(
+                        fmt::format("{}: found body {}, which output.dat does not have", file.string(), id));
+            }
+        }
+    }
+
+    /// The bond that a contact is, of those not found yet; none where it is not one of the first frame.
+    std::optional<std::size_t> bond_of(const DeckContact& contact, const std::vector<Place>& now,
+                                       const std::vector<bool>& found) const {
+        const auto candidates = bonds_of_.find(pair_of(contact));
+        if (contact.back_tension == 0.0 || candidates == bonds_of_.end()) return std::nullopt;
+        const bool several = candidates->second.size() > 1;
+        std::optional<std::size_t> nearest;
+        double least = std::numeric_limits<double>::infinity();
+        for (const std::size_t bond : candidates->second) {
+            const double change = std::abs(contact.back_tension - tensions_[bond]);
+            if (found[bond] || !(change <= same_tension * std::abs(tensions_[bond]))) continue;
+            const double way = several ? norm(contact.place - carried(bonds_[bond], now)) : 0.0;
+            if (!(way < least)) continue;
+            least = way;
+            nearest = bond;
+        }
+        return nearest;
+    }
+
+    /// Where the first of its cells has taken the place of a bond.
+    Vec2 carried(const RecordedBond& bond, const std::vector<Place>& now) const {
+        const Place &cell = now[static_cast<std::size_t>(bond.i)],
+                    &start = places_[0][static_cast<std::size_t>(bond.i)];
+        const Vec2 arm = bond.place - start.centre;
+        const double turn = cell.angle - start.angle;
+        const double c = correctly_rounded::cos(turn), s = correctly_rounded::sin(turn);
+        return cell.centre + Vec2{c * arm.x - s * arm.y, s * arm.x + c * arm.y};
+    }
+
     void add_contacts(const std::vector<DeckContact>& contacts, const std::vector<Place>& now,
                       RecordedFrame& frame) const {
         struct Stress {
@@ -199,16 +268,27 @@ class DeckMotion {
             stress.yy -= force.y * arm.y;
             stress.xy -= 0.5 * (force.x * arm.y + force.y * arm.x);
         };
+        std::vector<bool> found(bonds_.size());
+        frame.normal_force.assign(bonds_.size(), 0.0);
+        frame.shear_force.assign(bonds_.size(), 0.0);
+        frame.state.assign(bonds_.size(), static_cast<double>(BondState::broken));
         for (const DeckContact& contact : contacts) {
             const std::int32_t i = cell_of(contact.id, contact.place), j = cell_of(contact.other, contact.place);
+            load(i, contact.place, contact.force);
+            load(j, contact.place, -1.0 * contact.force);
+            if (const std::optional<std::size_t> bond = bond_of(contact, now, found)) {
+                found[*bond] = true;
+                frame.normal_force[*bond] = contact.normal_force;
+                frame.shear_force[*bond] = contact.shear_force;
+                frame.state[*bond] = static_cast<double>(BondState::intact);
+                continue;
+            }
             frame.contacts.i.push_back(i);
             frame.contacts.j.push_back(j);
             frame.contacts.x.push_back(contact.place.x);
             frame.contacts.y.push_back(contact.place.y);
             frame.contacts.normal_force.push_back(contact.normal_force);
             frame.contacts.shear_force.push_back(contact.shear_force);
-            load(i, contact.place, contact.force);
-            load(j, contact.place, -1.0 * contact.force);
         }
         for (const int id : ids_) {
             const Stress stress = stress_of[id];
@@ -224,7 +304,10 @@ class DeckMotion {
     std::vector<int> ids_;  // of cells
     std::unordered_map<int, double> area_of_body_;
     CellFinder finder_{{}};
-    std::vector<Place> last_;                 // of the output that was unwound last
+    std::vector<RecordedBond> bonds_;
+    std::vector<double> tensions_;                                      // of bonds
+    std::map<std::pair<int, int>, std::vector<std::size_t>> bonds_of_;  // by the ids of their bodies
+    std::vector<Place> last_;                                           // of the output that was unwound last
     std::vector<std::vector<Place>> places_;  // by chosen frame, as far as they have been asked for
 };
 

@@ -42,18 +42,18 @@ std::vector<std::string_view> split(std::string_view line) {
     }
 }
 
-void require_columns(const std::filesystem::path& file, const NumberTable& table,
-                     const std::vector<const char*>& names) {
+constexpr const char* test_again = "write the results again with `crackle test --force`";
+
+void require_columns(const std::filesystem::path& file, const NumberTable& table, const std::vector<const char*>& names,
+                     const char* again = test_again) {
     for (const char* name : names) {
         if (!table.find(name))
-            throw InputError(
-                fmt::format("{}:1: found no column '{}'; write the results again with `crackle test --force`",
-                            file.string(), name));
+            throw InputError(fmt::format("{}:1: found no column '{}'; {}", file.string(), name, again));
     }
 }
 
 void require_whole_numbers(const std::filesystem::path& file, const NumberTable& table,
-                           const std::vector<const char*>& names) {
+                           const std::vector<const char*>& names, int names_line) {
     for (const char* name : names) {
         const std::vector<double>& values = *table.find(name);
         const auto wrong = std::find_if(values.begin(), values.end(), [](double value) {
@@ -61,7 +61,7 @@ void require_whole_numbers(const std::filesystem::path& file, const NumberTable&
         });
         if (wrong != values.end()) {
             throw InputError(fmt::format("{}:{}: {}: found {}, expected a whole number", file.string(),
-                                         wrong - values.begin() + 2, name, *wrong));
+                                         wrong - values.begin() + 1 + names_line, name, *wrong));
         }
     }
 }
@@ -110,16 +110,16 @@ nlohmann::ordered_json read_summary(const std::filesystem::path& file) {
 }  // namespace
 
 NumberTable number_table(const std::filesystem::path& file, std::string_view text, std::string_view word_column,
-                         const std::vector<std::string>& words) {
+                         const std::vector<std::string>& words, int names_line) {
     NumberTable table;
     std::string_view rest = without_byte_order_mark(text);
-    for (int line_number = 1; !rest.empty(); ++line_number) {
+    for (int line_number = names_line; !rest.empty(); ++line_number) {
         const std::size_t line_end = rest.find('\n');
         std::string_view line = rest.substr(0, line_end);
         rest.remove_prefix(line_end == std::string_view::npos ? rest.size() : line_end + 1);
         if (line.ends_with('\r')) line.remove_suffix(1);
         const std::vector<std::string_view> fields = split(line);
-        if (line_number == 1) {
+        if (line_number == names_line) {
             table.names.assign(fields.begin(), fields.end());
             table.columns.resize(fields.size());
             continue;
@@ -151,7 +151,13 @@ NumberTable number_table(const std::filesystem::path& file, std::string_view tex
     return table;
 }
 
-namespace {}  // namespace
+NumberTable break_table(const std::filesystem::path& file, std::string_view text,
+                        const std::vector<const char*>& needed, const char* again, int names_line) {
+    NumberTable breaks = number_table(file, text, "mode", {"tension", "shear"}, names_line);
+    require_columns(file, breaks, needed, again);
+    require_whole_numbers(file, breaks, {"body_i", "body_j", "last_of_interface"}, names_line);
+    return breaks;
+}
 
 bool is_report_page(const std::filesystem::path& file) {
     if (!is_file(file)) return false;
@@ -180,18 +186,20 @@ TestResults read_results(const std::filesystem::path& folder) {
     results.name = std::filesystem::weakly_canonical(folder).filename().string();
     results.summary = TestSummary(read_summary(folder / "summary.json"));
     const FileMarks stated = stated_files(results.summary, (folder / "summary.json").string());
+    const auto read_stated = [&](const char* name) {
+        std::string text = read_result(folder / name);
+        require_as_stated(stated, folder / name, mark_of(text));
+        return text;
+    };
     const auto read_table = [&](const char* name, std::string_view word_column = {},
                                 const std::vector<std::string>& words = {}) {
-        const std::string text = read_result(folder / name);
-        require_as_stated(stated, folder / name, mark_of(text));
-        return number_table(folder / name, text, word_column, words);
+        return number_table(folder / name, read_stated(name), word_column, words);
     };
     results.curve = read_table("curve.csv");
     require_columns(folder / "curve.csv", results.curve, {"axial_strain", "axial_stress", "bonds_broken", "time"});
-    results.events = read_table("events.csv", "mode", {"tension", "shear"});
-    require_columns(folder / "events.csv", results.events,
-                    {"time", "axial_strain", "x", "y", "body_i", "body_j", "mode", "last_of_interface"});
-    require_whole_numbers(folder / "events.csv", results.events, {"body_i", "body_j", "last_of_interface"});
+    results.events =
+        break_table(folder / "events.csv", read_stated("events.csv"),
+                    {"time", "axial_strain", "x", "y", "body_i", "body_j", "mode", "last_of_interface"}, test_again);
     const std::filesystem::path slips = folder / "slips.csv";
     if (is_there(slips) || states(stated, "slips.csv")) {
         results.slips = read_table("slips.csv");

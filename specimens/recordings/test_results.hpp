@@ -38,10 +38,16 @@ struct TestResults {
     std::optional<NumberTable> emission;
 };
 
-/// Comma-separated numbers under a line of names. The words of column `word_column`, if given, are read as their place
-/// in `words`. @param file for messages @throws InputError naming file, line and column
+/// Comma-separated numbers under a line of names, which is `names_line` of the file. The words of column `word_column`,
+/// if given, are read as their place in `words`. @param file for messages @throws InputError naming file, line and
+/// column
 NumberTable number_table(const std::filesystem::path& file, std::string_view text, std::string_view word_column = {},
-                         const std::vector<std::string>& words = {});
+                         const std::vector<std::string>& words = {}, int names_line = 1);
+
+/// Broken bonds: events.csv of a test or of a deck's run, with `needed` columns.
+/// @param text  beginning with the names, which are `names_line` of the file @param again  words that write it again
+NumberTable break_table(const std::filesystem::path& file, std::string_view text,
+                        const std::vector<const char*>& needed, const char* again, int names_line = 1);
 
 /// @param folder  what `crackle test -o` made
 /// @throws InputError naming the file that is missing, wrong or not what the test wrote (stated_files.hpp), and how to

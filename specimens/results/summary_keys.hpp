@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "specimens/observers/quantity.hpp"
+#include "solver/base/quantity.hpp"
 
 namespace crackle {
 

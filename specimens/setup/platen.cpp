@@ -125,7 +125,7 @@ void add_walls(Scene& scene, const Specimen& specimen, const TestCase& test, dou
     };
     add(platens.bottom_id + 1, sides.low - thick, -1.0);
     add(platens.bottom_id + 2, sides.high + thick, 1.0);
-    scene.driven_bodies_touch = false;
+    scene.driven_contacts = DrivenContacts::none;
 }
 
 }  // namespace

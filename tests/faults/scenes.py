@@ -32,8 +32,8 @@ checkpoint_interval = 1e-9
 """
 PACK = "pack --count 30 --radius-min 0.013 --radius-max 0.026 --mean-overlap 7.74e-5"
 NEW_FILES = [f"new_{name}" for name in ("in_gm.dat", "in_bc.dat", "in_cf.dat", "in_cf0.dat", "state.bin")]
-STAGED = (".dat.new", ".bin.new")  # files of a deck that get their names with a save
-OUTPUTS = ("output.dat", "cont.dat", "cont2.dat", "energy.dat", "f-d_curve.dat", "velocity_y.dat")
+STAGED = (".dat.new", ".bin.new", ".csv.new")  # files of a deck that get their names with a save
+OUTPUTS = ("output.dat", "cont.dat", "cont2.dat", "energy.dat", "f-d_curve.dat", "velocity_y.dat", "bonds.dat", "events.csv")
 
 
 FORCED = ("pack", "mesh", "elastic", "plot", "test", "run")  # whose results --force replaces

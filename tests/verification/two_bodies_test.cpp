@@ -141,7 +141,7 @@ TEST(Controls, DrivenBodiesPassThroughEachOtherWhereTheyAreToldTo) {
         scene.add_chain_body(2, 0, other.vertices, true);
         scene.controls.push_back(other.controls.front());
         scene.controls.back().body = 1;
-        scene.driven_bodies_touch = touch;
+        scene.driven_contacts = touch ? DrivenContacts::unless_held : DrivenContacts::none;
         World world = build_world(scene);
         while (world.stepping.time < 1.0) step(world);
         compute_forces(world);

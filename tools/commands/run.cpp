@@ -53,16 +53,17 @@ CommandLine describe_run() {
         ("seed", po::value<std::uint64_t>()->value_name("N"), "of the random circles of mode 0 (default: 1)")  //
         ("law", po::value<std::string>()->value_name("LAW"),
          "contact law of segments: rounded, or the guide's demseg (demseg_mean: mean of its disc cases); default: "
-         "rounded, or that of the run that goes on")  //
+         "rounded, or that of the run before, which new_state.bin keeps")  //
         ("integrator", po::value<std::string>()->value_name("NAME"),
          "how contacts open and close: leapfrog, the guide's, or consistent with the energy; default: leapfrog, or "
-         "that of the run that goes on")                                                     //
+         "that of the run before, likewise")                                                 //
         ("allow-unstable", "accept a time step above the stable bound, and runaway energy")  //
         ("threads", po::value<int>()->value_name("N")->default_value(1), "threads; the results do not depend on them");
     return {.synopses = {"crackle run DIR [OPTIONS]"},
             .description =
                 "Runs the DEMseg deck in DIR (in_gm.dat, in_bc.dat; in_cf.dat with jclid 1, in_cf0.dat with jclid 3) "
-                "and writes output.dat, cont.dat, cont2.dat, energy.dat, f-d_curve.dat, velocity_y.dat, and "
+                "and writes output.dat, cont.dat, cont2.dat, energy.dat, f-d_curve.dat, velocity_y.dat, bonds.dat, "
+                "events.csv (a row a broken bond), and "
                 "new_in_gm.dat, new_in_bc.dat, new_in_cf.dat, new_in_cf0.dat and new_state.bin, with which the run "
                 "can be continued.",
             .options = {{"options", options}},

@@ -297,9 +297,12 @@ void add_bonds(PlainBlock& block, const std::vector<RecordedBond>& bonds) {
     block.add("bonds.y", listed<float>(bonds, [](const RecordedBond& b) { return b.place.y; }));
 }
 
-void add_results(PlainBlock& block, const TestResults& results) {
+void add_curve(PlainBlock& block, const NumberTable& curve) {
     for (const char* name : {"axial_strain", "axial_stress", "bonds_broken"})
-        block.add(std::string("curve.") + name, *results.curve.find(name));
+        block.add(std::string("curve.") + name, *curve.find(name));
+}
+
+void add_breaks(PlainBlock& block, const TestResults& results) {
     const auto whole = [&](const char* name) {
         return listed<std::int32_t>(*results.events.find(name), [](double value) { return value; });
     };
@@ -349,7 +352,8 @@ PageData pack_recording(const Recording& recording, const std::function<void(std
     PlainBlock first;
     add_cells(first, recording.cells);
     add_bonds(first, recording.bonds);
-    if (recording.kind == Recording::Kind::test) add_results(first, recording.results);
+    if (recording.kind == Recording::Kind::test) add_curve(first, recording.results.curve);
+    if (!recording.results.events.names.empty()) add_breaks(first, recording.results);
 
     PageData data;
     Json& manifest = data.manifest;

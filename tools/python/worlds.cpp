@@ -51,6 +51,7 @@ Shared world_of_particles(const Particles& particles, int threads, bool walls) {
     auto test = std::make_shared<VirtualTest>();
     Scene scene = particles.scene;
     if (!walls) scene.domain.wall_present = {false, false, false, false};
+    scene.driven_contacts = DrivenContacts::all;  // any force may be asked for
     const py::gil_scoped_release free;
     test->world = build_world(std::move(scene));
     use_threads(test->world, threads);

@@ -170,6 +170,83 @@ TEST_F(ViewCommand, ATurningPolygonIsCountedInWholeTurns) {
     EXPECT_NEAR(shown.row("rate", last)[0], 40.0, 0.02 + 0.5 * growth * (1.0 + growth) * 40.0);
 }
 
+TEST_F(ViewCommand, ADecksBondsAndBreaksAreThoseOfItsOutputs) {
+    // The guide's chain, pulled ten times as fast: its bonds break at different times.
+    std::filesystem::create_directories(folder_ / "deck");
+    for (const char* name : {"in_gm.dat", "in_cf0.dat"})
+        std::filesystem::copy_file(shipped_deck("chain_pulled") / name, folder_ / "deck" / name);
+    write("deck/in_bc.dat", "3 0 2000 100 100\n2\n1 20\n2\n1 1 0 1 0 1 0\n20 1 4.2 1 0 1 0\n");
+    ASSERT_EQ(crackle("run -q deck -o run --steps 4000").code, 0) << read(err_);
+    const PageContents shown = page("run");
+    const std::vector<testing::DeckFrame> frames = testing::read_frames(folder_ / "run" / "cont2.dat");
+    const testing::Rows counts = testing::read_rows(folder_ / "run" / "bonds.dat");
+    const std::vector<double> i = shown.plain("bonds.i"), j = shown.plain("bonds.j"), id = shown.plain("cells.id");
+    ASSERT_EQ(i.size(), 19U);
+    for (std::size_t bond = 0; bond < i.size(); ++bond) {
+        const double a = id[static_cast<std::size_t>(i[bond])], b = id[static_cast<std::size_t>(j[bond])];
+        EXPECT_EQ(std::abs(a - b), 1.0) << "neighbours of the chain";
+    }
+    ASSERT_EQ(shown.test()["frames"].size(), frames.size());
+    std::size_t broken = 0, in_contact_without = 0;
+    for (std::size_t f = 0; f < frames.size(); ++f) {
+        const std::vector<double> state = shown.row("state", f), force = shown.row("fn", f);
+        std::vector<double> expected_force, got_force;
+        std::size_t bonded = 0;
+        for (const std::vector<double>& row : frames[f].rows) {
+            if (row[7] == 0.0) ++in_contact_without;
+            if (row[7] == 0.0) continue;
+            ++bonded;
+            for (std::size_t bond = 0; bond < i.size(); ++bond) {
+                const double a = id[static_cast<std::size_t>(i[bond])], b = id[static_cast<std::size_t>(j[bond])];
+                if (std::minmax(row[0], row[1]) != std::minmax(a, b)) continue;
+                EXPECT_EQ(state[bond], static_cast<double>(BondState::intact)) << "frame " << f << ", bond " << bond;
+                expected_force.push_back(row[5]);
+                got_force.push_back(force[bond]);
+            }
+        }
+        broken = static_cast<std::size_t>(std::ranges::count(state, static_cast<double>(BondState::broken)));
+        EXPECT_EQ(bonded + broken, 19U) << "frame " << f;
+        const testing::Rows now = testing::rows_of(counts, 0, frames[f].step);
+        ASSERT_EQ(now.size(), 1U);
+        EXPECT_EQ(static_cast<double>(broken), now[0][2]) << "frame " << f;
+        if (bonded > 0)
+            expect_as_finely_as_told("normal forces", expected_force, got_force, quantum_of(shown, "fn"), force_growth);
+    }
+    fmt::print("  {} bonds broken, {} contacts without a bond\n", broken, in_contact_without);
+    EXPECT_GT(broken, 2U);
+    const std::vector<double> body = shown.plain("events.body_i"), time = shown.plain("events.time");
+    EXPECT_EQ(body.size(), broken);
+    EXPECT_EQ(shown.plain("events.shear").size(), broken);
+    EXPECT_TRUE(std::ranges::is_sorted(time));
+    EXPECT_FALSE(shown.test()["arrays"].contains("events.axial_strain")) << "a deck has none";
+    EXPECT_FALSE(shown.test()["arrays"].contains("curve.axial_strain"));
+}
+
+TEST_F(ViewCommand, APolygonsBondsAreToldApartByTheirPlaces) {
+    // Two squares face to face, four bonds of one back-tension by symmetry; the upper one is tilted until those at one
+    // end are gone.
+    std::filesystem::create_directories(folder_ / "deck");
+    write("deck/in_gm.dat",
+          "1 0 0\n1e-4 0 0\n1\n2.5 1e8 0 0 0 0\n-10 10 -10 10 0.1\n0 2 0\n"
+          "1 1 4\n0 0 0\n1 -1 -2.03125\n1 -2.03125\n2 1 -2.03125\n1 -0.03125\n3 1 -0.03125\n-1 -0.03125\n"
+          "4 -1 -0.03125\n-1 -2.03125\n"
+          "2 1 4\n0 0 0\n1 -1 0.03125\n1 0.03125\n2 1 0.03125\n1 2.03125\n3 1 2.03125\n-1 2.03125\n"
+          "4 -1 2.03125\n-1 0.03125\n");
+    write("deck/in_bc.dat", "3 0 100 50 100\n1\n2\n2\n1 1 0 1 0 1 0\n2 1 0 1 0 1 0.06\n");
+    ASSERT_EQ(crackle("run -q deck -o run").code, 0) << read(err_);
+    const PageContents shown = page("run");
+    const std::vector<double> x = shown.plain("bonds.x"), state = shown.row("state", 2);
+    ASSERT_EQ(x.size(), 4U);
+    ASSERT_EQ(testing::read_frames(folder_ / "run" / "cont2.dat").back().rows.size(), 2U) << "two are left";
+    for (std::size_t bond = 0; bond < x.size(); ++bond) {
+        // Turned counter-clockwise the upper one lifts its right end.
+        EXPECT_EQ(state[bond], static_cast<double>(x[bond] > 0.0 ? BondState::broken : BondState::intact))
+            << "bond at x = " << x[bond];
+    }
+    EXPECT_EQ(shown.plain("events.x").size(), 2U);
+    for (const double place : shown.plain("events.x")) EXPECT_GT(place, 0.0);
+}
+
 TEST_F(ViewCommand, StressOfASqueezedDecksDiscIsItsForceOverItsDiameter) {
     // A disc of radius 1 between two walls 1.98 apart: overlap 0.01 each, force 1e6, no other load.
     std::filesystem::create_directories(folder_ / "deck");

@@ -31,4 +31,16 @@ inline const Quantity& declared(std::span<const Quantity> quantities, std::strin
     throw std::logic_error("results: " + std::string(name) + " is written but not declared");
 }
 
+/// A line of comma-separated values, with line end: text_of() of each column that is wanted.
+template <class Columns, class Wanted, class TextOf>
+std::string table_line(const Columns& columns, const Wanted& wanted, const TextOf& text_of) {
+    std::string line;
+    for (const auto& column : columns) {
+        if (!wanted(column)) continue;
+        if (!line.empty()) line += ',';
+        line += text_of(column);
+    }
+    return line + '\n';
+}
+
 }  // namespace crackle
