@@ -9,12 +9,13 @@
 #include <cerrno>
 #include <charconv>
 #include <cmath>
-#include <cstring>
+#include <optional>
 #include <system_error>
 #include <utility>
 
 #include "solver/base/errors.hpp"
 #include "solver/files/read_file.hpp"
+#include "solver/files/text_lines.hpp"
 
 namespace crackle {
 namespace {
@@ -27,19 +28,6 @@ std::string quoted(std::string_view word) {
     return word.size() <= shown ? fmt::format("'{}'", word) : fmt::format("'{}...'", word.substr(0, shown));
 }
 
-/// Fortran real to double; false if the word is no number or out of range.
-bool parse_number(std::string_view word, double& value) {
-    std::string plain(word);
-    if (!plain.empty() && plain[0] == '+') plain.erase(0, 1);
-    // from_chars would take "inf" and "nan", and their letters are the only others in a number beside the exponent's.
-    for (char& c : plain) {
-        if (c == 'd' || c == 'D' || c == 'E') c = 'e';
-        if (c != 'e' && c != '.' && c != '+' && c != '-' && (c < '0' || c > '9')) return false;
-    }
-    const auto [end, error] = std::from_chars(plain.data(), plain.data() + plain.size(), value);
-    return error == std::errc() && end == plain.data() + plain.size();
-}
-
 }  // namespace
 
 DeckReader::DeckReader(std::string name, std::string text, int first_line)
@@ -47,7 +35,7 @@ DeckReader::DeckReader(std::string name, std::string text, int first_line)
     position_ = text_.size() - without_byte_order_mark(text_).size();
 }
 
-DeckReader DeckReader::open(const std::filesystem::path& path) { return {path.string(), read_file(path)}; }
+DeckReader DeckReader::open(const std::filesystem::path& path) { return {path.string(), read_text(path)}; }
 
 void DeckReader::skip_blanks() {
     while (position_ < text_.size() && is_blank(text_[position_])) {
@@ -80,10 +68,9 @@ void DeckReader::refuse(std::string_view key, std::string_view found, std::strin
 }
 
 double DeckReader::number(std::string_view key) {
-    double value = 0.0;
-    if (!parse_number(next(key, "a number"), value) || !std::isfinite(value))
-        refuse(key, "a finite number such as 2.5, 1e8 or 1.0d8");
-    return value;
+    const std::optional<double> value = number_of(next(key, "a number"));
+    if (!value || !std::isfinite(*value)) refuse(key, "a finite number such as 2.5, 1e8 or 1.0d8");
+    return *value;
 }
 
 double DeckReader::positive_number(std::string_view key) {

@@ -41,6 +41,7 @@ class DeckReader {
     [[noreturn]] void refuse(std::string_view key, std::string_view found, std::string_view expected) const;
 
     const std::string& name() const { return name_; }
+    std::string_view text() const { return text_; }  ///< all of it
     /// Line of the value read last, from 1.
     int line() const { return token_line_; }
 

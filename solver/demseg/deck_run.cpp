@@ -175,8 +175,8 @@ Scene DeckRun::scene_under(const DeckLaws& laws) const {
 }
 
 void DeckRun::start_new(const Texts& texts) {
-    DeckReader mode_reader = texts.reader(0), reader = texts.reader(0);
-    if (mode_reader.integer("mode", 0, 1) == 0) {
+    DeckReader reader = texts.reader(0);
+    if (read_geometry_mode(reader) == 0) {
         const std::uint64_t seed = options_.seed.value_or(1);
         base_ = make_random_circles(read_random_geometry(reader), seed);
         notices_.push_back(

@@ -14,7 +14,9 @@
 #include <vector>
 
 #include "solver/base/errors.hpp"
+#include "solver/demseg/circle_list.hpp"
 #include "solver/demseg/deck_reader.hpp"
+#include "solver/files/file_kind.hpp"
 
 namespace crackle {
 namespace {
@@ -32,7 +34,18 @@ struct Head {
     double thick = 0.0;
 };
 
-int read_mode(DeckReader& reader) { return static_cast<int>(reader.integer("mode", 0, 1)); }
+constexpr const char* particle_file = "a particle file (in_gm.dat)";
+
+int read_mode(DeckReader& reader) {
+    refuse_foreign(reader.name(), reader.text(), particle_file);
+    if (const std::string_view form = circle_list_form(reader.text()); !form.empty()) {
+        throw InputError(
+            fmt::format("{}: found a list of {}, expected {}; `crackle mesh` makes one of polygons about "
+                        "such centres",
+                        reader.name(), form, particle_file));
+    }
+    return static_cast<int>(reader.integer("mode", 0, 1));
+}
 
 void read_sub_modes(DeckReader& reader) {
     for (const char* key : {"mode2", "mode3"}) {
@@ -216,6 +229,11 @@ void write_segments(std::ostream& out, const Scene& scene, const Body& body) {
 int read_geometry_mode(const std::filesystem::path& path) {
     DeckReader reader = DeckReader::open(path);
     return read_mode(reader);
+}
+
+int read_geometry_mode(const DeckReader& reader) {
+    DeckReader own = reader;
+    return read_mode(own);
 }
 
 Scene read_geometry(const std::filesystem::path& path) { return read_deck_geometry(path).scene; }

@@ -38,8 +38,10 @@ struct RandomGeometry {
     double void_ratio = unset;  ///< (area - area of circles) / area of circles
 };
 
-/// The file's first number. @throws InputError if it is neither 0 nor 1.
+/// The file's first number. @throws InputError if it is neither 0 nor 1; a file of another kind is named.
 int read_geometry_mode(const std::filesystem::path& path);
+/// The same of a text, from its beginning.
+int read_geometry_mode(const DeckReader& reader);
 
 /// Reads a file of mode 1 into a validated scene: deck conventions (full first kick, width of bare segments) are set.
 /// @throws InputError with file, line, key, what was found and expected.

@@ -74,8 +74,24 @@ std::string_view without_byte_order_mark(std::string_view text) {
     return text;
 }
 
+namespace {
+
+/// By its mark, or by the zeros in every other byte of its first two letters.
+bool is_of_wide_letters(std::string_view bytes) {
+    if (bytes.starts_with("\xff\xfe") || bytes.starts_with("\xfe\xff")) return true;
+    if (bytes.size() < 4) return false;
+    const auto zero = [&](std::size_t k) { return bytes[k] == '\0'; };
+    return zero(0) == zero(2) && zero(1) == zero(3) && zero(0) != zero(1);
+}
+
+}  // namespace
+
 std::string read_text(const std::filesystem::path& path) {
     std::string text = read_file(path);
+    if (is_of_wide_letters(text)) {
+        throw InputError(
+            fmt::format("{}: found UTF-16, expected UTF-8 or ASCII; save the text as UTF-8", path.string()));
+    }
     text.erase(0, text.size() - without_byte_order_mark(text).size());
     return text;
 }

@@ -16,7 +16,7 @@ std::string read_file(const std::filesystem::path& path);
 /// A text without the byte order mark (UTF-8) that some editors put in front.
 std::string_view without_byte_order_mark(std::string_view text);
 
-/// A file of text: its bytes without such a mark. @throws InputError as read_file()
+/// A file of text: its bytes without such a mark. @throws InputError as read_file(), and for UTF-16, which is named
 std::string read_text(const std::filesystem::path& path);
 
 /// @throws InputError if the system gave an error while a stream was read, which is no end of it

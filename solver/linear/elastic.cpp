@@ -117,9 +117,15 @@ void require_factor(const Solver& factor) {
         throw InputError("elastic solve: the stiffness matrix could not be factorised; is any body bonded?");
 }
 
+struct Refined {
+    Vector u;
+    double residual = 0.0;
+    double error_energy = 0.0;
+};
+
 /// @param full K as it acts on a vector
 template <class Solver, class Full>
-Vector refine(const Workers& workers, const Solver& factor, const Full& full, const Vector& load, double& residual) {
+Refined refine(const Workers& workers, const Solver& factor, const Full& full, const Vector& load) {
     require_factor(factor);
     workers.hear();
     const double size = load.norm();
@@ -133,7 +139,7 @@ Vector refine(const Workers& workers, const Solver& factor, const Full& full, co
         u = better;
         rest = after;
     }
-    residual = size > 0.0 ? rest.norm() / size : 0.0;
+    const double residual = size > 0.0 ? rest.norm() / size : 0.0;
     if (!(residual <= residual_goal)) {
         throw InputError(
             fmt::format("elastic solve: found a residual of {:.3g}, expected at most {:.3g}; the specimen's stiffness "
@@ -141,19 +147,19 @@ Vector refine(const Workers& workers, const Solver& factor, const Full& full, co
                         "friction",
                         residual, residual_goal));
     }
-    return u;
+    return {u, residual, std::abs(rest.dot(factor.solve(rest)))};
 }
 
-Vector solve(const Workers& workers, const ScaledSystem& system, const Vector& load, double& residual) {
+Refined solve(const Workers& workers, const ScaledSystem& system, const Vector& load) {
     const Matrix& stiffness = system.stiffness();
     workers.hear();
     if (system.symmetric()) {
         const Factor factor(system.shifted(shift));
-        return refine(workers, factor, stiffness.selfadjointView<Eigen::Lower>(), load, residual);
+        return refine(workers, factor, stiffness.selfadjointView<Eigen::Lower>(), load);
     }
     Eigen::SparseLU<Matrix> factor;
     factor.compute(system.shifted(shift));
-    return refine(workers, factor, stiffness, load, residual);
+    return refine(workers, factor, stiffness, load);
 }
 
 }  // namespace
@@ -190,7 +196,10 @@ ElasticSolution solve_elastic(const World& world, const std::vector<Prescribed>&
                 if (row >= 0) load[row] += force[d] * system.scale(row);
             }
         }
-        const Vector u = solve(world.workers, system, load, solution.residual);
+        const Refined refined = solve(world.workers, system, load);
+        const Vector& u = refined.u;
+        solution.residual = refined.residual;
+        solution.error_energy = refined.error_energy;
         for (std::size_t b = 0; b < world.bodies.size(); ++b) {
             for (int d = 0; d < 3; ++d) {
                 const int row = system.number(b, d);

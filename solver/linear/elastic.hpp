@@ -35,6 +35,9 @@ struct ElasticSolution {
     std::vector<BodyMotion> reaction;      ///< per entry of `prescribed`: force needed to hold it there
     double energy = 0.0;                   ///< J, ½uᵀKu
     double residual = 0.0;                 ///< |f - Ku| over |f| on the free degrees of freedom, scaled
+    /// J, rᵀK⁻¹r of the residual r: a spring of stiffness k is wrong by at most sqrt(this/k) in its stretch, since no
+    /// spring takes up more energy than all of them.
+    double error_energy = 0.0;
     std::int64_t unknowns = 0;             ///< free degrees of freedom
 };
 

@@ -316,8 +316,9 @@ class ConsistencyCheck {
             refuse(key, "unloading at an axial_strain_rate", "loading by tolerance",
                    "a platen that turns round at once sends a shock; give rate_tolerance in place of the rate");
         const std::vector<double>& at = by_strain ? *loading.unload_at_strain : *loading.unload_at_stress;
-        if (!std::ranges::is_sorted(at, std::less_equal()))
-            refuse(key, fmt::format("[{}]", fmt::join(at, ", ")), "ascending numbers", "sort them");
+        if (!std::ranges::is_sorted(at))
+            refuse(key, fmt::format("[{}]", fmt::join(at, ", ")), "numbers none of which is below the one before",
+                   "sort them");
         if (by_strain && at.back() >= loading.max_axial_strain)
             refuse(key, fmt::format("{}", at.back()),
                    fmt::format("strains below max_axial_strain = {}", loading.max_axial_strain), "the test ends there");

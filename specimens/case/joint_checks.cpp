@@ -314,8 +314,9 @@ void check_jointed_specimen(const TestCase& test) {
         refuse("mesh.boundary", fmt::format("\"{}\"", test.mesh.boundary), "\"domain\"");
     if (test.has_table("mesh") && test.mesh.merge_destroyed && *test.mesh.kind == "voronoi")
         refuse("mesh.merge_destroyed", "true", "false with kind = \"voronoi\"");
-    if (!test.uniaxial())
-        refuse("loading.kind", fmt::format("\"{}\"", test.loading.kind), "\"compression\", \"tension\" or \"biaxial\"");
+    if (!test.uniaxial() && test.loading.kind != "direct_shear")
+        refuse("loading.kind", fmt::format("\"{}\"", test.loading.kind),
+               "\"compression\", \"tension\", \"biaxial\" or \"direct_shear\"");
     for (const JointTable& table : joint_tables(test))
         if (!table.keys->as_rock()) JointAgainstRock(test, table).run();
 }

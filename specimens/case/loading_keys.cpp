@@ -81,8 +81,9 @@ std::vector<Parameter> loading_keys() {
                     "the strain gone through back and forth. Needs loading by tolerance.")
             .one_of({"axial", "lateral"}),
         CRACKLE_KEY(loading, unload_at_strain, "",
-                    "Axial strains, ascending, at each of which the specimen is unloaded and loaded again: the damage "
-                    "modulus of every cycle stands in summary.json. Needs loading by tolerance.")
+                    "Axial strains, none below the one before, at each of which the specimen is unloaded and loaded "
+                    "again; equal ones are cycles of one amplitude (fatigue). Every cycle's modulus, which damage "
+                    "lowers, stands in summary.json. Needs loading by tolerance.")
             .above(0)
             .below(1),
         CRACKLE_KEY(loading, unload_at_stress, "N/m or Pa", "Likewise at axial stresses, in place of strains.")

@@ -29,7 +29,7 @@ std::vector<Parameter> specimen_keys() {
         CRACKLE_KEY(packing, radius_max, "m", "Largest radius (uniform; cut-off of lognormal).").above(0),
         CRACKLE_KEY(packing, radius_median, "m", "Median radius (lognormal).").above(0),
         CRACKLE_KEY(packing, radius_log_deviation, "", "Standard deviation of ln(radius) (lognormal).").above(0),
-        CRACKLE_KEY(packing, sieve, "", "Sieve curve: CSV with columns size,passing_by_mass.").path(),
+        CRACKLE_KEY(packing, sieve, "", "Sieve curve: a table with the columns size and passing_by_mass.").path(),
         CRACKLE_KEY(packing, cell_diameter, "m",
                     "With [mesh], in place of radii: mean of the cells' equivalent diameters sqrt(4 area/pi), gaps "
                     "included; the circles' radii follow.")

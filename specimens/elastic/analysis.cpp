@@ -15,29 +15,50 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// Strain at which something that is `now` and grows by `slope` a unit of strain has gone; infinite where it grows.
-double strain_of_loss(double now, double slope) { return slope < 0.0 ? -now / slope : infinite; }
+/// A rate with what it may be wrong by: less than that is nothing.
+struct Rate {
+    double value = 0.0, error = 0.0;
+};
+
+/// Strain at which something that is `now` and grows by `slope` a unit of strain has gone; infinite where it grows, or
+/// falls by no more than the slope's error.
+double strain_of_loss(double now, Rate slope) { return slope.value < -slope.error ? -now / slope.value : infinite; }
 
 /// Overlap growth and slip of every bonded point per unit of strain, from their springs.
 struct PointRates {
-    double closing = 0.0, slipping = 0.0;
+    Rate closing, slipping;
 };
 
-std::vector<PointRates> rates_of(const World& world, const std::vector<BodyMotion>& displacement) {
+/// Error of a spring's stretch: of the solve, and of rounding where neighbours' displacements nearly cancel, a sum of
+/// six products.
+double stretch_error(const Spring& spring, const ElasticSolution& solution) {
+    if (!(spring.stiffness > 0.0)) return 0.0;
+    double size = 0.0;
+    for (std::size_t k = 0; k < 6; ++k) {
+        const BodyIndex b = k < 3 ? spring.i : spring.j;
+        if (b != no_body)
+            size += std::abs(spring.gradient[k] * component(solution.displacement[b], static_cast<int>(k % 3)));
+    }
+    return 6.0 * std::numeric_limits<double>::epsilon() * size + std::sqrt(solution.error_energy / spring.stiffness);
+}
+
+std::vector<PointRates> rates_of(const World& world, const ElasticSolution& solution) {
     std::vector<PointRates> rates(world.points.size());
     for (const Spring& spring : springs_of(world, ClosedPoints::bonded)) {
         PointRates& rate = rates[spring.point];
-        (spring.shear ? rate.slipping : rate.closing) = times(spring, spring.gradient, displacement);
+        (spring.shear ? rate.slipping : rate.closing) = {times(spring, spring.gradient, solution.displacement),
+                                                         stretch_error(spring, solution)};
     }
     return rates;
 }
 
 /// The limit that is met first under forces that grow with the strain. A coulomb bond does not slide.
 /// @param normal, shear N a unit of strain
-void fail_by_envelope(LinearBond& bond, const BondStrength<double>& strength, double normal, double shear) {
+void fail_by_envelope(LinearBond& bond, const BondStrength<double>& strength, Rate normal, Rate shear) {
     bond.strength = strength.tensile;
     const double parts = strain_of_loss(strength.tensile, normal);
-    const double shears = strain_of_loss(strength.cohesion, strength.friction * normal - shear);
+    const double shears = strain_of_loss(strength.cohesion, {strength.friction * normal.value - shear.value,
+                                                             strength.friction * normal.error + shear.error});
     bond.break_strain = std::min(parts, shears);
     bond.slip_strain = infinite;
 }
@@ -49,22 +70,23 @@ LinearBond linear_bond(const World& world, PointIndex k, const PointRates& rate,
     bond.body_j = world.bodies.info(view.body_j).id;
     bond.position = view.position;
     bond.overlap = view.bond_overlap;
-    bond.closing = rate.closing * strain;
-    bond.normal_force = view.normal_stiffness * rate.closing * strain;
-    bond.shear_force = view.shear_stiffness * std::abs(rate.slipping) * strain;
+    const Rate normal{view.normal_stiffness * rate.closing.value, view.normal_stiffness * rate.closing.error};
+    const Rate shear{view.shear_stiffness * std::abs(rate.slipping.value), view.shear_stiffness * rate.slipping.error};
+    bond.closing = rate.closing.value * strain;
+    bond.normal_force = normal.value * strain;
+    bond.shear_force = shear.value * strain;
     if (world.settings.bond_law == BondLaw::coulomb) {
-        fail_by_envelope(bond, bond_strength(world, k), view.normal_stiffness * rate.closing,
-                         view.shear_stiffness * std::abs(rate.slipping));
+        fail_by_envelope(bond, bond_strength(world, k), normal, shear);
         return bond;
     }
     const bool held = (world.points.state[k].flags & point_held) != 0;
     bond.strength = held ? infinite : view.normal_stiffness * view.bond_overlap;
-    bond.break_strain = strain_of_loss(bond.strength, view.normal_stiffness * rate.closing);
+    bond.break_strain = strain_of_loss(bond.strength, normal);
     // Limit less shear force; without a shear spring or a limit nothing ever slides.
-    const double shear = view.shear_stiffness * std::abs(rate.slipping);
-    bond.slip_strain = shear > 0.0 && std::isfinite(view.friction)
+    bond.slip_strain = shear.value > shear.error && std::isfinite(view.friction)
                            ? strain_of_loss(view.friction * bond.strength,
-                                            view.friction * view.normal_stiffness * rate.closing - shear)
+                                            {view.friction * view.normal_stiffness * rate.closing.value - shear.value,
+                                             view.friction * normal.error + shear.error})
                            : infinite;
     return bond;
 }
@@ -82,11 +104,12 @@ std::optional<FirstEvent> first_of(const std::vector<LinearBond>& bonds, double 
 std::vector<LinearBond> linear_bonds(const World& world, const TestSetup& setup, const Moduli& moduli, double strain) {
     // The solution is for unit strain in tension.
     const double sense = setup.compression ? -1.0 : 1.0;
-    const std::vector<PointRates> rates = rates_of(world, moduli.solution.displacement);
+    const std::vector<PointRates> rates = rates_of(world, moduli.solution);
     std::vector<LinearBond> bonds;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
         if ((world.points.state[k].flags & point_bonded) == 0) continue;
-        bonds.push_back(linear_bond(world, k, {sense * rates[k].closing, rates[k].slipping}, strain));
+        bonds.push_back(linear_bond(
+            world, k, {{sense * rates[k].closing.value, rates[k].closing.error}, rates[k].slipping}, strain));
     }
     return bonds;
 }

@@ -11,52 +11,21 @@
 #include <unordered_set>
 
 #include "solver/base/errors.hpp"
+#include "solver/files/file_kind.hpp"
 #include "solver/files/read_file.hpp"
+#include "solver/files/table_reader.hpp"
+#include "solver/files/text_lines.hpp"
 #include "solver/scene/scene.hpp"
 
 namespace crackle {
 namespace {
 
-std::string_view stripped(std::string_view text) {
-    constexpr std::string_view blanks = " \t\r";
-    const std::size_t first = text.find_first_not_of(blanks);
-    if (first == std::string_view::npos) return {};
-    return text.substr(first, text.find_last_not_of(blanks) - first + 1);
+double coordinate(std::string_view word, std::string_view what, const TextLines& lines) {
+    const std::optional<double> value = number_of(word);
+    if (!value || !is_a_size(*value))
+        lines.refuse_number(word, fmt::format("a number for {}, 0 or of a size from 1e-30 to 1e30", what));
+    return *value;
 }
-
-/// Lines of a text, one after another.
-class Lines {
-  public:
-    Lines(std::string name, std::string_view text) : name_(std::move(name)), rest_(text) {}
-
-    std::optional<std::string_view> next() {
-        if (rest_.empty()) return std::nullopt;
-        const std::size_t end = std::min(rest_.find('\n'), rest_.size());
-        const std::string_view line = rest_.substr(0, end);
-        rest_.remove_prefix(std::min(end + 1, rest_.size()));
-        ++number_;
-        return stripped(line);
-    }
-    [[noreturn]] void refuse(const std::string& found, const std::string& expected) const {
-        throw InputError(fmt::format("{}:{}: found {}, expected {}", name_, number_, found, expected));
-    }
-    double number(std::string_view word, const char* what) const {
-        const std::string_view digits = !word.empty() && word.front() == '+' ? word.substr(1) : word;
-        double value = 0.0;
-        const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-        if (error != std::errc{} || end != digits.data() + digits.size() || !is_a_size(value))
-            refuse(fmt::format("'{:.40}'", word),
-                   fmt::format("a number for {}, 0 or of a size from 1e-30 to 1e30", what));
-        return value;
-    }
-    const std::string& name() const { return name_; }
-    int line() const { return number_; }
-
-  private:
-    std::string name_;
-    std::string_view rest_;
-    int number_ = 0;
-};
 
 /// A trace with two places at least. @param line of its beginning
 void add_trace(TracePoints& traces, std::vector<Vec2> points, const std::string& name, int line) {
@@ -66,58 +35,116 @@ void add_trace(TracePoints& traces, std::vector<Vec2> points, const std::string&
     traces.push_back(std::move(points));
 }
 
-TracePoints parse_table(Lines lines) {
-    TracePoints traces;
-    while (auto line = lines.next()) {
-        std::vector<double> numbers;
-        std::string_view rest = stripped(line->substr(0, line->find('#')));
-        while (!rest.empty()) {
-            const std::size_t end = std::min(rest.find_first_of(" \t"), rest.size());
-            numbers.push_back(lines.number(rest.substr(0, end), numbers.size() % 2 == 0 ? "x" : "y"));
-            rest = stripped(rest.substr(end));
-        }
-        if (numbers.empty()) continue;
-        if (numbers.size() < 4 || numbers.size() % 2 != 0)
-            lines.refuse(fmt::format("{} number{}", numbers.size(), numbers.size() == 1 ? "" : "s"),
-                         "x and y of two points or more");
-        std::vector<Vec2> points;
-        for (std::size_t k = 0; k < numbers.size(); k += 2) points.push_back({numbers[k], numbers[k + 1]});
-        add_trace(traces, std::move(points), lines.name(), lines.line());
-    }
-    return traces;
+/// A line of a list: the numbers of one trace.
+struct ListedTrace {
+    int line = 0;
+    std::vector<double> numbers;
+};
+
+std::vector<Vec2> points_of(const ListedTrace& trace) {
+    std::vector<Vec2> points;
+    for (std::size_t k = 0; k + 1 < trace.numbers.size(); k += 2)
+        points.push_back({trace.numbers[k], trace.numbers[k + 1]});
+    return points;
 }
 
-std::vector<std::string_view> fields_of(std::string_view line) {
-    std::vector<std::string_view> fields;
-    while (true) {
-        const std::size_t comma = line.find(',');
-        fields.push_back(stripped(line.substr(0, comma)));
-        if (comma == std::string_view::npos) return fields;
-        line.remove_prefix(comma + 1);
+/// Length of the line through a list's numbers, `each` of them a point.
+double path_length(const std::vector<double>& numbers, std::size_t each) {
+    double length = 0.0;
+    for (std::size_t k = each; k + each <= numbers.size(); k += each) {
+        double square = 0.0;
+        for (std::size_t c = 0; c < each; ++c) {
+            const double step = numbers[k + c] - numbers[k + c - each];
+            square += step * step;
+        }
+        length += std::sqrt(square);
     }
+    return length;
+}
+
+/// How many coordinates a point has by the names in the remarks above the first trace, as "# x1 y1 z1 x2 y2 z2"; 0
+/// where they name none.
+std::size_t named_coordinates(std::string_view text) {
+    TextLines lines("", text);
+    bool x = false, y = false, z = false;
+    while (const auto line = lines.next()) {
+        const std::string_view remark = stripped(*line);
+        if (!remark.empty() && !remark.starts_with('#')) break;
+        for (std::size_t k = 0; k < remark.size(); ++k) {
+            const auto is_letter = [&](std::size_t at) {
+                return at < remark.size() && std::isalpha(static_cast<unsigned char>(remark[at])) != 0;
+            };
+            if ((k > 0 && is_letter(k - 1)) || is_letter(k + 1)) continue;
+            const int letter = std::tolower(static_cast<unsigned char>(remark[k]));
+            x |= letter == 'x';
+            y |= letter == 'y';
+            z |= letter == 'z';
+        }
+    }
+    if (!x || !y) return 0;
+    return z ? 3 : 2;
+}
+
+/// Whether a list without names has heights behind each x y. Numbers taken by twos that are by threes leap between
+/// coordinates: such a line is more than twice as long as the traces, or has one height throughout and is longer by a
+/// third. Points that are by twos and look like that are rarer than surveys with heights.
+bool looks_like_heights(const std::vector<ListedTrace>& traces) {
+    constexpr double leaping = 0.5, leaping_at_one_height = 0.75;
+    double by_twos = 0.0, by_threes = 0.0;
+    bool one_height = true;
+    for (const ListedTrace& trace : traces) {
+        if (trace.numbers.size() % 3 != 0 || trace.numbers.size() < 6) return false;
+        by_twos += path_length(trace.numbers, 2);
+        by_threes += path_length(trace.numbers, 3);
+        for (std::size_t k = 2; k < trace.numbers.size(); k += 3)
+            one_height = one_height && trace.numbers[k] == traces.front().numbers[2];
+    }
+    return by_threes < (one_height ? leaping_at_one_height : leaping) * by_twos;
+}
+
+TracePoints parse_list(const std::string& name, std::string_view text) {
+    TableReader reader(name, text, TableReader::Form::list);
+    const std::size_t named = named_coordinates(text);
+    std::vector<ListedTrace> listed;
+    while (reader.next()) {
+        ListedTrace trace{reader.line(), {}};
+        for (const std::string_view word : reader.values())
+            trace.numbers.push_back(coordinate(word, trace.numbers.size() % 2 == 0 ? "x" : "y", reader.lines()));
+        const std::size_t count = trace.numbers.size();
+        if (named != 3 && (count < 4 || count % 2 != 0)) {
+            reader.refuse(fmt::format("{} number{}", count, count == 1 ? "" : "s"),
+                          count >= 6 && count % 3 == 0
+                              ? "x and y of two points or more; if these are x y z, remove every third number"
+                              : "x and y of two points or more");
+        }
+        listed.push_back(std::move(trace));
+    }
+    if (!listed.empty() && (named == 3 || (named == 0 && looks_like_heights(listed)))) {
+        throw InputError(fmt::format(
+            "{}:{}: found x y z of each point, expected x y; remove every third number{}", name, listed.front().line,
+            named == 3 ? "" : ", or, if these are x y, say so by a first line '# x1 y1 x2 y2'"));
+    }
+    TracePoints traces;
+    for (const ListedTrace& trace : listed) add_trace(traces, points_of(trace), name, trace.line);
+    return traces;
 }
 
 class CsvTraces {
   public:
-    explicit CsvTraces(Lines lines) : lines_(std::move(lines)) {}
+    CsvTraces(const std::string& name, std::string_view text) : reader_(name, text, TableReader::Form::table) {}
 
     TracePoints read() {
-        const auto heading = lines_.next();
-        if (!heading) lines_.refuse("no heading", expected_heading);
-        columns_ = fields_of(*heading);
-        const bool by_point = has("trace") && has("x") && has("y");
-        const bool by_line = has("x1") && has("y1") && has("x2") && has("y2");
-        if (by_point == by_line) lines_.refuse(fmt::format("'{:.60}'", *heading), expected_heading);
-        while (auto line = lines_.next()) {
-            if (line->empty()) continue;
-            fields_ = fields_of(*line);
-            if (fields_.size() != columns_.size())
-                lines_.refuse(fmt::format("{} fields", fields_.size()), fmt::format("{}", columns_.size()));
+        reader_.read_heading(expected_heading);
+        const auto trace = reader_.column("trace"), x = reader_.column("x"), y = reader_.column("y");
+        const std::vector<PointColumns> along = columns_along();
+        const bool by_point = trace && x && y;
+        const bool by_line = along.size() >= 2;
+        if (by_point == by_line) reader_.refuse(fmt::format("'{:.60}'", reader_.whole_line()), expected_heading);
+        while (reader_.next()) {
             if (by_line)
-                add_trace(traces_, {{number("x1"), number("y1")}, {number("x2"), number("y2")}}, lines_.name(),
-                          lines_.line());
+                add_trace(traces_, points_along(along), reader_.name(), reader_.line());
             else
-                point();
+                point(reader_.values()[*trace], {number(*x, "x"), number(*y, "y")});
         }
         finish();
         return std::move(traces_);
@@ -126,34 +153,54 @@ class CsvTraces {
   private:
     static constexpr const char* expected_heading = "a heading with trace,x,y or with x1,y1,x2,y2";
 
-    bool has(const char* name) const { return std::find(columns_.begin(), columns_.end(), name) != columns_.end(); }
-    std::string_view field(const char* name) const {
-        return fields_[static_cast<std::size_t>(std::find(columns_.begin(), columns_.end(), name) - columns_.begin())];
+    struct PointColumns {
+        std::size_t x = 0, y = 0;
+    };
+    /// x1,y1,x2,y2 and as many more as there are.
+    std::vector<PointColumns> columns_along() const {
+        std::vector<PointColumns> columns;
+        while (true) {
+            const std::string number = std::to_string(columns.size() + 1);
+            const auto x = reader_.column("x" + number), y = reader_.column("y" + number);
+            if (!x || !y) return columns;
+            columns.push_back({*x, *y});
+        }
     }
-    double number(const char* name) const { return lines_.number(field(name), name); }
+    /// A trace with fewer points leaves the last places empty.
+    std::vector<Vec2> points_along(std::vector<PointColumns> columns) const {
+        const auto& values = reader_.values();
+        while (columns.size() > 2 && values[columns.back().x].empty() && values[columns.back().y].empty())
+            columns.pop_back();
+        std::vector<Vec2> points;
+        for (const auto& [x, y] : columns)
+            points.push_back({number(x, reader_.names()[x]), number(y, reader_.names()[y])});
+        return points;
+    }
 
-    void point() {
-        const std::string_view trace = field("trace");
-        if (trace.empty()) lines_.refuse("no trace", "its name or number");
+    double number(std::size_t column, std::string_view name) const {
+        return coordinate(reader_.values()[column], name, reader_.lines());
+    }
+
+    void point(std::string_view trace, Vec2 place) {
+        if (trace.empty()) reader_.refuse("no trace", "its name or number");
         if (points_.empty() || trace != trace_) {
             finish();
             trace_ = trace;
-            begun_ = lines_.line();
+            begun_ = reader_.line();
             // Points of a trace that comes again would belong to the middle of it.
-            if (!seen_.insert(trace).second)
-                lines_.refuse(fmt::format("trace {:.40} again after another", trace), "its points one after another");
+            if (!seen_.insert(trace_).second)
+                reader_.refuse(fmt::format("trace {:.40} again after another", trace), "its points one after another");
         }
-        points_.push_back({number("x"), number("y")});
+        points_.push_back(place);
     }
     void finish() {
-        if (!points_.empty()) add_trace(traces_, std::move(points_), lines_.name(), begun_);
+        if (!points_.empty()) add_trace(traces_, std::move(points_), reader_.name(), begun_);
         points_.clear();
     }
 
-    Lines lines_;
-    std::vector<std::string_view> columns_, fields_;
-    std::unordered_set<std::string_view> seen_;
-    std::string_view trace_;
+    TableReader reader_;
+    std::unordered_set<std::string> seen_;
+    std::string trace_;
     int begun_ = 0;
     std::vector<Vec2> points_;
     TracePoints traces_;
@@ -162,7 +209,7 @@ class CsvTraces {
 /// Group codes and their values, by twos of lines (AutoCAD DXF Reference, "Drawing interchange file formats").
 class DxfTraces {
   public:
-    DxfTraces(Lines lines, const std::string& layer) : lines_(std::move(lines)), layer_(layer) {}
+    DxfTraces(TextLines lines, const std::string& layer) : lines_(std::move(lines)), layer_(layer) {}
 
     TracePoints read() {
         bool entities = false, ended = false;
@@ -185,17 +232,18 @@ class DxfTraces {
 
   private:
     bool next() {
-        const auto code = lines_.next();
-        if (!code) {
+        const auto line = lines_.next();
+        if (!line) {
             at_end_ = true;
             return false;
         }
-        const auto [end, error] = std::from_chars(code->data(), code->data() + code->size(), code_);
-        if (error != std::errc{} || end != code->data() + code->size())
-            lines_.refuse(fmt::format("'{:.40}'", *code), "a group code, a whole number");
+        const std::string_view code = stripped(*line);
+        const auto [end, error] = std::from_chars(code.data(), code.data() + code.size(), code_);
+        if (error != std::errc{} || end != code.data() + code.size())
+            lines_.refuse(fmt::format("'{:.40}'", code), "a group code, a whole number");
         const auto value = lines_.next();
         if (!value) lines_.refuse("the end of the file behind a group code", "its value");
-        value_ = *value;
+        value_ = stripped(*value);
         return true;
     }
 
@@ -209,8 +257,8 @@ class DxfTraces {
         Vec2 first, second;
         bool closed = false, bulged = false;
         while (next() && code_ != 0) {
-            const bool coordinate = (code_ >= 10 && code_ <= 11) || (code_ >= 20 && code_ <= 21);
-            const double number = coordinate || code_ == 42 ? lines_.number(value_, "a coordinate") : 0.0;
+            const bool is_coordinate = (code_ >= 10 && code_ <= 11) || (code_ >= 20 && code_ <= 21);
+            const double number = is_coordinate || code_ == 42 ? coordinate(value_, "a coordinate", lines_) : 0.0;
             if (code_ == 8) on_layer = value_;
             if (code_ == 10) {
                 first.x = number;
@@ -232,9 +280,9 @@ class DxfTraces {
             while (code_ == 0 && value_ == "VERTEX") {
                 Vec2 place;
                 while (next() && code_ != 0) {
-                    if (code_ == 10) place.x = lines_.number(value_, "x");
-                    if (code_ == 20) place.y = lines_.number(value_, "y");
-                    if (code_ == 42 && lines_.number(value_, "a bulge") != 0.0) bulged = true;
+                    if (code_ == 10) place.x = coordinate(value_, "x", lines_);
+                    if (code_ == 20) place.y = coordinate(value_, "y", lines_);
+                    if (code_ == 42 && coordinate(value_, "a bulge", lines_) != 0.0) bulged = true;
                 }
                 if (at_end_) return false;
                 points.push_back(place);
@@ -262,7 +310,7 @@ class DxfTraces {
         return true;
     }
 
-    Lines lines_;
+    TextLines lines_;
     const std::string& layer_;
     int code_ = -1;
     std::string_view value_;
@@ -276,17 +324,38 @@ std::string ending(const std::string& name) {
     return text;
 }
 
+/// By its first lines: a drawing whatever its file is called.
+bool begins_as_drawing(std::string_view text) {
+    TextLines lines("", text);
+    const auto code = lines.next(), value = lines.next();
+    return code && value && stripped(*code) == "0" && stripped(*value) == "SECTION";
+}
+
+/// Whether the first line with values has names for them.
+bool begins_with_names(const std::string& name, std::string_view text) {
+    TableReader reader(name, text, TableReader::Form::table);
+    if (!reader.next()) return false;
+    const std::string_view first = reader.values().front();
+    return !first.empty() && std::isalpha(static_cast<unsigned char>(first.front())) != 0 && !number_of(first);
+}
+
+TracePoints parse_by_kind(const std::string& name, std::string_view text, const std::string& layer) {
+    const std::string kind = ending(name);
+    if (kind == ".dxf" || begins_as_drawing(text)) return DxfTraces(TextLines(name, text), layer).read();
+    if (!layer.empty())
+        throw InputError(
+            fmt::format("{}: found layer = \"{:.40}\", expected none; only a DXF file has layers", name, layer));
+    if (kind == ".csv" || begins_with_names(name, text)) return CsvTraces(name, text).read();
+    return parse_list(name, text);
+}
+
 }  // namespace
 
 TracePoints parse_traces(const std::string& name, std::string_view text, const std::string& layer) {
-    const std::string kind = ending(name);
-    if (kind != ".dxf" && !layer.empty())
-        throw InputError(
-            fmt::format("{}: found layer = \"{:.40}\", expected none; only a DXF file has layers", name, layer));
-    Lines lines(name, text);
-    TracePoints traces = kind == ".csv"   ? CsvTraces(std::move(lines)).read()
-                         : kind == ".dxf" ? DxfTraces(std::move(lines), layer).read()
-                                          : parse_table(std::move(lines));
+    refuse_foreign(
+        name, text,
+        "CSV (trace,x,y or x1,y1,x2,y2), DXF, or x1 y1 x2 y2 ... of a trace a line; export it as one of them");
+    TracePoints traces = parse_by_kind(name, text, layer);
     if (traces.empty())
         throw InputError(fmt::format("{}: found no trace{}, expected one at least", name,
                                      layer.empty() ? "" : fmt::format(" on layer {:.40}", layer)));

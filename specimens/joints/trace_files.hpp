@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Files of measured traces:
-//     .csv          with a heading: trace,x,y, a line a point, points of one trace one after another; or x1,y1,x2,y2, a
-//                   line a straight trace; other columns are passed over
-//     .dxf          R12: LINE, POLYLINE with its VERTEX entities, and LWPOLYLINE; straight parts alone
-//     any other     a trace a line: x1 y1 x2 y2 ..., blanks or tabs between (FracPaQ's list of nodes); # begins a
-//     remark
+//     a table       with a heading: trace,x,y, a line a point, points of one trace one after another; or x1,y1,x2,y2
+//                   and so on, a line a trace; other columns are passed over. Every .csv is one
+//     DXF R12       LINE, POLYLINE with its VERTEX entities, and LWPOLYLINE; straight parts alone
+//     a list        a trace a line: x1 y1 x2 y2 ..., blanks, tabs or commas between (FracPaQ's list of nodes); # begins
+//                   a remark
+// GeoJSON, SVG and other kinds of file are refused by name, and so are lists of x y z.
 // Tested by tests/specimens/joints/trace_files_test.cpp.
 #pragma once
 

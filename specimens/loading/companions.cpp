@@ -8,10 +8,10 @@
 #include <cmath>
 #include <future>
 #include <limits>
-#include <thread>
 #include <utility>
 
 #include "solver/base/errors.hpp"
+#include "solver/base/processors_lent.hpp"
 #include "solver/base/threads_to_be_had.hpp"
 #include "specimens/loading/load_specimen.hpp"
 #include "specimens/loading/prepare.hpp"
@@ -179,7 +179,7 @@ std::optional<NumericalErrors> run_companions(const VirtualTest& test, const Tes
     std::vector<std::optional<Companion>> done(plans.size());
     const int threads = std::max(1, test.world.workers.threads);
     // This thread only waits for those that are begun.
-    const int had = threads_to_be_had(1 + std::max(1, static_cast<int>(std::thread::hardware_concurrency()))) - 1;
+    const int had = threads_to_be_had(1 + processors_lent()) - 1;
     const auto at_once = static_cast<std::size_t>(std::max(1, had / threads));
     // One at a time needs no thread of its own.
     const auto policy = at_once > 1 ? std::launch::async : std::launch::deferred;

@@ -94,8 +94,8 @@ RateRule rate_rule_of(const VirtualTest& test, double tolerance) {
     rule.tolerance = tolerance;
     rule.transit_time = setup.uniaxial ? setup.height / std::sqrt(modulus / (mass / area)) : transit_of_motion(test);
     rule.first_strain = test.small_strain->yield_strain;
-    // Nothing ever gives way: the test's own length is all there is to go by.
-    if (!std::isfinite(rule.first_strain)) rule.first_strain = test.description.loading.max_axial_strain;
+    // Nothing gives way in the test: its own length is all there is to go by.
+    rule.first_strain = std::min(rule.first_strain, test.description.loading.max_axial_strain);
     rule.stress_floor = modulus * rule.first_strain;
     rule.energy_floor = 0.5 * rule.stress_floor * rule.first_strain * area;
     return rule;

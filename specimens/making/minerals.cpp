@@ -8,10 +8,11 @@
 #include <charconv>
 #include <cmath>
 #include <numeric>
-#include <sstream>
 
 #include "solver/base/errors.hpp"
+#include "solver/files/file_kind.hpp"
 #include "solver/files/read_file.hpp"
+#include "solver/files/table_reader.hpp"
 #include "specimens/case/colour.hpp"
 #include "specimens/making/label_image.hpp"
 
@@ -102,18 +103,16 @@ Minerals read_labels(const TestCase& test, std::size_t grains) {
         throw InputError(fmt::format("{}: found no file {}, expected labels; check the path",
                                      test.at("minerals.labels"), file.string()));
     }
-    std::istringstream in(read_text(file));
+    const std::string text = read_text(file);
+    refuse_foreign(file.string(), text, "a list of labels, a mineral's name or number a line");
     Minerals minerals;
-    std::string label;
-    for (int line = 1; std::getline(in, label); ++line) {
-        constexpr const char* blank = " \t\r";
-        label.erase(0, std::min(label.find_first_not_of(blank), label.size()));
-        label.erase(label.find_last_not_of(blank) + 1);
-        if (label.empty() || label[0] == '#') continue;
+    TableReader labels(file.string(), text, TableReader::Form::words);
+    while (labels.next()) {
+        const std::string label(labels.values().front());
         minerals.push_back(mineral_called(names, label));
         if (minerals.back() < names.size()) continue;
         throw InputError(fmt::format("{}:{}: label: found \"{:.40}\", expected a mineral: {}, or its number from 1",
-                                     file.string(), line, label, fmt::join(names, ", ")));
+                                     file.string(), labels.line(), label, fmt::join(names, ", ")));
     }
     if (minerals.size() != grains) {
         throw InputError(

@@ -23,6 +23,7 @@
 #include "specimens/making/cell_bodies.hpp"
 #include "specimens/making/cell_sizes.hpp"
 #include "specimens/making/cut_shape.hpp"
+#include "specimens/making/misplaced_bodies.hpp"
 #include "specimens/packing/packing.hpp"
 
 namespace crackle {
@@ -209,6 +210,7 @@ Scene packed_scene(const TestCase& test, const TestHooks& hooks, Specimen& speci
 Scene read_particles(const TestCase& test, const TestHooks& hooks) {
     const auto path = test.resolve_path("particles.file", *test.particles.file);
     Scene scene = read_geometry(path);
+    refuse_misplaced_bodies(scene, test.at("particles.file"));
     for (Material& material : scene.materials) apply_material(test.material, material);
     hooks.report_stage(fmt::format("read {} bodies from {}", scene.bodies.size(), path.string()));
     return scene;

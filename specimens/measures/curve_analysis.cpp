@@ -141,9 +141,12 @@ Tangent tangent_beyond_peak(std::span<const CurveRow> rows, std::int64_t peak_ro
     };
     const auto from = falls_to(fall_window_from), to = falls_to(fall_window_to);
     if (to == falling.end()) return tangent({}, compression);
-    return tangent(
+    Tangent fall = tangent(
         falling.subspan(static_cast<std::size_t>(from - falling.begin()), static_cast<std::size_t>(to - from + 1)),
         compression);
+    // A stress that drops, rises above the peak again and falls much later has no slope of its fall.
+    if (!(fall.modulus < 0.0)) fall.modulus = std::numeric_limits<double>::quiet_NaN();
+    return fall;
 }
 
 double brittleness_index(double youngs_modulus, double modulus_beyond_peak) {

@@ -2,6 +2,7 @@
 #include "specimens/measures/cycles.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace crackle {
@@ -20,6 +21,12 @@ LoadingCycle cycle_of(std::span<const CurveRow> rows, bool ended, bool compressi
     c.modulus = (turn.axial_stress - low.axial_stress) / way;
     c.poissons_ratio = (compression ? 1.0 : -1.0) * (turn.lateral_strain - low.lateral_strain) / way;
     c.permanent_strain = low.axial_strain - low.axial_stress / c.modulus;
+    const auto unbalanced = [](const CurveRow& row) { return 0.5 * std::abs(row.stress_top - row.stress_bottom); };
+    c.modulus_error = (unbalanced(turn) + unbalanced(low)) / std::abs(turn.axial_stress - low.axial_stress);
+    c.unbroken = rows.back().bonds_broken == 0;
+    c.linear = c.unbroken && std::ranges::all_of(rows, [](const CurveRow& row) {
+                   return row.bonds_slid == 0 && row.points_sliding == 0 && row.contacts_gained <= 0;
+               });
     c.loop = ended ? 0.0 : std::numeric_limits<double>::quiet_NaN();
     for (std::size_t k = 1; k < rows.size(); ++k) {
         // The last piece goes only to where the loop closes.
@@ -37,14 +44,19 @@ LoadingCycle cycle_of(std::span<const CurveRow> rows, bool ended, bool compressi
 
 std::vector<LoadingCycle> find_cycles(std::span<const CurveRow> rows, bool compression) {
     std::vector<LoadingCycle> cycles;
-    for (std::size_t k = 0; k + 1 < rows.size();) {
-        const auto farther = [&](const CurveRow& row) { return row.axial_strain > rows[k].axial_strain; };
-        const auto rest = rows.subspan(k + 1);
-        const auto end = std::ranges::find_if(rest, farther);
-        const auto within = static_cast<std::size_t>(end - rest.begin());
-        const bool ended = end != rest.end();
-        if (within > 0) cycles.push_back(cycle_of(rows.subspan(k, 1 + within + (ended ? 1 : 0)), ended, compression));
-        k += 1 + within;
+    const auto strain = [&](std::size_t k) { return rows[k].axial_strain; };
+    for (std::size_t turn = 0; turn + 1 < rows.size();) {
+        if (strain(turn + 1) >= strain(turn)) {
+            ++turn;
+            continue;
+        }
+        std::size_t end = turn + 1;
+        while (end + 1 < rows.size() && strain(end + 1) <= strain(end)) ++end;
+        while (end + 1 < rows.size() && strain(end + 1) >= strain(end) && strain(end) <= strain(turn)) ++end;
+        const bool turns_again = end + 1 < rows.size() && strain(end + 1) < strain(end);
+        const bool ended = turns_again || strain(end) > strain(turn);
+        cycles.push_back(cycle_of(rows.subspan(turn, end - turn + 1), ended, compression));
+        turn = end;
     }
     return cycles;
 }

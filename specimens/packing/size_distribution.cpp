@@ -9,12 +9,13 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <string>
 
 #include "solver/base/correctly_rounded.hpp"
 #include "solver/base/errors.hpp"
+#include "solver/files/file_kind.hpp"
 #include "solver/files/read_file.hpp"
+#include "solver/files/table_reader.hpp"
 #include "specimens/statistics/random_numbers.hpp"
 
 namespace crackle {
@@ -122,26 +123,6 @@ void validate_sieve(const SieveCurve& curve) {
     }
 }
 
-double parse_number(const std::string& text, const std::string& where, const char* name) {
-    std::size_t used = 0;
-    double value = 0.0;
-    try {
-        value = std::stod(text, &used);
-    } catch (const std::logic_error&) {  // invalid_argument, out_of_range
-        used = 0;
-    }
-    if (used == 0 || text.find_first_not_of(" \t\r", used) != std::string::npos) {
-        throw InputError(fmt::format("{}: {}: found '{:.40}', expected a number", where, name, text));
-    }
-    return value;
-}
-
-std::string trimmed(const std::string& text) {
-    const std::size_t first = text.find_first_not_of(" \t\r");
-    if (first == std::string::npos) return "";
-    return text.substr(first, text.find_last_not_of(" \t\r") - first + 1);
-}
-
 }  // namespace
 
 void validate(const SizeDistribution& sizes) {
@@ -236,30 +217,16 @@ double kolmogorov_distance(const SizeDistribution& sizes, std::vector<double> ra
 }
 
 SieveCurve read_sieve_curve(const std::filesystem::path& path) {
-    std::istringstream in(read_text(path));
+    constexpr const char* expected_heading = "the column names size,passing_by_mass";
+    const std::string text = read_text(path);
+    refuse_foreign(path.string(), text, fmt::format("a table with {}", expected_heading));
+    TableReader reader(path.string(), text, TableReader::Form::table);
+    reader.read_heading(expected_heading);
+    const auto size = reader.column("size"), passing = reader.column("passing_by_mass");
+    if (!size || !passing) reader.refuse(fmt::format("'{:.40}'", reader.whole_line()), expected_heading);
     SieveCurve curve;
-    std::string line;
-    bool header = false;
-    for (int number = 1; std::getline(in, line); ++number) {
-        const std::string where = fmt::format("{}:{}", path.string(), number);
-        const std::string text = trimmed(line);
-        if (text.empty() || text[0] == '#') continue;
-        const std::size_t comma = text.find(',');
-        const std::string first = trimmed(text.substr(0, comma));
-        const std::string second = comma == std::string::npos ? "" : trimmed(text.substr(comma + 1));
-        if (!header) {
-            if (first != "size" || second != "passing_by_mass") {
-                throw InputError(
-                    fmt::format("{}: found '{:.40}', expected the column names size,passing_by_mass", where, text));
-            }
-            header = true;
-            continue;
-        }
-        if (comma == std::string::npos || second.find(',') != std::string::npos) {
-            throw InputError(fmt::format("{}: found '{:.40}', expected two values: size,passing_by_mass", where, text));
-        }
-        curve.points.push_back({parse_number(first, where, "size"), parse_number(second, where, "passing_by_mass")});
-    }
+    while (reader.next())
+        curve.points.push_back({reader.number(*size, "size"), reader.number(*passing, "passing_by_mass")});
     if (!curve.points.empty() && curve.points.back().passing_by_mass == 100.0) {
         for (SievePoint& point : curve.points) point.passing_by_mass /= 100.0;
     }

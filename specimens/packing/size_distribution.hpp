@@ -59,8 +59,8 @@ std::vector<double> sample_radii(const SizeDistribution& sizes, std::size_t coun
 /// Largest distance between the cumulative curves of the sample and of the distribution (Kolmogorov-Smirnov statistic).
 double kolmogorov_distance(const SizeDistribution& sizes, std::vector<double> radii);
 
-/// Reads a CSV whose first line is `size,passing_by_mass`; lines starting with # are comments. The last row's share may
-/// be 1 or 100 (then all shares are percentages). @throws InputError naming file and line.
+/// Reads a table (solver/files/table_reader.hpp) with the columns size and passing_by_mass. The last row's share may be
+/// 1 or 100 (then all shares are percentages). @throws InputError naming file and line.
 SieveCurve read_sieve_curve(const std::filesystem::path& path);
 
 }  // namespace crackle

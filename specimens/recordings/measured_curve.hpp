@@ -9,8 +9,8 @@
 
 namespace crackle {
 
-/// Strain and stress, of a CSV file whose first line names its columns; axial_strain and axial_stress are read, rows
-/// that lack one are left out. @throws InputError naming file, and line or column
+/// Strain and stress, of a table (solver/files/table_reader.hpp) with the columns axial_strain and axial_stress; rows
+/// that lack one (empty, or nan) are left out. @throws InputError naming file, and line or column
 std::vector<std::pair<double, double>> read_measured_curve(const std::filesystem::path& file);
 
 }  // namespace crackle

@@ -5,15 +5,16 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <system_error>
 
 #include "solver/base/errors.hpp"
 #include "solver/files/read_file.hpp"
+#include "solver/files/table_reader.hpp"
 #include "specimens/recordings/replacement.hpp"
 #include "specimens/recordings/stated_files.hpp"
 
@@ -30,16 +31,6 @@ std::string read_result(const std::filesystem::path& file) {
                         file.string(), file.parent_path().string()));
     }
     return read_file(file);
-}
-
-std::vector<std::string_view> split(std::string_view line) {
-    std::vector<std::string_view> fields;
-    while (true) {
-        const std::size_t comma = line.find(',');
-        fields.push_back(line.substr(0, comma));
-        if (comma == std::string_view::npos) return fields;
-        line.remove_prefix(comma + 1);
-    }
 }
 
 constexpr const char* test_again = "write the results again with `crackle test --force`";
@@ -111,41 +102,28 @@ nlohmann::ordered_json read_summary(const std::filesystem::path& file) {
 
 NumberTable number_table(const std::filesystem::path& file, std::string_view text, std::string_view word_column,
                          const std::vector<std::string>& words, int names_line) {
+    TableReader reader(file.string(), without_byte_order_mark(text), TableReader::Form::table, names_line);
+    reader.read_heading("the names of the columns");
     NumberTable table;
-    std::string_view rest = without_byte_order_mark(text);
-    for (int line_number = names_line; !rest.empty(); ++line_number) {
-        const std::size_t line_end = rest.find('\n');
-        std::string_view line = rest.substr(0, line_end);
-        rest.remove_prefix(line_end == std::string_view::npos ? rest.size() : line_end + 1);
-        if (line.ends_with('\r')) line.remove_suffix(1);
-        const std::vector<std::string_view> fields = split(line);
-        if (line_number == names_line) {
-            table.names.assign(fields.begin(), fields.end());
-            table.columns.resize(fields.size());
-            continue;
-        }
-        if (fields.size() != table.names.size()) {
-            throw InputError(fmt::format("{}:{}: found {} values, expected {} as in the first line", file.string(),
-                                         line_number, fields.size(), table.names.size()));
-        }
-        for (std::size_t k = 0; k < fields.size(); ++k) {
-            double value = 0.0;
+    table.names = reader.names();
+    table.columns.resize(table.names.size());
+    while (reader.next()) {
+        for (std::size_t k = 0; k < table.names.size(); ++k) {
+            const std::string_view found = reader.values()[k];
             if (!word_column.empty() && table.names[k] == word_column) {
-                const auto word = std::find(words.begin(), words.end(), fields[k]);
+                const auto word = std::find(words.begin(), words.end(), found);
                 if (word == words.end()) {
                     throw InputError(fmt::format("{}:{}: {}: found '{:.40}', expected one of: {}", file.string(),
-                                                 line_number, word_column, fields[k], fmt::join(words, ", ")));
+                                                 reader.line(), word_column, found, fmt::join(words, ", ")));
                 }
-                value = static_cast<double>(word - words.begin());
-            } else {
-                const auto [end, error] = std::from_chars(fields[k].data(), fields[k].data() + fields[k].size(), value);
-                // Not a number is what has no value, such as a strain without gauge; infinite is nothing.
-                if (error != std::errc() || end != fields[k].data() + fields[k].size() || std::isinf(value)) {
-                    throw InputError(fmt::format("{}:{}: {:.40}: found '{:.40}', expected a number or nan",
-                                                 file.string(), line_number, table.names[k], fields[k]));
-                }
+                table.columns[k].push_back(static_cast<double>(word - words.begin()));
+                continue;
             }
-            table.columns[k].push_back(value);
+            // Not a number is what has no value, such as a strain without gauge; infinite is nothing.
+            const std::optional<double> value = number_of(found);
+            if (!value || std::isinf(*value))
+                reader.refuse_number(found, fmt::format("a number or nan for {:.40}", table.names[k]));
+            table.columns[k].push_back(*value);
         }
     }
     return table;

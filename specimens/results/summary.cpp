@@ -209,14 +209,20 @@ void cracking(Writer& w, const TestCase& test, const TestSetup& setup, const Tes
 void cycles(Writer& w, const TestCase& test, const TestSetup& setup, const TestState& state) {
     if (!test.loading.unloads()) return;
     Json all = Json::array();
-    for (const LoadingCycle& cycle : find_cycles(state.rows, setup.compression)) {
+    for (LoadingCycle cycle : find_cycles(state.rows, setup.compression)) {
+        if (cycle.linear && std::isfinite(state.youngs_modulus)) {
+            cycle.modulus = state.youngs_modulus;
+            cycle.permanent_strain = cycle.modulus_error = 0.0;
+        }
+        const double damage = cycle.unbroken ? 0.0 : 1.0 - cycle.modulus / state.youngs_modulus;
         all.push_back({{"strain", cycle.strain},
                        {"stress", cycle.stress},
                        {"low_strain", cycle.low_strain},
                        {"low_stress", cycle.low_stress},
                        {"modulus", finite_or_null(cycle.modulus)},
                        {"poissons_ratio", finite_or_null(setup.uniaxial ? cycle.poissons_ratio : NAN)},
-                       {"damage", finite_or_null(1.0 - cycle.modulus / state.youngs_modulus)},
+                       {"modulus_error", finite_or_null(cycle.modulus_error)},
+                       {"damage", finite_or_null(damage)},
                        {"permanent_strain", finite_or_null(cycle.permanent_strain)},
                        {"loss", finite_or_null(cycle.loop * setup.section * setup.length)}});
     }

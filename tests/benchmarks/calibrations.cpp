@@ -13,11 +13,11 @@
 #include <fstream>
 #include <nlopt.hpp>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include "solver/base/errors.hpp"
+#include "solver/base/processors_lent.hpp"
 #include "specimens/calibration/calibrate.hpp"
 #include "specimens/calibration/measurements.hpp"
 #include "specimens/campaign/axis.hpp"
@@ -29,7 +29,7 @@ namespace fs = std::filesystem;
 
 constexpr int fit = 12, polish = 40, fresh = 24, laboratory = 24;
 constexpr std::int64_t laboratory_seed = 5001;
-const int workers = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+const int workers = processors_lent();
 
 struct Known {
     const char* key;

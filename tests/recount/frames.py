@@ -230,14 +230,15 @@ def recount_frame(r, model, bonds, frame, first, row):
     groups = {}
     for k in range(model.count):
         groups.setdefault(find(k), []).append(k)
-    ranked = sorted(groups.values(), key=lambda g: (-round(sum(model.area[k] for k in g), 12), min(model.ids[k] for k in g)))
+    all_area = model.area[: model.count].sum()  # areas that differ by the rounding of sums are equal
+    ranked = sorted(groups.values(), key=lambda g: (-round(sum(model.area[k] for k in g) / all_area, 12), min(model.ids[k] for k in g)))
     number = np.full(len(spin), -1)
     for n, group in enumerate(ranked):
         number[group] = n
     r.rows(label + "fragment", p["fragment"], number[order], 0)
     if frame.time == r.curve["time"][-1]:
         r.key("fragments", len(ranked))
-        r.key("largest_fragment_share", model.area[ranked[0]].sum() / model.area[: model.count].sum())
+        r.key("largest_fragment_share", model.area[ranked[0]].sum() / all_area)
         recount_fragments(r, model, [model.area[group].sum() for group in ranked])
     broken = int(np.sum((state == 2) | (state == 3)))
     by_events = int(np.sum(r.events["time"] <= frame.time * (1 + 1e-12))) if len(r.events["time"]) else 0

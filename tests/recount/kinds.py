@@ -79,7 +79,7 @@ def recount_box(r, height, length, force, spring):
             r.key("normal_stress_at_peak" + ("" if r.summary["failed"] else "_so_far"), (force + spring * rise[r.peak]) / length)
     # What the normal force does is minus its mean times the rise, to the rounding of a sum of steps.
     r.rows("curve: confinement_work", c["confinement_work"], -(force + 0.5 * spring * rise) * rise,
-           1e-9 * (force + spring * np.max(np.abs(rise))) * np.max(np.abs(rise)) + 1e-12 * np.abs(c["platen_work"]) + 1e-15)
+           1e-9 * (force + spring * np.max(np.abs(rise))) * np.max(np.abs(rise)) + 1e-12 * np.abs(c["platen_work"]) + 1e-15 * np.max(np.abs(c["platen_work"])))
     if r.summary["ended_by"] == "max_axial_strain":
         r.key("residual_stress", c["axial_stress"][c["axial_strain"] >= 0.9 * c["axial_strain"][-1]].mean())
     if r.peak is None:

@@ -34,7 +34,7 @@ def yield_strain(r, model, bonds, motion):
         sliding = np.where((margin < 0) & (ks * slipping > 0), -bonds.cohesion / margin, math.inf)
     parting[bonds.held] = sliding[bonds.held] = math.inf
     first = np.sort(np.minimum(parting, sliding))[len(closing) // 50]
-    return first if math.isfinite(first) else r.results.key("loading", "max_axial_strain")
+    return min(first, r.results.key("loading", "max_axial_strain"))
 
 
 def recount_start(r, model, bonds, solution, modulus, elastic):

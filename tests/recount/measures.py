@@ -46,6 +46,8 @@ def recount_moduli(r, strain, stress, lateral, sense):
     if end is not None and r.summary["failed"]:
         window = slice(r.peak + begin, r.peak + end + 1)
         fall = regression(strain[window], stress[window])[0]
+        if not fall < 0:
+            fall = math.nan
     r.key("post_peak_modulus", fall, 1e-8)
     modulus = r.summary["youngs_modulus"]
     r.key("brittleness_index", math.nan if modulus is None else 1 - modulus / fall, 1e-8)

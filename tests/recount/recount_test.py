@@ -147,6 +147,13 @@ class Recount(unittest.TestCase):
     def test_triangles_between_frictional_platens(self):
         self.agrees(run("triangles", rock + triangles + squeezed + friction + output), 100)
 
+    def test_cells_of_micrometres(self):
+        # Grains of 4 micrometres: an area of a fragment is some 1e-11 m2.
+        tiny = packing.replace("1.333e-2", "1.333e-6").replace("2.667e-2", "2.667e-6").replace("7.74e-5", "7.74e-9")
+        small_cells = cells.replace("thick = 1e-3", "thick = 1e-7")
+        case = tiny + area + strengths + small_cells + cohesive + scattered("weibull", 0.3) + squeezed + output
+        self.agrees(run("micrometres", case), 300)
+
     def test_errors_of_crack_initiation(self):
         """Of a specimen that breaks often enough to have one."""
         shipped = Path(__file__).parents[2] / "specimens/guide_rock/delaunay_compression.toml"

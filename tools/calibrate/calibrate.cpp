@@ -55,10 +55,10 @@ void print_plan(const Rock& rock) {
 
 CommandLine describe_calibrate() {
     po::options_description options;
-    options.add_options()("output,o", po::value<std::string>()->value_name("DIR"), "folder of the calibration")  //
-        ("workers", po::value<int>()->value_name("N"), "processes that run tests (default: one a processor)")    //
-        ("dry-run", "judge the file and all corners of its bounds; run nothing, write nothing")                  //
-        ("long", "run tests although they take more than a day, or 1e10 steps")                                  //
+    options.add_options()("output,o", po::value<std::string>()->value_name("DIR"), "folder of the calibration")     //
+        ("workers", po::value<int>()->value_name("N"), "processes that run tests (default: one a processor lent)")  //
+        ("dry-run", "judge the file and all corners of its bounds; run nothing, write nothing")                     //
+        ("long", "run tests although they take more than a day, or 1e10 steps")                                     //
         ("keys", "list all keys of a rock's file");
     return {
         .synopses = {"crackle calibrate ROCK.toml -o DIR [OPTIONS]"},

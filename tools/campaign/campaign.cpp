@@ -64,8 +64,8 @@ void print_outcome(const CampaignOutcome& outcome, const std::string& folder) {
 
 CommandLine describe_campaign() {
     po::options_description options;
-    options.add_options()("output,o", po::value<std::string>()->value_name("DIR"), "folder of the campaign")   //
-        ("workers", po::value<int>()->value_name("N"), "processes that run tests (default: one a processor)")  //
+    options.add_options()("output,o", po::value<std::string>()->value_name("DIR"), "folder of the campaign")        //
+        ("workers", po::value<int>()->value_name("N"), "processes that run tests (default: one a processor lent)")  //
         ("verify",
          "run each test at half the step and half the rate, too: the bias of every mean, with its standard error")  //
         ("retry", "run those again that have gone wrong")                                                           //

@@ -5,79 +5,96 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
+#include <cctype>
 #include <cmath>
+#include <cstddef>
+#include <optional>
 
 #include "solver/base/errors.hpp"
+#include "solver/demseg/circle_list.hpp"
+#include "solver/files/table_reader.hpp"
 
 namespace crackle::tools {
 namespace {
 
-std::vector<std::string_view> words_of(std::string_view line) {
-    constexpr std::string_view blanks = " \t\r";
-    line = line.substr(0, line.find('#'));
-    std::vector<std::string_view> words;
-    std::size_t at = line.find_first_not_of(blanks);
-    while (at != std::string_view::npos) {
-        const std::size_t end = std::min(line.find_first_of(blanks, at), line.size());
-        words.push_back(line.substr(at, end - at));
-        at = line.find_first_not_of(blanks, end);
+/// The first line that holds anything; nothing where there is none.
+std::optional<std::vector<std::string>> first_values(std::string_view text) {
+    if (text.find('"') != std::string_view::npos) {  // a heading: numbers need no quotes
+        TableReader reader("", text, TableReader::Form::table);
+        if (!reader.next()) return std::nullopt;
+        return std::vector<std::string>(reader.values().begin(), reader.values().end());
     }
-    return words;
+    TableReader reader("", text, TableReader::Form::list);
+    if (!reader.next()) return std::nullopt;
+    return std::vector<std::string>(reader.values().begin(), reader.values().end());
 }
 
-/// Calls use(words, line number) for every line that holds words, until it returns false.
-template <typename Use>
-void each_line(std::string_view text, Use use) {
-    int number = 0;
-    while (!text.empty()) {
-        ++number;
-        const std::size_t end = std::min(text.find('\n'), text.size());
-        const auto words = words_of(text.substr(0, end));
-        if (!words.empty() && !use(words, number)) return;
-        text.remove_prefix(std::min(end + 1, text.size()));
-    }
+bool is_name(std::string_view word) {
+    return !word.empty() && std::isalpha(static_cast<unsigned char>(word.front())) != 0 && !number_of(word);
+}
+
+double coordinate(const TableReader& reader, std::size_t place, const char* what) {
+    const std::string_view word = reader.values()[place];
+    const std::optional<double> value = number_of(word);
+    if (!value || !std::isfinite(*value)) reader.refuse_number(word, fmt::format("a finite number for {}", what));
+    return *value;
+}
+
+/// Where a list's columns are, and what they are together.
+struct Columns {
+    std::size_t x = 0, y = 1;
+    std::optional<std::size_t> z;
+    std::size_t width = 2;
+    std::string form = "x y";
+};
+
+Columns named_columns(TableReader& reader) {
+    reader.read_heading("a heading with x and y");
+    const auto x = reader.column("x"), y = reader.column("y");
+    if (!x || !y) reader.refuse(fmt::format("'{:.60}'", reader.whole_line()), "a heading with x and y");
+    Columns columns{*x, *y, reader.column("z"), reader.names().size(), "x y"};
+    if (columns.z) columns.form += " z";
+    if (reader.column("r") || reader.column("radius")) columns.form += " r";
+    return columns;
+}
+
+Columns columns_of_list(std::string_view text) {
+    const std::string_view form = circle_list_form(text);
+    if (form == "x y r") return {0, 1, std::nullopt, 3, "x y r"};
+    if (form == "x y z r") return {0, 1, 2, 4, "x y z r"};
+    return {};
 }
 
 }  // namespace
 
-bool parse_number(std::string_view word, double& value) {
-    std::string spelled(word);
-    std::replace_if(
-        spelled.begin(), spelled.end(), [](char c) { return c == 'd' || c == 'D'; }, 'e');
-    const char* first = spelled.data() + (!spelled.empty() && spelled.front() == '+' ? 1 : 0);
-    const char* last = spelled.data() + spelled.size();
-    const auto [end, error] = std::from_chars(first, last, value);
-    return error == std::errc{} && end == last && std::isfinite(value);
-}
-
 bool looks_like_centre_list(std::string_view text) {
-    bool pair = false;
-    each_line(text, [&pair](const std::vector<std::string_view>& words, int) {
-        pair = words.size() == 2;
-        return false;
-    });
-    return pair;
+    const auto first = first_values(text);
+    if (!first || first->empty()) return false;
+    if (is_name(first->front())) return std::find(first->begin(), first->end(), "x") != first->end();
+    return first->size() == 2 || !circle_list_form(text).empty();
 }
 
 CentreList parse_centre_list(const std::string& name, std::string_view text) {
+    const auto first = first_values(text);
+    const bool named = first && !first->empty() && is_name(first->front());
+    TableReader reader(name, text, named ? TableReader::Form::table : TableReader::Form::list);
+    const Columns columns = named ? named_columns(reader) : columns_of_list(text);
     CentreList list;
-    each_line(text, [&](const std::vector<std::string_view>& words, int line) {
-        if (words.size() != 2) {
-            throw InputError(fmt::format("{}:{}: found {} word{}, expected two numbers x y", name, line, words.size(),
-                                         words.size() == 1 ? "" : "s"));
-        }
-        Vec2 place;
-        for (const auto& [word, value] : {std::pair{words[0], &place.x}, {words[1], &place.y}}) {
-            if (!parse_number(word, *value)) {
-                throw InputError(fmt::format("{}:{}: {}: found '{:.40}', expected a finite number", name, line,
-                                             value == &place.x ? "x" : "y", word));
-            }
-        }
-        list.places.push_back(place);
-        list.lines.push_back(line);
-        return true;
-    });
+    list.form = columns.form;
+    std::optional<double> plane;
+    while (reader.next()) {
+        const std::size_t count = reader.values().size();
+        if (count != columns.width)
+            reader.refuse(fmt::format("{} value{}", count, count == 1 ? "" : "s"), "two numbers x y");
+        list.places.push_back({coordinate(reader, columns.x, "x"), coordinate(reader, columns.y, "y")});
+        list.lines.push_back(reader.line());
+        if (!columns.z) continue;
+        const double z = coordinate(reader, *columns.z, "z");
+        if (z != plane.value_or(z))
+            reader.refuse(fmt::format("z = {} behind z = {}", z, *plane),
+                          "x y of one plane; take those of a section, without z");
+        plane = z;
+    }
     if (list.places.empty()) throw InputError(fmt::format("{}: found no centres, expected lines of x y", name));
     return list;
 }

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "solver/base/instruction_set.hpp"
+#include "solver/base/processors_lent.hpp"
 #include "tools/command_line/command_line.hpp"
 #include "tools/commands/build_info.hpp"
 #include "tools/commands/commands.hpp"
@@ -70,8 +71,9 @@ int doctor(const Invocation& given) {
     line("instructions", instructions());
     line("lanes", fmt::format("{} doubles side by side in the contact kernels", lanes_of(chosen_set())));
     line("sanitizers", build_info::sanitizers ? "address and undefined behaviour: slow, for tests" : "none");
-    line("threads", fmt::format("{} on this machine; OpenMP {}; results are the same for any number",
-                                std::thread::hardware_concurrency(), _OPENMP));
+    line("threads",
+         fmt::format("{} of {} processors of this machine may be used; OpenMP {}; results are the same for any number",
+                     processors_lent(), std::thread::hardware_concurrency(), _OPENMP));
     for (const build_info::Library& library : build_info::libraries) {
         line("library", fmt::format("{} {}: {}", library.name, library.version, library.serves));
     }

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -15,8 +16,10 @@
 #include "solver/base/errors.hpp"
 #include "solver/demseg/deck_reader.hpp"
 #include "solver/demseg/geometry.hpp"
+#include "solver/files/file_kind.hpp"
 #include "solver/files/read_file.hpp"
 #include "solver/files/replace_file.hpp"
+#include "solver/files/text_lines.hpp"
 #include "specimens/case/case_file.hpp"
 #include "specimens/joints/joint_network.hpp"
 #include "specimens/joints/mesh_traces.hpp"
@@ -37,9 +40,7 @@ Arguments join_domain(Arguments words) {
     if (found == words.end()) return words;
     std::string joined = "--domain=";
     auto word = found + 1;
-    double number = 0.0;
-    for (int k = 0; k < 4 && word != words.end() && parse_number(*word, number); ++k, ++word)
-        joined += (k > 0 ? " " : "") + *word;
+    for (int k = 0; k < 4 && word != words.end() && number_of(*word); ++k, ++word) joined += (k > 0 ? " " : "") + *word;
     *found = joined;
     words.erase(found + 1, word);
     return words;
@@ -50,9 +51,11 @@ Domain parse_domain(const std::string& text) {
     Domain domain;
     for (double* value : {&domain.x1, &domain.x2, &domain.y1, &domain.y2}) {
         std::string word;
-        if (!(words >> word) || !parse_number(word, *value)) {
+        words >> word;
+        const std::optional<double> number = number_of(word);
+        if (!number || !std::isfinite(*number))
             throw InputError(fmt::format("--domain: found '{}', expected four numbers x1 x2 y1 y2 in m", text));
-        }
+        *value = *number;
     }
     return domain;
 }
@@ -65,8 +68,11 @@ struct Source {
     std::vector<std::string> origin;  ///< of each centre, as the user knows it
 };
 
-Source centres_of_list(const std::string& name, const std::string& text, const po::variables_map& values) {
+Source centres_of_list(const std::string& name, const std::string& text, const po::variables_map& values,
+                       Messages& messages) {
     const CentreList list = parse_centre_list(name, text);
+    if (list.form != "x y")
+        messages.notice(fmt::format("{}: read as a list of {}; polygons are made of x y alone", name, list.form));
     Source source;
     for (std::size_t k = 0; k < list.places.size(); ++k) {
         source.centres.push_back({list.places[k].x, list.places[k].y});
@@ -99,6 +105,8 @@ Source centres_of_list(const std::string& name, const std::string& text, const p
 }
 
 Source centres_of_deck(const std::string& name, const std::string& text, const po::variables_map& values) {
+    DeckReader reader(name, text);
+    const Scene circles = read_deck_geometry(reader).scene;
     for (const char* option :
          {"domain", "bounding-box", "density", "normal-stiffness", "shear-stiffness", "friction-angle"}) {
         if (values.contains(option) && !values[option].defaulted()) {
@@ -106,8 +114,6 @@ Source centres_of_deck(const std::string& name, const std::string& text, const p
                 "crackle mesh: found --{} with the deck {}, which states its own; leave it out", option, name));
         }
     }
-    DeckReader reader(name, text);
-    const Scene circles = read_deck_geometry(reader).scene;
     Source source;
     for (const Body& body : circles.bodies) {
         if (body.circle_count != 1) {
@@ -221,8 +227,9 @@ Scene meshed_scene(const std::string& name, const std::string& text, const po::v
                    const std::function<bool()>& interrupted) {
     MeshRequest request = request_of(values);
     request.interrupted = interrupted;
-    Source source =
-        looks_like_centre_list(text) ? centres_of_list(name, text, values) : centres_of_deck(name, text, values);
+    refuse_foreign(name, text, "a particle file (in_gm.dat), or a list of centres x y");
+    Source source = looks_like_centre_list(text) ? centres_of_list(name, text, values, messages)
+                                                 : centres_of_deck(name, text, values);
     messages.detail(fmt::format("read {} centres from {}, {} bytes", source.centres.size(), name, text.size()));
     messages.progress().step(1.0, fmt::format("meshing {} centres", source.centres.size()));
     JointNetwork joints;
@@ -270,7 +277,8 @@ CommandLine describe_mesh() {
         .synopses = {"crackle mesh IN --kind delaunay|voronoi --thick T [OPTIONS]"},
         .description =
             "Makes polygons of the centres of the circles in IN, an in_gm.dat, or of a list of centres, one x y a "
-            "line. Each polygon is inset along every edge, so that facing edges stand T apart, and T/2 from the "
+            "line (or x y r of circles). Each polygon is inset along every edge, so that facing edges stand T apart, "
+            "and T/2 from the "
             "domain's faces. Writes a particle file of polygons (in_gm_tri.dat or in_gm_volo.dat). Lengths in the "
             "units of IN.",
         .options = {{"options", options}, {"options for a list of centres", plain}},

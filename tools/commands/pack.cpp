@@ -102,7 +102,7 @@ CommandLine describe_pack() {
         ("lognormal-median", number(), "median radius, m")                                                            //
         ("lognormal-deviation", number(), "standard deviation of ln(radius)")                                         //
         ("sieve", po::value<std::string>()->value_name("FILE"),
-         "grading curve, CSV with the columns size (diameter, m),passing_by_mass")                               //
+         "grading curve, a table with the columns size (diameter, m) and passing_by_mass")                       //
         ("mean-overlap", number(), "target: mean over circles and bottom and top wall, m")                       //
         ("void-ratio", number(), "target: (box - circles) / circles")                                            //
         ("seed", po::value<std::int64_t>()->value_name("N")->default_value(1), "of the random numbers")          //

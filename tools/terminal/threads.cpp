@@ -4,29 +4,34 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <thread>
 
 #include "solver/base/errors.hpp"
+#include "solver/base/processors_lent.hpp"
 #include "solver/base/threads_to_be_had.hpp"
 
 namespace crackle::tools {
 
-int processors() { return std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
+namespace {
+
+/// As many threads or processes as are wanted, fewer where the system gives fewer; one beside them is begun anyway:
+/// frames are drawn on it, or it waits for the others.
+int to_be_had(int wanted) { return wanted > 1 ? std::clamp(threads_to_be_had(wanted + 1) - 1, 1, wanted) : wanted; }
+
+}  // namespace
 
 int workers_of_machine(std::optional<int> asked, const std::string& command) {
     constexpr int most_workers = 1024;
-    const int workers = asked.value_or(processors());
+    const int workers = asked ? *asked : to_be_had(processors_lent());
     if (workers < 1 || workers > most_workers)
         throw InputError(fmt::format("{}: --workers: found {}, expected 1 to {}", command, workers, most_workers));
     return workers;
 }
 
 ThreadRoom room_for_threads(int asked) {
-    const int most = std::min(asked, processors());
-    // Frames are drawn beside them on one more.
-    const int had = most > 1 ? std::clamp(threads_to_be_had(most + 1) - 1, 1, most) : most;
+    const int most = std::min(asked, processors_lent());
+    const int had = to_be_had(most);
     if (had < most) return {had, fmt::format("the system lets this process have {} more", had)};
-    return {had, fmt::format("this process has {} processors", had)};
+    return {had, fmt::format("this process may use {} processor{}", had, had == 1 ? "" : "s")};
 }
 
 int threads_of_machine(int asked, Messages& messages) {

@@ -9,10 +9,8 @@
 
 namespace crackle::tools {
 
-/// Processors that this process may use, at least 1.
-int processors();
-
-/// Processes that run tests: as asked for, else one a processor. @throws InputError if that is none, or above 1024
+/// Processes that run tests: as asked for, else one for each processor lent to this process. @throws InputError if that
+/// is none, or above 1024
 int workers_of_machine(std::optional<int> asked, const std::string& command);
 
 struct ThreadRoom {
@@ -20,8 +18,8 @@ struct ThreadRoom {
     std::string why;  ///< there are no more
 };
 
-/// Threads that are of use here: at most as many as asked for, as this process has processors (threads that share one
-/// wait for each other at every step), and as the system gives it now.
+/// Threads that are of use here: at most as many as asked for, as processors are lent to this process (threads that
+/// share one wait for each other at every step), and as the system gives it now.
 ThreadRoom room_for_threads(int asked);
 
 /// The same, with a notice where these are fewer than asked for. Numbers that are none (below 1, above 1024) are left

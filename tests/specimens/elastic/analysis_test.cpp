@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <numbers>
 
 #include "solver/base/errors.hpp"
@@ -108,6 +109,44 @@ TEST_F(ElasticAnalysisOf, FirstBreakIsTheLeastOfAllBondsAndNoneBreaksBeforeItSli
     }
     EXPECT_TRUE(agrees("strain at the first break", a.first_break->strain, least, 1e-12));
     EXPECT_TRUE(agrees("stress at the first break", a.first_break->stress, a.youngs_modulus * least, 1e-12));
+}
+
+/// A square lattice of discs between walls, in place of the small rock, as a file has it: to so many digits.
+TestCase square_lattice_case(const testing::ScratchFolder& folder, const SmallCase& wanted, const char* digits) {
+    const std::filesystem::path file = testing::write_small_case(folder / "", wanted);
+    constexpr double radius = 0.5, overlap = 1e-4;
+    Scene lattice = square_lattice(10, 20, radius, overlap, testing::small_rock_scene().materials[0]);
+    double low_x = lattice.circles[0].centre.x, low_y = lattice.circles[0].centre.y, high_x = low_x, high_y = low_y;
+    for (CircleElement& circle : lattice.circles) {
+        circle.centre = {std::stod(fmt::format(fmt::runtime(digits), circle.centre.x)),
+                         std::stod(fmt::format(fmt::runtime(digits), circle.centre.y))};
+        low_x = std::min(low_x, circle.centre.x), high_x = std::max(high_x, circle.centre.x);
+        low_y = std::min(low_y, circle.centre.y), high_y = std::max(high_y, circle.centre.y);
+    }
+    const double reach = radius - 0.5 * overlap;
+    lattice.domain = {low_x - reach, high_x + reach, low_y - reach, high_y + reach, {true, true, true, true}};
+    std::ofstream rock(folder / "rock.dat");
+    write_geometry(rock, lattice);
+    return read_case(file);
+}
+
+TEST_F(ElasticAnalysisOf, ALatticeSqueezedAlongItsAxisHasNoFirstEventAndNoRateOfRounding) {
+    for (const char* digits : {"{:.17g}", "{:.12g}", "{:.8g}"}) {
+        SmallCase wanted;
+        wanted.kind = "compression";
+        wanted.max_strain = 0.002;
+        TestCase described = square_lattice_case(scratch_, wanted, digits);
+        described.loading.axial_strain_rate.reset();
+        described.loading.rate_tolerance = 0.1;
+        const VirtualTest test = prepare_test(described);
+        const ElasticAnalysis a = analysed(test, 1e-5);
+        EXPECT_FALSE(a.first_break) << digits << ": at " << a.first_break->strain;
+        EXPECT_FALSE(a.first_slip) << digits << ": at " << a.first_slip->strain;
+        // 19 contacts and two with the platens in a column, 1e7 N/m each; 10 columns over 9.999 m, 19.998 m high.
+        const double modulus = 10 * 1e7 / 21.0 / 9.999 * 19.998;
+        EXPECT_TRUE(agrees(fmt::format("{}: modulus, N/m", digits), a.youngs_modulus, modulus, 1e-3));
+        EXPECT_EQ(test.setup.rate_rule.first_strain, 0.002) << digits;
+    }
 }
 
 TEST(FreeMotions, AreCountedAndNamedAndDoNotSpoilTheSolution) {

@@ -37,6 +37,49 @@ TEST(TraceFiles, FormsOfOneSurveyAreReadAlike) {
     EXPECT_EQ(parse_traces("b.csv", "set,x1,y1,x2,y2\nA,-1,3,4,3.5\n", ""), TracePoints{two[1]});
 }
 
+TEST(TraceFiles, AreReadAsOtherProgramsWriteThem) {
+    for (const char* text :
+         {"trace; x; y\r\n1;0;0.5\r\n1;1.5;2\r\n1;2;2.25\r\nfar;-1;3\r\nfar;4;3.5\r\n;;\r\n",
+          "\"trace\"\t\"y\"\t\"z\"\t\"x\"\n1\t0.5\t\t0\n1\t2\t9\t1.5\n1\t2.25\t9\t2\nfar\t3\t9\t-1\n"
+          "far\t3.5\t9\t4\n",
+          "x1,y1,x2,y2,x3,y3\n0,0.5,1.5,2,2,2.25\n-1,3,+4.0E+00,3.5,,\n", dxf, "0,0.5,1.5,2,2,2.25\n-1,3,4,3.5\n"})
+        EXPECT_EQ(parse_traces("a.txt", text, ""), two) << text;
+    // A name may begin with #, and be quoted.
+    EXPECT_EQ(parse_traces("a.csv", "trace,x,y\n#1,-1,3\n\"#1\",4,3.5\n", ""), TracePoints{two[1]});
+    EXPECT_NE(
+        refused("a.csv", "trace;x;y\n1;0;0\n1;0,5;1\n").find("a.csv:3: found '0,5', a number with a decimal comma"),
+        std::string::npos);
+    EXPECT_NE(refused("a.txt", "0,5 1,5 2,5 3,5\n").find("a.txt:1: found '0,5', a number with a decimal comma"),
+              std::string::npos);
+}
+
+TEST(TraceFiles, HeightsAreNamed) {
+    const auto named = [](const std::string& text) { return refused("a.txt", text).find("found x y z of each point"); };
+    EXPECT_EQ(
+        refused("a.txt", "0.2 0.3 101.1 1.8 1.5 101.4\n"),
+        "a.txt:1: found x y z of each point, expected x y; remove every third number, or, if these are x y, say so "
+        "by a first line '# x1 y1 x2 y2'");
+    EXPECT_NE(named("0.2 0.3 0 1.8 1.5 0\n0.1 1.7 0 0.9 0.2 0\n"), std::string::npos) << "one height";
+    EXPECT_NE(named("# x y z\n0 0 0 1 1 1 2 2 2\n"), std::string::npos);
+    EXPECT_NE(named("512000.2 4170000.3 801 512001.8 4170001.5 802.4\n"), std::string::npos);
+    EXPECT_NE(refused("a.txt", "0 0 1 1 1 1 2 2 2\n")
+                  .find("found 9 numbers, expected x and y of two points or more; if "
+                        "these are x y z, remove every third number"),
+              std::string::npos);
+    // Three points of x y, straight, bent, along the diagonal and across the middle.
+    for (const char* text : {"0 0.5 1.5 2 2 2.25\n", "0 0 1 1 2 2\n", "-1 1 0 0.1 1 -1.2\n", "3 7 3.2 7.4 3.1 7.9\n",
+                             "# x1 y1 x2 y2\n0.2 0.3 101.1 1.8 1.5 101.4\n"})
+        EXPECT_EQ(parse_traces("a.txt", text, "").front().size(), 3U) << text;
+}
+
+TEST(TraceFiles, OtherKindsOfFileAreNamed) {
+    for (const auto& [text, kind] : {std::pair{R"({ "type": "FeatureCollection", "features": [] })", "GeoJSON"},
+                                     {"<svg><path d='M0 0'/></svg>", "an SVG drawing"}})
+        EXPECT_EQ(refused("a.csv", text), std::string("a.csv: found ") + kind +
+                                              ", expected CSV (trace,x,y or x1,y1,x2,y2), DXF, or x1 y1 x2 y2 ... of a "
+                                              "trace a line; export it as one of them");
+}
+
 TEST(TraceFiles, ALayerIsReadAlone) {
     EXPECT_EQ(parse_traces("a.dxf", dxf, "joints"), TracePoints{two[1]});
     EXPECT_EQ(parse_traces("a.dxf", dxf, "faults"), TracePoints{two[0]});
@@ -77,7 +120,8 @@ TEST(TraceFiles, WhatIsWrongIsNamedWithItsLine) {
     EXPECT_NE(refused("a.txt", "# nothing\n").find("found no trace"), std::string::npos);
     EXPECT_NE(refused("a.csv", "x,y\n").find("a.csv:1: found 'x,y', expected a heading"), std::string::npos);
     EXPECT_NE(refused("a.csv", "").find("no heading"), std::string::npos);
-    EXPECT_NE(refused("a.csv", "trace,x,y\n1,0,0\n1,1\n").find("a.csv:3: found 2 fields"), std::string::npos);
+    EXPECT_NE(refused("a.csv", "trace,x,y\n1,0,0\n1,1\n").find("a.csv:3: found 2 values between commas"),
+              std::string::npos);
     EXPECT_NE(refused("a.csv", "trace,x,y\n1,0,0\n1,1,1\n2,0,0\n2,1,1\n1,5,5\n").find("a.csv:6: found trace 1 again"),
               std::string::npos);
     EXPECT_NE(refused("a.csv", "trace,x,y\n1,0,0\n2,1,1\n").find("a.csv:2: found a trace of one place"),

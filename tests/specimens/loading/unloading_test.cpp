@@ -137,6 +137,28 @@ TEST_F(UnloadedRock, ElasticSpecimenHasItsModulusInEveryCycle) {
     }
 }
 
+TEST_F(UnloadedRock, CyclesOfOneAmplitudeAllTurnThere) {
+    for (const bool by_strain : {true, false}) {
+        TestCase description = unloaded("compression");
+        description.numerics.intact = true;
+        const VirtualTest prepared = prepare_test(description);
+        const double first = prepared.setup.rate_rule.first_strain, strain = 2.0 * first;
+        const double stress = strain * prepared.state.youngs_modulus;
+        description.loading.max_axial_strain = 3.0 * first;
+        description.loading.unload_at_strain.reset();
+        (by_strain ? description.loading.unload_at_strain : description.loading.unload_at_stress) =
+            std::vector<double>(3, by_strain ? strain : stress);
+        const VirtualTest test = tested(description);
+        const auto cycles = find_cycles(test.state.rows, true);
+        ASSERT_EQ(cycles.size(), 3U);
+        for (const LoadingCycle& c : cycles) {
+            EXPECT_TRUE(agrees("strain at turn", c.strain, strain, 0.02));
+            EXPECT_TRUE(agrees("modulus of the cycle, N/m", c.modulus, test.state.youngs_modulus, 0.01));
+            EXPECT_FALSE(std::isnan(c.loop));
+        }
+    }
+}
+
 TEST_F(UnloadedRock, WhatBreaksLowersTheModulusAndCostsWork) {
     TestCase description = loaded("compression", "voronoi", 0.02);
     const VirtualTest plain = tested(description);

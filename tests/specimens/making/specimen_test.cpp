@@ -8,12 +8,14 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <string>
 
 #include "solver/demseg/geometry.hpp"
 #include "solver/scene/scene.hpp"
 #include "specimens/case/case_file.hpp"
 #include "tests/support/deck_files.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/support/small_rock.hpp"
 
 namespace crackle {
@@ -65,6 +67,43 @@ TEST(Specimen, IsAtRestWithoutGravityWhateverTheFileSays) {
     }
     EXPECT_TRUE(std::ranges::any_of(
         specimen.notices, [](const std::string& notice) { return notice.find("gravity") != std::string::npos; }));
+}
+
+/// What is said of the small rock after a change of its file.
+std::string refusal_after(const std::function<void(Scene&)>& change) {
+    const testing::ScratchFolder folder;
+    const std::filesystem::path file = testing::write_small_case(folder / "", {});
+    Scene particles = testing::small_rock_scene();
+    change(particles);
+    std::ofstream rock(folder / "rock.dat");
+    write_geometry(rock, particles);
+    rock.close();
+    const std::string text = testing::refusal([&] { make_specimen(read_case(file), {}); });
+    return text.substr(std::min(text.find("particles.file"), text.size()));
+}
+
+TEST(Specimen, IsRefusedWithABodyOutsideOrTwice) {
+    const auto left_out = [](const std::string& text, const char* part) {
+        EXPECT_NE(text.find(part), std::string::npos) << text;
+    };
+    EXPECT_EQ(refusal_after([](Scene&) {}), "") << "the rock itself is read";
+    for (const Vec2 by : {Vec2{4.0, 0.0}, Vec2{-4.0, 0.0}, Vec2{0.0, 4.0}, Vec2{0.0, -4.0}})
+        left_out(refusal_after([by](Scene& rock) { rock.circles[2].centre = rock.circles[2].centre + by; }),
+                 "outside of the domain");
+    for (const double share : {0.0, 0.005}) {
+        left_out(refusal_after([share](Scene& rock) {
+                     CircleElement again = rock.circles[2];
+                     again.centre.x += share * again.radius;
+                     rock.add_circle_body(9999, 0, again);
+                 }),
+                 "and 9999 at one place");
+    }
+    left_out(refusal_after([](Scene& rock) {
+                 CircleElement within = rock.circles[2];
+                 within.radius *= 0.5;
+                 rock.add_circle_body(9999, 0, within);
+             }),
+             "and 9999 at one place");
 }
 
 }  // namespace

@@ -78,6 +78,16 @@ TEST(Moduli, BeyondThePeakAreOfTheFall) {
     EXPECT_TRUE(agrees("brittleness index, 1 + E/|M|", brittleness_index(5e9, -10e9), 1.5, 1e-12));
     curve.resize(230);  // has fallen to 0.71 of the peak
     EXPECT_TRUE(std::isnan(tangent_beyond_peak(curve, 200, true).modulus));
+    // Down to 0.84 of the peak, up beyond it, and down to 0.5 much later: the whole of it rises.
+    std::vector<CurveRow> rises;
+    for (const double stress : {0.5, 1.0, 0.84, 0.9, 1.0, 1.1, 1.2, 1.3, 1.35, 0.5}) {
+        CurveRow row;
+        row.axial_strain = 1e-3 * static_cast<double>(rises.size());
+        row.axial_stress = stress;
+        rises.push_back(row);
+    }
+    EXPECT_TRUE(std::isnan(tangent_beyond_peak(rises, 1, true).modulus)) << "it rises";
+    EXPECT_TRUE(std::isnan(brittleness_index(5e9, tangent_beyond_peak(rises, 1, true).modulus)));
     const auto drops_at_once = straight_curve(5e6, 1e-3, 0.2, 0.3, 200);
     EXPECT_TRUE(std::isnan(tangent_beyond_peak(drops_at_once, 200, true).modulus)) << "one row only";
 }

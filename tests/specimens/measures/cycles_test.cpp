@@ -54,6 +54,44 @@ TEST(LoadingCycles, OneThatTheCurveDoesNotEndHasNoLoss) {
     EXPECT_TRUE(find_cycles(rows, true).empty());
 }
 
+TEST(LoadingCycles, SayWhetherAnythingHasBrokenOrSlidAndWhatThePlatensDifferBy) {
+    std::vector<CurveRow> rows = loop();
+    for (CurveRow& row : rows) row.stress_top = row.stress_bottom = row.axial_stress;
+    rows[1].stress_top += 2.0, rows[1].stress_bottom -= 2.0;  // at the turn
+    rows[3].stress_top -= 1.0, rows[3].stress_bottom += 1.0;  // where it is lowest
+    const LoadingCycle plain = find_cycles(rows, true)[0];
+    EXPECT_TRUE(plain.unbroken && plain.linear);
+    EXPECT_TRUE(agrees("error of the modulus", plain.modulus_error, (2.0 + 1.0) / (40.0 - 10.0), 1e-14));
+    for (std::int64_t CurveRow::*count :
+         {&CurveRow::bonds_slid, &CurveRow::points_sliding, &CurveRow::contacts_gained}) {
+        std::vector<CurveRow> other = rows;
+        other[2].*count = 1;
+        const LoadingCycle c = find_cycles(other, true)[0];
+        EXPECT_TRUE(c.unbroken);
+        EXPECT_FALSE(c.linear);
+    }
+    for (std::size_t k = 2; k < rows.size(); ++k) rows[k].bonds_broken = 1;
+    const LoadingCycle broken = find_cycles(rows, true)[0];
+    EXPECT_FALSE(broken.unbroken || broken.linear);
+}
+
+TEST(LoadingCycles, OfOneAmplitudeAreCountedEach) {
+    // Three times to about 4: a little beyond the first turn, and a little short of it.
+    const std::vector<CurveRow> rows{row(0, 0, 0),       row(4, 40, 1.0),    row(3, 25, 0.8), row(2, 10, 0.6),
+                                     row(3, 26, 0.8),    row(4.5, 41, 1.1),  row(3, 24, 0.8), row(2.5, 15, 0.7),
+                                     row(4.25, 40, 1.0), row(2.25, 20, 0.6), row(5, 44, 1.5), row(6, 45, 2.0)};
+    const auto cycles = find_cycles(rows, true);
+    ASSERT_EQ(cycles.size(), 3U);
+    EXPECT_EQ(cycles[0].strain, 4.0);
+    EXPECT_EQ(cycles[1].strain, 4.5);
+    EXPECT_EQ(cycles[2].strain, 4.25);
+    EXPECT_TRUE(agrees("modulus of the second", cycles[1].modulus, 26.0 / 2.0, 1e-14));
+    EXPECT_TRUE(agrees("modulus of the third", cycles[2].modulus, 20.0 / 2.0, 1e-14));
+    // Down: -(41+24)/2·1.5 - (24+15)/2·0.5; up from 2.5 to 4.25, where it turns again.
+    EXPECT_TRUE(agrees("loop of the second", cycles[1].loop, -48.75 - 9.75 + 0.5 * (15.0 + 40.0) * 1.75, 1e-14));
+    EXPECT_FALSE(std::isnan(cycles[2].loop));
+}
+
 TEST(LoadingCycles, FirstLoadingIsTheCurveWithoutThemAndKeepsItsPeak) {
     const FirstLoading first = first_loading(loop(), 5);
     ASSERT_EQ(first.rows.size(), 4U);

@@ -384,6 +384,17 @@ TEST(SizeDistribution, ReadsASieveCurveAndNamesTheLineOfABadOne) {
         return "accepted";
     };
     EXPECT_EQ(read("\xef\xbb\xbf\nsize,passing_by_mass\n1,0\n2,1\n").points.size(), 2u) << "a byte order mark";
+    for (const char* text : {"passing_by_mass; size\r\n0; +0.001\r\n0.4; 0.002\r\n1; 0.004\r\n;\r\n",
+                             "\"sieve\"\t\"size\"\t\"passing_by_mass\"\na\t0.001\t0\nb\t0.002\t0.4\n\t0.004\t1\n"}) {
+        const SieveCurve other = read(text);
+        ASSERT_EQ(other.points.size(), 3u) << text;
+        EXPECT_DOUBLE_EQ(other.points[1].size, 0.002);
+        EXPECT_DOUBLE_EQ(other.points[1].passing_by_mass, 0.4);
+    }
+    EXPECT_NE(complaint("size;passing_by_mass\n0,001;0\n0,002;1\n").find("curve.csv:2: found '0,001', a number with a"),
+              std::string::npos);
+    EXPECT_NE(complaint("<html>").find("curve.csv: found a web page, expected a table with the column names"),
+              std::string::npos);
     EXPECT_NE(complaint("size,passing_by_mass\n1e-200,0\n2,1\n").find("point 1: size: found 1e-200"),
               std::string::npos);
     EXPECT_NE(complaint("size,passing_by_mass\n1,0\n1.0000000000000002,1\n").find("sizes that increase"),

@@ -2,14 +2,15 @@
 // `crackle campaign` as a user calls it: run, show, gather, submit; what is refused, and what a signal leaves.
 
 #include <gtest/gtest.h>
+#include <sched.h>
 #include <signal.h>
 #include <sys/stat.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <iterator>
-#include <thread>
 
+#include "solver/base/processors_lent.hpp"
 #include "tests/support/interrupted_call.hpp"
 #include "tests/support/program_call.hpp"
 #include "tests/support/small_plan.hpp"
@@ -134,10 +135,45 @@ TEST_F(CampaignCommand, SubmitsTheScriptThatDryRunShows) {
     EXPECT_NE(call("gather out").out.find("8 of 8 done"), std::string::npos);
 }
 
+/// This process, and those that it starts, on one of its processors only, as a batch system would have it.
+class OneProcessor {
+  public:
+    OneProcessor() {
+        EXPECT_EQ(sched_getaffinity(0, sizeof all_, &all_), 0);
+        cpu_set_t one;
+        CPU_ZERO(&one);
+        for (int k = 0; k < CPU_SETSIZE && CPU_COUNT(&one) == 0; ++k)
+            if (CPU_ISSET(k, &all_)) CPU_SET(k, &one);
+        EXPECT_EQ(sched_setaffinity(0, sizeof one, &one), 0);
+    }
+    OneProcessor(const OneProcessor&) = delete;
+    OneProcessor& operator=(const OneProcessor&) = delete;
+    ~OneProcessor() { EXPECT_EQ(sched_setaffinity(0, sizeof all_, &all_), 0); }
+
+  private:
+    cpu_set_t all_{};
+};
+
+TEST_F(CampaignCommand, HasOneWorkerAndOneThreadWhereOneProcessorIsLent) {
+    const OneProcessor lent;
+    const Answer answer = call("plan.toml -o out");
+    EXPECT_EQ(answer.code, 0) << answer.err;
+    EXPECT_NE((answer.out + answer.err).find("8 tests of 4 points with 2 packings, 1 worker"), std::string::npos)
+        << answer.out << answer.err;
+    ASSERT_EQ(std::system(fmt::format("cd '{}' && '{}' doctor > out.txt && '{}' pack --count 40 --mean-overlap 1e-4 "
+                                      "--radius-min 1e-2 --radius-max 2e-2 --threads 2 -o p.dat > /dev/null 2> err.txt",
+                                      folder_.string(), CRACKLE_PROGRAM, CRACKLE_PROGRAM)
+                              .c_str()),
+              0);
+    EXPECT_NE(read("out.txt").find("\nthreads       1 of "), std::string::npos) << read("out.txt");
+    EXPECT_NE(read("err.txt").find("1 of 2 threads are used: this process may use 1 processor"), std::string::npos)
+        << read("err.txt");
+}
+
 TEST_F(CampaignCommand, AnInterruptLosesAtMostTheTestsAtWork) {
     write_small_plan(folder_, 30, "[run]\nkeep = \"curves\"\n");
     // More than are at work at a time: some of these are in the ledger.
-    const std::ptrdiff_t some = 2 * static_cast<std::ptrdiff_t>(std::thread::hardware_concurrency()) + 4;
+    const std::ptrdiff_t some = 2 * static_cast<std::ptrdiff_t>(processors_lent()) + 4;
     const auto some_are_done = [&] {
         return exists("out/curves") && std::distance(fs::directory_iterator(folder_ / "out/curves"), {}) >= some;
     };

@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/base/processors_lent.hpp"
 #include "solver/files/read_file.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/interrupted_call.hpp"
@@ -431,12 +432,30 @@ TEST_F(CrackleTest, SignalsToEndEndCleanlyAndResumeEndsWithTheSameCurve) {
     }
 }
 
+TEST_F(CrackleTest, DamageOfCyclesInWhichNothingBreaksIsNothing) {
+    write_small_case(folder_, {.kind = "compression",
+                               .max_strain = 2e-4,
+                               .loading = "unload_at_strain = [2e-5, 1e-4, 1e-4]",
+                               .numerics = "intact = true"});
+    replace("case.toml", "axial_strain_rate = 0.02\n", "");
+    const Answer answer = call("case.toml -o out -q");
+    ASSERT_EQ(answer.code, 0) << answer.err;
+    const auto summary = read_json(folder_ / "out/summary.json");
+    ASSERT_EQ(summary["cycles"].size(), 3U);
+    for (const auto& cycle : summary["cycles"]) {
+        EXPECT_EQ(cycle["damage"], 0.0);
+        EXPECT_EQ(cycle["permanent_strain"], 0.0);
+        EXPECT_EQ(cycle["modulus"], summary["youngs_modulus"]);
+        EXPECT_EQ(cycle["modulus_error"], 0.0);
+    }
+}
+
 TEST_F(CrackleTest, UsesNoMoreThreadsThanThereAreProcessors) {
     write_small_case(folder_, {.max_strain = 1e-4});
     const Answer answer = call("case.toml -o out --threads 1000");
     EXPECT_EQ(answer.code, 0) << answer.err;
     EXPECT_NE(answer.err.find("of 1000 threads are used"), std::string::npos) << answer.err;
-    EXPECT_LE(read_json(folder_ / "out/summary.json")["threads"].get<unsigned>(), std::thread::hardware_concurrency());
+    EXPECT_LE(read_json(folder_ / "out/summary.json")["threads"].get<int>(), processors_lent());
 }
 
 }  // namespace

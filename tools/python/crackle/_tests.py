@@ -238,7 +238,7 @@ def campaign(plan: _Path, output: _Path, *, workers: int | None = None, verify: 
     call goes on.
 
     plan: path of a TOML file (`crackle campaign --keys` lists its keys). workers: processes that run tests; by default
-    one a processor. verify: run each test at half the step and half the rate, too; retry: run those again that have
+    one a processor lent. verify: run each test at half the step and half the rate, too; retry: run those again that have
     gone wrong; shard: (I, N), run share I of N; long: run tests although they take more than a day.
 
     Returns Campaign. Raises InputError, KeyboardInterrupt (what has been run is kept).
@@ -256,7 +256,7 @@ def calibrate(rock: _Path, output: _Path, *, workers: int | None = None, long: b
     moment, the same call goes on.
 
     rock: path of a TOML file (`crackle calibrate --keys` lists its keys). workers: processes that run tests; by default
-    one a processor. long: run tests although they take more than a day.
+    one a processor lent. long: run tests although they take more than a day.
 
     Returns Calibration, whether or not all targets were reached. Raises InputError, KeyboardInterrupt (what has been
     run is kept).
