@@ -51,7 +51,7 @@ LinearBond linear_bond(const World& world, PointIndex k, const PointRates& rate,
     bond.overlap = view.bond_overlap;
     bond.closing = rate.closing * strain;
     bond.normal_force = view.normal_stiffness * rate.closing * strain;
-    bond.shear_force = view.shear_stiffness * std::abs(rate.slipping) * strain;
+    bond.shear_force = -view.shear_stiffness * rate.slipping * strain;
     if (world.settings.bond_law == BondLaw::coulomb) {
         fail_by_envelope(bond, bond_strength(world, k), view.normal_stiffness * rate.closing,
                          view.shear_stiffness * std::abs(rate.slipping));
@@ -86,7 +86,7 @@ std::vector<LinearBond> linear_bonds(const World& world, const TestSetup& setup,
     std::vector<LinearBond> bonds;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
         if ((world.points.state[k].flags & point_bonded) == 0) continue;
-        bonds.push_back(linear_bond(world, k, {sense * rates[k].closing, rates[k].slipping}, strain));
+        bonds.push_back(linear_bond(world, k, {sense * rates[k].closing, sense * rates[k].slipping}, strain));
     }
     return bonds;
 }

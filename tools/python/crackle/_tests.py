@@ -124,8 +124,8 @@ def _refuse_replacing(output, force, *inputs):
 class Elastic(dict):
     """What `crackle elastic --json` prints, its own units within, and `bonds`: an array, shape (bonds,): body_i, body_j
     (ids), position (x, y in m), strength (N), overlap, closing (m), normal_force, shear_force (N, at the strain asked
-    for), break_strain, slip_strain (inf: never); notices: a list of what to know, such as what it leaves out of the
-    case."""
+    for; shear on body_i along the normal from i to j turned by +90 degrees), break_strain, slip_strain (inf: never);
+    notices: a list of what to know, such as what it leaves out of the case."""
 
     bonds: Any = None
     notices: Sequence[str] = ()
