@@ -203,6 +203,11 @@ void print_check(const TestCheck& check) {
                    : !test.setup.uniaxial      ? "the rule is of specimens between platens"
                                                : "too few bonds ever break by the linear solution");
     }
+    if (check.disc)
+        fmt::print(
+            "  valid disc     strength over tensile strength about {:.2g}, within a factor of {:.2g}; 3 + N = {:.3g} "
+            "is needed\n",
+            check.disc->strength_ratio, check.disc->factor, check.disc->needed);
     fmt::print("  run            {}{} to strain {:.3g}; time step {:.3g} s, rate {:.3g} 1/s{}, {:.3g} steps/s\n",
                check.to_strength ? run_text(*check.to_strength) + " to that strength, " : "", run_text(check.to_end),
                check.to_end.strain, test.world.stepping.time_step, check.rate,
@@ -308,6 +313,14 @@ std::string check_as_json(const TestCheck& check, int indent) {
                                      {"strain", strength->strain},
                                      {"share_broken", strength->share},
                                      {"within_factor", strength->factor}};
+    if (const auto& disc = check.disc) {
+        const std::optional<bool> valid = disc->can_be_valid();
+        json["valid_disc"] = {{"strength_ratio", disc->strength_ratio},
+                              {"within_factor", disc->factor},
+                              {"friction_angle", disc->friction_angle},
+                              {"needed", disc->needed},
+                              {"can_be_valid", valid ? Json(*valid) : Json(nullptr)}};
+    }
     json["units"] = {
         {"grains_across", "width over sqrt(width height / particles)"},
         {"youngs_modulus", stress +
@@ -327,6 +340,11 @@ std::string check_as_json(const TestCheck& check, int indent) {
         {"run_to_max_axial_strain", "likewise, should the specimen not fail before"},
         {"specimen_seconds", "s, making the specimen"},
         {"memory", "bytes, largest of this check"}};
+    if (check.disc)
+        json["units"]["valid_disc"] =
+            "strength_ratio: of the rock, over its tensile strength, both estimated by the linear solution of the "
+            "whole packing; needed: 3 + (1 + sin φ)/(1 - sin φ), φ friction_angle in degrees, mean of the bonds; "
+            "can_be_valid null: too rough to tell";
     return json.dump(indent);
 }
 
