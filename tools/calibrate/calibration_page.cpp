@@ -91,12 +91,12 @@ std::optional<CampaignFigure> targets_plane(const Rock& rock, const CalibrationO
     };
     const std::string unit = rock.targets[x].unit(in_area_units(rock, outcome, x));
     return CampaignFigure{
+        "axes",
         fmt::format(
             "{} over {}: means of the fit packings at the points that were tried, the target with its tolerance, "
             "and the mean of {} fresh packings with its 95 % interval",
             name(y), name(x), outcome.targets[y].fresh.count),
-        {plot::over_axis(unit.empty() ? name(x) : name(x) + ", " + unit, name(y),
-                         rock.targets[y].unit(in_area_units(rock, outcome, y)), all)}};
+        {plot::over_axis(name(x), unit, name(y), rock.targets[y].unit(in_area_units(rock, outcome, y)), all)}};
 }
 
 }  // namespace
