@@ -85,6 +85,7 @@ int calibrate_rock(const Invocation& given) {
     const po::variables_map& values = given.values;
     Messages& messages = given.messages;
     if (values.contains("keys")) {
+        expect_alone("crackle calibrate", given, "keys");
         std::cout << describe_rock_keys();
         return exit_done;
     }

@@ -243,6 +243,8 @@ CommandLine describe_envelope() {
          "circles with both envelopes");
     plot::add_figure_options(options, 2);
     options.add_options()("force", "replace a figure that is there");
+    std::vector<Companion> companions{{"force", {"output"}}};
+    for (const std::string& option : plot::figure_options()) companions.push_back({option, {"output"}});
     return {
         .synopses = {"crackle envelope OUT... [OPTIONS]"},
         .description =
@@ -254,6 +256,7 @@ CommandLine describe_envelope() {
         .options = {{"options", options}},
         .operand = "OUT",
         .several_operands = true,
+        .companions = companions,
         .examples = {{"crackle envelope out/granite-envelope", "a campaign: specimens/plans/granite_envelope.toml"},
                      {"crackle envelope out/granite-envelope -o envelope.pdf"},
                      {"crackle envelope out/soil --strain 0.02", "of tests that harden"},
@@ -266,14 +269,15 @@ int envelope(const Invocation& given) {
         throw InputError(
             "envelope: found no folder of results, expected at least one: crackle envelope OUT... (see --help)");
     }
-    const plot::FigureLook look = plot::figure_look("envelope", values);
     const fs::path output = values.contains("output") ? values["output"].as<std::string>() : "";
     plot::Format format = plot::Format::svg;
     if (!output.empty()) {
         format = plot::format_of_output("envelope", output);
         refuse_replacing(output, values.contains("force"));
     }
-    const MeasuredStrengths tests = read_strengths(std::vector<fs::path>(given.operands.begin(), given.operands.end()));
+    const plot::FigureLook look = plot::figure_look("envelope", values, format);
+    const MeasuredStrengths tests =
+        read_strengths(std::vector<fs::path>(given.operands.begin(), given.operands.end()), measure_of(values));
     const EnvelopeFigure fitted = fitted_to(tests);
     const std::vector<std::string> notices = notices_on(fitted);
     if (!output.empty()) draw(fitted, output, look, format);
