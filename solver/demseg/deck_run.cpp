@@ -105,6 +105,8 @@ DeckRun::DeckRun(DeckOptions options) : options_(std::move(options)) {
     } else if (!start_from_state(texts)) {
         start_from_contacts(texts);
     }
+    if (options_.seed && !drawn_)
+        throw InputError(fmt::format("seed: found with {}, whose bodies are all given; leave it out", texts.names[0]));
     find_bodies();
     first_step_ = world_.stepping.steps;
     breaks_written_ = world_.bonds.events.size();
@@ -178,13 +180,12 @@ void DeckRun::start_new(const Texts& texts) {
     DeckReader reader = texts.reader(0);
     if (read_geometry_mode(reader) == 0) {
         const std::uint64_t seed = options_.seed.value_or(1);
+        drawn_ = true;
         base_ = make_random_circles(read_random_geometry(reader), seed);
         notices_.push_back(
             fmt::format("{}: {} random circles made with seed {}", texts.names[0], base_.scene.bodies.size(), seed));
     } else {
         base_ = read_deck_geometry(reader);
-        if (options_.seed)
-            notices_.push_back(fmt::format("{}: bodies are given (mode 1), the seed has no effect", texts.names[0]));
     }
     for (const std::string& notice : scene_notices(base_.scene))
         notices_.push_back(fmt::format("{}: {}", texts.names[0], notice));

@@ -104,6 +104,7 @@ class DeckRun {
     // Of the output folder, from before its files are read where the run goes on there.
     std::optional<FolderLock> lock_;
     BoundaryConditions asked_;     // in_bc.dat of this run
+    bool drawn_ = false;           // its bodies, by the seed
     DeckGeometry base_;            // bodies as they were when the run, all parts of it, began
     BoundaryConditions boundary_;  // and its conditions: ramps are counted from its steps_before
     World world_;

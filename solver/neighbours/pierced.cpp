@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <string>
 
 #include "solver/base/correctly_rounded.hpp"
 #include "solver/base/errors.hpp"
@@ -70,6 +71,14 @@ std::uint32_t segment_between(const World& world, const BodyInfo& chain, Vec2 th
     return 0;
 }
 
+/// Any of these lets bodies through each other; which of them it was is not known here.
+std::string likely_cause(const World& world) {
+    return fmt::format(
+        "; the impact is too fast or the load too high for its stiffness and thickness, or the time step of {:.3g} s "
+        "(bound {:.3g} s) too large: try half of it",
+        world.stepping.time_step, world.stepping.step_bound);
+}
+
 /// A body's outline or circle bulges outwards all round, so that its centroid is in its midst.
 bool convex(const BodyInfo& body) { return body.single_circle || (body.closed && body.piece_count == 1); }
 
@@ -77,7 +86,6 @@ bool convex(const BodyInfo& body) { return body.single_circle || (body.closed &&
 
 void refuse_piercing(const World& world) {
     if (world.stepping.allow_unstable || world.settings.segment_law != SegmentLaw::rounded) return;
-    constexpr const char* cause = "; the impact is too fast or the load too high for its stiffness and thickness";
     const bool held_are_listed = world.settings.driven_contacts == DrivenContacts::all;
     const auto outlines = static_cast<std::size_t>(PointKind::element_outline);
     for (PointIndex k = world.points.kind_begin[outlines]; k < world.points.kind_begin[outlines + 1]; ++k) {
@@ -94,7 +102,7 @@ void refuse_piercing(const World& world) {
             if (!inside(world, target, j_now.inwards(i_now.centre))) continue;
             if (inside(world, target, place_then(world, j).inwards(place_then(world, i).centre))) continue;
             throw UnstableRun(world.stepping.steps, world.bodies.info(i).id,
-                              fmt::format("its centroid has got inside body {}{}", target.id, cause));
+                              fmt::format("its centroid has got inside body {}{}", target.id, likely_cause(world)));
         }
         const Element element = element_of(world, i, world.points.contact[k].element_i);
         const Vec2 at{element.x, element.y};
@@ -102,8 +110,9 @@ void refuse_piercing(const World& world) {
             segment_between(world, target, place_then(world, j).inwards(place_then(world, i).outwards(at)),
                             j_now.inwards(i_now.outwards(at)));
         if (segment == 0) continue;
-        throw UnstableRun(world.stepping.steps, world.bodies.info(i).id,
-                          fmt::format("it went through segment {} of body {}{}", segment, target.id, cause));
+        throw UnstableRun(
+            world.stepping.steps, world.bodies.info(i).id,
+            fmt::format("it went through segment {} of body {}{}", segment, target.id, likely_cause(world)));
     }
 }
 

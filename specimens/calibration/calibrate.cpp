@@ -5,7 +5,6 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
@@ -17,6 +16,7 @@
 #include "specimens/calibration/linear_search.hpp"
 #include "specimens/calibration/measurements.hpp"
 #include "specimens/calibration/surface_search.hpp"
+#include "specimens/statistics/spoken.hpp"
 
 namespace crackle {
 namespace {
@@ -163,14 +163,13 @@ class Calibration {
             negative = static_cast<Index>((figures.col(t).array() <= 0.0).count());
         }
         throw InputError(fmt::format(
-            "{}: found {} of {} of only {} of {} packings to be a number above 0 at {} ({} are 0 or less, {} have gone "
-            "wrong "
-            "or not failed), expected all targets' of at least half; {}; see `crackle campaign show {}`",
+            "{}: found {} of {} above 0 in only {} of {} packings (0 or less in {}, none in {}, which went wrong or "
+            "did not fail) at {}, expected all targets' figures of half the packings or more; {}; see `crackle "
+            "campaign show {}`",
             space_.target(worst).where, space_.target(worst).quantity(), space_.target(worst).source(rock_.tests),
-            fewest, packings.count, at, negative, packings.count - fewest - negative,
+            fewest, packings.count, negative, packings.count - fewest - negative, at,
             negative > 0 ? "take another target"
-                         : "tests that do not fail want a larger loading.max_axial_strain, or a "
-                           "weaker start",
+                         : "where tests do not fail raise loading.max_axial_strain, or start from a weaker rock",
             search_.options().folder.string()));
     }
 
@@ -182,7 +181,7 @@ class Calibration {
             outcome_.rounds = round;
             if (!linear_.empty()) begin("moduli by the linear solve");
             x_ = linear_.solve(x_);
-            begin(fmt::format("round {}: its middle on {} packings", round, rock_.fit));
+            begin(fmt::format("round {}: its middle on {}", round, counted(rock_.fit, "packing")));
             const Measured middle = measured_at(x_, fit_packings());
             surfaces_.remember(x_);
             linear_.learn(x_, middle.means);
@@ -242,21 +241,23 @@ class Calibration {
 
     void design(double width) {
         std::vector<VectorXd> points = surfaces_.design(x_, width);
-        begin(fmt::format("round {}: {} points around it on {} packings", outcome_.rounds, points.size(), rock_.fit));
+        begin(fmt::format("round {}: {} around it on {}", outcome_.rounds, counted(points.size(), "point"),
+                          counted(rock_.fit, "packing")));
         measure(points, fit_packings());
         for (const VectorXd& x : points) surfaces_.remember(x);
         const std::size_t near = surfaces_.fit(x_, width);
         if (surfaces_.empty())
             throw InputError(fmt::format(
-                "{}: found {} points with all targets' figures, expected {} or more; see `crackle "
-                "campaign show {} --wrong`, and narrow the bounds of [[free]]",
-                rock_.file.string(), near, space_.other_keys.size() + 1, search_.options().folder.string()));
+                "{}: found {} with all targets' figures, expected {} or more; see `crackle campaign show {} --wrong`, "
+                "and narrow the bounds of [[free]]",
+                rock_.file.string(), counted(near, "point"), space_.other_keys.size() + 1,
+                search_.options().folder.string()));
     }
 
     /// Corrects on many packings.
     void polish() {
         for (int k = 0; k < most_corrections; ++k) {
-            begin(fmt::format("correction on {} packings", rock_.polish));
+            begin(fmt::format("correction on {}", counted(rock_.polish, "packing")));
             const VectorXd middle = x_;
             polished_ = measured_at(middle, polish_packings());
             say_where(polished_.means - space_.logs);
@@ -274,7 +275,7 @@ class Calibration {
 
     /// On packings that nothing was fitted to.
     void judge() {
-        begin(fmt::format("{} fresh packings", rock_.fresh));
+        begin(counted(rock_.fresh, "fresh packing"));
         fresh_.measure({space_.values_at(x_)}, fresh_packings());
         const MatrixXd figures = complete_rows(fresh_.figures(space_.values_at(x_), fresh_packings()));
         const VectorXd expected = expected_off();
@@ -283,18 +284,9 @@ class Calibration {
             ReachedTarget& reached = outcome_.targets[static_cast<std::size_t>(t)];
             const Target& target = space_.target(t);
             reached.fresh = mean_of_column(figures, t);
-            reached.off = reached.fresh.mean / target.value - 1.0;
-            reached.limit = std::max(target.tolerance, 2.0 * reached.fresh.standard_error / target.value);
             const bool within_reach = std::abs(expected[t]) <= std::max(space_.widths[t], 2.0 * polished_.errors[t]);
-            if (!are_enough(figures.rows(), rock_.fresh))
-                reached.verdict = TargetVerdict::unresolved;
-            else if (std::abs(reached.off) <= target.tolerance)
-                reached.verdict = TargetVerdict::reached;
-            else if (!within_reach)  // whatever few packings that scatter widely allow
-                reached.verdict = at_rest ? TargetVerdict::out_of_reach : TargetVerdict::not_found;
-            else
-                reached.verdict = std::abs(reached.off) <= reached.limit ? TargetVerdict::reached_within_error
-                                                                         : TargetVerdict::missed;
+            crackle::judge(reached, target.value, target.tolerance,
+                           {are_enough(figures.rows(), rock_.fresh), within_reach, at_rest});
         }
     }
 
@@ -338,7 +330,7 @@ class Calibration {
             of_points.push_back(weight);
         }
         if (points.size() < 2) return;  // nothing is had for anything
-        begin(fmt::format("frontier: {} compromises on {} packings", points.size(), rock_.fit));
+        begin(fmt::format("frontier: {} on {}", counted(points.size(), "compromise"), counted(rock_.fit, "packing")));
         measure(points, fit_packings());
         outcome_.frontier_of = static_cast<std::size_t>(worst);
         for (std::size_t k = 0; k < points.size(); ++k) {
@@ -371,6 +363,9 @@ class Calibration {
             FoundKey found;
             found.value = values[static_cast<std::size_t>(k)];
             found.determined = known.determined[static_cast<std::size_t>(k)];
+            found.lost_in_scatter =
+                found.determined && fills(x_[k] - half, x_[k] + half, space_.low[k], space_.high[k]);
+            found.determined = found.determined && !found.lost_in_scatter;
             found.low = found.determined ? free.to_value(x_[k] - half) : free.from;
             found.high = found.determined ? free.to_value(x_[k] + half) : free.to;
             found.at_bound = x_[k] <= space_.low[k] + margin || x_[k] >= space_.high[k] - margin;
@@ -409,12 +404,6 @@ class Calibration {
 };
 
 }  // namespace
-
-const char* name_of(TargetVerdict verdict) {
-    constexpr std::array<const char*, 6> names{
-        "reached", "reached within its error", "missed", "out of reach", "not found", "unresolved"};
-    return names[static_cast<std::size_t>(verdict)];
-}
 
 bool CalibrationOutcome::all_reached() const {
     return std::all_of(targets.begin(), targets.end(), [](const ReachedTarget& one) { return one.reached(); });

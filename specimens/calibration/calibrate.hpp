@@ -23,6 +23,7 @@
 #include <string>
 #include <vector>
 
+#include "specimens/calibration/judgement.hpp"
 #include "specimens/calibration/rock.hpp"
 #include "specimens/calibration/surface_quality.hpp"
 #include "specimens/campaign/campaign.hpp"
@@ -49,27 +50,9 @@ struct FoundKey {
     /// targets do not determine it.
     double low = 0.0, high = 0.0;
     bool determined = true;
+    bool lost_in_scatter =
+        false;  ///< not determined for the scatter of the packings alone: the interval fills the bounds
     bool at_bound = false;
-};
-
-enum class TargetVerdict : std::uint8_t {
-    reached,               ///< the mean of fresh packings is within the tolerance
-    reached_within_error,  ///< beyond it, within two standard errors
-    missed,
-    out_of_reach,  ///< by all that is known around the best point none within the bounds has it with the others
-    not_found,     ///< the search ended on its way: another start may find it
-    unresolved,    ///< too few fresh packings have the figures
-};
-const char* name_of(TargetVerdict verdict);  ///< "reached", "out of reach", …
-
-struct ReachedTarget {
-    MeanFigure fresh;    ///< on packings that nothing was fitted to, of those that have all targets' figures
-    MeanFigure polish;   ///< on those of the last correction, before it
-    double off = 0.0;    ///< mean over target, less 1
-    double limit = 0.0;  ///< tolerance, or two standard errors of the mean where these are more
-    TargetVerdict verdict = TargetVerdict::missed;
-
-    bool reached() const { return verdict == TargetVerdict::reached || verdict == TargetVerdict::reached_within_error; }
 };
 
 /// One compromise between targets that cannot be reached together, measured on the fit packings.

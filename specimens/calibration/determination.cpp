@@ -2,6 +2,7 @@
 #include "specimens/calibration/determination.hpp"
 
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 
 namespace crackle {
@@ -9,6 +10,11 @@ namespace crackle {
 using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
+
+bool fills(double low, double high, double least, double most) {
+    constexpr double filled_share = 0.9;
+    return std::min(high, most) - std::max(low, least) >= filled_share * (most - least);
+}
 
 Determination determine(const MatrixXd& slopes, const MatrixXd& covariance, double step) {
     constexpr double least_change = 0.5;  // tolerances

@@ -19,6 +19,9 @@ struct Determination {
     std::vector<bool> determined;     ///< a variable each: no open direction has more than a tenth of it
 };
 
+/// Whether an interval leaves next to nothing of the bounds: it says no more than they do.
+bool fills(double low, double high, double least, double most);
+
 /// By the singular directions of the slopes: one along which a step changes no target by half a tolerance is open.
 /// @param slopes of the targets in tolerances, a row each, over the variables
 /// @param covariance of the targets' errors, in tolerances squared

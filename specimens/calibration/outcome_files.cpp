@@ -10,7 +10,9 @@
 #include <sstream>
 
 #include "solver/files/replace_file.hpp"
+#include "solver/files/text_table.hpp"
 #include "specimens/campaign/point_table.hpp"
+#include "specimens/statistics/spoken.hpp"
 
 namespace crackle {
 namespace {
@@ -77,23 +79,24 @@ std::string frontier_text(const Rock& rock, const CalibrationOutcome& outcome) {
 /// Packings that are in no mean, and where the scatter decides and not the tolerance.
 std::string packings_text(const Rock& rock, const CalibrationOutcome& outcome) {
     std::string text;
-    const auto counted = static_cast<std::int64_t>(outcome.targets.front().fresh.count);
-    if (counted < rock.fresh)
+    const auto complete = static_cast<std::int64_t>(outcome.targets.front().fresh.count);
+    if (complete < rock.fresh)
         text += fmt::format(
             "\n{} of {} fresh packings have all targets' figures: the others have gone wrong, or not failed "
             "by loading.max_axial_strain, and the means are of the weaker ones; `crackle campaign show "
             "DIR/fresh` says which\n",
-            counted, rock.fresh);
+            complete, rock.fresh);
     for (std::size_t k = 0; k < rock.targets.size(); ++k) {
         const Target& target = rock.targets[k];
         const ReachedTarget& reached = outcome.targets[k];
         if (reached.limit <= target.tolerance || std::abs(reached.off) > reached.limit) continue;
-        const double wanted = packings_for(reached.fresh.deviation, 0.5 * target.tolerance * target.value);
+        // Two standard errors of a difference, of as many packings on either side.
+        const double wanted = 2.0 * packings_for(reached.fresh.deviation, 0.5 * target.tolerance * target.value);
         text += fmt::format(
-            "\n{}: two standard errors of {} packings are {:.2f} %, more than the tolerance of {:.2f} %; {} "
-            "fresh packings bring them down to it\n",
-            target_name(rock, k), reached.fresh.count, 100.0 * reached.limit, 100.0 * target.tolerance,
-            wanted > 1e4 ? "more than 10,000" : fmt::format("{:.0f}", wanted));
+            "\n{}: the scatter of {} fresh packings and of the {} of the last correction leaves ±{:.2f} %, more than "
+            "the tolerance of {:.2f} %; {} of each bring it down to that\n",
+            target_name(rock, k), reached.fresh.count, reached.polish.count, 100.0 * reached.limit,
+            100.0 * target.tolerance, wanted > 1e4 ? "more than 10,000" : fmt::format("{:.0f}", wanted));
     }
     return text;
 }
@@ -114,6 +117,13 @@ std::string directions_text(const Rock& rock, const CalibrationOutcome& outcome)
             "\nnot determined by the targets: {}: together that changes no target by more than {:.2g} of "
             "its tolerance; other values along it do as well, another target decides\n",
             keys, direction.change);
+    }
+    for (std::size_t f = 0; f < rock.free.size(); ++f) {
+        if (!outcome.keys[f].lost_in_scatter) continue;
+        text += fmt::format(
+            "\nnot determined by these packings: {}: their scatter leaves it between {:.4g} and {:.4g}, its bounds; a "
+            "larger polish in [packings], or another target, decides\n",
+            rock.free[f].name(), rock.free[f].from, rock.free[f].to);
     }
     return text;
 }
@@ -181,36 +191,37 @@ Json calibration_json(const Rock& rock, const CalibrationOutcome& outcome) {
 }
 
 std::string calibration_text(const Rock& rock, const CalibrationOutcome& outcome) {
-    std::string text = fmt::format("{}: {} of {} targets reached on {} fresh packings\n", rock.title,
+    std::string text = fmt::format("{}: {} of {} reached on {}\n", rock.title,
                                    std::count_if(outcome.targets.begin(), outcome.targets.end(),
                                                  [](const ReachedTarget& one) { return one.reached(); }),
-                                   outcome.targets.size(), outcome.targets.front().fresh.count);
-    text += fmt::format("  {:<34}{:>11}{:>11}{:>11}{:>11}{:>10}{:>9}  {}\n", "target", "value", "mean", "± error",
-                        "scatter", "off", "allowed", "");
+                                   counted(outcome.targets.size(), "target"),
+                                   counted(outcome.targets.front().fresh.count, "fresh packing"));
+    TextTable targets("<>>>>>><");
+    targets.add({"target", "value", "mean", "± error", "scatter", "off", "allowed"});
     for (std::size_t k = 0; k < rock.targets.size(); ++k) {
         const ReachedTarget& reached = outcome.targets[k];
         const bool area = rock.case_of(rock.targets[k].test, outcome.values()).area_units();
         const std::string unit = rock.targets[k].unit(area);
-        text +=
-            fmt::format("  {:<34}{:>11.4g}{:>11.4g}{:>11.2g}{:>11.2g}{:>10}{:>7.1f} %  {}\n",
-                        fmt::format("{}{}{}", target_name(rock, k), unit.empty() ? "" : ", ", unit),
-                        rock.targets[k].value, reached.fresh.mean, reached.fresh.standard_error,
-                        reached.fresh.deviation, percent(reached.off), 100.0 * reached.limit, name_of(reached.verdict));
+        targets.add({fmt::format("{}{}{}", target_name(rock, k), unit.empty() ? "" : ", ", unit),
+                     fmt::format("{:.4g}", rock.targets[k].value), fmt::format("{:.4g}", reached.fresh.mean),
+                     fmt::format("{:.2g}", reached.fresh.standard_error),
+                     fmt::format("{:.2g}", reached.fresh.deviation), percent(reached.off),
+                     fmt::format("{:.1f} %", 100.0 * reached.limit), name_of(reached.verdict)});
     }
-    text += fmt::format("  {:<54}{:>12}{:>26}\n", "key", "value", "95 % interval");
+    TextTable keys("<>><");
+    keys.add({"key", "value", "95 % interval"});
     for (std::size_t k = 0; k < rock.free.size(); ++k) {
         const FoundKey& key = outcome.keys[k];
-        text += fmt::format(
-            "  {:<54}{:>12.5g}{:>26}{}\n", rock.free[k].name(), key.value,
-            key.determined ? fmt::format("{:.4g} to {:.4g}{}", key.low, key.high,
-                                         key.low <= rock.free[k].from || key.high >= rock.free[k].to ? " (cut)" : "")
-                           : "not determined",
-            key.at_bound ? "  at its bound" : "");
+        const bool cut = key.low <= rock.free[k].from || key.high >= rock.free[k].to;
+        keys.add({rock.free[k].name(), fmt::format("{:.5g}", key.value),
+                  key.determined ? fmt::format("{:.4g} to {:.4g}{}", key.low, key.high, cut ? " (cut)" : "")
+                                 : "not determined",
+                  key.at_bound ? "at its bound" : ""});
     }
-    text += calibration_remarks(rock, outcome);
-    text +=
-        fmt::format("\n{} round{}, {} tests ({:.0f} s of a processor), {} linear solves\n", outcome.rounds,
-                    outcome.rounds == 1 ? "" : "s", outcome.tests, outcome.processor_seconds, outcome.linear_solves);
+    text += targets.text() + keys.text() + calibration_remarks(rock, outcome);
+    text += fmt::format("\n{}, {} ({:.0f} s of a processor), {}\n", counted(std::int64_t{outcome.rounds}, "round"),
+                        counted(outcome.tests, "test"), outcome.processor_seconds,
+                        counted(outcome.linear_solves, "linear solve"));
     return text;
 }
 

@@ -289,6 +289,12 @@ fs::path ledger_file(const fs::path& folder, const Shard& shard) {
     return folder / "shards" / fmt::format("{}.sqlite", shard.number);
 }
 
+std::optional<fs::path> kept_curve(const fs::path& folder, const std::string& identity) {
+    for (const fs::path& file : {folder / "curves" / (identity + ".csv"), folder / "tests" / identity / "curve.csv"})
+        if (is_file(file)) return file;
+    return std::nullopt;
+}
+
 CampaignOutcome run_campaign(const Plan& plan, const CampaignOptions& options, const CampaignHooks& hooks) {
     const Clock::time_point begun = Clock::now();
     check_campaign_folder(options.folder);

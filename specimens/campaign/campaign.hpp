@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "specimens/campaign/ledger.hpp"
@@ -25,6 +26,9 @@ struct Shard {
     int number = 1, of = 1;
     bool whole() const { return of == 1; }
 };
+
+/// Curve of a test, by its identity, where the plan has kept one.
+std::optional<std::filesystem::path> kept_curve(const std::filesystem::path& folder, const std::string& identity);
 
 struct CampaignOptions {
     std::filesystem::path folder;

@@ -56,11 +56,18 @@ class ConsistencyCheck {
         refuse(key, "nothing", p->expected(), because);
     }
     void exclude(const std::string& key, const std::string& because) const {
-        if (written(key)) refuse(key, "a value", "none", because);
+        if (written(key)) throw key_without_room(test_, key, because);
+    }
+    /// A key of use only with something that the case does not have.
+    void expect_beside(const std::string& key, const std::string& what) const {
+        if (written(key)) throw key_needs(test_, key, what);
     }
     /// A key of [material], wherever one may stand.
     void exclude_of_materials(const char* key, const std::string& because) const {
         for (const std::string& table : material_tables(test_)) exclude(fmt::format("{}.{}", table, key), because);
+    }
+    void expect_materials_beside(const char* key, const std::string& what) const {
+        for (const std::string& table : material_tables(test_)) expect_beside(fmt::format("{}.{}", table, key), what);
     }
 
     void specimen() const {
@@ -82,8 +89,7 @@ class ConsistencyCheck {
             need("packing.height", "or write count");
             exclude("packing.height_to_width", "width and height give the box its shape");
         }
-        if (p.mean_overlap && p.void_ratio)
-            exclude("packing.void_ratio", "a packing has one target: remove mean_overlap or void_ratio");
+        if (p.mean_overlap && p.void_ratio) exclude("packing.void_ratio", "mean_overlap is the packing's target");
         if (!p.mean_overlap && !p.void_ratio) need("packing.mean_overlap", "or write void_ratio");
         if (p.cell_diameter || p.cell_spread) {
             cells();
@@ -96,12 +102,12 @@ class ConsistencyCheck {
             }
             return;
         }
-        exclude("packing.sieve", "only sizes = \"sieve\" reads it");
+        expect_beside("packing.sieve", "sizes = \"sieve\"");
         if (p.sizes == "uniform") {
             need("packing.radius_min", "sizes = \"uniform\" needs both ends");
             need("packing.radius_max", "sizes = \"uniform\" needs both ends");
-            exclude("packing.radius_median", "only sizes = \"lognormal\" has it");
-            exclude("packing.radius_log_deviation", "only sizes = \"lognormal\" has it");
+            expect_beside("packing.radius_median", "sizes = \"lognormal\"");
+            expect_beside("packing.radius_log_deviation", "sizes = \"lognormal\"");
         } else {
             need("packing.radius_median", "sizes = \"lognormal\" needs it");
             need("packing.radius_log_deviation", "sizes = \"lognormal\" needs it");
@@ -114,7 +120,7 @@ class ConsistencyCheck {
 
     /// The size of the cells in place of that of the circles.
     void cells() const {
-        constexpr const char* because = "cell_diameter and cell_spread give the sizes: remove it, or them";
+        constexpr const char* because = "cell_diameter and cell_spread give the sizes";
         for (const char* key : {"radius_min", "radius_max", "radius_median", "radius_log_deviation", "sieve"})
             exclude(std::string("packing.") + key, because);
         if (!test_.has_table("mesh"))
@@ -145,7 +151,7 @@ class ConsistencyCheck {
                        "that law knows of no faces; use contact_law = \"rounded\"");
         } else {
             for (const char* key : {"contact_modulus", "stiffness_ratio"})
-                exclude_of_materials(key, "only units = \"area\" has it");
+                expect_materials_beside(key, "units = \"area\"");
         }
         numbers("material", m);
         for (std::size_t k = 0; k < test_.mineral.size(); ++k)
@@ -194,15 +200,14 @@ class ConsistencyCheck {
     void bond() const {
         const auto& b = test_.bond;
         if (!test_.coulomb_bonds()) {
-            constexpr const char* because =
-                "only bond.law = \"coulomb\" has it: by back-tension the overlap is the strength";
+            constexpr const char* law = "bond.law = \"coulomb\" (by back-tension the overlap is the strength)";
             for (const char* key : {"tensile_strength", "cohesion", "residual_friction_angle"})
-                exclude_of_materials(key, because);
+                expect_materials_beside(key, law);
             for (const char* key :
                  {"bond.gap", "bond.tensile_factor", "bond.cohesion_factor", "bond.strength_cv", "bond.strength_seed"})
-                exclude(key, because);
-            if (b.range > 0.0) exclude("bond.range", because);
-            if (b.strength_distribution != "none") exclude("bond.strength_distribution", because);
+                expect_beside(key, law);
+            if (b.range > 0.0) expect_beside("bond.range", law);
+            if (b.strength_distribution != "none") expect_beside("bond.strength_distribution", law);
             return;
         }
         if (test_.numerics.contact_law != "rounded")
@@ -215,26 +220,26 @@ class ConsistencyCheck {
             if (random)
                 need(key, "strength_distribution = \"" + b.strength_distribution + "\" needs it");
             else
-                exclude(key, "strength_distribution = \"none\" has no random factor");
+                expect_beside(key, "a strength_distribution other than \"none\"");
         }
         if (b.strength_distribution == "normal" && *b.strength_cv > largest_normal_cv)
             refuse("bond.strength_cv", fmt::format("{}", *b.strength_cv), fmt::format("at most {}", largest_normal_cv),
                    "a normal distribution truncated at 0 has no more; take weibull or lognormal");
         if (test_.has_table("mesh") && b.range > 0.0)
-            exclude("bond.range", "only circles reach beyond their neighbours");
+            exclude("bond.range", "polygons do not reach beyond their neighbours, circles do");
     }
 
     /// A strength is a number or a factor.
     void strength(const std::string& which) const {
         const std::string number = "material." + (which == "tensile" ? std::string("tensile_strength") : which);
         const std::string factor = "bond." + which + "_factor";
-        if (written(number) && written(factor)) exclude(factor, "a strength is a number or a factor: remove one");
+        if (written(number) && written(factor)) exclude(factor, number + " gives the strength");
         if (!written(number) && !written(factor)) need(number, "bond.law = \"coulomb\" needs it, or " + factor);
         if (!written(factor)) return;
         exclude_of_materials(which == "tensile" ? "tensile_strength" : "cohesion", factor + " gives it to all bonds");
         if (test_.has_table("mesh"))
-            exclude(factor, "polygons with coulomb bonds have no overlap to take a factor of; give " + number);
-        if (test_.area_units()) exclude(factor, "units = \"area\" has strengths in Pa; give " + number);
+            exclude(factor, "polygons with coulomb bonds have no overlap to take a factor of: give " + number);
+        if (test_.area_units()) exclude(factor, "with units = \"area\" strengths are in Pa: give " + number);
     }
 
     void mesh() const {
@@ -243,7 +248,7 @@ class ConsistencyCheck {
             refuse("mesh.boundary", "\"seeds\"", "\"domain\" with kind = \"voronoi\"", "Voronoi cells always fill it");
         }
         if (test_.coulomb_bonds() && !test_.mesh.thick && !test_.mesh.inset) {
-            exclude("bond.thick", "mesh.thick is derived: give both, or neither");
+            exclude("bond.thick", "mesh.thick is derived: both are given, or neither");
             return;
         }
         if (!test_.coulomb_bonds())
@@ -278,8 +283,8 @@ class ConsistencyCheck {
                 refuse("numerics.intact", "true", "false with frictional platens",
                        "they touch only what comes into contact later");
         } else {
-            exclude("loading.platen_friction_angle",
-                    "only platens = \"frictional\" has it: bonded and glued platens take the specimen's");
+            expect_beside("loading.platen_friction_angle",
+                          "platens = \"frictional\" (bonded and glued platens take the specimen's)");
         }
         keys_of_kinds();
         turning_round();
@@ -287,7 +292,7 @@ class ConsistencyCheck {
         if (test_.confinement.by_walls() && test_.numerics.intact)
             refuse("numerics.intact", "true", "false with confinement.side = \"walls\"",
                    "they press by contacts that no bond has made");
-        if (test_.loading.platens != "glued") exclude("loading.grip", "only platens = \"glued\" has grips");
+        if (test_.loading.platens != "glued") expect_beside("loading.grip", "platens = \"glued\"");
     }
 
     /// A platen that goes back: by cycles, each of which begins farther than the one before, or by lateral strain.
@@ -305,7 +310,7 @@ class ConsistencyCheck {
                        "the platen's speed is what follows; give rate_tolerance in place of the rate");
         }
         if (!loading.unloads()) {
-            exclude("loading.unload_to", "only loading.unload_at_strain or unload_at_stress has it");
+            expect_beside("loading.unload_to", "loading.unload_at_strain or unload_at_stress");
             return;
         }
         const bool by_strain = loading.unload_at_strain.has_value();
@@ -341,7 +346,7 @@ class ConsistencyCheck {
         const std::string& kind = test_.loading.kind;
         for (const KindKey& one : keys) {
             if (std::find(one.kinds.begin(), one.kinds.end(), kind) != one.kinds.end()) continue;
-            exclude(one.key, fmt::format("only loading.kind = \"{}\" has it", fmt::join(one.kinds, "\" or \"")));
+            expect_beside(one.key, fmt::format("loading.kind = \"{}\"", fmt::join(one.kinds, "\" or \"")));
         }
         if (test_.uniaxial()) return;
         const bool frictional = test_.loading.platens == "frictional";

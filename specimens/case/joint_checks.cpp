@@ -15,6 +15,7 @@
 #include "solver/base/errors.hpp"
 #include "specimens/case/joint_keys.hpp"
 #include "specimens/case/parameters.hpp"
+#include "specimens/statistics/spoken.hpp"
 
 namespace crackle {
 namespace {
@@ -69,7 +70,7 @@ class JointCheck {
             refuse("joints.section_trend", "nothing", find_parameter("joints", "section_trend")->expected(),
                    "planes are cut by a section whose direction is known");
         if (!fisher && written("joints.section_trend"))
-            refuse("joints.section_trend", "a value", "none", "only orientation = \"fisher\" has planes to cut");
+            throw key_needs(test_, "joints.section_trend", "a set with orientation = \"fisher\"");
         for (std::size_t k = 0; k < test_.trace.size(); ++k) trace(k);
         for (const JointTable& table : joint_tables(test_)) mechanics(table);
     }
@@ -87,7 +88,10 @@ class JointCheck {
         if (!written(label)) refuse(label, "nothing", find_parameter(table, key)->expected(), because);
     }
     void exclude(const std::string& label, const std::string& because) const {
-        if (written(label)) refuse(label, "a value", "none", because);
+        if (written(label)) throw key_without_room(test_, label, because);
+    }
+    void expect_beside(const std::string& label, const std::string& what) const {
+        if (written(label)) throw key_needs(test_, label, what);
     }
 
     void names() const {
@@ -157,14 +161,14 @@ class JointCheck {
             if (s.spacing_law == "uniform") below(k, "spacing_deviation", s.spacing_deviation, "spacing", s.spacing);
         } else {
             for (const char* key : {"spacing_law", "spacing_deviation", "through"})
-                exclude(of_set(k, key), "only an amount by spacing has it");
+                expect_beside(of_set(k, key), "an amount by spacing");
         }
         if (s.p20 && lines)
             refuse(of_set(k, "p20"), fmt::format("length = \"{}\"", s.length), "traces with midpoints",
                    "lines have none: give spacing, p10, p21 or number");
         if (s.through && s.through->size() != 2)
-            refuse(of_set(k, "through"), fmt::format("{} numbers", s.through->size()), "two, x and y", "correct it");
-        if (!s.p10) exclude(of_set(k, "scan_line"), "only p10 counts along a line");
+            refuse(of_set(k, "through"), counted(s.through->size(), "number"), "two, x and y", "correct it");
+        if (!s.p10) expect_beside(of_set(k, "scan_line"), "an amount by p10");
     }
 
     void trace(std::size_t k) const {
@@ -174,17 +178,17 @@ class JointCheck {
                    "one of them", t.points ? "remove one" : "add one");
         }
         if (t.points) {
-            for (const char* key : {"scale", "offset", "layer"}) exclude(of_trace(k, key), "only a file has it");
+            for (const char* key : {"scale", "offset", "layer"}) expect_beside(of_trace(k, key), "a file");
             if (t.points->size() < 4 || t.points->size() % 2 != 0)
-                refuse(of_trace(k, "points"), fmt::format("{} numbers", t.points->size()),
-                       "x and y of two points or more", "correct it");
+                refuse(of_trace(k, "points"), counted(t.points->size(), "number"), "x and y of two points or more",
+                       "correct it");
             const std::vector<double>& p = *t.points;
             bool apart = false;
             for (std::size_t n = 2; n < p.size(); n += 2) apart = apart || p[n] != p[0] || p[n + 1] != p[1];
             if (!apart) refuse(of_trace(k, "points"), "a trace of one place", "two or more", "correct it");
         }
         if (t.offset && t.offset->size() != 2)
-            refuse(of_trace(k, "offset"), fmt::format("{} numbers", t.offset->size()), "two, x and y", "correct it");
+            refuse(of_trace(k, "offset"), counted(t.offset->size(), "number"), "two, x and y", "correct it");
     }
 
     /// Which keys of a joint's mechanics go together.
@@ -204,7 +208,7 @@ class JointCheck {
             refuse(key("residual_friction_angle"), fmt::format("{} deg", *own.residual_friction_angle),
                    fmt::format("at most friction_angle, {} deg", *own.friction_angle), "a broken bond is no rougher");
         if (own.dilation_slip && own.dilation_angle.value_or(0.0) == 0.0)
-            refuse(key("dilation_slip"), "a value", "none without dilation_angle", "add that, or remove it");
+            throw key_needs(test_, key("dilation_slip"), "a dilation_angle > 0");
     }
 
     const TestCase& test_;

@@ -98,8 +98,7 @@ class MineralCheck {
         for (const char* key : {"labels", "image"}) {
             const std::string name = std::string("minerals.") + key;
             const bool written = test_.position.contains(name);
-            if (written && assign != key)
-                refuse(name, "a file", "none", fmt::format("only assign = \"{}\" reads it", key));
+            if (written && assign != key) throw key_needs(test_, name, fmt::format("assign = \"{}\"", key));
             if (!written && assign == key)
                 refuse(name, "nothing", "a file name in quotes", fmt::format("assign = \"{}\" needs it", key));
         }

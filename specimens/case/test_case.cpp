@@ -17,6 +17,14 @@ fs::path TestCase::resolve_path(const std::string& key, const std::string& writt
     return (fs::path(where.substr(0, where.rfind(':'))).parent_path() / written).lexically_normal();
 }
 
+InputError key_needs(const TestCase& test, const std::string& key, const std::string& what) {
+    return InputError(test.at(key) + " needs " + what + "; add that, or remove the key");
+}
+
+InputError key_without_room(const TestCase& test, const std::string& key, const std::string& because) {
+    return InputError(test.at(key) + " cannot be given here: " + because + "; remove the key");
+}
+
 std::vector<std::filesystem::path> files_read(const TestCase& test) {
     std::vector<std::filesystem::path> files = test.inputs;
     const auto add = [&](const std::string& key, const std::optional<std::string>& file) {

@@ -14,6 +14,8 @@
 #include <variant>
 #include <vector>
 
+#include "solver/base/errors.hpp"
+
 namespace crackle {
 
 /// A value as TOML knows it.
@@ -261,6 +263,12 @@ struct TestCase {
     /// A path written in the case, relative to the file that wrote it.
     std::filesystem::path resolve_path(const std::string& key, const std::string& written) const;
 };
+
+/// Of a key that needs something else in the case. @param what is missing: units = "area"
+InputError key_needs(const TestCase& test, const std::string& key, const std::string& what);
+
+/// Of a key that the rest of the case leaves no room for. @param because a sentence
+InputError key_without_room(const TestCase& test, const std::string& key, const std::string& because);
 
 /// Every file that a test of this case reads: the case, what it includes, and what its keys name.
 std::vector<std::filesystem::path> files_read(const TestCase& test);

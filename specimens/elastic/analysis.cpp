@@ -74,7 +74,7 @@ LinearBond linear_bond(const World& world, PointIndex k, const PointRates& rate,
     const Rate shear{view.shear_stiffness * std::abs(rate.slipping.value), view.shear_stiffness * rate.slipping.error};
     bond.closing = rate.closing.value * strain;
     bond.normal_force = normal.value * strain;
-    bond.shear_force = shear.value * strain;
+    bond.shear_force = -view.shear_stiffness * rate.slipping.value * strain;
     if (world.settings.bond_law == BondLaw::coulomb) {
         fail_by_envelope(bond, bond_strength(world, k), normal, shear);
         return bond;
@@ -108,8 +108,9 @@ std::vector<LinearBond> linear_bonds(const World& world, const TestSetup& setup,
     std::vector<LinearBond> bonds;
     for (PointIndex k = 0; k < world.points.size(); ++k) {
         if ((world.points.state[k].flags & point_bonded) == 0) continue;
+        const auto& [closing, slipping] = rates[k];
         bonds.push_back(linear_bond(
-            world, k, {{sense * rates[k].closing.value, rates[k].closing.error}, rates[k].slipping}, strain));
+            world, k, {{sense * closing.value, closing.error}, {sense * slipping.value, slipping.error}}, strain));
     }
     return bonds;
 }

@@ -27,7 +27,7 @@ struct LinearBond {
     double overlap = 0.0;        // m, δ0
     double closing = 0.0;        // m, growth of the overlap
     double normal_force = 0.0;   // N, compression positive
-    double shear_force = 0.0;    // N, magnitude
+    double shear_force = 0.0;    // N, on body_i along the normal from i to j turned by +90 degrees
     double break_strain = 0.0;   ///< infinite where the point is squeezed
     double slip_strain = 0.0;    ///< infinite where it sticks forever
 

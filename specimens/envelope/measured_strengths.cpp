@@ -16,8 +16,10 @@
 #include "specimens/campaign/campaign.hpp"
 #include "specimens/campaign/identity.hpp"
 #include "specimens/campaign/ledger.hpp"
+#include "specimens/campaign/point_table.hpp"
 #include "specimens/case/parameters.hpp"
 #include "specimens/making/cell_sizes.hpp"
+#include "specimens/recordings/curve_points.hpp"
 #include "specimens/recordings/test_results.hpp"
 
 namespace crackle {
@@ -58,11 +60,14 @@ struct StrengthTest {
     std::string packing;  ///< by whom it is drawn again
     Json figures;         ///< of summary.json, by name
     RockKeys rock;
+    std::optional<CurvePoints> curve = {};  ///< where one is asked for and was kept
 };
 
 /// Adds tests, each judged against those before it.
 class Collection {
   public:
+    explicit Collection(const StrengthMeasure& measure) { all_.measure = measure; }
+
     void add(const StrengthTest& test) {
         const std::string kind = word_of(test.figures, "kind");
         const bool pulled = kind == "tension";
@@ -77,9 +82,9 @@ class Collection {
             first_ = test;
         }
         require_same(test, unit);
-        const double strength = number_of(test.figures, "peak_stress");
+        const double strength = strength_of(test, pulled);
         if (!std::isfinite(strength)) {
-            leave_out(test.where, "did not fail by loading.max_axial_strain");
+            leave_out(test.where, why_without(test, pulled));
             return;
         }
         const std::string parted = word_of(test.figures, "failed_at");
@@ -112,6 +117,22 @@ class Collection {
     }
 
   private:
+    double strength_of(const StrengthTest& test, bool pulled) const {
+        if (pulled) return number_of(test.figures, "peak_stress");
+        if (!all_.measure.strain) return number_of(test.figures, all_.measure.figure.c_str());
+        return test.curve ? stress_at(*test.curve, *all_.measure.strain) : std::nan("");
+    }
+    /// Why it has none.
+    std::string why_without(const StrengthTest& test, bool pulled) const {
+        const StrengthMeasure& measure = all_.measure;
+        if (!pulled && measure.strain) {
+            return test.curve ? fmt::format("does not reach a strain of {:g}", *measure.strain)
+                              : std::string("its curve was not kept: [run] keep = \"curves\" of the plan keeps them");
+        }
+        if (!pulled && measure.figure != "peak_stress") return "has no " + measure.figure;
+        return "did not fail by loading.max_axial_strain (--figure largest_stress or --strain take tests that harden)";
+    }
+
     void require_same(const StrengthTest& test, const std::string& unit) const {
         if (unit != all_.unit) {
             throw InputError(
@@ -119,9 +140,10 @@ class Collection {
                             test.where, unit, all_.unit, first_.where));
         }
         if (const std::optional<std::string> key = first_difference(test.rock, first_.rock)) {
-            throw InputError(fmt::format("envelope: {}: {}: found {}, expected {} as in {}; give tests of one rock",
-                                         test.where, *key, shown_value(test.rock, *key), shown_value(first_.rock, *key),
-                                         first_.where));
+            const std::string expected = first_.rock.contains(*key) ? shown_value(first_.rock, *key) + " as in "
+                                                                    : "no value, as it has none in ";
+            throw InputError(fmt::format("envelope: {}: {}: found {}, expected {}{}; give tests of one rock",
+                                         test.where, *key, shown_value(test.rock, *key), expected, first_.where));
         }
     }
 
@@ -141,7 +163,9 @@ bool is_derived_gap(double thick, const Json& summary) {
 StrengthTest read_test(const fs::path& folder, FileHashes& files) {
     StrengthTest test;
     test.where = folder.string();
-    test.figures = read_results(folder).summary.json();
+    const TestResults results = read_results(folder);
+    test.figures = results.summary.json();
+    test.curve = strain_and_stress(results.curve);
     const TestCase made = read_case(folder / "case.toml");
     test.rock = keys_of_rock(made, files);
     if (made.mesh.thick && is_derived_gap(*made.mesh.thick, test.figures)) test.rock.erase("mesh.thick");
@@ -196,7 +220,7 @@ struct LedgerRow {
     }
 };
 
-void add_campaign(Collection& all, const fs::path& folder) {
+void add_campaign(Collection& all, const fs::path& folder, bool with_curves) {
     const CampaignLedger ledger = CampaignLedger::read(ledger_file(folder));
     const std::string text = ledger.meta("rocks");
     if (text.empty()) {
@@ -218,18 +242,41 @@ void add_campaign(Collection& all, const fs::path& folder) {
         }
         RockKeys rock = rocks.at(word_of(figures, "test")).get<RockKeys>();
         for (const auto& [key, value] : row.axes()) rock[key] = value;
-        all.add({row.where(folder), fmt::format("{:.0f}", number_of(figures, "seed")), figures, rock});
+        StrengthTest test{row.where(folder), fmt::format("{:.0f}", number_of(figures, "seed")), figures, rock};
+        const std::optional<fs::path> curve =
+            with_curves ? kept_curve(folder, word_of(figures, "identity")) : std::nullopt;
+        if (curve) test.curve = strain_and_stress(number_table(*curve, read_file(*curve)));
+        all.add(test);
     }
 }
 
 }  // namespace
 
-MeasuredStrengths read_strengths(std::span<const fs::path> folders) {
-    Collection all;
+std::string StrengthMeasure::spoken_one() const {
+    if (strain) return fmt::format("stress at a strain of {:g}", *strain);
+    if (figure == "peak_stress") return "strength";
+    std::string text = figure;
+    std::ranges::replace(text, '_', ' ');
+    return text;
+}
+
+std::string StrengthMeasure::spoken() const {
+    if (strain) return fmt::format("stresses at a strain of {:g}", *strain);
+    const std::string one = spoken_one();
+    return one + (one.ends_with("ss") ? "es" : "s");
+}
+
+MeasuredStrengths read_strengths(std::span<const fs::path> folders, const StrengthMeasure& measure) {
+    if (!measure.strain && unit_of_figure(measure.figure, false) != "N/m")
+        throw InputError(
+            fmt::format("envelope: --figure: found '{:.60}', expected a stress of summary.json, such as "
+                        "peak_stress, largest_stress or crack_damage_stress",
+                        measure.figure));
+    Collection all(measure);
     FileHashes files;
     for (const fs::path& folder : folders) {
         if (is_file(ledger_file(folder)))
-            add_campaign(all, folder);
+            add_campaign(all, folder, measure.strain.has_value());
         else
             all.add(read_test(folder, files));
     }

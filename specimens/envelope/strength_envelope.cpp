@@ -9,6 +9,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <random>
 #include <unsupported/Eigen/NonLinearOptimization>
 
@@ -16,6 +17,7 @@
 #include "solver/base/errors.hpp"
 #include "specimens/statistics/mean.hpp"
 #include "specimens/statistics/random_numbers.hpp"
+#include "specimens/statistics/spoken.hpp"
 
 namespace crackle {
 namespace {
@@ -147,10 +149,63 @@ double friction_angle(double slope) {
 double cohesion(const Line& line) { return line.intercept / (2.0 * std::sqrt(line.slope)); }
 
 /// The six numbers, in the order of the envelope's members.
-std::array<double, 6> numbers_of(const WeightedPoints& points) {
+using Numbers = std::array<double, 6>;
+using FittedNumbers = std::array<FittedNumber*, 6>;
+constexpr std::size_t slope_number = 1, angle_number = 2;
+
+Numbers numbers_of(const WeightedPoints& points) {
     const Line line = fit_mohr_coulomb(points);
     const HoekBrown law = fit_hoek_brown(points);
     return {line.intercept, line.slope, friction_angle(line.slope), cohesion(line), law.strength, law.m};
+}
+
+/// Intervals by drawing as many packings again and again. @param numbers_with of packings by number
+void state_by_drawing(const FittedNumbers& fitted, std::size_t packings, auto&& numbers_with) {
+    std::mt19937_64 generator(bootstrap_seed);
+    std::array<std::vector<double>, 6> drawn;
+    std::vector<std::size_t> named(packings);
+    for (std::size_t n = 0; n < redrawn; ++n) {
+        for (std::size_t& one : named) one = uniform_below(generator, packings);
+        const std::optional<Numbers> numbers = numbers_with(named);
+        if (!numbers) continue;
+        for (std::size_t k = 0; k < numbers->size(); ++k)
+            if (std::isfinite((*numbers)[k])) drawn[k].push_back((*numbers)[k]);
+    }
+    const double tail = expanded_tail(packings);
+    for (std::size_t k = 0; k < fitted.size(); ++k) {
+        if (drawn[k].empty()) continue;
+        std::ranges::sort(drawn[k]);
+        fitted[k]->low = percentile(drawn[k], tail);
+        fitted[k]->high = percentile(drawn[k], 1.0 - tail);
+    }
+}
+
+/// Intervals of few packings, whose draws cannot leave their range: Student's t about the fit, the standard error from
+/// fits that leave out a packing each (jackknife: sqrt((n - 1)/n) of the root of their squares about their mean). Of
+/// logarithms, for all but the angle are positive; the angle's follows from the slope's.
+void state_by_leaving_out(const FittedNumbers& fitted, std::size_t packings, auto&& numbers_with) {
+    std::array<std::vector<double>, 6> logarithms;
+    for (std::size_t out = 0; out < packings; ++out) {
+        std::vector<std::size_t> named;
+        for (std::size_t k = 0; k < packings; ++k)
+            if (k != out) named.push_back(k);
+        const std::optional<Numbers> numbers = numbers_with(named);
+        if (!numbers) return;  // packings that lack confinements: what one adds is not known
+        for (std::size_t k = 0; k < numbers->size(); ++k) logarithms[k].push_back(std::log((*numbers)[k]));
+    }
+    const auto n = static_cast<double>(packings);
+    for (std::size_t k = 0; k < fitted.size(); ++k) {
+        if (k == angle_number) continue;
+        // Of n values mean_of() has t sqrt(squares/(n - 1)/n) about their mean.
+        const MeanFigure mean = mean_of(logarithms[k]);
+        const double half = 0.5 * (mean.high - mean.low) * (n - 1.0);
+        fitted[k]->low = fitted[k]->value * std::exp(-half);
+        fitted[k]->high = fitted[k]->value * std::exp(half);
+    }
+    const FittedNumber& slope = *fitted[slope_number];
+    if (!std::isfinite(slope.low)) return;
+    fitted[angle_number]->low = friction_angle(slope.low);
+    fitted[angle_number]->high = friction_angle(slope.high);
 }
 
 }  // namespace
@@ -160,8 +215,8 @@ FittedLaws fit_laws(std::span<const StrengthPoint> tests) {
     for (const StrengthAt& at : by_confinement(tests))
         points.push_back({at.confinement, at.mean, std::sqrt(static_cast<double>(at.tests)) / at.mean});
     if (points.size() < fewest_confinements) {
-        throw InputError(
-            fmt::format("envelope: found {} confinements, expected at least {}", points.size(), fewest_confinements));
+        throw InputError(fmt::format("envelope: found {}, expected at least {}", counted(points.size(), "confinement"),
+                                     fewest_confinements));
     }
     const std::array<double, 6> found = numbers_of(points);
     return {found[0], found[1], found[2], found[3], found[4], found[5]};
@@ -196,22 +251,22 @@ StrengthEnvelope fit_envelope(std::span<const StrengthPoint> tests) {
     envelope.packings = packings.size();
     if (envelope.strengths.size() < fewest_confinements || packings.size() < fewest_packings) {
         throw InputError(fmt::format(
-            "envelope: found {} confinements of {} packings, expected at least {} confinements (0 among them, up to "
-            "half "
-            "of the unconfined strength) of at least {} packings: strengths scatter from packing to packing",
-            envelope.strengths.size(), packings.size(), fewest_confinements, fewest_packings));
+            "envelope: found {} of {}, expected at least {} confinements (0 among them, up to half of the unconfined "
+            "strength) of at least {} packings: strengths scatter from packing to packing",
+            counted(envelope.strengths.size(), "confinement"), counted(packings.size(), "packing"), fewest_confinements,
+            fewest_packings));
     }
     envelope.variation = pooled_variation(envelope.strengths);
     WeightedPoints points;
     for (const StrengthAt& at : envelope.strengths)
         points.push_back({at.confinement, at.mean, std::sqrt(static_cast<double>(at.tests)) / at.mean});
-    const std::array<FittedNumber*, 6> fitted{&envelope.strength,
-                                              &envelope.slope,
-                                              &envelope.friction_angle,
-                                              &envelope.cohesion,
-                                              &envelope.hoek_brown_strength,
-                                              &envelope.hoek_brown_m};
-    const std::array<double, 6> best = numbers_of(points);
+    const FittedNumbers fitted{&envelope.strength,
+                               &envelope.slope,
+                               &envelope.friction_angle,
+                               &envelope.cohesion,
+                               &envelope.hoek_brown_strength,
+                               &envelope.hoek_brown_m};
+    const Numbers best = numbers_of(points);
     for (std::size_t k = 0; k < fitted.size(); ++k) fitted[k]->value = best[k];
 
     // Of each packing the sum and the number of its strengths, by confinement.
@@ -228,12 +283,11 @@ StrengthEnvelope fit_envelope(std::span<const StrengthPoint> tests) {
             sum.tests += 1.0;
         }
     }
-    std::mt19937_64 generator(bootstrap_seed);
-    std::array<std::vector<double>, 6> drawn;
-    for (std::size_t n = 0; n < redrawn; ++n) {
+    // The six numbers of these packings, each as often as it is named; nothing where no line goes through them.
+    const auto numbers_with = [&](const std::vector<std::size_t>& named) -> std::optional<Numbers> {
         std::vector<Sums> sums(points.size());
-        for (std::size_t k = 0; k < drawable.size(); ++k) {
-            const std::vector<Sums>& own = drawable[uniform_below(generator, drawable.size())];
+        for (const std::size_t packing : named) {
+            const std::vector<Sums>& own = drawable[packing];
             for (std::size_t at = 0; at < sums.size(); ++at) {
                 sums[at].strength += own[at].strength;
                 sums[at].tests += own[at].tests;
@@ -245,18 +299,13 @@ StrengthEnvelope fit_envelope(std::span<const StrengthPoint> tests) {
             again.push_back({points[at].confinement, sums[at].strength / sums[at].tests,
                              std::sqrt(sums[at].tests) / envelope.strengths[at].mean});
         }
-        if (again.size() < 2) continue;  // no line through one
-        const std::array<double, 6> numbers = numbers_of(again);
-        for (std::size_t k = 0; k < numbers.size(); ++k)
-            if (std::isfinite(numbers[k])) drawn[k].push_back(numbers[k]);
-    }
-    const double tail = expanded_tail(packings.size());
-    for (std::size_t k = 0; k < fitted.size(); ++k) {
-        if (drawn[k].empty()) continue;
-        std::ranges::sort(drawn[k]);
-        fitted[k]->low = percentile(drawn[k], tail);
-        fitted[k]->high = percentile(drawn[k], 1.0 - tail);
-    }
+        if (again.size() < 2) return std::nullopt;
+        return numbers_of(again);
+    };
+    if (packings.size() < fewest_of_bootstrap)
+        state_by_leaving_out(fitted, packings.size(), numbers_with);
+    else
+        state_by_drawing(fitted, packings.size(), numbers_with);
     double line_squares = 0.0, law_squares = 0.0;
     for (const StrengthAt& at : envelope.strengths) {
         const double by_line = envelope.mohr_coulomb(at.confinement) / at.mean - 1.0,

@@ -8,7 +8,9 @@
 // Both by least squares in σ1. Packings scatter by a share of their strength, the same at every confinement (the pooled
 // coefficient of variation), so a test weighs 1/(mean strength at its confinement)². Hoek-Brown begins at the line of
 // (σ1 - σ3)² over σ3, slope m C and intercept C². Intervals: 10,000 fits to as many packings drawn with replacement, a
-// packing with all its tests; percentiles at the levels that are as wide as Student's t (statistics/mean.hpp).
+// packing with all its tests; percentiles at the levels that are as wide as Student's t (statistics/mean.hpp). Of fewer
+// than eight packings, whose draws cannot leave their range: Student's t with the standard error of the jackknife, fits
+// that leave out a packing each. Two packings say little, and their intervals are as wide as that.
 // Stresses in one unit, N/m or Pa, compression positive.
 // Tested by tests/specimens/envelope/strength_envelope_test.cpp.
 #pragma once

@@ -8,8 +8,10 @@
 #include <chrono>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "solver/base/errors.hpp"
+#include "solver/measure/point_view.hpp"
 #include "solver/stepping/step.hpp"
 #include "specimens/loading/prepare.hpp"
 
@@ -42,6 +44,16 @@ double steps_per_second(World& world, std::vector<std::string>& notices) {
         look_at_clock();
     }
     return static_cast<double>(steps) / seconds;
+}
+
+/// What is refused, as a warning.
+std::optional<std::string> refusal_of(auto&& judge) {
+    try {
+        judge();
+    } catch (const InputError& error) {
+        return error.what();
+    }
+    return std::nullopt;
 }
 
 double largest_memory() {
@@ -80,6 +92,54 @@ void find_deepest_corner(TestCheck& check, const ElasticAnalysis& analysis, cons
     }
 }
 
+/// degrees, mean over the bonded points
+double bond_friction_angle(const World& world) {
+    double sum = 0.0, count = 0.0;
+    for (PointIndex k = 0; k < world.points.size(); ++k) {
+        if ((world.points.state[k].flags & point_bonded) == 0) continue;
+        sum += std::atan(view_point(world, k).friction);
+        count += 1.0;
+    }
+    return sum / std::max(count, 1.0) * 180.0 / std::numbers::pi;
+}
+
+/// The disc's rock, squeezed and pulled as a whole packing between platens by one linear solution.
+std::optional<DiscOutlook> outlook_of(const TestCase& disc, const TestHooks& hooks) {
+    TestCase rock = disc;
+    rock.loading.kind = "compression";
+    rock.loading.platens = "bonded";
+    rock.loading.jaws.reset();
+    rock.loading.half_angle.reset();
+    rock.shape = {};
+    DiscOutlook outlook;
+    double strains[2] = {0.0, 0.0}, squares = 0.0;
+    const auto look = [&](const World& world, const TestSetup& squeezed, const Moduli& moduli) {
+        outlook.friction_angle = bond_friction_angle(world);
+        for (const bool compression : {true, false}) {
+            TestSetup setup = squeezed;
+            setup.compression = compression;
+            const BreakShare rule = bond_break_share(setup);
+            strains[compression ? 0 : 1] =
+                strain_of_share(analyse_elastic(world, setup, moduli, 1.0, 0).bonds, rule.share);
+            squares += std::pow(std::log(rule.factor), 2.0);  // of errors by themselves
+        }
+    };
+    TestHooks quietly;
+    quietly.interrupted = hooks.interrupted;
+    quietly.working = hooks.working;
+    try {
+        bond_test(rock, quietly, look);
+    } catch (const InputError&) {  // what holds a disc need not hold the whole packing
+        return std::nullopt;
+    }
+    outlook.strength_ratio = strains[0] / strains[1];
+    if (!std::isfinite(outlook.strength_ratio) || outlook.strength_ratio <= 0.0) return std::nullopt;
+    outlook.factor = std::exp(std::sqrt(squares));
+    const double sine = std::sin(outlook.friction_angle * std::numbers::pi / 180.0);
+    outlook.needed = 3.0 + (1.0 + sine) / (1.0 - sine);
+    return outlook;
+}
+
 void estimate_run(TestCheck& check) {
     const VirtualTest& test = check.test;
     const TestCase::Loading& loading = test.description.loading;
@@ -92,10 +152,24 @@ void estimate_run(TestCheck& check) {
 
 constexpr double largest_strain_of_a_rock = 0.1;
 
+void warn_of_disc(TestCheck& check) {
+    if (!check.disc || check.disc->can_be_valid() == true) return;
+    const DiscOutlook& disc = *check.disc;
+    check.warnings.push_back(fmt::format(
+        "a Brazilian test of this rock {} valid: its strength is about {:.2g} times its tensile strength, within a "
+        "factor of {:.2g}, and only from 3 + N = {:.3g} on (friction angle {:.3g} degrees) does the centre of a disc "
+        "split before it is crushed; {}",
+        disc.can_be_valid() ? "cannot be" : "may not be", disc.strength_ratio, disc.factor, disc.needed,
+        disc.friction_angle,
+        disc.can_be_valid() ? "its peak is no tensile strength, kind = \"tension\" measures one"
+                            : "`validity` of its summary tells afterwards"));
+}
+
 void warn(TestCheck& check) {
     const TestSetup& setup = check.test.setup;
     const TestCase& test = check.test.description;
     check.warnings = setup.notices;
+    warn_of_disc(check);
     if (test.confined()) {
         check.warnings.emplace_back(
             "first slip and break are those of the specimen without its confining pressure, and no strength is "
@@ -147,6 +221,12 @@ void warn(TestCheck& check) {
 
 }  // namespace
 
+std::optional<bool> DiscOutlook::can_be_valid() const {
+    if (strength_ratio >= needed * factor) return true;
+    if (strength_ratio * factor < needed) return false;
+    return std::nullopt;
+}
+
 // From the tests in specimens/METHODS.md 6: pulled, and squeezed but for Voronoi polygons, a rock fails soon after its
 // first breaks; Voronoi polygons under compression lock, and go on until a fifth of their bonds has gone. By
 // back-tension the overlaps of circles vary, and many weak bonds break early.
@@ -183,6 +263,9 @@ TestCheck check_test(const TestCase& description, const TestHooks& hooks) {
         find_deepest_corner(check, analysis, own);
     };
     check.test = prepare_test(description, hooks, look);
+    if (description.loading.kind == "brazilian" && !description.numerics.intact)
+        check.disc = outlook_of(description, hooks);
+    const auto rests = refusal_of([&] { refuse_resting(check.test); });  // before steps are timed
     const TestSetup& setup = check.test.setup;
     check.grains_across = setup.width / std::sqrt(setup.width * setup.height / static_cast<double>(setup.particles));
     hooks.report_work("measuring steps a second");
@@ -190,11 +273,9 @@ TestCheck check_test(const TestCase& description, const TestHooks& hooks) {
     estimate_run(check);
     check.memory = largest_memory();
     warn(check);
-    try {
-        refuse_endless(check.test, check.to_end);
-    } catch (const InputError& error) {
-        check.warnings.emplace_back(error.what());
-    }
+    if (rests) check.warnings.push_back(*rests);
+    if (const auto endless = refusal_of([&] { refuse_endless(check.test, check.to_end); }))
+        check.warnings.push_back(*endless);
     return check;
 }
 

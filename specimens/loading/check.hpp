@@ -33,12 +33,25 @@ struct StrengthEstimate {
     double factor = 1.0;                ///< by which it was off at worst where it was calibrated
 };
 
+/// Whether a Brazilian test of a rock can be valid: the centre of a disc, under three times the tension there, splits
+/// before it is crushed where strength over tensile strength is 3 + N or more, N = (1 + sin φ)/(1 - sin φ).
+struct DiscOutlook {
+    double strength_ratio = 0.0;  ///< of the rock's estimated strengths, by the linear solution of the whole packing
+    double factor = 1.0;          ///< by which it may be off
+    double friction_angle = 0.0;  // degrees, mean of the bonded points
+    double needed = 0.0;          ///< 3 + N
+
+    /// Nothing where the estimate is too rough to tell.
+    std::optional<bool> can_be_valid() const;
+};
+
 struct TestCheck {
     VirtualTest test;  ///< a few steps into its loading
     double grains_across = 0.0;
     double youngs_modulus = 0.0, poissons_ratio = 0.0, gauge_modulus = 0.0;  ///< not a number where unknown
     std::optional<FirstLoss> first_slip, first_break;
     std::optional<StrengthEstimate> strength;
+    std::optional<DiscOutlook> disc;        ///< of a Brazilian test whose rock has a linear solution
     double rate = 0.0, slowest_rate = 0.0;  // 1/s; equal where the rate is given
     double steps_per_second = 0.0;          ///< as measured here
     std::optional<RunEstimate> to_strength;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "solver/base/errors.hpp"
+#include "specimens/loading/own_loading.hpp"
 #include "specimens/setup/unloading.hpp"
 
 namespace crackle {
@@ -56,6 +57,20 @@ void refuse_endless(const VirtualTest& test, const RunEstimate& run) {
                     "--long. It comes from {}",
                     test.description.at("loading.max_axial_strain"), run.strain, run.steps, run.seconds / seconds_a_day,
                     most_steps, likely_cause(test)));
+}
+
+void refuse_resting(const VirtualTest& test) {
+    if (test.state.path.by_caller()) return;
+    const BodyState& driver = test.world.bodies.state[test.setup.top];
+    const double place = test.setup.axis == 0 ? driver.x : driver.y, speed = platen_speed(test);
+    const double way = speed * test.world.stepping.time_step;
+    if (speed > 0.0 && place + way != place) return;
+    const TestCase& asked = test.description;
+    throw InputError(
+        fmt::format("{}: found a way of {:.2g} m a step of the part that drives the specimen, expected one that moves "
+                    "it: its place is {:.3g} m, and its strain would stay 0; give another rate",
+                    asked.at(asked.loading.axial_strain_rate ? "loading.axial_strain_rate" : "loading.rate_tolerance"),
+                    way, place));
 }
 
 }  // namespace crackle

@@ -25,4 +25,9 @@ inline constexpr double most_steps = 1e10, most_seconds = 86400.0;
 /// @throws InputError if max_axial_strain is that far away, naming the key that makes it so.
 void refuse_endless(const VirtualTest& test, const RunEstimate& run);
 
+/// The one check that no test of any kind steps for ever at a strain of 0: its first step moves the driving part, which
+/// a part at rest does not do, nor a speed below the last digit of its place. A caller's own speed may be 0.
+/// @param test at the start of its loading @throws InputError naming the key that the speed comes from
+void refuse_resting(const VirtualTest& test);
+
 }  // namespace crackle

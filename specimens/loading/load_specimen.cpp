@@ -13,6 +13,7 @@
 #include "solver/measure/ledger.hpp"
 #include "solver/stepping/controls.hpp"
 #include "solver/stepping/step.hpp"
+#include "specimens/loading/expected_run.hpp"
 #include "specimens/results/files.hpp"
 #include "specimens/setup/lateral_control.hpp"
 #include "specimens/setup/unloading.hpp"
@@ -306,6 +307,7 @@ class LoadingLoop {
 }  // namespace
 
 void load_specimen(VirtualTest& test, const TestHooks& hooks, TestFiles* files) {
+    if (test.state.rows.empty()) refuse_resting(test);
     malloc_trim(0);  // what packing, meshing and bonding needed: a third of all there is at 200,000 discs
     LoadingLoop(test, hooks, files).run();
 }

@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "solver/base/errors.hpp"
-#include "specimens/case/parameters.hpp"
 #include "specimens/elastic/analysis.hpp"
 #include "specimens/loading/confine.hpp"
 #include "specimens/loading/press.hpp"
 #include "specimens/loading/quasi_static_start.hpp"
+#include "specimens/loading/unlikely_numbers.hpp"
 #include "specimens/setup/bonded_specimen.hpp"
 #include "specimens/setup/lateral_control.hpp"
 #include "specimens/setup/platen_hold.hpp"
@@ -73,9 +73,6 @@ void solve_small_strain(VirtualTest& test, const World& world, const TestSetup& 
     }
 }
 
-// Rocks fail at some 1e-3 of strain, the softest soils at 0.1: numbers far from that are in another unit.
-constexpr double least_strength_over_modulus = 1e-6, least_modulus = 1e5;  // Pa
-
 /// Acoustic events are told apart by a shear wave's speed; without one a notice says that there are none.
 void listen_for_emission(VirtualTest& test) {
     const TestCase::Output& output = test.description.output;
@@ -87,27 +84,6 @@ void listen_for_emission(VirtualTest& test) {
     } catch (const InputError& error) {
         test.setup.notices.push_back(std::string("no acoustic events: ") + error.what());
     }
-}
-
-/// Where numbers in Pa look as if they were meant in MPa or GPa.
-void notice_small_numbers(VirtualTest& test) {
-    const TestCase& asked = test.description;
-    if (!asked.area_units()) return;
-    const auto look = [&](const std::string& table, const TestCase::MaterialKeys& m) {
-        const auto notice = [&](const char* key, double value, const std::string& why, const char* unit) {
-            test.setup.notices.push_back(
-                fmt::format("{}.{} = {:g} Pa {}: is it meant in {}? Numbers are in Pa", table, key, value, why, unit));
-        };
-        if (!m.contact_modulus) return;
-        if (*m.contact_modulus < least_modulus)
-            notice("contact_modulus", *m.contact_modulus, "is softer than any rock or soil", "GPa");
-        else if (m.tensile_strength && *m.tensile_strength < least_strength_over_modulus * *m.contact_modulus)
-            notice("tensile_strength", *m.tensile_strength,
-                   fmt::format("is {:.1g} of the contact modulus", *m.tensile_strength / *m.contact_modulus), "MPa");
-    };
-    look("material", asked.material);
-    for (std::size_t k = 0; k < asked.mineral.size(); ++k)
-        look(fmt::format("mineral[{}]", k + 1), mineral_material(asked, k));
 }
 
 /// Bonds as deep as this share of a particle's size reach beyond the faces that lie against each other.
@@ -175,7 +151,8 @@ VirtualTest bond_test(const TestCase& description, const TestHooks& hooks, const
                                    test.world.bonds.interfaces_initial, test.world.stepping.time_step));
     report_bonded(hooks, test.world, test.setup, description);
     hooks.report_work("solving for small strain");
-    notice_small_numbers(test);
+    for (std::string& notice : unlikely_numbers(description, test.setup))
+        test.setup.notices.push_back(std::move(notice));
     notice_deep_bonds(test);
     if (bonded.platens.bonded) {
         check_platen_hold(test.world, test.setup, bonded.platens, description);

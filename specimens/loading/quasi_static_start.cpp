@@ -103,11 +103,16 @@ RateRule rate_rule_of(const VirtualTest& test, double tolerance) {
 
 namespace {
 
+/// Whether there is a linear solution that the specimen between its parts moves by.
+bool moves_elastically(const VirtualTest& test) {
+    return test.small_strain && test.description.loading.platens != "frictional";
+}
+
 /// Which bodies move by the linear solution: of bonded parts all that they hold.
 std::vector<bool> elastic_bodies(const VirtualTest& test) {
-    const bool bonded = test.description.loading.platens != "frictional";
-    std::vector<bool> elastic(test.world.bodies.size(), bonded);
-    if (bonded)
+    const bool elastically = moves_elastically(test);
+    std::vector<bool> elastic(test.world.bodies.size(), elastically);
+    if (elastically)
         for (const BodyIndex b :
              find_free_motions(test.world, bodies_of_parts(test.setup), closed_points(test.setup)).bodies)
             elastic[b] = false;
@@ -121,7 +126,7 @@ std::vector<BodyMotion> start_moving(VirtualTest& test, double rate) {
     const std::vector<bool> elastic = elastic_bodies(test);
     std::vector<BodyMotion> motion = elastic_motion(test, elastic);
     set_velocities(world, motion, rate);
-    if (test.description.loading.platens != "frictional") {
+    if (moves_elastically(test)) {
         settle_dashpots(world, setup, elastic);
         set_velocities(world, motion, rate);
     }
@@ -138,10 +143,7 @@ std::vector<BodyMotion> start_moving(VirtualTest& test, double rate) {
 
 }  // namespace
 
-void start_by_rate(VirtualTest& test) {
-    if (!test.small_strain) return;
-    start_moving(test, *test.description.loading.axial_strain_rate);
-}
+void start_by_rate(VirtualTest& test) { start_moving(test, *test.description.loading.axial_strain_rate); }
 
 void start_by_tolerance(VirtualTest& test) {
     World& world = test.world;

@@ -23,7 +23,7 @@ RateRule rate_rule_of(const VirtualTest& test, double tolerance);
 void start_by_tolerance(VirtualTest& test);
 
 /// Sets a specimen that is not between platens moving at the rate that its case gives, as start_by_tolerance() does;
-/// without a linear solution it starts from rest.
+/// without a linear solution everything moves in proportion to its height.
 void start_by_rate(VirtualTest& test);
 
 }  // namespace crackle

@@ -205,6 +205,7 @@ TestOutcome run_test(const TestCase& description, const TestOptions& options, co
     choose_threads(test.world, options, threads, hooks);
     const RunEstimate run = expected_run(test, description.loading.max_axial_strain, roughly_steps_per_second(test));
     if (!options.endless) refuse_endless(test, run);
+    refuse_resting(test);  // before there is a folder
     hooks.report_detail(
         fmt::format("{:.3g} steps to max_axial_strain = {:g}, in about {:.2g} s", run.steps, run.strain, run.seconds));
     Profile profile;

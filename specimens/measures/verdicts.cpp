@@ -11,6 +11,7 @@
 #include <numbers>
 
 #include "specimens/measures/parting.hpp"
+#include "specimens/statistics/spoken.hpp"
 
 namespace crackle {
 namespace {
@@ -21,6 +22,36 @@ constexpr double centre_share = 0.5, jaw_share = 0.8, jaw_energy = 0.25;  // of 
 constexpr double largest_slant = 20.0, split_share = 0.5;                 // degrees; of the diameter, or the ligament
 constexpr double midspan_share = 0.25;                                    // of the height
 constexpr double gap_share = 0.25, gap_energy = 2.0 / 3.0;                // of the height; of the energy
+
+/// What must hold, and the sentence of one that does not, {} what was found.
+struct Claim {
+    const char *holds, *broken;
+};
+constexpr Claim wide_enough{"the specimen is at least 20 particles wide",
+                            "the specimen is {} wide; at least 20 are needed"};
+constexpr Claim away_from_platens{"the largest crack is not a platen's",
+                                  "the largest crack is a platen's, not the specimen's: {}"};
+constexpr Claim between_grips{"the specimen parted between its grips",
+                              "the specimen did not part between its grips: {}"};
+constexpr Claim from_the_middle{
+    "before the first drop of 1 % the breaks' energy lies at less than 0.5 R from the centre along the load",
+    "before the first drop of 1 % the breaks lie too far from the centre along the load: {}; less than 0.5 R is "
+    "needed"};
+constexpr Claim not_at_the_jaws{"breaks beyond 0.8 R have less than a quarter of that energy",
+                                "breaks beyond 0.8 R, at the jaws, have {} of the energy before the first drop of 1 %; "
+                                "less than a quarter is needed"};
+constexpr Claim split_disc{
+    "the largest crack lies within 20 degrees of the load axis and spans half the diameter",
+    "the largest crack does not split the disc: {}; at most 20 degrees from the load axis and half the diameter are "
+    "needed"};
+constexpr Claim crack_at_midspan{
+    "the largest crack lies at midspan, within a quarter of the height or two particles, and spans half of what is "
+    "left above the notch",
+    "the largest crack does not run from midspan: {}; within a quarter of the height or two particles of it and half "
+    "of the height left are needed"};
+constexpr Claim sheared_gap{"two thirds of the breaks' energy come from within a quarter of the height of the gap",
+                            "only {} of the breaks' energy come from within a quarter of the height of the gap; two "
+                            "thirds are needed"};
 
 struct BreakPlace {
     double x = 0.0, y = 0.0, energy = 0.0, time = 0.0;
@@ -98,14 +129,15 @@ double time_of_first_drop(std::span<const CurveRow> rows) {
 
 std::vector<Verdict> on_platens(const TestSetup& setup, const ContactHistory& history) {
     const double across = setup.width / std::sqrt(setup.width * setup.height / static_cast<double>(setup.particles));
-    std::vector<Verdict> verdicts{{"the specimen is at least 20 particles wide", across >= fewest_across,
-                                   fmt::format("{:.3g} particles", across)}};
-    Verdict place{setup.compression ? "the largest crack is not a platen's" : "the specimen parted between its grips",
-                  std::nullopt, "no bond has broken"};
+    std::vector<Verdict> verdicts{
+        {wide_enough.holds, across >= fewest_across, fmt::format("{:.3g} particles", across)}};
+    Verdict place{setup.compression ? away_from_platens.holds : between_grips.holds, std::nullopt,
+                  "no bond has broken"};
     if (const auto parting = find_parting(setup, history)) {
         place.holds = setup.compression ? parting->place != "platen" : parting->place == "gauge";
-        place.found = fmt::format("{} bonds at a {}", parting->bonds, parting->place);
-        if (parting->place == "gauge") place.found = fmt::format("{} bonds within the gauge length", parting->bonds);
+        place.found = fmt::format("{} at a {}", counted(parting->bonds, "bond"), parting->place);
+        if (parting->place == "gauge")
+            place.found = fmt::format("{} within the gauge length", counted(parting->bonds, "bond"));
     }
     verdicts.push_back(place);
     return verdicts;
@@ -125,11 +157,8 @@ std::vector<Verdict> on_disc(const TestSetup& setup, std::span<const CurveRow> r
         moment += place.energy * away;
         if (away > jaw_share) of_jaws += place.energy;
     }
-    Verdict middle{
-        "before the first drop of 1 % the breaks' energy lies at less than 0.5 R from the centre along the load",
-        std::nullopt, "no bond broke before it"};
-    Verdict jaws{"breaks beyond 0.8 R have less than a quarter of that energy", std::nullopt,
-                 "no bond broke before it"};
+    Verdict middle{from_the_middle.holds, std::nullopt, "no bond broke before it"};
+    Verdict jaws{not_at_the_jaws.holds, std::nullopt, "no bond broke before it"};
     if (energy > 0.0) {
         middle.holds = moment / energy < centre_share;
         middle.found = fmt::format("{:.2f} R, of {} breaks", moment / energy, before);
@@ -141,8 +170,7 @@ std::vector<Verdict> on_disc(const TestSetup& setup, std::span<const CurveRow> r
 
 Verdict splits(const TestSetup& setup, const LargestCrack& crack) {
     const double spans = (crack.high - crack.low) / setup.width;
-    return {"the largest crack lies within 20 degrees of the load axis and spans half the diameter",
-            crack.slant <= largest_slant && spans >= split_share,
+    return {split_disc.holds, crack.slant <= largest_slant && spans >= split_share,
             fmt::format("{:.0f} degrees, {:.2f} of the diameter, {} breaks", crack.slant, spans, crack.breaks)};
 }
 
@@ -150,11 +178,8 @@ Verdict from_midspan(const TestSetup& setup, const LargestCrack& crack) {
     const double size = std::sqrt(setup.area / static_cast<double>(setup.particles));
     const double away = std::abs(crack.middle - setup.middle);
     const double spans = (crack.high - crack.low) / (setup.height - setup.notch);
-    return {
-        "the largest crack lies at midspan, within a quarter of the height or two particles, and spans half of what is "
-        "left above the notch",
-        away <= std::max(midspan_share * setup.height, 2.0 * size) && spans >= split_share,
-        fmt::format("{:.3g} m from midspan, {:.2f} of the height left, {} breaks", away, spans, crack.breaks)};
+    return {crack_at_midspan.holds, away <= std::max(midspan_share * setup.height, 2.0 * size) && spans >= split_share,
+            fmt::format("{:.3g} m from midspan, {:.2f} of the height left, {} breaks", away, spans, crack.breaks)};
 }
 
 Verdict along_gap(const TestSetup& setup, const std::vector<BreakPlace>& places) {
@@ -163,8 +188,7 @@ Verdict along_gap(const TestSetup& setup, const std::vector<BreakPlace>& places)
         energy += place.energy;
         if (std::abs(place.y - setup.middle_height) <= gap_share * setup.height) near += place.energy;
     }
-    Verdict verdict{"two thirds of the breaks' energy come from within a quarter of the height of the gap",
-                    std::nullopt, "no bond has broken"};
+    Verdict verdict{sheared_gap.holds, std::nullopt, "no bond has broken"};
     if (energy > 0.0) {
         verdict.holds = near >= gap_energy * energy;
         verdict.found = fmt::format("{:.0f} %", 100.0 * near / energy);
@@ -173,6 +197,13 @@ Verdict along_gap(const TestSetup& setup, const std::vector<BreakPlace>& places)
 }
 
 }  // namespace
+
+std::string broken_claim(const std::string& claim, const std::string& found) {
+    for (const Claim& one : {wide_enough, away_from_platens, between_grips, from_the_middle, not_at_the_jaws,
+                             split_disc, crack_at_midspan, sheared_gap})
+        if (claim == one.holds) return fmt::format(fmt::runtime(one.broken), found);
+    return fmt::format("it does not hold that {}: {}", claim, found);
+}
 
 std::vector<Verdict> verdicts_on(const TestSetup& setup, std::span<const CurveRow> rows, const ContactHistory& history,
                                  bool failed) {

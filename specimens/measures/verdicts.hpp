@@ -34,6 +34,9 @@ struct Verdict {
     std::string found;          ///< the numbers behind it, or why there are none
 };
 
+/// A claim that does not hold, as a sentence with what was found. @param claim, found  of a Verdict, or of summary.json
+std::string broken_claim(const std::string& claim, const std::string& found);
+
 /// @param failed whether the peak is known
 std::vector<Verdict> verdicts_on(const TestSetup& setup, std::span<const CurveRow> rows, const ContactHistory& history,
                                  bool failed);

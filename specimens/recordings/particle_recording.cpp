@@ -8,9 +8,10 @@
 
 namespace crackle {
 Recording read_particle_recording(const std::filesystem::path& file, std::uint64_t seed) {
-    const Scene scene = read_geometry_mode(file) == 1 ? read_geometry(file)
-                                                      : make_random_circles(read_random_geometry(file), seed).scene;
     Recording recording;
+    recording.drawn_by_seed = read_geometry_mode(file) == 0;
+    const Scene scene =
+        recording.drawn_by_seed ? make_random_circles(read_random_geometry(file), seed).scene : read_geometry(file);
     recording.name = file.filename().string();
     recording.path = std::filesystem::weakly_canonical(file);
     recording.walls = {scene.domain.x1, scene.domain.x2, scene.domain.y1, scene.domain.y2};

@@ -78,6 +78,7 @@ struct Recording {
     std::string name;            ///< of the folder or file
     std::filesystem::path path;  ///< of it, absolute
     Kind kind = Kind::particles;
+    bool drawn_by_seed = false;                  ///< its circles, of a particle file of mode 0
     TestResults results;                         ///< of a test; of a deck its breaks alone
     std::optional<std::array<double, 4>> walls;  /// x1, x2, y1, y2 of a deck's domain
     bool mean_velocities = false;                ///< taken from the places of two frames, not the solver's own

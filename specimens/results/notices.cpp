@@ -49,8 +49,7 @@ std::vector<std::string> notices_of(const TestCase& test, const TestSetup& setup
     if (world.membrane.open > 0) {
         notices.emplace_back(
             "the specimen parted so far that no membrane could be laid about it: from there on the pressure acted "
-            "where "
-            "it had been");
+            "where it had been");
     }
     const std::optional<Parting> parting = find_parting(setup, state.history);
     if (f.failed && setup.uniaxial && !setup.compression && parting && parting->place != "gauge") {
@@ -71,7 +70,7 @@ std::vector<std::string> notices_of(const TestCase& test, const TestSetup& setup
     if (const TestCase::Loading& loading = test.loading; loading.unloads()) {
         const auto& asked = loading.unload_at_strain ? *loading.unload_at_strain : *loading.unload_at_stress;
         if (state.path.unloaded < std::ssize(asked)) {
-            notices.push_back(fmt::format("{} of {} unloadings were come to before the test ended", state.path.unloaded,
+            notices.push_back(fmt::format("{} of {} unloadings were reached before the test ended", state.path.unloaded,
                                           asked.size()));
         }
     }
@@ -79,8 +78,8 @@ std::vector<std::string> notices_of(const TestCase& test, const TestSetup& setup
     const double above = state.share_above_tolerance();
     if (above > share_above_to_mention) {
         notices.push_back(
-            fmt::format("the inertia error lay above rate_tolerance = {} over {:.0f} % of the strain: breaks set the "
-                        "specimen moving faster than it can be waited for; --verify shows what half the rate changes",
+            fmt::format("the inertia error lay above rate_tolerance = {} over {:.0f} % of the strain: breaks release "
+                        "energy faster than loading can slow down; --verify shows what half the rate changes",
                         *test.loading.rate_tolerance, 100.0 * above));
     }
     if (viscous_share > *test.loading.rate_tolerance) {

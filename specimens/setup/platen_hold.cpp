@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <boost/pending/disjoint_sets.hpp>
 #include <limits>
+#include <string>
 
 #include "solver/base/errors.hpp"
 #include "solver/measure/point_view.hpp"
@@ -58,17 +59,28 @@ bool connected(const World& world, const TestSetup& setup) {
     });
 }
 
+/// What a part is called by whoever does the test.
+std::string part_name(const TestSetup& setup, const SetupPart& part) {
+    const bool driver = part.body == setup.top;
+    if (setup.kind == "brazilian") return driver ? "upper jaw" : "lower jaw";
+    if (setup.kind == "direct_shear") return driver ? "upper box" : "lower box";
+    return driver ? "pad that presses" : "support";
+}
+
 void check_part_hold(const World& world, const TestSetup& setup, const TestCase& test) {
     for (const SetupPart& part : setup.parts) {
         const double width = face_width(world, part);
         const BondedFace hold = hold_of(world, setup, part.body);
         if (hold.length() >= min_platen_hold * width) continue;
-        const bool driver = part.body == setup.top;
+        const std::string found =
+            hold.bonds == 0 ? "found no particle that reaches"
+                            : fmt::format("found {} bonded points over {:.3g} m of", hold.bonds, hold.length());
         throw InputError(fmt::format(
-            "{}: found {} bonded points over {:.3g} m of the {:.3g} m wide face of {}, expected them to reach over "
-            "half of it; "
-            "make it wider, or the particles smaller, or give the bonds a reach (bond.range, bond.gap)",
-            test.at("loading.kind"), hold.bonds, hold.length(), width, driver ? "the part that drives" : "a support"));
+            "{}: {} the {}, {:.3g} m wide, expected bonds over half of that; make it wider, or the particles smaller, "
+            "or {}",
+            test.at("loading.kind"), found, part_name(setup, part), width,
+            test.coulomb_bonds() ? "give the bonds a reach (bond.range, bond.gap)"
+                                 : "take bond.law = \"coulomb\", whose bonds have a reach (bond.range, bond.gap)"));
     }
 }
 
@@ -83,10 +95,8 @@ void check_platen_hold(const World& world, const TestSetup& setup, const Platens
         const bool lower = platen == setup.bottom;
         throw InputError(
             fmt::format("{}: found {} bonded points over {:.3g} m of the {:.3g} m wide specimen at the {} platen (face "
-                        "at y = {:.6g} "
-                        "m), expected them to reach over half of it; circles must overlap the domain's face, polygons "
-                        "end flat half "
-                        "the meshing thickness inside it (mesh.boundary = \"domain\")",
+                        "at y = {:.6g} m), expected them to reach over half of it; circles must overlap the domain's "
+                        "face, polygons end flat half the meshing thickness inside it (mesh.boundary = \"domain\")",
                         test.at("bond.thick"), hold.bonds, hold.length(), setup.width, lower ? "lower" : "upper",
                         lower ? platens.bottom_y : platens.top_y));
     }

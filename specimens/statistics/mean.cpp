@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t bootstrap_means = 10'000;
 constexpr std::uint64_t resampling_seed = 1;
-constexpr std::size_t fewest_of_bootstrap = 8, most_of_bootstrap = 200;
+constexpr std::size_t most_of_bootstrap = 200;
 constexpr double outside = 0.05;
 
 /// Mean, deviation and standard error.
@@ -36,9 +36,11 @@ MeanFigure moments_of(std::span<const double> values) {
 }
 
 /// Student's t of the 95 % interval.
-double student(std::size_t count) {
-    return boost::math::quantile(boost::math::students_t(static_cast<double>(count) - 1.0), 1.0 - 0.5 * outside);
+double student_of(double freedom) {
+    return boost::math::quantile(boost::math::students_t(freedom), 1.0 - 0.5 * outside);
 }
+
+double student(std::size_t count) { return student_of(static_cast<double>(count) - 1.0); }
 
 }  // namespace
 
@@ -63,6 +65,16 @@ MeanFigure mean_of(std::span<const double> values) {
     figure.low = percentile(means, tail);
     figure.high = percentile(means, 1.0 - tail);
     return figure;
+}
+
+double difference_half_width(const MeanFigure& a, const MeanFigure& b) {
+    if (a.count < 2 || b.count < 2) return std::nan("");
+    const double of_a = a.standard_error * a.standard_error, of_b = b.standard_error * b.standard_error;
+    if (of_a + of_b == 0.0) return 0.0;
+    const double freedom =
+        (of_a + of_b) * (of_a + of_b) /
+        (of_a * of_a / (static_cast<double>(a.count) - 1.0) + of_b * of_b / (static_cast<double>(b.count) - 1.0));
+    return student_of(freedom) * std::sqrt(of_a + of_b);
 }
 
 bool MeanBias::known() const {

@@ -9,6 +9,9 @@
 
 namespace crackle {
 
+/// Of fewer values the bootstrap cannot leave their range; Student's t does.
+inline constexpr std::size_t fewest_of_bootstrap = 8;
+
 /// Of values that are independent draws. What is not defined (a deviation of one value) is not a number.
 struct MeanFigure {
     std::size_t count = 0;
@@ -23,6 +26,10 @@ struct MeanFigure {
     double variation() const { return deviation / mean; }  ///< coefficient of variation
 };
 MeanFigure mean_of(std::span<const double> values);
+
+/// Half of the 95 % interval of the difference of two means of independent values: Student's t with Welch's degrees of
+/// freedom (Biometrika 34, 1947). Not a number where one has less than two values.
+double difference_half_width(const MeanFigure& a, const MeanFigure& b);
 
 /// What a mean is wrong by because time goes in steps and the platens move at a rate, from companions of the same
 /// packings at half the step and half the rate. A first-order error is twice the change at half of it (Richardson);

@@ -11,9 +11,11 @@
 #include "solver/base/errors.hpp"
 #include "solver/files/read_file.hpp"
 #include "solver/files/replace_file.hpp"
+#include "solver/files/text_table.hpp"
 #include "specimens/calibration/calibrate.hpp"
 #include "specimens/calibration/outcome_files.hpp"
 #include "specimens/making/hooks.hpp"
+#include "specimens/statistics/spoken.hpp"
 #include "tools/calibrate/calibration_page.hpp"
 #include "tools/command_line/command_line.hpp"
 #include "tools/commands/commands.hpp"
@@ -39,16 +41,19 @@ void check_folder(const fs::path& folder) {
 }
 
 void print_plan(const Rock& rock) {
-    fmt::print("{}: {} targets, {} free keys, {} tests\n", rock.title, rock.targets.size(), rock.free.size(),
-               rock.tests.size());
+    fmt::print("{}: {}, {}, {}\n", rock.title, counted(rock.targets.size(), "target"),
+               counted(rock.free.size(), "free key"), counted(rock.tests.size(), "test"));
+    TextTable table("<<");
     for (const Target& target : rock.targets)
-        fmt::print("  {:<40}{:.6g} within {:.3g} %\n", target.name(rock.tests), target.value, 100.0 * target.tolerance);
+        table.add(
+            {target.name(rock.tests), fmt::format("{:.6g} within {:.3g} %", target.value, 100.0 * target.tolerance)});
     for (const FreeKey& free : rock.free)
-        fmt::print("  {:<54}{:.4g} to {:.4g}, from {:.4g}\n", free.name(), free.from, free.to, free.start);
+        table.add({free.name(), fmt::format("{:.4g} to {:.4g}, from {:.4g}", free.from, free.to, free.start)});
+    fmt::print("{}", table.text());
     const auto tests = static_cast<std::int64_t>(rock.tests.size());
-    fmt::print("  a round is up to {} tests, two to ten of them; then {} tests up to three times, and {}\n",
-               static_cast<std::int64_t>(2 * rock.free.size() + 3) * tests * rock.fit, rock.polish * tests,
-               rock.fresh * tests);
+    fmt::print("  a round is up to {}, two to ten of them; then {} up to three times, and {}\n",
+               counted(static_cast<std::int64_t>(2 * rock.free.size() + 3) * tests * rock.fit, "test"),
+               counted(rock.polish * tests, "test"), rock.fresh * tests);
 }
 
 }  // namespace
@@ -80,6 +85,7 @@ int calibrate_rock(const Invocation& given) {
     const po::variables_map& values = given.values;
     Messages& messages = given.messages;
     if (values.contains("keys")) {
+        expect_alone("crackle calibrate", given, "keys");
         std::cout << describe_rock_keys();
         return exit_done;
     }

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "specimens/calibration/outcome_files.hpp"
+#include "specimens/statistics/spoken.hpp"
 #include "tools/campaign/page/figures.hpp"
 #include "tools/campaign/page/html_page.hpp"
 #include "tools/plot/campaign_panels.hpp"
@@ -90,12 +91,12 @@ std::optional<CampaignFigure> targets_plane(const Rock& rock, const CalibrationO
     };
     const std::string unit = rock.targets[x].unit(in_area_units(rock, outcome, x));
     return CampaignFigure{
+        "axes",
         fmt::format(
             "{} over {}: means of the fit packings at the points that were tried, the target with its tolerance, "
             "and the mean of {} fresh packings with its 95 % interval",
             name(y), name(x), outcome.targets[y].fresh.count),
-        {plot::over_axis(unit.empty() ? name(x) : name(x) + ", " + unit, name(y),
-                         rock.targets[y].unit(in_area_units(rock, outcome, y)), all)}};
+        {plot::over_axis(name(x), unit, name(y), rock.targets[y].unit(in_area_units(rock, outcome, y)), all)}};
 }
 
 }  // namespace
@@ -103,11 +104,11 @@ std::optional<CampaignFigure> targets_plane(const Rock& rock, const CalibrationO
 std::string calibration_page(const Rock& rock, const CalibrationOutcome& outcome, const std::filesystem::path& folder) {
     const auto reached = std::count_if(outcome.targets.begin(), outcome.targets.end(),
                                        [](const ReachedTarget& one) { return one.reached(); });
-    std::string text = page_head(
-        rock.title, fmt::format("{} of {} targets reached on {} fresh packings; {} tests, {:.3g} s of a processor, {} "
-                                "linear solves",
-                                reached, outcome.targets.size(), outcome.targets.front().fresh.count, outcome.tests,
-                                outcome.processor_seconds, outcome.linear_solves));
+    std::string text = page_head(rock.title, fmt::format("{} of {} reached on {}; {}, {:.3g} s of a processor, {}",
+                                                         reached, counted(outcome.targets.size(), "target"),
+                                                         counted(outcome.targets.front().fresh.count, "fresh packing"),
+                                                         counted(outcome.tests, "test"), outcome.processor_seconds,
+                                                         counted(outcome.linear_solves, "linear solve")));
     text += "<h2>Targets</h2>\n" + targets_table(rock, outcome);
     text += "<h2>Keys</h2>\n" + keys_table(rock, outcome);
     const std::string remarks = calibration_remarks(rock, outcome);

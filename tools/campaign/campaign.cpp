@@ -7,6 +7,7 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdint>
 #include <iostream>
 #include <optional>
 #include <string>
@@ -16,6 +17,7 @@
 #include "specimens/campaign/campaign.hpp"
 #include "specimens/campaign/estimate.hpp"
 #include "specimens/campaign/plan_file.hpp"
+#include "specimens/statistics/spoken.hpp"
 #include "tools/command_line/command_line.hpp"
 #include "tools/terminal/interrupt.hpp"
 #include "tools/terminal/shipped.hpp"
@@ -39,24 +41,29 @@ Shard shard_of(const std::string& text) {
     return shard;
 }
 
+/// "24 tests of 3 points with 4 packings".
+std::string size_of(const Plan& plan) {
+    return fmt::format("{} of {} with {}", counted(plan.rows.size(), "test"), counted(plan.points.size(), "point"),
+                       counted(plan.packings, "packing"));
+}
+
 std::string hours(double seconds) { return spoken_time(std::max(1.0, seconds)); }
 
 void print_estimate(const Plan& plan, const PlanEstimate& estimate, int workers) {
-    fmt::print("{}: {} tests of {} points with {} packing{}\n", plan.title, plan.rows.size(), plan.points.size(),
-               plan.packings, plan.packings == 1 ? "" : "s");
+    fmt::print("{}: {}\n", plan.title, size_of(plan));
     for (const KindEstimate& kind : estimate.kinds) {
-        fmt::print("  {:<24}{} tests of {:.2g} s{}\n", kind.test, kind.rows, kind.seconds,
+        fmt::print("  {:<24}{} of {:.2g} s{}\n", kind.test, counted(kind.rows, "test"), kind.seconds,
                    kind.measured ? ", as measured" : ", by `crackle test --check`");
         for (const std::string& warning : kind.warnings) fmt::print("  warning: {}: {}\n", kind.test, warning);
     }
-    fmt::print("  about {} of a processor, {} with {} worker{}\n", hours(estimate.seconds),
-               hours(estimate.seconds / workers), workers, workers == 1 ? "" : "s");
+    fmt::print("  about {} of a processor, {} with {}\n", hours(estimate.seconds), hours(estimate.seconds / workers),
+               counted(std::int64_t{workers}, "worker"));
 }
 
 void print_outcome(const CampaignOutcome& outcome, const std::string& folder) {
     const CampaignProgress& p = outcome.progress;
-    fmt::print("{} of {} tests done, {} gone wrong, {} left; {} run now in {}\n", p.done, p.tests, p.gone_wrong, p.left,
-               outcome.run, hours(outcome.wall_seconds));
+    fmt::print("{} of {} done, {} gone wrong, {} left; {} run now in {}\n", p.done, counted(p.tests, "test"),
+               p.gone_wrong, p.left, outcome.run, hours(outcome.wall_seconds));
     fmt::print("  results in {}: crackle campaign show {}\n", outcome.ledger.string(), folder);
 }
 
@@ -93,6 +100,7 @@ int campaign(const Invocation& given) {
     const po::variables_map& values = given.values;
     Messages& messages = given.messages;
     if (values.contains("keys")) {
+        expect_alone("crackle campaign", given, "keys");
         std::cout << describe_plan_keys();
         return exit_done;
     }
@@ -143,8 +151,7 @@ int campaign(const Invocation& given) {
                      .detail = fmt::format("{} of {} done, {} gone wrong", p.done, p.tests, p.gone_wrong)});
             };
         }
-        messages.stage(fmt::format("{} tests of {} points with {} packings, {} workers", plan.rows.size(),
-                                   plan.points.size(), plan.packings, workers));
+        messages.stage(fmt::format("{}, {}", size_of(plan), counted(std::int64_t{workers}, "worker")));
         const CampaignOutcome outcome = run_campaign(plan, options, hooks);
         messages.make_room();
         if (!messages.quiet()) print_outcome(outcome, folder);

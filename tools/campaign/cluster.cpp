@@ -18,6 +18,7 @@
 #include "specimens/campaign/campaign.hpp"
 #include "specimens/campaign/estimate.hpp"
 #include "specimens/campaign/plan_file.hpp"
+#include "specimens/statistics/spoken.hpp"
 #include "tools/campaign/campaign.hpp"
 #include "tools/command_line/command_line.hpp"
 #include "tools/terminal/shipped.hpp"
@@ -129,9 +130,9 @@ int campaign_gather(const Invocation& given) {
     const fs::path folder = given.operands.front();
     const Gathered gathered = gather_shards(folder);
     if (!given.messages.quiet())
-        fmt::print("{} tests from {} shares; {} of {} done, {} gone wrong: crackle campaign show {}\n", gathered.tests,
-                   gathered.shards, gathered.counts.done, gathered.counts.tests, gathered.counts.gone_wrong,
-                   folder.string());
+        fmt::print("{} from {}; {} of {} done, {} gone wrong: crackle campaign show {}\n",
+                   counted(gathered.tests, "test"), counted(gathered.shards, "share"), gathered.counts.done,
+                   gathered.counts.tests, gathered.counts.gone_wrong, folder.string());
     return exit_done;
 }
 

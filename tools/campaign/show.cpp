@@ -12,6 +12,7 @@
 #include "solver/base/errors.hpp"
 #include "specimens/campaign/campaign.hpp"
 #include "specimens/campaign/point_table.hpp"
+#include "specimens/statistics/spoken.hpp"
 #include "tools/campaign/campaign.hpp"
 #include "tools/command_line/command_line.hpp"
 
@@ -21,15 +22,15 @@ namespace {
 std::string printed(double value) { return std::isfinite(value) ? fmt::format("{:.4g}", value) : "-"; }
 
 void print_point(const PointSummary& point, const std::vector<std::string>& figures) {
-    fmt::print("\n{}{}{}: {} of {} packings done{}\n", point.test, point.axes.empty() ? "" : ", ", point.at(),
-               point.done, point.planned, point.gone_wrong > 0 ? fmt::format(", {} gone wrong", point.gone_wrong) : "");
+    fmt::print("\n{}{}{}: {} of {} done{}\n", point.test, point.axes.empty() ? "" : ", ", point.at(), point.done,
+               counted(point.planned, "packing"),
+               point.gone_wrong > 0 ? fmt::format(", {} gone wrong", point.gone_wrong) : "");
     if (point.unfailed > 0)
         fmt::print(
             "  notice: {} did not fail by loading.max_axial_strain: they have no strength and are in no mean of "
             "it\n",
             point.unfailed);
-    fmt::print("  {:<26}{:>4}{:>12}{:>12}{:>8}{:>26}\n", "figure", "n", "mean", "deviation", "cv %",
-               "95 % of the mean");
+    fmt::print("  {:<26}{:>4}{:>12}{:>12}{:>8}{:>26}\n", "figure", "n", "mean", "deviation", "cv %", "95 % interval");
     for (const std::string& figure : figures) {
         const MeanFigure& mean = point.figures.at(figure);
         const std::string unit = unit_of_figure(figure, point.area_units);
@@ -71,6 +72,10 @@ CommandLine describe_campaign_show() {
 int campaign_show(const Invocation& given) {
     const po::variables_map& values = given.values;
     if (given.operands.empty()) throw InputError("crackle campaign show: found no DIR, expected a campaign's folder");
+    for (const char* table : {"wrong", "tests"}) {
+        if (values.contains(table)) refuse_unused("crackle campaign show", values, std::string("--") + table, {table});
+    }
+    if (values.contains("all")) refuse_unused("crackle campaign show", values, "--all", {"all", "csv"});
     const CampaignLedger ledger = CampaignLedger::read(ledger_file(given.operands.front()));
     if (values.contains("wrong")) {
         const LedgerTable wrong = ledger.query(
@@ -103,8 +108,8 @@ int campaign_show(const Invocation& given) {
         return exit_done;
     }
     const LedgerCounts counts = ledger.counts();
-    fmt::print("{}: {} of {} tests done, {} gone wrong{}; {:.3g} s of a processor\n", ledger.meta("title"), counts.done,
-               counts.tests, counts.gone_wrong, counts.gone_wrong > 0 ? " (--wrong says why)" : "",
+    fmt::print("{}: {} of {} done, {} gone wrong{}; {:.3g} s of a processor\n", ledger.meta("title"), counts.done,
+               counted(counts.tests, "test"), counts.gone_wrong, counts.gone_wrong > 0 ? " (--wrong says why)" : "",
                counts.processor_seconds);
     for (const PointSummary& point : points) print_point(point, figures);
     return exit_done;

@@ -2,6 +2,7 @@
 #include "tools/command_line/command_line.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <boost/program_options/errors.hpp>
@@ -156,7 +157,40 @@ std::string complaint(const po::error& error, const CommandLine& line) {
     return error.what() + suggestion(unknown->get_option_name(), known);
 }
 
+bool is_given(const po::variables_map& values, const std::string& option) {
+    return values.contains(option) && !values[option].defaulted();
+}
+
+void expect_companions(const std::string& name, const CommandLine& line, const po::variables_map& values) {
+    for (const Companion& one : line.companions) {
+        if (!is_given(values, one.option)) continue;
+        if (std::ranges::any_of(one.one_of, [&](const std::string& other) { return is_given(values, other); }))
+            continue;
+        const std::string others = "--" + fmt::format("{}", fmt::join(one.one_of, " or --"));
+        throw InputError(fmt::format("{0}: --{1}: found without {2}, where it has no effect; leave it out, or add {2}",
+                                     name, one.option, others));
+    }
+}
+
 }  // namespace
+
+InputError without_effect(const std::string& name, const std::string& word, const std::string& input) {
+    return InputError(fmt::format("{}: {}: found with {}, where it has no effect; leave it out", name, word, input));
+}
+
+void refuse_unused(const std::string& name, const po::variables_map& given, const std::string& input,
+                   const Arguments& used) {
+    for (const auto& [option, value] : given) {
+        const bool common = option == operand_name || option == "quiet" || option == "verbose" || option == "help";
+        if (common || value.defaulted() || std::ranges::find(used, option) != used.end()) continue;
+        throw without_effect(name, "--" + option, input);
+    }
+}
+
+void expect_alone(const std::string& name, const Invocation& given, const std::string& option) {
+    refuse_unused(name, given.values, "--" + option, {option});
+    if (!given.operands.empty()) throw without_effect(name, given.operands.front(), "--" + option);
+}
 
 std::string suggestion(const std::string& found, const Arguments& known) {
     std::string best;
@@ -223,6 +257,7 @@ ParsedWords parse_words(const std::string& name, const CommandLine& line, const 
     parsed.help = parsed.values.contains("help");
     const bool quiet = parsed.values.contains("quiet"), verbose = parsed.values.contains("verbose");
     if (parsed.help) return parsed;
+    expect_companions(name, line, parsed.values);
     if (quiet && verbose) throw InputError(name + ": found --quiet and --verbose, expected one of them");
     parsed.loudness = quiet ? Loudness::quiet : verbose ? Loudness::verbose : Loudness::usual;
     if (parsed.values.contains(operand_name)) parsed.operands = parsed.values[operand_name].as<Arguments>();

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "solver/base/errors.hpp"
 #include "tools/terminal/messages.hpp"
 
 namespace crackle::tools {
@@ -28,6 +29,12 @@ struct Choices {
     Arguments words;
 };
 
+/// An option that has an effect only beside one of others.
+struct Companion {
+    std::string option;  ///< long name
+    Arguments one_of;    ///< long names
+};
+
 struct OptionSection {
     std::string caption;
     po::options_description options;
@@ -43,6 +50,7 @@ struct CommandLine {
     bool several_operands = false;
     Arguments operand_words = {};  ///< understood; empty: files
     std::vector<Choices> choices = {};
+    std::vector<Companion> companions = {};
     std::string verbose = {};  ///< what -v reports beside the usual
     std::vector<Example> examples = {};
     Arguments notes = {};                        ///< paragraphs that follow the examples
@@ -86,6 +94,17 @@ struct ParsedWords {
 
 /// @param name as typed, "crackle campaign show". @throws InputError that names what is wrong and where to look
 ParsedWords parse_words(const std::string& name, const CommandLine& line, const Arguments& words);
+
+/// An option or operand that has no effect on what is asked for. @param input "the folder of a campaign", "--check"
+InputError without_effect(const std::string& name, const std::string& word, const std::string& input);
+
+/// Refuses options that were given and that have no effect on what is asked for.
+/// @param used long names of the options that have one. @throws without_effect() of the first other
+void refuse_unused(const std::string& name, const po::variables_map& given, const std::string& input,
+                   const Arguments& used);
+
+/// The same of an option that stands alone: without operands, too.
+void expect_alone(const std::string& name, const Invocation& given, const std::string& option);
 
 /// The text of --help, on stdout.
 void print_help(const CommandLine& line);

@@ -16,6 +16,7 @@
 #include "specimens/elastic/jointed_compliance.hpp"
 #include "specimens/loading/prepare.hpp"
 #include "specimens/results/json_number.hpp"
+#include "specimens/statistics/spoken.hpp"
 #include "tools/command_line/command_line.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/terminal/shipped.hpp"
@@ -39,19 +40,20 @@ Json stress_of(const std::optional<FirstEvent>& first) { return first ? Json(fir
 std::string event_text(const VirtualTest& test, const ElasticAnalysis& a, const std::optional<FirstEvent>& first) {
     if (!first) return "none";
     const LinearBond& bond = a.bonds[first->bond];
-    return fmt::format("{:.4g} {} at strain {:.3e}, bodies {} and {}", first->stress, test.description.stress_unit(),
-                       first->strain, bond.body_i, bond.body_j);
+    return fmt::format("{} at strain {:.3e}, bodies {} and {}",
+                       spoken_stress(first->stress, test.description.stress_unit()), first->strain, bond.body_i,
+                       bond.body_j);
 }
 
 void print(const VirtualTest& test, const ElasticAnalysis& a, double seconds) {
     fmt::print("{}, {}: {} particles, {} bonds, {} unknowns, {:.0f} ms\n", test.setup.specimen,
                test.description.loading.kind, test.setup.particles, a.bonds.size(), a.unknowns, 1e3 * seconds);
     if (test.setup.uniaxial)
-        fmt::print("  Young's modulus   {:.6g} {}, Poisson's ratio {:.4g} (residual {:.1e})\n", a.youngs_modulus,
-                   test.description.stress_unit(), a.poissons_ratio, a.residual);
+        fmt::print("  Young's modulus   {}, Poisson's ratio {:.4g} (residual {:.1e})\n",
+                   spoken_stress(a.youngs_modulus, test.description.stress_unit(), 6), a.poissons_ratio, a.residual);
     else
-        fmt::print("  nominal modulus   {:.6g} {}, stress over strain as this kind defines them (residual {:.1e})\n",
-                   a.youngs_modulus, test.description.stress_unit(), a.residual);
+        fmt::print("  nominal modulus   {}, stress over strain as this kind defines them (residual {:.1e})\n",
+                   spoken_stress(a.youngs_modulus, test.description.stress_unit(), 6), a.residual);
     fmt::print("  first slip        {}\n", event_text(test, a, a.first_slip));
     fmt::print("  first break       {} (linear, no slip)\n", event_text(test, a, a.first_break));
     fmt::print("  stable time step  {:.6g} s{}; bound {:.3f} of it; a test takes {:.3f} of it\n", a.stable_time_step,
@@ -194,9 +196,10 @@ CommandLine describe_elastic() {
         ("strain", po::value<double>()->value_name("X")->default_value(1e-4, "1e-4"),
          "axial strain at which --bonds gives forces")  //
         ("bonds", po::value<std::string>()->value_name("FILE"),
-         "CSV file to write: forces in all bonds, compression positive; strains of break and slip, inf: never; a bond "
-         "that cannot break has the strength inf")  //
-        ("force", "replace that file")              //
+         "CSV file to write: forces in all bonds, compression positive, shear as on body_i along the normal from i to "
+         "j turned by +90 degrees; strains of break and slip, inf: never; a bond that cannot break has the strength "
+         "inf")                         //
+        ("force", "replace that file")  //
         ("modes", po::value<int>()->value_name("N")->default_value(0), "lowest vibration modes to find");
     return {
         .synopses = {"crackle elastic CASE.toml [OPTIONS]"},
@@ -208,6 +211,7 @@ CommandLine describe_elastic() {
             "writes nothing unless asked.",
         .options = {{"options", options}},
         .operand = "CASE.toml",
+        .companions = {{"strain", {"bonds"}}, {"force", {"bonds"}}},
         .verbose = "seconds of each stage, bodies and contacts, unknowns",
         .examples = {{"crackle elastic specimens/guide_rock/circles_tension.toml"},
                      {"crackle elastic case.toml --json --modes 5"},

@@ -19,6 +19,7 @@
 #include "specimens/envelope/strength_envelope.hpp"
 #include "specimens/results/json_number.hpp"
 #include "specimens/statistics/mean.hpp"
+#include "specimens/statistics/spoken.hpp"
 #include "tools/command_line/command_line.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/plot/envelope_panels.hpp"
@@ -63,8 +64,8 @@ std::vector<std::string> notices_on(const EnvelopeFigure& e) {
     }
     if (!has_unconfined) all.emplace_back("no unconfined compression: the unconfined strength is extrapolated");
     if (laws.strengths.size() < enough_confinements) {
-        all.push_back(fmt::format("{} confinements; Hoek and Brown ask for {} or more, 0 among them",
-                                  laws.strengths.size(), enough_confinements));
+        all.push_back(fmt::format("{}; Hoek and Brown ask for {} or more, 0 among them",
+                                  counted(laws.strengths.size(), "confinement"), enough_confinements));
     }
     if (!(laws.slope.value > 1.0))
         all.emplace_back("the strength grows by less than the confinement: the friction angle is not positive");
@@ -79,8 +80,7 @@ std::vector<std::string> notices_on(const EnvelopeFigure& e) {
         if (factor > trusted_factor || factor < 1.0 / trusted_factor) {
             all.push_back(
                 fmt::format("unconfined over tensile strength is {:.2g} times what Hoek and Martin find at this m: one "
-                            "of the three "
-                            "is not a rock's",
+                            "of the three is not a rock's",
                             factor));
         }
     }
@@ -107,7 +107,9 @@ Json as_json(const EnvelopeFigure& e, const std::vector<std::string>& notices) {
                              {"mohr_coulomb", laws.mohr_coulomb(at.confinement)},
                              {"hoek_brown", laws.hoek_brown(at.confinement)}});
     }
-    Json json{{"unit", e.tests.unit},
+    const StrengthMeasure& measure = e.tests.measure;
+    Json json{{"measure", measure.strain ? Json({{"strain", *measure.strain}}) : Json({{"figure", measure.figure}})},
+              {"unit", e.tests.unit},
               {"packings", laws.packings},
               {"variation", finite_or_null(laws.variation)},
               {"strengths", strengths},
@@ -135,12 +137,15 @@ Json as_json(const EnvelopeFigure& e, const std::vector<std::string>& notices) {
     json["notices"] = notices;
     const std::string stress = e.tests.unit;
     json["units"] = {
+        {"measure", "what is taken for the strength: a figure of summary.json, or the stress at an axial strain"},
         {"strengths",
          stress + ", means of tests; low and high: their 95 % interval; mohr_coulomb, hoek_brown: what the laws have"},
         {"variation", "-, pooled coefficient of variation of the packings"},
         {"mohr_coulomb", stress + ", degrees of friction_angle: strength + slope * confining_pressure"},
         {"hoek_brown", stress + ": confining_pressure + sqrt(m strength confining_pressure + strength^2)"},
-        {"low, high", "95 % intervals of the laws' numbers, by drawing packings again"},
+        {"low, high",
+         "95 % intervals of the laws' numbers: by drawing packings again, of fewer than 8 packings Student's t over "
+         "them"},
         {"misfit", "-, root mean square of what the law misses the means by, over them"},
         {"strength_ratio", "-, Hoek-Brown's strength over the mean tensile strength"},
         {"strength_ratio_by_m", "-, 8.62 + 0.7 m, Hoek & Martin 2014"}};
@@ -159,12 +164,13 @@ void print(const EnvelopeFigure& e) {
         return std::isfinite(low) ? fmt::format("{} to {}", stress(low), stress(high)) : std::string("-");
     };
     const auto number = [](const FittedNumber& n, double by) {
+        if (!std::isfinite(n.low)) return fmt::format("{:.4g} (no interval)", n.value / by);
         return fmt::format("{:.4g} ({:.4g} to {:.4g})", n.value / by, n.low / by, n.high / by);
     };
-    fmt::print("strengths of {} packings in {}, which scatter by {:.2g} of their mean\n", laws.packings, unit,
-               laws.variation);
+    fmt::print("{} of {} in {}, which scatter by {:.2g} of their mean\n", e.tests.measure.spoken(),
+               counted(laws.packings, "packing"), unit, laws.variation);
     fmt::print("  {:>10}{:>7}{:>10}{:>11}{:>20}{:>14}{:>12}\n", "pressure", "tests", "mean", "deviation",
-               "95 % of the mean", "Mohr-Coulomb", "Hoek-Brown");
+               "95 % interval", "Mohr-Coulomb", "Hoek-Brown");
     for (const StrengthAt& at : laws.strengths) {
         fmt::print("  {:>10}{:>7}{:>10}{:>11}{:>20}{:>14}{:>12}\n", stress(at.confinement), at.tests, stress(at.mean),
                    stress(at.deviation), range(at.low, at.high), stress(laws.mohr_coulomb(at.confinement)),
@@ -189,6 +195,16 @@ void print(const EnvelopeFigure& e) {
                    laws.hoek_brown_strength.value / e.tension.mean, hoek_martin(m.value), hoek_martin(m.low),
                    hoek_martin(m.high));
     }
+}
+
+StrengthMeasure measure_of(const po::variables_map& values) {
+    StrengthMeasure measure{.figure = values["figure"].as<std::string>()};
+    if (!values.contains("strain")) return measure;
+    if (!values["figure"].defaulted()) throw without_effect("envelope", "--figure", "--strain");
+    measure.strain = values["strain"].as<double>();
+    if (!(*measure.strain > 0.0 && *measure.strain < 1.0))
+        throw InputError(fmt::format("envelope: --strain: found {}, expected a number > 0 and < 1", *measure.strain));
+    return measure;
 }
 
 /// @throws InputError of too little, with what was left out
@@ -218,26 +234,32 @@ void draw(const EnvelopeFigure& e, const fs::path& output, const plot::FigureLoo
 CommandLine describe_envelope() {
     po::options_description options;
     options.add_options()("json", "print one JSON object")  //
+        ("figure", po::value<std::string>()->value_name("NAME")->default_value("peak_stress"),
+         "stress of summary.json taken for the strength of compressions: largest_stress of tests that harden")  //
+        ("strain", po::value<double>()->value_name("X"),
+         "take the stress of the curve at this axial strain in its place, of tests that reach it")  //
         ("output,o", po::value<std::string>()->value_name("FIGURE"),
          "figure to write: .svg, .pdf or .png; strengths with both laws over confinement and, beside or below, Mohr "
          "circles with both envelopes");
     plot::add_figure_options(options, 2);
     options.add_options()("force", "replace a figure that is there");
+    std::vector<Companion> companions{{"force", {"output"}}};
+    for (const std::string& option : plot::figure_options()) companions.push_back({option, {"output"}});
     return {
         .synopses = {"crackle envelope OUT... [OPTIONS]"},
         .description =
             "Strength over confining pressure from folders that `crackle test` or `crackle campaign` wrote: "
-            "compressions "
-            "without and under pressure (kind = \"biaxial\") of one rock, of two packings and three pressures at "
-            "least. "
-            "Mohr-Coulomb and Hoek-Brown by least squares, with 95 % intervals by drawing packings again, and what "
-            "they miss the means by; tensile strength beside them where there are tensions. Tests without a strength "
-            "are left out and named.",
+            "compressions without and under pressure (kind = \"biaxial\") of one rock, of two packings and three "
+            "pressures at least. Mohr-Coulomb and Hoek-Brown by least squares, with 95 % intervals by drawing packings "
+            "again, and what they miss the means by; tensile strength beside them where there are tensions. Tests "
+            "without a strength are left out and named; of tests that harden --figure or --strain takes a stress.",
         .options = {{"options", options}},
         .operand = "OUT",
         .several_operands = true,
+        .companions = companions,
         .examples = {{"crackle envelope out/granite-envelope", "a campaign: specimens/plans/granite_envelope.toml"},
                      {"crackle envelope out/granite-envelope -o envelope.pdf"},
+                     {"crackle envelope out/soil --strain 0.02", "of tests that harden"},
                      {"crackle envelope out/unconfined-1 out/unconfined-2 out/confined-1 out/confined-2 --json"}}};
 }
 
@@ -247,14 +269,15 @@ int envelope(const Invocation& given) {
         throw InputError(
             "envelope: found no folder of results, expected at least one: crackle envelope OUT... (see --help)");
     }
-    const plot::FigureLook look = plot::figure_look("envelope", values);
     const fs::path output = values.contains("output") ? values["output"].as<std::string>() : "";
     plot::Format format = plot::Format::svg;
     if (!output.empty()) {
         format = plot::format_of_output("envelope", output);
         refuse_replacing(output, values.contains("force"));
     }
-    const MeasuredStrengths tests = read_strengths(std::vector<fs::path>(given.operands.begin(), given.operands.end()));
+    const plot::FigureLook look = plot::figure_look("envelope", values, format);
+    const MeasuredStrengths tests =
+        read_strengths(std::vector<fs::path>(given.operands.begin(), given.operands.end()), measure_of(values));
     const EnvelopeFigure fitted = fitted_to(tests);
     const std::vector<std::string> notices = notices_on(fitted);
     if (!output.empty()) draw(fitted, output, look, format);

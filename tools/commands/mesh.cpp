@@ -110,8 +110,10 @@ Source centres_of_deck(const std::string& name, const std::string& text, const p
     for (const char* option :
          {"domain", "bounding-box", "density", "normal-stiffness", "shear-stiffness", "friction-angle"}) {
         if (values.contains(option) && !values[option].defaulted()) {
-            throw InputError(fmt::format(
-                "crackle mesh: found --{} with the deck {}, which states its own; leave it out", option, name));
+            throw InputError(
+                fmt::format("crackle mesh: --{}: found with {}, read as a particle file that states its own; leave it "
+                            "out, or give a list of centres, x y a line",
+                            option, name));
         }
     }
     Source source;

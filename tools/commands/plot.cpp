@@ -2,6 +2,7 @@
 // `crackle plot OUT... -o FILE`: figures for papers from the results of tests.
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -11,11 +12,13 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <span>
 
 #include "solver/base/errors.hpp"
 #include "solver/files/replace_file.hpp"
 #include "specimens/recordings/distinct_names.hpp"
 #include "specimens/recordings/recording.hpp"
+#include "specimens/statistics/spoken.hpp"
 #include "tools/campaign/page/figures.hpp"
 #include "tools/command_line/command_line.hpp"
 #include "tools/commands/commands.hpp"
@@ -32,13 +35,23 @@ using Words = std::vector<std::string>;
 
 /// How the figure looks, of whatever it is.
 struct Look : FigureLook {
+    Format format = Format::svg;
     DrawingStyle drawing;
 };
 
 Look look_of(const po::variables_map& given) {
-    Look look{figure_look("plot", given), {}};
+    const Format format = given.contains("guide") ? format_named("plot", "--format", given["format"].as<std::string>())
+                                                  : format_of_output("plot", given["output"].as<std::string>());
+    Look look{figure_look("plot", given, format), format, {}};
     look.drawing.magnify = number_between("plot", given, "magnify", 0.0, 1e6, "");
     return look;
+}
+
+/// Refuses options that have no effect on a figure of `input`. @param used beside --output, --force and how it looks
+void expect_options(const po::variables_map& given, const std::string& input, Words used) {
+    used.insert(used.end(), {"output", "force"});
+    used.insert(used.end(), figure_options().begin(), figure_options().end());
+    refuse_unused("crackle plot", given, input, used);
 }
 
 std::string capitalised(std::string word) {
@@ -145,17 +158,33 @@ void add_emission_panels(std::vector<Panel>& panels, const std::vector<Recording
     }
 }
 
+/// Of --what. @param of what the known words are
+void expect_words(const Words& what, const Words& known, const char* of) {
+    for (const std::string& word : what) {
+        if (std::ranges::find(known, word) != known.end()) continue;
+        throw InputError(fmt::format("plot: --what: found '{}', expected {} or {}{}", word,
+                                     fmt::join(std::span(known).first(known.size() - 1), ", "), known.back(), of));
+    }
+}
+
+/// Refuses options of parts that are not drawn.
+void expect_parts_of(const po::variables_map& given, const Words& what) {
+    const auto drawn = [&](const char* part) { return std::ranges::find(what, part) != what.end(); };
+    const auto expect = [&](const char* option, bool used, const char* input) {
+        if (!used && given.contains(option) && !given[option].defaulted())
+            throw without_effect("crackle plot", fmt::format("--{}", option), input);
+    };
+    expect("at", drawn("specimen"), "a figure without specimens");
+    expect("magnify", drawn("specimen"), "a figure without specimens");
+    expect("labels", drawn("curve") || drawn("ae") || drawn("strain") || drawn("emission"), "specimens alone");
+}
+
 void plot_tests(const po::variables_map& given, const Words& folders, const Look& look, Messages& messages) {
+    expect_options(given, "folders of tests", {"what", "at", "magnify", "labels"});
     const fs::path output = given["output"].as<std::string>();
-    const Format format = format_of_output("plot", output);
     refuse_replacing(output, given.contains("force"));
     Words what = given.contains("what") ? given["what"].as<Words>() : Words{"all"};
-    for (const std::string& word : what) {
-        if (word != "curve" && word != "ae" && word != "emission" && word != "strain" && word != "specimen" &&
-            word != "all")
-            throw InputError(
-                fmt::format("plot: --what: found '{}', expected curve, ae, emission, strain, specimen or all", word));
-    }
+    expect_words(what, {"curve", "ae", "emission", "strain", "specimen", "all"}, "");
     std::vector<Recording> tests;
     for (const std::string& folder : folders) {
         tests.push_back(read_whole(folder));
@@ -180,10 +209,11 @@ void plot_tests(const po::variables_map& given, const Words& folders, const Look
                             test.name));
         }
     }
+    expect_parts_of(given, what);
     Words labels = given.contains("labels") ? given["labels"].as<Words>() : default_labels(tests);
     if (labels.size() != tests.size())
-        throw InputError(
-            fmt::format("plot: --labels: found {} names, expected {}, one a test", labels.size(), tests.size()));
+        throw InputError(fmt::format("plot: --labels: found {}, expected {}, one a test",
+                                     counted(labels.size(), "name"), tests.size()));
     std::vector<PlottedTest> plotted;
     for (std::size_t k = 0; k < tests.size(); ++k) plotted.push_back({&tests[k].results, labels[k], k, false});
 
@@ -198,24 +228,33 @@ void plot_tests(const po::variables_map& given, const Words& folders, const Look
         for (std::size_t k = 0; k < tests.size(); ++k)
             panels.push_back(drawings_of(tests[k], folders[k], moments, look.drawing));
     }
-    replace_file(output, figure(panels, look.title, look.width, format, look.sheet));
+    replace_file(output, figure(panels, look.title, look.width, look.format, look.sheet));
     if (!messages.quiet()) std::cout << output.string() << '\n';
 }
 
 /// All figures of a campaign, one below the other.
 void plot_campaign(const po::variables_map& given, const fs::path& folder, const Look& look, Messages& messages) {
+    expect_options(given, "a campaign's folder", {"what", "figure", "test", "measured"});
+    const Words what = given.contains("what") ? given["what"].as<Words>() : Words{"all"};
+    expect_words(what, {"curve", "axes", "scatter", "all"}, " of a campaign");
+    const auto is_drawn = [&](const std::string& part) {
+        return std::ranges::find(what, part) != what.end() || std::ranges::find(what, "all") != what.end();
+    };
+    if (given.contains("measured") && !is_drawn("curve"))
+        throw without_effect("crackle plot", "--measured", "a figure without curves");
+    if (given.contains("figure") && !is_drawn("axes") && !is_drawn("scatter"))
+        throw without_effect("crackle plot", "--figure", "curves alone");
     const fs::path output = given["output"].as<std::string>();
-    const Format format = format_of_output("plot", output);
     refuse_replacing(output, given.contains("force"));
     CampaignRecord record = read_campaign(folder, given.contains("figure") ? given["figure"].as<Words>() : Words{},
                                           given.contains("test") ? given["test"].as<Words>() : Words{});
     if (given.contains("measured")) add_measured_curve(record, given["measured"].as<std::string>());
     std::vector<Panel> panels;
-    for (CampaignFigure& part : campaign_figures(record))
-        panels.insert(panels.end(), part.panels.begin(), part.panels.end());
+    for (CampaignFigure& figure : campaign_figures(record))
+        if (is_drawn(figure.part)) panels.insert(panels.end(), figure.panels.begin(), figure.panels.end());
     if (panels.empty())
         throw InputError(fmt::format("plot: {}: found nothing to draw, expected figures or curves", folder.string()));
-    replace_file(output, figure(panels, look.title, look.width, format, look.sheet));
+    replace_file(output, figure(panels, look.title, look.width, look.format, look.sheet));
     if (!messages.quiet()) std::cout << output.string() << '\n';
 }
 
@@ -223,9 +262,9 @@ constexpr int first_guide_figure = 26, last_guide_figure = 29;
 
 /// These figures of the guide: its circles, the partitions made of them, and what these bear.
 void plot_guide(const po::variables_map& given, const Look& look, Messages& messages) {
+    expect_options(given, "--guide", {"guide", "format", "magnify"});
     const fs::path folder = given["guide"].as<std::string>(), output = given["output"].as<std::string>();
     const std::string extension = given["format"].as<std::string>();
-    const Format format = format_named("plot", "--format", extension);
     if (fs::exists(output) && !fs::is_directory(output))
         throw InputError(fmt::format("plot: --output: found {}, a file, expected a folder for the guide's figures",
                                      output.string()));
@@ -273,7 +312,7 @@ void plot_guide(const po::variables_map& given, const Look& look, Messages& mess
     make_folder(output);
     for (const auto& [number, panels] : figures) {
         const fs::path file = file_of(number);
-        replace_file(file, figure(panels, look.title, look.width, format, look.sheet));
+        replace_file(file, figure(panels, look.title, look.width, look.format, look.sheet));
         if (!messages.quiet()) std::cout << file.string() << '\n';
     }
 }
@@ -286,7 +325,8 @@ CommandLine describe_plot() {
                           "figure to write: .svg, .pdf or .png; with --guide a folder")  //
         ("what", po::value<Words>()->multitoken()->value_name("WORD"),
          "curve, ae (breaks), emission (acoustic events: magnitudes of all tests together, and maps), strain (of the "
-         "area, and what of it is cracks), specimen, or all, one below the other (default: all)")  //
+         "area, and what of it is cracks), specimen, or all, one below the other (default: all); of a campaign curve "
+         "(bands), axes (figures over the plan's axes), scatter (of the packings), or all")  //
         ("at", po::value<Words>()->multitoken()->value_name("STRAIN"),
          "strains of the specimens, or start, peak, end (default: start peak end); the nearest frame is drawn");
     add_figure_options(options, 1);
@@ -316,7 +356,7 @@ CommandLine describe_plot() {
         .options = {{"options", options}},
         .operand = "OUT",
         .several_operands = true,
-        .choices = {{"what", {"curve", "ae", "emission", "strain", "specimen", "all"}},
+        .choices = {{"what", {"curve", "ae", "emission", "strain", "specimen", "axes", "scatter", "all"}},
                     {"at", {"start", "peak", "end"}},
                     {"format", {"svg", "pdf", "png"}}},
         .verbose = "cells, bonds and frames read",

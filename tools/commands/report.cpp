@@ -33,6 +33,7 @@ int report_campaign(const Invocation& given) {
         throw InputError(fmt::format("{}: found a file that is no report, expected a page to write; choose another -o",
                                      output.string()));
     const po::variables_map& values = given.values;
+    refuse_unused("crackle report", values, "a campaign's folder", {"output", "title", "test", "measured"});
     CampaignRecord record = read_campaign(
         folder, {},
         values.contains("test") ? values["test"].as<std::vector<std::string>>() : std::vector<std::string>());
@@ -77,6 +78,7 @@ int report(const Invocation& given) {
     }
     Messages& messages = given.messages;
     if (is_campaign(folders.front())) return report_campaign(given);
+    refuse_unused("crackle report", given.values, "folders of tests", {"output", "title", "frames"});
     std::vector<Recording> tests;
     for (const std::string& folder : folders) {
         tests.push_back(read_test_recording(folder, given.values["frames"].as<std::size_t>()));

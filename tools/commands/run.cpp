@@ -24,6 +24,8 @@ DeckOptions deck_options(const Invocation& given) {
     if (values.contains("output")) options.output = values["output"].as<std::string>();
     options.goes_on = values.contains("continue");
     options.overwrite = values.contains("force");
+    if (options.overwrite && options.goes_on && options.output.empty())
+        throw without_effect("crackle run", "--force", "--continue without -o");
     if (values.contains("steps")) options.steps = values["steps"].as<std::int64_t>();
     if (values.contains("seed")) options.seed = values["seed"].as<std::uint64_t>();
     if (values.contains("law")) options.law = segment_law_named("--law", values["law"].as<std::string>());

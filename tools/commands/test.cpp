@@ -13,11 +13,13 @@
 #include "solver/files/read_file.hpp"
 #include "specimens/loading/check.hpp"
 #include "specimens/loading/run.hpp"
+#include "specimens/measures/verdicts.hpp"
 #include "specimens/observers/profile_report.hpp"
 #include "specimens/results/describe_files.hpp"
 #include "specimens/results/json_number.hpp"
 #include "specimens/results/output_folder.hpp"
 #include "specimens/results/summary_keys.hpp"
+#include "specimens/statistics/spoken.hpp"
 #include "tools/command_line/command_line.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/terminal/interrupt.hpp"
@@ -36,11 +38,12 @@ std::string shown_value(const nlohmann::ordered_json& summary, const std::string
 /// A stress or modulus, and the same in three dimensions where the case gives a thickness.
 std::string stress(const nlohmann::ordered_json& summary, const std::string& key) {
     const bool area = summary.value("material_units", "point") == "area";
-    std::string in_plane = shown_value(summary, key) + (area ? " Pa" : " N/m");
-    const auto converted = summary.find(key + converted_suffix);
+    const auto value = summary.find(key), converted = summary.find(key + converted_suffix);
+    if (value == summary.end() || !value->is_number()) return "-";
+    const std::string in_plane = spoken_stress(value->get<double>(), area ? "Pa" : "N/m");
     const bool thick = summary.contains("out_of_plane_thickness") && summary["out_of_plane_thickness"].is_number();
-    if ((!thick && !area) || converted == summary.end() || !converted->is_number()) return in_plane;
-    return fmt::format("{} ({:.4g} MPa)", in_plane, 1e-6 * converted->get<double>());
+    if (area || !thick || converted == summary.end() || !converted->is_number()) return in_plane;
+    return fmt::format("{} ({})", in_plane, spoken_stress(converted->get<double>(), "Pa"));
 }
 
 void print_figures(const TestOutcome& outcome) {
@@ -48,7 +51,8 @@ void print_figures(const TestOutcome& outcome) {
     const bool failed = s.value("failed", false);
     const std::string so_far = failed ? "" : "_so_far";
     std::cout << fmt::format("{}, {}: {}\n", s.value("specimen", ""), s.value("kind", ""),
-                             failed ? "failed" : "has not failed (ended by " + s.value("ended_by", "nothing") + ")");
+                             failed ? "the specimen failed"
+                                    : "the specimen has not failed (ended by " + s.value("ended_by", "nothing") + ")");
     std::cout << fmt::format("  {} {} at strain {}\n", failed ? "strength" : "largest stress so far",
                              stress(s, "peak_stress" + so_far), shown_value(s, "peak_strain" + so_far));
     if (failed && s.value("largest_stress", 0.0) > s.value("peak_stress", 0.0)) {
@@ -62,8 +66,8 @@ void print_figures(const TestOutcome& outcome) {
     }
     for (const auto& verdict : s["validity"]) {
         if (verdict["holds"] == false)
-            std::cout << fmt::format("  not valid: {} is not so: {}\n", verdict["claim"].get<std::string>(),
-                                     verdict["found"].get<std::string>());
+            std::cout << fmt::format("  not valid: {}\n", broken_claim(verdict["claim"].get<std::string>(),
+                                                                       verdict["found"].get<std::string>()));
     }
     std::cout << fmt::format("  bonds broken: {} of {} ({} interfaces of {})\n", shown_value(s, "bonds_broken"),
                              shown_value(s, "bonds_initial"), shown_value(s, "interfaces_lost"),
@@ -163,8 +167,8 @@ Json run_as_json(const RunEstimate& run) {
 
 std::string loss_text(const std::optional<FirstLoss>& loss, const char* unit) {
     if (!loss) return "none by the linear solution";
-    return fmt::format("{:.4g} {} at strain {:.3e}, bodies {} and {}", loss->stress, unit, loss->strain, loss->body_i,
-                       loss->body_j);
+    return fmt::format("{} at strain {:.3e}, bodies {} and {}", spoken_stress(loss->stress, unit), loss->strain,
+                       loss->body_i, loss->body_j);
 }
 
 std::string time_text(double seconds) {
@@ -183,10 +187,12 @@ void print_check(const TestCheck& check) {
     fmt::print("{}, {}: {} particles, {:.3g} grains wide, {} bonds\n", test.setup.specimen,
                test.description.loading.kind, test.setup.particles, check.grains_across, test.world.bonds.initial);
     if (std::isfinite(check.youngs_modulus) && !test.setup.uniaxial) {
-        fmt::print("  small strain   nominal stress over nominal strain {:.4g} {}\n", check.youngs_modulus, unit);
+        fmt::print("  small strain   nominal stress over nominal strain {}\n",
+                   spoken_stress(check.youngs_modulus, unit));
     } else if (std::isfinite(check.youngs_modulus)) {
-        fmt::print("  small strain   E {:.4g} {}, nu {:.3g}, over the gauge length {:.4g} {}\n", check.youngs_modulus,
-                   unit, check.poissons_ratio, check.gauge_modulus, unit);
+        fmt::print("  small strain   E {}, nu {:.3g}, over the gauge length {}\n",
+                   spoken_stress(check.youngs_modulus, unit), check.poissons_ratio,
+                   spoken_stress(check.gauge_modulus, unit));
     } else {
         fmt::print("  small strain   no linear solution, see the warnings\n");
     }
@@ -194,15 +200,20 @@ void print_check(const TestCheck& check) {
     fmt::print("  first break    {}\n", loss_text(check.first_break, unit));
     if (const auto& strength = check.strength) {
         fmt::print(
-            "  strength       about {:.2g} {} at strain {:.2g}, within a factor of {:.2g}: where {:.3g} % of the bonds "
+            "  strength       about {} at strain {:.2g}, within a factor of {:.2g}: where {:.3g} % of the bonds "
             "have broken by the linear solution\n",
-            strength->stress, unit, strength->strain, strength->factor, 100.0 * strength->share);
+            spoken_stress(strength->stress, unit, 2), strength->strain, strength->factor, 100.0 * strength->share);
     } else {
         fmt::print("  strength       no estimate: {}\n",
                    test.description.confined() ? "the rule is of specimens without confining pressure"
                    : !test.setup.uniaxial      ? "the rule is of specimens between platens"
                                                : "too few bonds ever break by the linear solution");
     }
+    if (check.disc)
+        fmt::print(
+            "  valid disc     strength over tensile strength about {:.2g}, within a factor of {:.2g}; 3 + N = {:.3g} "
+            "is needed\n",
+            check.disc->strength_ratio, check.disc->factor, check.disc->needed);
     fmt::print("  run            {}{} to strain {:.3g}; time step {:.3g} s, rate {:.3g} 1/s{}, {:.3g} steps/s\n",
                check.to_strength ? run_text(*check.to_strength) + " to that strength, " : "", run_text(check.to_end),
                check.to_end.strain, test.world.stepping.time_step, check.rate,
@@ -216,13 +227,7 @@ void print_check(const TestCheck& check) {
 /// `--check`: nothing is loaded, and nothing written.
 int check(const Invocation& given) {
     const po::variables_map& values = given.values;
-    for (const char* other : {"output", "resume", "force", "verify", "profile", "long"}) {
-        if (values.contains(other))
-            throw InputError(
-                fmt::format("crackle test: found --{} with --check, expected CASE.toml alone: nothing is loaded, and "
-                            "nothing written; remove one",
-                            other));
-    }
+    refuse_unused("crackle test", values, "--check", {"check", "json", "threads", "allow-unstable"});
     if (given.operands.empty()) throw InputError("crackle test: found no CASE.toml, expected one with --check");
     TestCase description = read_case(given_or_shipped(given.operands.front()));
     if (values.contains("allow-unstable")) description.numerics.allow_unstable = true;
@@ -308,6 +313,14 @@ std::string check_as_json(const TestCheck& check, int indent) {
                                      {"strain", strength->strain},
                                      {"share_broken", strength->share},
                                      {"within_factor", strength->factor}};
+    if (const auto& disc = check.disc) {
+        const std::optional<bool> valid = disc->can_be_valid();
+        json["valid_disc"] = {{"strength_ratio", disc->strength_ratio},
+                              {"within_factor", disc->factor},
+                              {"friction_angle", disc->friction_angle},
+                              {"needed", disc->needed},
+                              {"can_be_valid", valid ? Json(*valid) : Json(nullptr)}};
+    }
     json["units"] = {
         {"grains_across", "width over sqrt(width height / particles)"},
         {"youngs_modulus", stress +
@@ -327,6 +340,11 @@ std::string check_as_json(const TestCheck& check, int indent) {
         {"run_to_max_axial_strain", "likewise, should the specimen not fail before"},
         {"specimen_seconds", "s, making the specimen"},
         {"memory", "bytes, largest of this check"}};
+    if (check.disc)
+        json["units"]["valid_disc"] =
+            "strength_ratio: of the rock, over its tensile strength, both estimated by the linear solution of the "
+            "whole packing; needed: 3 + (1 + sin φ)/(1 - sin φ), φ friction_angle in degrees, mean of the bonds; "
+            "can_be_valid null: too rough to tell";
     return json.dump(indent);
 }
 
@@ -356,6 +374,7 @@ CommandLine describe_test() {
                 "with every value in the open.",
             .options = {{"options", options}},
             .operand = "CASE.toml",
+            .companions = {{"json", {"check"}}},
             .verbose = "seconds of each stage, bodies and contacts, the time step and why, bytes written",
             .examples = {{"crackle test specimens/guide_rock/circles_tension.toml -o out/circles-tension"},
                          {"crackle test case.toml -o out/case --threads 2 -q"},
@@ -373,10 +392,12 @@ int test(const Invocation& given) {
     TestOptions options;  // takes the time
     const po::variables_map& values = given.values;
     if (values.contains("keys")) {
+        expect_alone("crackle test", given, "keys");
         describe_case_keys(std::cout);
         return exit_done;
     }
     if (values.contains("files")) {
+        expect_alone("crackle test", given, "files");
         describe_test_files(std::cout);
         return exit_done;
     }
@@ -385,7 +406,6 @@ int test(const Invocation& given) {
                                      values["threads"].as<int>()));
     }
     if (values.contains("check")) return check(given);
-    if (values.contains("json")) throw InputError("crackle test: found --json, expected it with --check alone");
     const bool resume = values.contains("resume");
     if (resume != given.operands.empty()) {
         throw InputError(
@@ -395,10 +415,7 @@ int test(const Invocation& given) {
     }
     if (!resume && !values.contains("output"))
         throw InputError("crackle test: found no -o OUT, expected a folder for the results");
-    if (resume && values.contains("output"))
-        throw InputError("crackle test: found -o with --resume, expected OUT behind --resume alone");
-    if (resume && values.contains("profile"))
-        throw InputError("crackle test: found --profile with --resume, expected it with a whole test");
+    if (resume) refuse_unused("crackle test", values, "--resume", {"resume", "verify", "threads"});
 
     options.folder = values[resume ? "resume" : "output"].as<std::string>();
     options.force = values.contains("force");

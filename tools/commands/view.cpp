@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `crackle view IN...`: a page in which particles, a deck's run or tests can be looked at.
 
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 
@@ -60,6 +61,11 @@ int view(const Invocation& given) {
             read_recording(input, values["frames"].as<std::size_t>(), values["seed"].as<std::uint64_t>()));
         report_recording(messages, recordings.back());
     }
+    if (!values["seed"].defaulted() && std::ranges::none_of(recordings, &Recording::drawn_by_seed))
+        throw without_effect("crackle view", "--seed", "particles that are all given");
+    const auto moves = [](const Recording& one) { return one.kind != Recording::Kind::particles; };
+    if (!values["frames"].defaulted() && std::ranges::none_of(recordings, moves))
+        throw without_effect("crackle view", "--frames", "particle files");
     const std::filesystem::path output =
         values.contains("output") ? std::filesystem::path(values["output"].as<std::string>()) : default_output(inputs);
     write_page(output, {values["title"].as<std::string>(), PageView::view}, recordings, messages);

@@ -159,6 +159,8 @@ CommandLine describe_joints() {
          "figure to write: .svg, .pdf or .png; the traces in the box and their rose");
     plot::add_figure_options(options, 2);
     options.add_options()("force", "replace files that are there");
+    std::vector<Companion> companions{{"force", {"output", "traces"}}};
+    for (const std::string& option : plot::figure_options()) companions.push_back({option, {"output"}});
     return {.synopses = {"crackle joints CASE.toml [OPTIONS]"},
             .description =
                 "Traces of joints in the box of a specimen, from [[joint_set]] and [[trace]] of a case, or of a file "
@@ -167,6 +169,7 @@ CommandLine describe_joints() {
                 "seed gives the same traces.",
             .options = {{"options", options}},
             .operand = "CASE.toml",
+            .companions = companions,
             .examples = {{"crackle joints specimens/jointed/two_sets.toml", "amounts, directions, blocks"},
                          {"crackle joints specimens/jointed/two_sets.toml -o traces.svg"},
                          {"crackle joints specimens/jointed/two_sets.toml --seed 7 --traces traces.txt"}}};
@@ -182,11 +185,11 @@ int joints(const Invocation& given) {
 
 int joints_of(TestCase test, const std::string& name, const Invocation& given) {
     const po::variables_map& values = given.values;
-    const plot::FigureLook look = plot::figure_look("joints", values);
     if (!test.jointed())
         throw InputError(
             fmt::format("{}: found no [[joint_set]] and no [[trace]], expected one; see crackle test --keys", name));
     if (values.contains("seed")) {
+        if (test.joint_set.empty()) throw without_effect("crackle joints", "--seed", "traces that are all given");
         test.joints.seed = values["seed"].as<std::int64_t>();
         if (test.joints.seed < 0)
             throw InputError(fmt::format("--seed: found {}, expected a whole number >= 0", test.joints.seed));
@@ -199,6 +202,7 @@ int joints_of(TestCase test, const std::string& name, const Invocation& given) {
         format = plot::format_of_output("joints", figure);
         refuse_replacing(figure, values.contains("force"), inputs);
     }
+    const plot::FigureLook look = plot::figure_look("joints", values, format);
     if (!table.empty()) refuse_replacing(table, values.contains("force"), inputs);
     const JointNetwork network = make_joints(test, box_of(test, values));
     const JointReport report = report_joints(test, network);

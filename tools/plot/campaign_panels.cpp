@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "specimens/recordings/curve_points.hpp"
 #include "specimens/recordings/measured_curve.hpp"
 #include "specimens/statistics/mean.hpp"
 #include "tools/plot/axes.hpp"
@@ -16,15 +17,6 @@ namespace crackle::plot {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// Where a curve first comes to a strain, between its points; not a number where it never does.
-double stress_at(const std::vector<std::pair<double, double>>& curve, double strain) {
-    const auto after = std::ranges::find_if(curve, [&](const auto& point) { return point.first >= strain; });
-    if (after == curve.end()) return std::nan("");
-    if (after == curve.begin()) return after->second;
-    const auto before = after - 1;
-    return std::lerp(before->second, after->second, (strain - before->first) / (after->first - before->first));
-}
 
 /// A scale that begins near the smallest value where that is far from 0: figures, unlike curves, need no 0.
 Scale figure_scale(double smallest, double largest, int ticks) {
@@ -160,8 +152,10 @@ Panel distributions(const std::string& title, const std::string& unit_name, cons
             for (const double value : samples[s].values)
                 canvas.circle(axes.at(value / unit.factor, middle - 0.17), 1.3, &faint, nullptr, 0.0);
             const auto at = [&](double value) { return axes.at(value / unit.factor, middle + 0.2); };
+            canvas.clip(axes.frame);
             if (std::isfinite(samples[s].mean))
                 draw_mean(canvas, at(samples[s].mean), at(samples[s].low), at(samples[s].high), colour, true);
+            canvas.unclip();
             canvas.text({axes.frame.x - 5.0, axes.at(axes.x.low, middle).y}, escaped(samples[s].label), Across::right,
                         Down::middle, 0.85, ink);
         }
@@ -174,8 +168,8 @@ Panel distributions(const std::string& title, const std::string& unit_name, cons
     return panel;
 }
 
-Panel over_axis(const std::string& x_title, const std::string& y_title, const std::string& y_unit,
-                const std::vector<Series>& all) {
+Panel over_axis(const std::string& x_title, const std::string& x_unit, const std::string& y_title,
+                const std::string& y_unit, const std::vector<Series>& all) {
     const auto entries = [all] {
         std::vector<Legend::Entry> list;
         for (std::size_t k = 0; k < all.size(); ++k) list.push_back({all[k].label, series_colour(k), false, false});
@@ -201,14 +195,21 @@ Panel over_axis(const std::string& x_title, const std::string& y_title, const st
         }
         if (!std::isfinite(smallest)) smallest = largest = left_x = right_x = 0.0;
         const Unit unit = y_unit.empty() ? Unit{1.0, ""} : unit_for(largest, y_unit);
-        const double power =
-            right_x > 0.0 && (right_x >= 1e4 || right_x < 1e-2) ? std::pow(10.0, std::floor(std::log10(right_x))) : 1.0;
+        // Stresses and lengths have prefixes, what has none a power of ten.
+        const bool has_prefix = x_unit == "Pa" || x_unit == "N/m" || x_unit == "m";
+        const Unit unit_x = has_prefix ? unit_for(right_x, x_unit) : Unit{1.0, x_unit};
+        const double power = has_prefix ? unit_x.factor
+                             : right_x > 0.0 && (right_x >= 1e4 || right_x < 1e-2)
+                                 ? std::pow(10.0, std::floor(std::log10(right_x)))
+                                 : 1.0;
         Axes axes;
         axes.x = figure_scale(left_x / power, right_x / power, place.width < 300.0 ? 5 : 8);
         axes.y = figure_scale(smallest / unit.factor, largest / unit.factor, 5);
         const Legend legend = legend_of(canvas, entries(), place.width);
         axes.frame = frame_below(canvas, place, legend, axes.y);
         legend.draw(canvas, {place.x + beside_letter, place.y});
+        // An interval of two packings may be many times as long as all else.
+        canvas.clip(axes.frame);
         for (std::size_t s = 0; s < all.size(); ++s) {
             const Colour &colour = series_colour(s), faint = tinted(colour, 0.45);
             std::vector<Point> means;
@@ -227,10 +228,11 @@ Panel over_axis(const std::string& x_title, const std::string& y_title, const st
                     draw_mean(canvas, at(sample.mean), at(sample.low), at(sample.high), colour, false);
             }
         }
-        axes.draw(
-            canvas,
-            power == 1.0 ? x_title : fmt::format("{}, 10<sup>{}</sup>", x_title, static_cast<int>(std::log10(power))),
-            titled(y_title, unit.name));
+        canvas.unclip();
+        std::string title_x = titled(x_title, unit_x.name);
+        if (!has_prefix && power != 1.0)
+            title_x += fmt::format(", 10<sup>{}</sup>", static_cast<int>(std::log10(power)));
+        axes.draw(canvas, title_x, titled(y_title, unit.name));
     };
     return panel;
 }

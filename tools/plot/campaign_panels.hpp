@@ -55,7 +55,7 @@ struct Series {
     std::vector<Sample> samples;  ///< one an x
     bool joined = true;           ///< by a line
 };
-Panel over_axis(const std::string& x_title, const std::string& y_title, const std::string& y_unit,
-                const std::vector<Series>& all);
+Panel over_axis(const std::string& x_title, const std::string& x_unit, const std::string& y_title,
+                const std::string& y_unit, const std::vector<Series>& all);
 
 }  // namespace crackle::plot

@@ -149,7 +149,7 @@ Panel strengths_over_confinement(const EnvelopeFigure& figure) {
             canvas.circle({place_of_test.x, place_of_test.y - beside}, 1.0, &pale, nullptr, 0.0);
         }
         axes.draw(canvas, titled("confining pressure " + indexed("σ", "3"), unit.name),
-                  titled("strength " + indexed("σ", "1"), unit.name));
+                  titled(figure.tests.measure.spoken_one() + " " + indexed("σ", "1"), unit.name));
         constexpr double mark = 5.0;  // pt, half of one that stands on the axis
         canvas.clip({axes.frame.x - mark, axes.frame.y, axes.frame.width + 2.0 * mark, axes.frame.height});
         for (const StrengthAt& one : laws.strengths) {

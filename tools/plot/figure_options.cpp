@@ -19,6 +19,11 @@ constexpr double column_width = 85.0, page_width = 180.0;  // mm, of most journa
 
 }  // namespace
 
+const std::vector<std::string>& figure_options() {
+    static const std::vector<std::string> all{"columns", "width", "font", "font-size", "dpi", "title"};
+    return all;
+}
+
 void add_figure_options(po::options_description& options, int columns) {
     options.add_options()("columns", po::value<int>()->value_name("N")->default_value(columns),
                           "of a journal: 1 (85 mm wide) or 2 (180 mm)")                                          //
@@ -38,7 +43,10 @@ double number_between(const std::string& command, const po::variables_map& given
     return value;
 }
 
-FigureLook figure_look(const std::string& command, const po::variables_map& given) {
+FigureLook figure_look(const std::string& command, const po::variables_map& given, Format format) {
+    if (format != Format::png && !given["dpi"].defaulted())
+        throw InputError(fmt::format(
+            "{}: --dpi: found with a figure of lines, where it has no effect; leave it out, or write a .png", command));
     const int columns = given["columns"].as<int>();
     if (columns != 1 && columns != 2)
         throw InputError(fmt::format("{}: --columns: found {}, expected 1 or 2", command, columns));

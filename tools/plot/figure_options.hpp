@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "tools/plot/canvas.hpp"
 
@@ -21,11 +22,15 @@ struct FigureLook {
     std::string title;
 };
 
+/// Long names of what add_figure_options() adds.
+const std::vector<std::string>& figure_options();
+
 /// --columns, --width, --font, --font-size, --dpi, --title. @param columns of a journal, by default
 void add_figure_options(boost::program_options::options_description& options, int columns);
 
-/// @param command for messages, "plot" @throws InputError for a value out of range
-FigureLook figure_look(const std::string& command, const boost::program_options::variables_map& given);
+/// @param command for messages, "plot" @throws InputError for a value out of range, and for --dpi of a figure without
+/// dots
+FigureLook figure_look(const std::string& command, const boost::program_options::variables_map& given, Format format);
 
 /// Of "svg", "pdf" or "png". @param where the name stands, for messages @throws InputError for another
 Format format_named(const std::string& command, const std::string& where, const std::string& name);

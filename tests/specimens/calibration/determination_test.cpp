@@ -77,6 +77,13 @@ TEST(Determination, StatesTheLargestChangeOfATargetAlongTheStep) {
     EXPECT_EQ(determine(1.1 * slopes, MatrixXd::Identity(1, 1), 0.3).open.size(), 1U);
 }
 
+TEST(Determination, AnIntervalThatIsItsBoundsSaysNothing) {
+    EXPECT_TRUE(fills(-1.0, 9.0, 0.0, 8.0)) << "beyond both";
+    EXPECT_TRUE(fills(0.3, 9.0, 0.0, 8.0)) << "all but a hundredth";
+    EXPECT_FALSE(fills(2.0, 9.0, 0.0, 8.0)) << "a quarter is ruled out";
+    EXPECT_FALSE(fills(3.0, 5.0, 0.0, 8.0));
+}
+
 TEST(Determination, ASlopeThatIsTooFlatLeavesItsKeyOpen) {
     Matrix2d slopes = Matrix2d::Identity() * 10.0;
     slopes(1, 1) = 1.0;  // 0.3 of a tolerance along a step

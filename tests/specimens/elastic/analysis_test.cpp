@@ -4,6 +4,7 @@
 
 #include "specimens/elastic/analysis.hpp"
 #include "solver/stepping/step.hpp"
+#include "specimens/loading/displace.hpp"
 #include "specimens/loading/prepare.hpp"
 
 #include <algorithm>
@@ -61,6 +62,38 @@ TEST_F(ElasticAnalysisOf, BondForcesOfAllPointsHoldThePlatens) {
         EXPECT_EQ(k, a.bonds.size());
         EXPECT_TRUE(agrees(fmt::format("force on the upper platen from the bonds, {}", mesh), pull,
                            a.youngs_modulus * strain * test.setup.width, 1e-6));
+    }
+}
+
+/// Normal and shear forces, with their signs, are those of the world once its bodies lie as the solution says.
+TEST_F(ElasticAnalysisOf, BondForcesAreThoseOfTheBodiesMoved) {
+    for (const char* kind : {"tension", "compression"}) {
+        SmallCase wanted;
+        wanted.kind = kind;
+        VirtualTest test = prepared(wanted);
+        constexpr double strain = 1e-7;
+        const Moduli moduli = moduli_of(test);
+        const ElasticAnalysis a = analyse_elastic(test.world, test.setup, moduli, strain, 0);
+        std::vector<BodyMotion> way = moduli.solution.displacement;
+        const double sense = test.setup.compression ? -strain : strain;
+        for (BodyMotion& one : way) one = {sense * one.x, sense * one.y, sense * one.rotation};
+        displace(test.world, way);
+        compute_forces(test.world);
+        std::size_t k = 0;
+        double largest = 0.0, worst_normal = 0.0, worst_shear = 0.0;
+        for (PointIndex p = 0; p < test.world.points.size(); ++p) {
+            const PointView view = view_point(test.world, p);
+            if (!view.bonded) continue;
+            const LinearBond& bond = a.bonds.at(k++);
+            largest = std::max(largest, std::abs(bond.shear_force));
+            worst_normal = std::max(worst_normal, std::abs(view.normal_force - bond.normal_force));
+            worst_shear = std::max(worst_shear, std::abs(view.shear_force - bond.shear_force));
+        }
+        // Second order in the turns: strain times the forces, and rounding of overlaps of 1e-5 m to 1e-16.
+        EXPECT_TRUE(testing::within(fmt::format("normal forces in {}, over the largest shear", kind),
+                                    worst_normal / largest, 0.0, 1e-3));
+        EXPECT_TRUE(testing::within(fmt::format("shear forces in {}, over the largest", kind), worst_shear / largest,
+                                    0.0, 1e-3));
     }
 }
 

@@ -32,14 +32,15 @@ double hoek_brown(double s3) { return s3 + std::sqrt(m * unconfined * s3 + uncon
 
 /// Ten packings at six confinements; packings scatter as a whole and each test by itself, by shares of the strength.
 template <class Law>
-std::vector<StrengthPoint> tests_of(Law&& law, double of_packing, double of_test, std::mt19937_64* generator) {
+std::vector<StrengthPoint> tests_of(Law&& law, double of_packing, double of_test, std::mt19937_64* generator,
+                                    int packings = 10) {
     const auto normal = [&] {
         return generator == nullptr
                    ? 0.0
                    : correctly_rounded::normal_quantile(1e-12 + (1.0 - 2e-12) * uniform_number(*generator));
     };
     std::vector<StrengthPoint> tests;
-    for (int packing = 0; packing < 10; ++packing) {
+    for (int packing = 0; packing < packings; ++packing) {
         const double whole = 1.0 + of_packing * normal();
         for (const double share : {0.0, 0.05, 0.1, 0.2, 0.35, 0.5}) {
             const double s3 = share * unconfined;
@@ -86,6 +87,46 @@ TEST(StrengthEnvelope, OfScatteredStrengthsLiesInItsIntervalsAsOftenAsStated) {
     EXPECT_TRUE(within("of all lines the angle in its interval", of_angle, expected, spread));
     EXPECT_TRUE(within("of all curves C in its interval", of_curved_strength, expected, spread));
     EXPECT_TRUE(within("of all curves m in its interval", of_m, expected, spread));
+}
+
+/// Of two packings, too: 12.7 standard errors to either side. Bootstrap would never leave their range.
+TEST(StrengthEnvelope, OfFewPackingsLiesInItsIntervalsAsOftenAsStated) {
+    for (const int packings : {2, 3, 6}) {
+        std::mt19937_64 generator(40 + static_cast<unsigned>(packings));
+        constexpr int tries = 4 * tries_of_coverage;
+        int of_strength = 0, of_angle = 0, of_m = 0;
+        for (int k = 0; k < tries; ++k) {
+            const auto covers = [](const FittedNumber& number, double truth) {
+                return number.low <= truth && truth <= number.high;
+            };
+            const StrengthEnvelope straight = fit_envelope(tests_of(line, 0.08, 0.05, &generator, packings));
+            const StrengthEnvelope curved = fit_envelope(tests_of(hoek_brown, 0.08, 0.05, &generator, packings));
+            of_strength += covers(straight.strength, unconfined);
+            of_angle += covers(straight.friction_angle, 41.810314895778596);
+            of_m += covers(curved.hoek_brown_m, m);
+        }
+        const double expected = 0.95 * tries, spread = 3.0 * std::sqrt(0.95 * 0.05 * tries);
+        EXPECT_TRUE(within(fmt::format("C in its interval, {} packings", packings), of_strength, expected, spread));
+        EXPECT_TRUE(within(fmt::format("the angle, {} packings", packings), of_angle, expected, spread));
+        EXPECT_TRUE(within(fmt::format("m, {} packings", packings), of_m, expected, spread));
+    }
+}
+
+TEST(StrengthEnvelope, OfTwoPackingsHasTheIntervalOfStudentsT) {
+    std::vector<StrengthPoint> tests;
+    for (const double s3 : {0.0, 10e6, 20e6}) {
+        tests.push_back({"1", s3, 100e6 + 4.0 * s3});
+        tests.push_back({"2", s3, 110e6 + 4.4 * s3});
+    }
+    const StrengthEnvelope envelope = fit_envelope(tests);
+    // Each packing by itself lies on a line; half their difference in logarithms is the standard error, t = 12.7062.
+    const double half = 12.7062 * 0.5 * std::log(1.1);
+    EXPECT_TRUE(agrees("slope", envelope.slope.value, 4.2, 1e-12));
+    EXPECT_TRUE(agrees("its lower end", envelope.slope.low, 4.2 * std::exp(-half), 1e-5));
+    EXPECT_TRUE(agrees("its upper end", envelope.slope.high, 4.2 * std::exp(half), 1e-5));
+    const double upper = 4.2 * std::exp(half);
+    EXPECT_TRUE(agrees("upper end of the angle", envelope.friction_angle.high,
+                       std::asin((upper - 1.0) / (upper + 1.0)) * 180.0 / 3.14159265358979323846, 1e-5));
 }
 
 /// Each circle of the law touches the curve, from within: nowhere is a point of it closer to the centre than the
@@ -137,7 +178,7 @@ TEST(StrengthEnvelope, OfTooLittleIsRefusedWithWhatThereIs) {
     std::vector<StrengthPoint> two_confinements;
     for (const StrengthPoint& test : tests)
         if (test.confinement < 0.07 * unconfined) two_confinements.push_back(test);
-    for (const auto& [few, found] : {std::pair(one_packing, "6 confinements of 1 packings"),
+    for (const auto& [few, found] : {std::pair(one_packing, "6 confinements of 1 packing,"),
                                      std::pair(two_confinements, "2 confinements of 10 packings")}) {
         try {
             fit_envelope(few);

@@ -40,10 +40,11 @@ TEST(JointRefusals, ALawHasItsOwnKeysAndNoOthers) {
               "less than length_max"},
              {"angle = 0.0\nspacing = 0.1\nspacing_law = \"lognormal\"\n",
               "joint_set[1].spacing_deviation: found nothing"},
-             {"angle = 0.0\np21 = 0.1\nspacing_law = \"fixed\"\n", "only an amount by spacing has it"},
+             {"angle = 0.0\np21 = 0.1\nspacing_law = \"fixed\"\n",
+              "joint_set[1].spacing_law needs an amount by spacing"},
              {"angle = 0.0\np20 = 0.1\n", "lines have none"},
-             {"angle = 0.0\nspacing = 0.1\nthrough = [1.0]\n", "found 1 numbers, expected two"},
-             {"angle = 0.0\nspacing = 0.1\nscan_line = 3.0\n", "only p10 counts along a line"},
+             {"angle = 0.0\nspacing = 0.1\nthrough = [1.0]\n", "found 1 number, expected two"},
+             {"angle = 0.0\nspacing = 0.1\nscan_line = 3.0\n", "joint_set[1].scan_line needs an amount by p10"},
              {"angle = 0.0\nspacing = -0.1\n", "expected a number > 0 in m"},
              {"angle = 0.0\nspacing = 0.1\nspacings = 0.1\n", "found an unknown key"},
          }) {
@@ -56,14 +57,15 @@ TEST(JointRefusals, NamesAndTracesAreChecked) {
     for (const auto& [text, says] : {
              std::pair{set + set, "joint_set[2].name: found \"a\" a second time"},
              {"[joints]\nseed = 3\n", "joints: found no [[joint_set]] or [[trace]]"},
-             {"[joints]\nsection_trend = 3.0\n" + set, "only orientation = \"fisher\""},
+             {"[joints]\nsection_trend = 3.0\n" + set,
+              "joints.section_trend needs a set with orientation = \"fisher\""},
              {"[[trace]]\nname = \"t\"\n", "trace[1]: found neither points nor a file"},
              {"[[trace]]\npoints = [0.0, 0.0, 1.0, 1.0]\nfile = \"f\"\n", "trace[1]: found points and a file"},
              {"[[trace]]\npoints = [0.0, 0.0, 1.0]\n", "found 3 numbers, expected x and y of two points"},
              {"[[trace]]\npoints = [0.5, 0.25, 0.5, 0.25, 0.5, 0.25]\n",
               "trace[1].points: found a trace of one place, expected two or more"},
-             {"[[trace]]\npoints = [0.0, 0.0, 1.0, 1.0]\nscale = 2.0\n", "only a file has it"},
-             {"[[trace]]\nfile = \"f\"\noffset = [1.0]\n", "trace[1].offset: found 1 numbers"},
+             {"[[trace]]\npoints = [0.0, 0.0, 1.0, 1.0]\nscale = 2.0\n", "trace[1].scale needs a file"},
+             {"[[trace]]\nfile = \"f\"\noffset = [1.0]\n", "trace[1].offset: found 1 number"},
          }) {
         EXPECT_NE(refused(text).find(says), std::string::npos) << says;
     }
@@ -72,14 +74,15 @@ TEST(JointRefusals, NamesAndTracesAreChecked) {
 TEST(JointRefusals, MechanicsOfAJointGoTogether) {
     const std::string set = "angle = 0.0\nspacing = 0.1\n";
     for (const auto& [keys, says] : {
-             std::pair{"bonded = false\nstrength_factor = 0.5\n", "joint_set[1].strength_factor: found a value"},
+             std::pair{"bonded = false\nstrength_factor = 0.5\n",
+                       "joint_set[1].strength_factor cannot be given here: an open joint"},
              {"bonded = false\ncohesion = 1e6\n", "an open joint has no bonds"},
              {"bonded = false\nfriction_angle = 30.0\nresidual_friction_angle = 20.0\n",
               "its faces have friction_angle"},
              {"aperture = 1e-4\n", "joint_set[1].aperture: found 0.0001 m, expected none of a bonded joint"},
              {"tensile_strength = 1e5\ncohesion = 1e6\nstrength_factor = 0.5\n", "stand in its place"},
              {"friction_angle = 20.0\nresidual_friction_angle = 25.0\n", "at most friction_angle, 20 deg"},
-             {"dilation_slip = 1e-3\n", "none without dilation_angle"},
+             {"dilation_slip = 1e-3\n", "joint_set[1].dilation_slip needs a dilation_angle > 0"},
              {"normal_stiffness = 0.0\n", "expected a number > 0 in Pa/m"},
              {"friction_angle = 90.0\n", "joint_set[1].friction_angle: found 90"},
              {"bonded = 1\n", "joint_set[1].bonded: found 1"},

@@ -114,7 +114,8 @@ TEST(TestKinds, BadInputOfAKindIsRefusedByName) {
          "loading.box_gap: found 0.5 m"},
         {"[loading]\nkind = \"bending\"\nplatens = \"frictional\"\nplaten_friction_angle = 10\n" + rest,
          "loading.platens: found \"frictional\""},
-        {"[loading]\nkind = \"compression\"\nspan = 0.1\n" + rest, "loading.span: found a value"},
+        {"[loading]\nkind = \"compression\"\nspan = 0.1\n" + rest,
+         "loading.span needs loading.kind = \"bending\" or \"scb\""},
         {"[loading]\nkind = \"brazilian\"\njaws = \"flat\"\n" + rest, "loading.jaws: found \"flat\""},
     };
     for (const auto& [loading, expected] : cases) {

@@ -6,11 +6,19 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <set>
+
 #include "solver/base/errors.hpp"
+#include "solver/stepping/controls.hpp"
+#include "solver/stepping/step.hpp"
+#include "specimens/kinds/test_kind.hpp"
+#include "specimens/loading/load_specimen.hpp"
 #include "specimens/loading/prepare.hpp"
 #include "specimens/loading/run.hpp"
 #include "tests/support/claim.hpp"
 #include "tests/support/deck_files.hpp"
+#include "tests/support/refusal.hpp"
 #include "tests/support/small_rock.hpp"
 
 namespace crackle {
@@ -72,7 +80,7 @@ TEST_F(ExpectedRun, WithoutAnEndInSightIsRefusedByTheKeyThatMakesItSo) {
 
 TEST_F(ExpectedRun, IsNoReasonToRefuseWhereThatIsAskedFor) {
     SmallCase slow;
-    slow.rate = 1e-12;
+    slow.rate = 1e-9;
     TestOptions options;
     options.folder = scratch_ / "out";
     options.endless = true;
@@ -83,6 +91,56 @@ TEST_F(ExpectedRun, IsNoReasonToRefuseWhereThatIsAskedFor) {
     };
     hooks.interrupted = [&] { return loading; };
     EXPECT_TRUE(run_test(small_case(slow), options, hooks).interrupted);
+}
+
+/// Back-tension discs between frictional jaws have no linear solution, and must move all the same.
+TEST_F(ExpectedRun, OfEveryKindItsPlatenMoves) {
+    constexpr double rate = 0.02;
+    const std::pair<const char*, const char*> kinds[] = {
+        {"compression", ""},
+        {"compression", "platens = \"frictional\"\nplaten_friction_angle = 20.0\n"},
+        {"tension", ""},
+        {"biaxial", "[confinement]\npressure = 1e3\n"},
+        {"brazilian", ""},
+        {"brazilian", "platens = \"frictional\"\nplaten_friction_angle = 20.0\nhalf_angle = 10.0\n"},
+        {"brazilian", "platens = \"frictional\"\nplaten_friction_angle = 20.0\njaws = \"flat\"\n"},
+        {"bending", ""},
+        {"scb", ""},
+        {"direct_shear", "normal_stress = 1e4\n"}};
+    std::set<std::string> tried;
+    for (const auto& [kind, more] : kinds) {
+        std::ofstream(scratch_ / "case.toml")
+            << "[packing]\ncount = 400\nradius_min = 1.333e-2\nradius_max = 2.667e-2\nmean_overlap = 7.74e-5\n"
+            << "height_to_width = " << (std::string(kind) == "brazilian" ? "1.0" : "0.5") << '\n'
+            << "[material]\ndensity = 2500.0\nnormal_stiffness = 1.0e7\nshear_stiffness = 2.5e6\n"
+            << "friction_angle = 27.0\ndamping_ratio = 0.2\n[loading]\nkind = \"" << kind
+            << "\"\nmax_axial_strain = 0.01\naxial_strain_rate = " << rate << '\n'
+            << more;
+        VirtualTest test = prepare_test(read_case(scratch_ / "case.toml"));
+        tried.insert(kind);
+        EXPECT_NO_THROW(refuse_resting(test)) << kind << more;
+        const double before = test.setup.axial_strain(test.world), begun = test.world.stepping.time;
+        for (int k = 0; k < 50; ++k) step(test.world);
+        const double strain = test.setup.axial_strain(test.world) - before;
+        // Strain counts from the place of the driving part in double precision.
+        EXPECT_TRUE(agrees(fmt::format("strain of a {} test in 50 steps", kind), strain,
+                           rate * (test.world.stepping.time - begun), 1e-6));
+    }
+    for (const std::string& kind : test_kind_names()) EXPECT_TRUE(tried.contains(kind)) << kind;
+}
+
+TEST_F(ExpectedRun, WithoutAMovingPlatenIsRefusedHoweverLongItMayTake) {
+    SmallCase slow;
+    slow.rate = 1e-16;
+    TestOptions options;
+    options.folder = scratch_ / "out";
+    options.endless = true;
+    const std::string refused = testing::refusal([&] { run_test(small_case(slow), options); });
+    EXPECT_NE(refused.find("loading.axial_strain_rate: found a way of"), std::string::npos) << refused;
+    EXPECT_FALSE(fs::exists(scratch_ / "out/curve.csv"));
+    VirtualTest resting = prepare_test(small_case());
+    change_velocity(resting.world, resting.setup.top, resting.setup.axis, 0.0);
+    EXPECT_THROW(load_specimen(resting, {}, nullptr), InputError);
 }
 
 TEST_F(ExpectedRun, OfASmallSpecimenTakesNoMoreThreadsThanAreOfUse) {

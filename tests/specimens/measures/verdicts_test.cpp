@@ -133,6 +133,23 @@ TEST(Verdicts, SpecimenBetweenPlatensIsWideEnoughAndPartsInTheMiddleOrNot) {
     EXPECT_FALSE(Cracked("tension", 20, 40).verdicts()[1].holds.has_value());
 }
 
+TEST(Verdicts, EachClaimThatDoesNotHoldHasASentence) {
+    EXPECT_EQ(broken_claim("the specimen is at least 20 particles wide", "12.3 particles"),
+              "the specimen is 12.3 particles wide; at least 20 are needed");
+    EXPECT_EQ(broken_claim("the moon is round", "a cube"), "it does not hold that the moon is round: a cube")
+        << "of another version's summary";
+    std::size_t claims = 0;
+    for (const char* kind : {"compression", "tension", "brazilian", "bending", "direct_shear"}) {
+        for (const Verdict& verdict : Cracked(kind, 21, 21).verdicts()) {
+            const std::string sentence = broken_claim(verdict.claim, "<found>");
+            EXPECT_EQ(sentence.find("it does not hold"), std::string::npos) << sentence;
+            EXPECT_NE(sentence.find("<found>"), std::string::npos) << sentence;
+            ++claims;
+        }
+    }
+    EXPECT_EQ(claims, 9U);
+}
+
 TEST(ShearBox, ResidualAndDilationAreThoseOfTheCurve) {
     // Stress 1 - 0.5 (1 - exp(...)) is not needed: a peak in row 50, then 3; rise with a slope of tan 12 degrees.
     std::vector<CurveRow> rows(101);

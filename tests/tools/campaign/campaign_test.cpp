@@ -37,7 +37,7 @@ TEST_F(CampaignCommand, RunsAndShowsMeansAndIntervals) {
     EXPECT_EQ(show.code, 0) << show.err;
     for (const char* part :
          {"A small rock: 8 of 8 tests done", "tension, material.friction_angle = 20: 2 of 2 packings",
-          "youngs_modulus N/m", "95 % of the mean"})
+          "youngs_modulus N/m", "95 % interval"})
         EXPECT_NE(show.out.find(part), std::string::npos) << part << " in\n" << show.out;
     const Answer csv = call("show out --csv --figure peak_stress");
     EXPECT_EQ(std::count(csv.out.begin(), csv.out.end(), '\n'), 5) << csv.out;
@@ -63,6 +63,13 @@ TEST_F(CampaignCommand, IsDrawnAndReported) {
     EXPECT_NE(crackle("plot out -o figure.svg"), 0) << "nothing is replaced without --force";
     ASSERT_EQ(crackle("plot out -o one.svg --figure peak_stress"), 0) << read("err.txt");
     EXPECT_LT(read("one.svg").size(), read("figure.svg").size());
+    std::size_t parts = 0;
+    for (const char* part : {"curve", "axes", "scatter"}) {
+        ASSERT_EQ(crackle(fmt::format("plot out -o {0}.svg --what {0}", part)), 0) << read("err.txt");
+        EXPECT_LT(read(fmt::format("{}.svg", part)).size(), read("figure.svg").size());
+        parts += read(fmt::format("{}.svg", part)).size();
+    }
+    EXPECT_GT(parts, read("figure.svg").size()) << "all parts are the whole";
     ASSERT_EQ(crackle("plot out -o half.svg --test tension"), 0) << read("err.txt");
     EXPECT_LT(read("half.svg").size(), read("figure.svg").size());
     EXPECT_NE(crackle("plot out -o two.svg --test tense"), 0);
@@ -73,7 +80,7 @@ TEST_F(CampaignCommand, IsDrawnAndReported) {
     const std::string page = read("out/report.html");
     for (const char* part :
          {"<h1>A small rock</h1>", "12 of 12 tests done", "peak stress", "/summary.json\">summary.json</a>",
-          "data:image/svg+xml;base64,", "tension over material.friction_angle"})
+          "data:image/svg+xml;base64,", "tension over friction angle φ"})
         EXPECT_NE(page.find(part), std::string::npos) << part;
     ASSERT_EQ(crackle("report out"), 0) << "a report takes the place of a report";
     EXPECT_EQ(read("out/report.html"), page);

@@ -341,7 +341,7 @@ TEST_F(CommandLines, ProgressIsShownOnATerminalAloneAndGoneInTheEnd) {
     EXPECT_LE(static_cast<double>(drawn), 5.0 * answer.seconds + 12.0) << "at most five times a second, and the stages";
     // Nothing of the line stays: what follows the last redraw is the result.
     const std::string rest = answer.shown.substr(answer.shown.rfind(redraw) + 4);
-    EXPECT_TRUE(rest.starts_with("circles, tension: failed")) << rest;
+    EXPECT_TRUE(rest.starts_with("circles, tension: the specimen failed")) << rest;
 
     for (const std::string& more : {std::string(" -q"), std::string()}) {
         const TerminalAnswer silent =

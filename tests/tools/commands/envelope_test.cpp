@@ -158,6 +158,30 @@ TEST_F(EnvelopeCommand, SaysWhatItsNumbersAreWorth) {
     EXPECT_TRUE(mentions(fitted(three_packings(steep))["notices"], "intact rocks have 4 to 35"));
 }
 
+TEST_F(EnvelopeCommand, TakesTestsThatHardenByAnotherStress) {
+    std::string folders, unfailed;
+    for (const int seed : {1, 2, 3})
+        for (const double pressure : pressures) {
+            MadeUp test{seed, pressure, std::nullopt};
+            test.further = {{"largest_stress", on_line(pressure) * (1.0 + 0.05 * (seed - 2))}};
+            folders += sample(test) + " ";
+        }
+    expect_refused(folders, "did not fail by loading.max_axial_strain (--figure largest_stress or --strain");
+    const Json largest = fitted(folders + "--figure largest_stress");
+    EXPECT_EQ(largest["measure"]["figure"], "largest_stress");
+    EXPECT_TRUE(agrees("N", largest["mohr_coulomb"]["slope"]["value"], 4.0, 1e-9));
+    EXPECT_NE(call(folders + "--figure largest_stress").out.find("largest stresses of 3 packings in kN/m"),
+              std::string::npos);
+    // All of these have the same curve: its stress at a strain, at every pressure.
+    const Json at_strain = fitted(folders + "--strain 5e-4");
+    EXPECT_EQ(at_strain["measure"]["strain"], 5e-4);
+    EXPECT_TRUE(within("N", at_strain["mohr_coulomb"]["slope"]["value"], 0.0, 1e-6));
+    expect_refused(folders + "--strain 0.5", "does not reach a strain of 0.5");
+    expect_refused(folders + "--figure youngs_modulus_of_it", "expected a stress of summary.json");
+    expect_refused(folders + "--figure largest_stress --strain 0.1", "--figure: found with --strain");
+    expect_refused(folders + "--strain 2", "--strain: found 2, expected a number > 0 and < 1");
+}
+
 TEST_F(EnvelopeCommand, LeavesOutWhatHasNoStrengthAndNamesIt) {
     const std::string folders = three_packings(on_line);
     const std::string unfailed = sample({4, 100.0, std::nullopt});
@@ -176,10 +200,10 @@ TEST_F(EnvelopeCommand, SaysWhatItLacks) {
     expect_refused("nowhere", "nowhere: found no such folder");
     std::filesystem::create_directory(folder_ / "empty");
     expect_refused("empty", "summary.json: file not found");
-    expect_refused(sample({1, 0.0, 1000.0}) + " " + sample({2, 0.0, 1010.0}), "found 1 confinements of 2 packings");
+    expect_refused(sample({1, 0.0, 1000.0}) + " " + sample({2, 0.0, 1010.0}), "found 1 confinement of 2 packings");
     std::string one_packing;
     for (const double pressure : pressures) one_packing += sample({1, pressure, on_line(pressure)}) + " ";
-    expect_refused(one_packing, "found 6 confinements of 1 packings");
+    expect_refused(one_packing, "found 6 confinements of 1 packing, ");
     const std::string unfailed = sample({2, 100.0, std::nullopt});
     expect_refused(one_packing + unfailed, "left out: " + unfailed + ": did not fail by loading.max_axial_strain");
     expect_refused(one_packing + "c1_0", "c1_0: found a second compression of packing 1 under 0 N/m");
@@ -212,7 +236,8 @@ TEST_F(EnvelopeCommand, TakesGapsThatWereDerivedForNoDifference) {
         for (const double pressure : {0.0, 100.0, 200.0})
             folders += meshed(seed, pressure, 0.02 * std::sqrt(0.5 / (200.0 + seed)));
     EXPECT_EQ(fitted(folders)["packings"], 2);
-    expect_refused(folders + meshed(3, 100.0, 1e-3), "mesh.thick: found 0.001, expected nothing as in c1_0");
+    expect_refused(folders + meshed(3, 100.0, 1e-3),
+                   "mesh.thick: found 0.001, expected no value, as it has none in c1_0");
 }
 
 /// A campaign's ledger as `crackle campaign` leaves it, with figures of our own.

@@ -490,7 +490,7 @@ TEST_F(PlotCommand, RefusesWhatItCannotDrawAndLeavesTheFigureThatIsThere) {
     expect_refused("pulled --force -o figure.pdf --columns 3", "--columns: found 3, expected 1 or 2");
     expect_refused("pulled --force -o figure.pdf --font-size 0", "--font-size: found 0");
     expect_refused("pulled --force -o figure.pdf --dpi 1e9", "--dpi: found");
-    expect_refused("pulled squeezed --force -o figure.pdf --labels one", "--labels: found 1 names, expected 2");
+    expect_refused("pulled squeezed --force -o figure.pdf --labels one", "--labels: found 1 name, expected 2");
     expect_refused("pulled -o no/such/figure.pdf", "cannot be written");
 }
 

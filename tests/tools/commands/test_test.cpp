@@ -64,7 +64,7 @@ class CrackleTest : public testing::ProgramCall {
 TEST_F(CrackleTest, RunsQuietlyInAPipeAndPrintsItsFigures) {
     const Answer answer = call("case.toml -o out");
     EXPECT_EQ(answer.code, 0) << answer.err;
-    EXPECT_NE(answer.out.find("circles, tension: failed"), std::string::npos) << answer.out;
+    EXPECT_NE(answer.out.find("circles, tension: the specimen failed"), std::string::npos) << answer.out;
     EXPECT_EQ(answer.err.find('\r'), std::string::npos) << "no progress line in a pipe";
     const Answer quiet = call("case.toml -o quiet -q");
     EXPECT_EQ(quiet.code, 0);
@@ -124,11 +124,8 @@ TEST_F(CrackleTest, CheckWarnsOfWhatWillGoWrong) {
         << squeezed;
 }
 
-TEST_F(CrackleTest, CheckStandsAlone) {
-    expect_refused("--check case.toml -o out", "found --output with --check");
-    expect_refused("--check case.toml --verify", "found --verify with --check");
+TEST_F(CrackleTest, CheckNeedsACase) {
     expect_refused("--check", "found no CASE.toml");
-    expect_refused("case.toml -o out --json", "found --json, expected it with --check");
     expect_refused("--check nowhere.toml", "nowhere.toml: found no such file");
 }
 
@@ -161,7 +158,7 @@ TEST_F(CrackleTest, RunsPolygonsUnderTheGuidesLawToFailure) {
         write_small_case(folder_, wanted);
         const Answer answer = call("case.toml -o " + law);
         EXPECT_EQ(answer.code, 0) << answer.err;
-        EXPECT_NE(answer.out.find("delaunay, tension: failed"), std::string::npos) << answer.out;
+        EXPECT_NE(answer.out.find("delaunay, tension: the specimen failed"), std::string::npos) << answer.out;
         std::ifstream in(folder_ / law / "summary.json");
         const auto summary = nlohmann::json::parse(in);
         fmt::print(
@@ -270,7 +267,6 @@ TEST_F(CrackleTest, WrongWords) {
 nlohmann::json read_json(const fs::path& file) { return nlohmann::json::parse(read_file(file)); }
 
 TEST_F(CrackleTest, ProfileAccountsForTheLoopAndChangesNoNumber) {
-    expect_refused("--resume out --profile", "found --profile with --resume");
     const Answer answer = call("case.toml -o profiled --profile");
     ASSERT_EQ(answer.code, 0) << answer.err;
     EXPECT_NE(answer.out.find("where the time went"), std::string::npos) << answer.out;

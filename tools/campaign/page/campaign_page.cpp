@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "solver/files/read_file.hpp"
+#include "specimens/statistics/spoken.hpp"
 #include "tools/campaign/page/html_page.hpp"
 
 namespace crackle::tools {
@@ -20,7 +21,7 @@ std::string points_table(const CampaignRecord& record) {
     std::string text =
         "<div class=\"wide\"><table><thead><tr><th>test</th><th "
         "class=\"word\">figure</th><th>packings</th><th>mean</th>"
-        "<th>deviation</th><th>cv, %</th><th>95 % of the mean</th></tr></thead><tbody>\n";
+        "<th>deviation</th><th>cv, %</th><th>95 % interval of the mean</th></tr></thead><tbody>\n";
     for (const PointSummary& point : record.points) {
         bool first = true;
         for (const std::string& figure : record.figures) {
@@ -109,10 +110,11 @@ std::string tests_table(const CampaignRecord& record, const fs::path& from) {
 std::string campaign_page(const CampaignRecord& record, const std::string& title, const fs::path& from) {
     std::string text = page_head(
         title.empty() ? record.title : title,
-        fmt::format("{} of {} tests done{}, {:.3g} s of a processor", record.counts.done, record.counts.tests,
+        fmt::format("{} of {} done{}, {:.3g} s of a processor", record.counts.done,
+                    counted(record.counts.tests, "test"),
                     record.counts.gone_wrong > 0 ? fmt::format(", {} gone wrong", record.counts.gone_wrong) : "",
                     record.counts.processor_seconds));
-    text += "<h2>What the packings say</h2>\n" + points_table(record);
+    text += "<h2>Means over packings</h2>\n" + points_table(record);
     text += "<h2>Figures</h2>\n";
     for (const CampaignFigure& figure : campaign_figures(record)) text += figure_html(figure);
     text += "<details><summary>All tests</summary>\n" + tests_table(record, from) + "</details>\n";

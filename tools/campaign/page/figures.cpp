@@ -12,8 +12,10 @@
 #include "solver/base/errors.hpp"
 #include "solver/files/read_file.hpp"
 #include "specimens/campaign/campaign.hpp"
-#include "specimens/case/parameters.hpp"
+#include "specimens/recordings/curve_points.hpp"
 #include "specimens/recordings/test_results.hpp"
+#include "specimens/statistics/spoken.hpp"
+#include "tools/campaign/page/labels.hpp"
 
 namespace crackle::tools {
 namespace {
@@ -51,26 +53,16 @@ Sample sample_of(const CampaignRecord& record, const PointSummary& point, const 
     return {label, values_of(record, point, figure), mean.mean, mean.low, mean.high};
 }
 
-/// The curves that were kept, of `crackle test` or beside the ledger.
-std::optional<NumberTable> curve_of(const fs::path& folder, const std::string& identity) {
-    for (const fs::path& file : {folder / "curves" / (identity + ".csv"), folder / "tests" / identity / "curve.csv"})
-        if (is_file(file)) return number_table(file, read_file(file));
-    return std::nullopt;
-}
-
 std::optional<CurveBundle> bundle_of(const CampaignRecord& record, const PointSummary& point) {
     CurveBundle bundle;
-    bundle.label = point.axes.empty() ? point.test : point.at();
+    bundle.label = point.axes.empty() ? point.test : spoken_point(point);
     bundle.stress_unit = point.area_units ? "Pa" : "N/m";
     const std::size_t identity = place_of(record.results, "identity");
     for (const std::size_t number : point.rows) {
-        const std::optional<NumberTable> table =
-            curve_of(record.folder, text_of(record.results.rows[number], identity));
-        if (!table) continue;
-        const std::vector<double>*strain = table->find("axial_strain"), *stress = table->find("axial_stress");
-        if (strain == nullptr || stress == nullptr) continue;
-        auto& curve = bundle.curves.emplace_back();
-        for (std::size_t k = 0; k < strain->size(); ++k) curve.emplace_back((*strain)[k], (*stress)[k]);
+        const std::optional<fs::path> file = kept_curve(record.folder, text_of(record.results.rows[number], identity));
+        if (!file) continue;
+        CurvePoints curve = strain_and_stress(number_table(*file, read_file(*file)));
+        if (!curve.empty()) bundle.curves.push_back(std::move(curve));
     }
     if (bundle.curves.empty()) return std::nullopt;
     return bundle;
@@ -81,17 +73,10 @@ std::optional<Panel> panel_over(const CampaignRecord& record, const std::vector<
                                 const std::string& axis, const std::string& figure) {
     std::map<std::string, Series> all;
     for (const PointSummary* point : points) {
-        const double* x = nullptr;
-        std::string others;
-        for (const auto& [key, value] : point->axes) {
-            if (key == axis)
-                x = std::get_if<double>(&value);
-            else if (const auto* number = std::get_if<double>(&value))
-                others += fmt::format("{}{} = {}", others.empty() ? "" : ", ", key, *number);
-            else if (const auto* text = std::get_if<std::string>(&value))
-                others += fmt::format("{}{} = {}", others.empty() ? "" : ", ", key, *text);
-        }
+        const auto at = std::ranges::find(point->axes, axis, &std::pair<std::string, LedgerCell>::first);
+        const auto* x = at == point->axes.end() ? nullptr : std::get_if<double>(&at->second);
         if (x == nullptr) continue;
+        const std::string others = spoken_point(*point, axis);
         Series& series = all[others];
         series.label = others;
         series.x.push_back(*x);
@@ -111,11 +96,9 @@ std::optional<Panel> panel_over(const CampaignRecord& record, const std::vector<
         for (Sample& sample : series.samples) listed[0].samples.push_back(std::move(sample));
     }
     if (listed.empty() || listed[0].x.size() < 2) return std::nullopt;
-    const std::size_t dot = axis.find('.');
-    const Parameter* p = find_parameter(axis.substr(0, std::min(dot, axis.find('['))),
-                                        dot == std::string::npos ? axis : axis.substr(dot + 1));
-    return over_axis(p == nullptr || p->unit.empty() ? axis : axis + ", " + p->unit, spoken_figure(figure),
-                     unit_of_figure(figure, points.front()->area_units), listed);
+    const bool area = points.front()->area_units;
+    const AxisLabel label = axis_label(axis, area);
+    return over_axis(label.name, label.unit, spoken_figure(figure), unit_of_figure(figure, area), listed);
 }
 
 }  // namespace
@@ -123,8 +106,8 @@ std::optional<Panel> panel_over(const CampaignRecord& record, const std::vector<
 std::string spoken_figure(const std::string& figure) {
     std::string text = figure;
     std::replace(text.begin(), text.end(), '_', ' ');
-    if (text == "youngs modulus") return "Young's modulus";
-    if (text == "poissons ratio") return "Poisson's ratio";
+    if (text == "youngs modulus") return "Young's modulus E";
+    if (text == "poissons ratio") return "Poisson's ratio ν";
     return text;
 }
 
@@ -191,8 +174,10 @@ std::vector<CampaignFigure> campaign_figures(const CampaignRecord& record) {
                                          ? fmt::format("; the first {} of {} points", bundles.size(), points.size())
                                          : "";
             all.push_back(
-                {fmt::format("{}: the median of {} packings, and the range of the middle 80 %{}", kind,
-                             fewest == most ? fmt::format("{}", most) : fmt::format("{} to {}", fewest, most), some),
+                {"curve",
+                 fmt::format("{}: the median of {}, and the range of the middle 80 %{}", kind,
+                             fewest == most ? counted(most, "packing") : fmt::format("{} to {} packings", fewest, most),
+                             some),
                  {curve_bands(bundles,
                               measured == record.measured.end() ? std::vector<LabelledCurve>() : measured->second)}});
         }
@@ -201,20 +186,23 @@ std::vector<CampaignFigure> campaign_figures(const CampaignRecord& record) {
             if (std::holds_alternative<double>(value)) axes.push_back(key);
         for (const std::string& axis : axes) {
             CampaignFigure figure;
-            figure.caption = fmt::format("{} over {}: means with 95 % intervals, and every packing", kind, axis);
+            figure.part = "axes";
+            figure.caption = fmt::format("{} over {}: means with 95 % intervals, and every packing", kind,
+                                         axis_label(axis, points.front()->area_units).name);
             for (const std::string& name : record.figures)
                 if (std::optional<Panel> panel = panel_over(record, points, axis, name))
                     figure.panels.push_back(*std::move(panel));
             if (!figure.panels.empty()) all.push_back(std::move(figure));
         }
         CampaignFigure spread;
+        spread.part = "scatter";
         spread.caption = fmt::format("{}: every packing, and the mean with its 95 % interval", kind);
         constexpr std::size_t most_samples = 12;
         for (const std::string& name : record.figures) {
             std::vector<Sample> samples;
             for (std::size_t k = 0; k < points.size() && k < most_samples; ++k)
                 samples.push_back(
-                    sample_of(record, *points[k], name, points[k]->axes.empty() ? kind : points[k]->at()));
+                    sample_of(record, *points[k], name, points[k]->axes.empty() ? kind : spoken_point(*points[k])));
             if (std::any_of(samples.begin(), samples.end(), [](const Sample& s) { return !s.values.empty(); }))
                 spread.panels.push_back(
                     distributions(spoken_figure(name), unit_of_figure(name, points.front()->area_units), samples));

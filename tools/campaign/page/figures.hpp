@@ -43,6 +43,7 @@ std::string spoken_figure(const std::string& figure);
 /// Of one kind of test: bands of curves where they were kept, distributions of each figure, and each figure over every
 /// axis that has several values.
 struct CampaignFigure {
+    std::string part;  ///< "curve", "axes" or "scatter"
     std::string caption;
     std::vector<plot::Panel> panels;
 };

@@ -17,6 +17,9 @@ _END = r"(?:, expected (?P<expected>[^;]*))?(?:; (?P<remedy>.*))?"
 _FORMS = (
     # where: key: found X
     re.compile(r"(?:(?P<where>[^:\n]+(?::\d+)?): )?(?:(?P<key>[^:\n]+): )?found (?P<found>.*?)" + _END, re.DOTALL),
+    # where: key needs what is not there, or has no room
+    re.compile(r"(?:(?P<where>[^:\n]+(?::\d+)?): )?(?P<key>[\w.\[\]]+) (?P<found>(?:needs|cannot be given here)\b[^;]*)"
+               + _END, re.DOTALL),
     # of the command line's parser
     re.compile(r"(?P<where>[^:\n]+): the argument \('(?P<found>.*)'\) for option '(?P<key>[^'\n]+)' is invalid"
                r"(?:, expected (?P<expected>.*))?(?: \((?P<remedy>see [^()]*)\))", re.DOTALL),

@@ -124,8 +124,8 @@ def _refuse_replacing(output, force, *inputs):
 class Elastic(dict):
     """What `crackle elastic --json` prints, its own units within, and `bonds`: an array, shape (bonds,): body_i, body_j
     (ids), position (x, y in m), strength (N), overlap, closing (m), normal_force, shear_force (N, at the strain asked
-    for), break_strain, slip_strain (inf: never); notices: a list of what to know, such as what it leaves out of the
-    case."""
+    for; shear on body_i along the normal from i to j turned by +90 degrees), break_strain, slip_strain (inf: never);
+    notices: a list of what to know, such as what it leaves out of the case."""
 
     bonds: Any = None
     notices: Sequence[str] = ()
@@ -287,16 +287,18 @@ def _folder(one):
     raise InputError(f"results: found a {type(one).__name__}, expected Results, Campaigns or paths of folders")
 
 
-def envelope(*folders: _Results, output: _Path | None = None, columns: int | None = None, width: float | None = None,
-             font: str | None = None, font_size: float | None = None, dpi: int | None = None,
-             title: str | None = None, force: bool = False) -> dict[str, Any]:
+def envelope(*folders: _Results, figure: str | None = None, strain: float | None = None, output: _Path | None = None,
+             columns: int | None = None, width: float | None = None, font: str | None = None,
+             font_size: float | None = None, dpi: int | None = None, title: str | None = None,
+             force: bool = False) -> dict[str, Any]:
     """Mohr-Coulomb and Hoek-Brown from tests and campaigns at several confinements, as `crackle envelope --json`.
 
-    folders: paths, Results or Campaigns. output: a figure to write, .svg, .pdf or .png. Returns a dict, its own units
+    folders: paths, Results or Campaigns. figure: stress of summary.json that is taken for the strength ("peak_stress"),
+    "largest_stress" of tests that harden; strain: the stress at this axial strain in its place. output: a figure to write, .svg, .pdf or .png. Returns a dict, its own units
     within.
     """
-    options = dict(output=output, columns=columns, width=width, font=font, font_size=font_size, dpi=dpi, title=title,
-                   force=force, json=True)
+    options = dict(figure=figure, strain=strain, output=output, columns=columns, width=width, font=font,
+                   font_size=font_size, dpi=dpi, title=title, force=force, json=True)
     _, text = _run("envelope", [_folder(one) for one in folders], options)
     return json.loads(text)
 
@@ -309,8 +311,8 @@ def plot(*results: _Results, output: _Path, what: str | Sequence[str] | None = N
          measured: _Path | None = None, force: bool = False) -> None:
     """Draws a figure for a paper, as `crackle plot OUT... -o FIGURE`: .svg, .pdf or .png.
 
-    results: Results, Campaigns or their folders. what: words of "curve", "ae", "emission", "strain", "specimen"; at:
-    strains, or "start", "peak", "end"; width in mm; magnify: displacements so many times as large.
+    results: Results, Campaigns or their folders. what: words of "curve", "ae", "emission", "strain", "specimen", of a
+    campaign of "curve", "axes", "scatter"; at: strains, or "start", "peak", "end"; width in mm; magnify: displacements so many times as large.
     """
     def many(value):
         return [value] if isinstance(value, (str, float, int)) else value

@@ -90,7 +90,7 @@ function verdictOf(test: TestData): string | undefined {
     const valid = test.summary['valid'], claims = test.summary['validity'];
     if (!Array.isArray(claims)) return undefined;
     const broken = (claims as {claim: string; holds: boolean | null; found: string}[]).filter(({holds}) => holds === false);
-    if (broken.length > 0) return `no: not so that ${broken.map(({claim, found}) => `${claim} (${found})`).join('; ')}`;
+    if (broken.length > 0) return `no: it does not hold that ${broken.map(({claim, found}) => `${claim} (${found})`).join('; ')}`;
     return valid === true ? 'yes' : 'not known yet';
 }
 

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "specimens/statistics/spoken.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace crackle {
+
+std::string counted(std::int64_t count, const char* noun) {
+    return fmt::format("{} {}{}", count, noun, count == 1 ? "" : "s");
+}
+
+std::string counted(std::size_t count, const char* noun) { return counted(static_cast<std::int64_t>(count), noun); }
+
+std::string spoken_stress(double value, const std::string& unit, int digits) {
+    struct Prefix {
+        double factor;
+        char letter;
+    };
+    const double rounded_up = 1.0 - 0.5 * std::pow(10.0, -digits);  // to a prefix
+    for (const Prefix& prefix : {Prefix{1e9, 'G'}, Prefix{1e6, 'M'}, Prefix{1e3, 'k'}}) {
+        if (unit == "Pa" && std::isfinite(value) && std::abs(value) >= rounded_up * prefix.factor)
+            return fmt::format("{:.{}g} {}Pa", value / prefix.factor, digits, prefix.letter);
+    }
+    return fmt::format("{:.{}g} {}", value, digits, unit);
+}
+
+}  // namespace crackle

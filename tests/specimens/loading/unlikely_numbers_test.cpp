@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Numbers that are likely meant otherwise are named with what they may mean; those of rocks are not.
+
+#include "specimens/loading/unlikely_numbers.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <gtest/gtest.h>
+
+namespace crackle {
+namespace {
+
+TestCase granite() {
+    TestCase test;
+    test.material.units = "area";
+    test.material.density = 2650.0;
+    test.material.friction_angle = 40.0;
+    test.material.contact_modulus = 76e9;
+    test.material.tensile_strength = 12e6;
+    test.material.cohesion = 60e6;
+    test.bond.law = "coulomb";
+    return test;
+}
+
+TestSetup core() {
+    TestSetup setup;
+    setup.width = 0.05;
+    setup.height = 0.1;
+    setup.area = setup.width * setup.height;
+    setup.particles = 1250;
+    return setup;
+}
+
+std::string notices_of(const TestCase& test, const TestSetup& setup = core()) {
+    const std::string all = fmt::format("{}", fmt::join(unlikely_numbers(test, setup), "\n"));
+    if (!all.empty()) fmt::print("  {}\n", all);
+    return all;
+}
+
+TEST(UnlikelyNumbers, OfARockAreNone) { EXPECT_EQ(notices_of(granite()), ""); }
+
+TEST(UnlikelyNumbers, AreNamedWithWhatTheyAreLikelyToMean) {
+    const auto with = [](auto&& change) {
+        TestCase test = granite();
+        change(test);
+        return notices_of(test);
+    };
+    EXPECT_EQ(with([](TestCase& t) { t.material.density = 2.65; }),
+              "material.density = 2.65 kg/m2 is lighter than any rock: is it meant in g/cm3? That is 2650 kg/m2");
+    EXPECT_EQ(with([](TestCase& t) { t.material.friction_angle = 0.6; }),
+              "material.friction_angle = 0.6 degrees is next to nothing: is it meant in radians? That is 34.4 degrees");
+    EXPECT_EQ(
+        with([](TestCase& t) { t.material.friction_angle = 0.0; }),
+        "material.friction_angle = 0 degrees lets broken faces slide freely, and no pressure makes bonds stronger: "
+        "rocks have 20 to 45");
+    EXPECT_NE(with([](TestCase& t) { t.material.residual_friction_angle = 0.5; }).find("residual_friction_angle = 0.5"),
+              std::string::npos);
+    EXPECT_EQ(with([](TestCase& t) { t.material.cohesion = 240e6; }),
+              "material.cohesion = 2.4e+08 Pa is 20 times the tensile strength: bonds of rocks have 1 to 10; is one of "
+              "them in another unit?");
+    EXPECT_NE(with([](TestCase& t) { t.material.tensile_strength = 12.0; }).find("is it meant in MPa?"),
+              std::string::npos);
+    EXPECT_NE(with([](TestCase& t) { t.material.contact_modulus = 76.0; }).find("is it meant in GPa?"),
+              std::string::npos);
+}
+
+TEST(UnlikelyNumbers, MillimetresAreNoMetres) {
+    TestSetup large = core();
+    large.width = 50.0;
+    large.height = 100.0;
+    large.area = 5000.0;
+    EXPECT_EQ(
+        notices_of(granite(), large),
+        "the specimen is 50 m by 100 m, of grains of 2 m as stiff as rock: are its lengths meant in mm? Numbers are "
+        "in m");
+    TestCase mass = granite();
+    mass.trace.emplace_back();
+    EXPECT_EQ(notices_of(mass, large), "") << "blocks between joints may be large";
+    TestCase soft = granite();
+    soft.material.contact_modulus = 1e8;
+    EXPECT_EQ(notices_of(soft, large), "") << "as stiff as soil";
+}
+
+TEST(UnlikelyNumbers, OfAMineralAreItsOwn) {
+    TestCase test = granite();
+    test.material.friction_angle = 0.6;
+    test.mineral.resize(2);
+    test.mineral[1].own.density = 2.7;
+    test.position["mineral[2].density"] = "case.toml:9";
+    const std::vector<std::string> all = unlikely_numbers(test, core());
+    ASSERT_EQ(all.size(), 2U) << fmt::format("{}", fmt::join(all, "\n"));
+    EXPECT_TRUE(all[0].starts_with("material.friction_angle"));
+    EXPECT_TRUE(all[1].starts_with("mineral[2].density"));
+}
+
+}  // namespace
+}  // namespace crackle
