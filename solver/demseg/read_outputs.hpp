@@ -76,6 +76,8 @@ class DeckFrames {
     Positions positions(std::size_t k) const;
     /// Of the same step; none where the run wrote none.
     std::vector<DeckContact> contacts(std::size_t k) const;
+    /// @throws InputError if another run has replaced the outputs since these were opened
+    void require_unchanged() const;
 
   private:
     /// Device and number of each file; zeros where there is none.
@@ -83,6 +85,7 @@ class DeckFrames {
     static Identities identities(const std::filesystem::path& folder);
     static Identities whole_set(const std::filesystem::path& folder);
 
+    std::filesystem::path folder_;
     Identities opened_;  // before the others are
     DeckFrameFile positions_;
     std::optional<DeckFrameFile> forces_, details_;
