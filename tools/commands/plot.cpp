@@ -260,9 +260,12 @@ void plot_guide(const po::variables_map& given, const Look& look, Messages& mess
         return row({at(specimen + "_tension", "end", "end of tension"),
                     at(specimen + "_compression", "end", "end of compression")});
     };
+    // The guide's letters of figure 26: (a) the packing, (b) what is left of it, (c) the curves, (d) the breaks.
+    auto broken = at("circles_tension", "end", "end of tension");
+    broken.first.lettered = true;
     const std::map<int, std::vector<Panel>> figures{
         {26,
-         {row({at("circles_tension", "start", "packing"), at("circles_tension", "end", "end of tension"),
+         {row({at("circles_tension", "start", "packing"), broken,
                at("circles_compression", "end", "end of compression")}),
           both_curves("circles"), breaks({{&tests.at("circles_tension").results, "tension", 0, false}})}},
         {27,
