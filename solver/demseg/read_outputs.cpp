@@ -140,21 +140,25 @@ DeckFrames::Identities DeckFrames::whole_set(const std::filesystem::path& folder
 }
 
 DeckFrames::DeckFrames(const std::filesystem::path& folder)
-    : opened_(whole_set(folder)),
+    : folder_(folder),
+      opened_(whole_set(folder)),
       positions_(folder / files_read[0], 2),
       forces_(file_if_there(folder / files_read[1])),
       details_(file_if_there(folder / files_read[2])),
       breaks_(read_breaks(folder / files_read[3])) {
-    if (identities(folder) != opened_) {
-        throw InputError(
-            fmt::format("{}: found outputs that a new run replaced while they were read, expected those of one run; "
-                        "repeat the command",
-                        folder.string()));
-    }
+    require_unchanged();
     if (positions_.heads().empty()) {
         throw InputError(
             fmt::format("{}: found no complete frame, expected those of `crackle run`", positions_.path().string()));
     }
+}
+
+void DeckFrames::require_unchanged() const {
+    if (identities(folder_) == opened_) return;
+    throw InputError(
+        fmt::format("{}: found outputs that a new run replaced while they were read, expected those of one run; "
+                    "repeat the command",
+                    folder_.string()));
 }
 
 DeckFrames::Positions DeckFrames::positions(std::size_t k) const {

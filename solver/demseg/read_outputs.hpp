@@ -83,6 +83,8 @@ class DeckFrames {
     /// Of the same step; none where the run wrote none.
     std::vector<DeckContact> contacts(std::size_t k) const;
     const DeckBreaks& breaks() const { return breaks_; }
+    /// @throws InputError if another run has replaced the outputs since these were opened
+    void require_unchanged() const;
 
   private:
     /// Device and number of each file; zeros where there is none.
@@ -90,6 +92,7 @@ class DeckFrames {
     static Identities identities(const std::filesystem::path& folder);
     static Identities whole_set(const std::filesystem::path& folder);
 
+    std::filesystem::path folder_;
     Identities opened_;  // before the others are
     DeckFrameFile positions_;
     std::optional<DeckFrameFile> forces_, details_;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The outputs of a deck run (output.dat, cont.dat, cont2.dat, events.csv) as a recording.
+// The outputs of a deck run as a recording: frames of output.dat, cont.dat and cont2.dat, and curves (deck_curves.hpp).
 //
 // They hold places and forces only. Velocities are those between two frames; a chain is taken to turn by less than half
 // a turn from one to the next. Stress of a body: σ = -1/A Σ f ⊗ (x - x_c), symmetrised, dashpots included, compression
@@ -106,6 +106,8 @@ class DeckMotion {
         finder_ = CellFinder(recording.cells);
         read_bonds(recording);
         read_breaks(folder / "events.csv", recording.results.events);
+        recording.curves = read_deck_curves(folder, frames_.heads());
+        frames_.require_unchanged();  // rows of the run whose frames these are
     }
 
     RecordedFrame read(std::size_t k) {

@@ -2,12 +2,17 @@
 #include "specimens/recordings/recording.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
+#include <fstream>
 #include <numeric>
 #include <set>
+#include <string_view>
 
 #include "solver/base/errors.hpp"
+#include "solver/demseg/outputs.hpp"
 
 namespace crackle {
 
@@ -36,9 +41,42 @@ std::vector<std::size_t> chosen_frames(std::size_t count, std::size_t most, cons
     return {chosen.begin(), chosen.end()};
 }
 
-Recording read_recording(const std::filesystem::path& path, std::size_t most_frames, std::uint64_t seed) {
-    namespace fs = std::filesystem;
-    if (fs::is_regular_file(path)) return read_particle_recording(path, seed);
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Whether a file begins as those that `crackle run` writes, whatever it is called now.
+bool has_rows_of_a_run(const fs::path& file) {
+    constexpr std::string_view head = "# step ";
+    std::ifstream in(file, std::ios::binary);
+    std::string begin(head.size(), '\0');
+    in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+    return begin == head;
+}
+
+}  // namespace
+
+fs::path folder_of_run(const fs::path& path) {
+    constexpr std::array<const char*, 3> results{"summary.json", "curve.csv", "events.csv"};
+    if (!fs::is_regular_file(path)) return path;
+    const fs::path folder = path.has_parent_path() ? path.parent_path() : fs::path(".");
+    const auto is_named = [name = path.filename().string()](const char* one) { return name == one; };
+    if (std::ranges::any_of(deck_output_names, is_named) && fs::exists(folder / deck_output_names[0])) return folder;
+    if (std::ranges::any_of(results, is_named) && fs::exists(folder / results[0])) return folder;
+    return path;
+}
+
+Recording read_recording(const fs::path& given, std::size_t most_frames, std::uint64_t seed) {
+    const fs::path path = folder_of_run(given);
+    if (fs::is_regular_file(path)) {
+        if (has_rows_of_a_run(path)) {
+            throw InputError(fmt::format(
+                "{}: found rows that `crackle run` wrote, expected a particle file or the folder of a run, in which "
+                "they are called {}",
+                path.string(), fmt::join(deck_output_names, ", ")));
+        }
+        return read_particle_recording(path, seed);
+    }
     if (!fs::is_directory(path)) {
         throw InputError(fmt::format(
             "{}: found no such file or folder, expected the folder of a test or of a deck, or a particle file",

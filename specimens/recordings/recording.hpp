@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "solver/base/vec2.hpp"
+#include "specimens/recordings/deck_curves.hpp"
 #include "specimens/recordings/test_results.hpp"
 
 namespace crackle {
@@ -80,6 +81,7 @@ struct Recording {
     Kind kind = Kind::particles;
     bool drawn_by_seed = false;                  ///< its circles, of a particle file of mode 0
     TestResults results;                         ///< of a test; of a deck its breaks alone
+    DeckCurves curves;                           ///< of a deck
     std::optional<std::array<double, 4>> walls;  /// x1, x2, y1, y2 of a deck's domain
     bool mean_velocities = false;                ///< taken from the places of two frames, not the solver's own
     std::vector<RecordedCell> cells;
@@ -99,7 +101,11 @@ Recording read_test_recording(const std::filesystem::path& folder, std::size_t m
 Recording read_deck_recording(const std::filesystem::path& folder, std::size_t most_frames);
 /// @param file  in_gm.dat of either mode (mode 0: its circles are made with `seed`)
 Recording read_particle_recording(const std::filesystem::path& file, std::uint64_t seed);
-/// What `path` is: a test's folder, a deck's, or a particle file. @throws InputError if it is none
+/// The folder of the run that a file belongs to, where it is an output of a deck or one of a test's results; else the
+/// path itself.
+std::filesystem::path folder_of_run(const std::filesystem::path& path);
+/// What `path` is: a test's folder, a deck's, a file of such a run (folder_of_run()), or a particle file.
+/// @throws InputError if it is none
 Recording read_recording(const std::filesystem::path& path, std::size_t most_frames, std::uint64_t seed);
 
 }  // namespace crackle

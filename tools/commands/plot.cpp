@@ -12,17 +12,20 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <ranges>
 #include <span>
 
 #include "solver/base/errors.hpp"
 #include "solver/files/replace_file.hpp"
 #include "specimens/recordings/distinct_names.hpp"
 #include "specimens/recordings/recording.hpp"
+#include "specimens/recordings/unit_names.hpp"
 #include "specimens/statistics/spoken.hpp"
 #include "tools/campaign/page/figures.hpp"
 #include "tools/command_line/command_line.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/page/report_page.hpp"
+#include "tools/plot/deck_panels.hpp"
 #include "tools/plot/figure_options.hpp"
 #include "tools/plot/panels.hpp"
 
@@ -232,6 +235,129 @@ void plot_tests(const po::variables_map& given, const Words& folders, const Look
     if (!messages.quiet()) std::cout << output.string() << '\n';
 }
 
+const std::map<std::string, DeckWord>& deck_words() {
+    static const std::map<std::string, DeckWord> words{
+        {"energy", DeckWord::energy}, {"displacement", DeckWord::displacement},
+        {"height", DeckWord::height}, {"velocity", DeckWord::velocity},
+        {"force", DeckWord::force},   {"curve", DeckWord::curve}};
+    return words;
+}
+
+bool is_run_of_deck(const fs::path& path) {
+    const fs::path folder = folder_of_run(path);
+    return fs::exists(folder / "output.dat") && !fs::exists(folder / "summary.json");
+}
+
+/// @throws InputError if only some are: their figures have no axis in common
+bool are_runs_of_decks(const Words& paths) {
+    const auto other = std::ranges::find_if(
+        paths, [&](const std::string& path) { return is_run_of_deck(path) != is_run_of_deck(paths.front()); });
+    if (other == paths.end()) return is_run_of_deck(paths.front());
+    const bool first = is_run_of_deck(paths.front());
+    throw InputError(fmt::format("plot: {}: found the run of a deck beside {}, expected runs of decks or tests alone",
+                                 first ? paths.front() : *other, first ? *other : paths.front()));
+}
+
+/// Numbers of the bodies that a run has curves of.
+std::vector<int> watched_bodies(const Recording& deck) {
+    std::vector<int> all;
+    for (const DeckBodyCurve& body : deck.curves.bodies) all.push_back(body.id);
+    if (all.empty()) {
+        for (const DeckVelocityCurve& body : deck.curves.velocities) all.push_back(body.id);
+    }
+    return all;
+}
+
+/// Those of --bodies, else the first ones.
+std::vector<int> drawn_bodies(const po::variables_map& given, const Recording& deck, Messages& messages) {
+    constexpr std::size_t most = 8;  // curves that can be told apart
+    std::vector<int> watched = watched_bodies(deck);
+    if (given.contains("bodies")) {
+        const std::vector<int> bodies = given["bodies"].as<std::vector<int>>();
+        for (const int id : bodies) {
+            if (std::ranges::find(watched, id) != watched.end()) continue;
+            throw InputError(fmt::format("plot: --bodies: found {}, expected one that the run of {} wrote rows of: {}",
+                                         id, deck.name,
+                                         watched.empty() ? "none" : fmt::format("{}", fmt::join(watched, ", "))));
+        }
+        return bodies;
+    }
+    if (watched.size() > most) {
+        messages.notice(fmt::format("{}: the first {} of {} bodies are drawn; choose others with --bodies", deck.name,
+                                    most, watched.size()));
+        watched.resize(most);
+    }
+    return watched;
+}
+
+/// What --what asks for; of `all` what there is to see.
+std::vector<DeckWord> words_of_decks(const Words& what, const std::vector<PlottedDeck>& decks) {
+    std::vector<DeckWord> words;
+    for (const std::string& word : what) {
+        const auto found = deck_words().find(word);
+        if (word == "all") {
+            words = words_worth_drawing(decks);
+            break;
+        }
+        if (found == deck_words().end()) {
+            const auto names = deck_words() | std::views::keys;
+            throw InputError(fmt::format("plot: --what: found '{}', expected of the run of a deck {} or all", word,
+                                         fmt::join(names, ", ")));
+        }
+        words.push_back(found->second);
+    }
+    for (const DeckWord word : words) {
+        for (const PlottedDeck& deck : decks) {
+            if (has_rows(*deck.recording, word)) continue;
+            const char* file = word == DeckWord::energy     ? "energy.dat"
+                               : word == DeckWord::velocity ? "velocity_y.dat"
+                                                            : "f-d_curve.dat";
+            throw InputError(fmt::format("plot: {}: found no rows in {}, expected {}", deck.recording->name, file,
+                                         word == DeckWord::energy || word == DeckWord::velocity
+                                             ? "those of a run of at least a step"
+                                             : "those of bodies that in_bc.dat lists (npfd)"));
+        }
+    }
+    if (words.empty())
+        throw InputError(
+            fmt::format("plot: {}: found nothing that changes, expected rows in energy.dat, f-d_curve.dat "
+                        "or velocity_y.dat",
+                        decks.front().recording->name));
+    return words;
+}
+
+/// Curves of decks' runs, those of several in the same panels.
+void plot_decks(const po::variables_map& given, const Words& folders, const Look& look, Messages& messages) {
+    expect_options(given, "runs of decks", {"what", "labels", "units", "bodies"});
+    const fs::path output = given["output"].as<std::string>();
+    const Format format = format_of_output("plot", output);
+    refuse_replacing(output, given.contains("force"));
+    std::optional<UnitNames> units;
+    if (given.contains("units")) units = units_named("plot: --units", given["units"].as<std::string>());
+    std::vector<Recording> runs;
+    for (const std::string& folder : folders) {
+        runs.push_back(read_recording(folder, std::numeric_limits<std::size_t>::max(), 1));
+        report_recording(messages, runs.back());
+    }
+    Words labels = given.contains("labels") ? given["labels"].as<Words>()
+                   : runs.size() > 1        ? distinct_names(runs)
+                                            : Words{""};
+    if (labels.size() != runs.size())
+        throw InputError(
+            fmt::format("plot: --labels: found {} names, expected {}, one a run", labels.size(), runs.size()));
+    std::vector<PlottedDeck> decks;
+    for (std::size_t k = 0; k < runs.size(); ++k)
+        decks.push_back({&runs[k], labels[k], drawn_bodies(given, runs[k], messages)});
+    const Words what = given.contains("what") ? given["what"].as<Words>() : Words{"all"};
+    std::vector<Panel> panels;
+    for (const DeckWord word : words_of_decks(what, decks)) {
+        const std::vector<Panel> added = deck_panels(word, decks, units, std::ranges::find(what, "all") == what.end());
+        panels.insert(panels.end(), added.begin(), added.end());
+    }
+    replace_file(output, figure(panels, look.title, look.width, format, look.sheet));
+    if (!messages.quiet()) std::cout << output.string() << '\n';
+}
+
 /// All figures of a campaign, one below the other.
 void plot_campaign(const po::variables_map& given, const fs::path& folder, const Look& look, Messages& messages) {
     expect_options(given, "a campaign's folder", {"what", "figure", "test", "measured"});
@@ -299,9 +425,12 @@ void plot_guide(const po::variables_map& given, const Look& look, Messages& mess
         return row({at(specimen + "_tension", "end", "end of tension"),
                     at(specimen + "_compression", "end", "end of compression")});
     };
+    // The guide's letters of figure 26: (a) the packing, (b) what is left of it, (c) the curves, (d) the breaks.
+    auto broken = at("circles_tension", "end", "end of tension");
+    broken.first.lettered = true;
     const std::map<int, std::vector<Panel>> figures{
         {26,
-         {row({at("circles_tension", "start", "packing"), at("circles_tension", "end", "end of tension"),
+         {row({at("circles_tension", "start", "packing"), broken,
                at("circles_compression", "end", "end of compression")}),
           both_curves("circles"), breaks({{&tests.at("circles_tension").results, "tension", 0, false}})}},
         {27,
@@ -326,7 +455,8 @@ CommandLine describe_plot() {
         ("what", po::value<Words>()->multitoken()->value_name("WORD"),
          "curve, ae (breaks), emission (acoustic events: magnitudes of all tests together, and maps), strain (of the "
          "area, and what of it is cracks), specimen, or all, one below the other (default: all); of a campaign curve "
-         "(bands), axes (figures over the plan's axes), scatter (of the packings), or all")  //
+         "(bands), axes (figures over the plan's axes), scatter (of the packings), or all; of the run of a deck "
+         "energy, displacement, height, velocity, force (over time), curve (force over displacement)")  //
         ("at", po::value<Words>()->multitoken()->value_name("STRAIN"),
          "strains of the specimens, or start, peak, end (default: start peak end); the nearest frame is drawn");
     add_figure_options(options, 1);
@@ -334,6 +464,12 @@ CommandLine describe_plot() {
                           "draw displacements so many times as large")  //
         ("labels", po::value<Words>()->multitoken()->value_name("NAME"),
          "names of the tests in legends, in their order")  //
+        ("units", po::value<std::string>()->value_name("UNITS"),
+         "of the run of a deck: what its units are called, si, cgs (cm, dyn, erg) or mm-g-s (mm, µN, nJ); a deck "
+         "states "
+         "none")  //
+        ("bodies", po::value<std::vector<int>>()->multitoken()->value_name("NUMBER"),
+         "of the run of a deck: bodies that are drawn, of those that in_bc.dat lists (default: the first eight)")  //
         ("guide", po::value<std::string>()->value_name("FOLDER"),
          "folder of the six tests of tools/quickstart: figures 26 to 29 of DEMseg's guide")  //
         ("format", po::value<std::string>()->value_name("FORMAT")->default_value("pdf"),
@@ -351,22 +487,31 @@ CommandLine describe_plot() {
             "Figures for a paper from the folders that `crackle test` wrote: axial stress over axial strain with "
             "the breaks beneath, the strain of the area and of the cracks in it, bonds broken along the loading (what "
             "acoustic emission hears), magnitudes and places of acoustic events, specimens at given strains with their "
-            "cracks. Of a campaign's folder: bands of "
-            "curves, distributions, figures over its axes.",
+            "cracks. Of a campaign's folder: bands of curves, distributions, figures over its axes. Of the folder of a "
+            "deck's run: energies, and displacements, heights, velocities and forces of the bodies that its in_bc.dat "
+            "lists, as in figures 6, 10, 12 and 14 of DEMseg's guide.",
         .options = {{"options", options}},
         .operand = "OUT",
         .several_operands = true,
-        .choices = {{"what", {"curve", "ae", "emission", "strain", "specimen", "axes", "scatter", "all"}},
+        .choices = {{"what",
+                     {"curve", "ae", "emission", "strain", "specimen", "axes", "scatter", "all", "energy",
+                      "displacement", "height", "velocity", "force"}},
+                    {"units", unit_sets()},
                     {"at", {"start", "peak", "end"}},
                     {"format", {"svg", "pdf", "png"}}},
         .verbose = "cells, bonds and frames read",
-        .examples = {{"crackle plot out/pulled out/squeezed -o curves.pdf --what curve"},
-                     {"crackle plot out/seed-1 out/seed-2 -o emission.pdf --what emission"},
-                     {"crackle plot out/squeezed -o squeezed.svg --at start 0.001 peak end"},
-                     {"crackle plot out/squeezed -o specimen.png --what specimen --at peak end --dpi 600 --width 120"},
-                     {"crackle plot out/granite -o granite.pdf --test tension", "a campaign"},
-                     {"crackle plot --guide out/guide_rock -o out/figures",
-                      "figures 26 to 29 of DEMseg's guide, from the tests of tools/quickstart"}}};
+        .examples = {
+            {"crackle plot out/pulled out/squeezed -o curves.pdf --what curve"},
+            {"crackle plot out/seed-1 out/seed-2 -o emission.pdf --what emission"},
+            {"crackle plot out/squeezed -o squeezed.svg --at start 0.001 peak end"},
+            {"crackle plot out/squeezed -o specimen.png --what specimen --at peak end --dpi 600 --width 120"},
+            {"crackle plot out/granite -o granite.pdf --test tension", "a campaign"},
+            {"crackle plot out/slope -o energy.pdf --units cgs", "the run of a deck"},
+            {"crackle plot out/wave_chain -o wave.pdf --what displacement --units cgs --bodies 11 13 15",
+             "figure 10 of DEMseg's guide"},
+            {"crackle plot out/soft out/stiff -o rolling.pdf --what velocity --labels soft stiff", "figure 12"},
+            {"crackle plot --guide out/guide_rock -o out/figures",
+             "figures 26 to 29 of DEMseg's guide, from the tests of tools/quickstart"}}};
 }
 
 int plot(const Invocation& given) {
@@ -385,6 +530,8 @@ int plot(const Invocation& given) {
         plot_guide(values, look, given.messages);
     else if (of_campaign)
         plot_campaign(values, given.operands.front(), look, given.messages);
+    else if (are_runs_of_decks(given.operands))
+        plot_decks(values, given.operands, look, given.messages);
     else
         plot_tests(values, given.operands, look, given.messages);
     return exit_done;

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `crackle view IN...`: a page in which particles, a deck's run or tests can be looked at.
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
+#include <optional>
 
 #include "solver/base/errors.hpp"
+#include "specimens/recordings/recording.hpp"
+#include "specimens/recordings/unit_names.hpp"
 #include "tools/command_line/command_line.hpp"
 #include "tools/commands/commands.hpp"
 #include "tools/page/report_page.hpp"
@@ -14,7 +19,7 @@ namespace crackle::tools {
 namespace {
 
 std::filesystem::path default_output(const std::vector<std::string>& inputs) {
-    const std::filesystem::path input = inputs.front();
+    const std::filesystem::path input = folder_of_run(inputs.front());
     if (inputs.size() > 1) return "view.html";
     if (std::filesystem::is_directory(input)) return input / "view.html";
     return std::filesystem::path(input).replace_extension(".html");
@@ -32,17 +37,23 @@ CommandLine describe_view() {
         ("frames", po::value<std::size_t>()->value_name("N")->default_value(default_page_frames),
          "show at most so many frames of each, evenly chosen")  //
         ("seed", po::value<std::uint64_t>()->value_name("N")->default_value(1),
-         "of the circles that a particle file of mode 0 leaves to chance");
+         "of the circles that a particle file of mode 0 leaves to chance")  //
+        ("units", po::value<std::string>()->value_name("UNITS"),
+         "of particle files and decks, which state none: what they are called, si, cgs (cm, dyn, erg) or mm-g-s (mm, "
+         "µN, "
+         "nJ)");
     return {.synopses = {"crackle view IN... [-o view.html]"},
             .description =
                 "A page to look at particles, moving or not: IN is a particle file (in_gm.dat, in_gm_volo.dat, ...), "
-                "the folder of a deck's run, or that of a test. Opens in any browser, needs no network.",
+                "the folder of a deck's run (or one of its outputs), or that of a test. Opens in any browser, needs no "
+                "network.",
             .options = {{"options", options}},
             .operand = "IN",
             .several_operands = true,
+            .choices = {{"units", unit_sets()}},
             .verbose = "cells, bonds and frames read, bytes written",
             .examples = {{"crackle view out/in_gm_volo.dat -o out/cells.html"},
-                         {"crackle view out/slope -o out/slope.html"},
+                         {"crackle view out/slope -o out/slope.html --units cgs"},
                          {"crackle view out/pulled out/squeezed -o out/both.html"}}};
 }
 
@@ -55,10 +66,17 @@ int view(const Invocation& given) {
     }
     const po::variables_map& values = given.values;
     Messages& messages = given.messages;
+    std::optional<UnitNames> units;
+    if (values.contains("units")) units = units_named("view: --units", values["units"].as<std::string>());
     std::vector<Recording> recordings;
     for (const std::string& input : inputs) {
         recordings.push_back(
             read_recording(input, values["frames"].as<std::size_t>(), values["seed"].as<std::uint64_t>()));
+        if (units && recordings.back().kind == Recording::Kind::test)
+            throw InputError(
+                fmt::format("view: --units: found {}, a test, whose units are SI; expected particle files "
+                            "and runs of decks alone",
+                            input));
         report_recording(messages, recordings.back());
     }
     if (!values["seed"].defaulted() && std::ranges::none_of(recordings, &Recording::drawn_by_seed))
@@ -68,7 +86,7 @@ int view(const Invocation& given) {
         throw without_effect("crackle view", "--frames", "particle files");
     const std::filesystem::path output =
         values.contains("output") ? std::filesystem::path(values["output"].as<std::string>()) : default_output(inputs);
-    write_page(output, {values["title"].as<std::string>(), PageView::view}, recordings, messages);
+    write_page(output, {values["title"].as<std::string>(), PageView::view, units}, recordings, messages);
     if (!messages.quiet()) std::cout << output.string() << '\n';
     return exit_done;
 }

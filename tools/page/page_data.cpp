@@ -12,6 +12,8 @@
 #include <cstring>
 #include <initializer_list>
 #include <limits>
+#include <numeric>
+#include <ranges>
 #include <span>
 #include <stdexcept>
 #include <type_traits>
@@ -324,6 +326,90 @@ void add_breaks(PlainBlock& block, const TestResults& results) {
     if (results.slips) real("slips.", *results.slips, {"time", "axial_strain", "x", "y", "orientation"});
 }
 
+/// Rows that a curve's picture needs: in each of `intervals` parts of the rows those where a column is lowest or
+/// highest, and the first and the last of all.
+std::vector<std::size_t> rows_seen(const std::vector<const std::vector<double>*>& columns, std::size_t intervals) {
+    const std::size_t rows = columns.front()->size();
+    std::vector<std::size_t> seen;
+    if (rows <= 2 * intervals) {
+        seen.resize(rows);
+        std::iota(seen.begin(), seen.end(), std::size_t{0});
+        return seen;
+    }
+    seen = {0, rows - 1};
+    for (std::size_t k = 0; k < intervals; ++k) {
+        const auto begin = static_cast<std::ptrdiff_t>(k * rows / intervals),
+                   end = static_cast<std::ptrdiff_t>((k + 1) * rows / intervals);
+        for (const std::vector<double>* column : columns) {
+            const auto [low, high] = std::minmax_element(column->begin() + begin, column->begin() + end);
+            seen.push_back(static_cast<std::size_t>(low - column->begin()));
+            seen.push_back(static_cast<std::size_t>(high - column->begin()));
+        }
+    }
+    std::ranges::sort(seen);
+    const auto repeated = std::ranges::unique(seen);
+    seen.erase(repeated.begin(), repeated.end());
+    return seen;
+}
+
+/// Columns of one curve, thinned to what a screen shows, under `prefix` and their names.
+class ThinnedCurve {
+  public:
+    ThinnedCurve(PlainBlock& block, std::string prefix) : block_(block), prefix_(std::move(prefix)) {}
+
+    void add(const char* name, const std::vector<double>& values) {
+        names_.emplace_back(name);
+        columns_.push_back(&values);
+    }
+    void write(const std::vector<double>& time) const {
+        constexpr std::size_t intervals = 400;  // of about two pixels of a figure
+        std::vector<const std::vector<double>*> all = columns_;
+        all.push_back(&time);
+        const std::vector<std::size_t> rows = rows_seen(all, intervals);
+        const auto put = [&](const std::string& name, const std::vector<double>& values) {
+            block_.add(prefix_ + name, listed<float>(rows, [&](std::size_t row) { return values[row]; }));
+        };
+        put("time", time);
+        for (std::size_t k = 0; k < columns_.size(); ++k) put(names_[k], *columns_[k]);
+    }
+
+  private:
+    PlainBlock& block_;
+    std::string prefix_;
+    std::vector<std::string> names_;
+    std::vector<const std::vector<double>*> columns_;
+};
+
+constexpr std::size_t most_bodies = 8;  // curves that can be told apart
+
+/// @return what the manifest says of them
+Json add_curves(PlainBlock& block, const DeckCurves& curves) {
+    ThinnedCurve energy(block, "energy.");
+    for (std::size_t k = 0; k < deck_energy_names.size(); ++k) energy.add(deck_energy_names[k], curves.energy.parts[k]);
+    energy.write(curves.energy.time);
+    const auto listed_ids = [](const auto& all) {
+        Json ids = Json::array();
+        for (const auto& curve : all | std::views::take(most_bodies)) ids.push_back(curve.id);
+        return Json{{"ids", ids}, {"of", all.size()}};
+    };
+    for (const DeckBodyCurve& body : curves.bodies | std::views::take(most_bodies)) {
+        ThinnedCurve curve(block, fmt::format("body.{}.", body.id));
+        curve.add("force_x", body.force_x);
+        curve.add("x", body.x);
+        curve.add("force_y", body.force_y);
+        curve.add("y", body.y);
+        curve.write(body.time);
+    }
+    for (const DeckVelocityCurve& body : curves.velocities | std::views::take(most_bodies)) {
+        ThinnedCurve curve(block, fmt::format("velocity.{}.", body.id));
+        curve.add("vy", body.vy);
+        curve.write(body.time);
+    }
+    return {{"in_time", curves.in_time},
+            {"bodies", listed_ids(curves.bodies)},
+            {"velocities", listed_ids(curves.velocities)}};
+}
+
 Json listed_frame(const FrameHead& head) {
     Json entry{{"time", head.time}};
     if (head.axial_strain) entry["axial_strain"] = *head.axial_strain;
@@ -362,6 +448,7 @@ PageData pack_recording(const Recording& recording, const std::function<void(std
     manifest["summary"] = recording.kind == Recording::Kind::test ? recording.results.summary.json() : Json::object();
     if (recording.walls) manifest["walls"] = *recording.walls;
     if (recording.mean_velocities) manifest["velocities"] = "mean";
+    if (recording.kind == Recording::Kind::deck) manifest["curves"] = add_curves(first, recording.curves);
     manifest["arrays"] = first.places();
     manifest["frames"] = Json::array();
     for (const FrameHead& head : recording.frames) manifest["frames"].push_back(listed_frame(head));

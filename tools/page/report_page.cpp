@@ -70,6 +70,10 @@ std::string filled_page(std::string_view page, const PageHead& head, const std::
                   {"version", project_version},
                   {"view", head.view == PageView::report ? "report" : "view"},
                   {"tests", Json::array()}};
+    if (head.units)
+        manifest["units"] = {{"length", head.units->length}, {"velocity", head.units->velocity},
+                             {"force", head.units->force},   {"energy", head.units->energy},
+                             {"stress", head.units->stress}, {"prefixes", head.units->prefixes}};
     std::array<std::string, 3> texts;
     std::size_t all_frames = 0, frames_before = 0;
     for (const Recording& recording : recordings) all_frames += recording.frames.size();

@@ -5,11 +5,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "specimens/recordings/recording.hpp"
+#include "specimens/recordings/unit_names.hpp"
 #include "tools/terminal/messages.hpp"
 
 namespace crackle::tools {
@@ -22,6 +24,7 @@ enum class PageView { report, view };  ///< tables and curves first, or the movi
 struct PageHead {
     std::string title;  ///< empty: taken from the recordings
     PageView view = PageView::report;
+    std::optional<UnitNames> units = {};  ///< of particle files and decks; none: they are not known
 };
 
 /// @param page  the template, holding each marker once

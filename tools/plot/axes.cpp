@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdlib>
 
 namespace crackle::plot {
 namespace {
@@ -43,21 +44,43 @@ std::string Scale::label(double tick) const {
     return with_minus(fmt::format("{:.{}f}", std::abs(tick) < 1e-9 * step ? 0.0 : tick, decimals));
 }
 
-Scale scale_for(double smallest, double largest, int most_ticks) {
-    const double low = std::min(0.0, smallest);
-    const double high = largest > low ? largest : low + 1.0;
+namespace {
+
+/// Ticks for a range whose lower end keeps off the lowest values, or is one of the figure's own.
+Scale ticked(double low, double high, int most_ticks, bool room_below) {
     const double raw = (high - low) / most_ticks;
     const double power = std::pow(10.0, std::floor(std::log10(raw)));
     constexpr std::array<double, 6> steps{0.2, 0.5, 1.0, 2.0, 5.0, 10.0};
     const auto* step =
         std::find_if(steps.begin() + 2, steps.end() - 1, [&](double s) { return s * power >= raw * (1.0 - 1e-9); });
     // The topmost curve keeps off the frame.
-    Scale scale{low < 0.0 ? low - 0.04 * (high - low) : 0.0, high + 0.06 * (high - low), *step * power};
+    Scale scale{room_below ? low - 0.04 * (high - low) : low, high + 0.06 * (high - low), *step * power};
     while (scale.ticks().size() < 2 && step != steps.begin()) scale.step = *--step * power;
     return scale;
 }
 
+}  // namespace
+
+Scale scale_for(double smallest, double largest, int most_ticks) {
+    const double low = std::min(0.0, smallest);
+    return ticked(low, largest > low ? largest : low + 1.0, most_ticks, low < 0.0);
+}
+
+Scale scale_around(double smallest, double largest, int most_ticks) {
+    constexpr double far = 0.5;  // of the largest size
+    if (largest > smallest && (smallest > far * largest || largest < far * smallest))
+        return ticked(smallest, largest, most_ticks, true);
+    return scale_for(smallest, std::max(0.0, largest), most_ticks);
+}
+
 namespace {
+
+std::string superscript(int number) {
+    constexpr std::array<const char*, 10> digits{"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+    std::string text = number < 0 ? "⁻" : "";
+    for (const char digit : std::to_string(std::abs(number))) text += digits.at(static_cast<std::size_t>(digit - '0'));
+    return text;
+}
 
 /// "N/m or Pa" with a prefix to each.
 std::string prefixed(const std::string& unit, const std::string& prefix) {
@@ -76,6 +99,14 @@ Unit unit_for(double largest, const std::string& unit) {
         if (std::abs(largest) >= 0.9995 * factor) return {factor, prefixed(unit, prefix)};
     }
     return {1.0, unit};
+}
+
+Unit unit_with_power(double largest, const std::string& unit) {
+    constexpr double longest = 1e4, shortest = 1e-2;
+    const double size = std::abs(largest);
+    if (size == 0.0 || (size >= shortest && size < longest)) return {1.0, unit};
+    const int power = 3 * static_cast<int>(std::floor(std::log10(size) / 3.0));
+    return {std::pow(10.0, power), fmt::format("10{}{}{}", superscript(power), unit.empty() ? "" : " ", unit)};
 }
 
 Point Axes::at(double value_x, double value_y) const {

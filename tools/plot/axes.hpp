@@ -23,6 +23,8 @@ struct Scale {
 /// From 0 (or below) to the largest value and a little more, with a tick beside that at 0.
 /// @param most_ticks  at most so many intervals, where that leaves a second tick
 Scale scale_for(double smallest, double largest, int most_ticks);
+/// The same around 0 and all values; without 0 where they lie farther from it than half of their size.
+Scale scale_around(double smallest, double largest, int most_ticks);
 
 /// A unit with the prefix that puts the largest value between 1 and 1000: {1e3, "kN/m"}; of "N/m or Pa" each has it.
 struct Unit {
@@ -30,6 +32,8 @@ struct Unit {
     std::string name;
 };
 Unit unit_for(double largest, const std::string& unit);
+/// Of a unit that takes no prefix, a power of a thousand where the numbers would be long: {1e6, "10⁶ dyn"}.
+Unit unit_with_power(double largest, const std::string& unit);
 
 struct Axes {
     Rect frame;  ///< inside of which curves lie, pt

@@ -364,15 +364,36 @@ Panel drawings(const std::vector<DrawnMoment>& drawn, const std::vector<fs::path
     panel.height = [moments, height, scale_at](const Canvas& measure, double width) {
         return scale_at(width) * height + caption_height(measure, moments) + key_height;
     };
-    panel.draw = [moments, widths, height, gaps, scale_at, key](Canvas& canvas, const Rect& place) {
-        const double scale = scale_at(place.width), drawn_height = scale * height;
-        double x = place.x + 0.5 * (place.width - scale * widths - gaps);
+    // Left ends of the drawings, from that of the panel.
+    const auto lefts_at = [moments, widths, gaps, scale_at](double panel_width) {
+        const double scale = scale_at(panel_width);
+        std::vector<double> lefts;
+        double x = 0.5 * (panel_width - scale * widths - gaps);
         for (const Moment& moment : moments) {
-            const double width = scale * moment.extent.width();
+            lefts.push_back(x);
+            x += scale * moment.extent.width() + between_drawings;
+        }
+        return lefts;
+    };
+    if (std::ranges::any_of(drawn, &DrawnMoment::lettered)) {
+        panel.more_letters = [drawn, lefts_at](double width) {
+            const std::vector<double> lefts = lefts_at(width);
+            std::vector<double> letters;
+            for (std::size_t k = 1; k < drawn.size(); ++k) {
+                if (drawn[k].lettered) letters.push_back(lefts[k]);
+            }
+            return letters;
+        };
+    }
+    panel.draw = [moments, height, scale_at, lefts_at, key](Canvas& canvas, const Rect& place) {
+        const double scale = scale_at(place.width), drawn_height = scale * height;
+        const std::vector<double> lefts = lefts_at(place.width);
+        for (std::size_t k = 0; k < moments.size(); ++k) {
+            const Moment& moment = moments[k];
+            const double width = scale * moment.extent.width(), x = place.x + lefts[k];
             draw_moment(canvas, {x, place.y, width, drawn_height}, moment, moment.extent);
             canvas.text({x + 0.5 * width, place.y + drawn_height + 3.0},
                         fmt::format("{}", fmt::join(moment.caption, "\n")), Across::centre, Down::top, caption_text);
-            x += width + between_drawings;
         }
         draw_key(canvas, {place.x, place.bottom() - key_height, place.width, key_height}, key, scale);
     };

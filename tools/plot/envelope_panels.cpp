@@ -19,11 +19,6 @@ constexpr double beyond_last = 1.08;  // laws go on a little behind the last tes
 const Colour& line_colour() { return series_colour(1); }
 const Colour& hoek_brown_colour() { return series_colour(2); }
 
-/// A letter with an index beneath, as Pango's markup.
-std::string indexed(const char* letter, const char* index) {
-    return fmt::format("<i>{}</i><span size=\"75%\" rise=\"-2pt\">{}</span>", letter, index);
-}
-
 double largest_confinement(const EnvelopeFigure& figure) { return figure.laws.strengths.back().confinement; }
 
 double largest_strength(const EnvelopeFigure& figure) {

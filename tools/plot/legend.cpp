@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/plot/legend.hpp"
 
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <utility>
@@ -17,6 +19,10 @@ const Colour& series_colour(std::size_t number) {
 Colour tinted(const Colour& colour, double share) {
     const auto mixed = [&](double part) { return 1.0 - share * (1.0 - part); };
     return {mixed(colour.red), mixed(colour.green), mixed(colour.blue)};
+}
+
+std::string indexed(const char* letter, const char* index) {
+    return fmt::format("<i>{}</i><span size=\"75%\" rise=\"-2pt\">{}</span>", letter, index);
 }
 
 std::string titled(const std::string& title, const std::string& unit) {

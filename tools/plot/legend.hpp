@@ -29,6 +29,9 @@ const Colour& series_colour(std::size_t number);
 /// A colour mixed with white.
 Colour tinted(const Colour& colour, double share);
 
+/// A letter with an index beneath, as Pango's markup.
+std::string indexed(const char* letter, const char* index);
+
 /// "peak stress, MPa"
 std::string titled(const std::string& title, const std::string& unit);
 

@@ -74,8 +74,14 @@ std::string figure(const std::vector<std::vector<Panel>>& rows, const std::strin
         for (const Panel& panel : row) {
             const double top = y + letter_height(panel);
             panel.draw(canvas, {x, top, panel_width(row), bottom - top});
-            if (panels > 1)
-                canvas.text({x, y}, fmt::format("<b>({})</b>", letters_of(number++)), Across::left, Down::top, 1.1);
+            std::vector<double> letters;
+            if (panel.more_letters) letters = panel.more_letters(panel_width(row));
+            letters.insert(letters.begin(), 0.0);
+            for (const double at : letters) {
+                if (panels > 1)
+                    canvas.text({x + at, y}, fmt::format("<b>({})</b>", letters_of(number++)), Across::left, Down::top,
+                                1.1);
+            }
             x += panel_width(row) + between;
         }
         y = bottom + between;

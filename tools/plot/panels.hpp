@@ -17,6 +17,8 @@ struct Panel {
     std::function<double(const Canvas& measure, double width)> height;  ///< pt; text is measured on the canvas
     std::function<void(Canvas&, const Rect&)> draw;
     bool letter_above = false;  ///< its letter, (a), (b), ..., needs a line of its own
+    /// Of a panel of this width: places from its left, pt, of letters beside its first one; none in most panels.
+    std::function<std::vector<double>(double width)> more_letters = {};
 };
 
 /// One test as it appears in diagrams.
@@ -52,6 +54,7 @@ struct DrawnMoment {
     std::vector<std::string> caption;  ///< lines, markup
     bool cracks = true;
     std::vector<DrawnMark> marks = {};
+    bool lettered = false;  ///< has a letter of its own within a row of drawings, whose first always has one
 };
 struct DrawingStyle {
     double magnify = 1.0;  ///< displacements

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// output.dat, cont.dat, cont2.dat, in_gm.dat and events.csv of a deck's run: shown, and shortened for the next part.
+// The outputs of a deck's run and its in_gm.dat: shown, and shortened for the next part.
 
 #include "solver/demseg/outputs.hpp"
 
@@ -9,13 +9,16 @@
 #include "tests/fuzz/targets.hpp"
 
 void crackle::fuzz::deck_outputs(std::string_view bytes) {
-    const auto [output, forces, details, geometry, events] = files_of<5>(bytes);
+    const auto [output, forces, details, geometry, energy, bodies, velocities, events] = files_of<8>(bytes);
     std::filesystem::create_directories(scratch() / "outputs");
     write_file("outputs/output.dat", output);
     write_file("outputs/cont.dat", forces);
     write_file("outputs/cont2.dat", details);
     write_file("outputs/in_gm.dat", geometry);
     write_file("outputs/events.csv", events);
+    write_file("outputs/energy.dat", energy);
+    write_file("outputs/f-d_curve.dat", bodies);
+    write_file("outputs/velocity_y.dat", velocities);
     const std::filesystem::path folder = scratch() / "outputs";
     try {
         const Recording recording = read_deck_recording(folder, 3);

@@ -13,6 +13,7 @@
 #include <pugixml.hpp>
 #include <sstream>
 
+#include "tests/support/drawn_figure.hpp"
 #include "tests/support/program_call.hpp"
 #include "tests/support/sample_results.hpp"
 #include "tests/support/small_rock.hpp"
@@ -77,50 +78,10 @@ std::vector<std::vector<unsigned char>> png_rows(const std::string& bytes) {
     return rows;
 }
 
-/// Numbers of a path as they stand in it, pairs of x and y.
-std::vector<Vec2> corners_of(const std::string& path) {
-    std::vector<double> numbers;
-    for (const char* at = path.c_str(); *at != '\0';) {
-        char* end = nullptr;
-        const double value = std::strtod(at, &end);
-        if (end == at) {
-            ++at;
-            continue;
-        }
-        numbers.push_back(value);
-        at = end;
-    }
-    std::vector<Vec2> corners;
-    for (std::size_t k = 0; k + 1 < numbers.size(); k += 2) corners.push_back({numbers[k], numbers[k + 1]});
-    return corners;
-}
-
 double distance_from(Vec2 point, Vec2 a, Vec2 b) {
     const Vec2 along = b - a;
     const double square = dot(along, along), share = square > 0.0 ? dot(point - a, along) / square : 0.0;
     return norm(point - a - std::clamp(share, 0.0, 1.0) * along);
-}
-
-/// Open paths of an SVG, in order of their drawing, the glyphs' left out.
-std::vector<std::vector<Vec2>> lines_of(const std::string& svg) {
-    pugi::xml_document document;
-    EXPECT_TRUE(document.load_string(svg.c_str()));
-    std::vector<std::vector<Vec2>> lines;
-    for (const pugi::xpath_node& node : document.select_nodes("//*[local-name()='path']")) {
-        if (std::string(node.node().attribute("style").value()).starts_with("fill:none"))
-            lines.push_back(corners_of(node.node().attribute("d").value()));
-    }
-    return lines;
-}
-
-/// Axes drawn as down and to the right: upper left, lower left and lower right corner of each.
-std::vector<std::vector<Vec2>> frames_of(const std::string& svg) {
-    std::vector<std::vector<Vec2>> frames;
-    for (const std::vector<Vec2>& line : lines_of(svg)) {
-        if (line.size() == 3 && line[0].x == line[1].x && line[1].y == line[2].y && line[0].y < line[1].y)
-            frames.push_back(line);
-    }
-    return frames;
 }
 
 /// Ticks to the left of an axis.
@@ -462,6 +423,27 @@ TEST_F(PlotCommand, TheGuidesFiguresComeFromItsSixTests) {
     EXPECT_FALSE(exists("figures/figure30.svg"));
     expect_refused("--guide pulled -o figures", "pulled/circles_tension: found no such folder");
     expect_refused("--guide six -o pulled/curve.csv", "a file, expected a folder");
+}
+
+TEST_F(PlotCommand, LettersOfTheGuidesFirstFigureAreTheGuides) {
+    for (const auto& folder : write_six_sample_results(folder_ / "six")) {
+        std::string name = folder.filename().string();
+        name[name.find('-')] = '_';
+        fs::rename(folder, folder.parent_path() / name);
+    }
+    ASSERT_EQ(call("--guide six -o figures --format svg").code, 0);
+    const std::string svg = read("figures/figure26.svg");
+    const std::vector<Vec2> letters = letters_of(svg);
+    ASSERT_EQ(letters.size(), 4U) << "(a) packing, (b) what is left, (c) curve, (d) breaks";
+    EXPECT_EQ(letters[0].y, letters[1].y) << "in a row of drawings";
+    EXPECT_GT(letters[1].x, letters[0].x + 50.0);
+    // The curve's frame is the first, the breaks' the last.
+    const std::vector<std::vector<Vec2>> frames = frames_of(svg);
+    ASSERT_GE(frames.size(), 3U);
+    fmt::print("  (c) at {:.1f} pt, its frame from {:.1f}; (d) at {:.1f}, its frame from {:.1f}\n", letters[2].y,
+               frames.front()[0].y, letters[3].y, frames.back()[0].y);
+    EXPECT_NEAR(letters[2].y, frames.front()[0].y, 12.0);
+    EXPECT_NEAR(letters[3].y, frames.back()[0].y, 24.0);
 }
 
 TEST_F(PlotCommand, ATestWithoutFramesHasItsCurves) {

@@ -303,6 +303,39 @@ TEST_F(ViewCommand, ATestsCellsAndForcesAreThoseOfItsFrames) {
     }
 }
 
+TEST_F(ViewCommand, AnOutputStandsForItsRun) {
+    ASSERT_EQ(crackle(fmt::format("run -q '{}' -o run --steps 500", shipped_deck("clump").string())).code, 0);
+    const PageContents whole = page("run");
+    for (const char* name : {"output.dat", "cont2.dat", "energy.dat"}) {
+        const PageContents shown = page(fmt::format("run/{}", name));
+        EXPECT_EQ(shown.manifest, whole.manifest) << name;
+    }
+    const Answer answer = call("run/output.dat");
+    EXPECT_EQ(answer.out, "run/view.html\n") << answer.err;
+    EXPECT_EQ(page("run/new_in_gm.dat").test()["kind"], "particles") << "a particle file, which it is";
+    std::filesystem::create_directories(folder_ / "kept");
+    std::filesystem::rename(folder_ / "run" / "output.dat", folder_ / "kept" / "stage1.dat");
+    expect_refused("kept/stage1.dat",
+                   "kept/stage1.dat: found rows that `crackle run` wrote, expected a particle file or");
+    write_small_case(folder_, {});
+    ASSERT_EQ(crackle("test case.toml -o out -q").code, 0) << read(err_);
+    EXPECT_EQ(page("out/curve.csv").manifest, page("out").manifest);
+}
+
+TEST_F(ViewCommand, NamesTheUnitsThatADeckDoesNotState) {
+    const std::string deck = quoted(shipped_deck("clump") / "in_gm.dat");
+    EXPECT_FALSE(page(deck).manifest.contains("units"));
+    const nlohmann::json cgs = page(deck + " --units cgs").manifest["units"];
+    EXPECT_EQ(cgs["force"], "dyn");
+    EXPECT_EQ(cgs["stress"], "dyn/cm");
+    EXPECT_EQ(cgs["prefixes"], false);
+    EXPECT_EQ(page(deck + " --units si").manifest["units"]["prefixes"], true);
+    expect_refused(deck + " --units feet", "view: --units: found 'feet', expected one of si, cgs, mm-g-s");
+    write_small_case(folder_, {});
+    ASSERT_EQ(crackle("test case.toml -o out -q").code, 0) << read(err_);
+    expect_refused("out --units cgs", "view: --units: found out, a test, whose units are SI");
+}
+
 TEST_F(ViewCommand, SeveralRunsStandSideBySide) {
     const std::string deck = shipped_deck("clump").string();
     const PageContents shown = page(fmt::format("'{0}/in_gm.dat' '{0}'", deck));

@@ -34,6 +34,38 @@ TEST(Unit, HasThePrefixThatPutsTheLargestBetweenOneAndAThousand) {
     EXPECT_EQ(unit_for(3e6, "N/m or Pa").name, "MN/m or MPa");
 }
 
+TEST(Scale, LeavesOutZeroWhereTheValuesLieFarFromIt) {
+    for (const auto& [low, high] : {std::pair{10.0, 11.0}, {-11.0, -10.0}}) {
+        const Scale scale = scale_around(low, high, 5);
+        EXPECT_LT(scale.low, low);
+        EXPECT_GT(scale.low, low - 0.1 * (high - low)) << low;
+        EXPECT_GT(scale.high, high);
+        EXPECT_LT(scale.high, high + 0.1 * (high - low)) << high;
+        EXPECT_GE(scale.ticks().size(), 4U);
+    }
+    for (const auto& [low, high] : {std::pair{1.0, 11.0}, {0.0, 2.0}, {7.0, 7.0}})
+        EXPECT_EQ(scale_around(low, high, 5).low, 0.0);
+    EXPECT_GE(scale_around(-11.0, -1.0, 5).high, 0.0);
+    const Scale both = scale_around(-1.0, 2.0, 5);
+    EXPECT_LT(both.low, -1.0);
+    EXPECT_GT(both.high, 2.0);
+}
+
+TEST(Unit, ThatTakesNoPrefixHasAPowerOfAThousand) {
+    for (const auto& [largest, factor, name] : {std::tuple{3.2e7, 1e6, "10⁶ dyn"},
+                                                {1.5e4, 1e3, "10³ dyn"},
+                                                {9.9e3, 1.0, "dyn"},
+                                                {-0.02, 1.0, "dyn"},
+                                                {4e-5, 1e-6, "10⁻⁶ dyn"},
+                                                {2e13, 1e12, "10¹² dyn"},
+                                                {0.0, 1.0, "dyn"}}) {
+        const Unit unit = unit_with_power(largest, "dyn");
+        EXPECT_NEAR(unit.factor, factor, 1e-12 * factor) << largest;
+        EXPECT_EQ(unit.name, name) << largest;
+    }
+    EXPECT_EQ(unit_with_power(2e5, "").name, "10³") << "steps";
+}
+
 TEST(Axes, HaveTheirLowEndsAtTheLeftAndTheBottom) {
     const Axes axes{{10.0, 20.0, 100.0, 50.0}, {0.0, 2.0, 1.0}, {-1.0, 4.0, 1.0}};
     const Point low = axes.at(0.0, -1.0), high = axes.at(2.0, 4.0), between = axes.at(0.5, 0.0);

@@ -5,7 +5,7 @@
 import type {ECharts} from 'echarts/core';
 
 import {currentTheme} from './colours/theme';
-import {momentOfStrain} from './controls/clock';
+import {momentNear} from './controls/clock';
 import {Inspector} from './controls/inspector';
 import {listen} from './controls/keyboard';
 import {expose} from './controls/test_access';
@@ -19,6 +19,7 @@ import {button, checkbox, choice, element, saveFile} from './elements/dom';
 import {breakCard, type MapSettings} from './panels/breaks';
 import {directionWidth} from './panels/crack_directions';
 import {CurvePanel, readoutOf} from './panels/curves';
+import {DeckCurveFigure, deckPanels, withDeckCurves} from './panels/deck_curves';
 import {fragmentCard} from './panels/fragments';
 import {panels, viewsFor, type Panel, type View} from './panels/grouping';
 import {drawings, momentsOf, type Moments, magnifications} from './panels/specimen_cards';
@@ -36,6 +37,8 @@ interface State {
 
 class Page {
     private charts: CurvePanel[] = [];
+    private deckFigures: DeckCurveFigure[] = [];
+    private readonly deckHolder = element('div', {class: 'panels'});
     private beside: CurvePanel | undefined; // beside a test that is shown alone
     private readonly besideHolder = element('div', {class: 'beside-curve'});
     private readonly front = element('div', {class: 'front'});
@@ -70,6 +73,7 @@ class Page {
             await this.firstPicture(this.viewer);
         }
         this.drawCurves();
+        this.drawDeckCurves();
         this.drawBreaks();
         this.watch();
         for (const view of this.views) this.moments.push(await momentsOf(view));
@@ -89,6 +93,7 @@ class Page {
             ...(unfinished.length === 0 ? [] : [element('p', {class: 'notice warning', role: 'note'},
                 `Not failed: ${unfinished.map(({label, test}) => label + endedBy(test.summary['ended_by'])).join('; ')}. What is shown as the peak of ${unfinished.length === 1 ? 'this test' : 'these tests'} is the peak so far.`)]),
             ...(this.report.view === 'view' ? [viewer, ...curves] : [...curves, viewer]),
+            ...this.deckSection(),
             ...(this.tests.some(({test}) => onMap(test)) ? [this.breakSection()] : []),
             this.fragmentSection,
             ...(curved.length === 0 ? [] : [element('section', {id: 'summary'}, element('h2', {}, 'Summary'), summaryTable(curved))]),
@@ -97,6 +102,15 @@ class Page {
     }
 
     private unitsText(): string {
+        const {tests, units} = this.report;
+        if (tests.every(({source}) => source === 'test')) return this.testUnitsText();
+        if (units) return `forces are in ${units.force}, stresses in ${units.stress}, of a slice of unit thickness.`;
+        const own = 'lengths, forces and stresses are shown as the numbers of';
+        const name = tests.every(({source}) => source !== 'test') ? 'the deck, which does not state its units (crackle view --units names them)' : 'each file, in units of its own';
+        return `${own} ${name}; times are in s.`;
+    }
+
+    private testUnitsText(): string {
         const area = 'where stiffnesses are given of an area, stresses and moduli are those of a slice, Pa.';
         const length = 'stresses and moduli are forces per unit length, N/m';
         const tests = this.report.tests.filter(({source}) => source === 'test');
@@ -118,6 +132,17 @@ class Page {
                 'the test’s own sense. Below the curves: bonds broken in each interval of strain, by mode (', mark('tension'), ' tension, ', mark('shear'), ' shear), ',
                 'and the total so far as a line.',
                 ...(curved.some(({test}) => hasSlips(test)) ? [' In strips of their own, slips (', mark('slid'), `): ${slipMeaning}.`] : [])));
+    }
+
+    private deckSection(): HTMLElement[] {
+        const decks = withDeckCurves(this.tests);
+        if (decks.length === 0) return [];
+        const cut = decks.filter(({test: {deck}}) => deck.watched > Math.max(deck.bodies.length, deck.velocities.length))
+            .map(({label, test: {deck}}) => `${label}: the first ${Math.max(deck.bodies.length, deck.velocities.length)} of ${deck.watched} watched bodies.`);
+        return [element('section', {id: 'deck-curves'}, element('h2', {}, 'Energy and watched bodies'),
+            element('div', {class: 'controls'}, element('span', {class: 'hint'}, 'A click shows the specimen at that time. Shift and wheel zoom the time axis, dragging moves it, a double click resets it.')),
+            this.deckHolder,
+            element('p', {class: 'caption'}, 'From energy.dat, f-d_curve.dat and velocity_y.dat: parts of the energy that are 0 throughout are left out; displacements count from the first row of a body.', ...cut.map((text) => ` ${text}`)))];
     }
 
     private viewerSection(): HTMLElement {
@@ -196,7 +221,7 @@ class Page {
     private about(): string {
         const count = this.tests.length;
         const curved = withCurve(this.tests).length;
-        if (curved === 0) return this.tests.map(({test}) => `${test.name}: ${counted(particleCount(test.cells))} particles, ${counted(test.frames.length)} ${test.frames.length === 1 ? 'frame' : 'frames'}`).join(' · ');
+        if (curved === 0) return this.tests.map(({test}) => `${test.name}: ${countOf(particleCount(test.cells), 'particle')}, ${countOf(test.frames.length, 'frame')}`).join(' · ');
         return `${count} virtual ${count === 1 ? 'test' : 'tests'}: ${this.tests.map(({label}) => label).join(' · ')}`;
     }
 
@@ -218,6 +243,7 @@ class Page {
     private redraw(): void {
         this.applyTheme();
         this.drawCurves();
+        this.drawDeckCurves();
         this.drawBreaks();
         this.drawFragments();
         this.drawSpecimens();
@@ -295,12 +321,32 @@ class Page {
                 return strain === undefined ? [] : [{value: strain / strainFactor, colour: theme.series[member.colour % theme.series.length]!}];
             }));
         }
+        for (const figure of this.deckFigures) figure.showTime(this.viewer?.shownOf(figure.panel.test)?.time);
+    }
+
+    private drawDeckCurves(): void {
+        for (const figure of this.deckFigures) figure.dispose();
+        const theme = currentTheme(), decks = withDeckCurves(this.tests);
+        this.deckFigures = decks.flatMap((deck) => deckPanels(deck, decks.length > 1)).map((panel) => new DeckCurveFigure(panel, theme, (time) => {
+            this.goTo(({test}) => test === panel.test, 'time', time);
+            this.showViewer();
+        }));
+        this.deckHolder.replaceChildren(...this.deckFigures.map(({element: figure}) => figure));
+        for (const figure of this.deckFigures) {
+            figure.draw();
+            figure.onZoom(() => this.moveCursors());
+        }
+        this.moveCursors();
     }
 
     private goToStrain(panel: Panel, strain: number): void {
+        this.goTo(({test}) => panel.members.some((member) => member.test === test), 'strain', strain);
+    }
+
+    /// @param ofPanel  whether a curve that was clicked at is of this test
+    private goTo(ofPanel: (view: SpecimenView) => boolean, axis: 'strain' | 'time', value: number): void {
         const {viewer} = this;
         if (!viewer) return;
-        const ofPanel = ({test}: SpecimenView) => panel.members.some((member) => member.test === test);
         let view = viewer.chosen.find(ofPanel);
         if (!view) {
             // None of the panel's tests is shown: show its first one.
@@ -309,7 +355,7 @@ class Page {
             viewer.choose({test: viewer.tests.indexOf(view)});
             this.controls?.build();
         }
-        viewer.clock.goTo(momentOfStrain(view.test, viewer.clock.axis, strain));
+        viewer.clock.goTo(momentNear(view.test, viewer.clock.axis, axis, value));
     }
 
     private drawSpecimens(): void {
@@ -321,6 +367,10 @@ class Page {
             for (const chart of this.charts) chart.resize();
             this.moveCursors();
         }).observe(this.panelHolder);
+        new ResizeObserver(() => {
+            for (const figure of this.deckFigures) figure.resize();
+            this.moveCursors();
+        }).observe(this.deckHolder);
         new ResizeObserver(() => {
             this.drawBeside();
             this.beside?.resize();
@@ -349,6 +399,10 @@ function onMap(test: TestData): boolean {
     return test.events.count > 0 || hasSlips(test);
 }
 
+function countOf(count: number, what: string): string {
+    return `${counted(count)} ${what}${count === 1 ? '' : 's'}`;
+}
+
 function endedBy(reason: unknown): string {
     return typeof reason === 'string' && reason !== '' ? ` (ended by ${reason})` : '';
 }
@@ -361,7 +415,7 @@ async function start(): Promise<void> {
     const root = document.getElementById('page')!;
     try {
         const report = await readReport(document.getElementById('crackle-data'));
-        if (report.tests.some(({source}) => source !== 'test')) useFileUnits();
+        if (report.tests.some(({source}) => source !== 'test')) useFileUnits(report.units);
         else useStressUnits([...new Set(report.tests.map(stressUnitOf))].sort());
         const page = new Page(report, root);
         if (page.shownViewer) expose(page.shownViewer);

@@ -28,10 +28,10 @@ export function momentsOf(test: TestData, axis: Axis): number[] {
     });
 }
 
-/// The position of a strain of one test on an axis: that of the frame nearest to it.
-export function momentOfStrain(test: TestData, axis: Axis, strain: number): number {
-    const strains = momentsOf(test, 'strain'), before = lastAtOrBefore(strains, strain), after = Math.min(strains.length - 1, before + 1);
-    const nearest = Math.abs(strains[after]! - strain) < Math.abs(strains[before]! - strain) ? after : before;
+/// The position on an axis of the frame of one test that is nearest to a value on another: to a strain or a time.
+export function momentNear(test: TestData, axis: Axis, other: 'strain' | 'time', value: number): number {
+    const values = momentsOf(test, other), before = lastAtOrBefore(values, value), after = Math.min(values.length - 1, before + 1);
+    const nearest = Math.abs(values[after]! - value) < Math.abs(values[before]! - value) ? after : before;
     return momentsOf(test, axis)[nearest]!;
 }
 

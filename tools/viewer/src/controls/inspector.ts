@@ -14,11 +14,11 @@ import {button, element, select} from '../elements/dom';
 import {fontFamily} from '../elements/sheet';
 import {movedCentre} from '../geometry/rigid_motion';
 import {quantitiesOf, type Quantity} from '../quantities/quantities';
-import {missing, ofStress, quantity as withUnit, scaleFor, significant, strainFactor, thinSpace} from '../quantities/units';
+import {missing, ofStress, quantity as withUnit, scaleFor, significant, strainFactor, suffixOf, titled} from '../quantities/units';
 import {momentsOf} from './clock';
 import type {Picked, Viewer} from './viewer';
 
-const chartTop = 22, chartBottom = 34; // px
+const chartLeft = 44, chartTop = 22, chartBottom = 34; // px
 const bondBroken = 2;
 const wallNames: Record<number, string> = {[-1]: 'left wall', [-2]: 'right wall', [-3]: 'bottom wall', [-4]: 'top wall'};
 
@@ -94,14 +94,14 @@ export class Inspector {
         this.chart?.dispose();
         this.chart = echarts.init(this.figure, null, {renderer: 'svg'});
         this.chart.setOption({
-            animation: false, grid: {left: 44, right: 8, top: chartTop, bottom: chartBottom},
+            animation: false, grid: {left: chartLeft, right: 8, top: chartTop, bottom: chartBottom},
             xAxis: {
                 type: 'value', max: 'dataMax', axisLine: line, splitLine: {show: false}, axisLabel: {...text, hideOverlap: true, showMaxLabel: false}, splitNumber: 3,
                 name: {strain: 'Strain [10⁻³]', share: 'Strain / strain at peak', time: 'Time [s]', frame: 'Frame'}[axis], nameLocation: 'middle', nameGap: 19, nameTextStyle: text,
             },
             yAxis: {
                 type: 'value', axisLine: line, splitLine: {lineStyle: {color: theme.grid}}, axisLabel: text, splitNumber: 3, scale: true,
-                name: scale.unit, nameLocation: 'end', nameGap: 8, nameTextStyle: {...text, align: 'right'},
+                name: suffixOf(scale).trim(), nameLocation: 'end', nameGap: 8, nameTextStyle: {...text, align: 'left', padding: [0, 0, 0, -chartLeft]},
             },
             series: [{
                 type: 'line', showSymbol: false, data: [...values].map((value, index) => [this.onAxis(view, index), value / scale.factor]),
@@ -124,7 +124,7 @@ function valueTable({view, cell}: Picked, frame: Frame): HTMLElement {
     const {cells} = view.test, centre = movedCentre(cells, frame, cell, 1), radius = cells.radius[cell]!;
     const pair = (x: number, y: number, unit: string, name: string) => {
         const scale = scaleFor([x, y], unit), one = (value: number) => significant(value / scale.factor, 3, frame.resolution(name, value) / scale.factor);
-        return `${one(x)}, ${one(y)}${thinSpace}${scale.unit}`;
+        return scale.power === '' ? `${one(x)}, ${one(y)}${suffixOf(scale)}` : `(${one(x)}, ${one(y)})${suffixOf(scale)}`;
     };
     const one = (value: number, unit: string, name: string) => withUnit(value, unit, 3, frame.resolution(name, value));
     const field = (name: string) => frame.field(name)?.[cell];
@@ -149,7 +149,8 @@ function valueTable({view, cell}: Picked, frame: Frame): HTMLElement {
 function areaText(value: number): string {
     // The prefix of an area is that of its square's side.
     const side = scaleFor([Math.sqrt(value)], 'm');
-    return `${significant(value / side.factor ** 2)}${thinSpace}${side.unit}${side.unit.endsWith('m') ? '²' : ''}`;
+    if (side.power !== '') return significant(value) + suffixOf({...side, power: '', unit: side.unit === '' ? '' : `${side.unit}²`});
+    return significant(value / side.factor ** 2) + suffixOf({...side, unit: side.unit === '' ? '' : `${side.unit}²`});
 }
 
 function contactTable(view: SpecimenView, frame: Frame, cell: number, open: boolean): HTMLElement {
@@ -159,7 +160,7 @@ function contactTable(view: SpecimenView, frame: Frame, cell: number, open: bool
     return element('details', open ? {open: ''} : {},
         element('summary', {}, `${touches.length} contact ${touches.length === 1 ? 'point' : 'points'}`),
         ...(touches.length === 0 ? [] : [element('table', {class: 'touches'},
-            element('tr', {}, element('th', {scope: 'col'}, 'with'), element('th', {scope: 'col', title: 'compression positive'}, `Fn [${scale.unit}]`), element('th', {scope: 'col'}, `Fs [${scale.unit}]`), element('th', {scope: 'col'}, '')),
+            element('tr', {}, element('th', {scope: 'col'}, 'with'), element('th', {scope: 'col', title: 'compression positive'}, titled('Fn', scale)), element('th', {scope: 'col'}, titled('Fs', scale)), element('th', {scope: 'col'}, '')),
             ...touches.map(({with: other, fn, fs, array, kind}) => element('tr', {}, element('td', {}, other), element('td', {}, force(fn, array)), element('td', {}, force(fs, array)), element('td', {class: 'kind'}, kind))))]));
 }
 

@@ -8,6 +8,7 @@ import type {ViewerControls} from './viewer_controls';
 export function listen(viewer: Viewer, controls: ViewerControls, within: HTMLElement, everywhere: boolean): void {
     document.addEventListener('keydown', (event) => {
         const target = event.target as HTMLElement;
+        if (copies(event) && (everywhere || within.contains(target)) && !controls.help.open && controls.copy()) event.preventDefault();
         if (event.ctrlKey || event.metaKey || event.altKey || controls.help.open) return;
         if (!everywhere && !within.contains(target)) return;
         if (target.matches('select, input[type="text"]')) return;
@@ -16,6 +17,12 @@ export function listen(viewer: Viewer, controls: ViewerControls, within: HTMLEle
         if (target.matches('button, summary, input[type="checkbox"]') && event.key === ' ') return;
         if (act(event, viewer, controls)) event.preventDefault();
     });
+}
+
+/// Ctrl C, unless it is to copy selected text.
+function copies(event: KeyboardEvent): boolean {
+    const target = event.target as HTMLElement;
+    return (event.ctrlKey || event.metaKey) && !event.altKey && !event.shiftKey && event.key === 'c' && getSelection()?.isCollapsed !== false && !target.matches('input[type="text"]');
 }
 
 function act(event: KeyboardEvent, viewer: Viewer, controls: ViewerControls): boolean {

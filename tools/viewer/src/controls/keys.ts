@@ -13,6 +13,7 @@ export const keyList: readonly (readonly [string, string])[] = [
     ['c', 'colour by the next quantity; with Shift, by the previous one'],
     ['m', 'magnify displacements: ×1, ×10, ×100'],
     ...Object.entries(layerKeys).map(([key, layer]) => [key, `show, hide ${layerNames[layer].toLowerCase()}`] as const),
+    ['Ctrl C', 'copy the picture'],
     ['Esc', 'deselect the picked particle'],
     ['?', 'this list'],
 ];

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The view as a file: PNG, SVG, an animated GIF (gifenc), or a video if the browser can record one.
+// The view as a file: PNG, SVG, an animated GIF (gifenc), or a video if the browser can record one; or on the clipboard.
 
 import {applyPalette, GIFEncoder, quantize} from 'gifenc';
 
@@ -14,11 +14,26 @@ type Report = (text: string) => void;
 
 const nameOf = (viewer: Viewer): string => (viewer.chosen.length === 1 ? viewer.chosen[0]!.test.name : 'tests');
 
-export async function savePng(viewer: Viewer): Promise<void> {
+async function pngOf(viewer: Viewer): Promise<Blob> {
     await viewer.settled();
     const picture = viewer.picture.compose(viewer.picture.stage.stillRatio());
     const blob = await new Promise<Blob | null>((resolve) => picture.toBlob(resolve, 'image/png'));
-    if (blob) saveFile(`${nameOf(viewer)}.png`, 'image/png', blob);
+    if (!blob) throw new Error('the browser made no PNG of the picture');
+    return blob;
+}
+
+export async function savePng(viewer: Viewer): Promise<void> {
+    saveFile(`${nameOf(viewer)}.png`, 'image/png', await pngOf(viewer));
+}
+
+/// Whether this browser lets a page put pictures on the clipboard: some do so only for pages that came over https.
+export const canCopy = (): boolean => typeof ClipboardItem !== 'undefined' && navigator.clipboard !== undefined;
+
+/// @return for the reader
+export async function copyPng(viewer: Viewer): Promise<string> {
+    // The promise, not the picture: browsers ask for the item in the same turn as the click.
+    await navigator.clipboard.write([new ClipboardItem({'image/png': pngOf(viewer)})]);
+    return 'Copied to the clipboard';
 }
 
 export function saveSvg(viewer: Viewer): void {

@@ -9,7 +9,7 @@ import {icon} from '../elements/icons';
 import {largestMagnifiedAngle} from '../geometry/rigid_motion';
 import {axisNames, clockText, type Axis} from './clock';
 import {keyList} from './keys';
-import {gifFrames, saveAnimation, saveGif, savePng, saveSvg, videoType} from './saving';
+import {canCopy, copyPng, gifFrames, saveAnimation, saveGif, savePng, saveSvg, videoType} from './saving';
 import type {Viewer} from './viewer';
 
 const speeds = ['0.1', '0.25', '0.5', '1', '2', '4', '8'] as const;
@@ -26,6 +26,7 @@ export class ViewerControls {
     private readonly announcement = element('span', {class: 'unseen', 'aria-live': 'polite'});
     private readonly busy = element('span', {class: 'busy', role: 'status'});
     private readonly choices = element('div', {class: 'choices'});
+    private copyButton: HTMLButtonElement | undefined;
 
     constructor(private readonly viewer: Viewer) {
         const {clock} = viewer;
@@ -101,6 +102,12 @@ export class ViewerControls {
             }, {class: 'magnification', title: `Rotations are magnified up to ${largestMagnifiedAngle} rad`})] : [])));
     }
 
+    /// Puts the picture on the clipboard. @return whether this browser lets it
+    copy(): boolean {
+        this.copyButton?.click();
+        return this.copyButton !== undefined;
+    }
+
     private testList(which: 'test' | 'other', label: string): HTMLElement {
         const {viewer} = this;
         return select(label, viewer.tests.map(({labelled}, at) => ({value: String(at), text: labelled.label})), String(viewer.settings[which]), (test) => {
@@ -128,19 +135,19 @@ export class ViewerControls {
         const {viewer} = this;
         const report = (text: string) => { this.busy.textContent = text; };
         const buttons: HTMLButtonElement[] = [];
-        const saver = (name: string, title: string, save: () => Promise<void> | void, key: string) => {
+        type Save = () => Promise<string | void> | void; // what it reports, if anything
+        const saver = (name: string, title: string, save: Save, key: string) => {
             const one = button(name, title, () => void run(save), {'data-save': key});
             buttons.push(one);
             return one;
         };
         // One at a time: each of them steps the clock through all frames.
-        const run = async (save: () => Promise<void> | void) => {
+        const run = async (save: Save) => {
             for (const one of buttons) one.disabled = true;
             try {
-                await save();
-                report('');
+                report(await save() || '');
             } catch (error) {
-                report(`Not saved: ${error instanceof Error ? error.message : String(error)}`);
+                report(`Not done: ${error instanceof Error ? error.message : String(error)}`);
             } finally {
                 for (const one of buttons) one.disabled = false;
             }
@@ -152,6 +159,7 @@ export class ViewerControls {
                 saver('GIF', `All frames as an animated GIF; at most ${gifFrames} frames, evenly spaced`, () => saveGif(viewer, report), 'gif'),
                 ...(videoType() ? [saver('Video', 'All frames as a video', () => saveAnimation(viewer, report), 'video')] : []),
             ] : []),
+            ...(canCopy() ? [this.copyButton = saver('Copy', 'The picture on the clipboard (Ctrl C)', () => copyPng(viewer), 'copy')] : []),
             button('?', 'Keys (?)', () => this.help.showModal(), {'aria-label': 'Keys'})));
     }
 }

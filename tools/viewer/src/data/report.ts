@@ -33,6 +33,12 @@ export interface GroupEntry {
     arrays: Record<string, CodedEntry>;
 }
 
+/// Bodies of a deck that have curves on the page, and how many the run wrote curves of.
+interface ListedBodies {
+    ids: number[];
+    of: number;
+}
+
 interface TestEntry {
     name: string; // unique on the page
     kind: 'test' | 'deck' | 'particles';
@@ -40,6 +46,7 @@ interface TestEntry {
     walls?: [number, number, number, number];
     sides?: [number, number]; // m, left and right of what the frames show, splinters far off left out
     velocities?: 'mean'; // between two frames
+    curves?: {in_time: boolean; bodies: ListedBodies; velocities: ListedBodies}; // of a deck
     arrays: Record<string, ArrayEntry>;
     frames: FrameEntry[];
     groups: GroupEntry[];
@@ -50,7 +57,18 @@ interface Manifest {
     title: string;
     version: string;
     view: 'report' | 'view';
+    units?: UnitNames;
     tests: TestEntry[];
+}
+
+/// What the units of particle files and decks are called: missing where the page does not know.
+export interface UnitNames {
+    length: string;
+    velocity: string;
+    force: string;
+    energy: string;
+    stress: string;
+    prefixes: boolean; // as in kN: the units are those that prefixes go with
 }
 
 /// summary.json as the test wrote it; keys and units are listed in specimens/results/FILES.md.
@@ -60,6 +78,19 @@ export interface Curve {
     strain: NumberArray; // -, positive for the test's own kind
     stress: NumberArray; // N/m, same sign convention
     bondsBroken: NumberArray; // so far
+}
+
+/// Columns of energy.dat, in its order.
+export const energyNames = ['enrg', 'enva', 'enka', 'enca', 'enfr', 'enxd', 'enxf', 'err', 'enfb'] as const;
+export type EnergyName = (typeof energyNames)[number];
+
+/// What a deck's run wrote every nprn2 steps, over time (over steps, where the page has no times), in the deck's units.
+export interface DeckCurves {
+    inTime: boolean;
+    energy: {time: NumberArray; parts: Record<EnergyName, NumberArray>};
+    bodies: {id: number; time: NumberArray; forceX: NumberArray; x: NumberArray; forceY: NumberArray; y: NumberArray}[];
+    velocities: {id: number; time: NumberArray; vy: NumberArray}[];
+    watched: number; // bodies that the run wrote curves of: the page has the first ones
 }
 
 /// What happened to bonds, in the order of time.
@@ -102,6 +133,7 @@ export interface TestData {
     walls: TestEntry['walls'];
     sides: TestEntry['sides'];
     curve: Curve | undefined; // only of a test
+    deck: DeckCurves | undefined; // only of a deck
     events: Events;
     slips: BondEvents | undefined; // first arrivals of bonds at their Coulomb limit; undefined where the test did not record them
     cells: Cells;
@@ -117,6 +149,7 @@ export interface Report {
     title: string;
     version: string;
     view: Manifest['view'];
+    units: UnitNames | undefined;
     tests: TestData[];
 }
 
@@ -138,6 +171,16 @@ async function unpackTest(entry: TestEntry, index: number): Promise<TestData> {
         y: optional(`${prefix}.y`),
         orientation: optional(`${prefix}.orientation`),
     });
+    const deckCurves = ({in_time: inTime, bodies, velocities}: NonNullable<TestEntry['curves']>): DeckCurves => ({
+        inTime,
+        energy: {time: array('energy.time'), parts: Object.fromEntries(energyNames.map((name) => [name, array(`energy.${name}`)])) as Record<EnergyName, NumberArray>},
+        bodies: bodies.ids.map((id) => {
+            const of = (name: string) => array(`body.${id}.${name}`);
+            return {id, time: of('time'), forceX: of('force_x'), x: of('x'), forceY: of('force_y'), y: of('y')};
+        }),
+        velocities: velocities.ids.map((id) => ({id, time: array(`velocity.${id}.time`), vy: array(`velocity.${id}.vy`)})),
+        watched: Math.max(bodies.of, velocities.of),
+    });
     return {
         index,
         name: entry.name,
@@ -154,6 +197,7 @@ async function unpackTest(entry: TestEntry, index: number): Promise<TestData> {
             stress: array('curve.axial_stress'),
             bondsBroken: array('curve.bonds_broken'),
         } : undefined,
+        deck: entry.curves && deckCurves(entry.curves),
         events: {
             ...bondEvents('events'),
             energy: optional('events.energy'),
@@ -198,6 +242,7 @@ export async function readReport(source: HTMLElement | null): Promise<Report> {
         title: manifest.title,
         version: manifest.version,
         view: manifest.view,
+        units: manifest.units,
         tests: await Promise.all(manifest.tests.map(unpackTest)),
     };
 }

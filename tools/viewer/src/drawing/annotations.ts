@@ -6,7 +6,7 @@ import type {Frame} from '../data/frames';
 import {peakOf, type TestData} from '../data/report';
 import type {Sheet, TextStyle} from '../elements/sheet';
 import {movedCentre} from '../geometry/rigid_motion';
-import {quantity, strain, stressText} from '../quantities/units';
+import {counted, quantity, strain, stressText} from '../quantities/units';
 import type {SpecimenView} from './specimen_view';
 import type {Pane, Placing} from './stage';
 
@@ -62,18 +62,37 @@ export function drawScaleBar(sheet: Sheet, pane: Pane, placing: Placing, theme: 
 const numberSize = 10; // px, letters
 const digitWidth = 6.2;
 
-export function drawNumbers(sheet: Sheet, pane: Pane, placing: Placing, view: SpecimenView, frame: Frame, magnification: number, theme: Theme): void {
+/// How many particles have their numbers in the picture.
+export interface Numbered {
+    shown: number;
+    all: number; // that the pane shows
+}
+
+export function drawNumbers(sheet: Sheet, pane: Pane, placing: Placing, view: SpecimenView, frame: Frame, magnification: number, theme: Theme): Numbered {
     const {cells} = view.test, {rectangle} = pane;
-    if (view.meanSize * placing.scale < digitWidth) return;
+    const numbered = {shown: 0, all: 0};
     for (let cell = 0; cell < cells.count; ++cell) {
         if (cells.open[cell] === 1) continue;
-        const number = String(cells.id[cell]), room = sizeOf(view, cell) * placing.scale;
-        if (room < digitWidth * number.length + 3) continue;
         const centre = movedCentre(cells, frame, cell, magnification);
         const x = placing.x + (centre.x - view.origin.x) * placing.scale, y = placing.y - (centre.y - view.origin.y) * placing.scale;
         if (x < 0 || y < 0 || x > rectangle.width || y > rectangle.height) continue;
+        numbered.all += 1;
+        const number = String(cells.id[cell]), room = sizeOf(view, cell) * placing.scale;
+        if (room < digitWidth * number.length + 3) continue;
+        numbered.shown += 1;
         sheet.text(rectangle.x + x, rectangle.y + y + 3.5, number, {size: numberSize, colour: theme.ink, align: 'center', halo: theme.background});
     }
+    return numbered;
+}
+
+/// Below the particles, where some have no number: that there is no room for it.
+export function drawNumberNote(sheet: Sheet, pane: Pane, {shown, all}: Numbered, theme: Theme): void {
+    if (shown === all) return;
+    const {x, y, width, height} = pane.rectangle;
+    const text = shown === 0 ? 'Zoom in to see the numbers' : `Numbers of ${counted(shown)} of ${counted(all)} particles fit: zoom in to see the others`;
+    const style: TextStyle = {size: 11, colour: theme.muted, align: 'right', halo: theme.background};
+    const beside = width - 150; // px, beside the scale bar
+    sheet.text(x + width - 9, y + height - (sheet.widthOf(text, style) < beside ? 5 : 22), text, style);
 }
 
 /// Width available for a number: the diameter, or about that of a polygon's shorter side.

@@ -6,7 +6,7 @@ import {css, paletteSize, type Rgb} from '../colours/palettes';
 import type {Theme} from '../colours/theme';
 import type {Sheet, TextStyle} from '../elements/sheet';
 import type {ForceScale} from '../quantities/ranges';
-import {quantity, scaleFor, significant, thinSpace} from '../quantities/units';
+import {quantity, scaleFor, significant, thinSpace, titledInFull} from '../quantities/units';
 import {smallestForceShown} from './drawn_lines';
 import type {Layer} from './settings';
 import type {Look} from './specimen_view';
@@ -81,7 +81,8 @@ function drawColours(sheet: Sheet, {quantity: shown, range, palette, names}: Col
     const end = (value: number) => significant(value / scale.factor);
     const diverging = shown.scaling === 'diverging';
     const name = shown.key.startsWith('stress') && diverging ? `${shown.name}, compression positive` : shown.name;
-    return Math.max(barWidth, drawBar(sheet, `${name} [${scale.unit}]`, palette,
+    const title = titledInFull(name, scale);
+    return Math.max(barWidth, drawBar(sheet, title, palette,
         diverging ? `${range.least < range.low ? `≤${thinSpace}` : ''}${end(range.low)}` : '0', `${range.most > range.high ? `≥${thinSpace}` : ''}${end(range.high)}`,
-        theme, x, top, diverging ? '0' : end(range.high / 2)), sheet.widthOf(`${name} [${scale.unit}]`, small(theme)));
+        theme, x, top, diverging ? '0' : end(range.high / 2)), sheet.widthOf(title, small(theme)));
 }

@@ -8,7 +8,7 @@ import type {Frame} from '../data/frames';
 import {element, svgElement} from '../elements/dom';
 import {CanvasSheet, SvgSheet, type Sheet} from '../elements/sheet';
 import {TextOverlay} from '../elements/text_overlay';
-import {drawNumbers, drawScaleBar, drawTitles, magnified, momentText} from './annotations';
+import {drawNumberNote, drawNumbers, drawScaleBar, drawTitles, magnified, momentText, type Numbered} from './annotations';
 import {drawLegend, legendHeight} from './legend';
 import {paneAsSvg} from './picture_svg';
 import type {Look, SpecimenView} from './specimen_view';
@@ -102,7 +102,7 @@ export class Picture {
         }
         const numbered = [...this.shown.values()].some(({look}) => look.settings.layers.numbers);
         this.numbers.svg.toggleAttribute('hidden', !numbered);
-        if (numbered) this.numbers.write({x: 0, y: 0, width: this.width, height: this.height}, (sheet) => this.stage.panes.forEach((pane) => this.writeNumbers(sheet, pane)));
+        if (numbered) this.numbers.write({x: 0, y: 0, width: this.width, height: this.height}, (sheet) => this.stage.panes.forEach((pane) => this.writeNumbersWithNote(sheet, pane)));
     }
 
     private annotate(sheet: Sheet): void {
@@ -121,10 +121,21 @@ export class Picture {
         })), theme);
     }
 
-    private writeNumbers(sheet: Sheet, pane: Pane): void {
+    private writeNumbers(sheet: Sheet, pane: Pane): Numbered {
+        const all = {shown: 0, all: 0};
         for (const {view, frame, look} of this.shownIn(pane)) {
-            if (look.settings.layers.numbers) drawNumbers(sheet, pane, this.stage.placing(pane), view, frame, look.settings.magnification, look.theme);
+            if (!look.settings.layers.numbers) continue;
+            const one = drawNumbers(sheet, pane, this.stage.placing(pane), view, frame, look.settings.magnification, look.theme);
+            all.shown += one.shown;
+            all.all += one.all;
         }
+        return all;
+    }
+
+    /// Not in files: nobody can zoom there.
+    private writeNumbersWithNote(sheet: Sheet, pane: Pane): void {
+        const numbered = this.writeNumbers(sheet, pane);
+        if (this.theme) drawNumberNote(sheet, pane, numbered, this.theme);
     }
 
     private writeScale(sheet: Sheet, pane: Pane): void {

@@ -12,7 +12,7 @@ import type {LabelledTest} from '../data/test_labels';
 import {element, saveFile, svgText} from '../elements/dom';
 import {fontFamily} from '../elements/sheet';
 import {extentOfBondEvents} from '../geometry/extent';
-import {counted, quantity, scaleFor, significant} from '../quantities/units';
+import {counted, quantity, scaleFor, significant, titled} from '../quantities/units';
 import {drawRose} from './rose';
 
 /// What the maps show.
@@ -99,8 +99,8 @@ function drawMap(container: HTMLElement, test: TestData, {colour, slips}: MapSet
     };
     chart.setOption({
         animation: false, grid: {left, width: inner, top, bottom},
-        xAxis: {...axis, min: extent.x1 / scale.factor, max: extent.x2 / scale.factor, name: `x [${scale.unit}]`, nameGap: 24, splitNumber: 3},
-        yAxis: {...axis, min: extent.y1 / scale.factor, max: extent.y2 / scale.factor, name: `y [${scale.unit}]`, nameGap: 40},
+        xAxis: {...axis, min: extent.x1 / scale.factor, max: extent.x2 / scale.factor, name: titled('x', scale), nameGap: 24, splitNumber: 3},
+        yAxis: {...axis, min: extent.y1 / scale.factor, max: extent.y2 / scale.factor, name: titled('y', scale), nameGap: 40},
         series: [...(slips && hasSlips(test) ? [slipMarks(test.slips)] : []), {
             type: 'scatter', silent: true, z: 3,
             data: order.map((event) => ({

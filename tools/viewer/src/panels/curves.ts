@@ -17,7 +17,7 @@ import {unique} from '../data/test_labels';
 import {Cursor} from '../elements/chart_cursor';
 import {element} from '../elements/dom';
 import {fontFamily} from '../elements/sheet';
-import {counted, ofStress, quantity, scaleFor, significant, strain as strainText, strainFactor, strainUnit, stressText, type Scale} from '../quantities/units';
+import {counted, ofStress, quantity, scaleFor, significant, strain as strainText, strainFactor, strainUnit, stressText, titled, type Scale} from '../quantities/units';
 import {countIn, intervalOf, intervalWidth} from './event_histogram';
 import type {Member, Panel} from './grouping';
 import {pairs, stripSeries, stripsOf, type Strip, type StripKind} from './strips';
@@ -74,7 +74,7 @@ export function layoutOf({title, members}: Panel, width: number, height?: number
 }
 
 /// Value of a curve's column at a strain, linear between rows; undefined outside the test.
-function valueAt(strains: ArrayLike<number>, values: ArrayLike<number>, at: number): number | undefined {
+export function valueAt(strains: ArrayLike<number>, values: ArrayLike<number>, at: number): number | undefined {
     const count = strains.length;
     if (count === 0 || at < strains[0]! || at > strains[count - 1]!) return undefined;
     let low = 0, high = count - 1;
@@ -96,7 +96,7 @@ function roundUp(value: number): number {
         .find((step) => step >= value && Number.isInteger(step)) ?? Math.ceil(value);
 }
 
-const tickText = (value: number): string => (Number.isInteger(value) ? counted(value) : String(value).replace('-', '−'));
+export const tickText = (value: number): string => (Number.isInteger(value) ? counted(value) : String(value).replace('-', '−'));
 
 /// The kinds of strips that a panel has.
 function kindsOf(strips: readonly Strip[]): StripKind[] {
@@ -204,7 +204,7 @@ export function panelOption(panel: Panel, {top, legendTop, legendWidth, stressHe
     }));
     const yAxis: object[] = [{
         type: 'value', gridIndex: 0, axisLine, axisTick, splitLine: {lineStyle: {color: theme.grid}}, axisLabel: {...text, formatter: tickText}, splitNumber: 6, boundaryGap: [0, '7%'],
-        name: `Axial stress [${scale.unit}]`, nameLocation: 'middle', nameGap: 44, nameTextStyle: {...text, fontSize: 13},
+        name: titled('Axial stress', scale), nameLocation: 'middle', nameGap: 44, nameTextStyle: {...text, fontSize: 13},
         axisPointer: {show: false},
     }];
     strips.forEach(({histogram, soFar}, index) => {

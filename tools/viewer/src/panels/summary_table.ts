@@ -4,7 +4,7 @@
 import {inArea, numberOf, type TestData} from '../data/report';
 import {capitalised, sortedBy, specimenName, type LabelledTest} from '../data/test_labels';
 import {element} from '../elements/dom';
-import {counted, missing, scaleFor, significant, strainFactor, strainUnit} from '../quantities/units';
+import {counted, missing, scaleFor, significant, strainFactor, strainUnit, unitOf} from '../quantities/units';
 import {modeCounts} from './event_histogram';
 
 type Read = (test: TestData) => number | undefined;
@@ -25,7 +25,7 @@ function measured(name: string, unit: string, read: Read, note?: string): Row {
         cells: (tests) => {
             const values = tests.map(read);
             const scale = scaleFor(values, unit);
-            return {unit: scale.unit, values: values.map((value) => (value === undefined ? undefined : significant(value / scale.factor)))};
+            return {unit: unitOf(scale), values: values.map((value) => (value === undefined ? undefined : significant(value / scale.factor)))};
         },
     };
 }

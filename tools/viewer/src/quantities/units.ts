@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Numbers for readers: SI prefixes, significant digits, typographic minus and powers of ten.
 
+import type {UnitNames} from '../data/report';
+
 const prefixes: readonly [number, string][] = [
     [1e12, 'T'], [1e9, 'G'], [1e6, 'M'], [1e3, 'k'], [1, ''], [1e-3, 'm'], [1e-6, 'µ'], [1e-9, 'n'], [1e-12, 'p'],
 ];
@@ -11,16 +13,20 @@ export const thinSpace = '\u202f';
 
 export interface Scale {
     factor: number; // shown value = value / factor
-    unit: string; // with its prefix
+    power: string; // "10⁶", of a unit that takes no prefix
+    unit: string; // with its prefix; empty where the page does not know it
 }
 
-/// Units that particle files and decks do not define; angles and times always have units.
-const undefinedUnits = /^(m|m²|m\/s|N|N\/m)$/;
-let unitsKnown = true;
+/// Units that particle files and decks do not state; angles and times always have units.
+const unstated: Record<string, Exclude<keyof UnitNames, 'prefixes'>> = {m: 'length', 'm/s': 'velocity', N: 'force', J: 'energy', 'N/m': 'stress'};
+let statedUnits = true;
+let unitNames: UnitNames | undefined;
 
-/// From here on lengths and forces are shown as plain numbers: for a page that shows more than tests.
-export function useFileUnits(): void {
-    unitsKnown = false;
+/// From here on lengths and forces have the units of particle files and decks: for a page that shows more than tests.
+/// @param names  what the user calls them; undefined: they are shown as plain numbers
+export function useFileUnits(names: UnitNames | undefined): void {
+    statedUnits = names?.prefixes === true;
+    unitNames = names;
 }
 
 /// Stands for the unit of stresses and moduli, which depends on the tests of the page.
@@ -35,10 +41,40 @@ export function useStressUnits(units: readonly string[]): void {
 /// The prefix that puts the largest of the values between 1 and 1000.
 export function scaleFor(values: readonly (number | undefined)[], unit: string): Scale {
     const names = unit === ofStress ? stressUnits : [unit];
-    if (!unitsKnown && names.some((name) => undefinedUnits.test(name))) return {factor: 1, unit: 'file’s units'};
     const largest = Math.max(0, ...values.map((value) => Math.abs(value ?? 0)).filter(Number.isFinite));
+    const kind = unstated[names[0]!];
+    if (!statedUnits && kind) return powerFor(largest, unitNames?.[kind] ?? '');
     const [factor, prefix] = (largest > 0 && prefixes.find(([size]) => largest >= size * 0.9995)) || ([1, ''] as const);
-    return {factor, unit: names.map((name) => prefix + name).join(' or ')};
+    return {factor, power: '', unit: names.map((name) => prefix + name).join(' or ')};
+}
+
+const longest = 1e4, shortest = 1e-2; // numbers without a power
+
+function powerFor(largest: number, unit: string): Scale {
+    if (largest === 0 || (largest >= shortest && largest < longest)) return {factor: 1, power: '', unit};
+    const exponent = 3 * Math.floor(Math.log10(largest) / 3);
+    return {factor: 10 ** exponent, power: `10${powerOfTen(exponent)}`, unit};
+}
+
+/// "10⁶ dyn"
+export function unitOf({power, unit}: Scale): string {
+    return [power, unit].filter((part) => part !== '').join(thinSpace);
+}
+
+/// "Force [10⁶ dyn]"; of an unknown unit the name and a power alone.
+export function titled(name: string, scale: Scale): string {
+    const inside = unitOf(scale);
+    return inside === '' ? name : `${name} [${inside}]`;
+}
+
+/// The same for an axis or a legend by itself, which says so where the unit is unknown.
+export function titledInFull(name: string, scale: Scale): string {
+    return titled(name, scale.unit === '' ? {...scale, unit: 'deck’s units'} : scale);
+}
+
+/// What follows a number: "×10⁶ dyn".
+export function suffixOf({power, unit}: Scale): string {
+    return (power === '' ? '' : `×${power}`) + (unit === '' ? '' : thinSpace + unit);
 }
 
 const withMinus = (text: string): string => text.replace('-', '−');
@@ -82,7 +118,7 @@ export function counted(value: number | undefined): string {
 export function quantity(value: number | undefined, unit: string, digits = 3, resolution = 0): string {
     if (value === undefined) return missing;
     const scale = scaleFor([value], unit);
-    return `${significant(value / scale.factor, digits, resolution / scale.factor)}${thinSpace}${scale.unit}`;
+    return significant(value / scale.factor, digits, resolution / scale.factor) + suffixOf(scale);
 }
 
 const leastStress = 0.005; // of the peak

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `crackle plot` of decks' runs: what its figures hold is what the files say.
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tests/support/deck_files.hpp"
+#include "tests/support/drawn_figure.hpp"
+#include "tests/support/program_call.hpp"
+#include "tests/support/sample_results.hpp"
+
+namespace crackle {
+namespace {
+
+using namespace testing;
+namespace fs = std::filesystem;
+
+/// Curves of decks: runs of the shipped chain of 20 discs and of the circle that falls.
+class PlotDecks : public ProgramCall {
+  protected:
+    PlotDecks() : ProgramCall("plot") {
+        for (const auto& [deck, out, steps] : {std::tuple("wave_chain", "wave", 400), {"circle", "falling", 3000}}) {
+            const int status = std::system(fmt::format("cd '{}' && '{}' run -q '{}' -o {} --steps {}", folder_.string(),
+                                                       CRACKLE_PROGRAM, shipped_deck(deck).string(), out, steps)
+                                               .c_str());
+            EXPECT_EQ(status, 0);
+        }
+    }
+    std::string drawn(const std::string& words, const std::string& file) const {
+        const Answer answer = call(words + " --force -o " + file);
+        EXPECT_EQ(answer.code, 0) << answer.err;
+        EXPECT_EQ(answer.out, file + "\n");
+        return read(file);
+    }
+    /// Polylines of many points, in the order of their drawing.
+    static std::vector<std::vector<Vec2>> curves_of(const std::string& svg) {
+        std::vector<std::vector<Vec2>> curves;
+        for (const std::vector<Vec2>& line : lines_of(svg)) {
+            if (line.size() > 20) curves.push_back(line);
+        }
+        return curves;
+    }
+};
+
+TEST_F(PlotDecks, DisplacementsOfWatchedBodiesAreThoseOfTheFile) {
+    const std::string svg = drawn("wave --what all --bodies 11 13 --width 200", "figure.svg");
+    const std::vector<std::vector<Vec2>> frames = frames_of(svg), curves = curves_of(svg);
+    ASSERT_EQ(frames.size(), 2U)
+        << "energy, and displacement along the chain: nothing moves across it, nothing is driven";
+    // Bodies 11 and 13 are drawn last. Heights of their peaks above their starts, in the ratio of the file's.
+    const auto rise_drawn = [&](std::size_t from_end) {
+        const std::vector<Vec2>& curve = curves[curves.size() - from_end];
+        double highest = curve.front().y;
+        for (const Vec2 point : curve) highest = std::min(highest, point.y);
+        return curve.front().y - highest;
+    };
+    const auto rise_in_file = [&](double body) {
+        const Rows rows = rows_of(read_rows(folder_ / "wave" / "f-d_curve.dat"), 1, body);
+        double most = 0.0;
+        for (const auto& row : rows) most = std::max(most, row[3] - rows.front()[3]);
+        return most;
+    };
+    const double expected = rise_in_file(13.0) / rise_in_file(11.0), got = rise_drawn(1) / rise_drawn(2);
+    fmt::print("  peak of body 13 over that of 11: expected {:.5f}, got {:.5f}\n", expected, got);
+    EXPECT_NEAR(got, expected, 1e-3);
+    EXPECT_EQ(curves_of(drawn("wave --what displacement", "figure.svg")).size(), 4U)
+        << "of four bodies, along the chain";
+    EXPECT_EQ(frames_of(drawn("wave --what displacement", "figure.svg")).size(), 2U) << "asked for: across it, too";
+}
+
+TEST_F(PlotDecks, PartsOfTheEnergyThatAreZeroAreLeftOutButTheError) {
+    // Potential, kinetic and strain energy and the error of a circle that falls and bounces without loss.
+    EXPECT_EQ(curves_of(drawn("falling --what energy", "figure.svg")).size(), 4U);
+    EXPECT_EQ(curves_of(drawn("wave --what energy", "figure.svg")).size(), 3U) << "no gravity";
+    EXPECT_EQ(frames_of(drawn("wave falling --what energy", "figure.svg")).size(), 2U) << "a panel a run";
+}
+
+TEST_F(PlotDecks, RunsAreComparedInOnePanel) {
+    const std::string svg = drawn("falling falling --what velocity --labels one other", "figure.svg");
+    EXPECT_EQ(frames_of(svg).size(), 1U);
+    EXPECT_EQ(curves_of(svg).size(), 2U);
+    EXPECT_NE(drawn("falling --what velocity --units cgs", "figure.svg"),
+              drawn("falling --what velocity", "figure.svg"))
+        << "the axis names the units";
+    EXPECT_EQ(drawn("falling/energy.dat --what velocity", "figure.svg"),
+              drawn("falling --what velocity", "figure.svg"));
+}
+
+TEST_F(PlotDecks, ForcesAreDrawnOverDisplacementsWhereABodyIsDriven) {
+    fs::create_directories(folder_ / "deck");
+    fs::copy(shipped_deck("controlled_segment_displacement") / "in_gm.dat", folder_ / "deck" / "in_gm.dat");
+    write("deck/in_bc.dat", "0 0 20000 100 10\n1\n2\n1\n2 1 3.0 1 0.0 1 0.0\n");
+    ASSERT_EQ(
+        std::system(fmt::format("cd '{}' && '{}' run -q deck -o driven", folder_.string(), CRACKLE_PROGRAM).c_str()),
+        0);
+    EXPECT_EQ(frames_of(drawn("driven", "figure.svg")).size(), 4U) << "energy, displacement, velocity of none, curve";
+}
+
+TEST_F(PlotDecks, RefusesWhatARunHasNot) {
+    write_sample_results(folder_ / "pulled", SampleTest{});
+    expect_refused("wave pulled -o figure.pdf",
+                   "found the run of a deck beside pulled, expected runs of decks or tests alone");
+    expect_refused("wave -o figure.pdf --what strain",
+                   "--what: found 'strain', expected of the run of a deck curve, displacement, energy, force, height, "
+                   "velocity or all");
+    expect_refused("wave -o figure.pdf --bodies 12",
+                   "--bodies: found 12, expected one that the run of wave wrote rows of: 11, 13, 15, 17");
+    expect_refused("falling -o figure.pdf --what displacement",
+                   "falling: found no rows in f-d_curve.dat, expected those of bodies");
+    expect_refused("wave -o figure.pdf --at end", "--at: found it with the run of a deck");
+    expect_refused("wave -o figure.pdf --units feet", "--units: found 'feet', expected one of si, cgs, mm-g-s");
+    expect_refused("wave falling -o figure.pdf --labels one", "--labels: found 1 names, expected 2");
+    write("wave/energy.dat", "0 1 2 three\n");
+    expect_refused("wave -o figure.pdf", "wave/energy.dat:1: enka: found 'three'");
+}
+
+}  // namespace
+}  // namespace crackle
