@@ -108,6 +108,7 @@ double bond_overlap(const World& world, PointIndex k, double tension) {
 
 /// Reads `id count` of the next list; the lists follow the bodies of the scene.
 std::int64_t read_list_head(DeckReader& reader, const Body& body) {
+    reader.begin_read();
     const std::int64_t id = reader.integer("body id", 1, std::numeric_limits<int>::max());
     if (id != body.id) reader.refuse("body id", fmt::format("{}, in the order of in_gm.dat", body.id));
     return reader.integer(fmt::format("body {}: count", body.id), 0, std::numeric_limits<int>::max());
@@ -160,6 +161,7 @@ void read_contacts(DeckReader& reader, const Scene& scene, World& world) {
         const std::int64_t count = read_list_head(reader, body);
         for (std::int64_t c = 0; c < count; ++c) {
             const std::string key = fmt::format("body {}: contact {}: ", body.id, c + 1);
+            reader.begin_read();
             const std::int64_t other = reader.integer(key + "other body", -4, std::numeric_limits<int>::max());
             const Body* partner = names.find(other);
             if (other >= 0 && (partner == nullptr || partner == &body))
@@ -199,7 +201,7 @@ void read_contacts(DeckReader& reader, const Scene& scene, World& world) {
             world.points.bond_overlap[found->second] = bond_overlap(world, found->second, tension);
         }
     }
-    reader.expect_end("the last contact");
+    reader.end_reads();
     if (bonds) finish_bonding(world);
 }
 
@@ -233,6 +235,7 @@ void read_back_tensions(DeckReader& reader, const Scene& scene, World& world) {
         const std::int64_t count = read_list_head(reader, body);
         for (std::int64_t c = 0; c < count; ++c) {
             const std::string key = fmt::format("body {}: back-tension {}: ", body.id, c + 1);
+            reader.begin_read();
             const std::int64_t other = reader.integer(key + "other body", 1, std::numeric_limits<int>::max());
             const Body* partner = names.find(other);
             if (partner == nullptr || partner == &body) reader.refuse(key + "other body", "another body of in_gm.dat");
@@ -240,6 +243,14 @@ void read_back_tensions(DeckReader& reader, const Scene& scene, World& world) {
             if (tension > 0.0) reader.refuse(key + "value", "a back-tension, 0 or less (tension is negative)");
             PointName name{body.id, static_cast<int>(other), 1, 1};
             if (!plain_pair(body, *partner)) {
+                if (!reader.numbers_follow(2)) {
+                    reader.refuse(fmt::format("body {}: back-tension {}", body.id, c + 1),
+                                  "nothing that names the elements behind the value",
+                                  fmt::format("other body, value, own_element and other_element, because bodies {} and "
+                                              "{} are not both single circles; leave the file away to bond all that "
+                                              "overlap",
+                                              body.id, other));
+                }
                 name.element = static_cast<int>(reader.integer(key + "own element", 0, element_count(body)));
                 name.partner = static_cast<int>(reader.integer(key + "other's element", 0, element_count(*partner)));
             }
@@ -247,7 +258,7 @@ void read_back_tensions(DeckReader& reader, const Scene& scene, World& world) {
                 reader.refuse(key + "other body", "every contact point once");
         }
     }
-    reader.expect_end("the last back-tension");
+    reader.end_reads();
     for (const auto& [name, listing] : listed) {
         const std::string where =
             fmt::format("{}:{}: bodies {} and {}", reader.name(), listing.line, name.body, name.other);

@@ -7,7 +7,6 @@
 // Tested by tests/solver/demseg/files_test.cpp.
 #pragma once
 
-#include <filesystem>
 #include <iosfwd>
 
 #include "solver/world/world.hpp"
