@@ -146,8 +146,8 @@ void DeckRun::start_new(const Texts& texts) {
     if (asked_.start == DeckStart::bonded) {
         if (texts.present[3]) {
             DeckReader tensions = texts.reader(3);
-            read_back_tensions(tensions, base_.scene, world_);
-            add_notices(tensions);
+            const std::int64_t left_out = read_back_tensions(tensions, base_.scene, world_);
+            add_notices(tensions, left_out);
         } else {
             bond_all(world_, world_.settings.thick);
             notices_.push_back(fmt::format("{}: not there, so {} bonds were made from the present overlaps",
@@ -175,8 +175,8 @@ void DeckRun::start_from_contacts(const Texts& texts) {
     scene.allow_unstable = options_.allow_unstable;
     scene.threads = options_.threads;
     world_ = build_world(std::move(scene));
-    read_contacts(contacts, base_.scene, world_);
-    add_notices(contacts);
+    const std::int64_t left_out = read_contacts(contacts, base_.scene, world_);
+    add_notices(contacts, left_out);
     enter_steps_before();
     world_.stepping.drift =
         world_.stepping.time_step;  // the bodies have just moved: the first force pass takes up the slip of that step
@@ -222,9 +222,14 @@ bool DeckRun::start_from_state(const Texts& texts) {
     return false;
 }
 
-/// Of a file that was read: numbers in its notes.
-void DeckRun::add_notices(const DeckReader& reader) {
+/// Of a file that was read: numbers in its notes, and contacts of which the world takes no account.
+void DeckRun::add_notices(const DeckReader& reader, std::int64_t contacts_left_out) {
     if (const auto ignored = reader.ignored_numbers()) notices_.push_back(*ignored);
+    if (contacts_left_out == 0) return;
+    notices_.push_back(
+        fmt::format("{}: {} contacts were left out, because both their bodies are controlled in x, y and rotation; the "
+                    "files of the next part do not have them",
+                    reader.name(), contacts_left_out));
 }
 
 void DeckRun::enter_steps_before() {

@@ -218,6 +218,25 @@ TEST(ContactFiles, TwoColumnsThatLeaveElementsOpenAreRefusedOnTheirOwnLine) {
     }
 }
 
+TEST(ContactFiles, ContactsWithoutABodyThatCanMoveAreLeftOutAndCounted) {
+    Scene scene = read_geometry(shipped_deck("chain_pulled") / "in_gm.dat");
+    World free = build_world(scene);
+    bond_all(free, 0.0);
+    std::ostringstream tensions, contacts;
+    write_back_tensions(tensions, scene, free);
+    write_contacts(contacts, scene, free);
+    const DofControl held{Drive::displacement, 0.0};
+    for (const int body : {0, 1, 19}) scene.controls.push_back({body, held, held, held, 100});
+    World world = build_world(scene);
+    DeckReader reader("in_cf0.dat", tensions.str());
+    EXPECT_EQ(read_back_tensions(reader, scene, world), 1) << "of bodies 1 and 2";
+    EXPECT_EQ(world.bonds.initial, 18);
+    World other = build_world(scene);
+    DeckReader contact_reader("in_cf.dat", contacts.str());
+    EXPECT_EQ(read_contacts(contact_reader, scene, other), 1);
+    EXPECT_EQ(other.bonds.initial, 18);
+}
+
 /// Message about an in_cf.dat for the mixed scene: bodies 1 (circle), 2 (clump), 3 and 4 (squares).
 std::string contacts_refusal(const std::string& text, World* world = nullptr, double speed = 0.0) {
     return refusal([&] {
