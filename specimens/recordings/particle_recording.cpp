@@ -2,16 +2,19 @@
 // A particle file (in_gm.dat and its like) as a recording of one frame.
 // Tested by tests/tools/commands/view_test.cpp.
 
+#include "solver/demseg/deck_reader.hpp"
 #include "solver/demseg/geometry.hpp"
 #include "solver/demseg/random_circles.hpp"
 #include "specimens/recordings/recording.hpp"
 
 namespace crackle {
 Recording read_particle_recording(const std::filesystem::path& file, std::uint64_t seed) {
+    DeckReader reader = DeckReader::open(file);
     Recording recording;
     recording.drawn_by_seed = read_geometry_mode(file) == 0;
-    const Scene scene =
-        recording.drawn_by_seed ? make_random_circles(read_random_geometry(file), seed).scene : read_geometry(file);
+    const Scene scene = recording.drawn_by_seed ? make_random_circles(read_random_geometry(reader), seed).scene
+                                                : read_deck_geometry(reader).scene;
+    if (const auto ignored = reader.ignored_numbers()) recording.notices.push_back(*ignored);
     recording.name = file.filename().string();
     recording.path = std::filesystem::weakly_canonical(file);
     recording.walls = {scene.domain.x1, scene.domain.x2, scene.domain.y1, scene.domain.y2};

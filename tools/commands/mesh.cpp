@@ -104,9 +104,11 @@ Source centres_of_list(const std::string& name, const std::string& text, const p
     return source;
 }
 
-Source centres_of_deck(const std::string& name, const std::string& text, const po::variables_map& values) {
+Source centres_of_deck(const std::string& name, const std::string& text, const po::variables_map& values,
+                       Messages& messages) {
     DeckReader reader(name, text);
     const Scene circles = read_deck_geometry(reader).scene;
+    if (const auto ignored = reader.ignored_numbers()) messages.notice(*ignored);
     for (const char* option :
          {"domain", "bounding-box", "density", "normal-stiffness", "shear-stiffness", "friction-angle"}) {
         if (values.contains(option) && !values[option].defaulted()) {
@@ -231,7 +233,7 @@ Scene meshed_scene(const std::string& name, const std::string& text, const po::v
     request.interrupted = interrupted;
     refuse_foreign(name, text, "a particle file (in_gm.dat), or a list of centres x y");
     Source source = looks_like_centre_list(text) ? centres_of_list(name, text, values, messages)
-                                                 : centres_of_deck(name, text, values);
+                                                 : centres_of_deck(name, text, values, messages);
     messages.detail(fmt::format("read {} centres from {}, {} bytes", source.centres.size(), name, text.size()));
     messages.progress().step(1.0, fmt::format("meshing {} centres", source.centres.size()));
     JointNetwork joints;

@@ -330,7 +330,6 @@ std::vector<DeckWord> words_of_decks(const Words& what, const std::vector<Plotte
 void plot_decks(const po::variables_map& given, const Words& folders, const Look& look, Messages& messages) {
     expect_options(given, "runs of decks", {"what", "labels", "units", "bodies"});
     const fs::path output = given["output"].as<std::string>();
-    const Format format = format_of_output("plot", output);
     refuse_replacing(output, given.contains("force"));
     std::optional<UnitNames> units;
     if (given.contains("units")) units = units_named("plot: --units", given["units"].as<std::string>());
@@ -354,7 +353,7 @@ void plot_decks(const po::variables_map& given, const Words& folders, const Look
         const std::vector<Panel> added = deck_panels(word, decks, units, std::ranges::find(what, "all") == what.end());
         panels.insert(panels.end(), added.begin(), added.end());
     }
-    replace_file(output, figure(panels, look.title, look.width, format, look.sheet));
+    replace_file(output, figure(panels, look.title, look.width, look.format, look.sheet));
     if (!messages.quiet()) std::cout << output.string() << '\n';
 }
 

@@ -78,6 +78,7 @@ int view(const Invocation& given) {
                             "and runs of decks alone",
                             input));
         report_recording(messages, recordings.back());
+        for (const std::string& notice : recordings.back().notices) messages.notice(notice);
     }
     if (!values["seed"].defaulted() && std::ranges::none_of(recordings, &Recording::drawn_by_seed))
         throw without_effect("crackle view", "--seed", "particles that are all given");
