@@ -38,7 +38,7 @@ struct ElasticSolution {
     /// J, rᵀK⁻¹r of the residual r: a spring of stiffness k is wrong by at most sqrt(this/k) in its stretch, since no
     /// spring takes up more energy than all of them.
     double error_energy = 0.0;
-    std::int64_t unknowns = 0;             ///< free degrees of freedom
+    std::int64_t unknowns = 0;  ///< free degrees of freedom
 };
 
 /// @param loads forces (N) and torque (N m) on every body, besides what is prescribed; empty: none
