@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class ProcessorQuota : public testing::Test {
+class ProcessorQuota : public ::testing::Test {
   protected:
     ProcessorQuota() { fs::create_directories(root_ / "proc/self"); }
     ~ProcessorQuota() override { fs::remove_all(root_); }
@@ -30,7 +30,7 @@ class ProcessorQuota : public testing::Test {
         write("proc/self/mountinfo", "27 1 254:0 / / rw,relatime - ext4 /dev/vda rw,discard\n" + mountinfo);
     }
 
-    const fs::path root_ = fs::path(testing::TempDir()) / ("quota_" + std::to_string(::getpid()));
+    const fs::path root_ = fs::path(::testing::TempDir()) / ("quota_" + std::to_string(::getpid()));
 };
 
 constexpr const char* unified = "30 23 0:26 / /sys/fs/cgroup rw,nosuid shared:4 - cgroup2 cgroup2 rw,nsdelegate\n";
