@@ -112,7 +112,9 @@ void refuse_piercing(const World& world) {
         if (segment == 0) continue;
         throw UnstableRun(
             world.stepping.steps, world.bodies.info(i).id,
-            fmt::format("it went through segment {} of body {}{}", segment, target.id, likely_cause(world)));
+            fmt::format("it went through segment {} of body {}{}; a plate of four segments that close to a box pushes "
+                        "back what gets in",
+                        segment, target.id, likely_cause(world)));
     }
 }
 

@@ -56,6 +56,10 @@ class Differences(unittest.TestCase):
         self.assertEqual(same_bytes.frame_rows(frame(numbers, 1)), same_bytes.frame_rows(frame(numbers, 9)))
         self.assertNotEqual(same_bytes.frame_rows(frame(numbers, 1)), same_bytes.frame_rows(frame(numbers[:-1] + b"x", 1)))
 
+    def test_recorded_anew_of_one_scene_leave_the_others(self):
+        record = {"a": {"x": ["1", "old", ""]}, "b": {"x": ["1", "old", ""], "y": ["2", "old", ""]}, "gone": {"x": ["1", "old", ""]}}
+        self.assertEqual(same_bytes.with_the_others([["b", "x", "1", "new", ""]], record, ["a", "b"]), [["a", "x", "1", "old", ""], ["b", "x", "1", "new", ""]])
+
     def test_of_the_run_are_left_out(self):
         with tempfile.TemporaryDirectory() as folder:
             path = pathlib.Path(folder) / "summary.json"

@@ -18,6 +18,8 @@ class variables_map;
 
 namespace crackle {
 
+enum class MeshKind : std::uint8_t;
+
 struct ElasticAnalysis;
 struct JointedCompliance;
 struct MeshReport;
@@ -80,10 +82,12 @@ std::string bench_program();
 
 /// @throws InputError naming the option
 PackingRequest packing_request(const po::variables_map& values, Messages& messages);
+/// Of the option --kind. @throws InputError where it is not given
+MeshKind mesh_kind(const po::variables_map& values);
 /// Polygons from the text of a packing or of a list of centres. @param name of it, for errors @param of_joints lines on
 /// the traces and on the mesh without them, where there are some @param interrupted as of MeshRequest
 /// @throws TestInterrupted
-Scene meshed_scene(const std::string& name, const std::string& text, const po::variables_map& values,
+Scene meshed_scene(const std::string& name, const std::string& text, const po::variables_map& values, MeshKind kind,
                    Messages& messages, MeshReport& report, std::vector<std::string>* of_joints = nullptr,
                    const std::function<bool()>& interrupted = {});
 /// What `crackle joints` does with the joints of a case. @param name of it, for errors

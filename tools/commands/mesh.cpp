@@ -66,6 +66,7 @@ struct Source {
     std::vector<CellCentre> centres;
     std::vector<int> materials;       ///< of each centre
     std::vector<std::string> origin;  ///< of each centre, as the user knows it
+    std::optional<double> thick;      ///< of the deck
 };
 
 Source centres_of_list(const std::string& name, const std::string& text, const po::variables_map& values,
@@ -133,6 +134,7 @@ Source centres_of_deck(const std::string& name, const std::string& text, const p
         source.origin.push_back(fmt::format("circle {} of {}", body.id, name));
     }
     source.scene = circles;
+    source.thick = circles.thick;
     source.scene.bodies.clear();
     source.scene.circles.clear();
     // The circles' step means nothing to polygons: 0 has it derived from their stiffness bound.
@@ -163,24 +165,35 @@ Scene scene_of(Source source, const Mesh& mesh, double thick) {
     return scene;
 }
 
-MeshRequest request_of(const po::variables_map& values) {
-    const auto choice = [&values](const char* option, const char* first, const char* second) {
-        const std::string word = values.contains(option) ? values[option].as<std::string>() : "nothing";
-        if (word != first && word != second) {
-            throw InputError(fmt::format("--{}: found {}, expected {} or {}", option, word, first, second));
-        }
-        return word == first;
-    };
+bool is_first(const po::variables_map& values, const char* option, const char* first, const char* second) {
+    const std::string word = values[option].as<std::string>();
+    if (word != first && word != second)
+        throw InputError(fmt::format("--{}: found {}, expected {} or {}", option, word, first, second));
+    return word == first;
+}
+
+/// Both where none is asked for, as volonoi.f makes them.
+std::vector<MeshKind> kinds_of(const po::variables_map& values) {
+    if (!values.contains("kind")) return {MeshKind::delaunay, MeshKind::voronoi};
+    return {mesh_kind(values)};
+}
+
+MeshRequest request_of(const po::variables_map& values, MeshKind kind, const Source& source) {
     MeshRequest request;
-    request.kind = choice("kind", "delaunay", "voronoi") ? MeshKind::delaunay : MeshKind::voronoi;
-    request.boundary = choice("boundary", "domain", "centres") ? Boundary::domain : Boundary::centres;
-    if (request.kind == MeshKind::voronoi && request.boundary == Boundary::centres) {
-        throw InputError(
-            "--boundary: found centres with --kind voronoi, expected domain: Voronoi cells always fill it");
+    request.kind = kind;
+    request.boundary = is_first(values, "boundary", "domain", "centres") ? Boundary::domain : Boundary::centres;
+    if (kind == MeshKind::voronoi && request.boundary == Boundary::centres) {
+        if (values.contains("kind")) {
+            throw InputError(
+                "--boundary: found centres with --kind voronoi, expected domain: Voronoi cells always fill it");
+        }
+        request.boundary = Boundary::domain;
     }
-    if (!values.contains("thick"))
-        throw InputError("--thick: found nothing, expected the gap between facing edges in m");
-    request.mesh_gap = values["thick"].as<double>();
+    if (!values.contains("thick") && !source.thick) {
+        throw InputError(
+            "--thick: found nothing, expected the gap between facing edges in m: a list of centres has no thick");
+    }
+    request.mesh_gap = values.contains("thick") ? values["thick"].as<double>() : *source.thick;
     if (values.contains("inset")) request.inset = values["inset"].as<double>();
     request.merge_destroyed = values.contains("merge");
     return request;
@@ -196,37 +209,70 @@ std::optional<TestCase> joints_case(const po::variables_map& values) {
     return test;
 }
 
-fs::path output_path(const po::variables_map& values, MeshKind kind, const fs::path& input) {
-    const char* usual = kind == MeshKind::delaunay ? "in_gm_tri.dat" : "in_gm_volo.dat";
-    fs::path path = values.contains("output") ? values["output"].as<std::string>() : std::string(usual);
-    if (fs::is_directory(path)) path /= usual;
+/// One file for each of the kinds.
+std::vector<fs::path> output_paths(const po::variables_map& values, const std::vector<MeshKind>& kinds,
+                                   const fs::path& input) {
+    const fs::path asked = values.contains("output") ? values["output"].as<std::string>() : "";
+    const bool folder = asked.empty() || fs::is_directory(asked);
+    if (!folder && kinds.size() > 1) {
+        throw InputError(
+            fmt::format("--output: found {}, which is no folder, expected one for in_gm_tri.dat and in_gm_volo.dat, or "
+                        "--kind for one file",
+                        asked.string()));
+    }
     std::vector<fs::path> inputs{input};
     if (const auto joints = joints_case(values)) {
         const std::vector<fs::path> files = files_read(*joints);
         inputs.insert(inputs.end(), files.begin(), files.end());
     }
-    refuse_replacing(path, values.contains("force"), inputs);
-    return path;
+    std::vector<fs::path> paths;
+    for (const MeshKind kind : kinds) {
+        const char* usual = kind == MeshKind::delaunay ? "in_gm_tri.dat" : "in_gm_volo.dat";
+        paths.push_back(folder ? asked / usual : asked);
+        refuse_replacing(paths.back(), values.contains("force"), inputs);
+    }
+    return paths;
 }
 
-void print_report(const MeshReport& report, const Domain& domain, const MeshRequest& request, const fs::path& output) {
-    std::cout << fmt::format("centres            {} in x {:.6g} to {:.6g}, y {:.6g} to {:.6g}\n", report.centres,
+/// A mesh on its way to its file.
+struct Meshed {
+    MeshKind kind = MeshKind::voronoi;
+    fs::path output;
+    MeshReport report;
+    Domain domain;
+    double gap = 0.0;
+    std::string deck;                // its text
+    std::vector<std::string> lines;  // on its joints
+};
+
+/// @param from  where the gap is from, in brackets; empty: the command line
+void print_report(const Meshed& made, const std::string& from) {
+    const MeshReport& report = made.report;
+    const Domain& domain = made.domain;
+    std::cout << fmt::format("centres          {} in x {:.6g} to {:.6g}, y {:.6g} to {:.6g}\n", report.centres,
                              domain.x1, domain.x2, domain.y1, domain.y2)
+              << fmt::format("gap              {:.6g}{}\n", made.gap, from)
               << fmt::format("cells            {} ({})\n", report.cells,
-                             request.kind == MeshKind::delaunay ? "delaunay" : "voronoi")
+                             made.kind == MeshKind::delaunay ? "delaunay" : "voronoi")
               << fmt::format("segments         {}\n", report.segments)
-              << fmt::format("shortest edge    {:.6g} m\n", report.shortest_edge)
+              << fmt::format("shortest edge    {:.6g}\n", report.shortest_edge)
               << fmt::format("smallest angle   {:.4g} degrees\n", report.smallest_angle)
               << fmt::format("cells destroyed  {}{}\n", report.cells_destroyed,
                              report.cells_destroyed > 0 ? " (merged)" : "")
-              << fmt::format("area             {:.9g} m2, {:.9g} m2 after the inset\n", report.area_before_inset,
+              << fmt::format("area             {:.9g}, {:.9g} after the inset\n", report.area_before_inset,
                              report.area_after_inset)
-              << fmt::format("written          {}\n", output.string());
+              << fmt::format("written          {}\n", made.output.string());
+    for (const std::string& line : made.lines) std::cout << line << '\n';
 }
 
 }  // namespace
 
-Scene meshed_scene(const std::string& name, const std::string& text, const po::variables_map& values,
+MeshKind mesh_kind(const po::variables_map& values) {
+    if (!values.contains("kind")) throw InputError("--kind: found nothing, expected delaunay or voronoi");
+    return is_first(values, "kind", "delaunay", "voronoi") ? MeshKind::delaunay : MeshKind::voronoi;
+}
+
+Scene meshed_scene(const std::string& name, const std::string& text, const po::variables_map& values, MeshKind kind,
                    Messages& messages, MeshReport& report, std::vector<std::string>* of_joints,
                    const std::function<bool()>& interrupted) {
     MeshRequest request = request_of(values);
@@ -262,14 +308,16 @@ CommandLine describe_mesh() {
     const auto number = [] { return po::value<double>()->value_name("X"); };
     const auto word = [](const char* name) { return po::value<std::string>()->value_name(name); };
     po::options_description options, plain;
-    options.add_options()("kind", word("KIND"), "delaunay or voronoi")                   //
-        ("thick", number(), "gap between facing edges, m")                               //
-        ("inset", number(), "move edges inwards by so much instead of half the gap, m")  //
+    options.add_options()("kind", word("KIND"), "delaunay or voronoi (default: both files, as volonoi.f made them)")  //
+        ("thick", number(), "gap between facing edges (default: thick of the in_gm.dat)")                             //
+        ("inset", number(), "move edges inwards by so much instead of half the gap, m")                               //
         ("boundary", word("WHICH")->default_value("domain"),
-         "of triangles. domain: flat faces, made by projecting the outer centres; centres: between centres only")  //
-        ("merge", "give the place of cells that the inset destroys to neighbours, instead of an error")            //
-        ("joints", word("FILE"), "traces of this file of joints become edges (crackle joints)")                    //
-        ("output,o", word("FILE"), "file to write, or folder (default: in_gm_tri.dat or in_gm_volo.dat)")          //
+         "of triangles. domain: flat faces, made by projecting the outer centres, for platens; centres: between "
+         "centres "
+         "only, as volonoi.f made the guide's 537 triangles of 304 circles")                               //
+        ("merge", "give the place of cells that the inset destroys to neighbours, instead of an error")    //
+        ("joints", word("FILE"), "traces of this file of joints become edges (crackle joints)")            //
+        ("output,o", word("FILE"), "file to write, or folder (default: in_gm_tri.dat or in_gm_volo.dat)")  //
         ("force", "replace the output if it is there");
     plain.add_options()("domain", word("X1 X2 Y1 Y2"), "the domain, m")               //
         ("bounding-box", "take the centres' bounding box as the domain")              //
@@ -278,18 +326,18 @@ CommandLine describe_mesh() {
         ("shear-stiffness", number()->default_value(usual.shear_stiffness), "N/m")    //
         ("friction-angle", number()->default_value(usual.friction_angle), "degrees");
     return {
-        .synopses = {"crackle mesh IN --kind delaunay|voronoi --thick T [OPTIONS]"},
+        .synopses = {"crackle mesh IN [--kind delaunay|voronoi] [--thick T] [OPTIONS]"},
         .description =
             "Makes polygons of the centres of the circles in IN, an in_gm.dat, or of a list of centres, one x y a "
-            "line (or x y r of circles). Each polygon is inset along every edge, so that facing edges stand T apart, "
-            "and T/2 from the "
-            "domain's faces. Writes a particle file of polygons (in_gm_tri.dat or in_gm_volo.dat). Lengths in the "
+            "line. Each polygon is inset along every edge, so that facing edges stand T apart, and T/2 from the "
+            "domain's faces. Writes particle files of polygons (in_gm_tri.dat, in_gm_volo.dat). Lengths in the "
             "units of IN.",
         .options = {{"options", options}, {"options for a list of centres", plain}},
         .operand = "IN",
         .choices = {{"kind", {"delaunay", "voronoi"}}, {"boundary", {"domain", "centres"}}},
         .verbose = "seconds of each stage, counts",
-        .examples = {{"crackle mesh in_gm.dat --kind voronoi --thick 1e-3", "the cells of a packing"},
+        .examples = {{"crackle mesh in_gm.dat", "in_gm_tri.dat and in_gm_volo.dat, thick apart, as volonoi.f"},
+                     {"crackle mesh in_gm.dat --kind voronoi --thick 1e-3", "the cells of a packing"},
                      {"crackle mesh in_gm.dat --kind delaunay --thick 1e-3 --boundary centres",
                       "triangles between circles only"},
                      {"crackle mesh in_gm.dat --kind delaunay --thick 1e-3 --joints specimens/jointed/two_sets.toml",
@@ -305,23 +353,32 @@ int mesh(const Invocation& given) {
         throw InputError(
             "crackle mesh: found no IN, expected an in_gm.dat or a list of centres (see crackle mesh --help)");
     }
-    const MeshRequest request = request_of(values);
     const std::string& name = given.operands.front();
-    const fs::path output = output_path(values, request.kind, name);
+    const std::vector<MeshKind> kinds = kinds_of(values);
+    const std::vector<fs::path> outputs = output_paths(values, kinds, name);
     Messages& messages = given.messages;
     messages.progress().begin("reading " + name, 3.0, "");
-    MeshReport report;
-    std::vector<std::string> lines;
-    const Scene scene = meshed_scene(name, read_text(name), values, messages, report, &lines);
-    messages.progress().step(2.0, fmt::format("writing {} cells", report.cells));
-    std::ostringstream deck;
-    write_geometry(deck, scene);
-    replace_file(output, deck.str());
-    messages.make_room();
-    messages.detail(fmt::format("wrote {} bytes", deck.str().size()));
-    if (!messages.quiet()) {
-        print_report(report, scene.domain, request, output);
-        for (const std::string& line : lines) std::cout << line << '\n';
+    const std::string text = read_text(name);
+    // All are made before the first is written: what one refuses leaves the other's file as it was.
+    std::vector<Meshed> made;
+    for (std::size_t k = 0; k < kinds.size(); ++k) {
+        Meshed& one = made.emplace_back();
+        one.kind = kinds[k];
+        one.output = outputs[k];
+        const Scene scene = meshed_scene(name, text, values, one.kind, messages, one.report, &one.lines);
+        one.domain = scene.domain;
+        one.gap = scene.thick;
+        std::ostringstream deck;
+        write_geometry(deck, scene);
+        one.deck = std::move(deck).str();
+    }
+    const std::string from = values.contains("thick") ? "" : fmt::format(" (thick of {})", name);
+    for (const Meshed& one : made) {
+        messages.progress().step(2.0, fmt::format("writing {} cells", one.report.cells));
+        replace_file(one.output, one.deck);
+        messages.make_room();
+        messages.detail(fmt::format("wrote {} bytes", one.deck.size()));
+        if (!messages.quiet()) print_report(one, from);
     }
     return exit_done;
 }

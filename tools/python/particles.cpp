@@ -94,9 +94,10 @@ std::shared_ptr<Particles> mesh(const std::string& name, const std::string& text
     auto made = std::make_shared<Particles>();
     MeshReport of_mesh;
     std::vector<std::string> of_joints;
+    const MeshKind kind = tools::mesh_kind(parsed.values);
     run_free(interrupts, [&] {
         messages.progress().begin("reading " + name, 3.0, "");
-        made->scene = tools::meshed_scene(name, text, parsed.values, messages, of_mesh, &of_joints,
+        made->scene = tools::meshed_scene(name, text, parsed.values, kind, messages, of_mesh, &of_joints,
                                           [&] { return interrupts.heard(); });
     });
     made->mesh = of_mesh;

@@ -76,6 +76,44 @@ TEST_F(CrackleMesh, ThickIsWrittenAndSetsTheGap) {
     EXPECT_TRUE(agrees("gap to the domain's face", lowest, 2e-3, 1e-12));
 }
 
+TEST_F(CrackleMesh, TakesTheGapOfTheDeckWhereNoneIsGiven) {
+    write_packing();
+    replace("in_gm.dat", "\n0 1 0 2 0\n", "\n0 1 0 2 4e-3\n");
+    const Answer answer = call("in_gm.dat --kind voronoi -o deck.dat");
+    ASSERT_EQ(answer.code, 0) << answer.err;
+    EXPECT_NE(answer.out.find("gap              0.004 (thick of in_gm.dat)\n"), std::string::npos) << answer.out;
+    const Answer given = call("in_gm.dat --kind voronoi --thick 4e-3 -o given.dat");
+    EXPECT_NE(given.out.find("gap              0.004\n"), std::string::npos) << given.out;
+    EXPECT_EQ(read("deck.dat"), read("given.dat"));
+    ASSERT_EQ(call("in_gm.dat --kind voronoi --thick 2e-3 -o other.dat").code, 0);
+    EXPECT_EQ(read_geometry(scratch_ / "other.dat").thick, 2e-3) << "the option goes before the deck";
+}
+
+TEST_F(CrackleMesh, WritesBothFilesWhereNoKindIsGiven) {
+    write_packing();
+    const Answer answer = call("in_gm.dat --thick 4e-3 --boundary centres");
+    ASSERT_EQ(answer.code, 0) << answer.err;
+    ASSERT_EQ(call("in_gm.dat --thick 4e-3 --kind delaunay --boundary centres -o tri.dat").code, 0);
+    ASSERT_EQ(call("in_gm.dat --thick 4e-3 --kind voronoi -o volo.dat").code, 0);
+    EXPECT_EQ(read("in_gm_tri.dat"), read("tri.dat"));
+    EXPECT_EQ(read("in_gm_volo.dat"), read("volo.dat"));
+    for (const char* line : {"(delaunay)", "written          in_gm_tri.dat", "written          in_gm_volo.dat"})
+        EXPECT_NE(answer.out.find(line), std::string::npos) << answer.out;
+    // 2n - 2 - h triangles, h centres along the outer chain.
+    const std::size_t triangles = read_geometry(scratch_ / "in_gm_tri.dat").bodies.size();
+    EXPECT_GT(triangles, 50U);
+    EXPECT_LT(triangles, 98U);
+
+    expect_refused("in_gm.dat --thick 4e-3", "--force");
+    ASSERT_TRUE(std::filesystem::remove(scratch_ / "in_gm_tri.dat"));
+    expect_refused("in_gm.dat --thick 4e-3", "in_gm_volo.dat");
+    std::filesystem::create_directory(scratch_ / "meshes");
+    ASSERT_EQ(call("in_gm.dat --thick 4e-3 --boundary centres -o meshes").code, 0);
+    EXPECT_EQ(read("meshes/in_gm_tri.dat"), read("tri.dat"));
+    EXPECT_EQ(read("meshes/in_gm_volo.dat"), read("volo.dat"));
+    expect_refused("in_gm.dat --thick 1 --force -o meshes", "destroyed by the inset");
+}
+
 TEST_F(CrackleMesh, ReadsAPlainListOfSeeds) {
     write("seeds.txt", "# x y\n-0.5 0.25\n\n 0.5  2.5d-1\r\n-0.5 0.75 # comment\n0.5 0.75\n");
     const Answer answer = call("seeds.txt --kind voronoi --thick 1e-3 --domain -1 1 0 1");
@@ -178,9 +216,9 @@ TEST_F(CrackleMesh, RefusesBadInputInOneMessage) {
     const std::string cells = " --kind voronoi --thick 1e-3";
     expect_refused("absent.dat" + cells, "absent.dat");
     expect_refused(cells, "expected an in_gm.dat or a list of centres");
-    expect_refused("in_gm.dat --thick 1e-3", "--kind: found nothing, expected delaunay or voronoi");
+    expect_refused("in_gm.dat --thick 1e-3 -o cells.dat", "cells.dat, which is no folder, expected one for in_gm_tri");
     expect_refused("in_gm.dat --kind hexagons --thick 1e-3", "--kind: found hexagons");
-    expect_refused("in_gm.dat --kind voronoi", "--thick: found nothing");
+    expect_refused("in_gm.dat --kind voronoi --thick 1e-3 --boundary centres", "found centres with --kind voronoi");
     expect_refused("in_gm.dat --kind voronoi --thick -1", "thick: found -1");
     expect_refused("in_gm.dat --kind voronoi --thick nan", "thick");
     expect_refused("in_gm.dat --kind voronoi --thick thin", "thin");
@@ -200,6 +238,7 @@ TEST_F(CrackleMesh, RefusesBadInputInOneMessage) {
     write("seeds.txt", "0.2 0.5\n0.3 0.5\n0.2 0.5\n");
     expect_refused("seeds.txt --domain 0 1 0 1" + cells, "centre 0 is seeds.txt:1, centre 2 is seeds.txt:3");
     expect_refused("seeds.txt" + cells, "found neither");
+    expect_refused("seeds.txt --domain 0 1 0 1 --kind voronoi", "--thick: found nothing");
     expect_refused("seeds.txt --bounding-box --domain 0 1 0 1" + cells, "found both");
     expect_refused("seeds.txt --domain 0 1 0" + cells, "expected four numbers");
     expect_refused("seeds.txt --bounding-box" + cells, "y1 < y2");

@@ -61,9 +61,9 @@ def mesh(particles: _engine.Particles | _Path | Sequence[Sequence[float]], *, ki
     """Makes polygons of the centres of circles, as `crackle mesh`.
 
     particles: Particles, the path of a particle file, or a sequence of centres x, y (m; with domain = (x1, x2, y1, y2)
-    or bounding_box). kind: "delaunay" or "voronoi"; thick: gap between facing edges, m; inset, m; boundary: "domain" or
-    "centres"; merge: give the place of cells that the inset destroys to neighbours; joints: a file of joints (`crackle
-    joints`), whose traces become edges.
+    or bounding_box). kind: "delaunay" or "voronoi"; thick: gap between facing edges, m (default: thick of the particles);
+    inset, m; boundary: "domain" or "centres"; merge: give the place of cells that the inset destroys to neighbours;
+    joints: a file of joints (`crackle joints`), whose traces become edges.
 
     Returns Particles; with output the file is written, too.
     """
