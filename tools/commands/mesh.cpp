@@ -329,7 +329,8 @@ CommandLine describe_mesh() {
         .synopses = {"crackle mesh IN [--kind delaunay|voronoi] [--thick T] [OPTIONS]"},
         .description =
             "Makes polygons of the centres of the circles in IN, an in_gm.dat, or of a list of centres, one x y a "
-            "line. Each polygon is inset along every edge, so that facing edges stand T apart, and T/2 from the "
+            "line (or x y r of circles). Each polygon is inset along every edge, so that facing edges stand T apart, "
+            "and T/2 from the "
             "domain's faces. Writes particle files of polygons (in_gm_tri.dat, in_gm_volo.dat). Lengths in the "
             "units of IN.",
         .options = {{"options", options}, {"options for a list of centres", plain}},
