@@ -275,11 +275,11 @@ MeshKind mesh_kind(const po::variables_map& values) {
 Scene meshed_scene(const std::string& name, const std::string& text, const po::variables_map& values, MeshKind kind,
                    Messages& messages, MeshReport& report, std::vector<std::string>* of_joints,
                    const std::function<bool()>& interrupted) {
-    MeshRequest request = request_of(values);
-    request.interrupted = interrupted;
     refuse_foreign(name, text, "a particle file (in_gm.dat), or a list of centres x y");
     Source source = looks_like_centre_list(text) ? centres_of_list(name, text, values, messages)
                                                  : centres_of_deck(name, text, values, messages);
+    MeshRequest request = request_of(values, kind, source);
+    request.interrupted = interrupted;
     messages.detail(fmt::format("read {} centres from {}, {} bytes", source.centres.size(), name, text.size()));
     messages.progress().step(1.0, fmt::format("meshing {} centres", source.centres.size()));
     JointNetwork joints;
