@@ -84,13 +84,13 @@ export function deckPanels({test, label}: WithCurves, several: boolean): DeckPan
     const change = (axis: 'x' | 'y') => Math.max(0, ...deck.bodies.map((body) => ends(body[axis])).map(({low, high}) => high - low));
     const directions = (['x', 'y'] as const).filter((axis) => change(axis) > noChange * change(axis === 'x' ? 'y' : 'x'));
     const way = {x: 'horizontal', y: 'vertical'};
-    const displacement = (axis: 'x' | 'y'): AxisOf => ({name: `Displacement, ${way[axis]}`, unit: 'm'});
+    const displacement: AxisOf = {name: 'Displacement', unit: 'm'};
     const driven = !allZero(parts.enxd) || !allZero(parts.enxf);
     return [
         panel('Energy', time, {name: 'Energy', unit: 'J'}, energies),
-        ...directions.map((axis) => panel(`Displacement, ${way[axis]}`, time, displacement(axis), ofBodies(deck.bodies, (body) => body.time, (body) => lessFirst(body[axis])))),
-        ...(deck.velocities.some(({vy}) => !allZero(vy)) ? [panel('Velocity, vertical', time, {name: 'Velocity, vertical', unit: 'm/s'}, ofBodies(deck.velocities, (body) => body.time, (body) => body.vy))] : []),
-        ...(driven ? directions.map((axis) => panel(`Force over displacement, ${way[axis]}`, displacement(axis), {name: `Force, ${way[axis]}`, unit: 'N'},
+        ...directions.map((axis) => panel(`Displacement, ${way[axis]}`, time, displacement, ofBodies(deck.bodies, (body) => body.time, (body) => lessFirst(body[axis])))),
+        ...(deck.velocities.some(({vy}) => !allZero(vy)) ? [panel('Velocity, vertical', time, {name: 'Velocity', unit: 'm/s'}, ofBodies(deck.velocities, (body) => body.time, (body) => body.vy))] : []),
+        ...(driven ? directions.map((axis) => panel(`Force over displacement, ${way[axis]}`, displacement, {name: 'Force', unit: 'N'},
             ofBodies(deck.bodies, (body) => lessFirst(body[axis]), (body) => (axis === 'x' ? body.forceX : body.forceY)))) : []),
     ];
 }
