@@ -173,11 +173,11 @@ std::vector<DrawnCurve> body_curves(const std::vector<PlottedDeck>& decks, Curve
 using Column = std::vector<double> DeckBodyCurve::*;
 
 struct Direction {
-    const char *name, *index;
+    const char* index;
     Column place, force;
 };
-constexpr Direction horizontal{"horizontal", "x", &DeckBodyCurve::x, &DeckBodyCurve::force_x},
-    vertical{"vertical", "y", &DeckBodyCurve::y, &DeckBodyCurve::force_y};
+constexpr Direction horizontal{"x", &DeckBodyCurve::x, &DeckBodyCurve::force_x},
+    vertical{"y", &DeckBodyCurve::y, &DeckBodyCurve::force_y};
 
 /// Largest change of a column of the drawn bodies.
 double change_of(const std::vector<PlottedDeck>& decks, Column column) {
@@ -254,12 +254,8 @@ std::vector<Panel> deck_panels(DeckWord word, const std::vector<PlottedDeck>& de
     const auto axis = [&](const std::string& title, const std::string& unit) {
         return AxisTitle{title, unit, names.prefixes};
     };
-    const auto moved = [&](const Direction& d) {
-        return axis(fmt::format("{} displacement {}", d.name, indexed("u", d.index)), names.length);
-    };
-    const auto forced = [&](const Direction& d) {
-        return axis(fmt::format("{} force {}", d.name, indexed("F", d.index)), names.force);
-    };
+    const auto moved = [&](const Direction& d) { return axis("displacement " + indexed("u", d.index), names.length); };
+    const auto forced = [&](const Direction& d) { return axis("force " + indexed("F", d.index), names.force); };
     const auto over_time = [&](Column column, bool from_start) {
         return body_curves(decks, &DeckCurves::bodies, [&](const DeckBodyCurve& body) {
             return std::pair(body.time, from_start ? less_first(body.*column) : body.*column);
@@ -279,7 +275,7 @@ std::vector<Panel> deck_panels(DeckWord word, const std::vector<PlottedDeck>& de
             panels.push_back(body_panel(time, axis("height <i>y</i>", names.length), over_time(vertical.place, false)));
             break;
         case DeckWord::velocity:
-            panels.push_back(body_panel(time, axis("vertical velocity " + indexed("v", "y"), names.velocity),
+            panels.push_back(body_panel(time, axis("velocity " + indexed("v", "y"), names.velocity),
                                         body_curves(decks, &DeckCurves::velocities, [](const DeckVelocityCurve& body) {
                                             return std::pair(body.time, body.vy);
                                         })));

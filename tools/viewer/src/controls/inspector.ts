@@ -94,7 +94,7 @@ export class Inspector {
         this.chart?.dispose();
         this.chart = echarts.init(this.figure, null, {renderer: 'svg'});
         this.chart.setOption({
-            animation: false, grid: {left: chartLeft, right: 8, top: chartTop, bottom: chartBottom},
+            animation: false, grid: {left: chartLeft, right: 18, top: chartTop, bottom: chartBottom},
             xAxis: {
                 type: 'value', max: 'dataMax', axisLine: line, splitLine: {show: false}, axisLabel: {...text, hideOverlap: true, showMaxLabel: false}, splitNumber: 3,
                 name: {strain: 'Strain [10⁻³]', share: 'Strain / strain at peak', time: 'Time [s]', frame: 'Frame'}[axis], nameLocation: 'middle', nameGap: 19, nameTextStyle: text,

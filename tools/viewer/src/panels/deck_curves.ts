@@ -83,19 +83,19 @@ export function deckPanels({test, label}: WithCurves, several: boolean): DeckPan
         bodies.map((body, at) => ({name: `body ${body.id}`, x: x(body), y: y(body), colour: series(at), dashed: at >= 8}));
     const change = (axis: 'x' | 'y') => Math.max(0, ...deck.bodies.map((body) => ends(body[axis])).map(({low, high}) => high - low));
     const directions = (['x', 'y'] as const).filter((axis) => change(axis) > noChange * change(axis === 'x' ? 'y' : 'x'));
-    const way = {x: 'horizontal', y: 'vertical'};
-    const displacement = (axis: 'x' | 'y'): AxisOf => ({name: `Displacement, ${way[axis]}`, unit: 'm'});
+    const way = {x: 'Horizontal', y: 'Vertical'};
+    const displacement: AxisOf = {name: 'Displacement', unit: 'm'};
     const driven = !allZero(parts.enxd) || !allZero(parts.enxf);
     return [
         panel('Energy', time, {name: 'Energy', unit: 'J'}, energies),
-        ...directions.map((axis) => panel(`Displacement, ${way[axis]}`, time, displacement(axis), ofBodies(deck.bodies, (body) => body.time, (body) => lessFirst(body[axis])))),
-        ...(deck.velocities.some(({vy}) => !allZero(vy)) ? [panel('Velocity, vertical', time, {name: 'Velocity, vertical', unit: 'm/s'}, ofBodies(deck.velocities, (body) => body.time, (body) => body.vy))] : []),
-        ...(driven ? directions.map((axis) => panel(`Force over displacement, ${way[axis]}`, displacement(axis), {name: `Force, ${way[axis]}`, unit: 'N'},
+        ...directions.map((axis) => panel(`${way[axis]} displacement`, time, displacement, ofBodies(deck.bodies, (body) => body.time, (body) => lessFirst(body[axis])))),
+        ...(deck.velocities.some(({vy}) => !allZero(vy)) ? [panel('Vertical velocity', time, {name: 'Velocity', unit: 'm/s'}, ofBodies(deck.velocities, (body) => body.time, (body) => body.vy))] : []),
+        ...(driven ? directions.map((axis) => panel(`${way[axis]} force over displacement`, displacement, {name: 'Force', unit: 'N'},
             ofBodies(deck.bodies, (body) => lessFirst(body[axis]), (body) => (axis === 'x' ? body.forceX : body.forceY)))) : []),
     ];
 }
 
-const left = 70, right = 18, titleLine = 30, legendLine = 20, plotHeight = 210, bottom = 46; // px
+const left = 82, right = 18, titleLine = 30, legendLine = 20, plotHeight = 210, bottom = 46; // px
 const iconOf = (dashed: boolean) => (dashed ? 'path://M0,0L9,0L9,3L0,3ZM13,0L22,0L22,3L13,3Z' : 'path://M0,0L22,0L22,3L0,3Z');
 
 const ruler = new OffscreenCanvas(1, 1).getContext('2d')!;
@@ -203,7 +203,7 @@ export class DeckCurveFigure {
             grid: {left, right, top: this.top, height: plotHeight},
             xAxis: {...axis, min: low / xScale.factor, max: high / xScale.factor, name: panel.x.unit === 'm' ? titledInFull(panel.x.name, xScale) : titled(panel.x.name, xScale), nameGap: 26, splitLine: {show: false},
                 axisLabel: {...text, hideOverlap: true, showMinLabel: low === 0, showMaxLabel: false, formatter: (value: number) => significant(value, 6).replace(/(\.\d*?)0+$/, '$1').replace(/\.$/, '')}},
-            yAxis: {...axis, scale: true, name: titledInFull(panel.y.name, yScale), nameGap: 50, splitNumber: 5, axisLabel: {...text, formatter: tickText}},
+            yAxis: {...axis, scale: true, name: titledInFull(panel.y.name, yScale), nameGap: 62, splitNumber: 5, axisLabel: {...text, formatter: tickText}},
             tooltip: {trigger: 'axis', showContent: false},
             dataZoom: [{type: 'inside', xAxisIndex: 'all', filterMode: 'none', zoomOnMouseWheel: 'shift', moveOnMouseMove: true}],
             series: curves.map(({name, x, y, colour, dashed}) => ({
