@@ -44,7 +44,7 @@ TEST(Judgement, TheDifferenceOfTwoMeansHasBothErrors) {
 /// The key is right: corrected packings and fresh ones are draws of one rock. One in twenty may be missed.
 TEST(Judgement, ScatterOfEightPackingsIsNoMiss) {
     std::mt19937_64 generator(3);
-    constexpr int tries = 2000;
+    constexpr int tries = 400;
     constexpr double value = 100.0, scatter = 15.0;
     int missed = 0;
     for (int k = 0; k < tries; ++k) {
