@@ -189,6 +189,7 @@ Scene held_circles(DrivenContacts wanted) {
     Material material;
     material.density = 2.5;
     material.normal_stiffness = kn;
+    material.shear_stiffness = ks;
     scene.materials = {material};
     scene.domain = {-10.0, 10.0, -10.0, 10.0, {true, true, true, true}};
     scene.time_step = 1e-4;
