@@ -58,16 +58,26 @@ class Lines {
     int number_ = 0;
 };
 
-/// A trace with two places at least. @param line of its beginning
-void add_trace(TracePoints& traces, std::vector<Vec2> points, const std::string& name, int line) {
-    points.erase(std::unique(points.begin(), points.end()), points.end());
-    if (points.size() < 2)
-        throw InputError(fmt::format("{}:{}: found a trace of one place, expected two or more; remove it", name, line));
-    traces.push_back(std::move(points));
-}
-
-TracePoints parse_table(Lines lines) {
+/// Traces and their rows.
+struct Found {
     TracePoints traces;
+    TraceRows rows;
+
+    /// Repeated points are left out, a trace of one place altogether: intersection tools leave such rows behind.
+    /// @param line of its beginning
+    void add(std::vector<Vec2> points, int line) {
+        points.erase(std::unique(points.begin(), points.end()), points.end());
+        if (points.size() < 2) {
+            rows.without_length.push_back(line);
+            return;
+        }
+        traces.push_back(std::move(points));
+        rows.lines.push_back(line);
+    }
+};
+
+Found parse_table(Lines lines) {
+    Found found;
     while (auto line = lines.next()) {
         std::vector<double> numbers;
         std::string_view rest = stripped(line->substr(0, line->find('#')));
@@ -82,9 +92,9 @@ TracePoints parse_table(Lines lines) {
                          "x and y of two points or more");
         std::vector<Vec2> points;
         for (std::size_t k = 0; k < numbers.size(); k += 2) points.push_back({numbers[k], numbers[k + 1]});
-        add_trace(traces, std::move(points), lines.name(), lines.line());
+        found.add(std::move(points), lines.line());
     }
-    return traces;
+    return found;
 }
 
 std::vector<std::string_view> fields_of(std::string_view line) {
@@ -101,7 +111,7 @@ class CsvTraces {
   public:
     explicit CsvTraces(Lines lines) : lines_(std::move(lines)) {}
 
-    TracePoints read() {
+    Found read() {
         const auto heading = lines_.next();
         if (!heading) lines_.refuse("no heading", expected_heading);
         columns_ = fields_of(*heading);
@@ -114,13 +124,12 @@ class CsvTraces {
             if (fields_.size() != columns_.size())
                 lines_.refuse(fmt::format("{} fields", fields_.size()), fmt::format("{}", columns_.size()));
             if (by_line)
-                add_trace(traces_, {{number("x1"), number("y1")}, {number("x2"), number("y2")}}, lines_.name(),
-                          lines_.line());
+                found_.add({{number("x1"), number("y1")}, {number("x2"), number("y2")}}, lines_.line());
             else
                 point();
         }
         finish();
-        return std::move(traces_);
+        return std::move(found_);
     }
 
   private:
@@ -146,7 +155,7 @@ class CsvTraces {
         points_.push_back({number("x"), number("y")});
     }
     void finish() {
-        if (!points_.empty()) add_trace(traces_, std::move(points_), lines_.name(), begun_);
+        if (!points_.empty()) found_.add(std::move(points_), begun_);
         points_.clear();
     }
 
@@ -156,7 +165,7 @@ class CsvTraces {
     std::string_view trace_;
     int begun_ = 0;
     std::vector<Vec2> points_;
-    TracePoints traces_;
+    Found found_;
 };
 
 /// Group codes and their values, by twos of lines (AutoCAD DXF Reference, "Drawing interchange file formats").
@@ -164,7 +173,7 @@ class DxfTraces {
   public:
     DxfTraces(Lines lines, const std::string& layer) : lines_(std::move(lines)), layer_(layer) {}
 
-    TracePoints read() {
+    Found read() {
         bool entities = false, ended = false;
         while (!ended && next()) {
             if (code_ == 0 && value_ == "EOF") break;
@@ -180,7 +189,7 @@ class DxfTraces {
         }
         if (!entities) lines_.refuse("no section ENTITIES", "a DXF file of lines");
         if (!ended) lines_.refuse("the end of the file within the section ENTITIES", "ENDSEC before it");
-        return std::move(traces_);
+        return std::move(found_);
     }
 
   private:
@@ -258,7 +267,7 @@ class DxfTraces {
             throw InputError(fmt::format("{}:{}: found a {} with arcs, expected straight parts; explode it into lines",
                                          lines_.name(), line, kind));
         if (closed && points.size() > 2) points.push_back(points.front());
-        add_trace(traces_, std::move(points), lines_.name(), line);
+        found_.add(std::move(points), line);
         return true;
     }
 
@@ -267,7 +276,7 @@ class DxfTraces {
     int code_ = -1;
     std::string_view value_;
     bool section_ = false, at_end_ = false;
-    TracePoints traces_;
+    Found found_;
 };
 
 std::string ending(const std::string& name) {
@@ -278,26 +287,32 @@ std::string ending(const std::string& name) {
 
 }  // namespace
 
-TracePoints parse_traces(const std::string& name, std::string_view text, const std::string& layer) {
+TracePoints parse_traces(const std::string& name, std::string_view text, const std::string& layer, TraceRows* rows) {
     const std::string kind = ending(name);
     if (kind != ".dxf" && !layer.empty())
         throw InputError(
             fmt::format("{}: found layer = \"{:.40}\", expected none; only a DXF file has layers", name, layer));
     Lines lines(name, text);
-    TracePoints traces = kind == ".csv"   ? CsvTraces(std::move(lines)).read()
-                         : kind == ".dxf" ? DxfTraces(std::move(lines), layer).read()
-                                          : parse_table(std::move(lines));
-    if (traces.empty())
+    Found found = kind == ".csv"   ? CsvTraces(std::move(lines)).read()
+                  : kind == ".dxf" ? DxfTraces(std::move(lines), layer).read()
+                                   : parse_table(std::move(lines));
+    if (found.traces.empty() && !found.rows.without_length.empty())
+        throw InputError(
+            fmt::format("{}:{}: found a trace of one place and none with a length, expected a trace of two "
+                        "places or more; correct its points",
+                        name, found.rows.without_length.front()));
+    if (found.traces.empty())
         throw InputError(fmt::format("{}: found no trace{}, expected one at least", name,
                                      layer.empty() ? "" : fmt::format(" on layer {:.40}", layer)));
-    return traces;
+    if (rows != nullptr) *rows = std::move(found.rows);
+    return std::move(found.traces);
 }
 
-TracePoints read_traces(const std::filesystem::path& path, const std::string& layer) {
+TracePoints read_traces(const std::filesystem::path& path, const std::string& layer, TraceRows* rows) {
     if (!is_file(path))
         throw InputError(
             fmt::format("found no file {:.200}, expected a file of traces; check the path", path.string()));
-    return parse_traces(path.string(), read_text(path), layer);
+    return parse_traces(path.string(), read_text(path), layer, rows);
 }
 
 std::string traces_text(const TracePoints& traces) {

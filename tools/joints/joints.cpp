@@ -29,6 +29,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double most_grains = 1e9;
+
 /// The box of the case, or of the options, its lower left corner at the origin as a packing's.
 Domain box_of(const TestCase& test, const po::variables_map& values) {
     Domain box{0.0, 0.0, 0.0, 0.0};
@@ -47,6 +49,19 @@ Domain box_of(const TestCase& test, const po::variables_map& values) {
     take(box.x2, test.packing.width, "box-width", "width");
     take(box.y2, test.packing.height, "box-height", "height");
     return box;
+}
+
+/// Of the option --grain; 0 without it.
+std::size_t grains_in(const Domain& box, const po::variables_map& values) {
+    if (!values.contains("grain")) return 0;
+    const double grain = values["grain"].as<double>();
+    const double count = (box.x2 - box.x1) * (box.y2 - box.y1) / (grain * grain);
+    if (!(grain > 0.0 && count >= 1.0 && count <= most_grains))
+        throw InputError(
+            fmt::format("--grain: found {}, expected a length > 0 in m, below the size of the box and with "
+                        "at most {:.0e} grains in it",
+                        grain, most_grains));
+    return static_cast<std::size_t>(std::lround(count));
 }
 
 using Json = nlohmann::ordered_json;
@@ -84,6 +99,10 @@ Json as_json(const JointNetwork& network, const JointReport& report) {
             {"blocks", report.blocks ? Json(*report.blocks) : Json()},
             {"largest_block", finite_or_null(report.largest_block)},
             {"median_block", finite_or_null(report.median_block)},
+            {"snap", network.cleaning.snap},
+            {"points_left_out", network.cleaning.points_left_out},
+            {"brought_together", network.cleaning.brought_together},
+            {"largest_displacement", network.cleaning.largest_displacement},
             {"notices", report.notices},
             {"units",
              {{"p10", "1/m, crossings per length of all lines along scan_line"},
@@ -93,6 +112,8 @@ Json as_json(const JointNetwork& network, const JointReport& report) {
               {"mean_length", "m, of traces with their midpoint in the box, before that cut them"},
               {"longest", "m, in the box"},
               {"kappa", "-, of an axial von Mises law fitted to the traces, each counted once"},
+              {"snap", "m, within which nodes and points were brought together; 0: none"},
+              {"largest_displacement", "m, of what was brought together or left out"},
               {"rose", "m of traces within 5 degrees of 0, 10, ... 170"},
               {"largest_block, median_block", "-, shares of the box's area, as if all traces were open"}}}};
 }
@@ -120,6 +141,7 @@ void print(const SourceReport& r) {
 
 void print(const JointNetwork& network, const JointReport& report) {
     fmt::print("box {:.6g} m x {:.6g} m\n", network.box.x2 - network.box.x1, network.box.y2 - network.box.y1);
+    if (const std::string cleaning = cleaning_text(network.cleaning); !cleaning.empty()) fmt::print("{}\n", cleaning);
     for (const SourceReport& r : report.sources) print(r);
     if (report.sources.size() > 1) print(report.all);
     if (!report.blocks) {
@@ -164,12 +186,15 @@ CommandLine describe_joints() {
                 "Traces of joints in the box of a specimen, from [[joint_set]] and [[trace]] of a case, or of a file "
                 "that has nothing else and that cases include: what was asked for and what was reached (P10, P20, "
                 "P21, lengths, directions), and the blocks that they would cut out if all of them were open. The same "
-                "seed gives the same traces.",
+                "seed gives the same traces. With joints.snap in the file, or with --grain, rows of a file that are "
+                "segments of one fault are joined, and nodes that nearly coincide are brought together, as for a mesh; "
+                "what moved, and how far, is printed.",
             .options = {{"options", options}},
             .operand = "CASE.toml",
             .examples = {{"crackle joints specimens/jointed/two_sets.toml", "amounts, directions, blocks"},
                          {"crackle joints specimens/jointed/two_sets.toml -o traces.svg"},
-                         {"crackle joints specimens/jointed/two_sets.toml --seed 7 --traces traces.txt"}}};
+                         {"crackle joints specimens/jointed/two_sets.toml --seed 7 --traces traces.txt"},
+                         {"crackle joints specimens/jointed/survey.toml --grain 0.05", "as cells of 5 cm have them"}}};
 }
 
 int joints(const Invocation& given) {
@@ -200,7 +225,8 @@ int joints_of(TestCase test, const std::string& name, const Invocation& given) {
         refuse_replacing(figure, values.contains("force"), inputs);
     }
     if (!table.empty()) refuse_replacing(table, values.contains("force"), inputs);
-    const JointNetwork network = make_joints(test, box_of(test, values));
+    const Domain box = box_of(test, values);
+    const JointNetwork network = make_joints(test, box, grains_in(box, values));
     const JointReport report = report_joints(test, network);
     if (!figure.empty()) draw(network, report, figure, look, format);
     if (!table.empty()) replace_file(table, text_of(network));
