@@ -106,14 +106,15 @@ double number_behind(const std::string& text, const std::string& words) {
 }
 
 TEST(MeshRefusal, WhatIsAdvisedWorks) {
-    const auto centres = testing::lattice(10, 10, unit, 0.4);
+    const auto centres = testing::random_seeds(100, unit, 2);
     int thinner = 0, merged = 0, other_kind = 0;
     for (const MeshKind kind : {MeshKind::delaunay, MeshKind::voronoi}) {
         for (const bool traced : {false, true}) {
-            for (const bool by_inset : {false, true}) {
+            for (const double depth : {0.02, -0.02, 0.04, -0.04}) {  // of the gap by half, or as an inset
+                const bool by_inset = depth < 0.0;
                 MeshRequest request;
                 request.kind = kind;
-                (by_inset ? request.inset.emplace() : request.mesh_gap) = by_inset ? 0.02 : 0.04;
+                (by_inset ? request.inset.emplace() : request.mesh_gap) = by_inset ? -depth : 2.0 * depth;
                 if (traced) request.traces = {{{0.0, 0.31}, {1.0, 0.62}}, {{0.0, 0.62}, {1.0, 0.4}}};
                 const std::string text = refusal(centres, unit, request).what();
                 if (text == "no refusal") continue;

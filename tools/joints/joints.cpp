@@ -172,11 +172,13 @@ std::string text_of(const JointNetwork& network) {
 CommandLine describe_joints() {
     const auto number = [] { return po::value<double>()->value_name("X"); };
     po::options_description options;
-    options.add_options()("json", "print one JSON object")                                                         //
-        ("seed", po::value<std::int64_t>()->value_name("N"), "in place of joints.seed")                            //
-        ("box-width", number(), "of the box, m, where the case has no packing.width")                              //
-        ("box-height", number(), "of the box, m, where the case has no packing.height")                            //
-        ("traces", po::value<std::string>()->value_name("FILE"), "writes the traces in the box: x1 y1 x2 y2 ...")  //
+    options.add_options()("json", "print one JSON object")                               //
+        ("seed", po::value<std::int64_t>()->value_name("N"), "in place of joints.seed")  //
+        ("box-width", number(), "of the box, m, where the case has no packing.width")    //
+        ("box-height", number(), "of the box, m, where the case has no packing.height")  //
+        ("grain", number(),
+         "mean spacing of the grains, m: the traces as a mesh of such grains has them, by joints.snap and shortest")  //
+        ("traces", po::value<std::string>()->value_name("FILE"), "writes the traces in the box: x1 y1 x2 y2 ...")     //
         ("output,o", po::value<std::string>()->value_name("FIGURE"),
          "figure to write: .svg, .pdf or .png; the traces in the box and their rose");
     plot::add_figure_options(options, 2);
