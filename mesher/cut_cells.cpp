@@ -51,12 +51,13 @@ struct Line {
 class CellCutter {
   public:
     CellCutter(const TracedCells& whole, const Rectangle& domain, const TraceGraph& graph,
-               std::span<const std::size_t> cut_by, double spacing, Patience& patience)
+               std::span<const std::size_t> cut_by, double spacing, double least_share, Patience& patience)
         : domain_(domain),
           graph_(graph),
           cut_by_(cut_by.begin(), cut_by.end()),
           patience_(patience),
           spacing_(spacing),
+          least_area_(least_share * spacing * spacing),
           near_(on_line_share * coordinate_scale(domain)),
           net_(spacing, onto_trace_share * spacing, near_),
           nodes_at_(spacing) {
@@ -401,7 +402,8 @@ class CellCutter {
             while (!net_.loop(piece).corners.empty() && net_.area(net_.loop(piece)) < least) {
                 patience_.piece();
                 const int into = join(piece);
-                if (into < 0) refuse(piece, net_.area(net_.loop(piece)));
+                if (into < 0 && net_.area(net_.loop(piece)) < least_area_) refuse(piece, net_.area(net_.loop(piece)));
+                if (into < 0) break;
                 piece = into;
             }
         }
@@ -417,9 +419,10 @@ class CellCutter {
         const std::string text = fmt::format(
             "mesh: found traces {} so near to each other, or a tip so near to a wall, that they cut off a piece of "
             "{:.2g} "
-            "of the mean cell at ({:.9g}, {:.9g}), expected pieces of at least {} of it; remove one, move it, make the "
-            "particles smaller, or take Delaunay triangles",
-            fmt::join(traces, ", "), piece_area / (spacing_ * spacing_), at.x, at.y, smallest_piece_share);
+            "of the mean cell at ({:.9g}, {:.9g}), expected pieces of at least {:.2g} of it; remove one, move it, or "
+            "make the particles smaller",
+            fmt::join(traces, ", "), piece_area / (spacing_ * spacing_), at.x, at.y,
+            least_area_ / (spacing_ * spacing_));
         throw MeshError(text, {}, std::move(traces));
     }
     /// To the neighbour across the longest edge that is no trace.
@@ -469,7 +472,7 @@ class CellCutter {
     const TraceGraph& graph_;
     std::vector<std::size_t> cut_by_;
     Patience& patience_;
-    double spacing_, near_;
+    double spacing_, least_area_, near_;
     CellNet net_;
     std::map<int, std::vector<std::size_t>> of_trace_;  // edges of the graph
     std::vector<Line> lines_;
@@ -482,8 +485,8 @@ class CellCutter {
 }  // namespace
 
 TracedCells cut_cells(const TracedCells& whole, const Rectangle& domain, const TraceGraph& graph,
-                      std::span<const std::size_t> cut_by, double spacing, Patience& patience) {
-    return CellCutter(whole, domain, graph, cut_by, spacing, patience).make();
+                      std::span<const std::size_t> cut_by, double spacing, double least_share, Patience& patience) {
+    return CellCutter(whole, domain, graph, cut_by, spacing, least_share, patience).make();
 }
 
 }  // namespace crackle

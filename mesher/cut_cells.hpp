@@ -27,9 +27,10 @@ struct TracedCells {
 };
 
 /// @param cut_by  edges of the graph to cut along  @param spacing  m, mean of the centres
+/// @param least_share  of the mean cell: smaller pieces that join no neighbour are refused, others stay
 /// @return the pieces of a cell have its centre
 /// @throws MeshError naming traces that cut off a small piece which is convex with no neighbour
 TracedCells cut_cells(const TracedCells& whole, const Rectangle& domain, const TraceGraph& graph,
-                      std::span<const std::size_t> cut_by, double spacing, Patience& patience);
+                      std::span<const std::size_t> cut_by, double spacing, double least_share, Patience& patience);
 
 }  // namespace crackle

@@ -19,17 +19,20 @@ constexpr double shrink_factor = 0.6, least_shrink = 0.2;
 constexpr double shortest_edge_share = 0.1;  // of the spacing: between two nodes of a trace
 // Of the largest coordinate: an edge of a cell lies on a trace by its seeds, to the rounding of circumcentres.
 constexpr double on_trace_share = 1e-12;
+// Of the mean cell: pieces as small stay where nothing else gives a mesh, at a time step some twenty times shorter.
+constexpr double tolerated_piece_share = 0.002;
 constexpr double covered_share = 1e-9;  // of an edge's length that may be missing
 
 class JointedPartition {
   public:
     JointedPartition(std::span<const CellCentre> centres, const Rectangle& domain, const TraceGraph& graph,
-                     double spacing, Patience& patience)
+                     double spacing, double least_piece_share, Patience& patience)
         : centres_(centres),
           domain_(domain),
           graph_(graph),
           patience_(patience),
           spacing_(spacing),
+          least_piece_share_(least_piece_share),
           near_(on_trace_share * coordinate_scale(domain)),
           grid_(segments(), 0.5 * spacing),
           shrink_(graph.edges.size(), 1.0),
@@ -117,7 +120,7 @@ class JointedPartition {
         for (std::size_t e = 0; e < cuts_.size(); ++e)
             if (cuts_[e] != 0) cut_by.push_back(e);
         if (cut_by.empty()) return made;
-        made.traced = cut_cells(made.traced, domain_, graph_, cut_by, spacing_, patience_);
+        made.traced = cut_cells(made.traced, domain_, graph_, cut_by, spacing_, least_piece_share_, patience_);
         number_pieces(made);
         return made;
     }
@@ -256,8 +259,8 @@ class JointedPartition {
         named.insert(named.end(), others.begin(), others.end());
         throw MeshError(
             fmt::format("mesh: found trace {} from ({:.9g}, {:.9g}) to ({:.9g}, {:.9g}) with {} other trace{} "
-                        "within {:.3g}, expected one that cells can follow; remove one, move it, make the particles "
-                        "smaller, or take Delaunay triangles",
+                        "within {:.3g}, expected one that cells can follow; remove one, move it, or make the "
+                        "particles smaller",
                         trace, s.a.x, s.a.y, s.b.x, s.b.y, others.size(), others.size() == 1 ? "" : "s",
                         0.5 * spacing_),
             {}, std::move(named));
@@ -267,7 +270,7 @@ class JointedPartition {
     Rectangle domain_;
     const TraceGraph& graph_;
     Patience& patience_;
-    double spacing_, near_;
+    double spacing_, least_piece_share_, near_;
     SegmentGrid grid_;
     std::vector<double> shrink_;  // by edge
     std::vector<char> cuts_;      // whether an edge has no rows and cuts
@@ -277,7 +280,11 @@ class JointedPartition {
 
 JointedCells jointed_cells(std::span<const CellCentre> centres, const Rectangle& domain, const TraceGraph& graph,
                            double spacing, Patience& patience) {
-    return JointedPartition(centres, domain, graph, spacing, patience).make();
+    try {
+        return JointedPartition(centres, domain, graph, spacing, smallest_piece_share, patience).make();
+    } catch (const MeshError&) {  // small pieces are better than none: they cost time steps
+        return JointedPartition(centres, domain, graph, spacing, tolerated_piece_share, patience).make();
+    }
 }
 
 }  // namespace crackle

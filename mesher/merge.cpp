@@ -142,8 +142,7 @@ void Joiner::join(const std::vector<int>& destroyed) {
             std::vector<int> traces = traces_about(mesh_, static_cast<std::size_t>(key));
             const std::string text = fmt::format(
                 "mesh: found triangle {} at ({:.9g}, {:.9g}){} destroyed by the inset and convex with none "
-                "of its neighbours, expected one to merge it with; use a smaller thick or inset, or kind "
-                "voronoi",
+                "of its neighbours, expected one to merge it with",
                 key, at.x, at.y, in_words(traces));
             throw MeshError(text, {}, std::move(traces));
         }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -154,14 +155,19 @@ class Cutter {
 
 std::string place(Point p) { return fmt::format("({:.9g}, {:.9g})", p.x, p.y); }
 
-[[noreturn]] void refuse_destroyed(const std::string& cell, std::span<const Point> outline, double depth, double scale,
-                                   std::size_t count, std::vector<int> centres, std::vector<int> traces = {}) {
-    throw MeshError(
-        fmt::format(
-            "mesh: found {} of inscribed radius {:.6g} destroyed by the inset of {:.6g} ({} cell{} in all), expected "
-            "every cell to survive; use a smaller thick or inset, or merge the destroyed cells",
-            cell, inscribed_radius(outline, scale), depth, count, count == 1 ? "" : "s"),
-        std::move(centres), std::move(traces));
+/// Cells that the inset destroys, before anything is advised.
+struct DestroyedCells {
+    std::string found;    // the worst of them, in words
+    double least_radius;  // m, of the discs inside them
+    std::vector<int> centres, traces;
+};
+
+[[noreturn]] void refuse_destroyed(const std::string& cell, double radius, double depth, std::size_t count,
+                                   std::vector<int> centres, std::vector<int> traces = {}) {
+    throw DestroyedCells{fmt::format("mesh: found {} of inscribed radius {:.6g} destroyed by the inset of {:.6g} ({} "
+                                     "cell{} in all), expected every cell to survive",
+                                     cell, radius, depth, count, count == 1 ? "" : "s"),
+                         radius, std::move(centres), std::move(traces)};
 }
 
 // Twice the area over the perimeter: grows with the inscribed radius, and finds the cell to be named quickly.
@@ -232,7 +238,8 @@ Mesh mesh_voronoi(std::span<const CellCentre> centres, const Rectangle& domain, 
                 destroyed, {}, [&](const VoronoiCells::Range& cell) { return slenderness(voronoi.outline(cell)); });
             const auto number = static_cast<std::size_t>(worst->centre);
             refuse_destroyed(fmt::format("the cell of centre {} at {}", centre_of[number], place(left[number])),
-                             voronoi.outline(*worst), depth, scale, destroyed.size(), {centre_of[number]});
+                             inscribed_radius(voronoi.outline(*worst), scale), depth, destroyed.size(),
+                             {centre_of[number]});
         }
         const std::vector<int> dropped = apart(voronoi, destroyed);
         merged += static_cast<std::int64_t>(dropped.size());
@@ -336,8 +343,8 @@ Mesh mesh_jointed_voronoi(std::span<const CellCentre> centres, const Rectangle& 
             if (const int trace = made.traced.traces[worst.first + k]; trace >= 0) named.insert(trace);
         const std::vector<int> traces(named.begin(), named.end());
         refuse_destroyed(fmt::format("the cell at {}{}", place(made.seeds.places[number]), in_words(traces)),
-                         made.traced.cells.outline(worst), depth, scale, destroyed.size(), {made.seeds.centre[number]},
-                         traces);
+                         inscribed_radius(made.traced.cells.outline(worst), scale), depth, destroyed.size(),
+                         {made.seeds.centre[number]}, traces);
     }
     Mesh mesh = builder.finish();
     mesh.cells = in_order_of_centres(mesh.cells, made.seeds.centre);
@@ -413,9 +420,20 @@ Mesh mesh_delaunay(std::span<const CellCentre> centres, const Rectangle& domain,
         const std::string by = in_words(traces);
         refuse_destroyed(fmt::format("triangle {} of centres {} at {}, {}, {}{}", worst, numbers, place(corners[0]),
                                      place(corners[1]), place(corners[2]), by),
-                         corners, depth, scale, destroyed.size(), std::move(named), std::move(traces));
+                         inscribed_radius(corners, scale), depth, destroyed.size(), std::move(named),
+                         std::move(traces));
     }
-    const JoinedTriangles joined = join_destroyed(triangles, destroyed, depth, scale);
+    const auto join = [&] {
+        try {
+            return join_destroyed(triangles, destroyed, depth, scale);
+        } catch (const MeshError& error) {
+            double least = depth;
+            for (const int t : destroyed)
+                least = std::min(least, inscribed_radius(outline(static_cast<std::size_t>(t)), scale));
+            throw DestroyedCells{error.what(), least, error.centres, error.traces};
+        }
+    };
+    const JoinedTriangles joined = join();
     MeshBuilder builder(domain, triangles.corners.size(), 3 * triangles.corners.size());
     auto next = joined.outlines.begin();
     std::vector<Point> before;
@@ -443,6 +461,69 @@ Mesh mesh_delaunay(std::span<const CellCentre> centres, const Rectangle& domain,
     return mesh;
 }
 
+Mesh mesh_as_asked(std::span<const CellCentre> centres, const Rectangle& domain, const MeshRequest& request) {
+    const double depth = request.inset.value_or(0.5 * request.mesh_gap);
+    const bool voronoi = request.kind == MeshKind::voronoi;
+    return voronoi && !request.traces.empty() ? mesh_jointed_voronoi(centres, domain, request, depth)
+           : voronoi                          ? mesh_voronoi(centres, domain, request, depth)
+                                              : mesh_delaunay(centres, domain, request, depth);
+}
+
+bool can_be_meshed(std::span<const CellCentre> centres, const Rectangle& domain, const MeshRequest& request) {
+    try {
+        mesh_as_asked(centres, domain, request);
+        return true;
+    } catch (const DestroyedCells&) {
+        return false;
+    } catch (const MeshError&) {
+        return false;
+    }
+}
+
+/// Two digits, not more than the value.
+double rounded_down(double value) {
+    const double unit = std::pow(10.0, std::floor(std::log10(value)) - 1.0);
+    return unit * std::floor(value / unit);
+}
+
+/// What else would give a mesh: each is tried.
+/// @param least_radius  m, of the cells that the inset destroys
+std::string advice(std::span<const CellCentre> centres, const Rectangle& domain, const MeshRequest& request,
+                   std::optional<double> least_radius) {
+    std::vector<std::string> helps;
+    const auto attempt = [&](const MeshRequest& other, const std::string& words) {
+        if (can_be_meshed(centres, domain, other)) helps.push_back(words);
+    };
+    const bool voronoi = request.kind == MeshKind::voronoi, traced = !request.traces.empty();
+    constexpr double least_share = 1e-6;  // of the inset asked for: what is less is no advice
+    if (least_radius && *least_radius > least_share * request.inset.value_or(0.5 * request.mesh_gap)) {
+        MeshRequest thinner = request;
+        const double depth = rounded_down(0.99 * *least_radius);
+        if (request.inset) {
+            thinner.inset = depth;
+            attempt(thinner, fmt::format("use an inset of {:.2g} or less", depth));
+        } else {
+            thinner.mesh_gap = rounded_down(2.0 * depth);
+            attempt(thinner, fmt::format("use a thick of {:.2g} or less", thinner.mesh_gap));
+        }
+    }
+    if (least_radius && !request.merge_destroyed && !(voronoi && traced)) {
+        MeshRequest merging = request;
+        merging.merge_destroyed = true;
+        attempt(merging, "merge the destroyed cells");
+    }
+    if (request.boundary == Boundary::domain && !(traced && !voronoi && request.merge_destroyed)) {
+        MeshRequest other = request;
+        other.kind = voronoi ? MeshKind::delaunay : MeshKind::voronoi;
+        attempt(other, voronoi ? "take Delaunay triangles" : "take Voronoi cells");
+    }
+    if (helps.empty()) return "";
+    std::string text = "; ";
+    for (std::size_t k = 0; k < helps.size(); ++k)
+        text += (k == 0 ? "" : k + 1 == helps.size() ? ", or " : ", ") + helps[k];
+    return text;
+}
+
 }  // namespace
 
 MeshQuality quality_of(const Mesh& mesh) {
@@ -465,13 +546,17 @@ Mesh make_mesh(std::span<const CellCentre> centres, const Rectangle& domain, con
     check_centres(centres, domain);
     check_outline(centres, request);
     check_traces(domain, request);
-    const double depth = request.inset.value_or(0.5 * request.mesh_gap);
-    const bool voronoi = request.kind == MeshKind::voronoi;
-    Mesh mesh = voronoi && !request.traces.empty() ? mesh_jointed_voronoi(centres, domain, request, depth)
-                : voronoi                          ? mesh_voronoi(centres, domain, request, depth)
-                                                   : mesh_delaunay(centres, domain, request, depth);
-    mesh.report.centres = static_cast<std::int64_t>(centres.size());
-    return mesh;
+    try {
+        Mesh mesh = mesh_as_asked(centres, domain, request);
+        mesh.report.centres = static_cast<std::int64_t>(centres.size());
+        return mesh;
+    } catch (const DestroyedCells& cells) {
+        throw MeshError(cells.found + advice(centres, domain, request, cells.least_radius), cells.centres,
+                        cells.traces);
+    } catch (const MeshError& error) {
+        if (error.traces.empty()) throw;
+        throw MeshError(error.what() + advice(centres, domain, request, std::nullopt), error.centres, error.traces);
+    }
 }
 
 }  // namespace crackle

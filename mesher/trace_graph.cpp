@@ -28,8 +28,7 @@ constexpr std::size_t most_pairs = 5'000'000;
 Point operator-(Point a, Point b) { return {a.x - b.x, a.y - b.y}; }
 Point along(Point a, Point b, double share) { return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)}; }
 
-struct Piece {
-    Point a, b;
+struct Piece : Segment {
     int trace;            // -1: a wall
     bool ends_a, ends_b;  // of the trace
 };
@@ -47,9 +46,9 @@ std::optional<std::pair<double, double>> lines_meet(const Piece& s, const Piece&
     return std::pair{cross(between, e) / sine, cross(between, d) / sine};
 }
 
-/// A lower bound of the distance of two pieces: that of their extents along the normal of either.
-bool lie_apart(const Piece& s, const Piece& t, double reach) {
-    const auto beside = [reach](const Piece& line, const Piece& other) {
+/// A lower bound of the distance of two segments: that of their extents along the normal of either.
+bool lie_apart(const Segment& s, const Segment& t, double reach) {
+    const auto beside = [reach](const Segment& line, const Segment& other) {
         const Point d = line.b - line.a;
         const double from = cross(d, other.a - line.a), to = cross(d, other.b - line.a);
         const double room = reach * std::sqrt(dot(d, d));
@@ -58,10 +57,10 @@ bool lie_apart(const Piece& s, const Piece& t, double reach) {
     return beside(s, t) || beside(t, s);
 }
 
-/// The direction square to the mean one of the pieces, by length: parallel ones are narrow along it.
-Point across_most(const std::vector<Piece>& pieces) {
+/// The direction square to the mean one of the segments, by length: parallel ones are narrow along it.
+Point across_most(std::span<const Segment> segments) {
     double cosine = 0.0, sine = 0.0;
-    for (const Piece& s : pieces) {
+    for (const Segment& s : segments) {
         const Point d = s.b - s.a;
         const double length = std::sqrt(dot(d, d));
         cosine += (d.x * d.x - d.y * d.y) / length;
@@ -74,74 +73,18 @@ Point across_most(const std::vector<Piece>& pieces) {
     return {sine < 0.0 ? half_sine : -half_sine, half_cosine};
 }
 
-/// Which pieces come near each other: swept along x and, where there most are not, along the direction across most of
-/// them. Calls use(i, j), i < j, from left to right.
-/// @throws MeshError for more than most_pairs
-template <class Use>
-void each_near_pair(const std::vector<Piece>& pieces, double reach, Use use) {
-    struct Extent {
-        double low, high;
-    };
-    const auto extents_along = [&](Point axis) {
-        std::vector<Extent> extents;
-        extents.reserve(pieces.size());
-        for (const Piece& s : pieces) {
-            const double from = dot(s.a, axis), to = dot(s.b, axis);
-            extents.push_back({std::min(from, to), std::max(from, to)});
-        }
-        return extents;
-    };
-    const auto sum_of = [](const std::vector<Extent>& extents) {
-        return std::accumulate(extents.begin(), extents.end(), 0.0,
-                               [](double sum, Extent e) { return sum + e.high - e.low; });
-    };
-    const auto order_of = [](const std::vector<Extent>& extents) {
-        std::vector<std::uint32_t> order(extents.size());
-        std::iota(order.begin(), order.end(), 0U);
-        std::stable_sort(order.begin(), order.end(),
-                         [&](std::uint32_t i, std::uint32_t j) { return extents[i].low < extents[j].low; });
-        return order;
-    };
-    const std::vector<Extent> by_x = extents_along({1.0, 0.0}), by_y = extents_along({0.0, 1.0});
-    const std::vector<std::uint32_t> from_left = order_of(by_x);
-    std::vector<std::uint32_t> place(pieces.size());
-    for (std::uint32_t k = 0; k < from_left.size(); ++k) place[from_left[k]] = k;
-
-    const double room = 1.001 * reach;  // rounding keeps no pair out
-    const std::vector<Extent> oblique = extents_along(across_most(pieces));
-    const std::vector<Extent>& swept = sum_of(oblique) < sum_of(by_x) ? oblique : by_x;
-    const std::vector<std::uint32_t> order = order_of(swept);
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;  // by their places from the left
-    const auto apart = [room](Extent s, Extent t) { return s.high + room < t.low || t.high + room < s.low; };
-    for (std::size_t a = 0; a < order.size(); ++a) {
-        const std::uint32_t i = order[a];
-        for (std::size_t b = a + 1; b < order.size() && swept[order[b]].low <= swept[i].high + room; ++b) {
-            const std::uint32_t j = order[b];
-            if (apart(by_x[i], by_x[j]) || apart(by_y[i], by_y[j]) || lie_apart(pieces[i], pieces[j], room)) continue;
-            if (pairs.size() == most_pairs)
-                throw MeshError(
-                    fmt::format("found more than {} places where traces meet or come within {:.3g} m of each other, "
-                                "expected fewer; lower their amount",
-                                most_pairs, reach));
-            pairs.emplace_back(std::minmax(place[i], place[j]));
-        }
-    }
-    std::sort(pairs.begin(), pairs.end());
-    for (const auto& [first, second] : pairs)
-        use(std::size_t{std::min(from_left[first], from_left[second])},
-            std::size_t{std::max(from_left[first], from_left[second])});
-}
-
 class GraphMaker {
   public:
     GraphMaker(const Rectangle& box, std::span<const std::vector<Point>> traces, double reach)
         : box_(box), reach_(reach), same_place_(same_place_share * coordinate_scale(box)) {
         const std::array<Point, 4> corners{Point{box.x1, box.y1}, {box.x2, box.y1}, {box.x2, box.y2}, {box.x1, box.y2}};
-        for (std::size_t k = 0; k < 4; ++k) pieces_.push_back({corners[k], corners[(k + 1) % 4], -1, false, false});
+        for (std::size_t k = 0; k < 4; ++k) pieces_.push_back({{corners[k], corners[(k + 1) % 4]}, -1, false, false});
         for (std::size_t t = 0; t < traces.size(); ++t) {
             const bool loop = traces[t].front() == traces[t].back();
             for (std::size_t k = 0; k + 1 < traces[t].size(); ++k)
-                pieces_.push_back({traces[t][k], traces[t][k + 1], static_cast<int>(t), !loop && k == 0,
+                pieces_.push_back({{traces[t][k], traces[t][k + 1]},
+                                   static_cast<int>(t),
+                                   !loop && k == 0,
                                    !loop && k + 2 == traces[t].size()});
         }
     }
@@ -154,6 +97,13 @@ class GraphMaker {
     }
 
   private:
+    /// Calls use(i, j), i < j.
+    template <class Use>
+    void each_near_pair(double reach, Use use) const {
+        const std::vector<Segment> segments(pieces_.begin(), pieces_.end());
+        for (const auto& [i, j] : near_pairs(segments, reach)) use(i, j);
+    }
+
     struct Join {
         double by = std::numeric_limits<double>::infinity();  // along the piece's own line, outwards
         Point place;
@@ -185,7 +135,7 @@ class GraphMaker {
 
     void join_ends() {
         std::vector<std::array<Join, 2>> joins(pieces_.size());
-        each_near_pair(pieces_, reach_, [&](std::size_t i, std::size_t j) {
+        each_near_pair(reach_, [&](std::size_t i, std::size_t j) {
             for (const auto& [own, other] : {std::pair{i, j}, {j, i}}) {
                 const Piece& s = pieces_[own];
                 if (s.ends_a && sides_at(s.a, box_) == 0) look_for_join(s, true, pieces_[other], joins[own][0]);
@@ -198,7 +148,7 @@ class GraphMaker {
                 if (!std::isfinite(join.by)) continue;
                 (at_a ? pieces_[k].a : pieces_[k].b) = join.place;
                 if (std::abs(join.by) > same_place_)
-                    graph_.moved.push_back({pieces_[k].trace, join.place, join.onto, join.by});
+                    graph_.moved.push_back({pieces_[k].trace, at_a, join.place, join.onto, join.by});
             }
         }
     }
@@ -206,7 +156,7 @@ class GraphMaker {
     void cut() {
         cuts_.resize(pieces_.size());
         for (std::size_t k = 0; k < pieces_.size(); ++k) cuts_[k] = {{0.0, pieces_[k].a}, {1.0, pieces_[k].b}};
-        each_near_pair(pieces_, same_place_, [&](std::size_t i, std::size_t j) { cut(i, j); });
+        each_near_pair(same_place_, [&](std::size_t i, std::size_t j) { cut(i, j); });
     }
 
     /// @return whether an end of piece j lies on piece i, which is cut there then
@@ -386,6 +336,62 @@ bool holds(const std::vector<Point>& corners, Point p) {
 }
 
 }  // namespace
+
+std::vector<std::pair<std::size_t, std::size_t>> near_pairs(std::span<const Segment> segments, double reach) {
+    struct Extent {
+        double low, high;
+    };
+    const auto extents_along = [&](Point axis) {
+        std::vector<Extent> extents;
+        extents.reserve(segments.size());
+        for (const Segment& s : segments) {
+            const double from = dot(s.a, axis), to = dot(s.b, axis);
+            extents.push_back({std::min(from, to), std::max(from, to)});
+        }
+        return extents;
+    };
+    const auto sum_of = [](const std::vector<Extent>& extents) {
+        return std::accumulate(extents.begin(), extents.end(), 0.0,
+                               [](double sum, Extent e) { return sum + e.high - e.low; });
+    };
+    const auto order_of = [](const std::vector<Extent>& extents) {
+        std::vector<std::uint32_t> order(extents.size());
+        std::iota(order.begin(), order.end(), 0U);
+        std::stable_sort(order.begin(), order.end(),
+                         [&](std::uint32_t i, std::uint32_t j) { return extents[i].low < extents[j].low; });
+        return order;
+    };
+    const std::vector<Extent> by_x = extents_along({1.0, 0.0}), by_y = extents_along({0.0, 1.0});
+    const std::vector<std::uint32_t> from_left = order_of(by_x);
+    std::vector<std::uint32_t> place(segments.size());
+    for (std::uint32_t k = 0; k < from_left.size(); ++k) place[from_left[k]] = k;
+
+    const double room = 1.001 * reach;  // rounding keeps no pair out
+    const std::vector<Extent> oblique = extents_along(across_most(segments));
+    const std::vector<Extent>& swept = sum_of(oblique) < sum_of(by_x) ? oblique : by_x;
+    const std::vector<std::uint32_t> order = order_of(swept);
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> by_places;  // from the left
+    const auto apart = [room](Extent s, Extent t) { return s.high + room < t.low || t.high + room < s.low; };
+    for (std::size_t a = 0; a < order.size(); ++a) {
+        const std::uint32_t i = order[a];
+        for (std::size_t b = a + 1; b < order.size() && swept[order[b]].low <= swept[i].high + room; ++b) {
+            const std::uint32_t j = order[b];
+            if (apart(by_x[i], by_x[j]) || apart(by_y[i], by_y[j]) || lie_apart(segments[i], segments[j], room))
+                continue;
+            if (by_places.size() == most_pairs)
+                throw MeshError(
+                    fmt::format("found more than {} places where traces meet or come within {:.3g} m of each other, "
+                                "expected fewer; lower their amount",
+                                most_pairs, reach));
+            by_places.emplace_back(std::minmax(place[i], place[j]));
+        }
+    }
+    std::sort(by_places.begin(), by_places.end());
+    std::vector<std::pair<std::size_t, std::size_t>> pairs;
+    pairs.reserve(by_places.size());
+    for (const auto& [first, second] : by_places) pairs.emplace_back(std::minmax(from_left[first], from_left[second]));
+    return pairs;
+}
 
 TraceGraph trace_graph(const Rectangle& box, std::span<const std::vector<Point>> traces, double reach) {
     return GraphMaker(box, traces, reach).make();

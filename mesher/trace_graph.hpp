@@ -6,9 +6,11 @@
 
 #include <cstddef>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "mesher/mesher.hpp"
+#include "mesher/place_grid.hpp"
 
 namespace crackle {
 
@@ -20,9 +22,10 @@ struct TraceGraph {
     /// An end that did not stay where it was given.
     struct MovedEnd {
         int trace = -1;
-        Point place;      ///< where it is now, on another trace or a wall
-        int onto = -1;    ///< that trace; -1: a wall
-        double by = 0.0;  ///< m along its own line, negative: shortened
+        bool first = false;  ///< the end before its other points
+        Point place;         ///< where it is now, on another trace or a wall
+        int onto = -1;       ///< that trace; -1: a wall
+        double by = 0.0;     ///< m along its own line, negative: shortened
     };
     /// Traces that lie on each other along an edge.
     struct Coincidence {
@@ -35,6 +38,11 @@ struct TraceGraph {
     std::vector<MovedEnd> moved;
     std::vector<Coincidence> coincident;  ///< by traces, each pair once
 };
+
+/// Which segments come within a reach of each other, and some that hardly do not, as i < j: from left to right. Swept
+/// along x and, where there most are not, along the direction across most of them.
+/// @throws MeshError for more than memory is meant for
+std::vector<std::pair<std::size_t, std::size_t>> near_pairs(std::span<const Segment> segments, double reach);
 
 /// Nodes lie on the lines of all traces that meet there, to rounding.
 /// @param traces  points one after another, within the box or on its boundary

@@ -133,6 +133,12 @@ std::vector<Parameter> specimen_keys() {
                     "reached before. If not given the mean spacing of the grains, and none where traces are "
                     "drawn alone.")
             .above(0),
+        CRACKLE_KEY(joints, snap, "m",
+                    "Nodes of traces that are nearer than half of it are brought together, and traces lose points "
+                    "within a quarter of it of a straight line; nothing moves further than this. 0: traces stay as "
+                    "they are. If not given a fifth of the mean spacing of the grains, and 0 where traces are drawn "
+                    "alone.")
+            .at_least(0),
 
         CRACKLE_LIST_KEY(joint_set, name, "", "What reports, figures and results call it.").needed_with_table(),
         CRACKLE_LIST_KEY(joint_set, orientation, "",

@@ -100,6 +100,7 @@ struct TestCase {
         std::string section = "vertical";     // or "horizontal"
         std::optional<double> section_trend;  // degrees from north, clockwise: where +x of the section points
         std::optional<double> shortest;       // m
+        std::optional<double> snap;           // m
     } joints;
 
     /// What a joint does in place of the rock; where nothing is given it is as the rock.

@@ -7,13 +7,17 @@
 #include <cmath>
 #include <filesystem>
 
+#include "mesher/mesher.hpp"
 #include "solver/base/errors.hpp"
 #include "specimens/joints/clipping.hpp"
 #include "specimens/joints/drawn_sets.hpp"
+#include "specimens/joints/faults.hpp"
 #include "specimens/joints/trace_files.hpp"
 
 namespace crackle {
 namespace {
+
+constexpr double join_share = 0.5;  // of snap: ends of rows that near are at one node
 
 /// Halfway along.
 Vec2 midpoint_of(const std::vector<Vec2>& points) {
@@ -28,26 +32,33 @@ Vec2 midpoint_of(const std::vector<Vec2>& points) {
 
 bool holds(const Domain& box, Vec2 p) { return p.x >= box.x1 && p.x <= box.x2 && p.y >= box.y1 && p.y <= box.y2; }
 
-TracePoints measured(const TestCase& test, std::size_t number) {
-    const TestCase::Trace& t = test.trace[number];
+struct Measured {
     TracePoints traces;
+    TraceRows rows;    // of a file
+    std::string file;  // its name
+};
+
+Measured measured(const TestCase& test, std::size_t number) {
+    const TestCase::Trace& t = test.trace[number];
+    Measured found;
     if (t.points) {
-        std::vector<Vec2>& points = traces.emplace_back();
+        std::vector<Vec2>& points = found.traces.emplace_back();
         for (std::size_t k = 0; k < t.points->size(); k += 2) points.push_back({(*t.points)[k], (*t.points)[k + 1]});
-        return traces;
+        return found;
     }
     const std::string key = fmt::format("trace[{}].file", number + 1);
     const std::filesystem::path path = test.resolve_path(key, *t.file);
+    found.file = path.filename().string();
     try {
-        traces = read_traces(path, t.layer.value_or(""));
+        found.traces = read_traces(path, t.layer.value_or(""), &found.rows);
     } catch (const InputError& error) {
         throw InputError(fmt::format("{}: {}", test.at(key), error.what()));
     }
     const double scale = t.scale.value_or(1.0);
     const Vec2 offset = t.offset ? Vec2{(*t.offset)[0], (*t.offset)[1]} : Vec2{};
-    for (std::vector<Vec2>& points : traces)
+    for (std::vector<Vec2>& points : found.traces)
         for (Vec2& p : points) p = scale * p + offset;
-    return traces;
+    return found;
 }
 
 std::string name_of(const TestCase::Trace& trace, std::size_t number) {
@@ -56,12 +67,30 @@ std::string name_of(const TestCase::Trace& trace, std::size_t number) {
     return fmt::format("trace {}", number + 1);
 }
 
-void take_measured(JointNetwork& network, const TestCase& test, std::size_t number) {
+/// @param join  whether rows that are segments of one fault are joined
+void take_measured(JointNetwork& network, const TestCase& test, std::size_t number, bool join, double snap) {
     const std::size_t source = network.sources.size();
+    const Measured read = measured(test, number);
     network.sources.push_back({name_of(test.trace[number], number)});
-    const TracePoints traces = measured(test, number);
+    network.sources.back().file = read.file;
+    const std::string& name = network.sources.back().name;
+    if (const std::vector<int>& without = read.rows.without_length; !without.empty())
+        network.notices.push_back(fmt::format("{}: {} of {} traces {} no length and {} passed over, the first at {}:{}",
+                                              name, without.size(), without.size() + read.traces.size(),
+                                              without.size() == 1 ? "has" : "have", without.size() == 1 ? "is" : "are",
+                                              read.file, without.front()));
+    std::vector<Fault> traces;
+    if (join) {
+        traces = joined_rows(read.traces, join_share * snap);
+    } else {
+        for (const std::vector<Vec2>& points : read.traces) traces.push_back({points, traces.size(), 1});
+    }
+    if (traces.size() < read.traces.size())
+        network.notices.push_back(fmt::format("{}: {} traces that share nodes are {} from end to end", name,
+                                              read.traces.size(), traces.size()));
     std::size_t outside = 0;
-    for (const std::vector<Vec2>& points : traces) {
+    for (const auto& [points, row, rows] : traces) {
+        const int line = read.rows.lines.empty() ? 0 : read.rows.lines[row];
         const auto pieces = clipped(points, network.box);
         if (pieces.empty()) ++outside;
         const double whole = length_of(points);
@@ -70,7 +99,7 @@ void take_measured(JointNetwork& network, const TestCase& test, std::size_t numb
         const auto longest = std::max_element(pieces.begin(), pieces.end(),
                                               [](const auto& a, const auto& b) { return length_of(a) < length_of(b); });
         for (auto piece = pieces.begin(); piece != pieces.end(); ++piece)
-            network.traces.push_back({*piece, source, whole, centred && piece == longest});
+            network.traces.push_back({*piece, source, whole, centred && piece == longest, line});
     }
     if (outside == traces.size()) {
         throw InputError(
@@ -81,8 +110,8 @@ void take_measured(JointNetwork& network, const TestCase& test, std::size_t numb
                         network.box.y2, test.trace[number].file ? "give scale and offset" : "correct its points"));
     }
     if (outside > 0)
-        network.notices.push_back(fmt::format("{}: {} of {} traces lie outside of the box", network.sources.back().name,
-                                              outside, traces.size()));
+        network.notices.push_back(
+            fmt::format("{}: {} of {} traces lie outside of the box", name, outside, traces.size()));
 }
 
 /// @param why in words: what `shortest` is
@@ -100,11 +129,22 @@ void leave_out_short(JointNetwork& network, double shortest, const char* why) {
                                               count, shortest, why, length));
 }
 
+/// Brings nodes together that nearly coincide.
+void clean(JointNetwork& network, double snap, double spacing) {
+    try {
+        network.cleaning = clean_traces(network.traces, network.box, snap, trace_reach_share * spacing);
+    } catch (const MeshError& error) {  // of more crossings than memory is meant for: they stay as they are
+        network.notices.push_back(fmt::format("nodes that nearly coincide are not brought together: {}", error.what()));
+    }
+}
+
 }  // namespace
 
 JointNetwork make_joints(const TestCase& test, const Domain& box, std::size_t centres) {
     JointNetwork network;
     network.box = box;
+    const double spacing = centres > 0 ? std::sqrt(network.area() / static_cast<double>(centres)) : 0.0;
+    const double snap = test.joints.snap.value_or(snap_share * spacing);
     for (std::size_t set = 0; set < test.joint_set.size(); ++set) {
         const std::size_t source = network.sources.size();
         const OrientationLaw directions = orientation_law(test, set);
@@ -114,12 +154,14 @@ JointNetwork make_joints(const TestCase& test, const Domain& box, std::size_t ce
             network.notices.push_back(fmt::format("{}: no trace meets the box", test.joint_set[set].name));
         network.traces.insert(network.traces.end(), traces.begin(), traces.end());
     }
-    for (std::size_t number = 0; number < test.trace.size(); ++number) take_measured(network, test, number);
+    const bool join = snap > 0.0 || test.joints.shortest || centres > 0;
+    for (std::size_t number = 0; number < test.trace.size(); ++number) take_measured(network, test, number, join, snap);
     if (test.joints.shortest)
         leave_out_short(network, *test.joints.shortest, "joints.shortest");
     else if (centres > 0)
-        leave_out_short(network, std::sqrt(network.area() / static_cast<double>(centres)),
-                        "the mean spacing of the cells; joints.shortest says otherwise");
+        leave_out_short(network, spacing, "the mean spacing of the cells; joints.shortest says otherwise");
+    clean(network, snap, spacing);
+    network.cleaning.derived = !test.joints.snap;
     return network;
 }
 

@@ -24,6 +24,7 @@ struct JointTrace {
     /// m, before the box cut it; infinite of persistent ones.
     double whole_length = 0.0;
     bool centred = false;  ///< its midpoint lies in the box, before the box cut it
+    int row = 0;           ///< line of its file where it begins, of joined rows that of the first; 0: of no file
 
     double length() const { return length_of(points); }
 };

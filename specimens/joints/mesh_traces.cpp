@@ -19,10 +19,12 @@ std::string traces_named(const JointNetwork& network, std::span<const int> trace
     std::string text;
     for (const int number : traces) {
         const JointTrace& trace = network.traces[static_cast<std::size_t>(number)];
+        const JointSource& source = network.sources[trace.source];
         const Vec2 from = trace.points.front(), to = trace.points.back();
         text +=
-            fmt::format("{}trace {} is of {}, from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g})", text.empty() ? " (" : ", ",
-                        number, network.sources[trace.source].name, from.x, from.y, to.x, to.y);
+            fmt::format("{}trace {} is of {}{}, from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g})", text.empty() ? " (" : ", ",
+                        number, source.name, trace.row > 0 ? fmt::format(" ({}:{})", source.file, trace.row) : "",
+                        from.x, from.y, to.x, to.y);
     }
     return text.empty() ? text : text + ")";
 }

@@ -27,13 +27,23 @@ double coordinate(std::string_view word, std::string_view what, const TextLines&
     return *value;
 }
 
-/// A trace with two places at least. @param line of its beginning
-void add_trace(TracePoints& traces, std::vector<Vec2> points, const std::string& name, int line) {
-    points.erase(std::unique(points.begin(), points.end()), points.end());
-    if (points.size() < 2)
-        throw InputError(fmt::format("{}:{}: found a trace of one place, expected two or more; remove it", name, line));
-    traces.push_back(std::move(points));
-}
+/// Traces and their rows.
+struct Found {
+    TracePoints traces;
+    TraceRows rows;
+
+    /// Repeated points are left out, a trace of one place altogether: intersection tools leave such rows behind.
+    /// @param line of its beginning
+    void add(std::vector<Vec2> points, int line) {
+        points.erase(std::unique(points.begin(), points.end()), points.end());
+        if (points.size() < 2) {
+            rows.without_length.push_back(line);
+            return;
+        }
+        traces.push_back(std::move(points));
+        rows.lines.push_back(line);
+    }
+};
 
 /// A line of a list: the numbers of one trace.
 struct ListedTrace {
@@ -102,7 +112,7 @@ bool looks_like_heights(const std::vector<ListedTrace>& traces) {
     return by_threes < (one_height ? leaping_at_one_height : leaping) * by_twos;
 }
 
-TracePoints parse_list(const std::string& name, std::string_view text) {
+Found parse_list(const std::string& name, std::string_view text) {
     TableReader reader(name, text, TableReader::Form::list);
     const std::size_t named = named_coordinates(text);
     std::vector<ListedTrace> listed;
@@ -124,16 +134,16 @@ TracePoints parse_list(const std::string& name, std::string_view text) {
             "{}:{}: found x y z of each point, expected x y; remove every third number{}", name, listed.front().line,
             named == 3 ? "" : ", or, if these are x y, say so by a first line '# x1 y1 x2 y2'"));
     }
-    TracePoints traces;
-    for (const ListedTrace& trace : listed) add_trace(traces, points_of(trace), name, trace.line);
-    return traces;
+    Found found;
+    for (const ListedTrace& trace : listed) found.add(points_of(trace), trace.line);
+    return found;
 }
 
 class CsvTraces {
   public:
     CsvTraces(const std::string& name, std::string_view text) : reader_(name, text, TableReader::Form::table) {}
 
-    TracePoints read() {
+    Found read() {
         reader_.read_heading(expected_heading);
         const auto trace = reader_.column("trace"), x = reader_.column("x"), y = reader_.column("y");
         const std::vector<PointColumns> along = columns_along();
@@ -142,12 +152,12 @@ class CsvTraces {
         if (by_point == by_line) reader_.refuse(fmt::format("'{:.60}'", reader_.whole_line()), expected_heading);
         while (reader_.next()) {
             if (by_line)
-                add_trace(traces_, points_along(along), reader_.name(), reader_.line());
+                found_.add(points_along(along), reader_.line());
             else
                 point(reader_.values()[*trace], {number(*x, "x"), number(*y, "y")});
         }
         finish();
-        return std::move(traces_);
+        return std::move(found_);
     }
 
   private:
@@ -194,7 +204,7 @@ class CsvTraces {
         points_.push_back(place);
     }
     void finish() {
-        if (!points_.empty()) add_trace(traces_, std::move(points_), reader_.name(), begun_);
+        if (!points_.empty()) found_.add(std::move(points_), begun_);
         points_.clear();
     }
 
@@ -203,7 +213,7 @@ class CsvTraces {
     std::string trace_;
     int begun_ = 0;
     std::vector<Vec2> points_;
-    TracePoints traces_;
+    Found found_;
 };
 
 /// Group codes and their values, by twos of lines (AutoCAD DXF Reference, "Drawing interchange file formats").
@@ -211,7 +221,7 @@ class DxfTraces {
   public:
     DxfTraces(TextLines lines, const std::string& layer) : lines_(std::move(lines)), layer_(layer) {}
 
-    TracePoints read() {
+    Found read() {
         bool entities = false, ended = false;
         while (!ended && next()) {
             if (code_ == 0 && value_ == "EOF") break;
@@ -227,7 +237,7 @@ class DxfTraces {
         }
         if (!entities) lines_.refuse("no section ENTITIES", "a DXF file of lines");
         if (!ended) lines_.refuse("the end of the file within the section ENTITIES", "ENDSEC before it");
-        return std::move(traces_);
+        return std::move(found_);
     }
 
   private:
@@ -306,7 +316,7 @@ class DxfTraces {
             throw InputError(fmt::format("{}:{}: found a {} with arcs, expected straight parts; explode it into lines",
                                          lines_.name(), line, kind));
         if (closed && points.size() > 2) points.push_back(points.front());
-        add_trace(traces_, std::move(points), lines_.name(), line);
+        found_.add(std::move(points), line);
         return true;
     }
 
@@ -315,7 +325,7 @@ class DxfTraces {
     int code_ = -1;
     std::string_view value_;
     bool section_ = false, at_end_ = false;
-    TracePoints traces_;
+    Found found_;
 };
 
 std::string ending(const std::string& name) {
@@ -339,7 +349,7 @@ bool begins_with_names(const std::string& name, std::string_view text) {
     return !first.empty() && std::isalpha(static_cast<unsigned char>(first.front())) != 0 && !number_of(first);
 }
 
-TracePoints parse_by_kind(const std::string& name, std::string_view text, const std::string& layer) {
+Found parse_by_kind(const std::string& name, std::string_view text, const std::string& layer) {
     const std::string kind = ending(name);
     if (kind == ".dxf" || begins_as_drawing(text)) return DxfTraces(TextLines(name, text), layer).read();
     if (!layer.empty())
@@ -351,22 +361,28 @@ TracePoints parse_by_kind(const std::string& name, std::string_view text, const 
 
 }  // namespace
 
-TracePoints parse_traces(const std::string& name, std::string_view text, const std::string& layer) {
+TracePoints parse_traces(const std::string& name, std::string_view text, const std::string& layer, TraceRows* rows) {
     refuse_foreign(
         name, text,
         "CSV (trace,x,y or x1,y1,x2,y2), DXF, or x1 y1 x2 y2 ... of a trace a line; export it as one of them");
-    TracePoints traces = parse_by_kind(name, text, layer);
-    if (traces.empty())
+    Found found = parse_by_kind(name, text, layer);
+    if (found.traces.empty() && !found.rows.without_length.empty())
+        throw InputError(
+            fmt::format("{}:{}: found a trace of one place and none with a length, expected a trace of two "
+                        "places or more; correct its points",
+                        name, found.rows.without_length.front()));
+    if (found.traces.empty())
         throw InputError(fmt::format("{}: found no trace{}, expected one at least", name,
                                      layer.empty() ? "" : fmt::format(" on layer {:.40}", layer)));
-    return traces;
+    if (rows != nullptr) *rows = std::move(found.rows);
+    return std::move(found.traces);
 }
 
-TracePoints read_traces(const std::filesystem::path& path, const std::string& layer) {
+TracePoints read_traces(const std::filesystem::path& path, const std::string& layer, TraceRows* rows) {
     if (!is_file(path))
         throw InputError(
             fmt::format("found no file {:.200}, expected a file of traces; check the path", path.string()));
-    return parse_traces(path.string(), read_text(path), layer);
+    return parse_traces(path.string(), read_text(path), layer, rows);
 }
 
 std::string traces_text(const TracePoints& traces) {

@@ -165,6 +165,15 @@ void warn_of_disc(TestCheck& check) {
                             : "`validity` of its summary tells afterwards"));
 }
 
+/// A value below a bound, with as many digits as it takes to see that.
+std::string digits_below(double value, double bound) {
+    for (int digits = 3; digits < 17; ++digits) {
+        std::string text = fmt::format("{:.{}g}", value, digits);
+        if (std::stod(text) < bound) return text;
+    }
+    return fmt::format("{}", value);
+}
+
 void warn(TestCheck& check) {
     const TestSetup& setup = check.test.setup;
     const TestCase& test = check.test.description;
@@ -194,9 +203,9 @@ void warn(TestCheck& check) {
     }
     if (check.grains_across < fewest_grains_across) {
         check.warnings.push_back(
-            fmt::format("the specimen is {:.3g} grains wide, fewer than {:g}: strength and modulus depend on the "
+            fmt::format("the specimen is {} grains wide, fewer than {:g}: strength and modulus depend on the "
                         "packing and the boundary; make it of more grains, or average over several seeds",
-                        check.grains_across, fewest_grains_across));
+                        digits_below(check.grains_across, fewest_grains_across), fewest_grains_across));
     }
     if (setup.polygons && test.loading.kind == "tension" && test.loading.platens == "bonded") {
         check.warnings.push_back(fmt::format(

@@ -267,21 +267,22 @@ class Confinement {
 
     [[noreturn]] void refuse(const Imbalance& left, const std::string& cause) const {
         const double push = push_sideways();
-        throw InputError(fmt::format(
+        const std::string text = fmt::format(
             "{}: found no equilibrium under {:g} {}: by linear solutions a force of {:.2g} of the pressure on a "
-            "particle was left, expected at most {:g}, and {} bonds had broken{}; {}",
+            "particle was left, expected at most {:g}, and {} bonds had broken{}",
             test_.description.at("confinement.pressure"), pressure_, test_.description.stress_unit(), left.force,
-            most_unbalanced, world_.bonds.broken, cause,
-            push > 0.0 ? fmt::format("the specimen slides between its platens, for the membrane's ends push it "
-                                     "sideways by {:.3g} N more than they hold: raise loading.platen_friction_angle",
-                                     push)
-                       : "lower the pressure"));
+            most_unbalanced, world_.bonds.broken, cause);
+        if (!(push > 0.0)) throw PressureRefused(text);
+        throw InputError(
+            fmt::format("{}; the specimen slides between its platens, for the membrane's ends push it "
+                        "sideways by {:.3g} N more than they hold: raise loading.platen_friction_angle",
+                        text, push));
     }
 
     [[noreturn]] void refuse_part(bool wall, double way, double force) const {
-        throw InputError(fmt::format(
+        throw PressureRefused(fmt::format(
             "{}: found no place of the {} where the specimen bears its {:.4g} N: {:.3g} m from where it touches, "
-            "expected less than a quarter of a particle, {:.3g} m; lower the pressure",
+            "expected less than a quarter of a particle, {:.3g} m",
             test_.description.at("confinement.pressure"), wall ? "walls" : "platens", force, way,
             farthest_way * particle_));
     }

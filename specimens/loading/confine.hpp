@@ -13,16 +13,23 @@
 // Tested by tests/specimens/loading/confine_test.cpp.
 #pragma once
 
+#include "solver/base/errors.hpp"
 #include "specimens/loading/virtual_test.hpp"
 
 namespace crackle {
 
 inline constexpr double most_unbalanced = 1e-5;
 
+/// No equilibrium was found under the pressure; under a lower one there may be.
+class PressureRefused : public InputError {
+  public:
+    using InputError::InputError;
+};
+
 /// @param bonded the test's world, or its twin with bonded platens where these only touch: what is solved, but with
 /// walls, which press the test's own world alone
 /// @param own setup of that world
-/// @throws InputError where the specimen does not bear the pressure
+/// @throws InputError where the specimen does not bear the pressure, PressureRefused where a lower one may help
 void confine(VirtualTest& test, const World& bonded, const TestSetup& own);
 
 }  // namespace crackle

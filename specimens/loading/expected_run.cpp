@@ -3,6 +3,9 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <limits>
+
 #include "solver/base/errors.hpp"
 #include "specimens/loading/own_loading.hpp"
 #include "specimens/setup/unloading.hpp"
@@ -34,6 +37,29 @@ std::string likely_cause(const VirtualTest& test) {
     return fmt::format("{} = {:g}", asked.at("loading.rate_tolerance"), *asked.loading.rate_tolerance);
 }
 
+/// Where one particle is so small that it makes the time step, and the run long: which.
+std::string small_particle(const VirtualTest& test) {
+    constexpr double noticed_steps = 10.0;
+    const World& world = test.world;
+    BodyIndex smallest = 0;
+    double least = std::numeric_limits<double>::infinity(), sum = 0.0;
+    for (BodyIndex b = 0; b < world.bodies.size(); ++b) {
+        if (test.setup.is_platen(b)) continue;
+        const double mass = world.bodies.inertia[b].mass;
+        sum += mass;
+        if (mass >= least) continue;
+        least = mass;
+        smallest = b;
+    }
+    const double times = std::sqrt(sum / static_cast<double>(test.setup.particles) / least);
+    if (!(times > noticed_steps)) return "";
+    const BodyState& body = world.bodies.state[smallest];
+    return fmt::format(
+        "; particle {} at ({:.4g}, {:.4g}) m has {:.2g} of the mean mass, which makes the time step about {:.2g} times "
+        "shorter",
+        world.bodies.info(smallest).id, body.x, body.y, 1.0 / (times * times), times);
+}
+
 }  // namespace
 
 RunEstimate expected_run(const VirtualTest& test, double strain, double steps_per_second) {
@@ -54,9 +80,9 @@ void refuse_endless(const VirtualTest& test, const RunEstimate& run) {
     constexpr double seconds_a_day = 86400.0;
     throw InputError(
         fmt::format("{} = {:g} is {:.2g} steps away, about {:.2g} days, expected at most {:g} steps and a day without "
-                    "--long. It comes from {}",
+                    "--long. It comes from {}{}",
                     test.description.at("loading.max_axial_strain"), run.strain, run.steps, run.seconds / seconds_a_day,
-                    most_steps, likely_cause(test)));
+                    most_steps, likely_cause(test), small_particle(test)));
 }
 
 void refuse_resting(const VirtualTest& test) {

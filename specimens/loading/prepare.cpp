@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "solver/base/errors.hpp"
@@ -115,6 +116,55 @@ void notice_fast_loading(VirtualTest& test) {
                     test.description.at("loading.axial_strain_rate"), given, given / derived, noticed_tolerance));
 }
 
+/// A twin of the specimen with bonded platens, where those of the test only touch; without a world there is none.
+struct SeparateBonding {
+    const World* world = nullptr;
+    const TestSetup* setup = nullptr;
+    std::function<void()> while_solving;
+};
+
+/// Whether the specimen bears a lower pressure.
+bool bears(const VirtualTest& refused, const TestCase& lower, const Specimen& specimen, const SeparateBonding& twin) {
+    VirtualTest attempt;
+    attempt.description = lower;
+    attempt.small_strain = refused.small_strain;
+    BondedSpecimen bonded = bond_specimen(specimen, lower, lower.loading, twin.while_solving);
+    attempt.world = std::move(bonded.world);
+    attempt.setup = record_setup(attempt.world, specimen, bonded.platens, test_kind(lower.loading.kind),
+                                 lower.loading.grip.value_or(0.0));
+    try {
+        if (twin.world != nullptr)
+            confine(attempt, *twin.world, *twin.setup);
+        else
+            confine(attempt, attempt.world, attempt.setup);
+        return true;
+    } catch (const InputError&) {
+        return false;
+    }
+}
+
+/// Confines the specimen; where it does not bear the pressure lower ones are tried before one is advised.
+void confine_or_advise(VirtualTest& test, const Specimen& specimen, const SeparateBonding& twin) {
+    try {
+        if (twin.world != nullptr)
+            confine(test, *twin.world, *twin.setup);
+        else
+            confine(test, test.world, test.setup);
+    } catch (const PressureRefused& error) {
+        for (const double share : {0.5, 0.1, 0.01, 0.001}) {
+            TestCase lower = test.description;
+            *lower.confinement.pressure *= share;
+            if (bears(test, lower, specimen, twin))
+                throw InputError(fmt::format("{}; lower the pressure: there is an equilibrium under {:.3g} {}",
+                                             error.what(), *lower.confinement.pressure, lower.stress_unit()));
+        }
+        throw InputError(
+            fmt::format("{}; a lower pressure does not help, down to a thousandth of it: look at the strength of the "
+                        "bonds, and at particles that nothing holds",
+                        error.what()));
+    }
+}
+
 }  // namespace
 
 VirtualTest bond_test(const TestCase& description, const TestHooks& hooks, const SolutionVisitor& visit) {
@@ -157,7 +207,7 @@ VirtualTest bond_test(const TestCase& description, const TestHooks& hooks, const
     if (bonded.platens.bonded) {
         check_platen_hold(test.world, test.setup, bonded.platens, description);
         solve_small_strain(test, test.world, test.setup, visit);
-        if (description.confined()) confine(test, test.world, test.setup);
+        if (description.confined()) confine_or_advise(test, specimen, {nullptr, nullptr, while_solving});
         if (test.setup.normal_force > 0.0 || test.setup.normal_spring > 0.0) press(test);
     } else {
         TestCase::Loading held = description.loading;
@@ -170,7 +220,8 @@ VirtualTest bond_test(const TestCase& description, const TestHooks& hooks, const
         } catch (const InputError& error) {
             note_no_small_strain(test, error.what());
         }
-        if (description.confined()) confine(test, twin.world, own);  // what it refuses, no test goes on without
+        // What it refuses, no test goes on without.
+        if (description.confined()) confine_or_advise(test, specimen, {&twin.world, &own, while_solving});
     }
     listen_for_emission(test);
     if (description.confined())

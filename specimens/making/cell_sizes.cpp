@@ -64,6 +64,20 @@ CellSizes measure_cells(const Mesh& mesh) {
     return {mean, std::sqrt(std::max(0.0, squares / count - mean * mean)) / mean};
 }
 
+std::string small_cell_text(const Mesh& mesh) {
+    constexpr double noticed_steps = 10.0;
+    const auto smallest = std::ranges::min_element(mesh.cells, {}, &Cell::area);
+    const double mean = mesh.report.area_before_inset / static_cast<double>(mesh.cells.size());
+    const double times = std::sqrt(mean / smallest->area);
+    if (!(times > noticed_steps)) return "";
+    const Point at = mesh.outline(*smallest).front();
+    return fmt::format(
+        "the smallest cell, at ({:.6g}, {:.6g}), has {:.2g} of the mean cell's area: by it the time step is about "
+        "{:.2g} "
+        "times shorter, and a test as much longer",
+        at.x, at.y, smallest->area / mean, times);
+}
+
 SizeDistribution radii_for_cells(MeshKind kind, const std::string& sizes, const CellSizes& asked, double correction) {
     const bool lognormal = sizes == "lognormal";
     const std::span<const SpreadPair> measured = lognormal ? lognormal_spreads : uniform_spreads;

@@ -27,6 +27,10 @@ double derived_gap(double area, double cells);  // m
 
 CellSizes measure_cells(const Mesh& mesh);
 
+/// A sentence on the smallest cell, where by its mass the stable time step would be more than ten times shorter than by
+/// that of the mean one: step ~ sqrt(mass), for the springs are alike. Empty of other meshes.
+std::string small_cell_text(const Mesh& mesh);
+
 /// Sizes of circles whose centres' cells have these diameters, but for a factor on all radii near 1.
 /// @param sizes "uniform" or "lognormal", as a case's packing.sizes
 /// @param correction  added to the spread, for another packing where one has missed it

@@ -345,6 +345,15 @@ void record_cells(Specimen& specimen, const TestCase& test, const CellSizes& cel
     specimen.notices.push_back(text + "; more circles would meet them better");
 }
 
+/// What the joints' snap did; what it changed is worth a notice.
+void report_cleaning(const Cleaning& cleaning, Specimen& specimen, const TestHooks& hooks) {
+    const std::string text = cleaning_text(cleaning);
+    if (cleaning.changed())
+        specimen.notices.push_back(text);
+    else if (!text.empty())
+        hooks.report_stage(text);
+}
+
 /// Replaces the circles by the polygons of their centres; ids count from 1 in the mesh's order.
 void mesh_specimen(Specimen& specimen, const TestCase& test, const TestHooks& hooks) {
     const Scene circles = specimen.scene;
@@ -369,6 +378,7 @@ void mesh_specimen(Specimen& specimen, const TestCase& test, const TestHooks& ho
     if (test.jointed()) {
         joints = make_joints(test, circles.domain, centres.size());
         request.traces = mesh_traces(joints);
+        report_cleaning(joints.cleaning, specimen, hooks);
         specimen.notices.insert(specimen.notices.end(), joints.notices.begin(), joints.notices.end());
     }
     Mesh mesh;
@@ -419,6 +429,7 @@ void mesh_specimen(Specimen& specimen, const TestCase& test, const TestHooks& ho
     specimen.segments = mesh.report.segments;
     hooks.report_stage(fmt::format("meshed into {} {} cells with {} segments", mesh.report.cells, specimen.kind,
                                    mesh.report.segments));
+    if (const std::string small = small_cell_text(mesh); !small.empty()) specimen.notices.push_back(small);
     record_cells(specimen, test, measure_cells(mesh), hooks);
 }
 
@@ -436,6 +447,7 @@ void joint_circles(Specimen& specimen, const TestCase& test, const TestHooks& ho
     const JointNetwork joints = make_joints(test, scene.domain, scene.bodies.size());
     check_apertures(test, std::ranges::min(scene.circles, {}, &CircleElement::radius).radius);
     set_joints_of_circles(scene, joints, test);
+    report_cleaning(joints.cleaning, specimen, hooks);
     specimen.notices.insert(specimen.notices.end(), joints.notices.begin(), joints.notices.end());
     double length = 0.0;
     for (const JointTrace& trace : joints.traces) {

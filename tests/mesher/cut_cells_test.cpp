@@ -46,7 +46,7 @@ TEST(CutCells, HaveEdgesOnBothSidesOfTracesASeventhOfACellApart) {
 }
 
 TEST(CutCells, OfCrowdedTracesAreCountedAndNotTooSmall) {
-    int cut = 0;
+    int cut = 0, fair = 0;
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
         // A third crosses both at a small angle.
         Lines traces = two_apart(0.2 * spacing);
@@ -57,8 +57,8 @@ TEST(CutCells, OfCrowdedTracesAreCountedAndNotTooSmall) {
             ++cut;
             double least = 1e300;
             for (const Cell& cell : mesh.cells) least = std::min(least, cell.area);
-            EXPECT_GT(least, 0.02 * spacing * spacing)
-                << "rows of cells, where there are some, are at least a fifth wide";
+            EXPECT_GT(least, 0.002 * spacing * spacing) << "where no other way gives a mesh, small pieces stay";
+            if (least > 0.02 * spacing * spacing) ++fair;  // rows of cells are at least a fifth wide
             double asked = 0.0;
             for (const auto& trace : traces) asked += length_of(trace);
             EXPECT_TRUE(within("length on traces", mesh.report.trace_length, asked,
@@ -68,6 +68,7 @@ TEST(CutCells, OfCrowdedTracesAreCountedAndNotTooSmall) {
         }
     }
     EXPECT_GE(cut, 3);
+    EXPECT_GE(fair, 3);
 }
 
 TEST(CutCells, LetMostNetworksOfShortTracesBeMeshed) {
@@ -95,9 +96,9 @@ TEST(CutCells, LetMostNetworksOfShortTracesBeMeshed) {
     EXPECT_GE(cut, 5);
 }
 
-TEST(CutCells, AreRefusedByNameWhereTracesAreAThousandthOfACellApart) {
+TEST(CutCells, AreRefusedByNameWhereTracesAreAMillionthOfACellApart) {
     try {
-        make_mesh(packing_like(1), jointed_box, cells_with(two_apart(1e-3 * spacing)));
+        make_mesh(packing_like(1), jointed_box, cells_with(two_apart(1e-6 * spacing)));
         ADD_FAILURE() << "meshed";
     } catch (const MeshError& error) {
         EXPECT_EQ(error.traces, (std::vector<int>{0, 1})) << error.what();

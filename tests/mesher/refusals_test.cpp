@@ -99,5 +99,51 @@ TEST(MeshRefusal, NamesTheCellThatTheInsetDestroys) {
     expect_text(refusal(centres, unit, request), "destroyed by the inset of 0.6");
 }
 
+/// The number behind some words of a text.
+double number_behind(const std::string& text, const std::string& words) {
+    const std::size_t at = text.find(words);
+    return at == std::string::npos ? nan : std::stod(text.substr(at + words.size()));
+}
+
+TEST(MeshRefusal, WhatIsAdvisedWorks) {
+    const auto centres = testing::random_seeds(100, unit, 2);
+    int thinner = 0, merged = 0, other_kind = 0;
+    for (const MeshKind kind : {MeshKind::delaunay, MeshKind::voronoi}) {
+        for (const bool traced : {false, true}) {
+            for (const double depth : {0.02, -0.02, 0.04, -0.04}) {  // of the gap by half, or as an inset
+                const bool by_inset = depth < 0.0;
+                MeshRequest request;
+                request.kind = kind;
+                (by_inset ? request.inset.emplace() : request.mesh_gap) = by_inset ? -depth : 2.0 * depth;
+                if (traced) request.traces = {{{0.0, 0.31}, {1.0, 0.62}}, {{0.0, 0.62}, {1.0, 0.4}}};
+                const std::string text = refusal(centres, unit, request).what();
+                if (text == "no refusal") continue;
+                const double most = number_behind(text, by_inset ? "use an inset of " : "use a thick of ");
+                EXPECT_GT(most, 0.0) << text;
+                MeshRequest advised = request;
+                (by_inset ? *advised.inset : advised.mesh_gap) = most;
+                EXPECT_NO_THROW(make_mesh(centres, unit, advised));
+                ++thinner;
+                if (text.find("merge the destroyed cells") != std::string::npos) {
+                    advised = request;
+                    advised.merge_destroyed = true;
+                    EXPECT_NO_THROW(make_mesh(centres, unit, advised));
+                    ++merged;
+                }
+                EXPECT_FALSE(traced && kind == MeshKind::voronoi && text.find("merge") != std::string::npos) << text;
+                if (text.find("take ") != std::string::npos) {
+                    advised = request;
+                    advised.kind = kind == MeshKind::voronoi ? MeshKind::delaunay : MeshKind::voronoi;
+                    EXPECT_NO_THROW(make_mesh(centres, unit, advised));
+                    ++other_kind;
+                }
+            }
+        }
+    }
+    EXPECT_GE(thinner, 4);
+    EXPECT_GE(merged, 2);
+    fmt::print("  advised: {} thinner, {} merged, {} of the other kind\n", thinner, merged, other_kind);
+}
+
 }  // namespace
 }  // namespace crackle

@@ -24,6 +24,7 @@
 #include "specimens/joints/joint_network.hpp"
 #include "specimens/joints/mesh_traces.hpp"
 #include "specimens/making/cell_bodies.hpp"
+#include "specimens/making/cell_sizes.hpp"
 #include "specimens/making/hooks.hpp"
 #include "tools/command_line/command_line.hpp"
 #include "tools/commands/centre_list.hpp"
@@ -290,6 +291,8 @@ Scene meshed_scene(const std::string& name, const std::string& text, const po::v
         made = mesh_source(source, request, joints);
         if (of_joints != nullptr) {
             *of_joints = joints.notices;
+            if (const std::string cleaning = cleaning_text(joints.cleaning); !cleaning.empty())
+                of_joints->push_back(cleaning);
             if (!request.traces.empty()) {
                 const auto more = jointed_mesh_text(made, source.centres, source.scene.domain, request);
                 of_joints->insert(of_joints->end(), more.begin(), more.end());
@@ -298,6 +301,8 @@ Scene meshed_scene(const std::string& name, const std::string& text, const po::v
     } catch (const MeshInterrupted&) {
         throw TestInterrupted();
     }
+    if (const std::string small = small_cell_text(made); of_joints != nullptr && !small.empty())
+        of_joints->push_back("notice: " + small);
     messages.detail(fmt::format("meshed {} cells of {} segments", made.report.cells, made.report.segments));
     report = made.report;
     return scene_of(std::move(source), made, request.mesh_gap);

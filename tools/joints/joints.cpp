@@ -29,6 +29,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr double most_grains = 1e9;
+
 /// The box of the case, or of the options, its lower left corner at the origin as a packing's.
 Domain box_of(const TestCase& test, const po::variables_map& values) {
     Domain box{0.0, 0.0, 0.0, 0.0};
@@ -47,6 +49,19 @@ Domain box_of(const TestCase& test, const po::variables_map& values) {
     take(box.x2, test.packing.width, "box-width", "width");
     take(box.y2, test.packing.height, "box-height", "height");
     return box;
+}
+
+/// Of the option --grain; 0 without it.
+std::size_t grains_in(const Domain& box, const po::variables_map& values) {
+    if (!values.contains("grain")) return 0;
+    const double grain = values["grain"].as<double>();
+    const double count = (box.x2 - box.x1) * (box.y2 - box.y1) / (grain * grain);
+    if (!(grain > 0.0 && count >= 1.0 && count <= most_grains))
+        throw InputError(
+            fmt::format("--grain: found {}, expected a length > 0 in m, below the size of the box and with "
+                        "at most {:.0e} grains in it",
+                        grain, most_grains));
+    return static_cast<std::size_t>(std::lround(count));
 }
 
 using Json = nlohmann::ordered_json;
@@ -84,6 +99,10 @@ Json as_json(const JointNetwork& network, const JointReport& report) {
             {"blocks", report.blocks ? Json(*report.blocks) : Json()},
             {"largest_block", finite_or_null(report.largest_block)},
             {"median_block", finite_or_null(report.median_block)},
+            {"snap", network.cleaning.snap},
+            {"points_left_out", network.cleaning.points_left_out},
+            {"brought_together", network.cleaning.brought_together},
+            {"largest_displacement", network.cleaning.largest_displacement},
             {"notices", report.notices},
             {"units",
              {{"p10", "1/m, crossings per length of all lines along scan_line"},
@@ -93,6 +112,8 @@ Json as_json(const JointNetwork& network, const JointReport& report) {
               {"mean_length", "m, of traces with their midpoint in the box, before that cut them"},
               {"longest", "m, in the box"},
               {"kappa", "-, of an axial von Mises law fitted to the traces, each counted once"},
+              {"snap", "m, within which nodes and points were brought together; 0: none"},
+              {"largest_displacement", "m, of what was brought together or left out"},
               {"rose", "m of traces within 5 degrees of 0, 10, ... 170"},
               {"largest_block, median_block", "-, shares of the box's area, as if all traces were open"}}}};
 }
@@ -120,6 +141,7 @@ void print(const SourceReport& r) {
 
 void print(const JointNetwork& network, const JointReport& report) {
     fmt::print("box {:.6g} m x {:.6g} m\n", network.box.x2 - network.box.x1, network.box.y2 - network.box.y1);
+    if (const std::string cleaning = cleaning_text(network.cleaning); !cleaning.empty()) fmt::print("{}\n", cleaning);
     for (const SourceReport& r : report.sources) print(r);
     if (report.sources.size() > 1) print(report.all);
     if (!report.blocks) {
@@ -150,11 +172,13 @@ std::string text_of(const JointNetwork& network) {
 CommandLine describe_joints() {
     const auto number = [] { return po::value<double>()->value_name("X"); };
     po::options_description options;
-    options.add_options()("json", "print one JSON object")                                                         //
-        ("seed", po::value<std::int64_t>()->value_name("N"), "in place of joints.seed")                            //
-        ("box-width", number(), "of the box, m, where the case has no packing.width")                              //
-        ("box-height", number(), "of the box, m, where the case has no packing.height")                            //
-        ("traces", po::value<std::string>()->value_name("FILE"), "writes the traces in the box: x1 y1 x2 y2 ...")  //
+    options.add_options()("json", "print one JSON object")                               //
+        ("seed", po::value<std::int64_t>()->value_name("N"), "in place of joints.seed")  //
+        ("box-width", number(), "of the box, m, where the case has no packing.width")    //
+        ("box-height", number(), "of the box, m, where the case has no packing.height")  //
+        ("grain", number(),
+         "mean spacing of the grains, m: the traces as a mesh of such grains has them, by joints.snap and shortest")  //
+        ("traces", po::value<std::string>()->value_name("FILE"), "writes the traces in the box: x1 y1 x2 y2 ...")     //
         ("output,o", po::value<std::string>()->value_name("FIGURE"),
          "figure to write: .svg, .pdf or .png; the traces in the box and their rose");
     plot::add_figure_options(options, 2);
@@ -166,13 +190,16 @@ CommandLine describe_joints() {
                 "Traces of joints in the box of a specimen, from [[joint_set]] and [[trace]] of a case, or of a file "
                 "that has nothing else and that cases include: what was asked for and what was reached (P10, P20, "
                 "P21, lengths, directions), and the blocks that they would cut out if all of them were open. The same "
-                "seed gives the same traces.",
+                "seed gives the same traces. With joints.snap in the file, or with --grain, rows of a file that are "
+                "segments of one fault are joined, and nodes that nearly coincide are brought together, as for a mesh; "
+                "what moved, and how far, is printed.",
             .options = {{"options", options}},
             .operand = "CASE.toml",
             .companions = companions,
             .examples = {{"crackle joints specimens/jointed/two_sets.toml", "amounts, directions, blocks"},
                          {"crackle joints specimens/jointed/two_sets.toml -o traces.svg"},
-                         {"crackle joints specimens/jointed/two_sets.toml --seed 7 --traces traces.txt"}}};
+                         {"crackle joints specimens/jointed/two_sets.toml --seed 7 --traces traces.txt"},
+                         {"crackle joints specimens/jointed/survey.toml --grain 0.05", "as cells of 5 cm have them"}}};
 }
 
 int joints(const Invocation& given) {
@@ -204,7 +231,8 @@ int joints_of(TestCase test, const std::string& name, const Invocation& given) {
     }
     const plot::FigureLook look = plot::figure_look("joints", values, format);
     if (!table.empty()) refuse_replacing(table, values.contains("force"), inputs);
-    const JointNetwork network = make_joints(test, box_of(test, values));
+    const Domain box = box_of(test, values);
+    const JointNetwork network = make_joints(test, box, grains_in(box, values));
     const JointReport report = report_joints(test, network);
     if (!figure.empty()) draw(network, report, figure, look, format);
     if (!table.empty()) replace_file(table, text_of(network));

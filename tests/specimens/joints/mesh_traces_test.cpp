@@ -82,9 +82,10 @@ max_axial_strain = 0.01
 
 TEST(JointedSpecimen, ErrorsNameTracesByTheirSource) {
     const std::string text = testing::refusal([] {
-        make_specimen(case_of(rock + "[[trace]]\nname = \"north\"\npoints = [0.0, 0.5, 0.5, 0.5]\n"
-                                     "[[trace]]\nname = \"south\"\npoints = [0.0, 0.5001, 0.5, 0.5001]\n"),
-                      TestHooks{});
+        make_specimen(
+            case_of(rock + "[joints]\nsnap = 0.0\n[[trace]]\nname = \"north\"\npoints = [0.0, 0.5, 0.5, 0.5]\n"
+                           "[[trace]]\nname = \"south\"\npoints = [0.0, 0.5001, 0.5, 0.5001]\n"),
+            TestHooks{});
     });
     EXPECT_NE(text.find("is of north, from (0, 0.5) to (0.5, 0.5)"), std::string::npos);
     EXPECT_NE(text.find("is of south"), std::string::npos);

@@ -134,6 +134,17 @@ TEST(TraceFiles, WhatIsWrongIsNamedWithItsLine) {
               std::string::npos);
 }
 
+TEST(TraceFiles, RowsWithoutLengthArePassedOverAndSaidSo) {
+    for (const auto& [name, text] : {std::pair{"a.txt", "0 0 1 1\n2 2 2 2\n# remark\n3 3 3 3 3 3\n4 4 5 5\n"},
+                                     {"a.csv", "x1,y1,x2,y2\n0,0,1,1\n2,2,2,2\n\n3,3,3,3\n4,4,5,5\n"}}) {
+        TraceRows rows;
+        EXPECT_EQ(parse_traces(name, text, "", &rows), (TracePoints{{{0, 0}, {1, 1}}, {{4, 4}, {5, 5}}})) << name;
+        const int heading = std::string(name) == "a.csv" ? 1 : 0;
+        EXPECT_EQ(rows.lines, (std::vector<int>{1 + heading, 5 + heading})) << name;
+        EXPECT_EQ(rows.without_length, (std::vector<int>{2 + heading, 4 + heading})) << name;
+    }
+}
+
 TEST(TraceFiles, EveryBeginningOfADrawingIsReadOrRefused) {
     const std::string whole = dxf;
     std::size_t read = 0;

@@ -69,6 +69,33 @@ TEST_F(CrackleJoints, FiguresAreOfTheFormatTheirNameSays) {
     }
 }
 
+TEST_F(CrackleJoints, ASurveyIsCleanedByTheGrainOrSnapThatIsGiven) {
+    write("survey.txt", "0.1 0.5 0.5 0.7\n0.5 0.7 0.9 0.6\n0.3 0.2 0.3 0.2\n0.7 0.1 0.5 0.70001 0.4 1.5\n");
+    const std::string box = "[packing]\nwidth = 1.0\nheight = 2.0\n", trace = "[[trace]]\nfile = \"survey.txt\"\n";
+    write("plain.toml", box + trace);
+    write("snap.toml", box + "[joints]\nsnap = 0.01\n" + trace);
+    const Answer plain = call("plain.toml");
+    ASSERT_EQ(plain.code, 0) << plain.err;
+    EXPECT_NE(plain.out.find("  traces       3\n"), std::string::npos) << plain.out;
+    EXPECT_NE(plain.out.find("notice: survey: 1 of 4 traces has no length and is passed over, the first at "
+                             "survey.txt:3"),
+              std::string::npos)
+        << plain.out;
+    EXPECT_EQ(plain.out.find("snap"), std::string::npos) << plain.out;
+    for (const char* words : {"snap.toml", "plain.toml --grain 0.05"}) {
+        const Answer answer = call(words);
+        ASSERT_EQ(answer.code, 0) << answer.err;
+        for (const char* text : {"  traces       2\n", "joints: snap = 0.01 m", "none moved further than 1e-05 m",
+                                 "notice: survey: 3 traces that share nodes are 2 from end to end"})
+            EXPECT_NE(answer.out.find(text), std::string::npos) << text << '\n' << answer.out;
+        const auto json = nlohmann::json::parse(call(std::string(words) + " --json").out);
+        EXPECT_TRUE(agrees("snap", json["snap"].get<double>(), 0.01, 1e-12));
+        EXPECT_TRUE(testing::within("largest displacement", json["largest_displacement"].get<double>(), 1e-5, 1e-9));
+    }
+    expect_refused("plain.toml --grain 0", "--grain: found 0");
+    expect_refused("plain.toml --grain 50", "below the size of the box");
+}
+
 TEST_F(CrackleJoints, RefusesWhatItCannotUse) {
     write("traces.txt", "kept");
     expect_refused("joints.toml --traces traces.txt", "traces.txt");
