@@ -456,9 +456,10 @@ std::string cleaning_text(const Cleaning& cleaning) {
         cleaning.derived ? fmt::format(" by default, {} of the mean spacing of the grains", snap_share) : "");
     if (!cleaning.changed()) return snap + ": no nodes are that close, no point could be left out";
     std::string text = fmt::format(
-        "{}: {} points left out, {} nodes or traces brought together, none moved further than {:.3g} m; {:.6g} m of "
+        "{}: {} point{} left out, {} node{} brought together, none moved further than {:.3g} m; {:.6g} m of "
         "traces ({:.6g} m before)",
-        snap, cleaning.points_left_out, cleaning.brought_together, cleaning.largest_displacement, cleaning.length,
+        snap, cleaning.points_left_out, cleaning.points_left_out == 1 ? "" : "s", cleaning.brought_together,
+        cleaning.brought_together == 1 ? "" : "s", cleaning.largest_displacement, cleaning.length,
         cleaning.length_before);
     if (cleaning.coincident > 0.0)
         text += fmt::format(", {:.3g} m that lay on others or on walls left out", cleaning.coincident);
